@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/base/box.h"
+
+#include <initializer_list>
+
+namespace granular
+{
+namespace
+{
+Twofold sum(std::initializer_list<double> terms)
+{
+  CompensatedSum total;
+  for (const double term : terms)
+  {
+    total.add(term);
+  }
+  return total.twofold();
+}
+
+bool less(Twofold a, Twofold b)
+{
+  return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
+}
+
+Twofold smallest(std::initializer_list<Twofold> values)
+{
+  Twofold best = *values.begin();
+  for (const Twofold value : values)
+  {
+    best = less(value, best) ? value : best;
+  }
+  return best;
+}
+
+Twofold largest(std::initializer_list<Twofold> values)
+{
+  Twofold best = *values.begin();
+  for (const Twofold value : values)
+  {
+    best = less(best, value) ? value : best;
+  }
+  return best;
+}
+
+/// bound - shift
+Twofold corner_of_bound(double bound, Twofold shift)
+{
+  CompensatedSum total;
+  total.add(bound);
+  total.add(Twofold{ -shift.hi, -shift.lo });
+  return total.twofold();
+}
+
+/// (hi - high_shift) - (lo - low_shift)
+Twofold edge(double lo, double hi, Twofold low_shift, Twofold high_shift)
+{
+  CompensatedSum total;
+  total.add(hi);
+  total.add(-lo);
+  total.add(low_shift);
+  total.add(Twofold{ -high_shift.hi, -high_shift.lo });
+  return total.twofold();
+}
+}
+
+Box Box::from_bounds(const Vector3& lo, const Vector3& hi)
+{
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    box.origin[i] = { lo[i], 0 };
+    box.vectors[i][i] = edge(lo[i], hi[i], {}, {});
+  }
+  return box;
+}
+
+Box Box::from_tilted_bounds(const Vector3& lo, const Vector3& hi, double xy, double xz, double yz)
+{
+  const Twofold zero;
+  const Twofold both = sum({ xy, xz });
+  const Twofold x_lo = smallest({ zero, { xy, 0 }, { xz, 0 }, both });
+  const Twofold x_hi = largest({ zero, { xy, 0 }, { xz, 0 }, both });
+  const Twofold y_lo = smallest({ zero, { yz, 0 } });
+  const Twofold y_hi = largest({ zero, { yz, 0 } });
+  Box box;
+  box.tilted = true;
+  box.origin = { corner_of_bound(lo[0], x_lo), corner_of_bound(lo[1], y_lo), Twofold{ lo[2], 0 } };
+  box.vectors[0] = { edge(lo[0], hi[0], x_lo, x_hi), zero, zero };
+  box.vectors[1] = { Twofold{ xy, 0 }, edge(lo[1], hi[1], y_lo, y_hi), zero };
+  box.vectors[2] = { Twofold{ xz, 0 }, Twofold{ yz, 0 }, edge(lo[2], hi[2], zero, zero) };
+  return box;
+}
+
+Box Box::from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vectors)
+{
+  Box box;
+  box.tilted = true;
+  box.general = true;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    box.origin[i] = { origin[i], 0 };
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      box.vectors[i][j] = { vectors[i][j], 0 };
+    }
+  }
+  return box;
+}
+
+Vector3 Box::corner(int i, int j, int k) const
+{
+  const std::array<int, 3> steps = { i, j, k };
+  Vector3 point;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    CompensatedSum total;
+    total.add(origin[axis]);
+    for (std::size_t edge = 0; edge < 3; ++edge)
+    {
+      if (steps[edge] != 0)
+      {
+        total.add(vectors[edge][axis]);
+      }
+    }
+    point[axis] = total.value();
+  }
+  return point;
+}
+}

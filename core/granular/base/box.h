@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_base_box_h
+#define granular_base_box_h
+
+#include "granular/base/compensated.h"
+
+#include <array>
+#include <string>
+
+namespace granular
+{
+using Vector3 = std::array<double, 3>;
+using Twofold3 = std::array<Twofold, 3>;
+
+/// The simulation box: a corner and three edge vectors, any units of length.
+/// Edge vectors are differences of the file's numbers and so need more bits than a double has:
+/// far from the origin, or where sums cancel, a rounded length would show in the coordinates.
+struct Box
+{
+  Twofold3 origin = {};
+  std::array<Twofold3, 3> vectors = {}; ///< a, b, c
+  std::string boundary;                 ///< flags as written, "pp pp ff"; empty if the file has none
+  bool tilted = false;                  ///< any of xy, xz, yz or a general cell: not axis-aligned
+  bool general = false;                 ///< a and b need not lie in x and the xy plane
+
+  /// From the bounds of an axis-aligned box.
+  static Box from_bounds(const Vector3& lo, const Vector3& hi);
+
+  /// From the bounding box of a tilted box and its tilts xy, xz, yz. The files hold the bounds,
+  /// the box is: xlo = xlo_bound - min(0, xy, xz, xy + xz), xhi = xhi_bound - max(0, xy, xz,
+  /// xy + xz), likewise y with yz (documentation of LAMMPS, "Triclinic simulation boxes").
+  static Box from_tilted_bounds(const Vector3& lo, const Vector3& hi, double xy, double xz, double yz);
+
+  /// From a corner and three edges (LAMMPS' general triclinic boxes).
+  static Box from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vectors);
+
+  /// The corner (i, j, k), each 0 or 1, correctly rounded.
+  Vector3 corner(int i, int j, int k) const;
+};
+}
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/base/byte_source.h"
+
+#include "granular/base/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace granular
+{
+namespace
+{
+[[noreturn]] void fail(const char* action, const std::string& path, int error)
+{
+  const std::string reason = std::generic_category().message(error);
+  throw IoError(std::string("cannot ") + action + ": " + reason, { path });
+}
+
+class FileSource final : public ByteSource
+{
+public:
+  explicit FileSource(const std::string& path)
+    : path_(path)
+  {
+    // O_NONBLOCK: a pipe of that name must not make the open wait; it changes nothing for files
+    do
+    {
+      file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    } while (file_ < 0 && errno == EINTR);
+    if (file_ < 0)
+    {
+      fail("open", path, errno);
+    }
+  }
+
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+  ~FileSource() override { ::close(file_); }
+
+  const std::string& path() const override { return path_; }
+
+  FileStamp stamp() const override
+  {
+    const struct stat status = this->status();
+    return { status.st_size,
+      std::int64_t{ status.st_mtim.tv_sec } * 1'000'000'000 + status.st_mtim.tv_nsec, status.st_ino,
+      status.st_dev };
+  }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    std::size_t done = 0;
+    while (done < bytes)
+    {
+      const ssize_t got =
+        ::pread(file_, buffer + done, bytes - done, offset + static_cast<std::int64_t>(done));
+      if (got < 0 && errno != EINTR)
+      {
+        fail("read", path_, errno);
+      }
+      if (got == 0)
+      {
+        break;
+      }
+      done += got > 0 ? static_cast<std::size_t>(got) : 0;
+    }
+    return done;
+  }
+
+  struct stat status() const
+  {
+    struct stat status;
+    if (::fstat(file_, &status) != 0)
+    {
+      fail("stat", path_, errno);
+    }
+    return status;
+  }
+
+private:
+  std::string path_;
+  int file_ = -1;
+};
+
+class MemorySource final : public ByteSource
+{
+public:
+  MemorySource(std::string_view bytes, std::string name)
+    : bytes_(bytes)
+    , path_(std::move(name))
+  {
+  }
+
+  const std::string& path() const override { return path_; }
+
+  FileStamp stamp() const override
+  {
+    FileStamp stamp;
+    stamp.size = static_cast<std::int64_t>(bytes_.size());
+    return stamp;
+  }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const std::size_t start = std::min(static_cast<std::size_t>(offset), bytes_.size());
+    const std::size_t count = std::min(bytes, bytes_.size() - start);
+    std::copy_n(bytes_.data() + start, count, buffer);
+    return count;
+  }
+
+private:
+  std::string_view bytes_;
+  std::string path_;
+};
+}
+
+std::unique_ptr<ByteSource> open_file(const std::string& path)
+{
+  auto source = std::make_unique<FileSource>(path);
+  const mode_t mode = source->status().st_mode;
+  if (!S_ISREG(mode))
+  {
+    throw IoError(
+      std::string("expected a file, got ") + (S_ISDIR(mode) ? "a directory" : "a device or a pipe"),
+      { path });
+  }
+  return source;
+}
+
+std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name)
+{
+  return std::make_unique<MemorySource>(bytes, std::move(name));
+}
+
+void PaddedBuffer::resize(std::size_t bytes)
+{
+  // not value-initialised: the buffers are read into at once
+  std::unique_ptr<char[]> memory(new char[bytes + 2 * padding]);
+  std::memset(memory.get(), '\n', padding);
+  if (memory_)
+  {
+    std::memcpy(memory.get() + padding, memory_.get() + padding, std::min(bytes, size_));
+  }
+  std::memset(memory.get() + padding + bytes, '\n', padding);
+  memory_ = std::move(memory);
+  size_ = bytes;
+}
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_base_column_h
+#define granular_base_column_h
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+enum class ValueType : std::uint8_t
+{
+  Int32,
+  Int64,
+  Float64,
+  Text
+};
+
+/// Bytes of a value in an array; a text counts as a std::string_view.
+std::size_t size_of(ValueType type) noexcept;
+
+/// What a column means. Only what some code asks for has a role; all else is Other.
+enum class ColumnRole : std::uint8_t
+{
+  Other,
+  Id,
+  Type,
+  Position,                ///< x: absolute, wrapped into the box
+  ScaledPosition,          ///< xs: in units of the box vectors
+  UnwrappedPosition,       ///< xu: absolute, as if never wrapped
+  ScaledUnwrappedPosition, ///< xsu
+  Image,                   ///< ix: how often the box was crossed
+  Radius,
+  Diameter
+};
+
+/// One row of the table of names that LIGGGHTS and LAMMPS give to columns.
+struct KnownColumn
+{
+  std::string_view name;  ///< as printed; a trailing '*' stands for any rest
+  ValueType type;
+  ColumnRole role;
+  std::string_view array; ///< name of the array it becomes part of; empty: its own name
+  int component;          ///< index in that array
+  int components;         ///< of that array
+  std::string_view unit;  ///< SI unit under `units si`; "-" dimensionless, "" as the user defined it
+  std::string_view meaning;
+};
+
+/// THE table. Readers, writers, documentation and tests take names, types and meanings from here.
+std::span<const KnownColumn> known_columns() noexcept;
+
+/// The row of the table for a name, or null.
+const KnownColumn* find_known_column(std::string_view name) noexcept;
+
+/// One column of a file.
+struct ColumnInfo
+{
+  std::string name; ///< as the file spells it; not unique
+  ValueType type = ValueType::Float64;
+  ColumnRole role = ColumnRole::Other;
+  int component = 0; ///< axis of a position or image
+  bool known = false;
+};
+
+/// One array that columns become: a scalar, or a vector from several columns.
+struct ArrayInfo
+{
+  std::string name; ///< unique in its schema
+  ValueType type = ValueType::Float64;
+  ColumnRole role = ColumnRole::Other;
+  std::vector<int> columns;   ///< column of each component
+  double scale = 1;           ///< radius made from a diameter: 0.5
+  bool position_form = false; ///< a coordinate column: not loaded as an array unless asked for
+
+  int components() const noexcept { return static_cast<int>(columns.size()); }
+};
+
+/// The ordered columns of a frame, and the arrays they become:
+/// - columns of the table join the vectors the table names, if all components are there;
+/// - c_ID[1] .. c_ID[n] (also f_, v_, i2_, d2_), n >= 2, complete and in this order in the file,
+///   become one array c_ID of n components, in the file's order (no tensor reordering);
+/// - every other column becomes an array under its own name;
+/// - a name that is taken gets "_2", "_3", ...;
+/// - `radius` is made from `diameter` where only that is there.
+class ColumnSchema
+{
+public:
+  ColumnSchema() = default;
+  explicit ColumnSchema(const std::vector<std::string>& names);
+
+  const std::vector<ColumnInfo>& columns() const noexcept { return columns_; }
+  const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }
+
+  /// The first column with this role and axis, or -1.
+  int find(ColumnRole role, int component = 0) const noexcept;
+
+  /// Index into arrays(), or -1.
+  int find_array(std::string_view name) const noexcept;
+
+  /// The names, blank-separated, in the file's order and spelling.
+  std::string text() const;
+
+  /// Changes the type of a column and of the array it is part of: an integer column that holds
+  /// other numbers becomes Float64, an unknown column of words becomes Text.
+  void set_type(int column, ValueType type);
+
+  bool operator==(const ColumnSchema& other) const;
+
+private:
+  std::vector<ColumnInfo> columns_;
+  std::vector<ArrayInfo> arrays_;
+};
+}
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_base_text_scanner_h
+#define granular_base_text_scanner_h
+
+#include "granular/base/byte_source.h"
+#include "granular/base/error.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Blank-separated words of a line: blanks, tabs, CR and all other bytes up to ' ' separate.
+std::vector<std::string_view> split_words(std::string_view line);
+
+/// Reads a text line by line, and passes over bulk at scan speed, knowing line and byte.
+class TextScanner
+{
+public:
+  /// A header line longer than this is a LimitError: no dump has one, a file of zeros does.
+  static constexpr std::size_t longest_line = std::size_t{ 1 } << 22;
+
+  /// Starts at byte offset, which is the start of line number line.
+  TextScanner(const ByteSource& source, std::int64_t offset, std::int64_t line);
+
+  /// The next line without its LF or CRLF. False at the end of the text. A last line without LF
+  /// counts as not there: its writer may not be done with it. Valid until the next call.
+  bool next(std::string_view& line);
+
+  /// Makes the line that next() gave come again.
+  void put_back() noexcept;
+
+  /// Passes over lines up to one that begins with "ITEM:", or to the end of the text.
+  /// Returns how many lines were passed; one without LF is not counted.
+  std::int64_t skip_to_item();
+
+  std::int64_t offset() const noexcept { return window_offset_ + static_cast<std::int64_t>(at_); }
+  std::int64_t line() const noexcept { return line_; } ///< number of the line that comes next
+
+  /// Place of the line that next() gave last.
+  Where where() const { return { source_.path(), last_line_, -1, {} }; }
+  std::int64_t last_offset() const noexcept { return last_offset_; }
+
+private:
+  bool fill();
+
+  const ByteSource& source_;
+  PaddedBuffer window_;
+  std::size_t at_ = 0;  ///< next byte in window_
+  std::size_t end_ = 0; ///< bytes in window_
+  std::int64_t window_offset_ = 0;
+  std::int64_t line_ = 1;
+  std::int64_t last_offset_ = 0;
+  std::int64_t last_line_ = 0;
+};
+}
+#endif

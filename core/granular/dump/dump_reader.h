@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_dump_reader_h
+#define granular_dump_dump_reader_h
+
+#include "granular/base/block.h"
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+#include "granular/dump/frame_index.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Which coordinates the points get.
+enum class Coordinates : std::uint8_t
+{
+  Absolute,  ///< in the box, as the simulation holds them
+  Unwrapped, ///< plus the image counts times the box vectors
+  Scaled     ///< in units of the box vectors, 0 to 1 inside the box
+};
+
+/// "Absolute", "Unwrapped", "Scaled".
+const char* to_string(Coordinates coordinates) noexcept;
+
+/// What of a frame is wanted.
+struct DumpRequest
+{
+  Coordinates coordinates = Coordinates::Absolute;
+  bool single_precision = false; ///< points as float instead of double
+  Vector3 point_origin = {};     ///< subtracted from the points in double before any rounding
+  bool sort_by_id = false;
+  std::int64_t stride = 1;       ///< >= 1; n keeps id mod n = 0, or every n-th row without ids
+  std::array<double, 6> region = { 1, -1, 1, -1, 1, -1 }; ///< xlo xhi ylo yhi zlo zhi, closed, in
+                                 ///< absolute coordinates; an axis with lo > hi is not restricted
+  std::function<bool(const ArrayInfo&)> wanted; ///< which arrays; empty: all but position forms
+};
+
+/// One array of a decoded frame: rows x components values, row-major.
+struct DumpArray
+{
+  ArrayInfo info;
+  Block block;                    ///< Int32, Int64 or Float64 values
+  std::vector<std::string> texts; ///< Text values
+};
+
+/// A decoded frame. The blocks may be given away.
+struct DumpFrame
+{
+  std::int64_t rows = 0;
+  Coordinates coordinates = Coordinates::Absolute; ///< what the points are; differs from the
+                                                   ///< request only where a notice says so
+  Block points;                                    ///< rows x 3, double or float
+  std::vector<DumpArray> arrays;
+};
+
+/// Decodes one frame of a text dump.
+///
+/// Reads the rows once, in order, through a buffer of constant size, straight into the blocks;
+/// columns that nobody asked for are not parsed. The frame must still be where the index says:
+/// a file that was replaced or shortened gives an IoError. Values that an integer column cannot
+/// hold turn the whole array into Float64, with a notice.
+/// Throws Error with path, line and column; Cancelled; std::bad_alloc.
+DumpFrame read_dump(const std::string& path, const FrameEntry& entry, const DumpRequest& request,
+  Notices& notices, Progress& progress);
+
+/// The same from an open source.
+DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
+  Notices& notices, Progress& progress);
+
+/// True if the first bytes of a file are those of a text dump of particles: after an optional
+/// byte order mark and blank lines an ITEM: TIMESTEP, UNITS or TIME, and, as far as the bytes
+/// go, ITEM: NUMBER OF ATOMS (files of dump local count ENTRIES or a word of the user's).
+bool is_text_dump(std::string_view first_bytes);
+}
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_frame_index_h
+#define granular_dump_frame_index_h
+
+#include "granular/base/byte_source.h"
+#include "granular/base/column.h"
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+#include "granular/dump/frame.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// Where a frame lies in its file. The rows are the lines of [rows_offset, end).
+struct FrameEntry
+{
+  std::size_t file = 0; ///< index into FrameIndex::files()
+  std::int64_t offset = 0;
+  std::int64_t rows_offset = 0;
+  std::int64_t end = 0;
+  std::int64_t line = 1;      ///< line number at offset
+  std::int64_t rows_line = 1; ///< line number at rows_offset
+  FrameHeader header;
+  std::shared_ptr<const ColumnSchema> schema; ///< shared by the frames that have the same columns
+};
+
+/// All complete frames of a run, found at scan speed without decoding rows.
+///
+/// Frames are ordered by timestep. Where a timestep is repeated (a restarted run) the frame that
+/// stands last, in the order of the files and in its file, is taken. A last frame that is not
+/// complete is left out: its writer is still at work. Frames in the middle that are not what
+/// their header says are left out with a notice.
+class FrameIndex
+{
+public:
+  /// Brings the index up to what the files hold now. Files that only grew are read from where the
+  /// last complete frame ended; files that are the same are not read; others are read anew.
+  /// Throws IoError or FormatError if no file yields a frame, saying what is wrong with the first.
+  void update(const std::vector<std::string>& files, Notices& notices, Progress& progress);
+
+  const std::vector<FrameEntry>& frames() const noexcept { return frames_; }
+  const std::vector<std::string>& files() const noexcept { return paths_; }
+
+  /// Time of every frame [s]: ITEM: TIME if every frame has one and it strictly increases,
+  /// else timestep * timestep_size.
+  std::vector<double> times(double timestep_size) const;
+
+  /// The last frame at or before a time, of times that increase; the first if there is none.
+  static std::size_t find(const std::vector<double>& times, double time) noexcept;
+
+private:
+  struct File
+  {
+    FileStamp stamp;
+    std::vector<FrameEntry> frames;
+    std::int64_t resume_offset = 0; ///< end of the last complete frame
+    std::int64_t resume_line = 1;
+    std::string units;
+    Notices notices;
+    std::string defect; ///< why there are no frames
+  };
+
+  void update_file(File& file, const std::string& path, Progress& progress);
+  void collect();
+
+  std::vector<std::string> paths_;
+  std::vector<File> records_; ///< one a path
+  std::vector<FrameEntry> frames_;
+};
+}
+#endif
