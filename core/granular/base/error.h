@@ -12,10 +12,10 @@ namespace granular
 /// A place in a file. What is not known stays at its default and is not printed.
 struct Where
 {
-  std::string path;
+  std::string path = {};
   std::int64_t line = 0;  ///< first line is 1; 0: not known or not a text file
   std::int64_t byte = -1; ///< first byte is 0; -1: not known
-  std::string column;     ///< name of the column as the file spells it
+  std::string column = {}; ///< name of the column as the file spells it
 };
 
 /// "path:line: column 'name'" or "path@byte: column 'name'", as far as known.

@@ -10,21 +10,21 @@
 
 namespace granular
 {
-/// Where the values of one column of a text go: value of row r to data + r * stride bytes.
+/// A column of a text that is wanted, and where its next value goes.
 struct ColumnSink
 {
   enum class Kind : std::uint8_t
   {
-    Skip,
     Int32,   ///< std::int32_t
     Int64,   ///< std::int64_t
     Float64, ///< double
     Text     ///< std::string_view into the text
   };
 
-  Kind kind = Kind::Skip;
-  void* data = nullptr;
-  std::ptrdiff_t stride = 0;
+  std::uint32_t column = 0; ///< place of the word in its row, from 0
+  Kind kind = Kind::Float64;
+  char* data = nullptr;
+  std::ptrdiff_t stride = 0; ///< bytes from one row's value to the next's
 };
 
 enum class RowStatus : std::uint8_t
@@ -60,11 +60,12 @@ Simd best_simd() noexcept;
 /// Decodes rows of blank-separated words into columns.
 ///
 /// [first, last) holds whole lines: it is empty or ends in LF. It lies in a PaddedBuffer: up to
-/// 64 bytes before and after are read (and ignored). sinks has one entry a column of the file;
-/// columns after the last one that is not Skip are not looked at, but counted. Lines without
-/// words are passed over. At most max_rows rows are decoded.
+/// 64 bytes before and after are read (and ignored). columns is the number of words a row must
+/// have; sinks names those that are wanted, by increasing column, and each sink's data is moved on
+/// past the rows decoded. Lines without words are passed over. At most max_rows rows are decoded.
 /// Numbers are parsed as by parse_double and parse_int64, to the bit. Does not throw or allocate.
-RowResult decode_rows(const char* first, const char* last, std::span<const ColumnSink> sinks,
-  std::int64_t max_rows, Simd simd = best_simd()) noexcept;
+/// After an error the sinks' data is where it happens to be.
+RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
+  std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd = best_simd()) noexcept;
 }
 #endif

@@ -4,6 +4,7 @@
 
 #include "granular/base/byte_source.h"
 #include "granular/base/error.h"
+#include "granular/base/progress.h"
 
 #include <cstdint>
 #include <string>
@@ -32,9 +33,13 @@ public:
   /// Makes the line that next() gave come again.
   void put_back() noexcept;
 
+  /// Goes to another place, the start of line number line.
+  void go_to(std::int64_t offset, std::int64_t line) noexcept;
+
   /// Passes over lines up to one that begins with "ITEM:", or to the end of the text.
   /// Returns how many lines were passed; one without LF is not counted.
-  std::int64_t skip_to_item();
+  /// Reports progress as the place in total bytes.
+  std::int64_t skip_to_item(Progress& progress, std::int64_t total);
 
   std::int64_t offset() const noexcept { return window_offset_ + static_cast<std::int64_t>(at_); }
   std::int64_t line() const noexcept { return line_; } ///< number of the line that comes next

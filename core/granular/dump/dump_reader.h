@@ -3,9 +3,11 @@
 #define granular_dump_dump_reader_h
 
 #include "granular/base/block.h"
+#include "granular/base/byte_source.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
 #include "granular/dump/frame_index.h"
+#include "granular/dump/positions.h"
 
 #include <array>
 #include <cstdint>
@@ -16,17 +18,6 @@
 
 namespace granular
 {
-/// Which coordinates the points get.
-enum class Coordinates : std::uint8_t
-{
-  Absolute,  ///< in the box, as the simulation holds them
-  Unwrapped, ///< plus the image counts times the box vectors
-  Scaled     ///< in units of the box vectors, 0 to 1 inside the box
-};
-
-/// "Absolute", "Unwrapped", "Scaled".
-const char* to_string(Coordinates coordinates) noexcept;
-
 /// What of a frame is wanted.
 struct DumpRequest
 {
@@ -71,10 +62,5 @@ DumpFrame read_dump(const std::string& path, const FrameEntry& entry, const Dump
 /// The same from an open source.
 DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
   Notices& notices, Progress& progress);
-
-/// True if the first bytes of a file are those of a text dump of particles: after an optional
-/// byte order mark and blank lines an ITEM: TIMESTEP, UNITS or TIME, and, as far as the bytes
-/// go, ITEM: NUMBER OF ATOMS (files of dump local count ENTRIES or a word of the user's).
-bool is_text_dump(std::string_view first_bytes);
 }
 #endif

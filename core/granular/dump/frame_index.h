@@ -2,7 +2,6 @@
 #ifndef granular_dump_frame_index_h
 #define granular_dump_frame_index_h
 
-#include "granular/base/byte_source.h"
 #include "granular/base/column.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
@@ -37,9 +36,16 @@ struct FrameEntry
 class FrameIndex
 {
 public:
+  FrameIndex();
+  FrameIndex(FrameIndex&&) noexcept;
+  FrameIndex& operator=(FrameIndex&&) noexcept;
+  ~FrameIndex();
+
   /// Brings the index up to what the files hold now. Files that only grew are read from where the
   /// last complete frame ended; files that are the same are not read; others are read anew.
-  /// Throws IoError or FormatError if no file yields a frame, saying what is wrong with the first.
+  /// notices gets what is to be said of the files that were read now, and of those that cannot be.
+  /// Throws IoError or FormatError if no file yields a frame, saying what is wrong with the first;
+  /// Cancelled.
   void update(const std::vector<std::string>& files, Notices& notices, Progress& progress);
 
   const std::vector<FrameEntry>& frames() const noexcept { return frames_; }
@@ -53,19 +59,12 @@ public:
   static std::size_t find(const std::vector<double>& times, double time) noexcept;
 
 private:
-  struct File
-  {
-    FileStamp stamp;
-    std::vector<FrameEntry> frames;
-    std::int64_t resume_offset = 0; ///< end of the last complete frame
-    std::int64_t resume_line = 1;
-    std::string units;
-    Notices notices;
-    std::string defect; ///< why there are no frames
-  };
+  struct File;
 
-  void update_file(File& file, const std::string& path, Progress& progress);
+  static void update_file(
+    File& file, const std::string& path, Notices& notices, Progress& progress);
   void collect();
+  [[noreturn]] void fail() const;
 
   std::vector<std::string> paths_;
   std::vector<File> records_; ///< one a path

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/dump_reader.h"
+
+#include "granular/dump/frame_decoder.h"
+#include "granular/dump/sort_rows.h"
+#include "granular/dump/text_dump.h"
+#include "granular/dump/text_header.h"
+
+#include <algorithm>
+
+namespace granular
+{
+namespace
+{
+/// An integer column that holds other numbers is read again as doubles; ids must be integers.
+void widen(const FrameDecoder& decoder, ColumnSchema& schema, Notices& notices)
+{
+  const ColumnInfo& column = schema.columns()[static_cast<std::size_t>(decoder.misfit())];
+  const std::string text = "expected an integer, got " + quoted(decoder.misfit_word());
+  if (column.role == ColumnRole::Id)
+  {
+    throw FormatError(text, decoder.misfit_where());
+  }
+  notices.push_back({ decoder.misfit_where(), text + "; the column is kept as doubles" });
+  schema.set_type(decoder.misfit(), ValueType::Float64);
+}
+}
+
+DumpFrame read_dump(const std::string& path, const FrameEntry& entry, const DumpRequest& request,
+  Notices& notices, Progress& progress)
+{
+  return read_dump(*open_file(path), entry, request, notices, progress);
+}
+
+DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
+  Notices& notices, Progress& progress)
+{
+  if (request.stride < 1)
+  {
+    throw LimitError("expected a stride >= 1, got " + std::to_string(request.stride));
+  }
+  check_unchanged(source, entry);
+  ColumnSchema schema = *entry.schema;
+  for (;;)
+  {
+    Notices found;
+    FrameDecoder decoder(source, entry, schema, request, found);
+    if (!decoder.run(progress))
+    {
+      widen(decoder, schema, notices);
+      continue;
+    }
+    Block ids;
+    DumpFrame frame = decoder.take(ids);
+    if (request.sort_by_id)
+    {
+      sort_by_id(frame, ids, found, { source.path(), entry.line });
+    }
+    notices.insert(notices.end(), found.begin(), found.end());
+    return frame;
+  }
+}
+}

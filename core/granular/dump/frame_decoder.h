@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_frame_decoder_h
+#define granular_dump_frame_decoder_h
+
+#include "granular/base/block.h"
+#include "granular/base/row_text.h"
+#include "granular/dump/dump_reader.h"
+#include "granular/dump/text_rows.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// Where values go: by the row of the frame, or by the row of the batch.
+struct Destination
+{
+  char* base = nullptr;
+  std::ptrdiff_t stride = 0;
+  bool scratch = false; ///< starts anew with each batch
+
+  char* at(std::int64_t row) const noexcept { return base + (scratch ? 0 : row * stride); }
+};
+
+/// A column on its way: to its first destination by the decoder, from there to others.
+struct Wire
+{
+  struct Copy
+  {
+    Destination to; ///< doubles
+    double scale;
+  };
+
+  ColumnSink::Kind kind;
+  Destination first;
+  std::vector<Copy> copies;
+};
+
+/// Points of a batch: three doubles a row, made from columns.
+struct Points
+{
+  PositionPlan plan;
+  Vector3 point_origin = {};
+  Destination xyz;
+  std::vector<double> images; ///< of a batch
+
+  void convert(const Box& box, std::int64_t row, std::size_t count);
+};
+
+/// Decodes one frame: lays the wires, then runs batches of rows through them.
+class FrameDecoder
+{
+public:
+  FrameDecoder(const ByteSource& source, const FrameEntry& entry, const ColumnSchema& schema,
+    const DumpRequest& request, Notices& notices);
+
+  /// Decodes all rows. False if a column does not fit its integer type: misfit() tells which.
+  bool run(Progress& progress);
+
+  int misfit() const noexcept { return misfit_; }
+  const std::string& misfit_word() const noexcept { return misfit_word_; }
+
+  const Where& misfit_where() const noexcept { return misfit_where_; }
+
+  /// The frame; ids gets the ids where they are needed for sorting and no array of the frame.
+  DumpFrame take(Block& ids);
+
+private:
+  void lay_arrays();
+  void lay_points();
+  void lay_filters();
+  void lay(Points& points);
+  void want(int column, ValueType type, Destination to, double scale = 1);
+  Destination scratch(std::size_t bytes_a_row);
+  void aim(std::vector<ColumnSink>& sinks) const;
+  void finish_batch(std::size_t count);
+  void copy_batch(std::size_t count);
+  void choose_rows(std::size_t count);
+  void compact(Block& block, std::size_t width, std::size_t count) const;
+  void append_texts(std::size_t count);
+
+  const ByteSource& source_;
+  const FrameEntry& entry_;
+  const ColumnSchema& schema_;
+  const DumpRequest& request_;
+  Notices& notices_;
+  Where where_;
+
+  std::map<int, Wire> wires_; ///< by column
+  std::vector<std::unique_ptr<char[]>> scratch_;
+  Points points_;
+  std::optional<Points> region_; ///< absolute coordinates, where a region restricts the rows
+  std::vector<Destination> texts_; ///< of the arrays of texts, in their order
+  std::vector<char> keep_;       ///< of a batch; empty: all rows stay
+  Block ids_;                    ///< where they are needed but not wanted as an array
+  DumpFrame frame_;
+  std::int64_t row_ = 0;  ///< rows kept
+  std::int64_t seen_ = 0; ///< rows decoded
+  int misfit_ = -1;
+  std::string misfit_word_;
+  Where misfit_where_;
+};
+}
+#endif

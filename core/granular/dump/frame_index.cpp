@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/frame_index.h"
+
+#include "granular/dump/text_dump.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace granular
+{
+/// One file of the series and what is known of it.
+struct FrameIndex::File
+{
+  FileStamp stamp;
+  TextIndex index;
+  std::exception_ptr error; ///< the file could not be opened or read
+};
+
+namespace
+{
+/// Whether the file only grew since it was indexed: the same file, and what was indexed last is
+/// still there. A run that starts over writes a new file of the same name, or into the same one.
+bool only_grew(const ByteSource& source, const FileStamp& before, const FileStamp& now,
+  const std::vector<FrameEntry>& frames)
+{
+  if (before.inode != now.inode || before.device != now.device || now.size < before.size)
+  {
+    return false;
+  }
+  try
+  {
+    if (!frames.empty())
+    {
+      check_unchanged(source, frames.front());
+      check_unchanged(source, frames.back());
+    }
+    return true;
+  }
+  catch (const IoError&)
+  {
+    return false; // changed: it is read anew
+  }
+}
+
+std::string reason(const std::exception_ptr& error)
+{
+  try
+  {
+    std::rethrow_exception(error);
+  }
+  catch (const Error& e)
+  {
+    return e.what();
+  }
+}
+}
+
+FrameIndex::FrameIndex() = default;
+FrameIndex::FrameIndex(FrameIndex&&) noexcept = default;
+FrameIndex& FrameIndex::operator=(FrameIndex&&) noexcept = default;
+FrameIndex::~FrameIndex() = default;
+
+void FrameIndex::update(
+  const std::vector<std::string>& files, Notices& notices, Progress& progress)
+{
+  std::map<std::string, File> known;
+  for (std::size_t i = 0; i < paths_.size(); ++i)
+  {
+    known[paths_[i]] = std::move(records_[i]);
+  }
+  // if this is left by an exception, what is known so far is gone and will be read anew
+  paths_.clear();
+  records_.clear();
+  frames_.clear();
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    progress.step(static_cast<double>(i) / static_cast<double>(files.size()));
+    File file = std::move(known[files[i]]);
+    FrameIndex::update_file(file, files[i], notices, progress);
+    paths_.push_back(files[i]);
+    records_.push_back(std::move(file));
+  }
+  this->collect();
+  if (frames_.empty())
+  {
+    this->fail();
+  }
+  for (const File& file : records_)
+  {
+    if (file.error)
+    {
+      notices.push_back({ {}, reason(file.error) + "; the file is left out" });
+    }
+  }
+}
+
+void FrameIndex::update_file(
+  File& file, const std::string& path, Notices& notices, Progress& progress)
+{
+  try
+  {
+    file.error = nullptr;
+    const std::unique_ptr<ByteSource> source = open_file(path);
+    const FileStamp stamp = source->stamp();
+    if (stamp == file.stamp)
+    {
+      return;
+    }
+    if (!only_grew(*source, file.stamp, stamp, file.index.frames))
+    {
+      file.index = {};
+    }
+    file.index.notices.clear();
+    file.index.defect.clear();
+    index_text_dump(*source, file.index, progress);
+    file.stamp = stamp;
+    notices.insert(notices.end(), file.index.notices.begin(), file.index.notices.end());
+    if (file.index.defect.empty())
+    {
+      file.index.defect = to_string(Where{ path }) + ": expected a dump, got " +
+        (stamp.size == 0 ? "an empty file" : "no complete frame");
+    }
+  }
+  catch (const Error&)
+  {
+    file = {};
+    file.error = std::current_exception();
+  }
+}
+
+/// Orders the frames of all files; of a repeated timestep the last stays.
+void FrameIndex::collect()
+{
+  for (std::size_t i = 0; i < records_.size(); ++i)
+  {
+    for (const FrameEntry& frame : records_[i].index.frames)
+    {
+      frames_.push_back(frame);
+      frames_.back().file = i;
+    }
+  }
+  const auto step = [](const FrameEntry& frame) { return frame.header.timestep; };
+  std::ranges::stable_sort(frames_, {}, step);
+  std::vector<FrameEntry> last;
+  for (FrameEntry& frame : frames_)
+  {
+    if (!last.empty() && step(last.back()) == step(frame))
+    {
+      last.pop_back();
+    }
+    last.push_back(std::move(frame));
+  }
+  frames_ = std::move(last);
+}
+
+void FrameIndex::fail() const
+{
+  if (records_.empty())
+  {
+    throw IoError("expected the name of a file, got none");
+  }
+  if (records_.front().error)
+  {
+    std::rethrow_exception(records_.front().error);
+  }
+  throw FormatError(records_.front().index.defect);
+}
+
+std::vector<double> FrameIndex::times(double timestep_size) const
+{
+  std::vector<double> from_header;
+  for (const FrameEntry& frame : frames_)
+  {
+    const std::optional<double>& time = frame.header.time;
+    if (time && (from_header.empty() || *time > from_header.back()))
+    {
+      from_header.push_back(*time);
+    }
+  }
+  if (from_header.size() == frames_.size())
+  {
+    return from_header;
+  }
+  std::vector<double> from_steps;
+  for (const FrameEntry& frame : frames_)
+  {
+    from_steps.push_back(static_cast<double>(frame.header.timestep) * timestep_size);
+  }
+  return from_steps;
+}
+
+std::size_t FrameIndex::find(const std::vector<double>& times, double time) noexcept
+{
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  return after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
+}
+}

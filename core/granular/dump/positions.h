@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_positions_h
+#define granular_dump_positions_h
+
+#include "granular/base/box.h"
+#include "granular/base/column.h"
+#include "granular/base/error.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace granular
+{
+/// Which coordinates points have.
+enum class Coordinates : std::uint8_t
+{
+  Absolute,  ///< in the box, as the simulation holds them
+  Unwrapped, ///< plus the image counts times the box vectors
+  Scaled     ///< in units of the box vectors, 0 to 1 inside the box
+};
+
+/// "Absolute", "Unwrapped", "Scaled".
+const char* to_string(Coordinates coordinates) noexcept;
+
+/// From which columns the points of a frame are made, and how.
+struct PositionPlan
+{
+  struct Axis
+  {
+    int column = -1;     ///< -1: the file has none; the coordinate is 0
+    bool scaled = false; ///< the column is in units of the box vectors
+    int shift = 0;       ///< image counts are to be added (1), subtracted (-1) or not needed (0)
+  };
+
+  std::array<Axis, 3> axes;
+  std::array<int, 3> images = { -1, -1, -1 }; ///< columns, where any axis needs a shift
+  Coordinates coordinates = Coordinates::Absolute; ///< what the points will be
+};
+
+/// Chooses the columns. What the file cannot give is replaced by what it can, with a notice.
+/// Throws FormatError if there is no coordinate column, UnsupportedError if a tilted box comes
+/// with scaled coordinates on one axis and absolute ones on another.
+PositionPlan plan_positions(
+  const ColumnSchema& schema, const Box& box, Coordinates wanted, const Where& where, Notices& notices);
+
+/// Turns the columns' values into points minus point_origin, in place: points holds x y z of each
+/// row, images (empty unless the plan has images) the three counts.
+///
+/// Each coordinate is within half an ulp plus 2^-100 of the sum of the magnitudes of its terms of
+/// the exact value, the file's doubles being exact: also far from the origin, for thin and for
+/// strongly tilted boxes, and after any number of crossings.
+void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
+  std::span<const double> images, std::span<double> points) noexcept;
+}
+#endif

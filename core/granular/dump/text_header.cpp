@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/text_header.h"
+
+#include "granular/base/number.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+constexpr std::string_view item = "ITEM:";
+}
+
+std::string quoted(std::string_view text)
+{
+  constexpr std::size_t longest = 40;
+  std::string shown(text.substr(0, longest));
+  std::replace_if(
+    shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "'" + shown + (text.size() > longest ? "...'" : "'");
+}
+
+std::vector<std::string_view> item_words(std::string_view line)
+{
+  if (line.starts_with(byte_order_mark))
+  {
+    line.remove_prefix(byte_order_mark.size());
+  }
+  std::vector<std::string_view> words = split_words(line);
+  if (words.empty() || words.front() != item)
+  {
+    return {};
+  }
+  words.erase(words.begin());
+  return words;
+}
+
+bool opens_frame(std::span<const std::string_view> words)
+{
+  return words.size() == 1 &&
+    (words[0] == "TIMESTEP" || words[0] == "UNITS" || words[0] == "TIME");
+}
+
+bool begins_with(std::span<const std::string_view> words, std::string_view name)
+{
+  const std::vector<std::string_view> wanted = split_words(name);
+  return words.size() >= wanted.size() && std::equal(wanted.begin(), wanted.end(), words.begin());
+}
+
+const TextHeader::Section TextHeader::sections[] = {
+  { "TIMESTEP", &TextHeader::parse_timestep },
+  { "TIME", &TextHeader::parse_time },
+  { "UNITS", &TextHeader::parse_units },
+  { "LABEL", &TextHeader::parse_label },
+  { "NUMBER OF ATOMS", &TextHeader::parse_rows },
+  { "NUMBER OF", &TextHeader::refuse_rows },
+  { "BOX BOUNDS", &TextHeader::parse_box },
+  { "ATOMS", &TextHeader::parse_columns },
+  { "", &TextHeader::skip_section },
+};
+
+bool TextHeader::read()
+{
+  std::string_view line;
+  while (scanner_.next(line))
+  {
+    if (split_words(line).empty() || line == byte_order_mark)
+    {
+      continue;
+    }
+    // the words outlive the line: the sections read on
+    const std::string copy(line);
+    const std::vector<std::string_view> words = item_words(copy);
+    if (words.empty() || (!opened_ && !opens_frame(words)))
+    {
+      this->fail(opened_ ? "an ITEM: line" : "ITEM: TIMESTEP, UNITS or TIME", copy);
+    }
+    if (!opened_)
+    {
+      opened_ = true;
+      offset_ = scanner_.last_offset();
+      line_ = scanner_.where().line;
+    }
+    if (has_timestep_ && words[0] == "TIMESTEP")
+    {
+      scanner_.put_back();
+      this->fail("ITEM: ATOMS", copy);
+    }
+    if (!this->dispatch(words))
+    {
+      return false;
+    }
+    if (has_columns_)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool TextHeader::dispatch(Words words)
+{
+  const auto section = std::find_if(std::begin(sections), std::end(sections),
+    [words](const Section& entry) { return begins_with(words, entry.name); });
+  return (this->*section->parse)(words);
+}
+
+void TextHeader::fail(const std::string& expected, std::string_view got) const
+{
+  throw FormatError("expected " + expected + ", got " + quoted(got), scanner_.where());
+}
+
+void TextHeader::require(bool seen, const char* section) const
+{
+  if (!seen)
+  {
+    throw FormatError(
+      std::string("expected ITEM: ") + section + " before ITEM: ATOMS, got none", scanner_.where());
+  }
+}
+
+bool TextHeader::value_line(std::string_view& line)
+{
+  do
+  {
+    if (!scanner_.next(line))
+    {
+      return false;
+    }
+  } while (split_words(line).empty());
+  if (line.starts_with(item))
+  {
+    const std::string copy(line);
+    scanner_.put_back();
+    this->fail("a value", copy);
+  }
+  return true;
+}
+
+std::int64_t TextHeader::integer(std::string_view word, const char* what) const
+{
+  std::int64_t value = 0;
+  if (!parse_int64(word.data(), word.data() + word.size(), value))
+  {
+    this->fail(what, word);
+  }
+  return value;
+}
+
+bool TextHeader::parse_timestep(Words words)
+{
+  if (words.size() != 1)
+  {
+    return this->skip_section(words);
+  }
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  // some tools add the time as a second word
+  header_.timestep = this->integer(split_words(line).front(), "an integer timestep");
+  has_timestep_ = true;
+  return true;
+}
+
+bool TextHeader::parse_time(Words)
+{
+  double time = 0;
+  if (!this->read_numbers(1, &time))
+  {
+    return false;
+  }
+  header_.time = time;
+  return true;
+}
+
+bool TextHeader::parse_units(Words)
+{
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  header_.units = split_words(line).front();
+  return true;
+}
+
+bool TextHeader::parse_label(Words)
+{
+  std::string_view line;
+  if (!scanner_.next(line))
+  {
+    return false;
+  }
+  header_.label = line;
+  return true;
+}
+
+bool TextHeader::parse_rows(Words)
+{
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  const std::string_view word = split_words(line).front();
+  header_.rows = this->integer(word, "a number of atoms");
+  if (header_.rows < 0)
+  {
+    this->fail("a number of atoms >= 0", word);
+  }
+  has_rows_ = true;
+  return true;
+}
+
+/// Files of dump local have the same shape but count other things than particles.
+bool TextHeader::refuse_rows(Words words)
+{
+  std::string name;
+  for (const std::string_view word : words)
+  {
+    name += " " + std::string(word);
+  }
+  this->fail("ITEM: NUMBER OF ATOMS", "ITEM:" + name);
+}
+
+/// "[xy xz yz | abc origin] [flags]" and three lines of 2, 3 or 4 numbers.
+bool TextHeader::parse_box(Words words)
+{
+  Words rest = words.subspan(2);
+  const bool tilted = begins_with(rest, "xy xz yz");
+  const bool general = begins_with(rest, "abc origin");
+  rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
+  std::string boundary;
+  for (const std::string_view flag : rest)
+  {
+    boundary += (boundary.empty() ? "" : " ") + std::string(flag);
+  }
+  std::array<std::array<double, 4>, 3> n = {};
+  for (auto& numbers : n)
+  {
+    if (!this->read_numbers(general ? 4 : tilted ? 3 : 2, numbers.data()))
+    {
+      return false;
+    }
+  }
+  if (general)
+  {
+    header_.box = Box::from_vectors({ n[0][3], n[1][3], n[2][3] },
+      { Vector3{ n[0][0], n[0][1], n[0][2] }, Vector3{ n[1][0], n[1][1], n[1][2] },
+        Vector3{ n[2][0], n[2][1], n[2][2] } });
+  }
+  else
+  {
+    const Vector3 lo = { n[0][0], n[1][0], n[2][0] };
+    const Vector3 hi = { n[0][1], n[1][1], n[2][1] };
+    header_.box =
+      tilted ? Box::from_tilted_bounds(lo, hi, n[0][2], n[1][2], n[2][2]) : Box::from_bounds(lo, hi);
+  }
+  header_.box.boundary = std::move(boundary);
+  has_box_ = true;
+  return true;
+}
+
+bool TextHeader::read_numbers(std::size_t count, double* numbers)
+{
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  const std::vector<std::string_view> words = split_words(line);
+  if (words.size() != count)
+  {
+    this->fail(std::to_string(count) + (count == 1 ? " number" : " numbers"), line);
+  }
+  for (const std::string_view word : words)
+  {
+    if (!parse_double(word.data(), word.data() + word.size(), *numbers++))
+    {
+      this->fail("a number", word);
+    }
+  }
+  return true;
+}
+
+bool TextHeader::parse_columns(Words words)
+{
+  this->require(has_timestep_, "TIMESTEP");
+  this->require(has_rows_, "NUMBER OF ATOMS");
+  this->require(has_box_, "BOX BOUNDS");
+  column_names_.assign(words.begin() + 1, words.end());
+  has_columns_ = true;
+  return true;
+}
+
+bool TextHeader::skip_section(Words)
+{
+  std::string_view line;
+  while (scanner_.next(line))
+  {
+    if (!item_words(line).empty())
+    {
+      scanner_.put_back();
+      return true;
+    }
+  }
+  return false;
+}
+}

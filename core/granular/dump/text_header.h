@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_text_header_h
+#define granular_dump_text_header_h
+
+#include "granular/base/text_scanner.h"
+#include "granular/dump/frame.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Some programs put the UTF-8 byte order mark before a text.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// A line "ITEM: ...": its words after the first. Empty for other lines.
+std::vector<std::string_view> item_words(std::string_view line);
+
+/// Whether words begin with the blank-separated words of name.
+bool begins_with(std::span<const std::string_view> words, std::string_view name);
+
+/// Whether the section of that name may be the first of a frame: TIMESTEP, or UNITS and TIME,
+/// which LAMMPS puts before it.
+bool opens_frame(std::span<const std::string_view> words);
+
+/// In quotes, shortened to what fits a message; other than printable bytes become '?'.
+std::string quoted(std::string_view text);
+
+/// Reads the header of one frame of a text dump, in any of its dialects: sections in any order
+/// up to ITEM: ATOMS, unknown ones passed over.
+class TextHeader
+{
+public:
+  TextHeader(TextScanner& scanner, std::string units)
+    : scanner_(scanner)
+  {
+    header_.units = std::move(units);
+  }
+
+  /// Reads up to and including the line ITEM: ATOMS. False at the end of the text.
+  /// Throws FormatError.
+  bool read();
+
+  FrameHeader& header() noexcept { return header_; }
+  const std::vector<std::string>& column_names() const noexcept { return column_names_; }
+  std::int64_t offset() const noexcept { return offset_; } ///< of the frame's first line
+  std::int64_t line() const noexcept { return line_; }
+  bool opened() const noexcept { return opened_; }
+
+private:
+  using Words = std::span<const std::string_view>;
+  using Parse = bool (TextHeader::*)(Words);
+
+  struct Section
+  {
+    std::string_view name; ///< words after ITEM:, as far as they are fixed
+    Parse parse;           ///< false at the end of the text
+  };
+
+  static const Section sections[];
+
+  bool dispatch(Words words);
+  bool value_line(std::string_view& line);
+  bool parse_timestep(Words words);
+  bool parse_time(Words words);
+  bool parse_units(Words words);
+  bool parse_label(Words words);
+  bool parse_rows(Words words);
+  [[noreturn]] bool refuse_rows(Words words);
+  bool parse_box(Words words);
+  bool parse_columns(Words words);
+  bool skip_section(Words words);
+  bool read_numbers(std::size_t count, double* numbers);
+  std::int64_t integer(std::string_view word, const char* what) const;
+  void require(bool seen, const char* section) const;
+  [[noreturn]] void fail(const std::string& expected, std::string_view got) const;
+
+  TextScanner& scanner_;
+  FrameHeader header_;
+  std::vector<std::string> column_names_;
+  std::int64_t offset_ = 0;
+  std::int64_t line_ = 0;
+  bool opened_ = false;
+  bool has_timestep_ = false;
+  bool has_rows_ = false;
+  bool has_box_ = false;
+  bool has_columns_ = false;
+};
+}
+#endif
