@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Warnings per layer, and sanitizers for the whole of a core-only build.
+
+set(granular_warnings_vtk -Wall -Wextra)
+set(granular_warnings_core -Wall -Wextra)
+if(GRANULAR_STRICT)
+  # VTK's headers are included as system headers, but its macros expand in our files: conversions
+  # in them are not ours to mend, so the VTK layer has the shorter list.
+  list(APPEND granular_warnings_vtk -Werror)
+  list(APPEND granular_warnings_core
+    -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror)
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False alarm of GCC 12 in its own header: "literal" + std::string, from C++20 on.
+  list(APPEND granular_warnings_vtk -Wno-restrict)
+  list(APPEND granular_warnings_core -Wno-restrict)
+endif()
+
+# granular_warnings(target core|vtk)
+function(granular_warnings target layer)
+  target_compile_options(${target} PRIVATE
+    "$<$<COMPILE_LANGUAGE:CXX>:${granular_warnings_${layer}}>")
+endfunction()
+
+if(GRANULAR_SANITIZE)
+  add_compile_options(
+    -fsanitize=${GRANULAR_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  add_link_options(-fsanitize=${GRANULAR_SANITIZE})
+endif()
+
+if(GRANULAR_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR
+      "GRANULAR_FUZZ needs clang (Debian: clang), found ${CMAKE_CXX_COMPILER_ID}: configure in an "
+      "empty folder with CMAKE_CXX_COMPILER=clang++, or use the preset fuzz.")
+  endif()
+  # Coverage counters everywhere; libFuzzer's main only in the fuzz targets.
+  add_compile_options(-fsanitize=fuzzer-no-link -g)
+endif()

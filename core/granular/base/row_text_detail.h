@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_base_row_text_detail_h
+#define granular_base_row_text_detail_h
+
+// What the decoders of the instruction sets share. Only for row_text*.cpp.
+
+#include "granular/base/row_text.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define GRANULAR_X86 1
+#endif
+
+namespace granular::row_text
+{
+struct RowPlan
+{
+  std::span<ColumnSink> sinks;
+  std::uint32_t columns;
+};
+
+// The words that are not common: the same for all instruction sets.
+
+RowStatus store_integer(std::int64_t value, ColumnSink::Kind kind, char* data) noexcept;
+RowStatus store_integer(
+  const char* first, const char* last, ColumnSink::Kind kind, char* data) noexcept;
+RowStatus store_double(const char* first, const char* last, char* data) noexcept;
+RowStatus store_text(const char* first, const char* last, char* data) noexcept;
+
+/// Goes on from result, word by word, until it has max_rows rows, the text ends or a word is not
+/// what it should be.
+void decode_plain(
+  const char* last, RowPlan& plan, std::int64_t max_rows, RowResult& result) noexcept;
+
+#if GRANULAR_X86
+namespace avx2
+{
+RowResult decode(
+  const char* first, const char* last, RowPlan& plan, std::int64_t max_rows) noexcept;
+}
+
+namespace avx512
+{
+RowResult decode(
+  const char* first, const char* last, RowPlan& plan, std::int64_t max_rows) noexcept;
+}
+#endif
+}
+#endif

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Who may include whom.
+
+    core/granular/base     the C++ standard library; the system only where SYSTEM_HEADERS says so
+    core/granular/SYSTEM   base, its own folder, and what SYSTEM_MAY_USE says
+    core/mpi               base, its own folder, mpi.h
+    plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
+    plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView
+    samples                paraview.simple, granular and Python's own modules
+"""
+import ast
+import re
+import sys
+
+import tree
+
+STANDARD = set("""
+    algorithm any array atomic barrier bit bitset charconv chrono codecvt compare complex concepts
+    condition_variable coroutine deque exception execution filesystem format forward_list fstream
+    functional future initializer_list iomanip ios iosfwd iostream istream iterator latch limits
+    list locale map memory memory_resource mutex new numbers numeric optional ostream queue random
+    ranges ratio regex scoped_allocator semaphore set shared_mutex source_location span sstream
+    stack stdexcept stop_token streambuf string string_view strstream syncstream system_error
+    thread tuple type_traits typeindex typeinfo unordered_map unordered_set utility valarray
+    variant vector version
+    cassert cctype cerrno cfenv cfloat cinttypes climits clocale cmath csetjmp csignal cstdarg
+    cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype""".split())
+
+# Headers that are neither ours nor of the C++ standard library, and the files that may have them.
+_OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
+SYSTEM_HEADERS = (
+    (_OPERATING_SYSTEM + r"|zlib\.h|zstd\.h", r"core/granular/base/byte_(source|sink)\.cpp"),
+    (r"sys/mman\.h", r"core/granular/base/block\.cpp"),
+    (r"immintrin\.h", r"core/granular/base/(line_scan|row_text)\w*\.(cpp|h|inc)"),
+    (r"mpi\.h", r"core/mpi/.*"),
+)
+
+# Beside base/ and itself. A system that is not here may use dump/ (frames and columns of particles).
+SYSTEM_MAY_USE = {"dump": (), "restart": ("dump", "bonds")}
+SYSTEM_MAY_USE_DEFAULT = ("dump",)
+
+SAMPLE_MODULES = ("paraview.simple", "granular")
+
+_INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]([^\n]*)', re.MULTILINE)
+
+
+def includes(text):
+    """(line, bracket, name, rest of the line) of every include that is not commented out."""
+    code = tree.strip(text, strings=False)
+    return [(tree.line_of(text, match.start()), match.group(1), match.group(2),
+             text[match.end(2) + 1:match.end()])
+            for match in _INCLUDE.finditer(code)]
+
+
+def core_complaint(path, bracket, name):
+    if bracket == "<":
+        if name in STANDARD:
+            return None
+        owners = [files for headers, files in SYSTEM_HEADERS if re.fullmatch(headers, name)]
+        if any(re.fullmatch(files, path) for files in owners):
+            return None
+        if owners:
+            return f"<{name}> is not for this file (see SYSTEM_HEADERS in tests/lint/layering.py)"
+        return f"<{name}> is not a header of the C++ standard library"
+    if path.startswith("core/mpi/"):
+        allowed = ("granular/base/", "mpi/")
+    else:
+        system = path.split("/")[2]
+        systems = ["base", system]
+        if system != "base":
+            systems += SYSTEM_MAY_USE.get(system, SYSTEM_MAY_USE_DEFAULT)
+        allowed = tuple(f"granular/{one}/" for one in dict.fromkeys(systems))
+    if name.startswith(allowed):
+        return None
+    return f'"{name}": only {" ".join(allowed)} may be included here, by their whole path'
+
+
+def check_core(root, path):
+    for line, bracket, name, _ in includes(tree.read(root, path)):
+        text = core_complaint(path, bracket, name)
+        if text:
+            yield path, line, text
+
+
+def check_vtk_header(root, path):
+    text = tree.read(root, path)
+    code = tree.strip(text)
+    superclasses = re.findall(r"\bclass\b[^;{]*:\s*public\s+(\w+)", code)
+    allowed = {name + ".h" for name in superclasses} | {"vtkGranularModule.h"}
+    for line, bracket, name, rest in includes(text):
+        if bracket == "<" and name in STANDARD:
+            if not re.search(r"//\s*for \w|//\s*\S+ for \w", rest, re.IGNORECASE):
+                yield path, line, f"<{name}>: say what for, as in '#include <{name}> // for ...'"
+        elif name not in allowed:
+            yield path, line, (f"{name}: a public VTK header includes its superclass, "
+                               "vtkGranularModule.h and the standard library only")
+
+
+def check_vtk_source(root, path):
+    for line, bracket, name, _ in includes(tree.read(root, path)):
+        if name.startswith("granular/") or (bracket == "<" and name in STANDARD):
+            continue
+        # vtkSMPTools and its kin are of VTK.
+        if re.match(r"vtk(PV|SI|SMPV|SM(?!P[A-Z]))[A-Z]", name):
+            yield path, line, f"{name} is of ParaView: the VTK layer stands on VTK alone"
+        elif re.match(r"(pq[A-Z]|Q[A-Z]|Qt)", name):
+            yield path, line, f"{name} is of a user interface: the VTK layer stands on VTK alone"
+        elif bracket == "<" and not re.match(r"vtk_", name):
+            if not (path.startswith("plugin/vtk/private/") and name == "mpi.h"):
+                yield path, line, f"<{name}> is neither of VTK nor of the C++ standard library"
+
+
+def imported(node):
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    if isinstance(node, ast.ImportFrom):
+        if node.module == "paraview":
+            return ["paraview." + alias.name for alias in node.names]
+        return ["." * node.level + (node.module or "")]
+    return []
+
+
+def check_sample(root, path):
+    for node in ast.walk(ast.parse(tree.read(root, path), path)):
+        for name in imported(node):
+            if name in SAMPLE_MODULES or name.split(".")[0] in sys.stdlib_module_names:
+                continue
+            if not name.startswith("granular."):
+                yield path, node.lineno, (f"{name}: a sample imports {' and '.join(SAMPLE_MODULES)} "
+                                          "and Python's own modules only")
+
+
+def check(root):
+    for path in tree.files(root):
+        if re.match(r"core/(granular|mpi)/.*\.(h|cpp|inc)$", path):
+            yield from check_core(root, path)
+        elif re.match(r"plugin/vtk/[^/]+\.h$", path):
+            yield from check_vtk_header(root, path)
+        elif re.match(r"plugin/vtk/.*\.(h|cxx|txx)$", path):
+            yield from check_vtk_source(root, path)
+        elif re.match(r"samples/[^/]+\.py$", path):
+            yield from check_sample(root, path)
+
+
+if __name__ == "__main__":
+    tree.run(check)

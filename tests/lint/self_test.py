@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Each rule on small trees: what must be found, with file and line, and what must not."""
+import os
+import tempfile
+import unittest
+
+import layering
+import messages
+import server_manager
+import sizes
+import style
+import tree
+
+SPDX = "// SPDX-License-Identifier: BSD-3-Clause\n"
+
+
+def found(check, **files):
+    """'path:line' of every complaint about a tree of these files; __ in a name stands for /."""
+    with tempfile.TemporaryDirectory() as root:
+        for name, text in files.items():
+            path = os.path.join(root, *name.replace("_dot_", ".").split("__"))
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="utf-8", newline="") as stream:
+                stream.write(text)
+        return sorted({f"{path}:{line}" for path, line, _ in check(root)})
+
+
+class Stripping(unittest.TestCase):
+    def test_comments_and_strings_are_blanked_in_place(self):
+        code = 'a("x//y", \'"\'); // "no\n/* { */ b(1\'000, u8"z", R"q({)")q");'
+        stripped = tree.strip(code)
+        self.assertEqual(len(stripped), len(code))
+        self.assertEqual(stripped.count("\n"), 1)
+        self.assertNotIn("{", stripped)
+        self.assertNotIn("no", stripped)
+        self.assertIn("1'000", stripped)
+        self.assertIn('"x//y"', tree.strip(code, strings=False))
+
+    def test_bracket_is_closed(self):
+        code = "f({1, (2)}, [3]) g"
+        self.assertEqual(tree.closing(code, 1), code.index(") g"))
+
+
+class Layering(unittest.TestCase):
+    def test_core(self):
+        self.assertEqual(found(
+            layering.check,
+            core__granular__base__a_dot_h=
+            '#include <vector>\n#include "granular/base/b.h"\n#include "granular/dump/d.h"\n'
+            '// #include "vtkObject.h"\n#include "vtkObject.h"\n#include <unistd.h>\n',
+            core__granular__base__byte_source_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
+            core__granular__base__block_dot_cpp="#include <sys/mman.h>\n",
+            core__granular__dump__d_dot_cpp='#include "granular/euler/e.h"\n#include "d.h"\n',
+            core__granular__euler__e_dot_cpp='#include "granular/dump/d.h"\n#include <mpi.h>\n',
+            core__granular__restart__r_dot_cpp='#include "granular/bonds/b.h"\n',
+            core__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/base/b.h"\n'
+            '#include "granular/dump/d.h"\n'), [
+                "core/granular/base/a.h:3", "core/granular/base/a.h:5", "core/granular/base/a.h:6",
+                "core/granular/dump/d.cpp:1", "core/granular/dump/d.cpp:2",
+                "core/granular/euler/e.cpp:2", "core/mpi/m.cpp:3"])
+
+    def test_vtk_header(self):
+        self.assertEqual(found(
+            layering.check,
+            plugin__vtk__vtkGranularA_dot_h=
+            '#include "vtkGranularModule.h" // for the export macro\n'
+            '#include "vtkPolyDataAlgorithm.h"\n'
+            '#include <string> // for std::string\n#include <vector>\n'
+            '#include "granular/base/a.h"\n#include <mpi.h>\n#include "vtkNew.h" // for vtkNew\n'
+            'class VTKGRANULAR_EXPORT vtkGranularA : public vtkPolyDataAlgorithm\n{\n};\n'), [
+                f"plugin/vtk/vtkGranularA.h:{line}" for line in (4, 5, 6, 7)])
+
+    def test_vtk_source(self):
+        self.assertEqual(found(
+            layering.check,
+            plugin__vtk__a_dot_cxx='#include "granular/base/a.h"\n#include "vtkNew.h"\n'
+            '#include "private/guard.h"\n#include <string>\n#include "vtkSMProxy.h"\n'
+            '#include "vtkPVSession.h"\n#include <QWidget>\n#include "pqApplicationCore.h"\n'
+            '#include <mpi.h>\n#include "vtkSMPTools.h"\n',
+            plugin__vtk__private__mpi_glue_dot_h="#include <mpi.h>\n"), [
+                f"plugin/vtk/a.cxx:{line}" for line in (5, 6, 7, 8, 9)])
+
+    def test_sample(self):
+        self.assertEqual(found(
+            layering.check,
+            samples__01_a_dot_py="import os\nfrom paraview.simple import *\nimport granular\n"
+            "from paraview import servermanager\nimport support\nfrom . import x\n"
+            "from paraview import simple\n"), [
+                f"samples/01_a.py:{line}" for line in (4, 5, 6)])
+
+
+class Messages(unittest.TestCase):
+    def test_texts(self):
+        self.assertEqual(found(
+            messages.check,
+            core__granular__base__a_dot_cpp=
+            'void f()\n{\n'
+            '  throw FormatError("expected a number, got " + x, where);\n'
+            '  throw FormatError("Expected a number", where);\n'
+            '  throw granular::IoError("cannot read.", { "Path." });\n'
+            '  throw LimitError("ITEM: ATOMS expected");\n'
+            '  throw LimitError(std::string("Too many ") + n + " rows");\n'
+            '  throw Error(text + " ends.");\n'
+            '  throw Error("path \'" + path + "\' is not...");\n'
+            '  // throw Error("Not code.");\n'
+            '  throw UnsupportedError(\n    "a"\n    "b.");\n'
+            '}\n'), [
+                f"core/granular/base/a.cpp:{line}" for line in (13, 4, 5, 7, 8)])
+
+
+class Sizes(unittest.TestCase):
+    CODE = """
+#define BRACE {
+namespace a::b
+{
+struct S { int x{ 3 }; int y() const { return x; } };
+enum class E : int { One };
+const int table[] = { 1, 2 };
+template <class T>
+auto f(T t) -> std::vector<int>
+{
+  auto g = [&](int i) { return i; };
+  if (t) { return { 1 }; }
+}
+class C : public S
+{
+public:
+  C(int n) noexcept
+    : S{ n }
+    , x_(n), y_{ 1, 2 }
+  {
+    run();
+  }
+  ~C() override {}
+  bool operator()(int i) const { return true; }
+  C& operator=(const C&) = default;
+  int later(int = 3);
+private:
+  std::function<int(int)> callback_ = [](int i) { return i; };
+};
+const auto lambda = [](int i)
+{
+  return i;
+};
+extern "C" { int c(void) { return 1'0; } }
+template <class T = int, class U = std::vector<int>>
+inline T g() { return 0; }
+int h(int n = 1, C c = {})
+{
+}
+}
+"""
+
+    def test_functions_are_found(self):
+        self.assertEqual(
+            [(name, last - first + 1) for name, first, last in sizes.functions(self.CODE)],
+            [("y", 1), ("f", 6), ("C", 6), ("~C", 1), ("operator()", 1), ("callback_", 1),
+             ("lambda", 4), ("c", 1), ("g", 2), ("h", 3)])
+
+    def test_budgets(self):
+        def function(lines):
+            return "void f()\n{\n" + "  g();\n" * (lines - 3) + "}\n"
+        self.assertEqual(found(
+            sizes.check,
+            core__granular__a_dot_cpp=SPDX + function(80) + function(81),
+            core__granular__b_dot_cpp="\n" * 401,
+            core__granular__base__column_dot_cpp="\n" * 401,
+            core__granular__c_dot_h="\n" * 201,
+            plugin__vtk__a_dot_cxx=function(100) + function(101),
+            plugin__vtk__b_dot_cxx="\n" * 601,
+            tests__base__a_dot_cpp="\n" * 2000), [
+                "core/granular/a.cpp:82", "core/granular/b.cpp:401", "core/granular/c.h:201",
+                "plugin/vtk/a.cxx:101", "plugin/vtk/b.cxx:601"])
+
+
+class Style(unittest.TestCase):
+    def test_text(self):
+        self.assertEqual(found(
+            style.check,
+            core__a_dot_h=SPDX + "int a; \n\tint b;\n// caf\u00e9\nint c;\r\n// TO" "DO\nint d;",
+            tests__data__bad_dot_dump="x \r\n",
+            README_dot_md="no licence needed\n",
+            build__x_dot_h="\t"), [f"core/a.h:{line}" for line in (2, 3, 4, 5, 6, 7)])
+
+    def test_licence(self):
+        self.assertEqual(found(
+            style.check, core__a_dot_h="int a;\n", run="#!/bin/bash\n", CMakeLists_dot_txt="x()\n",
+            xml__a_dot_xml="<a/>\n", LICENSE="text\n", core__b_dot_cpp=SPDX),
+            ["CMakeLists.txt:1", "core/a.h:1", "run:1", "xml/a.xml:1"])
+
+    def test_banned(self):
+        self.assertEqual(found(
+            style.check,
+            core__a_dot_cpp=SPDX + 'void f()\n{\n  std::cout << 1;\n  printf("x");\n'
+            '  std::snprintf(b, 1, "x");\n  // std::cerr\n  x = atof("1");\n  y = std::stod(s);\n'
+            '  log("printf(");\n  std::abort();\n  self.exit();\n}\n',
+            plugin__vtk__a_dot_cxx=SPDX + "int f()\n{\n  std::fprintf(stderr, s);\n}\n",
+            tests__a_dot_cpp=SPDX + "int f() { printf(s); }\n"), [
+                "core/a.cpp:11", "core/a.cpp:4", "core/a.cpp:5", "core/a.cpp:8", "core/a.cpp:9",
+                "plugin/vtk/a.cxx:4"])
+
+
+class ServerManager(unittest.TestCase):
+    HEADER = """
+class vtkGranularA : public vtkPolyDataAlgorithm
+{
+  void AddFileName(const char* name);
+  // void Commented();
+  vtkSetMacro(Size, int);
+  vtkBooleanMacro(Sort, bool);
+};
+"""
+    DOCUMENTATION = "<Documentation>Twenty letters or more.</Documentation>"
+
+    def xml(self, body, hint="", class_name="vtkGranularA"):
+        return ('<ServerManagerConfiguration><ProxyGroup name="sources">\n'
+                f'<SourceProxy name="A" class="{class_name}">{self.DOCUMENTATION}\n{body}\n'
+                f'<Hints>{hint}</Hints>\n</SourceProxy></ProxyGroup></ServerManagerConfiguration>\n')
+
+    def property(self, attributes, inside=None):
+        inside = self.DOCUMENTATION if inside is None else inside
+        return f"<IntVectorProperty {attributes}>{inside}</IntVectorProperty>"
+
+    def check(self, **files):
+        return found(server_manager.check, plugin__vtk__vtkGranularA_dot_h=self.HEADER, **files)
+
+    def test_commands(self):
+        body = "\n".join(self.property(attributes) for attributes in (
+            'name="a" command="AddFileName"', 'name="b" command="SetSize"',
+            'name="c" command="SortOn"', 'name="d" command="SetInputConnection"',
+            'name="e" command="Commented"', 'name="f" command="AddFileName" clean_command="Clear"',
+            'name="g" information_property="h"', 'name="i" information_property="a"'))
+        self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)),
+                         ["xml/a.xml:7", "xml/a.xml:8", "xml/a.xml:9"])
+
+    def test_documentation_and_label(self):
+        body = "\n".join((self.property('name="a"', "<Documentation>  short  </Documentation>"),
+                          self.property('name="b"', ""), self.property('name="c" label="C"'),
+                          self.property('name="d"')))
+        self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)),
+                         ["xml/a.xml:3", "xml/a.xml:4", "xml/a.xml:5"])
+
+    def test_extensions_and_class(self):
+        reader = '<ReaderFactory extensions="dump lammpstrj"/>'
+        other = self.xml("", '<ReaderFactory extensions="x DUMP"/><WriterFactory extensions="dump"/>')
+        self.assertEqual(self.check(xml__a_dot_xml=self.xml("", reader),
+                                    xml__b_dot_xml=other.replace('name="A"', 'name="B"'),
+                                    xml__c_dot_xml=self.xml("", class_name="vtkGranularB"),
+                                    xml__d_dot_xml="<a>\n<b></a>"),
+                         ["xml/b.xml:4", "xml/c.xml:2", "xml/d.xml:2"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The XML of the server manager against the classes it speaks of: every command is a method of the
+class, every property says what it is, no property has a label (a label would become its name in
+Python), and no two proxies of a kind claim one file extension."""
+import os
+import re
+from xml.parsers import expat
+
+import tree
+
+# Methods that every algorithm or writer inherits and that XML may name.
+INHERITED = {
+    "AddInputConnection", "AddInputData", "Modified", "RemoveAllInputs", "SetInputConnection",
+    "SetInputData", "Update", "Write",
+}
+COMMANDS = ("command", "clean_command", "set_number_command")
+SHORTEST_DOCUMENTATION = 20
+
+
+class Element:
+    def __init__(self, tag, attributes, line):
+        self.tag, self.attributes, self.line = tag, attributes, line
+        self.children, self.text = [], ""
+
+    def get(self, name, default=""):
+        return self.attributes.get(name, default)
+
+    def all(self, tag):
+        """Elements of this tag, at any depth."""
+        for child in self.children:
+            if child.tag == tag:
+                yield child
+            yield from child.all(tag)
+
+
+def parse(text):
+    """The tree of elements; expat.ExpatError where it is not XML."""
+    top = Element("", {}, 0)
+    stack = [top]
+    parser = expat.ParserCreate()
+
+    def start(tag, attributes):
+        element = Element(tag, attributes, parser.CurrentLineNumber)
+        stack[-1].children.append(element)
+        stack.append(element)
+
+    def characters(data):
+        stack[-1].text += data
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda tag: stack.pop()
+    parser.CharacterDataHandler = characters
+    parser.Parse(text.encode("utf-8", "surrogateescape"), True)
+    return top
+
+
+def methods(header):
+    """Names of the methods a VTK header declares, those made by its macros included."""
+    code = tree.strip(header)
+    names = set(re.findall(r"\b([A-Za-z_]\w*)\s*\(", code))
+    for macro, name in re.findall(r"\bvtk(Set|Get|Boolean)\w*Macro\s*\(\s*(\w+)", code):
+        names |= {name + "On", name + "Off"} if macro == "Boolean" else {macro + name}
+    return names
+
+
+def check_property(path, prop, known, proxies_class):
+    name = prop.get("name")
+    for attribute in COMMANDS:
+        command = prop.get(attribute)
+        if command and known is not None and command not in known:
+            yield path, prop.line, f"{name}: {attribute} {command} is not a method of {proxies_class}"
+    if "label" in prop.attributes:
+        yield path, prop.line, f"{name}: a label becomes the property's name in Python: leave it out"
+    text = " ".join(" ".join(child.text for child in prop.children
+                             if child.tag == "Documentation").split())
+    if len(text) < SHORTEST_DOCUMENTATION:
+        yield path, prop.line, (f"{name}: Documentation of {len(text)} characters, at least "
+                                f"{SHORTEST_DOCUMENTATION} are needed")
+
+
+def check_proxy(root, path, proxy):
+    name, proxies_class = proxy.get("name"), proxy.get("class")
+    known = None
+    header = f"plugin/vtk/{proxies_class}.h"
+    if os.path.exists(os.path.join(root, header)):
+        known = methods(tree.read(root, header)) | INHERITED
+    elif proxies_class.startswith("vtkGranular"):
+        yield path, proxy.line, f"{name}: there is no {header}"
+    if not any(len(" ".join(child.text.split())) >= SHORTEST_DOCUMENTATION
+               for child in proxy.children if child.tag == "Documentation"):
+        yield path, proxy.line, f"{name}: no Documentation"
+    properties = [child for child in proxy.children if child.tag.endswith("Property")]
+    names = {prop.get("name") for prop in properties}
+    for prop in properties:
+        yield from check_property(path, prop, known, proxies_class)
+        information = prop.get("information_property")
+        if information and information not in names:
+            yield path, prop.line, f"{prop.get('name')}: there is no property {information}"
+
+
+def check_extensions(found):
+    """found: (kind, extension, path, line, proxy) of every claim."""
+    first = {}
+    for kind, extension, path, line, proxy in found:
+        other = first.setdefault((kind, extension.lower()), proxy)
+        if other != proxy:
+            yield path, line, f"{proxy}: the extension {extension} is claimed by {other} already"
+
+
+def check(root):
+    claims = []
+    for path in tree.files(root):
+        if not re.match(r"xml/[^/]+\.xml$", path):
+            continue
+        try:
+            top = parse(tree.read(root, path))
+        except expat.ExpatError as error:
+            yield path, error.lineno, f"not XML: {expat.errors.messages[error.code]}"
+            continue
+        for group in top.all("ProxyGroup"):
+            for proxy in group.children:
+                if not proxy.get("class"):
+                    continue
+                yield from check_proxy(root, path, proxy)
+                for kind in ("ReaderFactory", "WriterFactory"):
+                    for hint in proxy.all(kind):
+                        claims += [(kind, extension, path, hint.line, proxy.get("name"))
+                                   for extension in hint.get("extensions").split()]
+    yield from check_extensions(claims)
+
+
+if __name__ == "__main__":
+    tree.run(check)
