@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/base/decimal.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+
+namespace granular
+{
+namespace
+{
+__extension__ using Wide = unsigned __int128;
+
+constexpr int largest_power = 64;
+
+/// 5^q, scaled by a power of two so that the highest of 128 bits is set: below the true value by
+/// less than one unit for q >= 0, above it by at most one unit for q < 0.
+struct PowerOfFive
+{
+  std::uint64_t high;
+  std::uint64_t low;
+};
+
+/// A natural number of 512 bits, lowest limb first; only for the table.
+using Natural = std::array<std::uint32_t, 16>;
+
+constexpr void multiply_by_five(Natural& n)
+{
+  std::uint64_t carry = 0;
+  for (std::uint32_t& limb : n)
+  {
+    carry += std::uint64_t{ limb } * 5;
+    limb = static_cast<std::uint32_t>(carry);
+    carry >>= 32;
+  }
+}
+
+constexpr void divide_by_five(Natural& n)
+{
+  std::uint64_t rest = 0;
+  for (std::size_t i = n.size(); i-- > 0;)
+  {
+    rest = rest << 32 | n[i];
+    n[i] = static_cast<std::uint32_t>(rest / 5);
+    rest %= 5;
+  }
+}
+
+/// The highest 128 bits, the first of them set.
+constexpr Wide leading_bits(const Natural& n)
+{
+  Wide bits = 0;
+  int count = 0;
+  for (std::size_t i = 32 * n.size(); i-- > 0 && count < 128;)
+  {
+    const bool bit = (n[i / 32] >> (i % 32) & 1) != 0;
+    bits = bits << 1 | (bit ? 1u : 0u);
+    count += count > 0 || bit ? 1 : 0;
+  }
+  return bits << (128 - count);
+}
+
+constexpr PowerOfFive make_power(int q)
+{
+  Natural n{};
+  // 2^511 leaves more than 128 bits after 64 divisions; the floor of floors is the floor of all
+  n[q < 0 ? n.size() - 1 : 0] = q < 0 ? 0x80000000u : 1u;
+  for (int i = 0; i < (q < 0 ? -q : q); ++i)
+  {
+    q < 0 ? divide_by_five(n) : multiply_by_five(n);
+  }
+  const Wide bits = leading_bits(n) + (q < 0 ? 1u : 0u);
+  return { static_cast<std::uint64_t>(bits >> 64), static_cast<std::uint64_t>(bits) };
+}
+
+constexpr auto powers_of_five = []
+{
+  std::array<PowerOfFive, 2 * largest_power + 1> table{};
+  for (int q = -largest_power; q <= largest_power; ++q)
+  {
+    table[static_cast<std::size_t>(q + largest_power)] = make_power(q);
+  }
+  return table;
+}();
+
+/// floor(log2(10^q)) for |q| <= 342
+constexpr int binary_exponent(int q) noexcept
+{
+  return (217706 * q) >> 16;
+}
+}
+
+bool nearest_double(std::uint64_t digits, std::int64_t power, double& value) noexcept
+{
+  if (power < -largest_power || power > largest_power)
+  {
+    return false;
+  }
+  const int q = static_cast<int>(power);
+  const PowerOfFive& five = powers_of_five[static_cast<std::size_t>(q + largest_power)];
+  const int zeros = std::countl_zero(digits);
+  const std::uint64_t normal = digits << zeros;
+  Wide product = Wide{ normal } * five.high;
+  constexpr std::uint64_t below_rounding = 0x1ff; // bits of the high half that a double has no use for
+  if ((static_cast<std::uint64_t>(product >> 64) & below_rounding) == below_rounding)
+  {
+    product += Wide{ normal } * five.low >> 64;
+  }
+  const auto high = static_cast<std::uint64_t>(product >> 64);
+  const auto low = static_cast<std::uint64_t>(product);
+  if (low == ~std::uint64_t{ 0 } && (q < -27 || q > 55))
+  {
+    return false; // the bits that are not there could still carry
+  }
+  const int top = static_cast<int>(high >> 63);
+  const int shift = top + 64 - 52 - 3;
+  std::uint64_t mantissa = high >> shift; // 54 bits: one more than a double has
+  const bool exact_middle =
+    low <= 1 && q >= -4 && q <= 23 && (mantissa & 3) == 1 && mantissa << shift == high;
+  mantissa -= exact_middle ? 1 : 0;
+  mantissa = (mantissa + (mantissa & 1)) >> 1;
+  int exponent = binary_exponent(q) + 63 + top - zeros + 1023;
+  if (mantissa >> 53 != 0)
+  {
+    mantissa >>= 1;
+    ++exponent;
+  }
+  if (exponent <= 0 || exponent >= 2047)
+  {
+    return false;
+  }
+  const std::uint64_t fraction = mantissa & ((std::uint64_t{ 1 } << 52) - 1);
+  value = std::bit_cast<double>(static_cast<std::uint64_t>(exponent) << 52 | fraction);
+  return true;
+}
+}
