@@ -82,10 +82,11 @@ Groups collect_groups(const std::vector<ColumnInfo>& columns)
       group.columns.resize(static_cast<std::size_t>(known->components), -1);
       join(group, known->array, static_cast<std::size_t>(known->component), static_cast<int>(i));
     }
-    else if (const int index = split_index(columns[i].name, base);
-             index > 0 && static_cast<std::size_t>(index) <= columns.size())
+    else if (const int index = split_index(columns[i].name, base); index > 0)
     {
-      join(groups[std::string(base)], base, static_cast<std::size_t>(index - 1), static_cast<int>(i));
+      // an index that leaves a gap for certain leaves one of bounded size
+      const std::size_t component = std::min(static_cast<std::size_t>(index - 1), columns.size());
+      join(groups[std::string(base)], base, component, static_cast<int>(i));
     }
   }
   return groups;

@@ -209,7 +209,7 @@ GRANULAR_TARGET inline bool are_numbers(
 {
   const __m128i other =
     _mm_mask_add_epi32(removed, words.negative(), removed, _mm_set1_epi32(1));
-  return words.fits && _mm_cmple_epi32_mask(words.length, other) == 0 &&
+  return _mm_cmple_epi32_mask(words.length, other) == 0 &&
     _mm512_cmpgt_epu8_mask(digits, _mm512_set1_epi8(9)) == 0;
 }
 
@@ -218,6 +218,10 @@ GRANULAR_TARGET inline bool parse_four(
   const char* base, const FourEdges& edges, std::array<double, 4>& values) noexcept
 {
   const FourWords words = load_four(base, edges);
+  if (!words.fits)
+  {
+    return false;
+  }
   __m512i digits = _mm512_maskz_sub_epi8(words.inside, words.bytes, _mm512_set1_epi8('0'));
   const __mmask64 letters = words.inside & 0x1000100010001000 &
     _mm512_cmpeq_epi8_mask(
@@ -254,6 +258,10 @@ GRANULAR_TARGET inline bool parse_four(
   const char* base, const FourEdges& edges, std::array<std::int64_t, 4>& values) noexcept
 {
   const FourWords words = load_four(base, edges);
+  if (!words.fits)
+  {
+    return false;
+  }
   const __m512i digits = _mm512_maskz_sub_epi8(words.inside, words.bytes, _mm512_set1_epi8('0'));
   if (!are_numbers(words, _mm_setzero_si128(), digits))
   {

@@ -4,6 +4,7 @@
 
 // Batches and tables of the decoders for x86. Only for row_text_*.cpp.
 
+#include "granular/base/decimal.h"
 #include "granular/base/number.h"
 
 #include <algorithm>
@@ -47,6 +48,14 @@ inline constexpr auto keep_last = []
 {
   std::array<std::uint8_t, 32> masks{};
   std::fill(masks.begin() + 16, masks.end(), std::uint8_t{ 0xff });
+  return masks;
+}();
+
+/// &keep_last_32[n] is a mask of 32 bytes that keeps the last n.
+inline constexpr auto keep_last_32 = []
+{
+  std::array<std::uint8_t, 64> masks{};
+  std::fill(masks.begin() + 32, masks.end(), std::uint8_t{ 0xff });
   return masks;
 }();
 
