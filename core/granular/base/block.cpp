@@ -6,10 +6,36 @@
 #include <new>
 #include <utility>
 
+#include <sys/mman.h>
+
 namespace granular
 {
+namespace
+{
+/// First touch of fresh memory costs as much as decoding into it, a page at a time; large pages make
+/// that a small part. Only advice: it may be refused, and memory that is never touched stays free.
+void* allocate(std::size_t bytes) noexcept
+{
+  constexpr std::size_t large_page = std::size_t{ 1 } << 21;
+  if (bytes < 2 * large_page)
+  {
+    return std::malloc(std::max<std::size_t>(bytes, 1));
+  }
+  void* data = nullptr;
+  if (::posix_memalign(&data, large_page, bytes) != 0)
+  {
+    return nullptr;
+  }
+#ifdef MADV_HUGEPAGE
+  // not the rest behind the last whole page: it would take a large page for itself
+  ::madvise(data, bytes / large_page * large_page, MADV_HUGEPAGE);
+#endif
+  return data;
+}
+}
+
 Block::Block(std::size_t bytes)
-  : data_(std::malloc(std::max<std::size_t>(bytes, 1)))
+  : data_(allocate(bytes))
   , bytes_(bytes)
 {
   if (!data_)
