@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of a run that do not know their time, on the clock of the run."""
+import json
+import math
+import os
+import re
+
+
+def _stem_and_suffix(name):
+    """'mesh_100.stl' -> ('mesh_100', '.stl'), but 'dump.100' -> ('dump.100', '')."""
+    stem, suffix = os.path.splitext(name)
+    return (stem, suffix) if re.search("[A-Za-z]", suffix) else (name, "")
+
+
+def _step(file):
+    """The last number in the name of a file, without its suffix."""
+    stem, _ = _stem_and_suffix(os.path.basename(file))
+    numbers = re.findall("[0-9]+", stem)
+    if not numbers:
+        raise ValueError(f"no step number in the file name: {file}")
+    return int(numbers[-1])
+
+
+def _default_path(file):
+    """'post/mesh_100.stl' -> 'post/mesh.stl.series'."""
+    folder, name = os.path.split(file)
+    stem, suffix = _stem_and_suffix(name)
+    text = re.sub("[0-9]+(?=[^0-9]*$)", "", stem).strip("_.- ")
+    return os.path.join(folder, (text or "files") + suffix + ".series")
+
+
+def _write_atomically(path, text):
+    """The old file or the new one, never half of one."""
+    temporary = f"{path}.{os.getpid()}.tmp"
+    try:
+        with open(temporary, "x", encoding="utf-8") as out:
+            out.write(text)
+        os.replace(temporary, path)
+    except BaseException:
+        if os.path.exists(temporary):
+            os.remove(temporary)
+        raise
+
+
+def write_series(files, dt, path=None):
+    """Writes a .series file, which gives ParaView the times of files that hold none, and returns its
+    path. Open it instead of the files: their clock is then that of a GranularDumpReader whose
+    TimestepSize is dt.
+
+    files  names of the files, in any order: mesh_0.stl, mesh_1000.stl, ... The step of each is the
+           last number in its name (without suffix).
+    dt     time of one step, greater than 0: time = step x dt.
+    path   the file to write, which must end in '.series'. By default it lies beside the first file
+           and is called like it, without the number: mesh.stl.series.
+
+    Names in the file are relative to it. An old file is replaced whole or left as it was.
+    Raises ValueError: no files, no number in a name, a step that occurs twice, a dt or a path that
+    cannot be; FileNotFoundError if a file does not exist; OSError if the file cannot be written.
+    """
+    files = [os.fspath(file) for file in ([files] if isinstance(files, (str, os.PathLike)) else files)]
+    if not files:
+        raise ValueError("no files")
+    if not (math.isfinite(dt) and dt > 0):
+        raise ValueError(f"dt must be finite and greater than 0, got {dt}")
+    path = _default_path(files[0]) if path is None else os.fspath(path)
+    if not path.endswith(".series"):
+        raise ValueError(f"the path must end in '.series', got {path}")
+
+    by_step = {}
+    for file in files:
+        step = _step(file)
+        if step in by_step:
+            raise ValueError(f"step {step} occurs twice: {by_step[step]} and {file}")
+        if not os.path.exists(file):
+            raise FileNotFoundError(f"no such file: {file}")
+        by_step[step] = file
+
+    folder = os.path.dirname(os.path.abspath(path))
+    entries = [{"name": os.path.relpath(by_step[step], folder), "time": step * dt}
+               for step in sorted(by_step)]
+    series = {"file-series-version": "1.0", "files": entries}
+    _write_atomically(path, json.dumps(series, indent=2) + "\n")
+    return path

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularArrays_h
+#define vtkGranularArrays_h
+
+#include "granular/base/block.h"
+#include "granular/base/column.h"
+#include "granular/dump/dump_reader.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+class vtkAbstractArray;
+class vtkCellArray;
+class vtkPoints;
+
+namespace vtkGranularPrivate
+{
+/**
+ * An array that takes the memory of a decoded one, without a copy: Int32 becomes vtkTypeInt32Array,
+ * Int64 vtkTypeInt64Array (never vtkIdTypeArray), Float64 vtkDoubleArray, Text vtkStringArray. The
+ * columns give the names of components that have no axis: c_ID[1] and so on.
+ */
+vtkSmartPointer<vtkAbstractArray> TakeArray(
+  granular::DumpArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns);
+
+/**
+ * Points that take the memory of rows x 3 doubles or floats.
+ */
+vtkSmartPointer<vtkPoints> TakePoints(granular::Block& block, vtkIdType rows, bool single);
+
+/**
+ * Arrays for field data: one tuple, or one value a string.
+ */
+vtkSmartPointer<vtkAbstractArray> MakeDoubles(const char* name, const std::vector<double>& values);
+vtkSmartPointer<vtkAbstractArray> MakeInteger(const char* name, vtkTypeInt64 value);
+vtkSmartPointer<vtkAbstractArray> MakeStrings(
+  const char* name, const std::vector<std::string>& values);
+
+/**
+ * One vertex a point, or one cell with all points; with 32-bit indices where they suffice. No
+ * points give no cells.
+ */
+vtkSmartPointer<vtkCellArray> MakeVertices(vtkIdType points, bool onePerPoint);
+}
+
+#endif

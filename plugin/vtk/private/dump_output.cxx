@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dump_output.h"
+
+#include "arrays.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+
+namespace vtkGranularPrivate
+{
+namespace
+{
+/**
+ * The corners of a cube in the order of a VTK_HEXAHEDRON.
+ */
+constexpr int HexahedronCorners[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+  { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+
+/**
+ * A coordinate of a corner of the box less the origin, rounded once.
+ */
+double CornerLess(const granular::Box& box, const int (&corner)[3], int axis, double pointOrigin)
+{
+  granular::CompensatedSum sum;
+  sum.add(box.origin[axis]);
+  for (int i = 0; i < 3; ++i)
+  {
+    if (corner[i])
+    {
+      sum.add(box.vectors[i][axis]);
+    }
+  }
+  sum.add(-pointOrigin);
+  return sum.value();
+}
+
+std::vector<double> Values(const granular::Twofold3& vector)
+{
+  std::vector<double> values;
+  for (const granular::Twofold& component : vector)
+  {
+    values.push_back(std::isfinite(component.hi) ? component.value() : component.hi);
+  }
+  return values;
+}
+}
+
+void FillParticles(vtkPolyData* output, granular::DumpFrame& frame,
+  const granular::ColumnSchema& schema, bool singlePrecision, VertexCells cells)
+{
+  const auto rows = static_cast<vtkIdType>(frame.rows);
+  output->SetPoints(TakePoints(frame.points, rows, singlePrecision));
+  if (cells != VertexCells::None && rows > 0)
+  {
+    output->SetVerts(MakeVertices(rows, cells == VertexCells::OnePerPoint));
+  }
+  vtkPointData* data = output->GetPointData();
+  for (granular::DumpArray& from : frame.arrays)
+  {
+    const auto array = TakeArray(from, rows, schema.columns());
+    if (from.info.role == granular::ColumnRole::Id)
+    {
+      data->SetPedigreeIds(array);
+    }
+    else
+    {
+      data->AddArray(array);
+    }
+  }
+}
+
+bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(8);
+  for (int i = 0; i < 8; ++i)
+  {
+    double position[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] = coordinates == granular::Coordinates::Scaled
+        ? HexahedronCorners[i][axis] - pointOrigin[axis]
+        : CornerLess(box, HexahedronCorners[i], axis, pointOrigin[axis]);
+      if (!std::isfinite(position[axis]))
+      {
+        return false;
+      }
+    }
+    points->SetPoint(i, position);
+  }
+  vtkNew<vtkIdList> corners;
+  corners->SetNumberOfIds(8);
+  for (vtkIdType i = 0; i < 8; ++i)
+  {
+    corners->SetId(i, i);
+  }
+  output->SetPoints(points);
+  output->Allocate(1);
+  output->InsertNextCell(VTK_HEXAHEDRON, corners);
+  return true;
+}
+
+void FillFieldData(vtkFieldData* data, const granular::FrameEntry& entry,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
+{
+  const granular::FrameHeader& header = entry.header;
+  std::vector<double> vectors;
+  for (const granular::Twofold3& vector : header.box.vectors)
+  {
+    const std::vector<double> values = Values(vector);
+    vectors.insert(vectors.end(), values.begin(), values.end());
+  }
+  std::vector<std::string> names;
+  for (const granular::ColumnInfo& column : entry.schema->columns())
+  {
+    names.push_back(column.name);
+  }
+  data->AddArray(MakeStrings("Coordinates", { granular::to_string(coordinates) }));
+  data->AddArray(
+    MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
+  data->AddArray(MakeDoubles("BoxOrigin", Values(header.box.origin)));
+  data->AddArray(MakeDoubles("BoxVectors", vectors));
+  data->AddArray(MakeStrings("Boundary", { header.box.boundary }));
+  data->AddArray(MakeStrings("Columns", names));
+  data->AddArray(MakeInteger("timestep", header.timestep));
+  if (!header.label.empty())
+  {
+    data->AddArray(MakeStrings("label", { header.label }));
+  }
+  if (!header.units.empty())
+  {
+    data->AddArray(MakeStrings("units", { header.units }));
+  }
+  if (header.time)
+  {
+    data->AddArray(MakeDoubles("time", { *header.time }));
+  }
+}
+}

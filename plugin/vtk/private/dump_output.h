@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularDumpOutput_h
+#define vtkGranularDumpOutput_h
+
+#include "granular/dump/dump_reader.h"
+#include "granular/dump/frame_index.h"
+
+class vtkFieldData;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace vtkGranularPrivate
+{
+/**
+ * What cells the particles get.
+ */
+enum class VertexCells
+{
+  None,
+  One,
+  OnePerPoint
+};
+
+/**
+ * The particles of a frame: points, vertices and point data. Takes the memory of the frame.
+ */
+void FillParticles(vtkPolyData* output, granular::DumpFrame& frame,
+  const granular::ColumnSchema& schema, bool singlePrecision, VertexCells cells);
+
+/**
+ * The box of a frame as one hexahedron less the origin; the unit cube where the points are scaled.
+ * False, and no cell, if the box of the file is not finite.
+ */
+bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin);
+
+/**
+ * What whoever comes after the reader needs to know about a frame.
+ */
+void FillFieldData(vtkFieldData* data, const granular::FrameEntry& entry,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin);
+}
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "guard.h"
+
+#include "granular/base/byte_source.h"
+#include "granular/base/error.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtksys/SystemTools.hxx"
+
+#include <new>
+
+namespace vtkGranularPrivate
+{
+namespace
+{
+/**
+ * A way to a protected method, through a pointer to member taken where it may be named.
+ */
+struct ErrorCodeAccess : vtkAlgorithm
+{
+  static void Set(vtkAlgorithm* self, unsigned long code)
+  {
+    (self->*&ErrorCodeAccess::SetErrorCode)(code);
+  }
+};
+
+/**
+ * Which of VTK's codes says best why a file could not be read.
+ */
+unsigned long FileErrorCode(const std::string& path)
+{
+  if (path.empty())
+  {
+    return vtkErrorCode::NoFileNameError;
+  }
+  if (!vtksys::SystemTools::PathExists(path))
+  {
+    return vtkErrorCode::FileNotFoundError;
+  }
+  try
+  {
+    granular::open_file(path);
+  }
+  catch (const granular::Error&)
+  {
+    return vtkErrorCode::CannotOpenFileError;
+  }
+  // it is there and may be read: it was not what it had been
+  return vtkErrorCode::PrematureEndOfFileError;
+}
+
+void ReportError(vtkAlgorithm* self, unsigned long code, const std::string& text)
+{
+  vtkErrorWithObjectMacro(self, << text);
+  SetErrorCode(self, code);
+}
+}
+
+void EmptyOutputs(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
+    {
+      output->Initialize();
+    }
+  }
+}
+
+void SetErrorCode(vtkAlgorithm* self, unsigned long code)
+{
+  ErrorCodeAccess::Set(self, code);
+}
+
+Outcome ReportException(
+  vtkAlgorithm* self, vtkInformationVector* outputs, const std::exception_ptr& exception)
+{
+  EmptyOutputs(outputs);
+  try
+  {
+    std::rethrow_exception(exception);
+  }
+  catch (const granular::Cancelled&)
+  {
+    self->SetAbortOutput(true);
+    return Outcome::Cancelled;
+  }
+  catch (const granular::IoError& error)
+  {
+    ReportError(self, FileErrorCode(error.where().path), error.what());
+  }
+  catch (const granular::Error& error)
+  {
+    ReportError(self, vtkErrorCode::FileFormatError, error.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    ReportError(self, vtkErrorCode::UnknownError,
+      "not enough memory: switch arrays off, or use Stride, RegionOfInterest or single-precision "
+      "points");
+  }
+  catch (const std::exception& error)
+  {
+    ReportError(self, vtkErrorCode::UnknownError, error.what());
+  }
+  return Outcome::Failed;
+}
+
+bool AlgorithmProgress::report(double fraction)
+{
+  this->Self->UpdateProgress(fraction);
+  return !this->Self->CheckAbort();
+}
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularGuard_h
+#define vtkGranularGuard_h
+
+#include "granular/base/progress.h"
+
+#include <exception>
+#include <string>
+
+class vtkAlgorithm;
+class vtkInformationVector;
+
+namespace vtkGranularPrivate
+{
+/**
+ * Empties the data object of every output.
+ */
+void EmptyOutputs(vtkInformationVector* outputs);
+
+/**
+ * Calls vtkAlgorithm::SetErrorCode, which is protected.
+ */
+void SetErrorCode(vtkAlgorithm* self, unsigned long code);
+
+/**
+ * What a request came to.
+ */
+enum class Outcome
+{
+  Done,
+  Cancelled,
+  Failed
+};
+
+/**
+ * Reports an exception of the core in VTK's terms: vtkErrorMacro with its text and the fitting error
+ * code, or, if the task was cancelled, the mark of an aborted output. Empties the outputs.
+ */
+Outcome ReportException(
+  vtkAlgorithm* self, vtkInformationVector* outputs, const std::exception_ptr& exception);
+
+/**
+ * The one place where exceptions end: runs the task of a request.
+ */
+template <typename Task>
+Outcome Guard(vtkAlgorithm* self, vtkInformationVector* outputs, Task&& task)
+{
+  try
+  {
+    task();
+    SetErrorCode(self, 0);
+    return Outcome::Done;
+  }
+  catch (...)
+  {
+    return ReportException(self, outputs, std::current_exception());
+  }
+}
+
+/**
+ * Hands the progress of a task of the core to an algorithm, and the wish to stop back.
+ */
+class AlgorithmProgress : public granular::Progress
+{
+public:
+  explicit AlgorithmProgress(vtkAlgorithm* self)
+    : Self(self)
+  {
+  }
+
+  bool report(double fraction) override;
+
+private:
+  vtkAlgorithm* Self;
+};
+}
+
+#endif

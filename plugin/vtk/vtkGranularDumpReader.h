@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularDumpReader
+ * @brief   Reads the particle dumps of LIGGGHTS and LAMMPS.
+ *
+ * Reads the text files of `dump atom` and `dump custom`: every header there has been since 2010, any
+ * box, any columns in any order. All frames of all files form one run, ordered by timestep; a
+ * timestep that occurs again is taken where it stands last; a last frame that is not complete is
+ * left out. Binary and compressed dumps, `dump local` and one file a process (`%`) are not read.
+ *
+ * Output port 0 holds the particles (vtkPolyData), output port 1 the simulation box as one
+ * hexahedron (vtkUnstructuredGrid). Both are relative to PointOrigin.
+ *
+ * Columns become point arrays:
+ * - `id` is a vtkTypeInt64Array, and the pedigree ids too; `type` is a vtkTypeInt32Array; the other
+ *   integer columns are vtkTypeInt64Array; `element` is a vtkStringArray; all else is double;
+ * - vx vy vz become `v`; likewise f, omega, mu, angmom, tq, shape (3), quat (4), image (3 int32);
+ * - c_ID[1] .. c_ID[n], complete and in this order, become `c_ID`; likewise f_, v_, i2_, d2_;
+ * - `radius` is made from `diameter` where only that is there;
+ * - every other column becomes an array of its own name. Coordinate columns (x, xs, xu, ...) become
+ *   the points, and arrays only where the selection says so.
+ *
+ * Both outputs carry field data: `Coordinates` (Absolute, Unwrapped or Scaled: what the points
+ * are), `PointOrigin` (3), `BoxOrigin` (3), `BoxVectors` (9: a, b, c), `Boundary` (such as
+ * "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and `label`, `units`
+ * and `time` where the file has them.
+ *
+ * Time is ITEM: TIME if every frame has it and it strictly increases, else timestep x TimestepSize.
+ * A request for a time shows the last frame at or before it, or the first.
+ *
+ * Only what is asked for is read: the frame shown, the arrays switched on, the rows of Stride and
+ * RegionOfInterest. The files are looked at when FileNames changes and at Refresh, not in between.
+ * Parallel reading is not supported: piece 0 holds everything.
+ *
+ * After an error both outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
+ * abort holds for one update: the outputs are empty then, and the next update starts afresh.
+ */
+
+#ifndef vtkGranularDumpReader_h
+#define vtkGranularDumpReader_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkDataArraySelection;
+
+class VTKGRANULAR_EXPORT vtkGranularDumpReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkGranularDumpReader* New();
+  vtkTypeMacro(vtkGranularDumpReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum CoordinatesType
+  {
+    ABSOLUTE = 0,
+    UNWRAPPED = 1,
+    SCALED = 2
+  };
+
+  enum VerticesType
+  {
+    NO_VERTICES = 0,
+    POLY_VERTEX = 1,
+    VERTEX = 2
+  };
+
+  ///@{
+  /**
+   * The files of one run. Null and empty names are ignored. None by default.
+   */
+  void AddFileName(VTK_FILEPATH const char* fileName);
+  void ClearFileNames();
+  int GetNumberOfFileNames();
+  VTK_FILEPATH const char* GetFileName(int index);
+  ///@}
+
+  /**
+   * Has the next update look at the files again, without reading earlier frames again.
+   */
+  void Refresh();
+
+  /**
+   * True if the first 64 KiB are those of a text dump of particles: after an optional byte order
+   * mark and blank lines a line ITEM: TIMESTEP, UNITS or TIME and, as far as they reach, a line
+   * ITEM: NUMBER OF ATOMS. False, silently, for all else, missing files and directories included.
+   */
+  static int CanReadFile(VTK_FILEPATH const char* fileName);
+
+  ///@{
+  /**
+   * What the points are, computed where the file holds another form. ABSOLUTE: in the box, as the
+   * simulation holds them. UNWRAPPED: plus the image counts times the box vectors. SCALED: in units
+   * of the box vectors, 0 to 1 inside the box. ABSOLUTE by default.
+   */
+  vtkSetClampMacro(Coordinates, int, ABSOLUTE, SCALED);
+  vtkGetMacro(Coordinates, int);
+  ///@}
+
+  ///@{
+  /**
+   * vtkAlgorithm::SINGLE_PRECISION (7 digits of the coordinate less PointOrigin, half the memory) or
+   * vtkAlgorithm::DOUBLE_PRECISION, the default.
+   */
+  vtkSetClampMacro(PointPrecision, int, SINGLE_PRECISION, DOUBLE_PRECISION);
+  vtkGetMacro(PointPrecision, int);
+  ///@}
+
+  ///@{
+  /**
+   * Subtracted from the points and from the corners of the box, in double precision and before any
+   * rounding. In units of the coordinates: of length, but of box vectors where Coordinates is SCALED.
+   * Any finite numbers; (0, 0, 0) by default.
+   */
+  vtkSetVector3Macro(PointOrigin, double);
+  vtkGetVector3Macro(PointOrigin, double);
+  ///@}
+
+  ///@{
+  /**
+   * Time of one timestep, in seconds (or the run's unit of time), where the files give no ITEM: TIME.
+   * Finite and greater than 0; anything else is an error and changes nothing. 1 by default.
+   */
+  void SetTimestepSize(double size);
+  vtkGetMacro(TimestepSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * Sorts the particles of a frame by id. Files without ids keep their order. Off by default.
+   */
+  vtkSetMacro(SortById, bool);
+  vtkGetMacro(SortById, bool);
+  vtkBooleanMacro(SortById, bool);
+  ///@}
+
+  ///@{
+  /**
+   * No cells, one cell with all points, or one cell a point. VERTEX by default.
+   */
+  vtkSetClampMacro(Vertices, int, NO_VERTICES, VERTEX);
+  vtkGetMacro(Vertices, int);
+  ///@}
+
+  ///@{
+  /**
+   * n keeps the particles whose id is a multiple of n; where there are no ids, every n-th row,
+   * starting with the first. From 1, which keeps all; 1 by default.
+   */
+  vtkSetClampMacro(Stride, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(Stride, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * Keeps the particles whose centres are in xmin xmax ymin ymax zmin zmax, faces included, always in
+   * absolute coordinates. An axis with min > max is free. (1, -1, 1, -1, 1, -1), all, by default.
+   */
+  vtkSetVector6Macro(RegionOfInterest, double);
+  vtkGetVector6Macro(RegionOfInterest, double);
+  ///@}
+
+  /**
+   * Which point arrays are read. Filled by UpdateInformation() with the arrays of all frames: on, but
+   * for coordinate columns. What was chosen stays when the files are read again.
+   */
+  virtual vtkDataArraySelection* GetPointDataArraySelection();
+
+protected:
+  vtkGranularDumpReader();
+  ~vtkGranularDumpReader() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkGranularDumpReader(const vtkGranularDumpReader&) = delete;
+  void operator=(const vtkGranularDumpReader&) = delete;
+
+  int Coordinates = ABSOLUTE;
+  int PointPrecision = DOUBLE_PRECISION;
+  double PointOrigin[3] = { 0, 0, 0 };
+  double TimestepSize = 1;
+  bool SortById = false;
+  int Vertices = VERTEX;
+  vtkTypeInt64 Stride = 1;
+  double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""granular.show: the spheres in the picture have the radii of the file, to the pixel."""
+import math
+import os
+
+import granular
+import numpy
+from paraview.simple import *
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+HEADER = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n" \
+    "-10 10\n-10 10\n-10 10\nITEM: ATOMS "
+PIXELS = 50  # a unit of length
+
+view = CreateRenderView()
+view.ViewSize = [800, 800]
+view.UseColorPaletteForBackground = 0
+view.Background = [0, 0, 0]
+view.OrientationAxesVisibility = 0
+view.CameraParallelProjection = 1
+
+
+def write(name, text):
+    with open(name, "w") as file:
+        file.write(HEADER + text)
+    return OpenDataFile(os.path.abspath(name))
+
+
+def radii(display):
+    """Radii of what is left and right of the middle, from its width, height and area."""
+    display.ColorArrayName = [None, ""]
+    display.AmbientColor = display.DiffuseColor = [1, 1, 1]
+    Render(view)  # the first one resets the camera
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 50], [0, 0, 0], [0, 1, 0]
+    view.CameraParallelScale = 400 / PIXELS
+    SaveScreenshot("spheres.png", view, ImageResolution=[800, 800])
+    png = vtkPNGReader()
+    png.SetFileName("spheres.png")
+    png.Update()
+    image = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars()).reshape(800, 800, -1).max(axis=2)
+    for half in (image[:, :400] > 0, image[:, 400:] > 0):
+        yield (0.5 * half.any(axis=0).sum() / PIXELS, 0.5 * half.any(axis=1).sum() / PIXELS,
+               math.sqrt(half.sum() / math.pi) / PIXELS)
+
+
+def expect(display, left, right):
+    for is_, truth in zip(radii(display), (left, right)):
+        assert all(abs(one - truth) <= 1.5 / PIXELS for one in is_), (is_, truth)
+
+
+# opened the plain way, as File > Open does: the hints of the plugin choose the representation
+reader = write("two.dump", "id type x y z radius\n1 1 -4 0 0 3\n2 1 4 0 0 0.5\n")
+display = Show(reader, view)
+assert display.Representation == "Grains", display.Representation
+box = Show(OutputPort(reader, 1), view)
+assert box.Representation == "Wireframe", box.Representation
+Hide(OutputPort(reader, 1), view)
+expect(display, 3, 0.5)
+display.GrainScale = 0.5
+expect(display, 1.5, 0.25)
+
+# opened our way
+display = granular.show(reader, view)
+assert display.Representation == "Point Gaussian" and display.ShaderPreset == "Sphere"
+expect(display, 3, 0.5)
+expect(granular.show(reader, view, radius=2), 2, 2)
+expect(granular.show(reader), 3, 0.5)
+granular.show(reader, color="type")
+assert display.ColorArrayName[1] == "type"
+Hide(reader, view)
+
+# no radius: half the mean distance
+plain = write("plain.dump", "id type x y z\n1 1 -4 0 0\n2 1 4 0 0\n")
+expect(granular.show(plain, view), 2, 2)
+Hide(plain, view)
+
+# radii are lengths, scaled coordinates are not
+reader.Coordinates = "Scaled"
+display = granular.show(reader, view)
+assert display.ScaleByArray == 0 and display.GaussianRadius < 1
+Delete(reader)
+
+# the first frame of a run may be empty: the next ones are shown, either way
+grown = HEADER.replace("\n2\n", "\n0\n") + "id x y z radius\n" + HEADER.replace(
+    "TIMESTEP\n0", "TIMESTEP\n10") + "id x y z radius\n1 -4 0 0 3\n2 4 0 0 0.5\n"
+with open("grown.dump", "w") as file:
+    file.write(grown)
+for way in (granular.show, Show):
+    view.ViewTime = 0
+    grains = OpenDataFile(os.path.abspath("grown.dump"))
+    display = way(grains, view)
+    Render(view)
+    assert grains.GetDataInformation().GetNumberOfPoints() == 0
+    view.ViewTime = 10
+    expect(display, 3, 0.5)
+    Delete(grains)

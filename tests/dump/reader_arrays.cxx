@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Arrays, cells, field data and the box that come out of files of the real programs.
+#include "reader_helpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+
+TEST(ReaderArrays, HaveTheTypesThatNothingIsLostIn)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->UpdateTimeStep(1000);
+  ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+  EXPECT_TRUE(vtkTypeInt64Array::SafeDownCast(reader.Array("id")));
+  EXPECT_TRUE(vtkTypeInt32Array::SafeDownCast(reader.Array("type")));
+  EXPECT_TRUE(vtkTypeInt32Array::SafeDownCast(reader.Array("image")));
+  for (const char* name : { "v", "f", "omega", "radius", "mass" })
+  {
+    EXPECT_TRUE(vtkDoubleArray::SafeDownCast(reader.Array(name))) << name;
+  }
+  for (const char* name : { "image", "v", "f", "omega" })
+  {
+    EXPECT_EQ(reader.Array(name)->GetNumberOfComponents(), 3) << name;
+  }
+  EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 8);
+  EXPECT_EQ(reader.Particles()->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_TRUE(reader.Said->Errors.empty());
+  EXPECT_TRUE(reader.Said->Warnings.empty());
+}
+
+TEST(ReaderArrays, HoldTheNumbersOfTheFile)
+{
+  const PlainFrame plain = ReadPlain(Good("grains.dump"))[2];
+  Reader reader({ Good("grains.dump") });
+  reader->UpdateTimeStep(2000);
+  ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), static_cast<vtkIdType>(plain.rows));
+  const std::vector<std::vector<std::string>> vectors = { { "v", "vx", "vy", "vz" },
+    { "f", "fx", "fy", "fz" }, { "omega", "omegax", "omegay", "omegaz" },
+    { "image", "ix", "iy", "iz" }, { "radius", "radius" }, { "mass", "mass" }, { "id", "id" },
+    { "type", "type" } };
+  for (std::size_t row = 0; row < plain.rows; ++row)
+  {
+    for (const auto& names : vectors)
+    {
+      for (std::size_t i = 1; i < names.size(); ++i)
+      {
+        ASSERT_EQ(reader.Numbers(names[0].c_str())
+                    ->GetComponent(static_cast<vtkIdType>(row), static_cast<int>(i - 1)),
+          plain.Number(names[i], row))
+          << names[i] << " of row " << row;
+      }
+    }
+    const double* point = reader.Particles()->GetPoint(static_cast<vtkIdType>(row));
+    ASSERT_EQ(point[0], plain.Number("x", row));
+    ASSERT_EQ(point[1], plain.Number("y", row));
+    ASSERT_EQ(point[2], plain.Number("z", row));
+  }
+}
+
+TEST(ReaderArrays, IdsArePedigreeIds)
+{
+  Reader reader({ Good("grains_1000.dump") });
+  reader->Update();
+  vtkPointData* data = reader.Particles()->GetPointData();
+  ASSERT_TRUE(data->GetPedigreeIds());
+  EXPECT_STREQ(data->GetPedigreeIds()->GetName(), "id");
+  EXPECT_EQ(data->GetPedigreeIds(), reader.Array("id"));
+}
+
+TEST(ReaderArrays, LargeIdsAreKeptExactly)
+{
+  const std::string file = WriteFile("large_ids.dump",
+    Frame(0, 2, "id mol x y z", "9223372036854775807 9007199254740993 1 2 3\n-1 0 4 5 6\n"));
+  Reader reader({ file });
+  reader->Update();
+  auto* ids = vtkTypeInt64Array::SafeDownCast(reader.Array("id"));
+  auto* molecules = vtkTypeInt64Array::SafeDownCast(reader.Array("mol"));
+  ASSERT_TRUE(ids && molecules);
+  EXPECT_EQ(ids->GetValue(0), VTK_TYPE_INT64_MAX);
+  EXPECT_EQ(ids->GetValue(1), -1);
+  EXPECT_EQ(molecules->GetValue(0), 9007199254740993);
+}
+
+TEST(ReaderArrays, ElementsAreStrings)
+{
+  const std::string file =
+    WriteFile("elements.dump", Frame(0, 2, "id element x y z", "1 Si 1 2 3\n2 C 4 5 6\n"));
+  Reader reader({ file });
+  reader->Update();
+  auto* elements = vtkStringArray::SafeDownCast(reader.Array("element"));
+  ASSERT_TRUE(elements);
+  ASSERT_EQ(elements->GetNumberOfValues(), 2);
+  EXPECT_EQ(elements->GetValue(0), "Si");
+  EXPECT_EQ(elements->GetValue(1), "C");
+}
+
+TEST(ReaderArrays, ComputesAreGatheredInTheFilesOrder)
+{
+  const std::string file = WriteFile("computes.dump",
+    Frame(0, 1,
+      "id x y z c_s[1] c_s[2] c_s[3] c_s[4] c_s[5] c_s[6] f_a[2] f_a[1] v_k v_k quat1 quat2 quat3 "
+      "quat4",
+      "1 1 2 3 11 12 13 14 15 16 22 21 7 8 1 0 0 0.5\n"));
+  Reader reader({ file });
+  reader->Update();
+  ASSERT_TRUE(reader.Numbers("c_s"));
+  ASSERT_EQ(reader.Numbers("c_s")->GetNumberOfComponents(), 6);
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(reader.Numbers("c_s")->GetComponent(0, i), 11 + i);
+  }
+  EXPECT_STREQ(reader.Array("c_s")->GetComponentName(4), "c_s[5]");
+  // not in order: left as they are
+  EXPECT_FALSE(reader.Array("f_a"));
+  EXPECT_EQ(reader.Numbers("f_a[2]")->GetComponent(0, 0), 22);
+  EXPECT_EQ(reader.Numbers("f_a[1]")->GetComponent(0, 0), 21);
+  // twice the same name
+  EXPECT_EQ(reader.Numbers("v_k")->GetComponent(0, 0), 7);
+  EXPECT_EQ(reader.Numbers("v_k_2")->GetComponent(0, 0), 8);
+  ASSERT_EQ(reader.Numbers("quat")->GetNumberOfComponents(), 4);
+  EXPECT_EQ(reader.Numbers("quat")->GetComponent(0, 3), 0.5);
+  EXPECT_STREQ(reader.Array("quat")->GetComponentName(0), "quat1");
+}
+
+TEST(ReaderArrays, RadiusComesFromDiameterWhereOnlyThatIsThere)
+{
+  const std::string file =
+    WriteFile("diameter.dump", Frame(0, 1, "id x y z diameter", "1 1 2 3 0.5\n"));
+  Reader reader({ file });
+  reader->Update();
+  ASSERT_TRUE(reader.Numbers("radius"));
+  EXPECT_EQ(reader.Numbers("radius")->GetComponent(0, 0), 0.25);
+  EXPECT_EQ(reader.Numbers("diameter")->GetComponent(0, 0), 0.5);
+}
+
+TEST(ReaderArrays, AFrameWithoutRowsHasTheArraysOfItsColumns)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->Update();
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(reader.Particles()->GetNumberOfCells(), 0);
+  ASSERT_TRUE(reader.Particles()->GetPoints());
+  EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 8);
+  ASSERT_TRUE(vtkTypeInt64Array::SafeDownCast(reader.Array("id")));
+  EXPECT_EQ(reader.Array("id")->GetNumberOfTuples(), 0);
+  EXPECT_EQ(reader.Array("v")->GetNumberOfComponents(), 3);
+  EXPECT_EQ(reader.Text("Coordinates"), "Absolute");
+  EXPECT_EQ(reader.Box()->GetNumberOfCells(), 1);
+}
+
+TEST(ReaderArrays, WhatIsSwitchedOffIsNotThere)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->UpdateInformation();
+  vtkDataArraySelection* arrays = reader->GetPointDataArraySelection();
+  EXPECT_EQ(arrays->GetNumberOfArrays(), 11);
+  for (const char* name : { "x", "y", "z" })
+  {
+    EXPECT_TRUE(arrays->ArrayExists(name)) << name;
+    EXPECT_FALSE(arrays->ArrayIsEnabled(name)) << name;
+  }
+  arrays->DisableAllArrays();
+  arrays->EnableArray("radius");
+  arrays->EnableArray("y");
+  reader->UpdateTimeStep(1000);
+  EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 2);
+  ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+  EXPECT_EQ(reader.Numbers("y")->GetComponent(1199, 0), reader.Particles()->GetPoint(1199)[1]);
+  EXPECT_FALSE(reader.Particles()->GetPointData()->GetPedigreeIds());
+  arrays->EnableArray("v");
+  reader->UpdateTimeStep(1000);
+  EXPECT_TRUE(reader.Array("v"));
+}
+
+TEST(ReaderArrays, ChoicesStayWhenTheFilesAreReadAgain)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->GetPointDataArraySelection()->DisableArray("mass"); // before anything is known
+  reader->UpdateInformation();
+  reader->GetPointDataArraySelection()->DisableArray("v");
+  reader->GetPointDataArraySelection()->EnableArray("x");
+  reader->Refresh();
+  reader->UpdateTimeStep(1000);
+  EXPECT_FALSE(reader.Array("mass"));
+  EXPECT_FALSE(reader.Array("v"));
+  EXPECT_TRUE(reader.Array("x"));
+  EXPECT_TRUE(reader.Array("f"));
+}
+
+TEST(ReaderArrays, SelectionHoldsTheArraysOfAllFramesAndOfNoOtherFile)
+{
+  const std::string file = WriteFile("changing.dump",
+    Frame(0, 1, "id x y z", "1 1 2 3\n") + Frame(1, 1, "id x y z q", "1 1 2 3 4\n"));
+  Reader reader({ file });
+  reader->Update();
+  EXPECT_TRUE(reader->GetPointDataArraySelection()->ArrayIsEnabled("q"));
+  EXPECT_FALSE(reader.Array("q"));
+  reader->UpdateTimeStep(1);
+  EXPECT_TRUE(reader.Array("q"));
+  reader.Open(Good("grains_label.dump"));
+  reader->Update();
+  EXPECT_FALSE(reader->GetPointDataArraySelection()->ArrayExists("q"));
+  EXPECT_TRUE(reader->GetPointDataArraySelection()->ArrayIsEnabled("radius"));
+}
+
+TEST(ReaderArrays, MemoryIsThatOfTheOutputAndGrowsLikeAnyArray)
+{
+  Reader reader({ Good("grains_1000.dump") });
+  reader->Update();
+  auto* radius = vtkDoubleArray::SafeDownCast(reader.Array("radius"));
+  ASSERT_TRUE(radius);
+  EXPECT_EQ(radius->GetSize(), 1200);
+  const double last = radius->GetValue(1199);
+  radius->InsertNextValue(7); // reallocates memory that the array did not make itself
+  EXPECT_EQ(radius->GetValue(1199), last);
+  EXPECT_EQ(radius->GetValue(1200), 7);
+  vtkNew<vtkPolyData> copy;
+  copy->ShallowCopy(reader.Particles());
+  reader.Open(Good("grains_2000.dump"));
+  reader->Update();
+  EXPECT_EQ(copy->GetPointData()->GetArray("radius")->GetComponent(1199, 0), last);
+}
+
+TEST(ReaderCells, VertexIsOneCellAPoint)
+{
+  Reader reader({ Good("grains_1000.dump") });
+  reader->Update();
+  vtkPolyData* particles = reader.Particles();
+  ASSERT_EQ(particles->GetNumberOfVerts(), 1200);
+  EXPECT_EQ(particles->GetNumberOfCells(), 1200);
+  EXPECT_FALSE(particles->GetVerts()->IsStorage64Bit());
+  for (vtkIdType i = 0; i < 1200; ++i)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* points = nullptr;
+    particles->GetVerts()->GetCellAtId(i, size, points);
+    ASSERT_EQ(size, 1);
+    ASSERT_EQ(points[0], i);
+  }
+}
+
+TEST(ReaderCells, PolyVertexIsOneCellAndNoneIsNone)
+{
+  Reader reader({ Good("grains_1000.dump") });
+  reader->SetVertices(vtkGranularDumpReader::POLY_VERTEX);
+  reader->Update();
+  ASSERT_EQ(reader.Particles()->GetNumberOfVerts(), 1);
+  EXPECT_EQ(reader.Particles()->GetCellType(0), VTK_POLY_VERTEX);
+  EXPECT_EQ(reader.Particles()->GetCellSize(0), 1200);
+  reader->SetVertices(vtkGranularDumpReader::NO_VERTICES);
+  reader->Update();
+  EXPECT_EQ(reader.Particles()->GetNumberOfCells(), 0);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+}
+
+TEST(ReaderFieldData, SaysWhatThePointsAre)
+{
+  Reader reader({ Good("grains_1000.dump") });
+  reader->Update();
+  for (vtkFieldData* data : { reader.Particles()->GetFieldData(), reader.Box()->GetFieldData() })
+  {
+    ASSERT_EQ(data->GetNumberOfArrays(), 7); // no label, units or time: the file has none
+    const std::vector<double> box = { -0.05, -0.05, 0 };
+    const std::vector<double> vectors = { 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.15 };
+    ASSERT_EQ(data->GetArray("BoxOrigin")->GetNumberOfComponents(), 3);
+    ASSERT_EQ(data->GetArray("BoxVectors")->GetNumberOfComponents(), 9);
+    ASSERT_EQ(data->GetArray("PointOrigin")->GetNumberOfComponents(), 3);
+    for (int i = 0; i < 9; ++i)
+    {
+      EXPECT_EQ(data->GetArray("BoxVectors")->GetComponent(0, i), vectors[i]);
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      EXPECT_EQ(data->GetArray("BoxOrigin")->GetComponent(0, i), box[i]);
+      EXPECT_EQ(data->GetArray("PointOrigin")->GetComponent(0, i), 0);
+    }
+    EXPECT_TRUE(vtkTypeInt64Array::SafeDownCast(data->GetAbstractArray("timestep")));
+    EXPECT_EQ(data->GetArray("timestep")->GetComponent(0, 0), 1000);
+  }
+  EXPECT_EQ(reader.Text("Coordinates"), "Absolute");
+  EXPECT_EQ(reader.Text("Boundary"), "pp pp ff");
+  const std::vector<std::string> columns = { "id", "type", "xs", "ys", "zs", "ix", "iy", "iz",
+    "radius" };
+  EXPECT_EQ(
+    reader.Particles()->GetFieldData()->GetAbstractArray("Columns")->GetNumberOfValues(), 9);
+  for (int i = 0; i < 9; ++i)
+  {
+    EXPECT_EQ(reader.Text("Columns", i), columns[i]);
+  }
+}
+
+TEST(ReaderFieldData, HasLabelUnitsAndTimeWhereTheFileHasThem)
+{
+  Reader label({ Good("grains_label.dump") });
+  label->UpdateTimeStep(1000);
+  EXPECT_EQ(label.Text("label"), "0.125");
+  EXPECT_FALSE(label.Field("time"));
+  EXPECT_EQ(label.Text("units"), "(none)");
+  Reader time({ Good("ortho_unwrapped.dump") });
+  time->UpdateTimeStep(0.5);
+  EXPECT_EQ(time.Text("units"), "lj");
+  ASSERT_TRUE(time.Field("time"));
+  EXPECT_EQ(time.Field("time")->GetComponent(0, 0), 0.5);
+  EXPECT_EQ(time.Field("timestep")->GetComponent(0, 0), 100);
+  EXPECT_EQ(time.Text("label"), "(none)");
+}
+
+TEST(ReaderBox, IsOneHexahedron)
+{
+  Reader reader({ Good("grains_1000.dump") });
+  reader->Update();
+  ASSERT_EQ(reader.Box()->GetNumberOfCells(), 1);
+  EXPECT_EQ(reader.Box()->GetCellType(0), VTK_HEXAHEDRON);
+  EXPECT_EQ(reader.Box()->GetPoints()->GetDataType(), VTK_DOUBLE);
+  const double* bounds = reader.Box()->GetBounds();
+  const double expected[] = { -0.05, 0.05, -0.05, 0.05, 0, 0.15 };
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(bounds[i], expected[i]);
+  }
+}
+
+TEST(ReaderBox, IsRightWhereItIsTilted)
+{
+  Reader reader({ Good("tri_plain.dump") });
+  reader->Update();
+  const std::vector<double> b = ReadPlain(Good("tri_plain.dump"))[0].bounds;
+  const double xy = b[2], xz = b[5], yz = b[8];
+  const double lo[] = { b[0] - std::min({ 0., xy, xz, xy + xz }), b[3] - std::min(0., yz), b[6] };
+  const double hi[] = { b[1] - std::max({ 0., xy, xz, xy + xz }), b[4] - std::max(0., yz), b[7] };
+  const double corners[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+    { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+  vtkIdType size = 0;
+  const vtkIdType* ids = nullptr;
+  vtkNew<vtkIdList> list;
+  reader.Box()->GetCellPoints(0, size, ids, list);
+  ASSERT_EQ(size, 8);
+  for (int i = 0; i < 8; ++i)
+  {
+    const double* c = corners[i];
+    const double* p = reader.Box()->GetPoint(ids[i]);
+    EXPECT_NEAR(p[0], lo[0] + (hi[0] - lo[0]) * c[0] + xy * c[1] + xz * c[2], 1e-14);
+    EXPECT_NEAR(p[1], lo[1] + (hi[1] - lo[1]) * c[1] + yz * c[2], 1e-14);
+    EXPECT_NEAR(p[2], lo[2] + (hi[2] - lo[2]) * c[2], 1e-14);
+  }
+}
+
+TEST(ReaderBox, FollowsTheFrameOfReferenceOfThePoints)
+{
+  Reader reader({ Good("tri_plain.dump") });
+  reader->SetPointOrigin(1, 2, 3);
+  reader->Update();
+  const double* moved = reader.Box()->GetPoint(0);
+  EXPECT_DOUBLE_EQ(moved[0], -1);
+  EXPECT_DOUBLE_EQ(moved[1], -2);
+  EXPECT_DOUBLE_EQ(moved[2], -3);
+  reader->SetPointOrigin(0, 0, 0);
+  reader->SetCoordinates(vtkGranularDumpReader::SCALED);
+  reader->Update();
+  EXPECT_EQ(reader.Text("Coordinates"), "Scaled");
+  const double* bounds = reader.Box()->GetBounds();
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(bounds[i], i % 2);
+  }
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of vtkGranularDumpReader share: a plain parser of their own, small files, and the
+// messages that VTK prints.
+#ifndef tests_dump_reader_helpers_h
+#define tests_dump_reader_helpers_h
+
+#include "vtkGranularDumpReader.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkDataArraySelection.h"
+#include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+inline std::string Good(const std::string& name)
+{
+  return std::string(GRANULAR_DATA) + "/good/" + name;
+}
+
+/// A file of the test's own: tests may run at the same time.
+inline std::string WriteFile(const std::string& name, const std::string& text)
+{
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  const std::filesystem::path folder =
+    std::filesystem::path(GRANULAR_OUTPUT) / test->test_suite_name() / test->name();
+  std::filesystem::create_directories(folder);
+  std::ofstream out(folder / name, std::ios::binary);
+  out << text;
+  return (folder / name).string();
+}
+
+/// A frame of a text dump, read with the simplest means.
+struct PlainFrame
+{
+  long timestep = 0;
+  std::vector<double> bounds; ///< lo hi [tilt] of each axis
+  std::map<std::string, std::vector<std::string>> columns;
+  std::size_t rows = 0;
+
+  double Number(const std::string& column, std::size_t row) const
+  {
+    return std::strtod(this->columns.at(column)[row].c_str(), nullptr);
+  }
+};
+
+inline std::vector<PlainFrame> ReadPlain(const std::string& path)
+{
+  std::vector<PlainFrame> frames;
+  std::ifstream in(path);
+  std::string line;
+  while (std::getline(in, line))
+  {
+    if (line == "ITEM: TIMESTEP")
+    {
+      frames.emplace_back();
+      std::getline(in, line);
+      frames.back().timestep = std::stol(line);
+    }
+    else if (line == "ITEM: NUMBER OF ATOMS")
+    {
+      std::getline(in, line);
+      frames.back().rows = std::stoul(line);
+    }
+    else if (line.rfind("ITEM: BOX BOUNDS", 0) == 0)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        std::getline(in, line);
+        std::istringstream numbers(line);
+        for (double number; numbers >> number;)
+        {
+          frames.back().bounds.push_back(number);
+        }
+      }
+    }
+    else if (line.rfind("ITEM: ATOMS", 0) == 0)
+    {
+      std::istringstream words(line.substr(11));
+      std::vector<std::string> names;
+      for (std::string name; words >> name;)
+      {
+        names.push_back(name);
+        frames.back().columns[name];
+      }
+      for (std::size_t row = 0; row < frames.back().rows; ++row)
+      {
+        for (const std::string& name : names)
+        {
+          std::string word;
+          in >> word;
+          frames.back().columns[name].push_back(word);
+        }
+      }
+    }
+  }
+  return frames;
+}
+
+/// Keeps the text of errors and warnings instead of printing them.
+class Messages : public vtkCommand
+{
+public:
+  static Messages* New() { return new Messages; }
+
+  void Execute(vtkObject*, unsigned long event, void* data) override
+  {
+    std::string text = static_cast<const char*>(data);
+    const std::size_t start = text.find("): ");
+    text = start == std::string::npos ? text : text.substr(start + 3);
+    text.erase(text.find_last_not_of('\n') + 1);
+    (event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings).push_back(text);
+  }
+
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+};
+
+/// A reader of files whose messages are kept.
+struct Reader
+{
+  vtkNew<vtkGranularDumpReader> Get;
+  vtkNew<Messages> Said;
+  vtkNew<Messages> PipelineSaid;
+
+  explicit Reader(const std::vector<std::string>& files = {})
+  {
+    this->Get->AddObserver(vtkCommand::ErrorEvent, this->Said);
+    this->Get->AddObserver(vtkCommand::WarningEvent, this->Said);
+    this->Get->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->PipelineSaid);
+    for (const std::string& file : files)
+    {
+      this->Get->AddFileName(file.c_str());
+    }
+  }
+
+  vtkGranularDumpReader* operator->() { return this->Get; }
+
+  void Open(const std::string& file)
+  {
+    this->Get->ClearFileNames();
+    this->Get->AddFileName(file.c_str());
+  }
+
+  std::vector<double> Times()
+  {
+    this->Get->UpdateInformation();
+    vtkInformation* info = this->Get->GetOutputInformation(0);
+    const double* steps = info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    const int length = info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    return std::vector<double>(steps, steps + length);
+  }
+
+  vtkPolyData* Particles() { return this->Get->GetOutput(); }
+  vtkUnstructuredGrid* Box()
+  {
+    return vtkUnstructuredGrid::SafeDownCast(this->Get->GetOutputDataObject(1));
+  }
+  vtkAbstractArray* Array(const char* name)
+  {
+    return this->Particles()->GetPointData()->GetAbstractArray(name);
+  }
+  vtkDataArray* Numbers(const char* name)
+  {
+    return this->Particles()->GetPointData()->GetArray(name);
+  }
+  vtkDataArray* Field(const char* name)
+  {
+    return this->Particles()->GetFieldData()->GetArray(name);
+  }
+  std::string Text(const char* name, vtkIdType index = 0)
+  {
+    auto* array =
+      vtkStringArray::SafeDownCast(this->Particles()->GetFieldData()->GetAbstractArray(name));
+    return array && index < array->GetNumberOfValues() ? array->GetValue(index) : "(none)";
+  }
+};
+
+/// A dump of one frame: header, and the rows as given.
+inline std::string Frame(
+  long timestep, std::size_t rows, const std::string& columns, const std::string& text)
+{
+  std::ostringstream out;
+  out << "ITEM: TIMESTEP\n"
+      << timestep << "\nITEM: NUMBER OF ATOMS\n"
+      << rows << "\nITEM: BOX BOUNDS pp pp ff\n0 10\n0 10\n0 10\nITEM: ATOMS " << columns << "\n"
+      << text;
+  return out.str();
+}
+
+#endif
