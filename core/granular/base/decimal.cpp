@@ -49,36 +49,37 @@ constexpr void divide_by_five(Natural& n)
 /// The highest 128 bits, the first of them set.
 constexpr Wide leading_bits(const Natural& n)
 {
-  Wide bits = 0;
-  int count = 0;
-  for (std::size_t i = 32 * n.size(); i-- > 0 && count < 128;)
+  std::size_t top = n.size() - 1;
+  while (n[top] == 0)
   {
-    const bool bit = (n[i / 32] >> (i % 32) & 1) != 0;
-    bits = bits << 1 | (bit ? 1u : 0u);
-    count += count > 0 || bit ? 1 : 0;
+    --top;
   }
-  return bits << (128 - count);
-}
-
-constexpr PowerOfFive make_power(int q)
-{
-  Natural n{};
-  // 2^511 leaves more than 128 bits after 64 divisions; the floor of floors is the floor of all
-  n[q < 0 ? n.size() - 1 : 0] = q < 0 ? 0x80000000u : 1u;
-  for (int i = 0; i < (q < 0 ? -q : q); ++i)
-  {
-    q < 0 ? divide_by_five(n) : multiply_by_five(n);
-  }
-  const Wide bits = leading_bits(n) + (q < 0 ? 1u : 0u);
-  return { static_cast<std::uint64_t>(bits >> 64), static_cast<std::uint64_t>(bits) };
+  const auto limb = [&](std::size_t below) { return Wide{ below <= top ? n[top - below] : 0 }; };
+  const int zeros = std::countl_zero(n[top]);
+  const Wide bits = limb(0) << 96 | limb(1) << 64 | limb(2) << 32 | limb(3);
+  return bits << zeros | limb(4) >> (32 - zeros);
 }
 
 constexpr auto powers_of_five = []
 {
   std::array<PowerOfFive, 2 * largest_power + 1> table{};
-  for (int q = -largest_power; q <= largest_power; ++q)
+  const auto set = [&](int q, Wide bits)
   {
-    table[static_cast<std::size_t>(q + largest_power)] = make_power(q);
+    table[static_cast<std::size_t>(q + largest_power)] = { static_cast<std::uint64_t>(bits >> 64),
+      static_cast<std::uint64_t>(bits) };
+  };
+  Natural power{ 1 };
+  Natural inverse{};
+  inverse.back() = 0x80000000u; // 2^511 leaves more than 128 bits after 64 divisions
+  for (int q = 0; q <= largest_power; ++q)
+  {
+    if (q > 0)
+    {
+      multiply_by_five(power);
+      divide_by_five(inverse); // the floor of floors is the floor of all
+      set(-q, leading_bits(inverse) + 1);
+    }
+    set(q, leading_bits(power));
   }
   return table;
 }();

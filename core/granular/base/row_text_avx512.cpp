@@ -135,7 +135,9 @@ GRANULAR_TARGET inline __m128i load_lane(const char* base, std::uint32_t edge) n
 GRANULAR_TARGET inline FourWords load_four(const char* base, const FourEdges& edges) noexcept
 {
   FourWords words;
-  const __m128i edge = _mm_loadu_si128(reinterpret_cast<const __m128i*>(edges.data()));
+  // put together in registers: a load across four stores would wait for all of them
+  const __m128i edge = _mm_setr_epi32(static_cast<int>(edges[0]), static_cast<int>(edges[1]),
+    static_cast<int>(edges[2]), static_cast<int>(edges[3]));
   words.length = _mm_sub_epi32(_mm_srli_epi32(edge, 16), _mm_and_si128(edge, _mm_set1_epi32(0xffff)));
   words.fits = _mm_cmpgt_epi32_mask(words.length, _mm_set1_epi32(16)) == 0;
   words.bytes = _mm512_zextsi128_si512(load_lane(base, edges[0]));

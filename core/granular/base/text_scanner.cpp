@@ -97,21 +97,22 @@ void TextScanner::put_back() noexcept
 std::int64_t TextScanner::skip_to_item(Progress& progress, std::int64_t total)
 {
   constexpr std::int64_t report_bytes = std::int64_t{ 1 } << 25;
-  const std::int64_t start_line = line_;
+  std::int64_t rows = 0;
   std::int64_t line_start = this->offset(); // of the line that at_ is in
   std::int64_t reported = line_start;
-  bool at_line_start = true;
+  LineState state;
   for (;;)
   {
-    const LineScan scan = scan_lines(
-      window_.data() + at_, window_.data() + end_, item.front(), at_line_start);
+    const LineScan scan =
+      scan_lines(window_.data() + at_, window_.data() + end_, item.front(), state);
+    state = scan.state;
     line_ += scan.feeds;
+    rows += scan.feeds - scan.blank_lines;
     at_ = static_cast<std::size_t>(scan.ptr - window_.data());
     if (scan.after_last_feed)
     {
       line_start = window_offset_ + (scan.after_last_feed - window_.data());
     }
-    at_line_start = line_start == this->offset();
     if (at_ < end_)
     {
       while (end_ - at_ < item.size() && this->fill())
@@ -122,7 +123,7 @@ std::int64_t TextScanner::skip_to_item(Progress& progress, std::int64_t total)
         break;
       }
       ++at_;
-      at_line_start = false;
+      state = { false, false };
     }
     if (at_ == end_ && !this->fill())
     {
@@ -135,7 +136,7 @@ std::int64_t TextScanner::skip_to_item(Progress& progress, std::int64_t total)
       progress.step(std::min(1.0, static_cast<double>(reported) / static_cast<double>(total)));
     }
   }
-  return line_ - start_line;
+  return rows;
 }
 
 void TextScanner::go_to(std::int64_t offset, std::int64_t line) noexcept

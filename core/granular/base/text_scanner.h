@@ -37,7 +37,7 @@ public:
   void go_to(std::int64_t offset, std::int64_t line) noexcept;
 
   /// Passes over lines up to one that begins with "ITEM:", or to the end of the text.
-  /// Returns how many lines were passed; one without LF is not counted.
+  /// Returns how many lines with words were passed; one without LF is not counted.
   /// Reports progress as the place in total bytes.
   std::int64_t skip_to_item(Progress& progress, std::int64_t total);
 

@@ -69,12 +69,12 @@ public:
 private:
   bool next_frame();
   bool read_frame(TextHeader& reader);
-  bool finish_frame(FrameEntry& entry, std::int64_t lines, bool at_end);
+  bool finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end);
   std::shared_ptr<const ColumnSchema> schema(const TextHeader& reader, const FrameHeader& header);
   void leave_out(const std::string& why);
   bool go_to_next_frame();
-  bool find_glued_header(std::int64_t from);
-  std::int64_t count_rows(const FrameEntry& entry) const;
+  bool peek(std::string_view& line);
+  bool find_glued_header(FrameEntry& entry, std::int64_t& rows);
 
   const ByteSource& source_;
   TextIndex& index_;
@@ -92,6 +92,11 @@ bool Indexer::next_frame()
     return this->read_frame(reader);
   }
   catch (const FormatError& error)
+  {
+    this->leave_out(error.what());
+    return this->go_to_next_frame();
+  }
+  catch (const LimitError& error)
   {
     this->leave_out(error.what());
     return this->go_to_next_frame();
@@ -117,33 +122,25 @@ bool Indexer::read_frame(TextHeader& reader)
   entry.rows_line = scanner_.line();
   index_.units = entry.header.units;
   entry.schema = this->schema(reader, entry.header);
-  const std::int64_t lines = scanner_.skip_to_item(progress_, total_);
+  std::int64_t rows = scanner_.skip_to_item(progress_, total_);
   entry.end = scanner_.offset();
-
-  std::string_view line;
-  const bool at_end = !scanner_.next(line);
-  if (!at_end)
+  std::string_view next;
+  const bool at_end = !this->peek(next);
+  if (this->find_glued_header(entry, rows) && rows != entry.header.rows)
   {
-    const bool opens = opens_frame(item_words(line));
-    scanner_.put_back();
-    if (!opens && this->find_glued_header(entry.rows_offset))
-    {
-      this->leave_out(to_string(Where{ source_.path(), entry.line }) + ": expected " +
-        std::to_string(entry.header.rows) + " rows, got the header of another frame within a row");
-      return true;
-    }
+    this->leave_out(to_string(Where{ source_.path(), entry.line }) + ": expected " +
+      std::to_string(entry.header.rows) + " rows, got the header of another frame within a row");
+    return true;
   }
-  return this->finish_frame(entry, lines, at_end);
+  return this->finish_frame(entry, rows, at_end);
 }
 
 /// Keeps the frame if it has the rows that its header promises.
-bool Indexer::finish_frame(FrameEntry& entry, std::int64_t lines, bool at_end)
+bool Indexer::finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
 {
-  // blank lines are no rows, but they are only looked for where there are too many lines
-  const std::int64_t rows = lines <= entry.header.rows ? lines : this->count_rows(entry);
   if (rows == entry.header.rows)
   {
-    index_.resume_offset = entry.end;
+    index_.resume_offset = scanner_.offset();
     index_.resume_line = scanner_.line();
     index_.frames.push_back(std::move(entry));
     return true;
@@ -196,25 +193,45 @@ bool Indexer::go_to_next_frame()
   for (;;)
   {
     scanner_.skip_to_item(progress_, total_);
-    if (!scanner_.next(line))
+    if (!this->peek(line))
     {
       return false;
     }
     if (opens_frame(item_words(line)))
     {
-      scanner_.put_back();
       return true;
     }
+    scanner_.next(line);
   }
 }
 
-/// A run that was killed within a row and then went on appending leaves "0.16ITEM: TIMESTEP".
-/// Looks for that in the few lines before the scanner, and goes there.
-bool Indexer::find_glued_header(std::int64_t from)
+/// The line that comes next, and stays. False at the end of the text, and where what comes is not
+/// even a line: a file system that lost power leaves zeros.
+bool Indexer::peek(std::string_view& line)
 {
-  constexpr std::int64_t reach = 4096; // a row and two header lines
+  try
+  {
+    if (!scanner_.next(line))
+    {
+      return false;
+    }
+  }
+  catch (const LimitError&)
+  {
+    return false;
+  }
+  scanner_.put_back();
+  return true;
+}
+
+/// A run that was killed within a row and then went on appending leaves "0.16ITEM: TIMESTEP".
+/// Looks for that in the few lines before the scanner, goes there, and ends the frame before it:
+/// rows becomes the number of its rows.
+bool Indexer::find_glued_header(FrameEntry& entry, std::int64_t& rows)
+{
+  constexpr std::int64_t reach = 512; // two sections of a header, and more
   const std::int64_t to = scanner_.offset();
-  const std::int64_t start = std::max(from, to - reach);
+  const std::int64_t start = std::max(entry.rows_offset, to - reach);
   std::string tail(static_cast<std::size_t>(to - start), ' ');
   tail.resize(source_.read(start, tail.data(), tail.size()));
   for (const std::string_view opening : { "ITEM: UNITS", "ITEM: TIME", "ITEM: TIMESTEP" })
@@ -222,25 +239,15 @@ bool Indexer::find_glued_header(std::int64_t from)
     const std::size_t found = tail.find(opening);
     if (found != tail.npos)
     {
-      const auto feeds = std::count(tail.begin() + static_cast<std::ptrdiff_t>(found), tail.end(), '\n');
-      scanner_.go_to(start + static_cast<std::int64_t>(found), scanner_.line() - feeds);
+      const auto lines = std::count(tail.begin() + static_cast<std::ptrdiff_t>(found), tail.end(), '\n');
+      const std::size_t feed = tail.rfind('\n', found);
+      entry.end = start + static_cast<std::int64_t>(feed == tail.npos ? 0 : feed + 1);
+      rows -= lines;
+      scanner_.go_to(start + static_cast<std::int64_t>(found), scanner_.line() - lines);
       return true;
     }
   }
   return false;
-}
-
-/// The lines of the rows that are not blank.
-std::int64_t Indexer::count_rows(const FrameEntry& entry) const
-{
-  TextScanner scanner(source_, entry.rows_offset, entry.rows_line);
-  std::string_view line;
-  std::int64_t rows = 0;
-  while (scanner.offset() < entry.end && scanner.next(line))
-  {
-    rows += split_words(line).empty() ? 0 : 1;
-  }
-  return rows;
 }
 }
 
@@ -265,7 +272,7 @@ bool is_text_dump(std::string_view first_bytes)
       }
       opened = true;
     }
-    if (begins_with(words, "NUMBER OF"))
+    if (feed != first_bytes.npos && begins_with(words, "NUMBER OF"))
     {
       return begins_with(words, "NUMBER OF ATOMS");
     }

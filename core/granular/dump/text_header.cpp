@@ -52,15 +52,15 @@ bool begins_with(std::span<const std::string_view> words, std::string_view name)
 }
 
 const TextHeader::Section TextHeader::sections[] = {
-  { "TIMESTEP", &TextHeader::parse_timestep },
-  { "TIME", &TextHeader::parse_time },
-  { "UNITS", &TextHeader::parse_units },
-  { "LABEL", &TextHeader::parse_label },
-  { "NUMBER OF ATOMS", &TextHeader::parse_rows },
-  { "NUMBER OF", &TextHeader::refuse_rows },
-  { "BOX BOUNDS", &TextHeader::parse_box },
-  { "ATOMS", &TextHeader::parse_columns },
-  { "", &TextHeader::skip_section },
+  { "TIMESTEP", true, &TextHeader::parse_timestep },
+  { "TIME", true, &TextHeader::parse_time },
+  { "UNITS", true, &TextHeader::parse_units },
+  { "LABEL", true, &TextHeader::parse_label },
+  { "NUMBER OF ATOMS", true, &TextHeader::parse_rows },
+  { "NUMBER OF", false, &TextHeader::refuse_rows },
+  { "BOX BOUNDS", false, &TextHeader::parse_box },
+  { "ATOMS", false, &TextHeader::parse_columns },
+  { "", false, &TextHeader::skip_section },
 };
 
 bool TextHeader::read()
@@ -85,7 +85,7 @@ bool TextHeader::read()
       offset_ = scanner_.last_offset();
       line_ = scanner_.where().line;
     }
-    if (has_timestep_ && words[0] == "TIMESTEP")
+    if (has_timestep_ && words.size() == 1 && words[0] == "TIMESTEP")
     {
       scanner_.put_back();
       this->fail("ITEM: ATOMS", copy);
@@ -105,7 +105,11 @@ bool TextHeader::read()
 bool TextHeader::dispatch(Words words)
 {
   const auto section = std::find_if(std::begin(sections), std::end(sections),
-    [words](const Section& entry) { return begins_with(words, entry.name); });
+    [words](const Section& entry)
+    {
+      return begins_with(words, entry.name) &&
+        (!entry.alone || words.size() == split_words(entry.name).size());
+    });
   return (this->*section->parse)(words);
 }
 
@@ -151,12 +155,8 @@ std::int64_t TextHeader::integer(std::string_view word, const char* what) const
   return value;
 }
 
-bool TextHeader::parse_timestep(Words words)
+bool TextHeader::parse_timestep(Words)
 {
-  if (words.size() != 1)
-  {
-    return this->skip_section(words);
-  }
   std::string_view line;
   if (!this->value_line(line))
   {

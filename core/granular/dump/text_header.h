@@ -57,6 +57,7 @@ private:
   struct Section
   {
     std::string_view name; ///< words after ITEM:, as far as they are fixed
+    bool alone;            ///< no other words may follow: with some it is an unknown section
     Parse parse;           ///< false at the end of the text
   };
 
