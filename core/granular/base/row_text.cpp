@@ -5,6 +5,7 @@
 #include "granular/base/row_text_detail.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <string_view>
 
@@ -74,6 +75,32 @@ bool is_blank(char c) noexcept
   return static_cast<unsigned char>(c) <= ' ';
 }
 
+/// Parses a number without knowing where its word ends. Returns the end; null, with nothing stored,
+/// for all words that are not plain numbers of the sink's kind.
+const char* store_direct(const char* word, const char* line_end, const ColumnSink& sink) noexcept
+{
+  const char* const digit = word + (*word == '-' ? 1 : 0);
+  if (digit == line_end || *digit < '0' || *digit > '9' || sink.kind == ColumnSink::Kind::Text)
+  {
+    return nullptr; // nan, inf, '+' and the like too
+  }
+  const bool real = sink.kind == ColumnSink::Kind::Float64;
+  double number = 0;
+  std::int64_t whole = 0;
+  const auto [end, ec] = real ? std::from_chars(word, line_end, number)
+                              : std::from_chars(word, line_end, whole);
+  if (ec != std::errc{} || (end != line_end && !is_blank(*end)))
+  {
+    return nullptr;
+  }
+  if (real)
+  {
+    std::memcpy(sink.data, &number, sizeof number);
+    return end;
+  }
+  return store_integer(whole, sink.kind, sink.data) == RowStatus::Done ? end : nullptr;
+}
+
 /// Counts the words of [at, line_end), storing those that are wanted. count and word are of the
 /// word where it stopped.
 RowStatus store_row(const char* at, const char* line_end, RowPlan& plan, std::uint32_t& count,
@@ -88,8 +115,15 @@ RowStatus store_row(const char* at, const char* line_end, RowPlan& plan, std::ui
       return count == 0 || count >= plan.columns ? RowStatus::Done : RowStatus::TooFew;
     }
     word = at;
+    const bool wanted = sink != plan.sinks.end() && sink->column == count;
+    if (const char* const end = wanted ? store_direct(word, line_end, *sink) : nullptr)
+    {
+      at = end;
+      ++sink;
+      continue;
+    }
     at = std::find_if(at, line_end, is_blank);
-    if (sink != plan.sinks.end() && sink->column == count)
+    if (wanted)
     {
       const RowStatus status = store(word, at, *sink);
       if (status != RowStatus::Done)
@@ -104,7 +138,9 @@ RowStatus store_row(const char* at, const char* line_end, RowPlan& plan, std::ui
 /// Decodes the line at result.ptr, which may be blank, the plain way.
 void decode_plain_row(const char* last, RowPlan& plan, RowResult& result) noexcept
 {
-  const char* const line_end = std::find(result.ptr, last, '\n');
+  const void* const feed =
+    std::memchr(result.ptr, '\n', static_cast<std::size_t>(last - result.ptr));
+  const char* const line_end = static_cast<const char*>(feed);
   std::uint32_t count = 0;
   const char* word = result.ptr;
   result.status = store_row(result.ptr, line_end, plan, count, word);

@@ -215,6 +215,54 @@ GRANULAR_TARGET inline bool are_numbers(
     _mm512_cmpgt_epu8_mask(digits, _mm512_set1_epi8(9)) == 0;
 }
 
+/// Numbers of which some take more than one rounding of exact operands.
+GRANULAR_TARGET bool scale_one_by_one(
+  __m256i digits, __m128i power, std::array<double, 4>& values) noexcept
+{
+  std::array<std::uint64_t, 4> mantissas;
+  std::array<int, 4> powers;
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(mantissas.data()), digits);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(powers.data()), power);
+  bool good = true;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    good = scale(mantissas[i], powers[i], values[i]) && good;
+  }
+  return good;
+}
+
+/// digits * 10^power with the signs of negative.
+GRANULAR_TARGET inline bool scale_four(__m256i digits, __m128i power, __mmask8 negative,
+  std::array<double, 4>& values) noexcept
+{
+  const __m128i zero = _mm_setzero_si128();
+  const bool exact = _mm_cmpgt_epi32_mask(_mm_abs_epi32(power), _mm_set1_epi32(22)) == 0 &&
+    _mm256_cmpge_epu64_mask(digits, _mm256_set1_epi64x(std::int64_t{ 1 } << 53)) == 0;
+  __m256d value;
+  if (exact)
+  {
+    const __m128i up = _mm_max_epi32(power, zero);
+    const __m128i down = _mm_sub_epi32(zero, _mm_min_epi32(power, zero));
+    value = _mm256_cvtepu64_pd(digits);
+    if (_mm_test_epi32_mask(up, up) != 0)
+    {
+      value = _mm256_mul_pd(value, _mm256_i32gather_pd(powers_of_ten.data(), up, 8));
+    }
+    value = _mm256_div_pd(value, _mm256_i32gather_pd(powers_of_ten.data(), down, 8));
+  }
+  else
+  {
+    if (!scale_one_by_one(digits, power, values))
+    {
+      return false;
+    }
+    value = _mm256_loadu_pd(values.data());
+  }
+  value = _mm256_mask_xor_pd(value, negative, value, _mm256_set1_pd(-0.0));
+  _mm256_storeu_pd(values.data(), value);
+  return true;
+}
+
 /// parse_common_double of four words at once. False if any of them is not common.
 GRANULAR_TARGET inline bool parse_four(
   const char* base, const FourEdges& edges, std::array<double, 4>& values) noexcept
@@ -234,25 +282,11 @@ GRANULAR_TARGET inline bool parse_four(
     scales = take_exponents(words, letters, digits);
   }
   take_points(scales, digits);
-  const __m256i mantissa = combine_four(digits);
-  if (!scales.good || !are_numbers(words, scales.removed, digits) ||
-    _mm_cmpgt_epi32_mask(_mm_abs_epi32(scales.power), _mm_set1_epi32(22)) != 0 ||
-    _mm256_cmpge_epu64_mask(mantissa, _mm256_set1_epi64x(std::int64_t{ 1 } << 53)) != 0)
+  if (!scales.good || !are_numbers(words, scales.removed, digits))
   {
     return false;
   }
-  const __m128i zero = _mm_setzero_si128();
-  const __m128i up = _mm_max_epi32(scales.power, zero);
-  const __m128i down = _mm_sub_epi32(zero, _mm_min_epi32(scales.power, zero));
-  __m256d value = _mm256_cvtepu64_pd(mantissa);
-  if (_mm_test_epi32_mask(up, up) != 0)
-  {
-    value = _mm256_mul_pd(value, _mm256_i32gather_pd(powers_of_ten.data(), up, 8));
-  }
-  value = _mm256_div_pd(value, _mm256_i32gather_pd(powers_of_ten.data(), down, 8));
-  value = _mm256_mask_xor_pd(value, words.negative(), value, _mm256_set1_pd(-0.0));
-  _mm256_storeu_pd(values.data(), value);
-  return true;
+  return scale_four(combine_four(digits), scales.power, words.negative(), values);
 }
 
 /// parse_common_integer of four words at once. False if any of them is not common.

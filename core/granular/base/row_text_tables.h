@@ -119,5 +119,18 @@ inline constexpr auto scales = []
   }
   return table;
 }();
+
+/// digits * 10^power, rounded once. False where that takes more than a double or a wide product.
+inline bool scale(std::uint64_t digits, int power, double& value) noexcept
+{
+  if (digits >> 53 == 0 && static_cast<unsigned>(power + 22) <= 44u)
+  {
+    // both operands are exact, and one of the two factors is 1
+    const Scale factors = scales[static_cast<std::size_t>(power + 22)];
+    value = static_cast<double>(static_cast<std::int64_t>(digits)) * factors.factor / factors.divisor;
+    return true;
+  }
+  return digits != 0 && nearest_double(digits, power, value);
+}
 }
 #endif

@@ -4,6 +4,7 @@
 #include "granular/dump/text_dump.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -174,7 +175,7 @@ std::vector<double> FrameIndex::times(double timestep_size) const
   for (const FrameEntry& frame : frames_)
   {
     const std::optional<double>& time = frame.header.time;
-    if (time && (from_header.empty() || *time > from_header.back()))
+    if (time && std::isfinite(*time) && (from_header.empty() || *time > from_header.back()))
     {
       from_header.push_back(*time);
     }

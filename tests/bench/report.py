@@ -1,0 +1,398 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the benchmarks and writes report.md, report.csv and plots.
+
+A part is a program bench_NAME whose benchmarks are called NAME/case and tell figures called
+metric:unit, and an entry of PARTS below. A program fails where results are wrong, and then so does
+this; what is slow is said, no more."""
+import argparse
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from collections import namedtuple
+
+# metric of the cases that match; how: "<=" or ">="
+Target = namedtuple("Target", "cases metric how limit")
+# What stands in a column: heading, metric with unit, format.
+Column = namedtuple("Column", "heading metric format")
+
+
+class Figures:
+    """What the benchmarks of a part told: value by case and 'metric:unit', in their order."""
+
+    def __init__(self):
+        self.cases = {}
+
+    def get(self, case, metric):
+        return self.cases[case].get(metric)
+
+    def all(self, pattern):
+        return [case for case in self.cases if re.search(pattern, case)]
+
+
+class Part:
+    def __init__(self, name, title, about, tables, targets=(), plot=None):
+        self.name, self.title, self.about = name, title, " ".join(about.split())
+        self.tables, self.targets, self.plot = tables, targets, plot
+
+
+# ---- targets and tables --------------------------------------------------------------------------
+def is_met(target, value):
+    return value <= target.limit if target.how == "<=" else value >= target.limit
+
+
+def verdict(part, case, metric, value, quick):
+    """For a cell of the target column; empty where there is none."""
+    for target in part.targets:
+        if target.metric == metric and re.search(target.cases, case) and value is not None:
+            wanted = f"{target.how} {target.limit:g}"
+            if quick:
+                return f"{wanted}, not judged"
+            return f"met ({wanted})" if is_met(target, value) else f"**not met** ({wanted})"
+    return ""
+
+
+def markdown(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|---" + "|--:" * (len(head) - 1) + "|"]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
+
+
+def cases_by_metrics(cases, *columns):
+    """A table: a row a case, a column a metric; the last one says whether targets are met."""
+    def make(part, figures, quick):
+        rows = []
+        for case in figures.all(cases):
+            cells, verdicts = [], []
+            for column in columns:
+                value = figures.get(case, column.metric)
+                cells.append("" if value is None else format(value, column.format))
+                verdicts.append(verdict(part, case, column.metric, value, quick))
+            rows.append([f"`{case}`"] + cells + ["; ".join(filter(None, verdicts))])
+        return markdown(["case"] + [column.heading for column in columns] + ["target"], rows)
+    return make
+
+
+def growth_table(part, figures, quick):
+    case = "more and more rows"
+    if case not in figures.cases:
+        return []
+    times = {metric[:-len(":ns/row")]: value for metric, value in figures.cases[case].items()
+             if metric.endswith(":ns/row")}
+    fastest = min(times.values())
+    rows = [[f"`{name}`", format(time, ".1f"), format(time / fastest, ".2f"),
+             format(figures.get(case, name + ", page faults a 1000 rows:1"), ".1f"), ""]
+            for name, time in sorted(times.items())]
+    metric = "slowest against fastest:1"
+    ratio = figures.get(case, metric)
+    rows.append(["slowest against fastest", "", format(ratio, ".2f"), "",
+                 verdict(part, case, metric, ratio, quick)])
+    return markdown(["12 columns", "ns/row", "against the fastest", "page faults/1000 rows",
+                     "target"], rows)
+
+
+def split_way(case):
+    """(box, text, points, origin)"""
+    box, *rest = case.split("; ")
+    return box, *rest
+
+
+def scientific(value):
+    return "0" if value == 0 else f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e+")
+
+
+def pair(figures, case, metric, unit):
+    largest, rms = (figures.get(case, f"{metric}, {what}:{unit}") for what in ("largest", "rms"))
+    return f"{scientific(largest)} ({scientific(rms)})"
+
+
+def positions_table(part, figures, quick):
+    boxes = list(dict.fromkeys(split_way(case)[0] for case in figures.cases))
+    ways = list(dict.fromkeys(split_way(case)[1:] for case in figures.cases))
+    lengths, radii, text_rows = [], [], {}
+    for text, points, origin in ways:
+        cases = [f"{box}; {text}; {points}; {origin}" for box in boxes]
+        way = [f"`{text}`", points, origin]
+        time = sum(figures.get(case, "time:ns/row") for case in cases) / len(cases)
+        cost = [format(time, ".0f"), format(figures.get(cases[0], "memory:B/row"), ".0f")]
+        lengths.append(way + cost + [pair(figures, case, "error", "box length") for case in cases] + [
+            scientific(figures.get(case, "error of reading, largest:box length")) for case in cases])
+        radii.append(way + [pair(figures, case, "error", "smallest radius") for case in cases])
+        text_rows[text] = [f"`{text}`"] + [pair(figures, case, "error of text", "box length")
+                                           for case in cases]
+    head = ["text", "points", "PointOrigin"]
+    return (["Error of the points, largest (rms), in box lengths, and the largest that reading adds "
+             "to the text's:", ""] +
+            markdown(head + ["ns/row", "bytes/grain"] + boxes + [f"reading, {box}" for box in boxes],
+                     lengths) +
+            ["What the text loses, largest (rms), in box lengths:", ""] +
+            markdown(["text"] + boxes, text_rows.values()) +
+            ["Error of the points, largest (rms), in smallest radii:", ""] +
+            markdown(head + boxes, radii))
+
+
+# ---- plots ---------------------------------------------------------------------------------------
+def plot_decode(pyplot, figures):
+    sets = [name for name in ("from_chars", "portable", "AVX2", "AVX-512")
+            if any(f"{name}:GB/s" in told for told in figures.cases.values())]
+    cases = [case for case, told in figures.cases.items() if "from_chars:GB/s" in told]
+    figure, axes = pyplot.subplots(figsize=(9, 1 + 0.6 * len(cases)), layout="constrained")
+    height = 0.8 / len(sets)
+    for i, name in enumerate(sets):
+        axes.barh([row + i * height for row in range(len(cases))],
+                  [figures.get(case, f"{name}:GB/s") for case in cases], height, label=name)
+    axes.set_yticks([row + 0.4 - height / 2 for row in range(len(cases))], cases)
+    axes.invert_yaxis()
+    axes.set_xlabel("text decoded [GB/s]")
+    axes.legend()
+    return figure
+
+
+def plot_read(pyplot, figures):
+    told = figures.cases["more and more rows"]
+    points = sorted((10 ** int(match.group(1)), value) for match, value in
+                    ((re.fullmatch(r"10\^(\d+) rows:ns/row", metric), value)
+                     for metric, value in told.items()) if match)
+    figure, axes = pyplot.subplots(figsize=(6, 3.5), layout="constrained")
+    axes.plot(*zip(*points), "o-")
+    axes.set_xscale("log")
+    axes.set_ylim(0, 1.2 * max(time for _, time in points))
+    axes.set_xlabel("rows of 12 columns")
+    axes.set_ylabel("time to read [ns/row]")
+    return figure
+
+
+def plot_positions(pyplot, figures):
+    exact = 1e-19  # where errors of 0 are drawn
+    boxes = list(dict.fromkeys(split_way(case)[0] for case in figures.cases))
+    texts = list(dict.fromkeys(split_way(case)[1] for case in figures.cases))
+    figure, panels = pyplot.subplots(1, len(boxes), figsize=(12, 5.2), sharex=True, sharey=True,
+                                     squeeze=False)
+    figure.subplots_adjust(left=0.07, right=0.99, top=0.94, bottom=0.26, wspace=0.05)
+    for case in figures.cases:
+        box, text, points, origin = split_way(case)
+        color = f"C{texts.index(text)}"
+        panels[0][boxes.index(box)].plot(
+            figures.get(case, "time:ns/row"),
+            max(exact, figures.get(case, "error, largest:box length")),
+            "o" if points == "double" else "v", color=color, markersize=11 - 1.5 * texts.index(text),
+            markerfacecolor=color if origin == "no origin" else "none")
+    for axes, box in zip(panels[0], boxes):
+        axes.set_title(box)
+        axes.set_yscale("log")
+        axes.set_xlim(left=0)
+        axes.set_xlabel("time to read [ns/row]")
+        axes.axhline(1e-3, color="grey", linewidth=0.8, linestyle=":")
+        axes.axhline(exact, color="grey", linewidth=0.8, linestyle=":")
+    first = panels[0][0]
+    first.set_ylabel("largest error [box lengths]")
+    first.text(1, 1.3e-3, "smallest radius", fontsize=8, color="grey")
+    first.text(1, 1.8 * exact, "exact", fontsize=8, color="grey")
+    handles = [first.plot([], [], "s", color=f"C{i}", label=text)[0] for i, text in enumerate(texts)]
+    handles += [first.plot([], [], mark, color="k", markerfacecolor=face, label=label)[0]
+                for mark, face, label in (("o", "k", "double"), ("v", "k", "single"),
+                                          ("o", "none", "PointOrigin at the box centre"))]
+    figure.legend(handles=handles, loc="lower center", ncol=3, fontsize=9)
+    return figure
+
+
+# ---- the parts -----------------------------------------------------------------------------------
+PARTS = (
+    Part("decode", "Decode: text to columns in memory",
+         """GB of text a second (10^9 bytes), one thread, into memory that was touched before.
+         from_chars is a plain one-pass loop (skip blanks, std::from_chars, next) that does not even
+         look for the ends of lines. ratio is its time by ours for the best instruction set. Every
+         value of every contender was found equal to strtod's, bit for bit. The targets for all
+         forms are those of %g.""",
+         [cases_by_metrics(r"^(8|12) columns",
+                           Column("from_chars GB/s", "from_chars:GB/s", ".2f"),
+                           Column("portable GB/s", "portable:GB/s", ".2f"),
+                           Column("AVX2 GB/s", "AVX2:GB/s", ".2f"),
+                           Column("AVX-512 GB/s", "AVX-512:GB/s", ".2f"),
+                           Column("portable ratio", "portable ratio:1", ".2f"),
+                           Column("AVX2 ratio", "AVX2 ratio:1", ".2f"),
+                           Column("ratio", "ratio:1", ".2f"),
+                           Column("spread", "ratio spread:1", ".0%")),
+          cases_by_metrics(r"three of 12",
+                           Column("time against all 12", "time against all:1", ".2f"),
+                           Column("spread", "time against all spread:1", ".0%"))],
+         [Target(r"columns", "ratio:1", ">=", 2),
+          Target(r"^first three", "time against all:1", "<=", 0.6)],
+         plot_decode),
+    Part("index", "Index: where the frames of a file are",
+         """file: FrameIndex::update, against reading the file (in the page cache) the same way and
+         counting line feeds with memchr. memory: scan_lines against memchr in a window of 256 KiB
+         that is in the cache. ratio is our time by memchr's.""",
+         [cases_by_metrics(r"",
+                           Column("memchr GB/s", "memchr:GB/s", ".1f"),
+                           Column("portable GB/s", "portable:GB/s", ".1f"),
+                           Column("index GB/s", "index:GB/s", ".1f"),
+                           Column("ratio", "ratio:1", ".2f"),
+                           Column("spread", "ratio spread:1", ".0%"))],
+         [Target(r"", "ratio:1", "<=", 2)]),
+    Part("read", "Read: a file to arrays, the whole way",
+         """read_dump of a file in the page cache, double points and all arrays, against decode_rows
+         of the same text in memory into memory that was touched before. Arrays are new memory each
+         time, as they are for a user: the page faults are those of memory that the process did not
+         have yet (small arrays come back from an earlier read). Peak memory is VmHWM of a process
+         of its own.""",
+         [cases_by_metrics(r"^(8|12) columns$",
+                           Column("decode alone ns/row", "decode alone:ns/row", ".1f"),
+                           Column("read ns/row", "read:ns/row", ".1f"),
+                           Column("ratio", "time against decode alone:1", ".2f")),
+          growth_table,
+          cases_by_metrics(r"^memory",
+                           Column("arrays MiB", "arrays:MiB", ".1f"),
+                           Column("peak MiB", "peak:MiB", ".1f"),
+                           Column("above the arrays MiB", "above the arrays:MiB", ".1f"))],
+         [Target(r"^more", "slowest against fastest:1", "<=", 1.5),
+          Target(r"^memory", "above the arrays:MiB", "<=", 32)],
+         plot_read),
+    Part("positions", "Positions: speed against error",
+         """Grains of radii from 1e-3 in boxes of length 1 whose corner lies at 0, 1e3 and 1e6. The
+         true position is the double that the simulation holds; what the text says, and all errors,
+         are worked out in 113 bits. Points are rounded where they are kept; with a PointOrigin (the
+         box centre) they are smaller numbers and lose less, and it is added again before comparing.
+         Losses may cancel: %.16e is not the double that it was printed from, but reads as that.
+         LIGGGHTS prints rows and box with %g, so that its box at 1e6 says 1e+06 twice; LAMMPS
+         prints the box with %.16e, and rows with %g unless told otherwise. Bounds that are not as
+         round as these lose digits with %g in all boxes. Time is the mean over the boxes,
+         into memory that came back from an earlier read; bytes are those of points, id, type and
+         radius.""",
+         [positions_table], (), plot_positions),
+)
+
+
+# ---- running and writing -------------------------------------------------------------------------
+def run_part(part, programs, quick, folder):
+    """(figures, context) of the part's program; leaves this script where results are wrong."""
+    out = os.path.join(folder, part.name + ".json")
+    command = [os.path.join(programs, "bench_" + part.name), "--benchmark_out=" + out,
+               "--benchmark_out_format=json"] + ([] if quick else ["--full"])
+    print("-- bench_" + part.name, file=sys.stderr, flush=True)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False)
+    if done.returncode != 0:
+        sys.exit(done.stdout + f"\nbench_{part.name} failed ({done.returncode}): wrong results")
+    with open(out, encoding="utf-8") as stream:
+        told = json.load(stream)
+    figures = Figures()
+    for benchmark in told["benchmarks"]:
+        case = re.sub(r"/iterations:\d+/manual_time$", "", benchmark["name"]).split("/", 1)[1]
+        figures.cases[case] = {key: value for key, value in benchmark.items() if ":" in key}
+    if not figures.cases:
+        sys.exit(f"bench_{part.name} has no benchmarks")
+    return figures, told["context"]
+
+
+def machine(context):
+    """What the figures were made on; no names."""
+    model = "unknown processor"
+    with open("/proc/cpuinfo", encoding="utf-8") as stream:
+        for line in stream:
+            if line.startswith("model name"):
+                model = line.split(":", 1)[1].strip()
+                break
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    load = context.get("load_avg") or [0]
+    return (f"{context['num_cpus']} cores of {model}, best instruction set of the decoder "
+            f"{context['instruction set']}, {memory:.0f} GiB of memory, {context['compiler']}, "
+            f"load {load[0]:.1f} at the start, {context['date'][:10]}")
+
+
+def write_csv(path, results):
+    with open(path, "w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(["part", "case", "metric", "value", "unit"])
+        for part, figures in results:
+            for case, told in figures.cases.items():
+                for key, value in told.items():
+                    metric, unit = key.rsplit(":", 1)
+                    writer.writerow([part.name, case, metric, repr(value), unit])
+
+
+def draw(folder, results):
+    """Names of the parts that have a plot now."""
+    try:
+        import matplotlib
+        matplotlib.use("Agg")
+        from matplotlib import pyplot
+    except ImportError:
+        print("-- no plots: Python's matplotlib was not found", file=sys.stderr)
+        return set()
+    drawn = set()
+    for part, figures in results:
+        if part.plot:
+            figure = part.plot(pyplot, figures)
+            figure.savefig(os.path.join(folder, part.name + ".png"), dpi=100)
+            pyplot.close(figure)
+            drawn.add(part.name)
+    return drawn
+
+
+def missed(results):
+    for part, figures in results:
+        for target in part.targets:
+            for case in figures.all(target.cases):
+                value = figures.get(case, target.metric)
+                if value is not None and not is_met(target, value):
+                    metric = target.metric.rsplit(":", 1)[0]
+                    yield (f"{part.name}, {case}: {metric} {value:.2f}, "
+                           f"wanted {target.how} {target.limit:g}")
+
+
+def write_markdown(path, results, context, drawn, quick):
+    lines = ["<!-- SPDX-License-Identifier: BSD-3-Clause -->", "# Benchmarks", ""]
+    lines += [machine(context) + ".", ""]
+    lines += ["Each figure is a median over many short rounds in which all contenders take turns; "
+              "ratios are medians of the ratios within a round, and spread is half the distance of "
+              "their quartiles. Times are processor time. All results were checked before they were "
+              "timed. `report.csv` has every figure.", ""]
+    if quick:
+        lines += ["**A quick run: small files, one round. Its times mean nothing.**", ""]
+    else:
+        misses = list(missed(results))
+        lines += ["Targets not met:" if misses else "All targets are met.", ""]
+        lines += [f"* {miss}" for miss in misses] + ([""] if misses else [])
+    for part, figures in results:
+        lines += [f"## {part.title}", "", part.about, ""]
+        for table in part.tables:
+            lines += table(part, figures, quick)
+        if part.name in drawn:
+            lines += [f"![{part.title}]({part.name}.png)", ""]
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write("\n".join(lines).rstrip() + "\n")
+
+
+def main():
+    names = [part.name for part in PARTS]
+    parser = argparse.ArgumentParser(prog="tests/bench/run")
+    parser.add_argument("--quick", action="store_true", help="small files, one round")
+    parser.add_argument("--programs", required=True, help="folder of the programs bench_*")
+    parser.add_argument("--report", required=True, help="folder to write to")
+    parser.add_argument("parts", nargs="*", metavar="part", help=" ".join(names))
+    options = parser.parse_args()
+    for name in options.parts:
+        if name not in names:
+            parser.error(f"no part {name}: there are {' '.join(names)}")
+    os.makedirs(options.report, exist_ok=True)
+    results, context = [], None
+    with tempfile.TemporaryDirectory() as folder:
+        for part in PARTS:
+            if not options.parts or part.name in options.parts:
+                figures, one = run_part(part, options.programs, options.quick, folder)
+                results.append((part, figures))
+                context = context or one
+    write_csv(os.path.join(options.report, "report.csv"), results)
+    drawn = draw(options.report, results)
+    write_markdown(os.path.join(options.report, "report.md"), results, context, drawn, options.quick)
+    if not options.quick:
+        for miss in missed(results):
+            print("-- target not met: " + miss, file=sys.stderr)
+    print(os.path.join(options.report, "report.md"))
+
+
+if __name__ == "__main__":
+    main()
