@@ -42,9 +42,11 @@ struct vtkGranularDumpReader::Internals
   bool Stale = false;                    ///< the files are to be looked at again
   bool Cancelled = false;                ///< the last request was
   std::set<std::string> Told;            ///< notices the user has had
+  std::set<std::string> ArrayNames;      ///< of all frames
 
   void UpdateIndex(Self* self);
   void UpdateSelection();
+  void CheckSelection(const std::string& path, granular::Notices& notices);
   void Tell(Self* self, const granular::Notices& notices);
   granular::DumpRequest MakeRequest(Self* self);
   const granular::FrameEntry& FindFrame(
@@ -84,7 +86,7 @@ void vtkGranularDumpReader::Internals::UpdateIndex(Self* self)
 void vtkGranularDumpReader::Internals::UpdateSelection()
 {
   std::set<const granular::ColumnSchema*> seen;
-  std::set<std::string> names;
+  this->ArrayNames.clear();
   for (const granular::FrameEntry& entry : this->Index.frames())
   {
     if (!seen.insert(entry.schema.get()).second)
@@ -93,15 +95,30 @@ void vtkGranularDumpReader::Internals::UpdateSelection()
     }
     for (const granular::ArrayInfo& array : entry.schema->arrays())
     {
-      names.insert(array.name);
+      this->ArrayNames.insert(array.name);
       this->PointArrays->AddArray(array.name.c_str(), !array.position_form);
     }
   }
   for (int i = this->PointArrays->GetNumberOfArrays() - 1; i >= 0; --i)
   {
-    if (names.count(this->PointArrays->GetArrayName(i)) == 0)
+    if (this->ArrayNames.count(this->PointArrays->GetArrayName(i)) == 0)
     {
       this->PointArrays->RemoveArrayByIndex(i);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// A name that is asked for and in no frame is a slip of the pen: without a word, a column is missing.
+void vtkGranularDumpReader::Internals::CheckSelection(
+  const std::string& path, granular::Notices& notices)
+{
+  for (int i = 0; i < this->PointArrays->GetNumberOfArrays(); ++i)
+  {
+    const std::string name = this->PointArrays->GetArrayName(i);
+    if (this->PointArrays->GetArraySetting(i) != 0 && this->ArrayNames.count(name) == 0)
+    {
+      notices.push_back({ { path, 0, -1, {} }, "no frame has the array '" + name + "' asked for" });
     }
   }
 }
@@ -170,6 +187,7 @@ void vtkGranularDumpReader::Internals::FillOutputs(
   const std::string& path = this->Index.files()[entry.file];
   const granular::DumpRequest wanted = this->MakeRequest(self);
   granular::Notices notices;
+  this->CheckSelection(path, notices);
   AlgorithmProgress progress(self);
   progress.step(0);
   granular::DumpFrame frame = granular::read_dump(path, entry, wanted, notices, progress);
@@ -275,6 +293,21 @@ void vtkGranularDumpReader::SetTimestepSize(double size)
   if (this->TimestepSize != size)
   {
     this->TimestepSize = size;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDumpReader::SetStride(vtkTypeInt64 stride)
+{
+  if (stride < 1)
+  {
+    vtkErrorMacro("Stride must be at least 1, got " << stride);
+    return;
+  }
+  if (this->Stride != stride)
+  {
+    this->Stride = stride;
     this->Modified();
   }
 }

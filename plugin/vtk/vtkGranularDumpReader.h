@@ -146,10 +146,10 @@ public:
 
   ///@{
   /**
-   * n keeps the particles whose id is a multiple of n; where there are no ids, every n-th row,
-   * starting with the first. From 1, which keeps all; 1 by default.
+   * n keeps the particles whose id is a multiple of n; where there are no ids, every n-th row from
+   * the first on. Below 1 is an error and changes nothing. 1 by default: all particles.
    */
-  vtkSetClampMacro(Stride, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  void SetStride(vtkTypeInt64 stride);
   vtkGetMacro(Stride, vtkTypeInt64);
   ///@}
 

@@ -95,3 +95,11 @@ for way in (granular.show, Show):
     view.ViewTime = 10
     expect(display, 3, 0.5)
     Delete(grains)
+
+# colours can be chosen before there is anything to colour
+view.ViewTime = 0
+grains = OpenDataFile(os.path.abspath("grown.dump"))
+display = granular.show(grains, view, color="radius")
+view.ViewTime = 10
+Render(view)
+assert list(display.ColorArrayName) == ["POINTS", "radius"]

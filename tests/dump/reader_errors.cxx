@@ -227,6 +227,31 @@ TEST(ReaderErrors, AWarningIsGivenOnceAFile)
   EXPECT_EQ(reader.Said->Warnings.size(), 1u);
 }
 
+TEST(ReaderErrors, AnArrayThatNoFrameHasIsAWarning)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->UpdateInformation();
+  reader->GetPointDataArraySelection()->EnableArray("radios");
+  reader->UpdateTimeStep(1000);
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_NE(
+    reader.Said->Warnings[0].find("no frame has the array 'radios' asked for"), std::string::npos);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+}
+
+TEST(ReaderErrors, ASettingThatCannotBeIsRefused)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->SetStride(0);
+  reader->SetTimestepSize(-1);
+  ASSERT_EQ(reader.Said->Errors.size(), 2u);
+  EXPECT_NE(reader.Said->Errors[0].find("Stride must be at least 1, got 0"), std::string::npos);
+  EXPECT_NE(reader.Said->Errors[1].find("TimestepSize must be finite and greater than 0, got -1"),
+    std::string::npos);
+  EXPECT_EQ(reader->GetStride(), 1);
+  EXPECT_EQ(reader->GetTimestepSize(), 1);
+}
+
 TEST(ReaderCanReadFile, LooksAtTheContent)
 {
   const auto can = [](const std::string& file)

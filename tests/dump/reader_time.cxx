@@ -41,6 +41,14 @@ TEST(ReaderTime, IsTimestepTimesTimestepSize)
   EXPECT_EQ(DataTime(reader.Box()), 1000 * 2e-5);
 }
 
+TEST(ReaderTime, TheTimeThatAPersonTypesIsThatOfTheFrame)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->SetTimestepSize(6e-5);
+  EXPECT_EQ(StepAt(reader, std::nextafter(0.06, 0)), 1000);
+  EXPECT_EQ(StepAt(reader, 0.06 - 1e-9), 0);
+}
+
 TEST(ReaderTime, IsThatOfTheFileWhereEveryFrameHasOne)
 {
   Reader reader({ Good("ortho_unwrapped.dump") });

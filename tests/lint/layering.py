@@ -6,7 +6,7 @@
     core/mpi               base, its own folder, mpi.h
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView
-    samples                paraview.simple, granular and Python's own modules
+    samples                paraview.simple, granular, numpy and Python's own modules
 """
 import ast
 import re
@@ -39,7 +39,7 @@ SYSTEM_HEADERS = (
 SYSTEM_MAY_USE = {"dump": (), "restart": ("dump", "bonds")}
 SYSTEM_MAY_USE_DEFAULT = ("dump",)
 
-SAMPLE_MODULES = ("paraview.simple", "granular")
+SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")
 
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]([^\n]*)', re.MULTILINE)
 

@@ -52,6 +52,13 @@ struct Conversion
   }
 }
 
+/// Whether component k of the box vector j is a term of coordinate k at all. One that is 0 by the
+/// shape of the box is none: a grain that was lost along j keeps its coordinate k.
+[[gnu::always_inline]] inline bool reaches(const Box& box, std::size_t j, std::size_t k) noexcept
+{
+  return j == k || box.vectors[j][k].hi != 0;
+}
+
 [[gnu::always_inline]] inline void to_cartesian_tilted(
   const Conversion& c, const double* images, double* point) noexcept
 {
@@ -70,11 +77,12 @@ struct Conversion
     for (std::size_t j = 0; j < 3; ++j)
     {
       const PositionPlan::Axis& axis = c.plan.axes[j];
-      if (axis.scaled)
+      const bool term = reaches(c.box, j, k);
+      if (term && axis.scaled)
       {
         sum.add_product(given[j], c.box.vectors[j][k]);
       }
-      if (axis.shift != 0)
+      if (term && axis.shift != 0)
       {
         sum.add_product(shift_of(axis, images, j), c.box.vectors[j][k]);
       }
@@ -113,7 +121,10 @@ inline Twofold negative(Twofold value) noexcept
     sum.add(offset[k]);
     for (std::size_t j = k + 1; j < 3; ++j)
     {
-      sum.add_product(negative(scaled[j]), box.vectors[j][k]);
+      if (reaches(box, j, k))
+      {
+        sum.add_product(negative(scaled[j]), box.vectors[j][k]);
+      }
     }
     scaled[k] = sum.over(box.vectors[k][k]);
   }
@@ -214,6 +225,18 @@ __attribute__((target("fma"))) void convert_fma(
 }
 #endif
 
+/// Coordinates that no column gives.
+void clear_missing(const PositionPlan& plan, std::span<double> points) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (std::size_t i = axis; plan.axes[axis].column < 0 && i < points.size(); i += 3)
+    {
+      points[i] = 0;
+    }
+  }
+}
+
 bool changes_nothing(const Conversion& c) noexcept
 {
   return c.point_origin == Vector3{} &&
@@ -230,6 +253,7 @@ void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& 
   std::span<const double> images, std::span<double> points) noexcept
 {
   const Conversion conversion{ plan, box, point_origin };
+  clear_missing(plan, points);
   if (changes_nothing(conversion))
   {
     return;

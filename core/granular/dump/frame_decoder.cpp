@@ -60,13 +60,6 @@ bool contains(const std::array<double, 6>& region, const double* point) noexcept
 void Points::convert(const Box& box, std::int64_t row, std::size_t count)
 {
   const std::span<double> points(reinterpret_cast<double*>(xyz.at(row)), 3 * count);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    for (std::size_t i = axis; plan.axes[axis].column < 0 && i < points.size(); i += 3)
-    {
-      points[i] = 0;
-    }
-  }
   convert_positions(plan, box, point_origin, images, points);
 }
 
@@ -194,6 +187,14 @@ void FrameDecoder::lay_filters()
     region_.emplace();
     region_->plan =
       plan_positions(schema_, entry_.header.box, Coordinates::Absolute, where_, known);
+    if (region_->plan.coordinates != Coordinates::Absolute &&
+      request_.coordinates != Coordinates::Absolute)
+    {
+      notices_.push_back({ where_,
+        std::string("expected image counts ix iy iz to make Absolute coordinates for the region, got "
+                    "none; the region is in ") +
+          to_string(region_->plan.coordinates) + " coordinates" });
+    }
     region_->xyz = this->scratch(3 * sizeof(double));
     this->lay(*region_);
   }

@@ -194,7 +194,11 @@ std::vector<double> FrameIndex::times(double timestep_size) const
 
 std::size_t FrameIndex::find(const std::vector<double>& times, double time) noexcept
 {
+  constexpr double tolerance = 1e-9; // of the distance between two frames
   const auto after = std::upper_bound(times.begin(), times.end(), time);
-  return after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
+  const auto next = static_cast<std::size_t>(after - times.begin());
+  const bool nearly = next > 0 && after != times.end() &&
+    *after - time <= tolerance * (*after - times[next - 1]);
+  return next == 0 || nearly ? next : next - 1;
 }
 }

@@ -45,7 +45,8 @@ PositionPlan plan_positions(
   const ColumnSchema& schema, const Box& box, Coordinates wanted, const Where& where, Notices& notices);
 
 /// Turns the columns' values into points minus point_origin, in place: points holds x y z of each
-/// row, images (empty unless the plan has images) the three counts.
+/// row, images (empty unless the plan has images) the three counts. Coordinates without a column are
+/// taken as 0.
 ///
 /// Each coordinate is within half an ulp plus 2^-100 of the sum of the magnitudes of its terms of
 /// the exact value, the file's doubles being exact: also far from the origin, for thin and for

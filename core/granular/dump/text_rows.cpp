@@ -46,9 +46,10 @@ bool TextRows::fill()
     const std::size_t got = source_.read(offset, buffer_.data() + end_, wanted);
     if (got < wanted)
     {
+      const std::int64_t there =
+        std::min(source_.stamp().size, offset + static_cast<std::int64_t>(got));
       throw IoError("the file was shortened while it was read: expected " +
-          std::to_string(entry_.end) + " bytes, got " +
-          std::to_string(offset + static_cast<std::int64_t>(got)),
+          std::to_string(entry_.end) + " bytes, got " + std::to_string(there),
         { source_.path() });
     }
     if (got == 0)

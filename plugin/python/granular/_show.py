@@ -54,6 +54,10 @@ def show(reader, view=None, radius="radius", color=None):
         display.GaussianRadius = _spacing_radius(reader) or 1.0
     else:
         display.GaussianRadius = float(radius)
-    if color is not None:
+    if color is not None and empty:
+        # there is no range to fit the colours to yet
+        display.ColorArrayName = ["POINTS", color]
+        display.LookupTable = simple.GetColorTransferFunction(color)
+    elif color is not None:
         simple.ColorBy(display, ("POINTS", color))
     return display
