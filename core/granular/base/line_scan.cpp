@@ -19,14 +19,12 @@ bool is_blank(char c) noexcept
   return static_cast<unsigned char>(c) <= ' ';
 }
 
-LineScan scan_portable(
-  const char* first, const char* last, char mark, LineState state) noexcept
+LineScan scan_portable(const char* first, const char* last, char mark, LineState state) noexcept
 {
   LineScan scan{ first };
   while (scan.ptr < last && !(state.start && *scan.ptr == mark))
   {
-    const void* const feed =
-      std::memchr(scan.ptr, '\n', static_cast<std::size_t>(last - scan.ptr));
+    const void* const feed = std::memchr(scan.ptr, '\n', static_cast<std::size_t>(last - scan.ptr));
     const char* const end = feed ? static_cast<const char*>(feed) : last;
     const bool blank = state.blank && std::all_of(scan.ptr, end, is_blank);
     if (!feed)
@@ -85,7 +83,8 @@ GRANULAR_TARGET LineScan scan_avx2(
   {
     Block64 bytes = load(block, mark);
     const bool whole = last - block >= 64;
-    const std::uint64_t inside = whole ? ~std::uint64_t{} : (std::uint64_t{ 1 } << (last - block)) - 1;
+    const std::uint64_t inside =
+      whole ? ~std::uint64_t{} : (std::uint64_t{ 1 } << (last - block)) - 1;
     bytes.feeds &= inside;
     // Adding a run of blanks to its first bit carries that bit to the byte behind the run: a line
     // feed there ends a line without words.
@@ -108,7 +107,8 @@ GRANULAR_TARGET LineScan scan_avx2(
       return scan;
     }
     start = whole ? bytes.feeds >> 63 : (bytes.feeds << 1) >> (last - block) & 1;
-    blank = whole ? bytes.feeds >> 63 | (carried < blanks ? 1 : 0) : still_blank >> (last - block) & 1;
+    blank =
+      whole ? bytes.feeds >> 63 | (carried < blanks ? 1 : 0) : still_blank >> (last - block) & 1;
   }
   scan.state = { start != 0, blank != 0 };
   return scan;

@@ -18,9 +18,9 @@ struct LineState
 /// What scan_lines passed over.
 struct LineScan
 {
-  const char* ptr;              ///< the line that begins with the mark, or last
-  std::int64_t feeds = 0;       ///< line feeds before ptr
-  std::int64_t blank_lines = 0; ///< how many of these lines have no words
+  const char* ptr;                       ///< the line that begins with the mark, or last
+  std::int64_t feeds = 0;                ///< line feeds before ptr
+  std::int64_t blank_lines = 0;          ///< how many of these lines have no words
   const char* after_last_feed = nullptr; ///< behind the last of them; null if there is none
   LineState state = {};                  ///< at ptr
 };

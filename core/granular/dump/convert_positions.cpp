@@ -112,7 +112,8 @@ inline Twofold negative(Twofold value) noexcept
 }
 
 /// Scaled coordinates in a box whose vectors form an upper triangle, by back substitution.
-[[gnu::always_inline]] inline Twofold3 solve_triangular(const Box& box, const Twofold3& offset) noexcept
+[[gnu::always_inline]] inline Twofold3 solve_triangular(
+  const Box& box, const Twofold3& offset) noexcept
 {
   Twofold3 scaled;
   for (std::size_t k = 3; k-- > 0;)

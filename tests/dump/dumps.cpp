@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dumps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+using namespace granular;
+
+namespace
+{
+template <typename To, typename From>
+std::vector<To> converted(const Block& block, std::size_t count)
+{
+  const auto* const from = static_cast<const From*>(block.data());
+  if (block.bytes() != count * sizeof(From))
+  {
+    throw std::length_error("a block of another size than its rows");
+  }
+  std::vector<To> values;
+  std::transform(
+    from, from + count, std::back_inserter(values), [](From v) { return static_cast<To>(v); });
+  return values;
+}
+
+template <typename To>
+std::vector<To> values_of(const DumpFrame& frame, const DumpArray& array)
+{
+  const std::size_t count = static_cast<std::size_t>(frame.rows) * array.info.columns.size();
+  switch (array.info.type)
+  {
+    case ValueType::Int32:
+      return converted<To, std::int32_t>(array.block, count);
+    case ValueType::Int64:
+      return converted<To, std::int64_t>(array.block, count);
+    case ValueType::Float64:
+      return converted<To, double>(array.block, count);
+    case ValueType::Text:
+      break;
+  }
+  throw std::invalid_argument("texts have no values");
+}
+}
+
+std::vector<double> Decoded::points() const
+{
+  return converted<double, double>(frame.points, 3 * static_cast<std::size_t>(frame.rows));
+}
+
+std::vector<float> Decoded::single_points() const
+{
+  return converted<float, float>(frame.points, 3 * static_cast<std::size_t>(frame.rows));
+}
+
+std::string Decoded::names() const
+{
+  std::string text;
+  for (const DumpArray& one : frame.arrays)
+  {
+    text += (text.empty() ? "" : " ") + one.info.name;
+  }
+  return text;
+}
+
+bool Decoded::has(const std::string& name) const
+{
+  return std::any_of(frame.arrays.begin(), frame.arrays.end(),
+    [&](const DumpArray& one) { return one.info.name == name; });
+}
+
+const DumpArray& Decoded::array(const std::string& name) const
+{
+  for (const DumpArray& one : frame.arrays)
+  {
+    if (one.info.name == name)
+    {
+      return one;
+    }
+  }
+  throw std::out_of_range("no array " + name + " among " + this->names());
+}
+
+std::vector<double> Decoded::values(const std::string& name) const
+{
+  return values_of<double>(frame, this->array(name));
+}
+
+std::vector<std::int64_t> Decoded::integers(const std::string& name) const
+{
+  if (this->type(name) == ValueType::Float64)
+  {
+    throw std::invalid_argument(name + " holds doubles");
+  }
+  return values_of<std::int64_t>(frame, this->array(name));
+}
+
+std::vector<std::string> Decoded::texts(const std::string& name) const
+{
+  const DumpArray& one = this->array(name);
+  if (one.info.type != ValueType::Text || one.texts.size() != static_cast<std::size_t>(frame.rows))
+  {
+    throw std::invalid_argument(name + " does not hold a text a row");
+  }
+  return one.texts;
+}
+
+ValueType Decoded::type(const std::string& name) const
+{
+  return this->array(name).info.type;
+}
+
+std::string Decoded::said() const
+{
+  return lines_of(notices);
+}
+
+Dump::Dump(std::string text)
+  : text_(std::make_unique<std::string>(std::move(text)))
+  , source_(open_memory(*text_))
+{
+  Progress progress;
+  index_text_dump(*source_, index_, progress);
+}
+
+const FrameHeader& Dump::header(std::size_t frame) const
+{
+  return this->entry(frame).header;
+}
+
+std::vector<std::int64_t> Dump::steps() const
+{
+  std::vector<std::int64_t> steps;
+  for (const FrameEntry& frame : index_.frames)
+  {
+    steps.push_back(frame.header.timestep);
+  }
+  return steps;
+}
+
+std::string Dump::said() const
+{
+  return lines_of(index_.notices);
+}
+
+Decoded Dump::read(const DumpRequest& request, std::size_t frame) const
+{
+  Progress progress;
+  return this->read(request, frame, progress);
+}
+
+Decoded Dump::read(const DumpRequest& request, std::size_t frame, Progress& progress) const
+{
+  Decoded decoded;
+  decoded.frame = read_dump(*source_, this->entry(frame), request, decoded.notices, progress);
+  return decoded;
+}
+
+std::string Dump::error(const DumpRequest& request, std::size_t frame) const
+{
+  return error_of([&] { this->read(request, frame); });
+}
+
+std::string one_frame(const std::string& columns, const std::string& rows, const std::string& box)
+{
+  const auto count = std::count(rows.begin(), rows.end(), '\n');
+  return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + std::to_string(count) +
+    "\nITEM: BOX BOUNDS" + box + "ITEM: ATOMS " + columns + "\n" + rows;
+}
+
+std::string lines_of(const Notices& notices)
+{
+  std::string text;
+  for (const Notice& notice : notices)
+  {
+    text += to_string(notice) + "\n";
+  }
+  return text;
+}
+
+std::string error_of(const std::function<void()>& call)
+{
+  try
+  {
+    call();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+DumpRequest everything()
+{
+  DumpRequest request;
+  request.wanted = [](const ArrayInfo&) { return true; };
+  return request;
+}
+
+Folder::Folder()
+{
+  const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+  path_ = std::string(GRANULAR_OUTPUT) + "/" + test->test_suite_name() + "." + test->name();
+  std::filesystem::remove_all(path_);
+  std::filesystem::create_directories(path_);
+}
+
+std::string Folder::write(const std::string& name, const std::string& text) const
+{
+  std::ofstream(this->path(name), std::ios::binary | std::ios::trunc) << text;
+  return this->path(name);
+}
+
+void Folder::append(const std::string& name, const std::string& text) const
+{
+  std::ofstream(this->path(name), std::ios::binary | std::ios::app) << text;
+}
+
+std::string data_file(const std::string& name)
+{
+  std::ifstream stream(std::string(GRANULAR_DATA) + "/" + name, std::ios::binary);
+  if (!stream)
+  {
+    throw std::runtime_error("cannot read " + name);
+  }
+  return { std::istreambuf_iterator<char>(stream), {} };
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A text dump from memory, all the way: index, then every frame with several requests. Whatever
+// the bytes are, there is an Error or a frame of the rows it says; and every instruction set
+// decodes the rows alike.
+#include "granular/base/line_scan.h"
+#include "granular/base/row_text.h"
+#include "granular/dump/dump_reader.h"
+#include "granular/dump/text_dump.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+using namespace granular;
+
+namespace
+{
+void require(bool good, const char* what)
+{
+  if (!good)
+  {
+    std::fprintf(stderr, "%s\n", what);
+    std::abort();
+  }
+}
+
+std::vector<Simd> instruction_sets()
+{
+  std::vector<Simd> sets = { Simd::Portable, Simd::Avx2, Simd::Avx512 };
+  sets.erase(
+    std::remove_if(sets.begin(), sets.end(), [](Simd s) { return s > best_simd(); }), sets.end());
+  return sets;
+}
+
+void check_frame(const DumpFrame& frame, const FrameEntry& entry, const DumpRequest& request)
+{
+  const auto rows = static_cast<std::size_t>(frame.rows);
+  const bool filtered = request.stride > 1 || request.region[0] <= request.region[1];
+  require(frame.rows == entry.header.rows || (filtered && frame.rows < entry.header.rows), "rows");
+  require(frame.points.bytes() == 3 * rows * (request.single_precision ? 4 : 8), "points");
+  for (const DumpArray& array : frame.arrays)
+  {
+    if (array.info.type == ValueType::Text)
+    {
+      require(array.texts.size() == rows, "texts");
+    }
+    else
+    {
+      require(array.block.bytes() == rows * array.info.columns.size() * size_of(array.info.type),
+        "array");
+    }
+  }
+}
+
+void read_frame(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
+{
+  Notices notices;
+  Progress progress;
+  try
+  {
+    check_frame(read_dump(source, entry, request, notices, progress), entry, request);
+  }
+  catch (const Error&)
+  {
+    // what it says is for a reader to judge
+  }
+}
+
+std::vector<DumpRequest> requests()
+{
+  std::vector<DumpRequest> all(4);
+  all[1].wanted = [](const ArrayInfo&) { return true; };
+  all[1].coordinates = Coordinates::Scaled;
+  all[1].stride = 3;
+  all[1].sort_by_id = true;
+  all[2].coordinates = Coordinates::Unwrapped;
+  all[2].single_precision = true;
+  all[2].region = { -0.5, 0.5, 1, -1, 1, -1 };
+  all[2].point_origin = { 1, 2, 3 };
+  all[3].wanted = [](const ArrayInfo&) { return false; };
+  all[3].sort_by_id = true;
+  return all;
+}
+
+/// All columns as doubles, or as texts.
+RowResult decode(const char* first, const char* last, std::size_t columns, bool texts, Simd simd,
+  std::vector<char>& memory)
+{
+  constexpr std::size_t slot = sizeof(std::string_view);
+  const auto lines = static_cast<std::size_t>(std::count(first, last, '\n'));
+  memory.assign((lines + 1) * columns * slot, 0);
+  std::vector<ColumnSink> sinks;
+  for (std::size_t i = 0; i < columns; ++i)
+  {
+    sinks.push_back(
+      { static_cast<std::uint32_t>(i), texts ? ColumnSink::Kind::Text : ColumnSink::Kind::Float64,
+        memory.data() + i * slot, static_cast<std::ptrdiff_t>(columns * slot) });
+  }
+  const RowResult result = decode_rows(first, last, static_cast<std::uint32_t>(columns), sinks,
+    static_cast<std::int64_t>(lines), simd);
+  memory.resize(static_cast<std::size_t>(result.rows) * columns * slot);
+  return result;
+}
+
+void compare_paths(std::string_view rows, std::size_t columns)
+{
+  rows = rows.substr(0, rows.rfind('\n') + 1);
+  if (rows.size() * columns > (std::size_t{ 1 } << 22))
+  {
+    return; // a table of all that would be slow to fill
+  }
+  PaddedBuffer buffer(rows.size());
+  rows.copy(buffer.data(), rows.size());
+  const char* const first = buffer.data();
+  const char* const last = first + rows.size();
+  for (const bool texts : { false, true })
+  {
+    std::vector<char> plain_memory;
+    const RowResult plain = decode(first, last, columns, texts, Simd::Portable, plain_memory);
+    for (const Simd simd : instruction_sets())
+    {
+      std::vector<char> memory;
+      const RowResult other = decode(first, last, columns, texts, simd, memory);
+      require(other.ptr == plain.ptr && other.rows == plain.rows && other.status == plain.status &&
+          other.column == plain.column && other.surplus == plain.surplus,
+        "decode_rows: results differ");
+      require(memory == plain_memory, "decode_rows: values differ");
+    }
+  }
+  const LineScan plain = scan_lines(first, last, 'I', {}, Simd::Portable);
+  for (const Simd simd : instruction_sets())
+  {
+    const LineScan other = scan_lines(first, last, 'I', {}, simd);
+    require(other.ptr == plain.ptr && other.feeds == plain.feeds &&
+        other.blank_lines == plain.blank_lines && other.after_last_feed == plain.after_last_feed &&
+        other.state.start == plain.state.start && other.state.blank == plain.state.blank,
+      "scan_lines: results differ");
+  }
+}
+
+void index(std::string_view text, TextIndex& index)
+{
+  const auto source = open_memory(text);
+  Progress progress;
+  try
+  {
+    index_text_dump(*source, index, progress);
+  }
+  catch (const Error&)
+  {
+    // a limit
+  }
+  const auto size = static_cast<std::int64_t>(text.size());
+  for (const FrameEntry& frame : index.frames)
+  {
+    require(frame.offset >= 0 && frame.offset < frame.rows_offset &&
+        frame.rows_offset <= frame.end && frame.end <= size,
+      "the places of a frame");
+    require(frame.header.rows >= 0 && frame.header.rows <= frame.end - frame.rows_offset,
+      "more rows than bytes");
+  }
+}
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  static_cast<void>(is_text_dump(text));
+  TextIndex all;
+  index(text, all);
+  TextIndex grown; // as if the file had been half as long before
+  index(text.substr(0, size / 2), grown);
+  index(text, grown);
+
+  const auto source = open_memory(text);
+  static const std::vector<DumpRequest> every = requests();
+  constexpr std::size_t most_frames = 8;
+  for (std::size_t i = 0; i < std::min(all.frames.size(), most_frames); ++i)
+  {
+    const FrameEntry& entry = all.frames[i];
+    for (const DumpRequest& request : every)
+    {
+      read_frame(*source, entry, request);
+    }
+    compare_paths(text.substr(static_cast<std::size_t>(entry.rows_offset),
+                    static_cast<std::size_t>(entry.end - entry.rows_offset)),
+      entry.schema->columns().size());
+  }
+  compare_paths(text, 3);
+  return 0;
+}
