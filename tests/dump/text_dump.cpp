@@ -242,6 +242,16 @@ ITEM: ATOMS id x y z
   EXPECT_EQ(dump.read().rows(), 1);
 }
 
+TEST(TextHeader, UnknownSectionsBehindTheRowsArePassedOver)
+{
+  const std::string frame = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+                            "ITEM: ATOMS id x y z\n7 0.5 0.5 0.5\nITEM: CHECKSUM md5\n1 2 3\nabc\n";
+  const Dump dump("ITEM: TIMESTEP\n0\n" + frame + "ITEM: TIMESTEP\n10\n" + frame);
+  EXPECT_EQ(dump.steps(), (std::vector<std::int64_t>{ 0, 10 }));
+  EXPECT_EQ(dump.said(), "");
+  EXPECT_EQ(dump.read({}, 1).integers("id"), (std::vector<std::int64_t>{ 7 }));
+}
+
 TEST(TextHeader, SectionsInAnotherOrder)
 {
   const Dump dump(R"(ITEM: TIMESTEP

@@ -75,6 +75,11 @@ bool TextHeader::read()
     // the words outlive the line: the sections read on
     const std::string copy(line);
     const std::vector<std::string_view> words = item_words(copy);
+    if (!opened_ && !words.empty() && find_section(words).parse == &TextHeader::skip_section)
+    {
+      this->skip_section(words); // between frames, or behind the last
+      continue;
+    }
     if (words.empty() || (!opened_ && !opens_frame(words)))
     {
       this->fail(opened_ ? "an ITEM: line" : "ITEM: TIMESTEP, UNITS or TIME", copy);
@@ -90,7 +95,7 @@ bool TextHeader::read()
       scanner_.put_back();
       this->fail("ITEM: ATOMS", copy);
     }
-    if (!this->dispatch(words))
+    if (!(this->*find_section(words).parse)(words))
     {
       return false;
     }
@@ -102,15 +107,14 @@ bool TextHeader::read()
   return false;
 }
 
-bool TextHeader::dispatch(Words words)
+const TextHeader::Section& TextHeader::find_section(Words words)
 {
-  const auto section = std::find_if(std::begin(sections), std::end(sections),
+  return *std::find_if(std::begin(sections), std::end(sections),
     [words](const Section& entry)
     {
       return begins_with(words, entry.name) &&
         (!entry.alone || words.size() == split_words(entry.name).size());
     });
-  return (this->*section->parse)(words);
 }
 
 void TextHeader::fail(const std::string& expected, std::string_view got) const

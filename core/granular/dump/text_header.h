@@ -63,7 +63,7 @@ private:
 
   static const Section sections[];
 
-  bool dispatch(Words words);
+  static const Section& find_section(Words words);
   bool value_line(std::string_view& line);
   bool parse_timestep(Words words);
   bool parse_time(Words words);
