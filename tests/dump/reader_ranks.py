@@ -19,7 +19,7 @@ assert identity.GetRange(0) == (1, 1200), identity.GetRange(0)
 # every array is whole, not there on some ranks only
 for name in ("id", "type", "image", "radius"):
     assert not reader.GetPointDataInformation().GetArray(name).GetIsPartial(), name
-SaveData(os.path.abspath("particles.pvtp"), reader)
+SaveData(os.path.abspath("particles.pvtp"), reader, DataMode="Binary")
 again = OpenDataFile(os.path.abspath("particles.pvtp"))
 again.UpdatePipeline()
 assert again.GetDataInformation().GetNumberOfPoints() == 1200

@@ -46,7 +46,8 @@ assert seen == [0, 1200, 1200], seen
 
 # data for others: everything is in the file
 reader.UpdatePipeline(0.04)
-SaveData(os.path.abspath("particles.vtp"), reader)
+# the default, appended raw data, is not read back by ParaView 5.11 with today's libexpat
+SaveData(os.path.abspath("particles.vtp"), reader, DataMode="Binary")
 again = OpenDataFile(os.path.abspath("particles.vtp"))
 again.UpdatePipeline()
 assert again.GetDataInformation().GetNumberOfPoints() == 1200
@@ -55,7 +56,7 @@ assert again.PointData["id"].GetRange(0) == (1, 1200)
 fields = servermanager.Fetch(again).GetFieldData()
 assert fields.GetAbstractArray("Coordinates").GetValue(0) == "Absolute"
 assert fields.GetArray("timestep").GetValue(0) == 2000
-SaveData(os.path.abspath("all.pvd"), reader, WriteTimeSteps=1)
+SaveData(os.path.abspath("all.pvd"), reader, WriteTimeSteps=1, DataMode="Binary")
 series = OpenDataFile(os.path.abspath("all.pvd"))
 assert list(series.TimestepValues) == list(reader.TimestepValues), series.TimestepValues
 

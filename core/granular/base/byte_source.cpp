@@ -20,7 +20,7 @@ namespace
 [[noreturn]] void fail(const char* action, const std::string& path, int error)
 {
   const std::string reason = std::generic_category().message(error);
-  throw IoError(std::string("cannot ") + action + ": " + reason, { path });
+  throw IoError(std::string("cannot ") + action + ": " + reason, { path }, static_cast<std::errc>(error));
 }
 
 class FileSource final : public ByteSource
@@ -129,7 +129,7 @@ std::unique_ptr<ByteSource> open_file(const std::string& path)
   {
     throw IoError(
       std::string("expected a file, got ") + (S_ISDIR(mode) ? "a directory" : "a device or a pipe"),
-      { path });
+      { path }, S_ISDIR(mode) ? std::errc::is_a_directory : std::errc::not_supported);
   }
   return source;
 }

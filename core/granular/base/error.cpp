@@ -39,6 +39,12 @@ Error::Error(const std::string& text, Where where)
 {
 }
 
+IoError::IoError(const std::string& text, Where where, std::errc code)
+  : Error(text, std::move(where))
+  , code_(code)
+{
+}
+
 std::string to_string(const Notice& notice)
 {
   return message(notice.text, notice.where);

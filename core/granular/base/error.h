@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace granular
@@ -35,7 +36,14 @@ private:
 /// The operating system refused: open, read, stat; or the file changed under us.
 class IoError : public Error
 {
-  using Error::Error;
+public:
+  explicit IoError(const std::string& text, Where where = {}, std::errc code = {});
+
+  /// The system's own word for it; std::errc{} if the file is there, but not what it was.
+  std::errc code() const noexcept { return code_; }
+
+private:
+  std::errc code_;
 };
 
 /// The bytes are not what the format says.

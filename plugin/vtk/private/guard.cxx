@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "guard.h"
 
-#include "granular/base/byte_source.h"
 #include "granular/base/error.h"
 
 #include "vtkAlgorithm.h"
@@ -9,9 +8,9 @@
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtksys/SystemTools.hxx"
 
 #include <new>
+#include <system_error>
 
 namespace vtkGranularPrivate
 {
@@ -31,26 +30,18 @@ struct ErrorCodeAccess : vtkAlgorithm
 /**
  * Which of VTK's codes says best why a file could not be read.
  */
-unsigned long FileErrorCode(const std::string& path)
+unsigned long FileErrorCode(const granular::IoError& error)
 {
-  if (path.empty())
+  if (error.where().path.empty())
   {
     return vtkErrorCode::NoFileNameError;
   }
-  if (!vtksys::SystemTools::PathExists(path))
+  if (error.code() == std::errc{})
   {
-    return vtkErrorCode::FileNotFoundError;
+    return vtkErrorCode::PrematureEndOfFileError; // it is there, but not what it had been
   }
-  try
-  {
-    granular::open_file(path);
-  }
-  catch (const granular::Error&)
-  {
-    return vtkErrorCode::CannotOpenFileError;
-  }
-  // it is there and may be read: it was not what it had been
-  return vtkErrorCode::PrematureEndOfFileError;
+  return error.code() == std::errc::no_such_file_or_directory ? vtkErrorCode::FileNotFoundError
+                                                              : vtkErrorCode::CannotOpenFileError;
 }
 
 void ReportError(vtkAlgorithm* self, unsigned long code, const std::string& text)
@@ -91,7 +82,7 @@ Outcome ReportException(
   }
   catch (const granular::IoError& error)
   {
-    ReportError(self, FileErrorCode(error.where().path), error.what());
+    ReportError(self, FileErrorCode(error), error.what());
   }
   catch (const granular::Error& error)
   {
