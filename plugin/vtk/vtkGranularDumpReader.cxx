@@ -124,22 +124,27 @@ void vtkGranularDumpReader::Internals::CheckSelection(
 }
 
 //------------------------------------------------------------------------------
-// One warning a file, and each notice once.
+// One warning a file, and each notice once, for whichever frame it came first; not too many.
 void vtkGranularDumpReader::Internals::Tell(Self* self, const granular::Notices& notices)
 {
+  constexpr int most = 10;
   std::map<std::string, std::string> texts;
+  std::map<std::string, int> counts;
   for (const granular::Notice& notice : notices)
   {
-    const std::string text = granular::to_string(notice);
-    if (this->Told.insert(text).second)
+    const std::string& path = notice.where.path;
+    if (this->Told.insert(path + "\n" + notice.where.column + "\n" + notice.text).second &&
+      ++counts[path] <= most)
     {
-      std::string& joined = texts[notice.where.path];
-      joined += (joined.empty() ? "" : "\n") + text;
+      std::string& joined = texts[path];
+      joined += (joined.empty() ? "" : "\n") + granular::to_string(notice);
     }
   }
   for (const auto& [path, text] : texts)
   {
-    vtkWarningWithObjectMacro(self, << text);
+    const int more = counts[path] - most;
+    vtkWarningWithObjectMacro(
+      self, << text << (more > 0 ? "\nand " + std::to_string(more) + " more" : ""));
   }
 }
 
@@ -186,6 +191,13 @@ void vtkGranularDumpReader::Internals::FillOutputs(
   const granular::FrameEntry& entry = this->FindFrame(self, request, outputs, time);
   const std::string& path = this->Index.files()[entry.file];
   const granular::DumpRequest wanted = this->MakeRequest(self);
+  for (double coordinate : wanted.point_origin)
+  {
+    if (!std::isfinite(coordinate))
+    {
+      throw granular::LimitError("PointOrigin must be finite");
+    }
+  }
   granular::Notices notices;
   this->CheckSelection(path, notices);
   AlgorithmProgress progress(self);

@@ -153,7 +153,6 @@ TEST(ColumnSchema, ATypicalDump)
   }
   EXPECT_EQ(names, "id type type_2 x* y* z* image v f omega radius ");
   EXPECT_EQ(array_of(schema, "id").role, ColumnRole::Id);
-  EXPECT_EQ(array_of(schema, "type").role, ColumnRole::Type);
   EXPECT_EQ(array_of(schema, "radius").role, ColumnRole::Radius);
   EXPECT_EQ(array_of(schema, "omega").components(), 3);
   EXPECT_EQ(schema.find(ColumnRole::Position, 1), 4);
@@ -213,6 +212,23 @@ TEST(ColumnSchema, TrapDuplicateNames)
   EXPECT_EQ(arrays_of("v vx vy vz"), "v(0) v_2(1,2,3)");
   EXPECT_EQ(arrays_of("mu mux muy muz"), "mu(0) mu_2(1,2,3)");
   EXPECT_EQ(arrays_of("c_a c_a[1] c_a[2]"), "c_a(0) c_a_2(1,2)");
+}
+
+TEST(ColumnSchema, ARoleIsTheFirstColumns)
+{
+  const ColumnSchema schema = schema_of("id id x y z x radius radius");
+  EXPECT_EQ(schema.find(ColumnRole::Id), 0);
+  EXPECT_EQ(array_of(schema, "id").role, ColumnRole::Id);
+  EXPECT_EQ(array_of(schema, "id_2").role, ColumnRole::Other);
+  EXPECT_EQ(array_of(schema, "id_2").type, ValueType::Int64);
+  EXPECT_FALSE(array_of(schema, "x_2").position_form);
+}
+
+TEST(ColumnSchema, ThousandsOfEqualNames)
+{
+  const ColumnSchema schema(std::vector<std::string>(20000, "q"));
+  EXPECT_EQ(schema.arrays().size(), 20000u);
+  EXPECT_EQ(schema.arrays().back().name, "q_20000");
 }
 
 TEST(ColumnSchema, NoColumnIsLost)

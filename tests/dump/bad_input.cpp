@@ -41,7 +41,7 @@ constexpr Bad when_opened[] = {
   { "box_tilt_missing.dump", ":7: expected 3 numbers, got '0 1'" },
   { "box_two_lines.dump", ":8: expected a value, got 'ITEM: ATOMS id type x y z'" },
   { "cut_in_header.dump", ":1: expected a complete frame, got the end of the file in its header" },
-  { "cut_in_rows.dump", ":1: expected 2 rows, got 1" },
+  { "cut_in_rows.dump", ":1: expected 2 rows, got 1, and a last line without its line feed" },
   { "columns_unnamed.dump",
     ":9: expected 5 or 8 words in a row of a dump that does not name its columns, got 6" },
 };

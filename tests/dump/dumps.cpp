@@ -48,6 +48,15 @@ std::vector<To> values_of(const DumpFrame& frame, const DumpArray& array)
 }
 }
 
+std::string replaced(std::string text, const std::string& what, const std::string& with)
+{
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + with.size()))
+  {
+    text.replace(at, what.size(), with);
+  }
+  return text;
+}
+
 std::vector<double> Decoded::points() const
 {
   return converted<double, double>(frame.points, 3 * static_cast<std::size_t>(frame.rows));
@@ -103,11 +112,17 @@ std::vector<std::int64_t> Decoded::integers(const std::string& name) const
 std::vector<std::string> Decoded::texts(const std::string& name) const
 {
   const DumpArray& one = this->array(name);
-  if (one.info.type != ValueType::Text || one.texts.size() != static_cast<std::size_t>(frame.rows))
+  if (one.info.type != ValueType::Text)
   {
     throw std::invalid_argument(name + " does not hold a text a row");
   }
-  return one.texts;
+  const auto* const indices = static_cast<const std::int32_t*>(one.block.data());
+  std::vector<std::string> texts;
+  for (std::int64_t row = 0; row < frame.rows; ++row)
+  {
+    texts.push_back(one.words.at(static_cast<std::size_t>(indices[row])));
+  }
+  return texts;
 }
 
 ValueType Decoded::type(const std::string& name) const

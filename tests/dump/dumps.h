@@ -36,6 +36,9 @@ private:
   const granular::DumpArray& array(const std::string& name) const;
 };
 
+/// The text with every occurrence of what replaced.
+std::string replaced(std::string text, const std::string& what, const std::string& with);
+
 /// A text dump in memory, called "memory" in messages, with its index.
 class Dump
 {

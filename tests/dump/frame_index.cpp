@@ -484,7 +484,8 @@ TEST(FrameIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
     error(cut), cut + ":1: expected a complete frame, got the end of the file in its header");
   const std::string rows =
     folder.write("rows", "\n" + frame(0, 2).substr(0, frame(0, 2).size() - 3));
-  EXPECT_EQ(error(rows), rows + ":2: expected 2 rows, got 1");
+  EXPECT_EQ(
+    error(rows), rows + ":2: expected 2 rows, got 1, and a last line without its line feed");
   ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0600), 0);
   EXPECT_EQ(
     error(folder.path("pipe")), folder.path("pipe") + ": expected a file, got a device or a pipe");
@@ -513,4 +514,62 @@ TEST(FrameIndex, FilesOfTheRealPrograms)
     EXPECT_EQ(run.steps(), (Steps{ 0, 100 })) << name;
     EXPECT_EQ(run.read(1).rows(), 500) << name;
   }
+}
+
+// ---- rewritten in place ------------------------------------------------------------------------
+
+TEST(FrameIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
+{
+  const Folder folder;
+  const std::string before = replaced(frame(0), "id x y z\n", "id xs ys zs vx\n");
+  const auto rows = [](const std::string& text, const std::string& values)
+  { return text.substr(0, text.find("1 0 0.5")) + values; };
+  const std::string values = "1 .5 .5 .5 7\n2 .5 .5 .5 7\n";
+  const std::string path = folder.write("a.dump", rows(before, values));
+  Series run;
+  run.update({ path });
+  EXPECT_TRUE(run.read(0).has("vx"));
+
+  // same length, same inode: forces instead of velocities, and another box
+  const std::string after = replaced(replaced(before, "0 1\n0 1\n", "0 8\n0 8\n"), "vx", "fx");
+  folder.write("a.dump", rows(after, values));
+  touch(path, 1);
+  EXPECT_EQ(error_of([&] { run.read(0); }),
+    path + ":1: the file changed since it was indexed: expected the header of timestep 0; reload "
+           "the files");
+  run.update({ path });
+  EXPECT_TRUE(run.read(0).has("fx"));
+  EXPECT_FALSE(run.read(0).has("vx"));
+  EXPECT_EQ(run.read(0).points().front(), 4);
+}
+
+// ---- what is said of a series ------------------------------------------------------------------
+
+TEST(FrameIndex, TimestepsInSeveralFilesAreSaid)
+{
+  const Folder folder;
+  Series run;
+  run.update({ folder.write("p.0.dump", frame(10)), folder.write("p.1.dump", frame(10)) });
+  EXPECT_EQ(run.steps(), (Steps{ 10 }));
+  EXPECT_EQ(run.said,
+    folder.path("p.0.dump") +
+      ": expected each timestep in one file, got 1 in another one too; the frame of the later file "
+      "is taken\n");
+  run.update({ folder.write("restart.dump", frame(10) + frame(20) + frame(10)) });
+  EXPECT_EQ(run.said, "");
+}
+
+TEST(FrameIndex, TimesThatCannotBeUsedAreSaid)
+{
+  const Folder folder;
+  const std::string said = ": expected an increasing ITEM: TIME in every frame, got it in some; "
+                           "times are timestep x TimestepSize\n";
+  Series run;
+  const std::string some = folder.write("some.dump", at_time(1, 0) + frame(10));
+  run.update({ some });
+  EXPECT_EQ(run.said, some + said);
+  const std::string back = folder.write("back.dump", at_time(1, 0) + at_time(0.5, 10));
+  run.update({ back });
+  EXPECT_EQ(run.said, back + said);
+  EXPECT_EQ(run.index.times(2), (Times{ 0, 20 }));
 }

@@ -691,4 +691,9 @@ TEST(PositionPlan, WhatCannotBeMade)
   EXPECT_EQ(error("x ys z", true),
     "file:7: expected all coordinates of a tilted box in one form, got 'x ys z'");
   EXPECT_EQ(error("x ys z", false), "");
+  // one image count moves all coordinates of a tilted box
+  EXPECT_EQ(error("xu y z ix iy iz", true),
+    "file:7: expected all coordinates of a tilted box in one form, got 'xu y z ix iy iz'");
+  EXPECT_EQ(error("x yu zu", true),
+    "file:7: expected all coordinates of a tilted box in one form, got 'x yu zu'");
 }

@@ -368,3 +368,14 @@ TEST(ReaderBox, FollowsTheFrameOfReferenceOfThePoints)
     EXPECT_EQ(bounds[i], i % 2);
   }
 }
+
+TEST(ReaderArrays, ASecondIdColumnIsAnArrayAndNotThePedigree)
+{
+  Reader reader({ WriteFile("ids.dump", Frame(0, 2, "id id x y z", "5 7 0 0 0\n3 9 1 0 0\n")) });
+  reader->SetSortById(true);
+  reader->Update();
+  vtkPointData* data = reader.Particles()->GetPointData();
+  EXPECT_STREQ(data->GetPedigreeIds()->GetName(), "id");
+  EXPECT_EQ(reader.Numbers("id")->GetComponent(0, 0), 3);
+  EXPECT_EQ(reader.Numbers("id_2")->GetComponent(0, 0), 9);
+}

@@ -4,6 +4,8 @@
 
 #include "vtkErrorCode.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fcntl.h>
@@ -271,4 +273,45 @@ TEST(ReaderCanReadFile, LooksAtTheContent)
   EXPECT_FALSE(can(GRANULAR_OUTPUT));
   EXPECT_FALSE(can("/no/such/file.dump"));
   EXPECT_FALSE(vtkGranularDumpReader::CanReadFile(nullptr));
+}
+
+TEST(ReaderErrors, TheSameNoticeOfEveryFrameIsOneWarning)
+{
+  std::string text;
+  for (int step = 0; step < 6; ++step)
+  {
+    text += Frame(step, 1, "id x y", "1 0 0\n");
+  }
+  Reader reader({ WriteFile("flat.dump", text) });
+  for (int step = 0; step < 6; ++step)
+  {
+    reader->UpdateTimeStep(step);
+  }
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_NE(reader.Said->Warnings[0].find("no column for the coordinate z"), std::string::npos);
+}
+
+TEST(ReaderErrors, HundredsOfBadFramesAreOneShortWarning)
+{
+  std::string text = Frame(0, 1, "id x y z", "1 0 0 0\n");
+  for (int step = 1; step < 200; ++step)
+  {
+    text += Frame(step, 2 + step, "id x y z", "1 0 0 0\n") + Frame(step, 1, "id x y z", "1 0 0 0\n");
+  }
+  Reader reader({ WriteFile("bad.dump", text) });
+  reader->Update();
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  const std::string& said = reader.Said->Warnings[0];
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 10) << said;
+  EXPECT_NE(said.find("and 189 more"), std::string::npos) << said;
+}
+
+TEST(ReaderErrors, APointOriginThatIsNoNumber)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->SetPointOrigin(0, std::nan(""), 0);
+  reader->UpdateTimeStep(1000);
+  ASSERT_EQ(reader.Said->Errors.size(), 1u);
+  EXPECT_NE(reader.Said->Errors[0].find("PointOrigin must be finite"), std::string::npos);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
 }

@@ -48,7 +48,12 @@ void check_frame(const DumpFrame& frame, const FrameEntry& entry, const DumpRequ
   {
     if (array.info.type == ValueType::Text)
     {
-      require(array.texts.size() == rows, "texts");
+      const auto* const indices = static_cast<const std::int32_t*>(array.block.data());
+      for (std::size_t row = 0; row < rows; ++row)
+      {
+        require(indices[row] >= 0, "index of a word");
+        require(static_cast<std::size_t>(indices[row]) < array.words.size(), "index of a word");
+      }
     }
     else
     {

@@ -107,7 +107,7 @@ Box Box::from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vecto
   return box;
 }
 
-Vector3 Box::corner(int i, int j, int k) const
+Vector3 Box::corner(int i, int j, int k, const Vector3& less) const
 {
   const std::array<int, 3> steps = { i, j, k };
   Vector3 point;
@@ -122,6 +122,7 @@ Vector3 Box::corner(int i, int j, int k) const
         total.add(vectors[edge][axis]);
       }
     }
+    total.add(-less[axis]);
     point[axis] = total.value();
   }
   return point;

@@ -34,8 +34,8 @@ struct Box
   /// From a corner and three edges (LAMMPS' general triclinic boxes).
   static Box from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vectors);
 
-  /// The corner (i, j, k), each 0 or 1, correctly rounded.
-  Vector3 corner(int i, int j, int k) const;
+  /// The corner (i, j, k), each 0 or 1, less a point, correctly rounded.
+  Vector3 corner(int i, int j, int k, const Vector3& less = {}) const;
 };
 }
 #endif

@@ -102,12 +102,16 @@ bool is_array(const std::string& key, const Group& group)
     (from_table || std::is_sorted(group.columns.begin(), group.columns.end()));
 }
 
-std::string make_unique(const std::string& name, std::set<std::string>& taken)
+/// Names that are taken, and the number that the next copy of each may get.
+using TakenNames = std::map<std::string, int>;
+
+std::string make_unique(const std::string& name, TakenNames& taken)
 {
+  const auto [place, fresh] = taken.try_emplace(name, 2);
   std::string unique = name;
-  for (int copy = 2; !taken.insert(unique).second; ++copy)
+  while (!fresh && (unique == name || !taken.try_emplace(unique, 2).second))
   {
-    unique = name + "_" + std::to_string(copy);
+    unique = name + "_" + std::to_string(place->second++);
   }
   return unique;
 }
@@ -132,7 +136,7 @@ std::vector<ArrayInfo> make_arrays(const std::vector<ColumnInfo>& columns)
     }
   }
   std::vector<ArrayInfo> arrays;
-  std::set<std::string> taken;
+  TakenNames taken;
   for (int i = 0; i < static_cast<int>(columns.size()); ++i)
   {
     const ColumnInfo& column = columns[static_cast<std::size_t>(i)];
@@ -170,18 +174,8 @@ void add_radius(const ColumnSchema& schema, std::vector<ArrayInfo>& arrays)
 
 std::size_t size_of(ValueType type) noexcept
 {
-  switch (type)
-  {
-    case ValueType::Int32:
-      return sizeof(std::int32_t);
-    case ValueType::Int64:
-      return sizeof(std::int64_t);
-    case ValueType::Float64:
-      return sizeof(double);
-    case ValueType::Text:
-      break;
-  }
-  return sizeof(std::string_view);
+  return type == ValueType::Int32 || type == ValueType::Text ? sizeof(std::int32_t)
+                                                             : sizeof(double);
 }
 
 std::span<const KnownColumn> known_columns() noexcept
@@ -201,6 +195,11 @@ ColumnSchema::ColumnSchema(const std::vector<std::string>& names)
   for (const std::string& name : names)
   {
     columns_.push_back(describe(name));
+    ColumnInfo& column = columns_.back();
+    if (this->find(column.role, column.component) < static_cast<int>(columns_.size()) - 1)
+    {
+      column.role = ColumnRole::Other; // the first column has the role; a second one is just a column
+    }
   }
   arrays_ = make_arrays(columns_);
   add_radius(*this, arrays_);

@@ -18,15 +18,15 @@ enum class ValueType : std::uint8_t
   Text
 };
 
-/// Bytes of a value in an array; a text counts as a std::string_view.
+/// Bytes of a value in an array; of a text the index of its word, std::int32_t.
 std::size_t size_of(ValueType type) noexcept;
 
-/// What a column means. Only what some code asks for has a role; all else is Other.
+/// What a column means, where code must know; all else is Other. A role is the first column's that
+/// has it.
 enum class ColumnRole : std::uint8_t
 {
   Other,
   Id,
-  Type,
   Position,                ///< x: absolute, wrapped into the box
   ScaledPosition,          ///< xs: in units of the box vectors
   UnwrappedPosition,       ///< xu: absolute, as if never wrapped

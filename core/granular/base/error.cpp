@@ -35,6 +35,7 @@ std::string to_string(const Where& where)
 
 Error::Error(const std::string& text, Where where)
   : std::runtime_error(message(text, where))
+  , text_(text)
   , where_(std::move(where))
 {
 }

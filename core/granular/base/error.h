@@ -29,7 +29,11 @@ public:
   explicit Error(const std::string& text, Where where = {});
   const Where& where() const noexcept { return where_; }
 
+  /// what() without the place.
+  const std::string& text() const noexcept { return text_; }
+
 private:
+  std::string text_;
   Where where_;
 };
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/line_scan.h"
 
+#include "granular/base/words.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define GRANULAR_X86 1
+#if GRANULAR_X86
 #include <immintrin.h>
 #endif
 
@@ -14,11 +15,6 @@ namespace granular
 {
 namespace
 {
-bool is_blank(char c) noexcept
-{
-  return static_cast<unsigned char>(c) <= ' ';
-}
-
 LineScan scan_portable(const char* first, const char* last, char mark, LineState state) noexcept
 {
   LineScan scan{ first };

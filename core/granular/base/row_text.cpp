@@ -3,6 +3,7 @@
 
 #include "granular/base/number.h"
 #include "granular/base/row_text_detail.h"
+#include "granular/base/words.h"
 
 #include <algorithm>
 #include <charconv>
@@ -68,11 +69,6 @@ RowStatus store(const char* first, const char* last, const ColumnSink& sink) noe
     default:
       return store_integer(first, last, sink.kind, sink.data);
   }
-}
-
-bool is_blank(char c) noexcept
-{
-  return static_cast<unsigned char>(c) <= ' ';
 }
 
 /// Parses a number without knowing where its word ends. Returns the end; null, with nothing stored,
@@ -173,24 +169,6 @@ void decode_plain(
     decode_plain_row(last, plan, result);
   }
 }
-}
-
-Simd best_simd() noexcept
-{
-#if GRANULAR_X86
-  static const Simd best = []
-  {
-    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
-      __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
-    const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512vbmi2");
-    return avx2 && avx512 ? Simd::Avx512 : avx2 ? Simd::Avx2 : Simd::Portable;
-  }();
-  return best;
-#else
-  return Simd::Portable;
-#endif
 }
 
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,

@@ -3,6 +3,7 @@
 #define granular_base_row_text_h
 
 #include "granular/base/byte_source.h"
+#include "granular/base/simd.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,17 +46,6 @@ struct RowResult
   int column = -1;
   bool surplus = false; ///< some row had more words than columns; they were passed over
 };
-
-/// Instruction sets the decoder is built for; results do not depend on the choice.
-enum class Simd : std::uint8_t
-{
-  Portable,
-  Avx2,
-  Avx512
-};
-
-/// The best one this processor has.
-Simd best_simd() noexcept;
 
 /// Decodes rows of blank-separated words into columns.
 ///

@@ -11,7 +11,7 @@ namespace granular::row_text::avx2
 {
 namespace
 {
-#define GRANULAR_TARGET __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt")))
+#define GRANULAR_TARGET __attribute__((target("avx2,bmi,bmi2,popcnt")))
 
 GRANULAR_TARGET inline BlockMarks mark_block(const char* block) noexcept
 {

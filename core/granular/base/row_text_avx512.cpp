@@ -18,7 +18,7 @@ namespace granular::row_text::avx512
 namespace
 {
 #define GRANULAR_TARGET                                                                            \
-  __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt,avx512f,avx512bw,avx512vl,avx512dq,avx512cd,"  \
+  __attribute__((target("avx2,bmi,bmi2,popcnt,avx512f,avx512bw,avx512vl,avx512dq,avx512cd,"  \
                         "avx512vbmi2")))
 
 GRANULAR_TARGET inline BlockMarks mark_block(const char* block) noexcept

@@ -6,10 +6,6 @@
 
 #include "granular/base/row_text.h"
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define GRANULAR_X86 1
-#endif
-
 namespace granular::row_text
 {
 struct RowPlan

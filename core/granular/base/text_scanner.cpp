@@ -11,21 +11,6 @@ namespace granular
 namespace
 {
 constexpr std::size_t first_window = std::size_t{ 1 } << 18;
-constexpr std::string_view item = "ITEM:";
-}
-
-std::vector<std::string_view> split_words(std::string_view line)
-{
-  const auto is_blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
-  std::vector<std::string_view> words;
-  auto at = std::find_if_not(line.begin(), line.end(), is_blank);
-  while (at != line.end())
-  {
-    const auto end = std::find_if(at, line.end(), is_blank);
-    words.emplace_back(at, end);
-    at = std::find_if_not(end, line.end(), is_blank);
-  }
-  return words;
 }
 
 TextScanner::TextScanner(const ByteSource& source, std::int64_t offset, std::int64_t line)
@@ -104,7 +89,7 @@ std::int64_t TextScanner::skip_to_item(Progress& progress, std::int64_t total)
   for (;;)
   {
     const LineScan scan =
-      scan_lines(window_.data() + at_, window_.data() + end_, item.front(), state);
+      scan_lines(window_.data() + at_, window_.data() + end_, item_mark.front(), state);
     state = scan.state;
     line_ += scan.feeds;
     rows += scan.feeds - scan.blank_lines;
@@ -115,10 +100,10 @@ std::int64_t TextScanner::skip_to_item(Progress& progress, std::int64_t total)
     }
     if (at_ < end_)
     {
-      while (end_ - at_ < item.size() && this->fill())
+      while (end_ - at_ < item_mark.size() && this->fill())
       {
       }
-      if (std::string_view(window_.data() + at_, end_ - at_).starts_with(item))
+      if (std::string_view(window_.data() + at_, end_ - at_).starts_with(item_mark))
       {
         break;
       }

@@ -5,16 +5,16 @@
 #include "granular/base/byte_source.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
+#include "granular/base/words.h"
 
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace granular
 {
-/// Blank-separated words of a line: blanks, tabs, CR and all other bytes up to ' ' separate.
-std::vector<std::string_view> split_words(std::string_view line);
+/// What the line of a section begins with.
+inline constexpr std::string_view item_mark = "ITEM:";
 
 /// Reads a text line by line, and passes over bulk at scan speed, knowing line and byte.
 class TextScanner

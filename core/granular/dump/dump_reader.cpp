@@ -12,17 +12,20 @@ namespace granular
 {
 namespace
 {
-/// An integer column that holds other numbers is read again as doubles; ids must be integers.
+/// An integer column that holds other numbers is read again as doubles, a column that the table does
+/// not know and that holds a word as texts. Ids must be integers.
 void widen(const FrameDecoder& decoder, ColumnSchema& schema, Notices& notices)
 {
   const ColumnInfo& column = schema.columns()[static_cast<std::size_t>(decoder.misfit())];
-  const std::string text = "expected an integer, got " + quoted(decoder.misfit_word());
+  const bool number = decoder.misfit_status() == RowStatus::NotExact;
+  const std::string text = std::string("expected ") + (number ? "an integer" : "a number") +
+    ", got " + quoted(decoder.misfit_word());
   if (column.role == ColumnRole::Id)
   {
     throw FormatError(text, decoder.misfit_where());
   }
-  notices.push_back({ decoder.misfit_where(), text + "; the column is kept as doubles" });
-  schema.set_type(decoder.misfit(), ValueType::Float64);
+  notices.push_back({ decoder.misfit_where(), text + "; the column is kept as " + (number ? "doubles" : "texts") });
+  schema.set_type(decoder.misfit(), number ? ValueType::Float64 : ValueType::Text);
 }
 }
 

@@ -35,8 +35,8 @@ struct DumpRequest
 struct DumpArray
 {
   ArrayInfo info;
-  Block block;                    ///< Int32, Int64 or Float64 values
-  std::vector<std::string> texts; ///< Text values
+  Block block;                    ///< values; of a Text the std::int32_t indices of its words
+  std::vector<std::string> words; ///< of a Text: those that occur, each once
 };
 
 /// A decoded frame. The blocks may be given away.

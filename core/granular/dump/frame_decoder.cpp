@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -114,15 +115,13 @@ void FrameDecoder::lay_arrays()
     DumpArray array{ info, {}, {} };
     const std::size_t width = size_of(info.type);
     const std::size_t stride = width * info.columns.size();
-    Destination to = info.type == ValueType::Text ? this->scratch(stride) : Destination{};
+    array.block = Block(stride * static_cast<std::size_t>(entry_.header.rows));
+    Destination to = { static_cast<char*>(array.block.data()),
+      static_cast<std::ptrdiff_t>(stride), false };
     if (info.type == ValueType::Text)
     {
-      texts_.push_back(to);
-    }
-    else
-    {
-      array.block = Block(stride * static_cast<std::size_t>(entry_.header.rows));
-      to = { static_cast<char*>(array.block.data()), static_cast<std::ptrdiff_t>(stride), false };
+      to = this->scratch(sizeof(std::string_view));
+      texts_.push_back({ frame_.arrays.size(), to.base, {} });
     }
     for (const int column : info.columns)
     {
@@ -233,8 +232,9 @@ bool FrameDecoder::run(Progress& progress)
     }
     this->aim(sinks);
     const std::int64_t count = rows.decode(sinks, batch_rows);
-    if (rows.result().status == RowStatus::NotExact)
+    if (rows.misfit())
     {
+      misfit_status_ = rows.result().status;
       misfit_ = rows.result().column;
       misfit_word_ = rows.word();
       misfit_where_ = rows.where();
@@ -259,6 +259,7 @@ bool FrameDecoder::run(Progress& progress)
 void FrameDecoder::finish_batch(std::size_t count)
 {
   this->copy_batch(count);
+  this->index_texts(count);
   points_.convert(entry_.header.box, row_, count);
   if (request_.single_precision)
   {
@@ -273,7 +274,6 @@ void FrameDecoder::finish_batch(std::size_t count)
     kept = static_cast<std::size_t>(
       std::count(keep_.begin(), keep_.begin() + static_cast<std::ptrdiff_t>(count), 1));
   }
-  this->append_texts(count);
   if (kept < count)
   {
     const std::size_t point = 3 * (request_.single_precision ? sizeof(float) : sizeof(double));
@@ -360,22 +360,27 @@ void FrameDecoder::compact(Block& block, std::size_t width, std::size_t count) c
   }
 }
 
-void FrameDecoder::append_texts(std::size_t count)
+/// Texts become indices of the words that occur: there are few, and rows may be many.
+void FrameDecoder::index_texts(std::size_t count)
 {
-  auto from = texts_.begin();
-  for (DumpArray& array : frame_.arrays)
+  for (TextColumn& column : texts_)
   {
-    if (array.info.type != ValueType::Text)
-    {
-      continue;
-    }
-    const auto* const texts = reinterpret_cast<const std::string_view*>((from++)->base);
+    DumpArray& array = frame_.arrays[column.array];
+    auto* const indices = static_cast<std::int32_t*>(array.block.data()) + row_;
+    const auto* const texts = reinterpret_cast<const std::string_view*>(column.scratch);
     for (std::size_t i = 0; i < count; ++i)
     {
-      if (keep_.empty() || keep_[i])
+      auto found = column.indices.find(texts[i]);
+      if (found == column.indices.end())
       {
-        array.texts.emplace_back(texts[i]);
+        if (array.words.size() == std::numeric_limits<std::int32_t>::max())
+        {
+          throw LimitError("expected at most 2147483647 different words in a column", where_);
+        }
+        found = column.indices.emplace(texts[i], static_cast<std::int32_t>(array.words.size())).first;
+        array.words.emplace_back(texts[i]);
       }
+      indices[i] = found->second;
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,6 +42,14 @@ struct Wire
   std::vector<Copy> copies;
 };
 
+/// A column of texts.
+struct TextColumn
+{
+  std::size_t array;   ///< index of its array in the frame
+  const char* scratch; ///< std::string_views of a batch
+  std::map<std::string, std::int32_t, std::less<>> indices; ///< of the words seen so far
+};
+
 /// Points of a batch: three doubles a row, made from columns.
 struct Points
 {
@@ -59,10 +68,11 @@ public:
   FrameDecoder(const ByteSource& source, const FrameEntry& entry, const ColumnSchema& schema,
     const DumpRequest& request, Notices& notices);
 
-  /// Decodes all rows. False if a column does not fit its integer type: misfit() tells which.
+  /// Decodes all rows. False if a column does not fit its type: misfit() tells which.
   bool run(Progress& progress);
 
   int misfit() const noexcept { return misfit_; }
+  RowStatus misfit_status() const noexcept { return misfit_status_; }
   const std::string& misfit_word() const noexcept { return misfit_word_; }
 
   const Where& misfit_where() const noexcept { return misfit_where_; }
@@ -82,7 +92,7 @@ private:
   void copy_batch(std::size_t count);
   void choose_rows(std::size_t count);
   void compact(Block& block, std::size_t width, std::size_t count) const;
-  void append_texts(std::size_t count);
+  void index_texts(std::size_t count);
 
   const ByteSource& source_;
   const FrameEntry& entry_;
@@ -95,13 +105,14 @@ private:
   std::vector<std::unique_ptr<char[]>> scratch_;
   Points points_;
   std::optional<Points> region_; ///< absolute coordinates, where a region restricts the rows
-  std::vector<Destination> texts_; ///< of the arrays of texts, in their order
+  std::vector<TextColumn> texts_;
   std::vector<char> keep_;       ///< of a batch; empty: all rows stay
   Block ids_;                    ///< where they are needed but not wanted as an array
   DumpFrame frame_;
   std::int64_t row_ = 0;  ///< rows kept
   std::int64_t seen_ = 0; ///< rows decoded
   int misfit_ = -1;
+  RowStatus misfit_status_ = RowStatus::Done;
   std::string misfit_word_;
   Where misfit_where_;
 };

@@ -22,11 +22,12 @@ struct FrameIndex::File
 namespace
 {
 /// Whether the file only grew since it was indexed: the same file, and what was indexed last is
-/// still there. A run that starts over writes a new file of the same name, or into the same one.
+/// still there. A run that starts over writes a new file of the same name, or into the same one:
+/// one that changed and is as long as it was is not the same.
 bool only_grew(const ByteSource& source, const FileStamp& before, const FileStamp& now,
   const std::vector<FrameEntry>& frames)
 {
-  if (before.inode != now.inode || before.device != now.device || now.size < before.size)
+  if (before.inode != now.inode || before.device != now.device || now.size <= before.size)
   {
     return false;
   }
@@ -45,7 +46,7 @@ bool only_grew(const ByteSource& source, const FileStamp& before, const FileStam
   }
 }
 
-std::string reason(const std::exception_ptr& error)
+Notice left_out(const std::exception_ptr& error)
 {
   try
   {
@@ -53,7 +54,7 @@ std::string reason(const std::exception_ptr& error)
   }
   catch (const Error& e)
   {
-    return e.what();
+    return { e.where(), e.text() + "; the file is left out" };
   }
 }
 }
@@ -83,7 +84,7 @@ void FrameIndex::update(
     paths_.push_back(files[i]);
     records_.push_back(std::move(file));
   }
-  this->collect();
+  this->collect(notices);
   if (frames_.empty())
   {
     this->fail();
@@ -92,7 +93,7 @@ void FrameIndex::update(
   {
     if (file.error)
     {
-      notices.push_back({ {}, reason(file.error) + "; the file is left out" });
+      notices.push_back(left_out(file.error));
     }
   }
 }
@@ -114,14 +115,15 @@ void FrameIndex::update_file(
       file.index = {};
     }
     file.index.notices.clear();
-    file.index.defect.clear();
+    file.index.defect.reset();
     index_text_dump(*source, file.index, progress);
     file.stamp = stamp;
     notices.insert(notices.end(), file.index.notices.begin(), file.index.notices.end());
-    if (file.index.defect.empty())
+    if (!file.index.defect)
     {
-      file.index.defect = to_string(Where{ path }) + ": expected a dump, got " +
-        (stamp.size == 0 ? "an empty file" : "no complete frame");
+      file.index.defect = { { path },
+        std::string("expected a dump, got ") +
+          (stamp.size == 0 ? "an empty file" : "no complete frame") };
     }
   }
   catch (const Error&)
@@ -132,7 +134,7 @@ void FrameIndex::update_file(
 }
 
 /// Orders the frames of all files; of a repeated timestep the last stays.
-void FrameIndex::collect()
+void FrameIndex::collect(Notices& notices)
 {
   for (std::size_t i = 0; i < records_.size(); ++i)
   {
@@ -145,15 +147,36 @@ void FrameIndex::collect()
   const auto step = [](const FrameEntry& frame) { return frame.header.timestep; };
   std::ranges::stable_sort(frames_, {}, step);
   std::vector<FrameEntry> last;
+  std::size_t in_several = 0; // timesteps
   for (FrameEntry& frame : frames_)
   {
     if (!last.empty() && step(last.back()) == step(frame))
     {
+      in_several += last.back().file != frame.file ? 1u : 0u;
       last.pop_back();
     }
     last.push_back(std::move(frame));
   }
   frames_ = std::move(last);
+  if (in_several > 0)
+  {
+    notices.push_back({ { paths_.front() },
+      "expected each timestep in one file, got " + std::to_string(in_several) +
+        " in another one too; the frame of the later file is taken" });
+  }
+  this->note_times(notices);
+}
+
+/// Says so if only some frames have a time, or times that do not increase.
+void FrameIndex::note_times(Notices& notices) const
+{
+  const auto has_time = [](const FrameEntry& frame) { return frame.header.time.has_value(); };
+  if (std::ranges::any_of(frames_, has_time) && this->header_times().size() < frames_.size())
+  {
+    notices.push_back({ { paths_.front() },
+      "expected an increasing ITEM: TIME in every frame, got it in some; times are timestep x "
+      "TimestepSize" });
+  }
 }
 
 void FrameIndex::fail() const
@@ -166,10 +189,12 @@ void FrameIndex::fail() const
   {
     std::rethrow_exception(records_.front().error);
   }
-  throw FormatError(records_.front().index.defect);
+  const Notice& defect = *records_.front().index.defect;
+  throw FormatError(defect.text, defect.where);
 }
 
-std::vector<double> FrameIndex::times(double timestep_size) const
+/// The times of the headers, as far as they increase.
+std::vector<double> FrameIndex::header_times() const
 {
   std::vector<double> from_header;
   for (const FrameEntry& frame : frames_)
@@ -180,6 +205,12 @@ std::vector<double> FrameIndex::times(double timestep_size) const
       from_header.push_back(*time);
     }
   }
+  return from_header;
+}
+
+std::vector<double> FrameIndex::times(double timestep_size) const
+{
+  std::vector<double> from_header = this->header_times();
   if (from_header.size() == frames_.size())
   {
     return from_header;

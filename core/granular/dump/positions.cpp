@@ -100,16 +100,20 @@ std::array<const Choice*, 3> choose(const Columns& columns, std::span<const Choi
   return chosen;
 }
 
-bool mixed(const PositionPlan& plan) noexcept
+/// Whether the axes are not all made in the same way. In a tilted box one coordinate alone, or one
+/// image count alone, says nothing of the others.
+bool mixed(std::span<const Choice* const> chosen) noexcept
 {
-  bool scaled = false;
-  bool absolute = false;
-  for (const PositionPlan::Axis& axis : plan.axes)
+  const Choice* first = nullptr;
+  for (const Choice* choice : chosen)
   {
-    scaled = scaled || (axis.column >= 0 && axis.scaled);
-    absolute = absolute || (axis.column >= 0 && !axis.scaled);
+    first = first ? first : choice;
+    if (choice && choice->role != first->role)
+    {
+      return true;
+    }
   }
-  return scaled && absolute;
+  return false;
 }
 
 void note(const PositionPlan& plan, std::span<const Choice* const> chosen, Coordinates wanted,
@@ -166,7 +170,7 @@ PositionPlan plan_positions(
         schema.text() + "'",
       where);
   }
-  if (box.tilted && mixed(plan))
+  if (box.tilted && mixed(chosen))
   {
     throw UnsupportedError(
       "expected all coordinates of a tilted box in one form, got '" + schema.text() + "'", where);

@@ -46,17 +46,6 @@ void permute(Block& block, const std::vector<Place>& order)
   }
   block = std::move(sorted);
 }
-
-void permute(std::vector<std::string>& texts, const std::vector<Place>& order)
-{
-  std::vector<std::string> sorted;
-  sorted.reserve(texts.size());
-  for (const Place& place : order)
-  {
-    sorted.push_back(std::move(texts[place.row]));
-  }
-  texts = std::move(sorted);
-}
 }
 
 void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where)
@@ -81,14 +70,7 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Wher
   permute(frame.points, order);
   for (DumpArray& array : frame.arrays)
   {
-    if (array.info.type == ValueType::Text)
-    {
-      permute(array.texts, order);
-    }
-    else
-    {
-      permute(array.block, order);
-    }
+    permute(array.block, order);
   }
 }
 }

@@ -46,6 +46,19 @@ ColumnSchema make_schema(std::vector<std::string> names, std::string_view first_
   return schema;
 }
 
+/// FNV-1a of the header's bytes.
+std::uint64_t hash_header(const ByteSource& source, const FrameEntry& entry)
+{
+  std::string bytes(static_cast<std::size_t>(entry.rows_offset - entry.offset), ' ');
+  bytes.resize(source.read(entry.offset, bytes.data(), bytes.size()));
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : bytes)
+  {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  }
+  return hash;
+}
+
 /// Finds the frames of a text, one after the other.
 class Indexer
 {
@@ -71,7 +84,8 @@ private:
   bool read_frame(TextHeader& reader);
   bool finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end);
   std::shared_ptr<const ColumnSchema> schema(const TextHeader& reader, const FrameHeader& header);
-  void leave_out(const std::string& why);
+  void leave_out(const Where& where, const std::string& why);
+  void set_defect(const Notice& defect);
   bool go_to_next_frame();
   bool peek(std::string_view& line);
   bool find_glued_header(FrameEntry& entry, std::int64_t& rows);
@@ -93,24 +107,23 @@ bool Indexer::next_frame()
   }
   catch (const FormatError& error)
   {
-    this->leave_out(error.what());
-    return this->go_to_next_frame();
+    this->leave_out(error.where(), error.text());
   }
   catch (const LimitError& error)
   {
-    this->leave_out(error.what());
-    return this->go_to_next_frame();
+    this->leave_out(error.where(), error.text());
   }
+  return this->go_to_next_frame();
 }
 
 bool Indexer::read_frame(TextHeader& reader)
 {
   if (!reader.read())
   {
-    if (reader.opened() && index_.defect.empty())
+    if (reader.opened())
     {
-      index_.defect = to_string(Where{ source_.path(), reader.line() }) +
-        ": expected a complete frame, got the end of the file in its header";
+      this->set_defect({ { source_.path(), reader.line() },
+        "expected a complete frame, got the end of the file in its header" });
     }
     return false;
   }
@@ -120,6 +133,7 @@ bool Indexer::read_frame(TextHeader& reader)
   entry.line = reader.line();
   entry.rows_offset = scanner_.offset();
   entry.rows_line = scanner_.line();
+  entry.header_hash = hash_header(source_, entry);
   index_.units = entry.header.units;
   entry.schema = this->schema(reader, entry.header);
   std::int64_t rows = scanner_.skip_to_item(progress_, total_);
@@ -128,8 +142,8 @@ bool Indexer::read_frame(TextHeader& reader)
   const bool at_end = !this->peek(next);
   if (this->find_glued_header(entry, rows) && rows != entry.header.rows)
   {
-    this->leave_out(to_string(Where{ source_.path(), entry.line }) + ": expected " +
-      std::to_string(entry.header.rows) + " rows, got the header of another frame within a row");
+    this->leave_out({ source_.path(), entry.line }, "expected " +
+        std::to_string(entry.header.rows) + " rows, got the header of another frame within a row");
     return true;
   }
   return this->finish_frame(entry, rows, at_end);
@@ -145,14 +159,16 @@ bool Indexer::finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
     index_.frames.push_back(std::move(entry));
     return true;
   }
-  const std::string why = to_string(Where{ source_.path(), entry.line }) + ": expected " +
-    std::to_string(entry.header.rows) + " rows, got " + std::to_string(rows);
+  const Where where{ source_.path(), entry.line };
+  std::string why =
+    "expected " + std::to_string(entry.header.rows) + " rows, got " + std::to_string(rows);
   if (at_end && rows < entry.header.rows)
   {
-    index_.defect = index_.defect.empty() ? why : index_.defect;
+    why += scanner_.offset() < total_ ? ", and a last line without its line feed" : "";
+    this->set_defect({ where, why });
     return false;
   }
-  this->leave_out(why);
+  this->leave_out(where, why);
   return true;
 }
 
@@ -181,10 +197,16 @@ std::shared_ptr<const ColumnSchema> Indexer::schema(
   return std::make_shared<const ColumnSchema>(std::move(schema));
 }
 
-void Indexer::leave_out(const std::string& why)
+void Indexer::leave_out(const Where& where, const std::string& why)
 {
-  index_.defect = index_.defect.empty() ? why : index_.defect;
-  index_.notices.push_back({ {}, why + "; the frame is left out" });
+  this->set_defect({ where, why });
+  index_.notices.push_back({ where, why + "; the frame is left out" });
+}
+
+/// What is wrong first is what is said if there is no frame at all.
+void Indexer::set_defect(const Notice& defect)
+{
+  index_.defect = index_.defect ? index_.defect : defect;
 }
 
 bool Indexer::go_to_next_frame()
@@ -295,19 +317,7 @@ void check_unchanged(const ByteSource& source, const FrameEntry& entry)
         std::to_string(entry.end) + " bytes, got " + std::to_string(size) + "; reload the files",
       { source.path() });
   }
-  bool same = false;
-  try
-  {
-    TextScanner scanner(source, entry.offset, entry.line);
-    TextHeader reader(scanner, "");
-    same = reader.read() && scanner.offset() == entry.rows_offset &&
-      reader.header().timestep == entry.header.timestep && reader.header().rows == entry.header.rows;
-  }
-  catch (const FormatError&)
-  {
-    same = false; // no header there any more: said below
-  }
-  if (!same)
+  if (hash_header(source, entry) != entry.header_hash)
   {
     throw IoError("the file changed since it was indexed: expected the header of timestep " +
         std::to_string(entry.header.timestep) + "; reload the files",

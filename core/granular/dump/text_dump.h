@@ -8,6 +8,7 @@
 #include "granular/dump/frame_index.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +28,7 @@ struct TextIndex
   std::int64_t resume_line = 1;
   std::string units;  ///< of the last ITEM: UNITS; it is printed once a file
   Notices notices;    ///< frames that were left out, and why
-  std::string defect; ///< what is wrong with the first frame that was left out, or missing
+  std::optional<Notice> defect; ///< what is wrong with the first frame that was left out, or missing
 };
 
 /// Goes on from index.resume_offset to the end of the source, passing over rows at scan speed.

@@ -12,7 +12,17 @@ namespace granular
 {
 namespace
 {
-constexpr std::string_view item = "ITEM:";
+/// Where in a line that is no start of a frame the header of one begins; 0: nowhere. A run that was
+/// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
+std::size_t find_glued_header(std::string_view line)
+{
+  const std::size_t found = line.find(item_mark, 1);
+  const std::string_view before = line.substr(0, found);
+  return found == line.npos || before == byte_order_mark || split_words(before).empty() ||
+      !opens_frame(item_words(line.substr(found)))
+    ? 0
+    : found;
+}
 }
 
 std::string quoted(std::string_view text)
@@ -31,7 +41,7 @@ std::vector<std::string_view> item_words(std::string_view line)
     line.remove_prefix(byte_order_mark.size());
   }
   std::vector<std::string_view> words = split_words(line);
-  if (words.empty() || words.front() != item)
+  if (words.empty() || words.front() != item_mark)
   {
     return {};
   }
@@ -66,7 +76,7 @@ const TextHeader::Section TextHeader::sections[] = {
 bool TextHeader::read()
 {
   std::string_view line;
-  while (scanner_.next(line))
+  while (this->next(line))
   {
     if (split_words(line).empty() || line == byte_order_mark)
     {
@@ -90,11 +100,7 @@ bool TextHeader::read()
       offset_ = scanner_.last_offset();
       line_ = scanner_.where().line;
     }
-    if (has_timestep_ && words.size() == 1 && words[0] == "TIMESTEP")
-    {
-      scanner_.put_back();
-      this->fail("ITEM: ATOMS", copy);
-    }
+    this->look_for_next_frame(words, copy);
     if (!(this->*find_section(words).parse)(words))
     {
       return false;
@@ -105,6 +111,42 @@ bool TextHeader::read()
     }
   }
   return false;
+}
+
+bool TextHeader::next(std::string_view& line)
+{
+  if (!scanner_.next(line))
+  {
+    return false;
+  }
+  if (const std::size_t glued = find_glued_header(line))
+  {
+    const Where where = scanner_.where();
+    scanner_.go_to(scanner_.last_offset() + static_cast<std::int64_t>(glued), where.line);
+    throw FormatError("expected a whole line, got the header of another frame within it", where);
+  }
+  return true;
+}
+
+/// A second ITEM: TIMESTEP is that of another frame, and so are UNITS and TIME that came before it.
+void TextHeader::look_for_next_frame(Words words, std::string_view line)
+{
+  if (!has_timestep_ || !opens_frame(words))
+  {
+    return;
+  }
+  if (next_line_ == 0)
+  {
+    next_offset_ = scanner_.last_offset();
+    next_line_ = scanner_.where().line;
+  }
+  if (words[0] == "TIMESTEP")
+  {
+    const std::string expected = "expected ITEM: ATOMS, got " + quoted(line);
+    const Where where = scanner_.where();
+    scanner_.go_to(next_offset_, next_line_);
+    throw FormatError(expected, where);
+  }
 }
 
 const TextHeader::Section& TextHeader::find_section(Words words)
@@ -135,12 +177,12 @@ bool TextHeader::value_line(std::string_view& line)
 {
   do
   {
-    if (!scanner_.next(line))
+    if (!this->next(line))
     {
       return false;
     }
   } while (split_words(line).empty());
-  if (line.starts_with(item))
+  if (line.starts_with(item_mark))
   {
     const std::string copy(line);
     scanner_.put_back();
@@ -197,7 +239,7 @@ bool TextHeader::parse_units(Words)
 bool TextHeader::parse_label(Words)
 {
   std::string_view line;
-  if (!scanner_.next(line))
+  if (!this->next(line))
   {
     return false;
   }
@@ -306,7 +348,7 @@ bool TextHeader::parse_columns(Words words)
 bool TextHeader::skip_section(Words)
 {
   std::string_view line;
-  while (scanner_.next(line))
+  while (this->next(line))
   {
     if (!item_words(line).empty())
     {

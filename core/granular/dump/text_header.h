@@ -64,6 +64,8 @@ private:
   static const Section sections[];
 
   static const Section& find_section(Words words);
+  bool next(std::string_view& line);
+  void look_for_next_frame(Words words, std::string_view line);
   bool value_line(std::string_view& line);
   bool parse_timestep(Words words);
   bool parse_time(Words words);
@@ -84,6 +86,8 @@ private:
   std::vector<std::string> column_names_;
   std::int64_t offset_ = 0;
   std::int64_t line_ = 0;
+  std::int64_t next_offset_ = 0; ///< of the first section that may be another frame's
+  std::int64_t next_line_ = 0;
   bool opened_ = false;
   bool has_timestep_ = false;
   bool has_rows_ = false;

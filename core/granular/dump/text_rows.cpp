@@ -39,6 +39,12 @@ bool TextRows::fill()
     const std::int64_t offset = buffer_offset_ + static_cast<std::int64_t>(end_);
     if (end_ == buffer_.size())
     {
+      if (buffer_.size() > TextScanner::longest_line)
+      {
+        throw LimitError("expected rows of at most " + std::to_string(TextScanner::longest_line) +
+            " bytes, got a longer one",
+          { source_.path(), entry_.rows_line });
+      }
       buffer_.resize(2 * buffer_.size());
     }
     const auto left = static_cast<std::size_t>(entry_.end - offset);
@@ -56,11 +62,9 @@ bool TextRows::fill()
     {
       return false;
     }
-    const void* const feed = ::memrchr(buffer_.data() + end_, '\n', got);
+    const std::size_t feed = std::string_view(buffer_.data() + end_, got).rfind('\n');
+    lines_end_ = feed == std::string_view::npos ? 0 : end_ + feed + 1;
     end_ += got;
-    lines_end_ = feed
-      ? static_cast<std::size_t>(static_cast<const char*>(feed) - buffer_.data()) + 1
-      : 0;
   }
   return true;
 }
@@ -85,15 +89,22 @@ std::int64_t TextRows::decode(std::span<ColumnSink> sinks, std::int64_t max_rows
     }
     surplus_ = surplus_ || result_.surplus;
     at_ = static_cast<std::size_t>(result_.ptr - buffer_.data());
-    if (result_.status == RowStatus::TooFew || result_.status == RowStatus::NotANumber)
+    if (result_.status != RowStatus::Done && !this->misfit())
     {
       this->fail();
     }
-    if (result_.rows > 0 || result_.status == RowStatus::NotExact)
+    if (result_.rows > 0 || this->misfit())
     {
       return result_.rows;
     }
   }
+}
+
+bool TextRows::misfit() const
+{
+  return result_.status == RowStatus::NotExact ||
+    (result_.status == RowStatus::NotANumber &&
+      !entry_.schema->columns()[static_cast<std::size_t>(result_.column)].known);
 }
 
 void TextRows::check_count(std::int64_t rows) const
@@ -109,7 +120,7 @@ void TextRows::check_count(std::int64_t rows) const
 std::string_view TextRows::word() const
 {
   const char* const end = std::find_if(result_.ptr, buffer_.data() + lines_end_,
-    [](char c) { return static_cast<unsigned char>(c) <= ' '; });
+    is_blank);
   return { result_.ptr, static_cast<std::size_t>(end - result_.ptr) };
 }
 

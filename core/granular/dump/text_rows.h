@@ -21,12 +21,16 @@ public:
   TextRows(const ByteSource& source, const FrameEntry& entry);
 
   /// Decodes the next rows, at most max_rows, into the sinks. Returns how many; 0 at the end.
-  /// A NotExact status comes back in result() for the caller to deal with; all other errors, and
-  /// a frame with other than entry.rows rows, throw FormatError. Texts stay valid until the next
-  /// call.
+  /// A word that does not fit the type of its column, where another type would do, makes misfit()
+  /// true for the caller to deal with; all other errors, and a frame with other than entry.rows rows,
+  /// throw FormatError. Texts stay valid until the next call.
   std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows);
 
   const RowResult& result() const noexcept { return result_; }
+
+  /// Whether result() is about a number that an integer column cannot hold, or a word in a column
+  /// that the table does not know.
+  bool misfit() const;
 
   /// Whether a row had more words than the header names columns.
   bool surplus() const noexcept { return surplus_; }

@@ -29,14 +29,14 @@ vtkSmartPointer<Array> TakeBlock(granular::Block& block, vtkIdType tuples, int c
   return array;
 }
 
-vtkSmartPointer<vtkAbstractArray> TakeTexts(std::vector<std::string>& texts, int components)
+vtkSmartPointer<vtkAbstractArray> TakeTexts(const granular::DumpArray& texts, vtkIdType rows)
 {
   auto array = vtkSmartPointer<vtkStringArray>::New();
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfValues(static_cast<vtkIdType>(texts.size()));
-  for (std::size_t i = 0; i < texts.size(); ++i)
+  array->SetNumberOfValues(rows);
+  const auto* indices = static_cast<const vtkTypeInt32*>(texts.block.data());
+  for (vtkIdType i = 0; i < rows; ++i)
   {
-    array->GetPointer(static_cast<vtkIdType>(i))->swap(texts[i]);
+    array->SetValue(i, texts.words[indices[i]]);
   }
   return array;
 }
@@ -101,7 +101,7 @@ vtkSmartPointer<vtkAbstractArray> TakeArray(
       taken = TakeBlock<vtkDoubleArray>(array.block, rows, info.components());
       break;
     case granular::ValueType::Text:
-      taken = TakeTexts(array.texts, info.components());
+      taken = TakeTexts(array, rows);
       break;
   }
   taken->SetName(info.name.c_str());

@@ -26,24 +26,6 @@ namespace
 constexpr int HexahedronCorners[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
   { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 
-/**
- * A coordinate of a corner of the box less the origin, rounded once.
- */
-double CornerLess(const granular::Box& box, const int (&corner)[3], int axis, double pointOrigin)
-{
-  granular::CompensatedSum sum;
-  sum.add(box.origin[axis]);
-  for (int i = 0; i < 3; ++i)
-  {
-    if (corner[i])
-    {
-      sum.add(box.vectors[i][axis]);
-    }
-  }
-  sum.add(-pointOrigin);
-  return sum.value();
-}
-
 std::vector<double> Values(const granular::Twofold3& vector)
 {
   std::vector<double> values;
@@ -87,18 +69,20 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
   points->SetNumberOfPoints(8);
   for (int i = 0; i < 8; ++i)
   {
-    double position[3];
+    const auto& corner = HexahedronCorners[i];
+    granular::Vector3 position = box.corner(corner[0], corner[1], corner[2], pointOrigin);
     for (int axis = 0; axis < 3; ++axis)
     {
-      position[axis] = coordinates == granular::Coordinates::Scaled
-        ? HexahedronCorners[i][axis] - pointOrigin[axis]
-        : CornerLess(box, HexahedronCorners[i], axis, pointOrigin[axis]);
+      if (coordinates == granular::Coordinates::Scaled)
+      {
+        position[axis] = corner[axis] - pointOrigin[axis];
+      }
       if (!std::isfinite(position[axis]))
       {
         return false;
       }
     }
-    points->SetPoint(i, position);
+    points->SetPoint(i, position.data());
   }
   vtkNew<vtkIdList> corners;
   corners->SetNumberOfIds(8);
