@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""README's first script, as it stands there, makes a picture of grains."""
+import os
+import re
+from pathlib import Path
+
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+root = Path(__file__).parents[2]
+text = (root / "README.md").read_text()
+script = re.search(r"## The first script\n\n((?:    .*\n|\n)+)", text).group(1)
+if not os.path.exists("samples"):
+    os.symlink(root / "samples", "samples")
+exec(re.sub(r"(?m)^    ", "", script))
+
+png = vtkPNGReader()
+png.SetFileName("grains.png")
+png.Update()
+pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
+colored = (pixels.max(axis=1) - pixels.min(axis=1)) > 60
+assert 0.02 < colored.mean() < 0.9, colored.mean()  # grains, neither a dot nor a wall of color
+assert len({tuple(pixel // 32) for pixel in pixels[colored]}) > 20  # of many speeds
+
+# and the plugin is where README says
+plugin = re.search(r"`build/release/(lib\S+Granular\.so)`", text).group(1)
+assert os.environ["PV_PLUGIN_PATH"].endswith(str(Path(plugin).parents[1])), plugin
