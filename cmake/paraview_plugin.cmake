@@ -27,19 +27,20 @@ if(GRANULAR_BUILD_PYTHON AND NOT VTK_WRAP_PYTHON)
     "This ParaView was built without Python: set GRANULAR_BUILD_PYTHON=OFF.")
 endif()
 
-# ---- the VTK module ----------------------------------------------------------------------------
-vtk_module_find_modules(granular_module_files "${PROJECT_SOURCE_DIR}/plugin/vtk")
+# ---- the VTK module, and the one for the server manager, which only the plugin has ----------------
+vtk_module_find_modules(granular_module_files
+  "${PROJECT_SOURCE_DIR}/plugin/vtk" "${PROJECT_SOURCE_DIR}/plugin/servermanager")
 vtk_module_scan(
   MODULE_FILES ${granular_module_files}
-  REQUEST_MODULES Granular::vtkGranular
+  REQUEST_MODULES Granular::vtkGranular Granular::vtkGranularServerManager
   PROVIDES_MODULES granular_modules
   REQUIRES_MODULES granular_required_modules
   HIDE_MODULES_FROM_CACHE ON)
 foreach(module IN LISTS granular_required_modules)
   if(NOT TARGET ${module})
     message(FATAL_ERROR
-      "The module ${module}, which plugin/vtk/vtk.module asks for, is not part of the ParaView in "
-      "${ParaView_DIR}. Use a ParaView that was built with it, or set GRANULAR_BUILD_PLUGIN=OFF.")
+      "The module ${module}, which a vtk.module below plugin/ asks for, is not part of the ParaView "
+      "in ${ParaView_DIR}. Use a ParaView that was built with it, or set GRANULAR_BUILD_PLUGIN=OFF.")
   endif()
 endforeach()
 # PACKAGE is not the name of the package of the core: files of the two never share a name.
@@ -77,8 +78,8 @@ if(GRANULAR_BUILD_PYTHON)
   add_subdirectory(plugin/python)
 endif()
 
-# For whoever starts ParaView on the build tree by hand or from a script: to be sourced by a shell.
+# For whoever starts ParaView on the build tree by hand or from a script: lines NAME=value.
 file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/environment" CONTENT
-"export PV_PLUGIN_PATH='${CMAKE_BINARY_DIR}/${granular_plugin_folder}'
-export PYTHONPATH='${CMAKE_BINARY_DIR}/${granular_python_folder}'
+"PV_PLUGIN_PATH=${CMAKE_BINARY_DIR}/${granular_plugin_folder}
+PYTHONPATH=${CMAKE_BINARY_DIR}/${granular_python_folder}
 ")

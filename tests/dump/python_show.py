@@ -70,8 +70,15 @@ granular.show(reader, color="type")
 assert display.ColorArrayName[1] == "type"
 Hide(reader, view)
 
-# no radius: half the mean distance
+# no radius: points, for Grains would make up radii; our way half the mean distance
 plain = write("plain.dump", "id type x y z\n1 1 -4 0 0\n2 1 4 0 0\n")
+points = Show(plain, view)
+assert points.Representation == "Surface", points.Representation
+box = Show(OutputPort(plain, 1), view)
+assert box.Representation == "Wireframe", box.Representation
+Hide(OutputPort(plain, 1), view)
+points.PointSize = 10
+expect(points, *2 * [5 / PIXELS])
 expect(granular.show(plain, view), 2, 2)
 Hide(plain, view)
 
@@ -80,6 +87,33 @@ reader.Coordinates = "Scaled"
 display = granular.show(reader, view)
 assert display.ScaleByArray == 0 and display.GaussianRadius < 1
 Delete(reader)
+
+# so it is when opened the plain way, and where the radii are not loaded; what counts is the last read
+for change in ({"Coordinates": "Scaled"}, {"PointArrayStatus": ["id"]},
+               {"FileNames": [os.path.abspath("plain.dump")]}):
+    reader = OpenDataFile(os.path.abspath("two.dump"))
+    for name, value in change.items():
+        reader.SetPropertyWithName(name, value)
+    display = Show(reader, view)
+    assert display.Representation == "Surface", (change, display.Representation)
+    Delete(reader)
+reader = OpenDataFile(os.path.abspath("plain.dump"))
+reader.FileNames = [os.path.abspath("two.dump")]
+display = Show(reader, view)
+expect(display, 3, 0.5)
+
+# a state brings back what was chosen
+display = Show(plain, view)
+display.SetRepresentationType("Grains")
+SaveState("chosen.pvsm")
+names = [name for name, _ in GetSources()]
+Delete(reader)
+Delete(plain)
+LoadState("chosen.pvsm")
+for name in names:
+    reader = FindSource(name)
+    display = GetRepresentation(reader, GetActiveViewOrCreate("RenderView"))
+    assert display.Representation == "Grains", (name, display.Representation)
 
 # the first frame of a run may be empty: the next ones are shown, either way
 grown = HEADER.replace("\n2\n", "\n0\n") + "id x y z radius\n" + HEADER.replace(

@@ -6,6 +6,7 @@
     core/mpi               base, its own folder, mpi.h
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView
+    plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
     samples                paraview.simple, granular, numpy and Python's own modules
 """
 import ast
@@ -110,6 +111,15 @@ def check_vtk_source(root, path):
                 yield path, line, f"<{name}> is neither of VTK nor of the C++ standard library"
 
 
+def check_server_manager(root, path):
+    for line, bracket, name, _ in includes(tree.read(root, path)):
+        if bracket == "<" and name in STANDARD:
+            continue
+        if not re.match(r"vtk\w+\.h$", name):
+            yield path, line, (f"{name}: the server manager's classes stand on VTK's, ParaView's and "
+                               "ours, and on the standard library")
+
+
 def imported(node):
     if isinstance(node, ast.Import):
         return [alias.name for alias in node.names]
@@ -138,6 +148,8 @@ def check(root):
             yield from check_vtk_header(root, path)
         elif re.match(r"plugin/vtk/.*\.(h|cxx|txx)$", path):
             yield from check_vtk_source(root, path)
+        elif re.match(r"plugin/servermanager/.*\.(h|cxx|txx)$", path):
+            yield from check_server_manager(root, path)
         elif re.match(r"samples/[^/]+\.py$", path):
             yield from check_sample(root, path)
 

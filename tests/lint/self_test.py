@@ -80,6 +80,14 @@ class Layering(unittest.TestCase):
             plugin__vtk__private__mpi_glue_dot_h="#include <mpi.h>\n"), [
                 f"plugin/vtk/a.cxx:{line}" for line in (5, 6, 7, 8, 9)])
 
+    def test_server_manager(self):
+        self.assertEqual(found(
+            layering.check,
+            plugin__servermanager__vtkSMA_dot_h='#include "vtkSMSourceProxy.h"\n#include <string>\n'
+            '#include "granular/base/a.h"\n#include "vtkGranularA.h"\n#include <QWidget>\n'
+            '#include "pqCore.h"\n#include <mpi.h>\n'), [
+                f"plugin/servermanager/vtkSMA.h:{line}" for line in (3, 5, 6, 7)])
+
     def test_sample(self):
         self.assertEqual(found(
             layering.check,
@@ -239,6 +247,12 @@ class vtkGranularA : public vtkPolyDataAlgorithm
                           self.property('name="d"')))
         self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)),
                          ["xml/a.xml:3", "xml/a.xml:4", "xml/a.xml:5"])
+
+    def test_element(self):
+        text = self.xml("").replace("SourceProxy", "GranularAProxy")
+        self.assertEqual(self.check(xml__a_dot_xml=text), ["xml/a.xml:2"])
+        self.assertEqual(self.check(xml__a_dot_xml=text,
+                                    plugin__servermanager__vtkSMGranularAProxy_dot_h=""), [])
 
     def test_extensions_and_class(self):
         reader = '<ReaderFactory extensions="dump lammpstrj"/>'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What every file of ours looks like, and which functions the core and the VTK layer do without."""
+"""What every file of ours looks like, and which functions the libraries do without."""
 import re
 
 import tree
@@ -11,12 +11,13 @@ WITH_LICENCE = re.compile(
 # Neither text nor ours to shape.
 NOT_TEXT = re.compile(r"\.(png|jpg|gz|zst|bin)$")
 
+_LIBRARIES = r"(core|plugin/(vtk|servermanager))/"
 # (where, what, why), matched in code without comments and strings.
 BANNED = (
-    (r"(core|plugin/vtk)/", r"\b(?:std::)?(?:cout|cerr|clog)\b|(?<!\w)(?:std::)?v?f?printf\s*\(|"
+    (_LIBRARIES, r"\b(?:std::)?(?:cout|cerr|clog)\b|(?<!\w)(?:std::)?v?f?printf\s*\(|"
      r"(?<!\w)(?:std::)?f?put(?:s|c|char)\s*\(|\bvtkGenericWarningMacro\b|\bperror\s*\(",
      "prints: the core throws or returns a Notice, a VTK class calls its macros"),
-    (r"(core|plugin/vtk)/", r"(?<![\w.>])(?:std::)?(?:abort|exit|_Exit|quick_exit)\s*\(",
+    (_LIBRARIES, r"(?<![\w.>])(?:std::)?(?:abort|exit|_Exit|quick_exit)\s*\(",
      "ends the program of others"),
     (r"core/", r"\b(?:ato(?:f|i|l|ll)|strto(?:f|d|ld|l|ll|ul|ull|imax|umax)|v?f?s?scanf|"
      r"sto(?:f|d|ld|i|l|ll|ul|ull))\s*\(",
