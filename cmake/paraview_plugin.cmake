@@ -78,8 +78,8 @@ if(GRANULAR_BUILD_PYTHON)
   add_subdirectory(plugin/python)
 endif()
 
-# For whoever starts ParaView on the build tree by hand or from a script: lines NAME=value.
+# For whoever starts ParaView on the build tree by hand or from a script: to be sourced by a shell.
 file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/environment" CONTENT
-"PV_PLUGIN_PATH=${CMAKE_BINARY_DIR}/${granular_plugin_folder}
-PYTHONPATH=${CMAKE_BINARY_DIR}/${granular_python_folder}
+"export PV_PLUGIN_PATH='${CMAKE_BINARY_DIR}/${granular_plugin_folder}'
+export PYTHONPATH='${CMAKE_BINARY_DIR}/${granular_python_folder}'
 ")

@@ -2,6 +2,7 @@
 """README's first script, as it stands there, makes a picture of grains."""
 import os
 import re
+import subprocess
 from pathlib import Path
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -25,3 +26,11 @@ assert len({tuple(pixel // 32) for pixel in pixels[colored]}) > 20  # of many sp
 # and the plugin is where README says
 plugin = re.search(r"`build/release/(lib\S+Granular\.so)`", text).group(1)
 assert os.environ["PV_PLUGIN_PATH"].endswith(str(Path(plugin).parents[1])), plugin
+
+# and the file that a shell sources says so to what it starts
+build = Path(os.environ["PV_PLUGIN_PATH"]).parents[2]
+clean = {"PATH": os.environ["PATH"]}
+seen = subprocess.run(["sh", "-c", f". '{build}/environment' && env"], env=clean, check=True,
+                      capture_output=True, text=True).stdout
+assert f"PV_PLUGIN_PATH={os.environ['PV_PLUGIN_PATH']}\n" in seen, seen
+assert "PYTHONPATH=" in seen, seen
