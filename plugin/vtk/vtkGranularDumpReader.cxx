@@ -47,7 +47,7 @@ struct vtkGranularDumpReader::Internals
   void UpdateIndex(Self* self);
   void UpdateSelection();
   void CheckSelection(const std::string& path, granular::Notices& notices);
-  void Tell(Self* self, const granular::Notices& notices);
+  void Tell(Self* self, const granular::Notices& notices, bool ofFrames);
   granular::DumpRequest MakeRequest(Self* self);
   const granular::FrameEntry& FindFrame(
     Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time);
@@ -78,7 +78,7 @@ void vtkGranularDumpReader::Internals::UpdateIndex(Self* self)
   this->IndexedNames = this->FileNames;
   this->Stale = false;
   this->UpdateSelection();
-  this->Tell(self, notices);
+  this->Tell(self, notices, true);
 }
 
 //------------------------------------------------------------------------------
@@ -125,7 +125,8 @@ void vtkGranularDumpReader::Internals::CheckSelection(
 
 //------------------------------------------------------------------------------
 // One warning a file, and each notice once, for whichever frame it came first; not too many.
-void vtkGranularDumpReader::Internals::Tell(Self* self, const granular::Notices& notices)
+void vtkGranularDumpReader::Internals::Tell(
+  Self* self, const granular::Notices& notices, bool ofFrames)
 {
   constexpr int most = 10;
   std::map<std::string, std::string> texts;
@@ -133,7 +134,9 @@ void vtkGranularDumpReader::Internals::Tell(Self* self, const granular::Notices&
   for (const granular::Notice& notice : notices)
   {
     const std::string& path = notice.where.path;
-    if (this->Told.insert(path + "\n" + notice.where.column + "\n" + notice.text).second &&
+    // what is said of the rows of a frame is the same for the next ones, what is said of frames is not
+    const std::string line = ofFrames ? std::to_string(notice.where.line) : "";
+    if (this->Told.insert(path + "\n" + line + "\n" + notice.where.column + "\n" + notice.text).second &&
       ++counts[path] <= most)
     {
       std::string& joined = texts[path];
@@ -219,7 +222,7 @@ void vtkGranularDumpReader::Internals::FillOutputs(
     FillFieldData(output->GetFieldData(), entry, frame.coordinates, wanted.point_origin);
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
   }
-  this->Tell(self, notices);
+  this->Tell(self, notices, false);
 }
 
 //------------------------------------------------------------------------------

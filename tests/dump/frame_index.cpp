@@ -535,7 +535,7 @@ TEST(FrameIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
   folder.write("a.dump", rows(after, values));
   touch(path, 1);
   EXPECT_EQ(error_of([&] { run.read(0); }),
-    path + ":1: the file changed since it was indexed: expected the header of timestep 0; reload "
+    path + ":1: the file changed since it was indexed: expected the frame of timestep 0; reload "
            "the files");
   run.update({ path });
   EXPECT_TRUE(run.read(0).has("fx"));
@@ -543,9 +543,24 @@ TEST(FrameIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
   EXPECT_EQ(run.read(0).points().front(), 4);
 }
 
+TEST(FrameIndex, ARerunThatGrewWithTheSameFirstHeader)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(0));
+  Series run;
+  run.update({ path });
+  // the same header, rows of another length, and more frames behind
+  folder.write("a.dump", replaced(frame(0), "0.25\n", "0.125\n") + frame(100) + frame(200));
+  touch(path, 1);
+  run.update({ path });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 }));
+  EXPECT_EQ(run.read(0).points()[2], 0.125);
+  EXPECT_EQ(run.said, "");
+}
+
 // ---- what is said of a series ------------------------------------------------------------------
 
-TEST(FrameIndex, TimestepsInSeveralFilesAreSaid)
+TEST(FrameIndex, AFileOfWhichNothingIsShownIsSaid)
 {
   const Folder folder;
   Series run;
@@ -553,23 +568,28 @@ TEST(FrameIndex, TimestepsInSeveralFilesAreSaid)
   EXPECT_EQ(run.steps(), (Steps{ 10 }));
   EXPECT_EQ(run.said,
     folder.path("p.0.dump") +
-      ": expected each timestep in one file, got 1 in another one too; the frame of the later file "
-      "is taken\n");
-  run.update({ folder.write("restart.dump", frame(10) + frame(20) + frame(10)) });
+      ": no frame of this file is shown: later files have the same timesteps\n");
+  // an ordinary restart repeats the step that it starts from
+  run.update({ folder.write("a.dump", frame(0) + frame(10)),
+    folder.write("b.dump", frame(10) + frame(20)) });
   EXPECT_EQ(run.said, "");
+  EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
 }
 
 TEST(FrameIndex, TimesThatCannotBeUsedAreSaid)
 {
   const Folder folder;
-  const std::string said = ": expected an increasing ITEM: TIME in every frame, got it in some; "
-                           "times are timestep x TimestepSize\n";
+  const auto said = [](const std::string& got)
+  {
+    return ": expected an increasing ITEM: TIME in every frame, got " + got +
+      "; times are timestep x TimestepSize\n";
+  };
   Series run;
   const std::string some = folder.write("some.dump", at_time(1, 0) + frame(10));
   run.update({ some });
-  EXPECT_EQ(run.said, some + said);
+  EXPECT_EQ(run.said, some + said("frames without"));
   const std::string back = folder.write("back.dump", at_time(1, 0) + at_time(0.5, 10));
   run.update({ back });
-  EXPECT_EQ(run.said, back + said);
+  EXPECT_EQ(run.said, back + said("one that does not increase"));
   EXPECT_EQ(run.index.times(2), (Times{ 0, 20 }));
 }

@@ -685,17 +685,17 @@ TEST(ReadDump, AFileThatChangedSinceItWasIndexed)
   folder.write("a.dump", plain(5, 9) + plain(6, 9));
   EXPECT_EQ(read_error(path, entry),
     path +
-      ":13: the file changed since it was indexed: expected the header of timestep 100; reload the "
+      ":13: the file changed since it was indexed: expected the frame of timestep 100; reload the "
       "files");
   folder.write("a.dump", plain(0, 3) + plain(101, 3));
   EXPECT_EQ(read_error(path, entry),
     path +
-      ":13: the file changed since it was indexed: expected the header of timestep 100; reload the "
+      ":13: the file changed since it was indexed: expected the frame of timestep 100; reload the "
       "files");
   folder.write("a.dump", std::string(text.size() + 100, '\0'));
   EXPECT_EQ(read_error(path, entry),
     path +
-      ":13: the file changed since it was indexed: expected the header of timestep 100; reload the "
+      ":13: the file changed since it was indexed: expected the frame of timestep 100; reload the "
       "files");
   // a line more before it: other rows at the old place
   folder.write("a.dump", "\n" + text);
@@ -758,7 +758,13 @@ TEST(ReadDump, AFileThatIsShortenedWhileItIsRead)
           granular::Progress progress;
           granular::read_dump(source, dump.entry(), {}, notices, progress);
         });
-      if (!error.empty())
+      if (reads < 2) // the header and the last rows are looked at first
+      {
+        EXPECT_EQ(error,
+          "shrinking:1: the file changed since it was indexed: expected the frame of timestep 0; "
+          "reload the files");
+      }
+      else if (!error.empty())
       {
         EXPECT_EQ(error,
           "shrinking: the file was shortened while it was read: expected " +

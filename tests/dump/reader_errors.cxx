@@ -291,6 +291,17 @@ TEST(ReaderErrors, TheSameNoticeOfEveryFrameIsOneWarning)
   EXPECT_NE(reader.Said->Warnings[0].find("no column for the coordinate z"), std::string::npos);
 }
 
+TEST(ReaderErrors, EveryFrameThatIsLeftOutIsSaid)
+{
+  const std::string good = Frame(0, 1, "id x y z", "1 0 0 0\n");
+  const std::string bad = Frame(1, 2, "id x y z", "1 0 0 0\n");
+  Reader reader({ WriteFile("bad.dump", bad + bad + good) });
+  reader->Update();
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_NE(reader.Said->Warnings[0].find("bad.dump:1: "), std::string::npos);
+  EXPECT_NE(reader.Said->Warnings[0].find("bad.dump:11: "), std::string::npos);
+}
+
 TEST(ReaderErrors, HundredsOfBadFramesAreOneShortWarning)
 {
   std::string text = Frame(0, 1, "id x y z", "1 0 0 0\n");

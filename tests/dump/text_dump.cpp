@@ -584,6 +584,22 @@ TEST(TextDump, ARunThatWasKilledWithinAHeaderAndWentOn)
   }
 }
 
+TEST(TextDump, ARunThatWasKilledTwiceInItsHeader)
+{
+  const std::string good = one_frame("id x y z", "1 2 3 4\n5 6 7 8\n");
+  const std::string header = good.substr(0, good.find("1 2 3 4"));
+  const std::string again = replaced(header, "TIMESTEP\n0\n", "TIMESTEP\n50\n");
+  const std::string last = replaced(good, "TIMESTEP\n0\n", "TIMESTEP\n100\n");
+  for (std::size_t first = 1; first < header.size(); ++first)
+  {
+    for (std::size_t second = 1; second < 50; ++second)
+    {
+      const Dump dump(good + header.substr(0, first) + again.substr(0, second) + last);
+      ASSERT_EQ(dump.steps(), (Steps{ 0, 100 })) << first << " " << second;
+    }
+  }
+}
+
 // A file system that lost power leaves zeros where the data should be.
 TEST(TextDump, ZerosAtTheEndDoNotHideTheFramesBefore)
 {

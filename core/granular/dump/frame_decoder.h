@@ -14,6 +14,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace granular
@@ -42,12 +44,23 @@ struct Wire
   std::vector<Copy> copies;
 };
 
+/// Lets words be looked up without a copy.
+struct WordHash
+{
+  using is_transparent = void;
+
+  std::size_t operator()(std::string_view word) const noexcept
+  {
+    return std::hash<std::string_view>{}(word);
+  }
+};
+
 /// A column of texts.
 struct TextColumn
 {
   std::size_t array;   ///< index of its array in the frame
   const char* scratch; ///< std::string_views of a batch
-  std::map<std::string, std::int32_t, std::less<>> indices; ///< of the words seen so far
+  std::unordered_map<std::string, std::int32_t, WordHash, std::equal_to<>> indices; ///< of words
 };
 
 /// Points of a batch: three doubles a row, made from columns.

@@ -147,24 +147,36 @@ void FrameIndex::collect(Notices& notices)
   const auto step = [](const FrameEntry& frame) { return frame.header.timestep; };
   std::ranges::stable_sort(frames_, {}, step);
   std::vector<FrameEntry> last;
-  std::size_t in_several = 0; // timesteps
   for (FrameEntry& frame : frames_)
   {
     if (!last.empty() && step(last.back()) == step(frame))
     {
-      in_several += last.back().file != frame.file ? 1u : 0u;
       last.pop_back();
     }
     last.push_back(std::move(frame));
   }
   frames_ = std::move(last);
-  if (in_several > 0)
-  {
-    notices.push_back({ { paths_.front() },
-      "expected each timestep in one file, got " + std::to_string(in_several) +
-        " in another one too; the frame of the later file is taken" });
-  }
+  this->note_hidden_files(notices);
   this->note_times(notices);
+}
+
+/// Says so if all frames of a file are hidden by those of later ones: a restart repeats a step or
+/// two, but this is another run, or one file a process.
+void FrameIndex::note_hidden_files(Notices& notices) const
+{
+  std::vector<bool> shown(records_.size());
+  for (const FrameEntry& frame : frames_)
+  {
+    shown[frame.file] = true;
+  }
+  for (std::size_t i = 0; i < records_.size(); ++i)
+  {
+    if (!shown[i] && !records_[i].index.frames.empty())
+    {
+      notices.push_back({ { paths_[i] },
+        "no frame of this file is shown: later files have the same timesteps" });
+    }
+  }
 }
 
 /// Says so if only some frames have a time, or times that do not increase.
@@ -173,9 +185,11 @@ void FrameIndex::note_times(Notices& notices) const
   const auto has_time = [](const FrameEntry& frame) { return frame.header.time.has_value(); };
   if (std::ranges::any_of(frames_, has_time) && this->header_times().size() < frames_.size())
   {
-    notices.push_back({ { paths_.front() },
-      "expected an increasing ITEM: TIME in every frame, got it in some; times are timestep x "
-      "TimestepSize" });
+    const bool all = std::ranges::all_of(frames_, has_time);
+    notices.push_back({ { paths_[frames_.front().file] },
+      std::string("expected an increasing ITEM: TIME in every frame, got ") +
+        (all ? "one that does not increase" : "frames without") +
+        "; times are timestep x TimestepSize" });
   }
 }
 

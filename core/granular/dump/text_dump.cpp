@@ -5,6 +5,8 @@
 #include "granular/dump/text_header.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 namespace granular
@@ -46,17 +48,31 @@ ColumnSchema make_schema(std::vector<std::string> names, std::string_view first_
   return schema;
 }
 
-/// FNV-1a of the header's bytes.
-std::uint64_t hash_header(const ByteSource& source, const FrameEntry& entry)
+/// FNV-1a of the bytes [first, last), going on from hash.
+std::uint64_t hash_bytes(
+  const ByteSource& source, std::int64_t first, std::int64_t last, std::uint64_t hash)
 {
-  std::string bytes(static_cast<std::size_t>(entry.rows_offset - entry.offset), ' ');
-  bytes.resize(source.read(entry.offset, bytes.data(), bytes.size()));
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char byte : bytes)
+  std::array<char, 4096> part;
+  while (first < last)
   {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+    const std::size_t got = source.read(first, part.data(),
+      std::min(part.size(), static_cast<std::size_t>(last - first)));
+    for (const char byte : std::span(part.data(), got))
+    {
+      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+    }
+    first = got > 0 ? first + static_cast<std::int64_t>(got) : last;
   }
   return hash;
+}
+
+/// Of the header and of the last of the rows: tells a run that was started over.
+std::uint64_t hash_frame(const ByteSource& source, const FrameEntry& entry)
+{
+  constexpr std::int64_t tail = 256;
+  const std::uint64_t header =
+    hash_bytes(source, entry.offset, entry.rows_offset, 0xcbf29ce484222325);
+  return hash_bytes(source, std::max(entry.rows_offset, entry.end - tail), entry.end, header);
 }
 
 /// Finds the frames of a text, one after the other.
@@ -133,7 +149,6 @@ bool Indexer::read_frame(TextHeader& reader)
   entry.line = reader.line();
   entry.rows_offset = scanner_.offset();
   entry.rows_line = scanner_.line();
-  entry.header_hash = hash_header(source_, entry);
   index_.units = entry.header.units;
   entry.schema = this->schema(reader, entry.header);
   std::int64_t rows = scanner_.skip_to_item(progress_, total_);
@@ -156,6 +171,7 @@ bool Indexer::finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
   {
     index_.resume_offset = scanner_.offset();
     index_.resume_line = scanner_.line();
+    entry.hash = hash_frame(source_, entry);
     index_.frames.push_back(std::move(entry));
     return true;
   }
@@ -317,9 +333,9 @@ void check_unchanged(const ByteSource& source, const FrameEntry& entry)
         std::to_string(entry.end) + " bytes, got " + std::to_string(size) + "; reload the files",
       { source.path() });
   }
-  if (hash_header(source, entry) != entry.header_hash)
+  if (hash_frame(source, entry) != entry.hash)
   {
-    throw IoError("the file changed since it was indexed: expected the header of timestep " +
+    throw IoError("the file changed since it was indexed: expected the frame of timestep " +
         std::to_string(entry.header.timestep) + "; reload the files",
       { source.path(), entry.line });
   }

@@ -16,9 +16,9 @@ namespace
 /// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
 std::size_t find_glued_header(std::string_view line)
 {
-  const std::size_t found = line.find(item_mark, 1);
+  const std::size_t found = line.rfind(item_mark); // the last: it may have been killed twice
   const std::string_view before = line.substr(0, found);
-  return found == line.npos || before == byte_order_mark || split_words(before).empty() ||
+  return found == line.npos || found == 0 || before == byte_order_mark || split_words(before).empty() ||
       !opens_frame(item_words(line.substr(found)))
     ? 0
     : found;
