@@ -27,18 +27,6 @@ double miss(Twofold got, const Exact& exact)
   return distance == 0 ? 0 : static_cast<double>(distance / unit);
 }
 
-Exact least(std::initializer_list<Exact> values)
-{
-  return *std::min_element(
-    values.begin(), values.end(), [](const Exact& a, const Exact& b) { return a.value < b.value; });
-}
-
-Exact greatest(std::initializer_list<Exact> values)
-{
-  return *std::max_element(
-    values.begin(), values.end(), [](const Exact& a, const Exact& b) { return a.value < b.value; });
-}
-
 /// LAMMPS' formulas (documentation, "Triclinic simulation boxes"), in 113 bits.
 double worst_miss_of_tilted(
   const Box& box, const Vector3& lo, const Vector3& hi, double xy, double xz, double yz)

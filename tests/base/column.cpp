@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/column.h"
 
+#include "granular/base/words.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
@@ -18,13 +20,8 @@ using granular::ValueType;
 
 ColumnSchema schema_of(const std::string& names)
 {
-  std::istringstream stream(names);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;)
-  {
-    words.push_back(word);
-  }
-  return ColumnSchema(words);
+  const std::vector<std::string_view> words = granular::split_words(names);
+  return ColumnSchema(std::vector<std::string>(words.begin(), words.end()));
 }
 
 /// "name(columns)" of each array, the columns from 0.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 /// 113 bits: what results are compared with.
@@ -75,4 +76,15 @@ inline double error_in_bounds(double result, const Exact& exact)
   return static_cast<double>(absolute(static_cast<Quad>(result) - exact.value) / bound);
 }
 
+inline Exact least(std::initializer_list<Exact> values)
+{
+  return *std::min_element(
+    values.begin(), values.end(), [](const Exact& a, const Exact& b) { return a.value < b.value; });
+}
+
+inline Exact greatest(std::initializer_list<Exact> values)
+{
+  return *std::max_element(
+    values.begin(), values.end(), [](const Exact& a, const Exact& b) { return a.value < b.value; });
+}
 #endif

@@ -3,6 +3,8 @@
 // |result - exact| <= ulp(exact) + 2^-100 * sum of |terms| of the fully expanded formula.
 #include "granular/dump/positions.h"
 
+#include "granular/base/words.h"
+
 #include "../base/quad.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +12,8 @@
 #include <array>
 #include <cmath>
 #include <random>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
@@ -41,13 +43,8 @@ constexpr Coordinates all_coordinates[] = { Coordinates::Absolute, Coordinates::
 
 ColumnSchema schema_of(const std::string& names)
 {
-  std::istringstream stream(names);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;)
-  {
-    words.push_back(word);
-  }
-  return ColumnSchema(words);
+  const std::vector<std::string_view> words = granular::split_words(names);
+  return ColumnSchema(std::vector<std::string>(words.begin(), words.end()));
 }
 
 /// A box as the file has it, and as 113 bits have it.
@@ -58,18 +55,6 @@ struct Cell
   Exact3 origin;
   std::array<Exact3, 3> vectors;
 };
-
-Exact least(std::initializer_list<Exact> values)
-{
-  return *std::min_element(
-    values.begin(), values.end(), [](const Exact& a, const Exact& b) { return a.value < b.value; });
-}
-
-Exact greatest(std::initializer_list<Exact> values)
-{
-  return *std::max_element(
-    values.begin(), values.end(), [](const Exact& a, const Exact& b) { return a.value < b.value; });
-}
 
 Cell aligned_cell(const Vector3& lo, const Vector3& hi)
 {

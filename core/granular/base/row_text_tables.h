@@ -43,16 +43,8 @@ struct BlockMarks
   std::uint64_t lines; ///< line feeds
 };
 
-/// &keep_last[n] is a mask of 16 bytes that keeps the last n.
+/// &keep_last[n] is a mask of 32 bytes that keeps the last n, &keep_last[16 + n] one of 16 bytes.
 inline constexpr auto keep_last = []
-{
-  std::array<std::uint8_t, 32> masks{};
-  std::fill(masks.begin() + 16, masks.end(), std::uint8_t{ 0xff });
-  return masks;
-}();
-
-/// &keep_last_32[n] is a mask of 32 bytes that keeps the last n.
-inline constexpr auto keep_last_32 = []
 {
   std::array<std::uint8_t, 64> masks{};
   std::fill(masks.begin() + 32, masks.end(), std::uint8_t{ 0xff });

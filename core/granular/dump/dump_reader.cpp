@@ -6,7 +6,8 @@
 #include "granular/dump/text_dump.h"
 #include "granular/dump/text_header.h"
 
-#include <algorithm>
+#include <optional>
+#include <string>
 
 namespace granular
 {
@@ -14,18 +15,18 @@ namespace
 {
 /// An integer column that holds other numbers is read again as doubles, a column that the table does
 /// not know and that holds a word as texts. Ids must be integers.
-void widen(const FrameDecoder& decoder, ColumnSchema& schema, Notices& notices)
+void widen(const Misfit& misfit, ColumnSchema& schema, Notices& notices)
 {
-  const ColumnInfo& column = schema.columns()[static_cast<std::size_t>(decoder.misfit())];
-  const bool number = decoder.misfit_status() == RowStatus::NotExact;
+  const bool number = misfit.status == RowStatus::NotExact;
   const std::string text = std::string("expected ") + (number ? "an integer" : "a number") +
-    ", got " + quoted(decoder.misfit_word());
-  if (column.role == ColumnRole::Id)
+    ", got " + quoted(misfit.word);
+  if (schema.columns()[static_cast<std::size_t>(misfit.column)].role == ColumnRole::Id)
   {
-    throw FormatError(text, decoder.misfit_where());
+    throw FormatError(text, misfit.where);
   }
-  notices.push_back({ decoder.misfit_where(), text + "; the column is kept as " + (number ? "doubles" : "texts") });
-  schema.set_type(decoder.misfit(), number ? ValueType::Float64 : ValueType::Text);
+  notices.push_back(
+    { misfit.where, text + "; the column is kept as " + (number ? "doubles" : "texts") });
+  schema.set_type(misfit.column, number ? ValueType::Float64 : ValueType::Text);
 }
 }
 
@@ -48,9 +49,9 @@ DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const Dum
   {
     Notices found;
     FrameDecoder decoder(source, entry, schema, request, found);
-    if (!decoder.run(progress))
+    if (const std::optional<Misfit> misfit = decoder.run(progress))
     {
-      widen(decoder, schema, notices);
+      widen(*misfit, schema, notices);
       continue;
     }
     Block ids;

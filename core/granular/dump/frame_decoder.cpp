@@ -216,7 +216,7 @@ void FrameDecoder::aim(std::vector<ColumnSink>& sinks) const
   }
 }
 
-bool FrameDecoder::run(Progress& progress)
+std::optional<Misfit> FrameDecoder::run(Progress& progress)
 {
   TextRows rows(source_, entry_);
   std::vector<ColumnSink> sinks;
@@ -234,11 +234,8 @@ bool FrameDecoder::run(Progress& progress)
     const std::int64_t count = rows.decode(sinks, batch_rows);
     if (rows.misfit())
     {
-      misfit_status_ = rows.result().status;
-      misfit_ = rows.result().column;
-      misfit_word_ = rows.word();
-      misfit_where_ = rows.where();
-      return false;
+      return Misfit{ rows.result().column, rows.result().status, std::string(rows.word()),
+        rows.where() };
     }
     if (count == 0)
     {
@@ -253,7 +250,7 @@ bool FrameDecoder::run(Progress& progress)
         " words in a row, got more in some rows; the rest of them was ignored" });
   }
   progress.step(1);
-  return true;
+  return std::nullopt;
 }
 
 void FrameDecoder::finish_batch(std::size_t count)

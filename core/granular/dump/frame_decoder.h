@@ -74,6 +74,15 @@ struct Points
   void convert(const Box& box, std::int64_t row, std::size_t count);
 };
 
+/// A word that does not fit the type of its column, where another type would do.
+struct Misfit
+{
+  int column;
+  RowStatus status; ///< NotExact or NotANumber
+  std::string word;
+  Where where;
+};
+
 /// Decodes one frame: lays the wires, then runs batches of rows through them.
 class FrameDecoder
 {
@@ -81,14 +90,8 @@ public:
   FrameDecoder(const ByteSource& source, const FrameEntry& entry, const ColumnSchema& schema,
     const DumpRequest& request, Notices& notices);
 
-  /// Decodes all rows. False if a column does not fit its type: misfit() tells which.
-  bool run(Progress& progress);
-
-  int misfit() const noexcept { return misfit_; }
-  RowStatus misfit_status() const noexcept { return misfit_status_; }
-  const std::string& misfit_word() const noexcept { return misfit_word_; }
-
-  const Where& misfit_where() const noexcept { return misfit_where_; }
+  /// Decodes all rows, or up to a word that does not fit.
+  std::optional<Misfit> run(Progress& progress);
 
   /// The frame; ids gets the ids where they are needed for sorting and no array of the frame.
   DumpFrame take(Block& ids);
@@ -124,10 +127,6 @@ private:
   DumpFrame frame_;
   std::int64_t row_ = 0;  ///< rows kept
   std::int64_t seen_ = 0; ///< rows decoded
-  int misfit_ = -1;
-  RowStatus misfit_status_ = RowStatus::Done;
-  std::string misfit_word_;
-  Where misfit_where_;
 };
 }
 #endif
