@@ -134,10 +134,11 @@ void vtkGranularDumpReader::Internals::Tell(
   for (const granular::Notice& notice : notices)
   {
     const std::string& path = notice.where.path;
-    // what is said of the rows of a frame is the same for the next ones, what is said of frames is not
-    const std::string line = ofFrames ? std::to_string(notice.where.line) : "";
-    if (this->Told.insert(path + "\n" + line + "\n" + notice.where.column + "\n" + notice.text).second &&
-      ++counts[path] <= most)
+    // what is said of a column, or of all rows, holds for the next frames too; what is said of
+    // frames is new for each
+    const std::string about = ofFrames ? std::to_string(notice.where.line) : notice.where.column;
+    const std::string what = ofFrames || about.empty() ? notice.text : "";
+    if (this->Told.insert(path + "\n" + about + "\n" + what).second && ++counts[path] <= most)
     {
       std::string& joined = texts[path];
       joined += (joined.empty() ? "" : "\n") + granular::to_string(notice);

@@ -255,7 +255,8 @@ TEST(ParseDouble, TrapLocaleWithADecimalComma)
   const std::string folder = GRANULAR_OUTPUT "/locale";
   std::filesystem::create_directories(folder);
   const std::string command = "localedef -i de_DE -f UTF-8 '" + folder + "/de_DE.UTF-8'";
-  ASSERT_EQ(std::system(command.c_str()), 0) << "the sources of locales are needed (Debian: locales)";
+  ASSERT_EQ(std::system(command.c_str()), 0)
+    << "the sources of locales are needed (Debian: locales)";
   ASSERT_EQ(setenv("LOCPATH", folder.c_str(), 1), 0);
   ASSERT_NE(std::setlocale(LC_ALL, "de_DE.UTF-8"), nullptr);
   ASSERT_EQ(std::strtod("1,5", nullptr), 1.5);

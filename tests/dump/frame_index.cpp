@@ -535,8 +535,9 @@ TEST(FrameIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
   folder.write("a.dump", rows(after, values));
   touch(path, 1);
   EXPECT_EQ(error_of([&] { run.read(0); }),
-    path + ":1: the file changed since it was indexed: expected the frame of timestep 0; reload "
-           "the files");
+    path +
+      ":1: the file changed since it was indexed: expected the frame of timestep 0; reload "
+      "the files");
   run.update({ path });
   EXPECT_TRUE(run.read(0).has("fx"));
   EXPECT_FALSE(run.read(0).has("vx"));

@@ -291,6 +291,22 @@ TEST(ReaderErrors, TheSameNoticeOfEveryFrameIsOneWarning)
   EXPECT_NE(reader.Said->Warnings[0].find("no column for the coordinate z"), std::string::npos);
 }
 
+TEST(ReaderErrors, AColumnThatIsWidenedInEveryFrameIsOneWarning)
+{
+  std::string text;
+  for (int step = 0; step < 4; ++step)
+  {
+    text += Frame(step, 1, "id type x y z", "1 " + std::to_string(step) + ".5 0 0 0\n");
+  }
+  Reader reader({ WriteFile("types.dump", text) });
+  for (int step = 0; step < 4; ++step)
+  {
+    reader->UpdateTimeStep(step);
+    EXPECT_EQ(reader.Numbers("type")->GetComponent(0, 0), step + 0.5);
+  }
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+}
+
 TEST(ReaderErrors, EveryFrameThatIsLeftOutIsSaid)
 {
   const std::string good = Frame(0, 1, "id x y z", "1 0 0 0\n");
@@ -307,7 +323,8 @@ TEST(ReaderErrors, HundredsOfBadFramesAreOneShortWarning)
   std::string text = Frame(0, 1, "id x y z", "1 0 0 0\n");
   for (int step = 1; step < 200; ++step)
   {
-    text += Frame(step, 2 + step, "id x y z", "1 0 0 0\n") + Frame(step, 1, "id x y z", "1 0 0 0\n");
+    text +=
+      Frame(step, 2 + step, "id x y z", "1 0 0 0\n") + Frame(step, 1, "id x y z", "1 0 0 0\n");
   }
   Reader reader({ WriteFile("bad.dump", text) });
   reader->Update();

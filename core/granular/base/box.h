@@ -19,9 +19,9 @@ struct Box
 {
   Twofold3 origin = {};
   std::array<Twofold3, 3> vectors = {}; ///< a, b, c
-  std::string boundary;                 ///< flags as written, "pp pp ff"; empty if the file has none
-  bool tilted = false;                  ///< any of xy, xz, yz or a general cell: not axis-aligned
-  bool general = false;                 ///< a and b need not lie in x and the xy plane
+  std::string boundary; ///< flags as written, "pp pp ff"; empty if the file has none
+  bool tilted = false;  ///< any of xy, xz, yz or a general cell: not axis-aligned
+  bool general = false; ///< a and b need not lie in x and the xy plane
 
   /// From the bounds of an axis-aligned box.
   static Box from_bounds(const Vector3& lo, const Vector3& hi);
@@ -29,7 +29,8 @@ struct Box
   /// From the bounding box of a tilted box and its tilts xy, xz, yz. The files hold the bounds,
   /// the box is: xlo = xlo_bound - min(0, xy, xz, xy + xz), xhi = xhi_bound - max(0, xy, xz,
   /// xy + xz), likewise y with yz (documentation of LAMMPS, "Triclinic simulation boxes").
-  static Box from_tilted_bounds(const Vector3& lo, const Vector3& hi, double xy, double xz, double yz);
+  static Box from_tilted_bounds(
+    const Vector3& lo, const Vector3& hi, double xy, double xz, double yz);
 
   /// From a corner and three edges (LAMMPS' general triclinic boxes).
   static Box from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vectors);

@@ -20,7 +20,8 @@ namespace
 [[noreturn]] void fail(const char* action, const std::string& path, int error)
 {
   const std::string reason = std::generic_category().message(error);
-  throw IoError(std::string("cannot ") + action + ": " + reason, { path }, static_cast<std::errc>(error));
+  throw IoError(
+    std::string("cannot ") + action + ": " + reason, { path }, static_cast<std::errc>(error));
 }
 
 class FileSource final : public ByteSource

@@ -96,7 +96,8 @@ Groups collect_groups(const std::vector<ColumnInfo>& columns)
 /// changed places would be wrong without anybody noticing.
 bool is_array(const std::string& key, const Group& group)
 {
-  const bool complete = std::find(group.columns.begin(), group.columns.end(), -1) == group.columns.end();
+  const bool complete =
+    std::find(group.columns.begin(), group.columns.end(), -1) == group.columns.end();
   const bool from_table = key.ends_with('*');
   return complete && group.columns.size() > 1 &&
     (from_table || std::is_sorted(group.columns.begin(), group.columns.end()));
@@ -146,8 +147,8 @@ std::vector<ArrayInfo> make_arrays(const std::vector<ColumnInfo>& columns)
       continue;
     }
     ArrayInfo array;
-    array.name = make_unique(
-      group == first_columns.end() ? column.name : group->second->array, taken);
+    array.name =
+      make_unique(group == first_columns.end() ? column.name : group->second->array, taken);
     array.columns = group == first_columns.end() ? std::vector<int>{ i } : group->second->columns;
     array.type = column.type;
     array.role = column.role;
@@ -185,8 +186,9 @@ std::span<const KnownColumn> known_columns() noexcept
 
 const KnownColumn* find_known_column(std::string_view name) noexcept
 {
-  const auto* const found = std::find_if(std::begin(known_column_table), std::end(known_column_table),
-    [name](const KnownColumn& column) { return matches(column.name, name); });
+  const auto* const found =
+    std::find_if(std::begin(known_column_table), std::end(known_column_table),
+      [name](const KnownColumn& column) { return matches(column.name, name); });
   return found == std::end(known_column_table) ? nullptr : found;
 }
 
@@ -198,7 +200,8 @@ ColumnSchema::ColumnSchema(const std::vector<std::string>& names)
     ColumnInfo& column = columns_.back();
     if (this->find(column.role, column.component) < static_cast<int>(columns_.size()) - 1)
     {
-      column.role = ColumnRole::Other; // the first column has the role; a second one is just a column
+      column.role =
+        ColumnRole::Other; // the first column has the role; a second one is just a column
     }
   }
   arrays_ = make_arrays(columns_);

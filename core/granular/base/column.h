@@ -39,13 +39,13 @@ enum class ColumnRole : std::uint8_t
 /// One row of the table of names that LIGGGHTS and LAMMPS give to columns.
 struct KnownColumn
 {
-  std::string_view name;  ///< as printed; a trailing '*' stands for any rest
+  std::string_view name; ///< as printed; a trailing '*' stands for any rest
   ValueType type;
   ColumnRole role;
   std::string_view array; ///< name of the array it becomes part of; empty: its own name
   int component;          ///< index in that array
   int components;         ///< of that array
-  std::string_view unit;  ///< SI unit under `units si`; "-" dimensionless, "" as the user defined it
+  std::string_view unit; ///< SI unit under `units si`; "-" dimensionless, "" as the user defined it
   std::string_view meaning;
 };
 

@@ -102,7 +102,8 @@ bool nearest_double(std::uint64_t digits, std::int64_t power, double& value) noe
   const int zeros = std::countl_zero(digits);
   const std::uint64_t normal = digits << zeros;
   Wide product = Wide{ normal } * five.high;
-  constexpr std::uint64_t below_rounding = 0x1ff; // bits of the high half that a double has no use for
+  constexpr std::uint64_t below_rounding =
+    0x1ff; // bits of the high half that a double has no use for
   if ((static_cast<std::uint64_t>(product >> 64) & below_rounding) == below_rounding)
   {
     product += Wide{ normal } * five.low >> 64;

@@ -14,8 +14,8 @@ namespace granular
 struct Where
 {
   std::string path = {};
-  std::int64_t line = 0;  ///< first line is 1; 0: not known or not a text file
-  std::int64_t byte = -1; ///< first byte is 0; -1: not known
+  std::int64_t line = 0;   ///< first line is 1; 0: not known or not a text file
+  std::int64_t byte = -1;  ///< first byte is 0; -1: not known
   std::string column = {}; ///< name of the column as the file spells it
 };
 

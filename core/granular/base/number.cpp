@@ -36,7 +36,8 @@ constexpr Spelling microsoft_spellings[] = {
   { "1.#INF", std::numeric_limits<double>::infinity() },
 };
 
-ParseResult parse_microsoft(const char* first, const char* last, bool negative, double& value) noexcept
+ParseResult parse_microsoft(
+  const char* first, const char* last, bool negative, double& value) noexcept
 {
   const std::string_view word(first, static_cast<std::size_t>(last - first));
   for (const Spelling& spelling : microsoft_spellings)
@@ -119,7 +120,8 @@ ParseResult parse_int64(const char* first, const char* last, std::int64_t& value
   }
   double number = 0;
   const ParseResult result = parse_double(first, last, number);
-  constexpr double exact = 9007199254740992.0; // 2^53: above it a double stands for several integers
+  constexpr double exact =
+    9007199254740992.0; // 2^53: above it a double stands for several integers
   if (!result || !(std::abs(number) <= exact) || number != std::trunc(number))
   {
     return invalid(first);

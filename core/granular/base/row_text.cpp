@@ -83,8 +83,8 @@ const char* store_direct(const char* word, const char* line_end, const ColumnSin
   const bool real = sink.kind == ColumnSink::Kind::Float64;
   double number = 0;
   std::int64_t whole = 0;
-  const auto [end, ec] = real ? std::from_chars(word, line_end, number)
-                              : std::from_chars(word, line_end, whole);
+  const auto [end, ec] =
+    real ? std::from_chars(word, line_end, number) : std::from_chars(word, line_end, whole);
   if (ec != std::errc{} || (end != line_end && !is_blank(*end)))
   {
     return nullptr;

@@ -17,8 +17,8 @@ namespace granular::row_text::avx512
 {
 namespace
 {
-#define GRANULAR_TARGET                                                                            \
-  __attribute__((target("avx2,bmi,bmi2,popcnt,avx512f,avx512bw,avx512vl,avx512dq,avx512cd,"  \
+#define GRANULAR_TARGET                                                                     \
+  __attribute__((target("avx2,bmi,bmi2,popcnt,avx512f,avx512bw,avx512vl,avx512dq,avx512cd," \
                         "avx512vbmi2")))
 
 GRANULAR_TARGET inline BlockMarks mark_block(const char* block) noexcept
@@ -28,7 +28,8 @@ GRANULAR_TARGET inline BlockMarks mark_block(const char* block) noexcept
     _mm512_cmpeq_epi8_mask(bytes, _mm512_set1_epi8('\n')) };
 }
 
-GRANULAR_TARGET inline void append(std::uint64_t bits, std::uint32_t base, std::uint16_t* to) noexcept
+GRANULAR_TARGET inline void append(
+  std::uint64_t bits, std::uint32_t base, std::uint16_t* to) noexcept
 {
   alignas(64) static constexpr auto places = []
   {
@@ -67,7 +68,8 @@ GRANULAR_TARGET inline void append_lines(
 /// 0 to 15 in each of four lanes.
 GRANULAR_TARGET inline __m512i byte_places() noexcept
 {
-  return _mm512_broadcast_i32x4(_mm_setr_epi8(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  return _mm512_broadcast_i32x4(
+    _mm_setr_epi8(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
 }
 
 /// Byte 0 of number j in all bytes of lane j.
@@ -138,7 +140,8 @@ GRANULAR_TARGET inline FourWords load_four(const char* base, const FourEdges& ed
   // put together in registers: a load across four stores would wait for all of them
   const __m128i edge = _mm_setr_epi32(static_cast<int>(edges[0]), static_cast<int>(edges[1]),
     static_cast<int>(edges[2]), static_cast<int>(edges[3]));
-  words.length = _mm_sub_epi32(_mm_srli_epi32(edge, 16), _mm_and_si128(edge, _mm_set1_epi32(0xffff)));
+  words.length =
+    _mm_sub_epi32(_mm_srli_epi32(edge, 16), _mm_and_si128(edge, _mm_set1_epi32(0xffff)));
   words.fits = _mm_cmpgt_epi32_mask(words.length, _mm_set1_epi32(16)) == 0;
   words.bytes = _mm512_zextsi128_si512(load_lane(base, edges[0]));
   words.bytes = _mm512_inserti32x4(words.bytes, load_lane(base, edges[1]), 1);
@@ -209,8 +212,7 @@ GRANULAR_TARGET inline void take_points(FourScales& scales, __m512i& digits) noe
 GRANULAR_TARGET inline bool are_numbers(
   const FourWords& words, __m128i removed, __m512i digits) noexcept
 {
-  const __m128i other =
-    _mm_mask_add_epi32(removed, words.negative(), removed, _mm_set1_epi32(1));
+  const __m128i other = _mm_mask_add_epi32(removed, words.negative(), removed, _mm_set1_epi32(1));
   return _mm_cmple_epi32_mask(words.length, other) == 0 &&
     _mm512_cmpgt_epu8_mask(digits, _mm512_set1_epi8(9)) == 0;
 }
@@ -232,8 +234,8 @@ GRANULAR_TARGET bool scale_one_by_one(
 }
 
 /// digits * 10^power with the signs of negative.
-GRANULAR_TARGET inline bool scale_four(__m256i digits, __m128i power, __mmask8 negative,
-  std::array<double, 4>& values) noexcept
+GRANULAR_TARGET inline bool scale_four(
+  __m256i digits, __m128i power, __mmask8 negative, std::array<double, 4>& values) noexcept
 {
   const __m128i zero = _mm_setzero_si128();
   const bool exact = _mm_cmpgt_epi32_mask(_mm_abs_epi32(power), _mm_set1_epi32(22)) == 0 &&

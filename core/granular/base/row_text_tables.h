@@ -119,7 +119,8 @@ inline bool scale(std::uint64_t digits, int power, double& value) noexcept
   {
     // both operands are exact, and one of the two factors is 1
     const Scale factors = scales[static_cast<std::size_t>(power + 22)];
-    value = static_cast<double>(static_cast<std::int64_t>(digits)) * factors.factor / factors.divisor;
+    value =
+      static_cast<double>(static_cast<std::int64_t>(digits)) * factors.factor / factors.divisor;
     return true;
   }
   return digits != 0 && nearest_double(digits, power, value);

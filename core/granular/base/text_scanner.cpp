@@ -62,8 +62,8 @@ bool TextScanner::next(std::string_view& line)
     searched = end_ - at_;
     if (searched > longest_line)
     {
-      throw LimitError("expected a line of at most " + std::to_string(longest_line) +
-          " bytes, got a longer one",
+      throw LimitError(
+        "expected a line of at most " + std::to_string(longest_line) + " bytes, got a longer one",
         { source_.path(), line_ });
     }
     if (!this->fill())

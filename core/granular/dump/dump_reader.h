@@ -25,9 +25,9 @@ struct DumpRequest
   bool single_precision = false; ///< points as float instead of double
   Vector3 point_origin = {};     ///< subtracted from the points in double before any rounding
   bool sort_by_id = false;
-  std::int64_t stride = 1;       ///< >= 1; n keeps id mod n = 0, or every n-th row without ids
+  std::int64_t stride = 1; ///< >= 1; n keeps id mod n = 0, or every n-th row without ids
   std::array<double, 6> region = { 1, -1, 1, -1, 1, -1 }; ///< xlo xhi ylo yhi zlo zhi, closed, in
-                                 ///< absolute coordinates; an axis with lo > hi is not restricted
+    ///< absolute coordinates; an axis with lo > hi is not restricted
   std::function<bool(const ArrayInfo&)> wanted; ///< which arrays; empty: all but position forms
 };
 

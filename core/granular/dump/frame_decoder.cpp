@@ -116,8 +116,8 @@ void FrameDecoder::lay_arrays()
     const std::size_t width = size_of(info.type);
     const std::size_t stride = width * info.columns.size();
     array.block = Block(stride * static_cast<std::size_t>(entry_.header.rows));
-    Destination to = { static_cast<char*>(array.block.data()),
-      static_cast<std::ptrdiff_t>(stride), false };
+    Destination to = { static_cast<char*>(array.block.data()), static_cast<std::ptrdiff_t>(stride),
+      false };
     if (info.type == ValueType::Text)
     {
       to = this->scratch(sizeof(std::string_view));
@@ -144,7 +144,8 @@ void FrameDecoder::lay(Points& points)
     }
     to.base += sizeof(double);
   }
-  if (std::any_of(points.plan.images.begin(), points.plan.images.end(), [](int c) { return c >= 0; }))
+  if (std::any_of(
+        points.plan.images.begin(), points.plan.images.end(), [](int c) { return c >= 0; }))
   {
     points.images.assign(3 * batch_rows, 0);
   }
@@ -160,8 +161,7 @@ void FrameDecoder::lay(Points& points)
 
 void FrameDecoder::lay_points()
 {
-  points_.plan =
-    plan_positions(schema_, entry_.header.box, request_.coordinates, where_, notices_);
+  points_.plan = plan_positions(schema_, entry_.header.box, request_.coordinates, where_, notices_);
   points_.point_origin = request_.point_origin;
   const std::size_t stride = 3 * (request_.single_precision ? sizeof(float) : sizeof(double));
   frame_.coordinates = points_.plan.coordinates;
@@ -190,8 +190,9 @@ void FrameDecoder::lay_filters()
       request_.coordinates != Coordinates::Absolute)
     {
       notices_.push_back({ where_,
-        std::string("expected image counts ix iy iz to make Absolute coordinates for the region, got "
-                    "none; the region is in ") +
+        std::string(
+          "expected image counts ix iy iz to make Absolute coordinates for the region, got "
+          "none; the region is in ") +
           to_string(region_->plan.coordinates) + " coordinates" });
     }
     region_->xyz = this->scratch(3 * sizeof(double));
@@ -201,8 +202,8 @@ void FrameDecoder::lay_filters()
   {
     // as an array of its own, so that filters treat it like all others
     ids_ = Block(sizeof(std::int64_t) * static_cast<std::size_t>(entry_.header.rows));
-    this->want(id, ValueType::Int64,
-      { static_cast<char*>(ids_.data()), sizeof(std::int64_t), false });
+    this->want(
+      id, ValueType::Int64, { static_cast<char*>(ids_.data()), sizeof(std::int64_t), false });
   }
 }
 
@@ -322,8 +323,8 @@ void FrameDecoder::choose_rows(std::size_t count)
     if (id != wires_.end())
     {
       const char* const from = id->second.first.at(row_);
-      std::memcpy(&number, from + static_cast<std::ptrdiff_t>(i) * id->second.first.stride,
-        sizeof number);
+      std::memcpy(
+        &number, from + static_cast<std::ptrdiff_t>(i) * id->second.first.stride, sizeof number);
     }
     keep_[i] = number % request_.stride == 0;
   }
@@ -374,7 +375,8 @@ void FrameDecoder::index_texts(std::size_t count)
         {
           throw LimitError("expected at most 2147483647 different words in a column", where_);
         }
-        found = column.indices.emplace(texts[i], static_cast<std::int32_t>(array.words.size())).first;
+        found =
+          column.indices.emplace(texts[i], static_cast<std::int32_t>(array.words.size())).first;
         array.words.emplace_back(texts[i]);
       }
       indices[i] = found->second;

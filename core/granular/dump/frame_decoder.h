@@ -122,8 +122,8 @@ private:
   Points points_;
   std::optional<Points> region_; ///< absolute coordinates, where a region restricts the rows
   std::vector<TextColumn> texts_;
-  std::vector<char> keep_;       ///< of a batch; empty: all rows stay
-  Block ids_;                    ///< where they are needed but not wanted as an array
+  std::vector<char> keep_; ///< of a batch; empty: all rows stay
+  Block ids_;              ///< where they are needed but not wanted as an array
   DumpFrame frame_;
   std::int64_t row_ = 0;  ///< rows kept
   std::int64_t seen_ = 0; ///< rows decoded

@@ -64,8 +64,7 @@ FrameIndex::FrameIndex(FrameIndex&&) noexcept = default;
 FrameIndex& FrameIndex::operator=(FrameIndex&&) noexcept = default;
 FrameIndex::~FrameIndex() = default;
 
-void FrameIndex::update(
-  const std::vector<std::string>& files, Notices& notices, Progress& progress)
+void FrameIndex::update(const std::vector<std::string>& files, Notices& notices, Progress& progress)
 {
   std::map<std::string, File> known;
   for (std::size_t i = 0; i < paths_.size(); ++i)
@@ -173,8 +172,8 @@ void FrameIndex::note_hidden_files(Notices& notices) const
   {
     if (!shown[i] && !records_[i].index.frames.empty())
     {
-      notices.push_back({ { paths_[i] },
-        "no frame of this file is shown: later files have the same timesteps" });
+      notices.push_back(
+        { { paths_[i] }, "no frame of this file is shown: later files have the same timesteps" });
     }
   }
 }
@@ -242,8 +241,8 @@ std::size_t FrameIndex::find(const std::vector<double>& times, double time) noex
   constexpr double tolerance = 1e-9; // of the distance between two frames
   const auto after = std::upper_bound(times.begin(), times.end(), time);
   const auto next = static_cast<std::size_t>(after - times.begin());
-  const bool nearly = next > 0 && after != times.end() &&
-    *after - time <= tolerance * (*after - times[next - 1]);
+  const bool nearly =
+    next > 0 && after != times.end() && *after - time <= tolerance * (*after - times[next - 1]);
   return next == 0 || nearly ? next : next - 1;
 }
 }

@@ -23,7 +23,7 @@ struct FrameEntry
   std::int64_t end = 0;
   std::int64_t line = 1;      ///< line number at offset
   std::int64_t rows_line = 1; ///< line number at rows_offset
-  std::uint64_t hash = 0; ///< of the header and the last rows: tells whether it is still there
+  std::uint64_t hash = 0;     ///< of the header and the last rows: tells whether it is still there
   FrameHeader header;
   std::shared_ptr<const ColumnSchema> schema; ///< shared by frames of a file with the same columns
 };

@@ -125,7 +125,8 @@ void note(const PositionPlan& plan, std::span<const Choice* const> chosen, Coord
   {
     missing += chosen[axis] ? "" : std::string(missing.empty() ? "" : " ") + "xyz"[axis];
     uncounted = uncounted ||
-      (wanted == Scaled && chosen[axis] && is_unwrapped(chosen[axis]->role) && chosen[axis]->shift == 0);
+      (wanted == Scaled && chosen[axis] && is_unwrapped(chosen[axis]->role) &&
+        chosen[axis]->shift == 0);
   }
   if (!missing.empty())
   {
@@ -147,8 +148,8 @@ const char* to_string(Coordinates coordinates) noexcept
   return names[static_cast<std::size_t>(coordinates)];
 }
 
-PositionPlan plan_positions(
-  const ColumnSchema& schema, const Box& box, Coordinates wanted, const Where& where, Notices& notices)
+PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordinates wanted,
+  const Where& where, Notices& notices)
 {
   const Columns columns{ schema, box.tilted };
   const auto chosen = choose(columns, choices[static_cast<std::size_t>(wanted)]);

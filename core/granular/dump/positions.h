@@ -34,15 +34,15 @@ struct PositionPlan
   };
 
   std::array<Axis, 3> axes;
-  std::array<int, 3> images = { -1, -1, -1 }; ///< columns, where any axis needs a shift
+  std::array<int, 3> images = { -1, -1, -1 };      ///< columns, where any axis needs a shift
   Coordinates coordinates = Coordinates::Absolute; ///< what the points will be
 };
 
 /// Chooses the columns. What the file cannot give is replaced by what it can, with a notice.
 /// Throws FormatError if there is no coordinate column, UnsupportedError if a tilted box comes
 /// with scaled coordinates on one axis and absolute ones on another.
-PositionPlan plan_positions(
-  const ColumnSchema& schema, const Box& box, Coordinates wanted, const Where& where, Notices& notices);
+PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordinates wanted,
+  const Where& where, Notices& notices);
 
 /// Turns the columns' values into points minus point_origin, in place: points holds x y z of each
 /// row, images (empty unless the plan has images) the three counts. Coordinates without a column are

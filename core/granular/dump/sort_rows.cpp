@@ -53,7 +53,8 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Wher
   const std::int64_t* const numbers = find_ids(frame, ids);
   if (!numbers)
   {
-    notices.push_back({ where, "expected a column id to sort by, got none; the order is the file's" });
+    notices.push_back(
+      { where, "expected a column id to sort by, got none; the order is the file's" });
     return;
   }
   std::vector<Place> order;

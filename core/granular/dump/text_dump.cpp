@@ -19,7 +19,8 @@ std::vector<std::string> unnamed_columns(std::size_t words, const Where& where)
   constexpr const char* names[] = { "id", "type", "xs", "ys", "zs", "ix", "iy", "iz" };
   if (words != 0 && words != 5 && words != 8)
   {
-    throw FormatError("expected 5 or 8 words in a row of a dump that does not name its columns, got " +
+    throw FormatError(
+      "expected 5 or 8 words in a row of a dump that does not name its columns, got " +
         std::to_string(words),
       where);
   }
@@ -28,7 +29,8 @@ std::vector<std::string> unnamed_columns(std::size_t words, const Where& where)
 
 /// The schema of a frame, from its names and its first row: a column that the table does not know
 /// holds texts if the first one is no number.
-ColumnSchema make_schema(std::vector<std::string> names, std::string_view first_row, const Where& where)
+ColumnSchema make_schema(
+  std::vector<std::string> names, std::string_view first_row, const Where& where)
 {
   const std::vector<std::string_view> words = split_words(first_row);
   if (names.empty())
@@ -55,8 +57,8 @@ std::uint64_t hash_bytes(
   std::array<char, 4096> part;
   while (first < last)
   {
-    const std::size_t got = source.read(first, part.data(),
-      std::min(part.size(), static_cast<std::size_t>(last - first)));
+    const std::size_t got = source.read(
+      first, part.data(), std::min(part.size(), static_cast<std::size_t>(last - first)));
     for (const char byte : std::span(part.data(), got))
     {
       hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
@@ -157,8 +159,9 @@ bool Indexer::read_frame(TextHeader& reader)
   const bool at_end = !this->peek(next);
   if (this->find_glued_header(entry, rows) && rows != entry.header.rows)
   {
-    this->leave_out({ source_.path(), entry.line }, "expected " +
-        std::to_string(entry.header.rows) + " rows, got the header of another frame within a row");
+    this->leave_out({ source_.path(), entry.line },
+      "expected " + std::to_string(entry.header.rows) +
+        " rows, got the header of another frame within a row");
     return true;
   }
   return this->finish_frame(entry, rows, at_end);
@@ -277,7 +280,8 @@ bool Indexer::find_glued_header(FrameEntry& entry, std::int64_t& rows)
     const std::size_t found = tail.find(opening);
     if (found != tail.npos)
     {
-      const auto lines = std::count(tail.begin() + static_cast<std::ptrdiff_t>(found), tail.end(), '\n');
+      const auto lines =
+        std::count(tail.begin() + static_cast<std::ptrdiff_t>(found), tail.end(), '\n');
       const std::size_t feed = tail.rfind('\n', found);
       entry.end = start + static_cast<std::int64_t>(feed == tail.npos ? 0 : feed + 1);
       rows -= lines;

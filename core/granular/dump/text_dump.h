@@ -26,9 +26,10 @@ struct TextIndex
   std::vector<FrameEntry> frames;
   std::int64_t resume_offset = 0; ///< end of the last complete frame: where to go on
   std::int64_t resume_line = 1;
-  std::string units;  ///< of the last ITEM: UNITS; it is printed once a file
-  Notices notices;    ///< frames that were left out, and why
-  std::optional<Notice> defect; ///< what is wrong with the first frame that was left out, or missing
+  std::string units; ///< of the last ITEM: UNITS; it is printed once a file
+  Notices notices;   ///< frames that were left out, and why
+  std::optional<Notice>
+    defect; ///< what is wrong with the first frame that was left out, or missing
 };
 
 /// Goes on from index.resume_offset to the end of the source, passing over rows at scan speed.

@@ -18,8 +18,8 @@ std::size_t find_glued_header(std::string_view line)
 {
   const std::size_t found = line.rfind(item_mark); // the last: it may have been killed twice
   const std::string_view before = line.substr(0, found);
-  return found == line.npos || found == 0 || before == byte_order_mark || split_words(before).empty() ||
-      !opens_frame(item_words(line.substr(found)))
+  return found == line.npos || found == 0 || before == byte_order_mark ||
+      split_words(before).empty() || !opens_frame(item_words(line.substr(found)))
     ? 0
     : found;
 }
@@ -51,8 +51,7 @@ std::vector<std::string_view> item_words(std::string_view line)
 
 bool opens_frame(std::span<const std::string_view> words)
 {
-  return words.size() == 1 &&
-    (words[0] == "TIMESTEP" || words[0] == "UNITS" || words[0] == "TIME");
+  return words.size() == 1 && (words[0] == "TIMESTEP" || words[0] == "UNITS" || words[0] == "TIME");
 }
 
 bool begins_with(std::span<const std::string_view> words, std::string_view name)
@@ -305,8 +304,8 @@ bool TextHeader::parse_box(Words words)
   {
     const Vector3 lo = { n[0][0], n[1][0], n[2][0] };
     const Vector3 hi = { n[0][1], n[1][1], n[2][1] };
-    header_.box =
-      tilted ? Box::from_tilted_bounds(lo, hi, n[0][2], n[1][2], n[2][2]) : Box::from_bounds(lo, hi);
+    header_.box = tilted ? Box::from_tilted_bounds(lo, hi, n[0][2], n[1][2], n[2][2])
+                         : Box::from_bounds(lo, hi);
   }
   header_.box.boundary = std::move(boundary);
   has_box_ = true;

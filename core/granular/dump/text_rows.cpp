@@ -119,8 +119,7 @@ void TextRows::check_count(std::int64_t rows) const
 
 std::string_view TextRows::word() const
 {
-  const char* const end = std::find_if(result_.ptr, buffer_.data() + lines_end_,
-    is_blank);
+  const char* const end = std::find_if(result_.ptr, buffer_.data() + lines_end_, is_blank);
   return { result_.ptr, static_cast<std::size_t>(end - result_.ptr) };
 }
 
@@ -141,8 +140,7 @@ void TextRows::fail() const
 Where TextRows::where() const
 {
   Where where{ source_.path(), entry_.rows_line };
-  std::int64_t left =
-    buffer_offset_ + (result_.ptr - buffer_.data()) - entry_.rows_offset;
+  std::int64_t left = buffer_offset_ + (result_.ptr - buffer_.data()) - entry_.rows_offset;
   std::string part(std::size_t{ 1 } << 18, ' ');
   for (std::int64_t at = entry_.rows_offset; left > 0;)
   {

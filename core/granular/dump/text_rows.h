@@ -50,10 +50,10 @@ private:
   const ByteSource& source_;
   const FrameEntry& entry_;
   PaddedBuffer buffer_;
-  std::size_t at_ = 0;           ///< next row in buffer_
-  std::size_t lines_end_ = 0;    ///< end of the last whole line in buffer_
-  std::size_t end_ = 0;          ///< bytes in buffer_
-  std::int64_t buffer_offset_;   ///< of buffer_ in the file
+  std::size_t at_ = 0;         ///< next row in buffer_
+  std::size_t lines_end_ = 0;  ///< end of the last whole line in buffer_
+  std::size_t end_ = 0;        ///< bytes in buffer_
+  std::int64_t buffer_offset_; ///< of buffer_ in the file
   std::int64_t rows_ = 0;
   RowResult result_{ nullptr };
   bool surplus_ = false;
