@@ -7,7 +7,8 @@ granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd
 
 # Debian's names. What the core and its tests need, and what the rest needs on top of it.
 granular_core_packages=(
-  binutils cmake g++ libbenchmark-dev libgtest-dev locales ninja-build python3)
+  binutils cmake g++ libbenchmark-dev libgtest-dev libzstd-dev locales ninja-build python3
+  zlib1g-dev)
 granular_plugin_packages=(
   libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xvfb)
 

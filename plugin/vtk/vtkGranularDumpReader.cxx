@@ -3,11 +3,11 @@
 
 #include "private/dump_output.h"
 #include "private/guard.h"
+#include "private/series_reader.h"
 
-#include "granular/base/byte_source.h"
+#include "granular/base/words.h"
 #include "granular/dump/dump_reader.h"
-#include "granular/dump/frame_index.h"
-#include "granular/dump/text_dump.h"
+#include "granular/dump/file_index.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
@@ -17,13 +17,13 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -35,65 +35,30 @@ struct vtkGranularDumpReader::Internals
 {
   using Self = vtkGranularDumpReader;
 
-  std::vector<std::string> FileNames;
+  std::string ColumnNames; ///< as they were given
   vtkNew<vtkDataArraySelection> PointArrays;
-  granular::FrameIndex Index;
-  std::vector<std::string> IndexedNames; ///< what Index was made from; empty: it is not valid
-  bool Stale = false;                    ///< the files are to be looked at again
-  bool Cancelled = false;                ///< the last request was
-  std::set<std::string> Told;            ///< notices the user has had
-  std::set<std::string> ArrayNames;      ///< of all frames
+  std::set<std::string> ArrayNames; ///< of all frames
 
-  void UpdateIndex(Self* self);
-  void UpdateSelection();
+  void UpdateSelection(const granular::FrameIndex& index);
   void CheckSelection(const std::string& path, granular::Notices& notices);
-  void Tell(Self* self, const granular::Notices& notices, bool ofFrames);
   granular::DumpRequest MakeRequest(Self* self);
-  const granular::FrameEntry& FindFrame(
-    Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time);
   void FillOutputs(Self* self, vtkInformation* request, vtkInformationVector* outputs);
 };
 
 //------------------------------------------------------------------------------
-// Brings the index up to the files, if they are to be looked at at all. Throws, and leaves the index
-// invalid, if there is nothing to show.
-void vtkGranularDumpReader::Internals::UpdateIndex(Self* self)
-{
-  if (this->FileNames.empty())
-  {
-    throw granular::IoError("no file to read: set FileNames first");
-  }
-  if (!this->Stale && this->IndexedNames == this->FileNames)
-  {
-    return;
-  }
-  if (this->IndexedNames != this->FileNames)
-  {
-    this->Told.clear();
-  }
-  this->IndexedNames.clear();
-  granular::Notices notices;
-  AlgorithmProgress progress(self);
-  this->Index.update(this->FileNames, notices, progress);
-  this->IndexedNames = this->FileNames;
-  this->Stale = false;
-  this->UpdateSelection();
-  this->Tell(self, notices, true);
-}
-
-//------------------------------------------------------------------------------
 // The arrays of all frames, in the order in which they occur; what was chosen before stays.
-void vtkGranularDumpReader::Internals::UpdateSelection()
+void vtkGranularDumpReader::Internals::UpdateSelection(const granular::FrameIndex& index)
 {
-  std::set<const granular::ColumnSchema*> seen;
+  std::set<const granular::FrameKind*> seen;
   this->ArrayNames.clear();
-  for (const granular::FrameEntry& entry : this->Index.frames())
+  for (std::size_t frame = 0; frame < index.size(); ++frame)
   {
-    if (!seen.insert(entry.schema.get()).second)
+    const granular::FrameKind* kind = index.first_piece(frame).entry.kind.get();
+    if (!seen.insert(kind).second)
     {
       continue;
     }
-    for (const granular::ArrayInfo& array : entry.schema->arrays())
+    for (const granular::ArrayInfo& array : kind->schema.arrays())
     {
       this->ArrayNames.insert(array.name);
       this->PointArrays->AddArray(array.name.c_str(), !array.position_form);
@@ -124,35 +89,6 @@ void vtkGranularDumpReader::Internals::CheckSelection(
 }
 
 //------------------------------------------------------------------------------
-// One warning a file, and each notice once, for whichever frame it came first; not too many.
-void vtkGranularDumpReader::Internals::Tell(
-  Self* self, const granular::Notices& notices, bool ofFrames)
-{
-  constexpr int most = 10;
-  std::map<std::string, std::string> texts;
-  std::map<std::string, int> counts;
-  for (const granular::Notice& notice : notices)
-  {
-    const std::string& path = notice.where.path;
-    // what is said of a column, or of all rows, holds for the next frames too; what is said of
-    // frames is new for each
-    const std::string about = ofFrames ? std::to_string(notice.where.line) : notice.where.column;
-    const std::string what = ofFrames || about.empty() ? notice.text : "";
-    if (this->Told.insert(path + "\n" + about + "\n" + what).second && ++counts[path] <= most)
-    {
-      std::string& joined = texts[path];
-      joined += (joined.empty() ? "" : "\n") + granular::to_string(notice);
-    }
-  }
-  for (const auto& [path, text] : texts)
-  {
-    const int more = counts[path] - most;
-    vtkWarningWithObjectMacro(
-      self, << text << (more > 0 ? "\nand " + std::to_string(more) + " more" : ""));
-  }
-}
-
-//------------------------------------------------------------------------------
 granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(Self* self)
 {
   granular::DumpRequest request;
@@ -168,32 +104,13 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(Self* self)
 }
 
 //------------------------------------------------------------------------------
-// The frame that the port which is asked for shows, and its time.
-const granular::FrameEntry& vtkGranularDumpReader::Internals::FindFrame(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time)
-{
-  const std::vector<double> times = this->Index.times(self->TimestepSize);
-  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
-    ? request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
-    : 0;
-  vtkInformation* info = outputs->GetInformationObject(port > 0 ? port : 0);
-  std::size_t frame = 0;
-  if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-  {
-    frame = granular::FrameIndex::find(
-      times, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
-  }
-  time = times[frame];
-  return this->Index.frames()[frame];
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularDumpReader::Internals::FillOutputs(
   Self* self, vtkInformation* request, vtkInformationVector* outputs)
 {
   double time = 0;
-  const granular::FrameEntry& entry = this->FindFrame(self, request, outputs, time);
-  const std::string& path = this->Index.files()[entry.file];
+  const std::size_t number = self->Series->FindFrame(self, request, outputs, time);
+  const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(number);
+  const std::string& path = pieces.front().file.path;
   const granular::DumpRequest wanted = this->MakeRequest(self);
   for (double coordinate : wanted.point_origin)
   {
@@ -206,24 +123,25 @@ void vtkGranularDumpReader::Internals::FillOutputs(
   this->CheckSelection(path, notices);
   AlgorithmProgress progress(self);
   progress.step(0);
-  granular::DumpFrame frame = granular::read_dump(path, entry, wanted, notices, progress);
+  granular::DumpFrame frame = granular::read_dump(pieces, wanted, notices, progress);
   progress.step(1);
 
   const VertexCells cells[] = { VertexCells::None, VertexCells::One, VertexCells::OnePerPoint };
-  FillParticles(vtkPolyData::GetData(outputs, 0), frame, *entry.schema, wanted.single_precision,
-    cells[self->Vertices]);
-  if (!FillBox(vtkUnstructuredGrid::GetData(outputs, 1), entry.header.box, frame.coordinates,
+  FillParticles(
+    vtkPolyData::GetData(outputs, 0), frame, wanted.single_precision, cells[self->Vertices]);
+  if (!FillBox(vtkUnstructuredGrid::GetData(outputs, 1), frame.header.box, frame.coordinates,
         wanted.point_origin))
   {
-    notices.push_back({ { path, entry.line, -1, {} }, "the box is not finite and not shown" });
+    notices.push_back(
+      { granular::where_of(path, pieces.front().entry), "the box is not finite and not shown" });
   }
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkDataObject* output = vtkDataObject::GetData(outputs, port);
-    FillFieldData(output->GetFieldData(), entry, frame.coordinates, wanted.point_origin);
+    FillFieldData(output->GetFieldData(), frame, wanted.point_origin);
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
   }
-  this->Tell(self, notices, false);
+  self->Series->Tell(self, notices, false);
 }
 
 //------------------------------------------------------------------------------
@@ -240,77 +158,34 @@ vtkGranularDumpReader::vtkGranularDumpReader()
 vtkGranularDumpReader::~vtkGranularDumpReader() = default;
 
 //------------------------------------------------------------------------------
-void vtkGranularDumpReader::AddFileName(const char* fileName)
+void vtkGranularDumpReader::FramesChanged()
 {
-  if (fileName && *fileName)
-  {
-    this->Internal->FileNames.emplace_back(fileName);
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDumpReader::ClearFileNames()
-{
-  if (!this->Internal->FileNames.empty())
-  {
-    this->Internal->FileNames.clear();
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDumpReader::GetNumberOfFileNames()
-{
-  return static_cast<int>(this->Internal->FileNames.size());
-}
-
-//------------------------------------------------------------------------------
-const char* vtkGranularDumpReader::GetFileName(int index)
-{
-  return index >= 0 && index < this->GetNumberOfFileNames()
-    ? this->Internal->FileNames[index].c_str()
-    : nullptr;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDumpReader::Refresh()
-{
-  this->Internal->Stale = true;
-  this->Modified();
+  this->Internal->UpdateSelection(this->Series->Index);
 }
 
 //------------------------------------------------------------------------------
 int vtkGranularDumpReader::CanReadFile(const char* fileName)
 {
-  // a header of ordinary length is there many times over, and more is not read for a question
-  constexpr std::size_t firstBytes = 65536;
-  try
+  return granular::is_dump_file(fileName ? fileName : "") ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDumpReader::SetColumnNames(const char* names)
+{
+  const std::string wanted = names ? names : "";
+  if (this->Internal->ColumnNames != wanted)
   {
-    const auto source = granular::open_file(fileName ? fileName : "");
-    std::string bytes(firstBytes, '\0');
-    bytes.resize(source->read(0, bytes.data(), bytes.size()));
-    return granular::is_text_dump(bytes) ? 1 : 0;
-  }
-  catch (const std::exception&)
-  {
-    return 0;
+    const std::vector<std::string_view> words = granular::split_words(wanted);
+    this->Internal->ColumnNames = wanted;
+    this->Series->ColumnNames.assign(words.begin(), words.end());
+    this->Refresh();
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularDumpReader::SetTimestepSize(double size)
+const char* vtkGranularDumpReader::GetColumnNames()
 {
-  if (!std::isfinite(size) || size <= 0)
-  {
-    vtkErrorMacro("TimestepSize must be finite and greater than 0, got " << size);
-    return;
-  }
-  if (this->TimestepSize != size)
-  {
-    this->TimestepSize = size;
-    this->Modified();
-  }
+  return this->Internal->ColumnNames.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -342,68 +217,21 @@ int vtkGranularDumpReader::FillOutputPortInformation(int port, vtkInformation* i
 }
 
 //------------------------------------------------------------------------------
-// The first call of every update. A request to abort holds for one update, and observers of progress
-// may make it again while the pipeline leaves the aborted one: it is forgotten here. What was
-// aborted may have been the look at the files, so all is done again.
-int vtkGranularDumpReader::ComputePipelineMTime(vtkInformation* request,
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
-  vtkMTimeType* mtime)
-{
-  if (this->Internal->Cancelled)
-  {
-    this->Internal->Cancelled = false;
-    this->SetAbortExecute(0);
-    this->SetAbortOutput(false);
-    this->Modified();
-  }
-  return this->Superclass::ComputePipelineMTime(
-    request, inputVector, outputVector, requestFromOutputPort, mtime);
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDumpReader::RequestInformation(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  std::vector<double> times;
-  const Outcome outcome = Guard(this, outputVector,
-    [&]
-    {
-      this->Internal->UpdateIndex(this);
-      times = this->Internal->Index.times(this->TimestepSize);
-    });
-  this->Internal->Cancelled = outcome == Outcome::Cancelled;
-  for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = outputVector->GetInformationObject(port);
-    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
-    if (!times.empty())
-    {
-      const double range[] = { times.front(), times.back() };
-      info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(),
-        static_cast<int>(times.size()));
-      info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
-    }
-  }
-  return outcome != Outcome::Failed;
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularDumpReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
   const Outcome outcome = Guard(this, outputVector,
     [&]
     {
-      if (this->Internal->Cancelled)
+      if (this->Series->Cancelled)
       {
         throw granular::Cancelled();
       }
       // valid already, but for a pipeline that goes on after RequestInformation failed
-      this->Internal->UpdateIndex(this);
+      this->Series->Update(this);
       this->Internal->FillOutputs(this, request, outputVector);
     });
-  this->Internal->Cancelled = outcome == Outcome::Cancelled;
+  this->Series->Cancelled = outcome == Outcome::Cancelled;
   return outcome != Outcome::Failed;
 }
 
@@ -411,16 +239,11 @@ int vtkGranularDumpReader::RequestData(vtkInformation* request,
 void vtkGranularDumpReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileNames: " << this->GetNumberOfFileNames() << "\n";
-  for (const std::string& name : this->Internal->FileNames)
-  {
-    os << indent.GetNextIndent() << name << "\n";
-  }
+  os << indent << "ColumnNames: " << this->Internal->ColumnNames << "\n";
   os << indent << "Coordinates: " << this->Coordinates << "\n";
   os << indent << "PointPrecision: " << this->PointPrecision << "\n";
   os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
      << this->PointOrigin[2] << "\n";
-  os << indent << "TimestepSize: " << this->TimestepSize << "\n";
   os << indent << "SortById: " << (this->SortById ? "On" : "Off") << "\n";
   os << indent << "Vertices: " << this->Vertices << "\n";
   os << indent << "Stride: " << this->Stride << "\n";

@@ -3,10 +3,10 @@
  * @class   vtkGranularDumpReader
  * @brief   Reads the particle dumps of LIGGGHTS and LAMMPS.
  *
- * Reads the text files of `dump atom` and `dump custom`: every header there has been since 2010, any
- * box, any columns in any order. All frames of all files form one run, ordered by timestep; a
- * timestep that occurs again is taken where it stands last; a last frame that is not complete is
- * left out. Binary and compressed dumps, `dump local` and one file a process (`%`) are not read.
+ * Reads the files of `dump atom` and `dump custom`, text and binary, also compressed with gzip or
+ * Zstandard: every header there has been since 2010, any box, any columns in any order. Binary files
+ * of either byte order; those of LIGGGHTS, and of LAMMPS before 2020, do not name their columns: see
+ * SetColumnNames. `dump local` is not read. Which frames there are: see vtkGranularSeriesReader.
  *
  * Output port 0 holds the particles (vtkPolyData), output port 1 the simulation box as one
  * hexahedron (vtkUnstructuredGrid). Both are relative to PointOrigin.
@@ -25,32 +25,25 @@
  * "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and `label`, `units`
  * and `time` where the file has them.
  *
- * Time is ITEM: TIME if every frame has it and it strictly increases, else timestep x TimestepSize.
- * A request for a time shows the last frame at or before it, or the first.
- *
  * Only what is asked for is read: the frame shown, the arrays switched on, the rows of Stride and
- * RegionOfInterest. The files are looked at when FileNames changes and at Refresh, not in between.
- * Parallel reading is not supported: piece 0 holds everything.
- *
- * After an error both outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
- * abort holds for one update: the outputs are empty then, and the next update starts afresh.
+ * RegionOfInterest. Parallel reading is not supported: piece 0 holds everything.
  */
 
 #ifndef vtkGranularDumpReader_h
 #define vtkGranularDumpReader_h
 
 #include "vtkGranularModule.h" // For export macro
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkGranularSeriesReader.h"
 
 #include <memory> // for std::unique_ptr
 
 class vtkDataArraySelection;
 
-class VTKGRANULAR_EXPORT vtkGranularDumpReader : public vtkPolyDataAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularDumpReader : public vtkGranularSeriesReader
 {
 public:
   static vtkGranularDumpReader* New();
-  vtkTypeMacro(vtkGranularDumpReader, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkGranularDumpReader, vtkGranularSeriesReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum CoordinatesType
@@ -69,23 +62,17 @@ public:
 
   ///@{
   /**
-   * The files of one run. Null and empty names are ignored. None by default.
+   * Names of all columns, blank-separated, for binary files that do not hold them (LIGGGHTS, and
+   * LAMMPS before 2020). Empty, the default: 5 or 8 columns are those of dump atom, scaled.
    */
-  void AddFileName(VTK_FILEPATH const char* fileName);
-  void ClearFileNames();
-  int GetNumberOfFileNames();
-  VTK_FILEPATH const char* GetFileName(int index);
+  void SetColumnNames(const char* names);
+  const char* GetColumnNames();
   ///@}
 
   /**
-   * Has the next update look at the files again, without reading earlier frames again.
-   */
-  void Refresh();
-
-  /**
-   * True if the first 64 KiB are those of a text dump of particles: after an optional byte order
-   * mark and blank lines a line ITEM: TIMESTEP, UNITS or TIME and, as far as they reach, a line
-   * ITEM: NUMBER OF ATOMS. False, silently, for all else, missing files and directories included.
+   * True if the first 64 KiB, decompressed, are those of a dump of particles: a text with ITEM:
+   * TIMESTEP, UNITS or TIME and, as far as they reach, ITEM: NUMBER OF ATOMS; or a binary header that
+   * can be one. False, silently, for all else, missing files and directories included.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 
@@ -116,15 +103,6 @@ public:
    */
   vtkSetVector3Macro(PointOrigin, double);
   vtkGetVector3Macro(PointOrigin, double);
-  ///@}
-
-  ///@{
-  /**
-   * Time of one timestep, in seconds (or the run's unit of time), where the files give no ITEM: TIME.
-   * Finite and greater than 0; anything else is an error and changes nothing. 1 by default.
-   */
-  void SetTimestepSize(double size);
-  vtkGetMacro(TimestepSize, double);
   ///@}
 
   ///@{
@@ -172,11 +150,8 @@ protected:
   vtkGranularDumpReader();
   ~vtkGranularDumpReader() override;
 
+  void FramesChanged() override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -187,7 +162,6 @@ private:
   int Coordinates = ABSOLUTE;
   int PointPrecision = DOUBLE_PRECISION;
   double PointOrigin[3] = { 0, 0, 0 };
-  double TimestepSize = 1;
   bool SortById = false;
   int Vertices = VERTEX;
   vtkTypeInt64 Stride = 1;

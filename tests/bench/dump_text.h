@@ -134,6 +134,7 @@ public:
 
   bool operator==(const Output& other) const { return memory_ == other.memory_; }
 
+  std::size_t arrays() const { return arrays_.size(); }
   const char* array(std::size_t index) const { return memory_[index].data(); }
   std::size_t bytes_a_row(std::size_t index) const { return arrays_[index].bytes_a_row(); }
 

@@ -39,9 +39,8 @@ try
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ argv[1] }, notices, progress);
-  const granular::DumpFrame frame =
-    granular::read_dump(argv[1], index.frames().front(), {}, notices, progress);
+  index.update({ argv[1] }, {}, notices, progress);
+  const granular::DumpFrame frame = granular::read_dump(index.pieces(0), {}, notices, progress);
   std::size_t bytes = frame.points.bytes();
   for (const granular::DumpArray& array : frame.arrays)
   {

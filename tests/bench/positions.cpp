@@ -144,7 +144,7 @@ Dump::Dump(const Text& how, double lo, std::int64_t count)
   file.append(rows.text);
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ file.path() }, notices, progress);
+  index.update({ file.path() }, {}, notices, progress);
 }
 
 /// Largest and root of the mean square.
@@ -181,8 +181,7 @@ struct Case
   {
     granular::Notices notices;
     granular::Progress progress;
-    return granular::read_dump(
-      dump->file.path(), dump->index.frames().front(), request, notices, progress);
+    return granular::read_dump(dump->index.pieces(0), request, notices, progress);
   }
 
   void measure_errors();

@@ -2,13 +2,11 @@
 // The whole way from a file in the page cache to arrays: read_dump against decode_rows alone, for
 // more and more rows, and the most memory it takes.
 #include "bench.h"
+#include "dump_frame.h"
 #include "dump_text.h"
-
-#include "granular/dump/dump_reader.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -30,24 +28,20 @@ struct Dump
     , count(row_count)
   {
     write_frame(file, rows, count);
-    granular::Notices notices;
-    granular::Progress progress;
-    index.update({ file.path() }, notices, progress);
+    index = index_of({ file.path() });
     std::vector<granular::ColumnSink> sinks = truth.sinks(0);
-    if (!parse_slowly(rows.text.c_str(), sinks, rows.count) || !notices.empty())
+    if (!parse_slowly(rows.text.c_str(), sinks, rows.count))
     {
       throw std::logic_error("the benchmark's own text is wrong");
     }
   }
 
-  granular::DumpFrame read() const
-  {
-    granular::Notices notices;
-    granular::Progress progress;
-    return granular::read_dump(file.path(), index.frames().front(), {}, notices, progress);
-  }
+  granular::DumpFrame read() const { return read_frame(index, 0); }
 
-  bool check(const granular::DumpFrame& frame) const;
+  bool check(const granular::DumpFrame& frame) const
+  {
+    return frame.rows == count && holds(frame, truth, rows.count);
+  }
 
   Rows rows;
   Output truth;
@@ -55,36 +49,6 @@ struct Dump
   std::int64_t count;
   granular::FrameIndex index;
 };
-
-/// The values of a frame, in the order of the columns: its points come after id and type. The box
-/// is that of 0 and 1, so that scaled coordinates are absolute ones.
-bool Dump::check(const granular::DumpFrame& frame) const
-{
-  std::vector<const void*> data;
-  for (const granular::DumpArray& array : frame.arrays)
-  {
-    data.push_back(array.block.data());
-  }
-  if (data.size() + 1 != rows.arrays.size() || frame.rows != count)
-  {
-    return false;
-  }
-  data.insert(data.begin() + 2, frame.points.data());
-  for (std::size_t i = 0; i < data.size(); ++i)
-  {
-    const std::size_t bytes = truth.bytes_a_row(i) * static_cast<std::size_t>(rows.count);
-    for (std::int64_t row = 0; row < count; row += rows.count)
-    {
-      const char* const from =
-        static_cast<const char*>(data[i]) + static_cast<std::size_t>(row) * truth.bytes_a_row(i);
-      if (std::memcmp(from, truth.array(i), bytes) != 0)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
 
 /// decode_rows alone: the same rows in memory, into memory that has been touched.
 class DecodeAlone

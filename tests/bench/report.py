@@ -250,6 +250,73 @@ PARTS = (
          [Target(r"^more", "slowest against fastest:1", "<=", 1.5),
           Target(r"^memory", "above the arrays:MiB", "<=", 32)],
          plot_read),
+    Part("binary", "Binary: the rows of a binary dump to arrays",
+         """GB of rows a second, 10^6 rows. copy is the plainest loop there is, from memory: row by row,
+         in it column by column, each double to an array of its column, nothing looked at. file
+         decodes the frame from the page cache, memory from a buffer, both into memory that was
+         touched before: id to 64-bit, type to 32-bit integers, vectors together, every value
+         checked to fit. read_dump makes new arrays each time, as it does for a user, and points of
+         scaled coordinates (5 columns).""",
+         [cases_by_metrics(r"",
+                           Column("copy GB/s", "copy:GB/s", ".1f"),
+                           Column("memory GB/s", "memory:GB/s", ".1f"),
+                           Column("file GB/s", "file:GB/s", ".1f"),
+                           Column("read_dump GB/s", "read_dump:GB/s", ".1f"),
+                           Column("memory, speed against copy", "memory against copy:1", ".2f"),
+                           Column("file", "file against copy:1", ".2f"),
+                           Column("read_dump", "read_dump against copy:1", ".2f"),
+                           Column("spread", "spread:1", ".0%"))],
+         [Target(r"", "file against copy:1", ">=", 0.6),
+          Target(r"", "memory against copy:1", ">=", 0.6)]),
+    Part("compressed", "Compressed: gzip and Zstandard",
+         """A text dump of 200 MiB, 190 frames of 10^4 rows, 12 columns of %g: one member of gzip
+         (level 6), one frame of Zstandard (level 3). MB of text a second. library is zlib's inflate
+         (which checks the CRC) or ZSTD_decompressStream alone; both sides read the file in the page
+         cache and hand out 256 KiB at a time. in order: unpack(), which keeps the last MiB and notes
+         where it could start again; index: FrameIndex::update, against decompressing alone. A frame
+         in the middle is read by an index that knows where to start, and without that from the start
+         of the file; plain is the frame of the same text uncompressed. What is one frame of Zstandard
+         has no places to start from.""",
+         [cases_by_metrics(r"(in order|index)$",
+                           Column("library MB/s", "library:MB/s", ".0f"),
+                           Column("ours MB/s", "ours:MB/s", ".0f"),
+                           Column("time against library", "time against library:1", ".2f"),
+                           Column("spread", "spread:1", ".0%"),
+                           Column("time against plain text", "time against plain text:1", ".1f"),
+                           Column("restart points MiB", "restart points:MiB", ".1f")),
+          cases_by_metrics(r"middle$",
+                           Column("indexed ms", "indexed:ms", ".2f"),
+                           Column("from the start ms", "from the start:ms", ".1f"),
+                           Column("time against that", "time against the start:1", ".3f"),
+                           Column("plain ms", "plain:ms", ".2f"))],
+         [Target(r"^gzip, in order", "time against library:1", "<=", 1.15)]),
+    Part("series", "Series: long runs",
+         """Rows of 8 columns, in the page cache. 1000 frames are of 10^4 rows each in one file; 10^4
+         files have a frame of 100 rows each; of 1000 frames of 4 files each piece has 100 rows.
+         yardstick: of one file, to read it and count line feeds with memchr; of many, to open each,
+         read its first 4 KiB and close it. index is FrameIndex::update; from index file the same
+         where the index of an earlier one lies beside the dump; again an update where nothing
+         changed. Memory is what operator new gave and still has out, peak the most on the way; each
+         frame counts once, however many files it has. The last frame is read alone: no byte of
+         another is.""",
+         [cases_by_metrics(r"^1",
+                           Column("yardstick ms", "yardstick:ms", ".1f"),
+                           Column("index ms", "index:ms", ".1f"),
+                           Column("ratio", "ratio:1", ".2f"),
+                           Column("spread", "spread:1", ".0%"),
+                           Column("from index file ms", "from index file:ms", ".1f"),
+                           Column("against index", "from index file against index:1", ".3f"),
+                           Column("again ms", "again:ms", ".1f"),
+                           Column("memory B/frame", "memory:B/frame", ".0f"),
+                           Column("peak B/frame", "peak:B/frame", ".0f")),
+          cases_by_metrics(r"^last",
+                           Column("last frame ms", "last frame:ms", ".2f"),
+                           Column("time against the first", "against the first:1", ".2f"),
+                           Column("bytes read against its own",
+                                  "bytes read against the frame's:1", ".2f"))],
+         [Target(r"^1000 frames$", "ratio:1", "<=", 2),
+          Target(r"^10\^4 files$", "ratio:1", "<=", 3),
+          Target(r"^10\^6 frames", "memory:B/frame", "<=", 100)]),
     Part("positions", "Positions: speed against error",
          """Grains of radii from 1e-3 in boxes of length 1 whose corner lies at 0, 1e3 and 1e6. The
          true position is the double that the simulation holds; what the text says, and all errors,

@@ -70,15 +70,14 @@ void open(granular::FrameIndex& index, const std::string& path)
 {
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ path }, notices, progress);
+  index.update({ path }, {}, notices, progress);
 }
 
 granular::DumpFrame read(const granular::FrameIndex& index, std::size_t frame)
 {
   granular::Notices notices;
   granular::Progress progress;
-  const granular::FrameEntry& entry = index.frames().at(frame);
-  return granular::read_dump(index.files().at(entry.file), entry, {}, notices, progress);
+  return granular::read_dump(index.pieces(frame), {}, notices, progress);
 }
 }
 
@@ -88,7 +87,7 @@ TEST(BadInput, SaidWhenOpened)
   {
     granular::FrameIndex index;
     EXPECT_EQ(error_of([&] { open(index, path_of(bad.file)); }), path_of(bad.file) + bad.said);
-    EXPECT_TRUE(index.frames().empty());
+    EXPECT_EQ(index.size(), 0u);
     // and the same index reads a good file afterwards
     open(index, std::string(GRANULAR_DATA) + "/good/grains_1000.dump");
     EXPECT_EQ(read(index, 0).rows, 1200);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dumps.h"
 
+#include "granular/base/words.h"
+#include "granular/dump/frame_rows.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -135,17 +138,21 @@ std::string Decoded::said() const
   return lines_of(notices);
 }
 
-Dump::Dump(std::string text)
-  : text_(std::make_unique<std::string>(std::move(text)))
-  , source_(open_memory(*text_))
+Dump::Dump(std::string bytes, const std::string& column_names)
+  : text_(std::make_unique<std::string>(std::move(bytes)))
+  , source_(unpack(open_memory(*text_)))
 {
   Progress progress;
-  index_text_dump(*source_, index_, progress);
+  for (const std::string_view name : split_words(column_names))
+  {
+    index_.column_names.emplace_back(name);
+  }
+  index_dump(*source_, index_, progress);
 }
 
-const FrameHeader& Dump::header(std::size_t frame) const
+FrameHeader Dump::header(std::size_t frame) const
 {
-  return this->entry(frame).header;
+  return open_rows(*source_, this->entry(frame))->header();
 }
 
 std::vector<std::int64_t> Dump::steps() const
@@ -153,7 +160,7 @@ std::vector<std::int64_t> Dump::steps() const
   std::vector<std::int64_t> steps;
   for (const FrameEntry& frame : index_.frames)
   {
-    steps.push_back(frame.header.timestep);
+    steps.push_back(frame.timestep);
   }
   return steps;
 }

@@ -3,7 +3,7 @@
 #define granular_tests_dump_dumps_h
 
 #include "granular/dump/dump_reader.h"
-#include "granular/dump/text_dump.h"
+#include "granular/dump/file_index.h"
 
 #include <cstdint>
 #include <functional>
@@ -39,16 +39,17 @@ private:
 /// The text with every occurrence of what replaced.
 std::string replaced(std::string text, const std::string& what, const std::string& with);
 
-/// A text dump in memory, called "memory" in messages, with its index.
+/// A dump in memory, called "memory" in messages, with its index. column_names is for binary dumps
+/// that do not name theirs, blank-separated.
 class Dump
 {
 public:
-  explicit Dump(std::string text);
+  explicit Dump(std::string bytes, const std::string& column_names = "");
 
-  const granular::TextIndex& index() const { return index_; }
+  const granular::FileIndex& index() const { return index_; }
   std::size_t frames() const { return index_.frames.size(); }
   const granular::FrameEntry& entry(std::size_t frame = 0) const { return index_.frames.at(frame); }
-  const granular::FrameHeader& header(std::size_t frame = 0) const;
+  granular::FrameHeader header(std::size_t frame = 0) const; ///< read again, as for the frame
   std::vector<std::int64_t> steps() const;
   std::string said() const; ///< the notices of the index, one a line
 
@@ -62,7 +63,7 @@ public:
 private:
   std::unique_ptr<std::string> text_;
   std::unique_ptr<granular::ByteSource> source_;
-  granular::TextIndex index_;
+  granular::FileIndex index_;
 };
 
 /// A dump of one frame at step 0: columns and rows as they stand in the file, box lines "0 1" or

@@ -47,10 +47,9 @@ ITEM: ATOMS id type x y z radius )"
   EXPECT_FALSE(header.box.tilted);
   EXPECT_EQ(header.box.corner(0, 0, 0), (Vector3{ -0.05, -0.06, 0 }));
   EXPECT_EQ(header.box.corner(1, 1, 1), (Vector3{ 0.05, 0.06, 0.15 }));
-  EXPECT_EQ(dump.entry().schema->text(), "id type x y z radius");
+  EXPECT_EQ(dump.entry().kind->schema.text(), "id type x y z radius");
   EXPECT_EQ(dump.entry().offset, 0);
   EXPECT_EQ(dump.entry().line, 1);
-  EXPECT_EQ(dump.entry().rows_line, 10);
   const Decoded frame = dump.read();
   EXPECT_EQ(frame.integers("id"), (std::vector<std::int64_t>{ 350, 7 }));
   EXPECT_EQ(frame.integers("type"), (std::vector<std::int64_t>{ 1, 2 }));
@@ -147,7 +146,7 @@ ITEM: ATOMS
 2 3 0 0.25 1
 )");
   EXPECT_EQ(dump.header().box.boundary, "");
-  EXPECT_EQ(dump.entry().schema->text(), "id type xs ys zs");
+  EXPECT_EQ(dump.entry().kind->schema.text(), "id type xs ys zs");
   const Decoded frame = dump.read();
   EXPECT_EQ(frame.points(), (std::vector<double>{ 5, 10, 20, 0, 5, 40 }));
   EXPECT_EQ(frame.integers("type"), (std::vector<std::int64_t>{ 1, 3 }));
@@ -168,7 +167,7 @@ ITEM: ATOMS
 )");
   EXPECT_TRUE(dump.header().box.tilted);
   EXPECT_EQ(dump.header().box.boundary, "");
-  EXPECT_EQ(dump.entry().schema->text(), "id type xs ys zs ix iy iz");
+  EXPECT_EQ(dump.entry().kind->schema.text(), "id type xs ys zs ix iy iz");
   EXPECT_EQ(dump.read().integers("image"), (std::vector<std::int64_t>{ 1, -2, 0 }));
   EXPECT_EQ(dump.read().points(), (std::vector<double>{ 6, 5, 5 }));
 }
@@ -196,7 +195,7 @@ TEST(TextHeader, OldLammpsWithoutColumnsAndWithoutRows)
   const Dump dump(
     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS\n0 1\n0 1\n0 1\nITEM: ATOMS\n");
   ASSERT_EQ(dump.frames(), 1u);
-  EXPECT_EQ(dump.entry().schema->text(), "id type xs ys zs");
+  EXPECT_EQ(dump.entry().kind->schema.text(), "id type xs ys zs");
 }
 
 TEST(TextHeader, SecondWordOnTheLineOfTheTimestep)
@@ -317,7 +316,7 @@ void expect_the_two_frames(const std::string& text)
   EXPECT_EQ(first.points(), (std::vector<double>{ 0.5, 1.5, 2.5, 0.25, 1.25, 3.5 })) << text;
   EXPECT_EQ(first.integers("id"), (std::vector<std::int64_t>{ 1, 2 }));
   EXPECT_EQ(first.texts("element"), (std::vector<std::string>{ "C", "Si" }));
-  EXPECT_EQ(dump.entry(0).schema->text(), "id type x y z element");
+  EXPECT_EQ(dump.entry(0).kind->schema.text(), "id type x y z element");
   EXPECT_EQ(dump.header(0).box.boundary, "pp pp pp");
   const Decoded second = dump.read({}, 1);
   EXPECT_EQ(second.points(), (std::vector<double>{ 0.125, 1.125, 3.25 })) << text;
@@ -394,8 +393,8 @@ TEST(TextDump, TrapNumberColumnsAndOrderChangeBetweenFrames)
   EXPECT_EQ(dump.read({}, 1).points(), (std::vector<double>{ 3, 2, 1, 8, 7, 6 }));
   EXPECT_EQ(dump.read({}, 1).integers("id"), (std::vector<std::int64_t>{ 4, 9 }));
   EXPECT_EQ(dump.read({}, 2).points(), (std::vector<double>{ 6, 7, 8 }));
-  EXPECT_EQ(dump.entry(0).schema, dump.entry(2).schema) << "equal schemas are shared";
-  EXPECT_NE(dump.entry(0).schema, dump.entry(1).schema);
+  EXPECT_EQ(dump.entry(0).kind, dump.entry(2).kind) << "equal schemas are shared";
+  EXPECT_NE(dump.entry(0).kind, dump.entry(1).kind);
 }
 
 TEST(TextDump, TrapUnknownTextColumns)
@@ -432,10 +431,8 @@ TEST(TextDump, LinesOfFramesAreCounted)
   const Dump dump("\n" + std::string(two_frames) + "\n\n" + two_frames);
   ASSERT_EQ(dump.frames(), 4u);
   EXPECT_EQ(dump.entry(0).line, 2);
-  EXPECT_EQ(dump.entry(0).rows_line, 11);
   EXPECT_EQ(dump.entry(1).line, 13);
   EXPECT_EQ(dump.entry(2).line, 1 + 21 + 2 + 1);
-  EXPECT_EQ(dump.entry(3).rows_line, dump.entry(2).line + 20);
   EXPECT_EQ(
     dump.entry(2).offset, static_cast<std::int64_t>(1 + std::string(two_frames).size() + 2));
 }
@@ -549,12 +546,12 @@ TEST(TextDump, AKilledRunThatIsLookedAtAtEveryByte)
     const Dump dump(text);
     for (std::size_t cut = 0; cut <= text.size(); ++cut)
     {
-      granular::TextIndex index = Dump(text.substr(0, cut)).index();
+      granular::FileIndex index = Dump(text.substr(0, cut)).index();
       granular::Progress progress;
       const auto source = granular::open_memory(text);
       index_text_dump(*source, index, progress);
       ASSERT_EQ(index.frames.size(), 3u) << "looked at after byte " << cut << " of\n" << text;
-      EXPECT_EQ(index.frames[1].header.timestep, 100);
+      EXPECT_EQ(index.frames[1].timestep, 100);
       for (std::size_t frame = 0; frame < 3; ++frame)
       {
         const granular::FrameEntry& whole = dump.entry(frame);
@@ -688,7 +685,7 @@ void expect_the_complete_frames(const std::string& text, const std::vector<std::
       ASSERT_EQ(dump.read({}, frame).rows(), dump.header(frame).rows);
     }
     // the writer goes on: what was indexed is kept, the rest is found
-    granular::TextIndex index = dump.index();
+    granular::FileIndex index = dump.index();
     granular::Progress progress;
     index.notices.clear();
     const auto source = granular::open_memory(text);
@@ -700,9 +697,8 @@ void expect_the_complete_frames(const std::string& text, const std::vector<std::
     {
       ASSERT_EQ(index.frames[frame].offset, whole.entry(frame).offset) << "cut at " << cut;
       ASSERT_EQ(index.frames[frame].line, whole.entry(frame).line) << "cut at " << cut;
-      ASSERT_EQ(index.frames[frame].rows_line, whole.entry(frame).rows_line) << "cut at " << cut;
       ASSERT_EQ(index.frames[frame].end, whole.entry(frame).end) << "cut at " << cut;
-      ASSERT_EQ(index.frames[frame].header.units, "si") << "cut at " << cut;
+      ASSERT_EQ(index.frames[frame].kind->units, "si") << "cut at " << cut;
     }
   }
 }

@@ -42,7 +42,7 @@ void check_frame(const DumpFrame& frame, const FrameEntry& entry, const DumpRequ
 {
   const auto rows = static_cast<std::size_t>(frame.rows);
   const bool filtered = request.stride > 1 || request.region[0] <= request.region[1];
-  require(frame.rows == entry.header.rows || (filtered && frame.rows < entry.header.rows), "rows");
+  require(frame.rows == entry.rows || (filtered && frame.rows < entry.rows), "rows");
   require(frame.points.bytes() == 3 * rows * (request.single_precision ? 4 : 8), "points");
   for (const DumpArray& array : frame.arrays)
   {
@@ -149,7 +149,7 @@ void compare_paths(std::string_view rows, std::size_t columns)
   }
 }
 
-void index(std::string_view text, TextIndex& index)
+void index(std::string_view text, FileIndex& index)
 {
   const auto source = open_memory(text);
   Progress progress;
@@ -164,11 +164,9 @@ void index(std::string_view text, TextIndex& index)
   const auto size = static_cast<std::int64_t>(text.size());
   for (const FrameEntry& frame : index.frames)
   {
-    require(frame.offset >= 0 && frame.offset < frame.rows_offset &&
-        frame.rows_offset <= frame.end && frame.end <= size,
-      "the places of a frame");
-    require(frame.header.rows >= 0 && frame.header.rows <= frame.end - frame.rows_offset,
-      "more rows than bytes");
+    require(
+      frame.offset >= 0 && frame.offset < frame.end && frame.end <= size, "the places of a frame");
+    require(frame.rows >= 0 && frame.rows <= frame.end - frame.offset, "more rows than bytes");
   }
 }
 }
@@ -177,9 +175,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   static_cast<void>(is_text_dump(text));
-  TextIndex all;
+  FileIndex all;
   index(text, all);
-  TextIndex grown; // as if the file had been half as long before
+  FileIndex grown; // as if the file had been half as long before
   index(text.substr(0, size / 2), grown);
   index(text, grown);
 
@@ -193,9 +191,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
       read_frame(*source, entry, request);
     }
-    compare_paths(text.substr(static_cast<std::size_t>(entry.rows_offset),
-                    static_cast<std::size_t>(entry.end - entry.rows_offset)),
-      entry.schema->columns().size());
+    compare_paths(text.substr(static_cast<std::size_t>(entry.offset),
+                    static_cast<std::size_t>(entry.end - entry.offset)),
+      entry.kind->schema.columns().size());
   }
   compare_paths(text, 3);
   return 0;

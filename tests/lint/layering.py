@@ -30,7 +30,8 @@ STANDARD = set("""
 # Headers that are neither ours nor of the C++ standard library, and the files that may have them.
 _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
-    (_OPERATING_SYSTEM + r"|zlib\.h|zstd\.h", r"core/granular/base/byte_(source|sink)\.cpp"),
+    (_OPERATING_SYSTEM + r"|(zlib|zstd|zstd_errors)\.h",
+     r"core/granular/base/byte_(source|sink)(_\w+)?\.cpp"),
     (r"sys/mman\.h", r"core/granular/base/block\.cpp"),
     (r"immintrin\.h", r"core/granular/base/(line_scan|row_text)\w*\.(cpp|h|inc)"),
     (r"mpi\.h", r"core/mpi/.*"),

@@ -64,6 +64,17 @@ def methods(header):
     return names
 
 
+def known_methods(root, class_name):
+    """Methods of a class of ours and of its superclasses of ours; None if there is no header."""
+    header = f"plugin/vtk/{class_name}.h"
+    if not os.path.exists(os.path.join(root, header)):
+        return None
+    text = tree.read(root, header)
+    base = re.search(rf"\bclass\s+(?:\w+\s+)?{class_name}\s*:\s*public\s+(vtkGranular\w+)",
+                     tree.strip(text))
+    return methods(text) | ((known_methods(root, base.group(1)) or set()) if base else set())
+
+
 def check_property(path, prop, known, proxies_class):
     name = prop.get("name")
     for attribute in COMMANDS:
@@ -81,12 +92,11 @@ def check_property(path, prop, known, proxies_class):
 
 def check_proxy(root, path, proxy):
     name, proxies_class = proxy.get("name"), proxy.get("class")
-    known = None
-    header = f"plugin/vtk/{proxies_class}.h"
-    if os.path.exists(os.path.join(root, header)):
-        known = methods(tree.read(root, header)) | INHERITED
+    known = known_methods(root, proxies_class)
+    if known is not None:
+        known |= INHERITED
     elif proxies_class.startswith("vtkGranular"):
-        yield path, proxy.line, f"{name}: there is no {header}"
+        yield path, proxy.line, f"{name}: there is no plugin/vtk/{proxies_class}.h"
     # ParaView makes a vtkSMX of an element X; one it does not find leaves no proxy and no error
     header = f"plugin/servermanager/vtkSM{proxy.tag}.h"
     if proxy.tag.startswith("Granular") and not os.path.exists(os.path.join(root, header)):

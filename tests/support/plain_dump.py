@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A second opinion on text dumps, written with the simplest means and sharing no code."""
+"""A second opinion on dumps, written with the simplest means and sharing no code."""
+import gzip
+import struct
+
 import numpy
 
 
@@ -32,9 +35,45 @@ class Frame:
         return lo, numpy.array([[length[0], 0, 0], [xy, length[1], 0], [xz, yz, length[2]]])
 
 
+def read_binary(path, names):
+    """Little-endian files of LIGGGHTS (names: of the columns) and LAMMPS, in boxes of bounds and tilts."""
+    with open(path, "rb") as file:
+        data, at = file.read(), 0
+
+    def take(form):
+        nonlocal at
+        values = struct.unpack_from("<" + form, data, at)
+        at += struct.calcsize("<" + form)
+        return values if len(values) > 1 else values[0]
+
+    frames = []
+    while at < len(data):
+        frame = Frame()
+        frame.timestep, magic = take("q"), None
+        if frame.timestep < 0:
+            magic = take(f"{-frame.timestep}s")
+            assert magic in (b"DUMPATOM", b"DUMPCUSTOM") and take("2i") == (1, 2)
+            frame.timestep = take("q")
+        frame.rows, tilted = take("qi")
+        take("6i")
+        bounds = numpy.reshape(take("6d"), (3, 2))
+        frame.bounds = numpy.column_stack((bounds, take("3d"))) if tilted else bounds
+        width = take("i")
+        if magic:
+            take(f"{take('i')}s")
+            frame.time = take("d") if take("b") else None
+            names = take(f"{take('i')}s").decode()
+        chunks = [numpy.frombuffer(data, "<f8", count, (at := at + 8 * count) - 8 * count)
+                  for count in (take("i") for _ in range(take("i")))]
+        rows = numpy.concatenate(chunks).reshape(frame.rows, width)
+        frame.columns = {name: rows[:, i] for i, name in enumerate(names.split())}
+        frames.append(frame)
+    return frames
+
+
 def read(path):
     frames, time = [], None
-    with open(path) as file:
+    with (gzip.open if path.endswith(".gz") else open)(path, "rt") as file:
         lines = iter(file.read().splitlines())
     for line in lines:
         if line.startswith("ITEM: TIMESTEP"):

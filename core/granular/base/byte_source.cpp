@@ -122,6 +122,12 @@ private:
 };
 }
 
+double ByteSource::fraction(std::int64_t offset) const
+{
+  const auto size = static_cast<double>(this->stamp().size);
+  return size > 0 ? std::clamp(static_cast<double>(offset) / size, 0.0, 1.0) : 1.0;
+}
+
 std::unique_ptr<ByteSource> open_file(const std::string& path)
 {
   auto source = std::make_unique<FileSource>(path);

@@ -234,12 +234,18 @@ std::string ColumnSchema::text() const
 
 void ColumnSchema::set_type(int column, ValueType type)
 {
-  columns_[static_cast<std::size_t>(column)].type = type;
+  ColumnInfo& changed = columns_[static_cast<std::size_t>(column)];
+  changed.type = type;
+  if (changed.role == ColumnRole::Id && type != ValueType::Int64)
+  {
+    changed.role = ColumnRole::Other; // nothing to sort or select by
+  }
   for (ArrayInfo& array : arrays_)
   {
     if (std::find(array.columns.begin(), array.columns.end(), column) != array.columns.end())
     {
       array.type = type;
+      array.role = array.role == ColumnRole::Id ? changed.role : array.role;
       for (const int member : array.columns)
       {
         columns_[static_cast<std::size_t>(member)].type = type;

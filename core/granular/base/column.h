@@ -104,7 +104,8 @@ public:
   std::string text() const;
 
   /// Changes the type of a column and of the array it is part of: an integer column that holds
-  /// other numbers becomes Float64, an unknown column of words becomes Text.
+  /// other numbers becomes Float64, an unknown column of words becomes Text. Ids that are no integers
+  /// are ids no more.
   void set_type(int column, ValueType type);
 
   bool operator==(const ColumnSchema& other) const;

@@ -8,14 +8,10 @@
 
 namespace granular
 {
-namespace
-{
-constexpr std::size_t first_window = std::size_t{ 1 } << 18;
-}
-
-TextScanner::TextScanner(const ByteSource& source, std::int64_t offset, std::int64_t line)
+TextScanner::TextScanner(
+  const ByteSource& source, std::int64_t offset, std::int64_t line, std::size_t window)
   : source_(source)
-  , window_(first_window)
+  , window_(window)
   , window_offset_(offset)
   , line_(line)
   , last_offset_(offset)
@@ -79,7 +75,7 @@ void TextScanner::put_back() noexcept
   line_ = last_line_;
 }
 
-std::int64_t TextScanner::skip_to_item(Progress& progress, std::int64_t total)
+std::int64_t TextScanner::skip_to_item(Progress& progress)
 {
   constexpr std::int64_t report_bytes = std::int64_t{ 1 } << 25;
   std::int64_t rows = 0;
@@ -118,7 +114,7 @@ std::int64_t TextScanner::skip_to_item(Progress& progress, std::int64_t total)
     if (this->offset() - reported >= report_bytes)
     {
       reported = this->offset();
-      progress.step(std::min(1.0, static_cast<double>(reported) / static_cast<double>(total)));
+      progress.step(source_.fraction(reported));
     }
   }
   return rows;

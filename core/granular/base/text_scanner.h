@@ -23,8 +23,10 @@ public:
   /// A header line longer than this is a LimitError: no dump has one, a file of zeros does.
   static constexpr std::size_t longest_line = std::size_t{ 1 } << 22;
 
-  /// Starts at byte offset, which is the start of line number line.
-  TextScanner(const ByteSource& source, std::int64_t offset, std::int64_t line);
+  /// Starts at byte offset, which is the start of line number line. window is how many bytes are
+  /// read at a time; lines may be longer.
+  TextScanner(const ByteSource& source, std::int64_t offset, std::int64_t line,
+    std::size_t window = std::size_t{ 1 } << 18);
 
   /// The next line without its LF or CRLF. False at the end of the text. A last line without LF
   /// counts as not there: its writer may not be done with it. Valid until the next call.
@@ -38,8 +40,7 @@ public:
 
   /// Passes over lines up to one that begins with "ITEM:", or to the end of the text.
   /// Returns how many lines with words were passed; one without LF is not counted.
-  /// Reports progress as the place in total bytes.
-  std::int64_t skip_to_item(Progress& progress, std::int64_t total);
+  std::int64_t skip_to_item(Progress& progress);
 
   std::int64_t offset() const noexcept { return window_offset_ + static_cast<std::int64_t>(at_); }
   std::int64_t line() const noexcept { return line_; } ///< number of the line that comes next

@@ -6,6 +6,7 @@
 #include "granular/base/byte_source.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
+#include "granular/dump/frame.h"
 #include "granular/dump/frame_index.h"
 #include "granular/dump/positions.h"
 
@@ -47,19 +48,21 @@ struct DumpFrame
                                                    ///< request only where a notice says so
   Block points;                                    ///< rows x 3, double or float
   std::vector<DumpArray> arrays;
+  FrameHeader header;  ///< of the first piece; rows are those of all
+  ColumnSchema schema; ///< of all pieces, types as they came to be
 };
 
-/// Decodes one frame of a text dump.
+/// Decodes one frame, text or binary, from all its pieces in their order.
 ///
 /// Reads the rows once, in order, through a buffer of constant size, straight into the blocks;
 /// columns that nobody asked for are not parsed. The frame must still be where the index says:
 /// a file that was replaced or shortened gives an IoError. Values that an integer column cannot
 /// hold turn the whole array into Float64, with a notice.
-/// Throws Error with path, line and column; Cancelled; std::bad_alloc.
-DumpFrame read_dump(const std::string& path, const FrameEntry& entry, const DumpRequest& request,
+/// Throws Error with path, line or byte, and column; Cancelled; std::bad_alloc.
+DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   Notices& notices, Progress& progress);
 
-/// The same from an open source.
+/// The same from an open source, of a frame of one piece.
 DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
   Notices& notices, Progress& progress);
 }

@@ -3,10 +3,15 @@
 #define granular_dump_frame_h
 
 #include "granular/base/box.h"
+#include "granular/base/column.h"
+#include "granular/base/error.h"
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace granular
 {
@@ -20,5 +25,54 @@ struct FrameHeader
   std::int64_t rows = 0;
   Box box;
 };
+
+/// What many frames have in common.
+struct FrameKind
+{
+  static constexpr int text = -1;
+
+  ColumnSchema schema;
+  std::string units;
+  int layout = text; ///< index into binary_layouts(), or text
+  bool named = true; ///< false: nobody has named the columns of a binary file, these are stand-ins
+
+  bool operator==(const FrameKind&) const = default;
+};
+
+/// The kinds of the frames of a run, each held once.
+class FrameKinds
+{
+public:
+  std::shared_ptr<const FrameKind> share(FrameKind kind);
+
+private:
+  std::vector<std::shared_ptr<const FrameKind>> kinds_;
+};
+
+/// Where a frame lies in its file, and what is needed to find it among others. There may be millions:
+/// all else is read again from the frame's header when the frame is.
+struct FrameEntry
+{
+  static constexpr double no_time = std::numeric_limits<double>::quiet_NaN();
+
+  std::int64_t timestep = 0;
+  std::int64_t rows = 0;
+  std::int64_t offset = 0; ///< of the header
+  std::int64_t end = 0;
+  std::int64_t line = 0;   ///< of the header, from 1; binary: 0
+  double time = no_time;   ///< of the header
+  std::uint64_t shape = 0; ///< hash of the box and the names of the columns: see hash_shape
+  std::shared_ptr<const FrameKind> kind;
+};
+
+/// What frames of one timestep must share to be pieces of one: a hash of the box and the column names.
+std::uint64_t hash_shape(const FrameHeader& header, const ColumnSchema& schema);
+
+/// The place of a frame: the line of its header, or the byte in a binary file.
+Where where_of(const std::string& path, const FrameEntry& entry);
+
+/// Makes sure that the header found at the place of a frame is the one that was there when the file
+/// was indexed. Throws IoError.
+void check_header(const std::string& path, const FrameEntry& entry, const FrameHeader& header);
 }
 #endif

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
-#include <string_view>
+#include <numeric>
 #include <utility>
 
 namespace granular
@@ -64,18 +63,33 @@ void Points::convert(const Box& box, std::int64_t row, std::size_t count)
   convert_positions(plan, box, point_origin, images, points);
 }
 
-FrameDecoder::FrameDecoder(const ByteSource& source, const FrameEntry& entry,
-  const ColumnSchema& schema, const DumpRequest& request, Notices& notices)
-  : source_(source)
-  , entry_(entry)
+std::int64_t PieceList::rows() const noexcept
+{
+  return std::accumulate(entries.begin(), entries.end(), std::int64_t{ 0 },
+    [](std::int64_t rows, const FrameEntry* entry) { return rows + entry->rows; });
+}
+
+FrameDecoder::FrameDecoder(
+  const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request, Notices& notices)
+  : pieces_(pieces)
   , schema_(schema)
   , request_(request)
   , notices_(notices)
-  , where_{ source.path(), entry.line }
 {
+  this->open(0);
+  where_ = where_of(source_->path(), *pieces.entries[0]);
+  header_ = rows_->header();
+  header_.rows = pieces.rows();
   this->lay_arrays();
   this->lay_points();
   this->lay_filters();
+}
+
+void FrameDecoder::open(std::size_t piece)
+{
+  rows_.reset();
+  source_ = pieces_.open(piece);
+  rows_ = open_rows(*source_, *pieces_.entries[piece]);
 }
 
 /// Memory for a batch.
@@ -115,7 +129,7 @@ void FrameDecoder::lay_arrays()
     DumpArray array{ info, {}, {} };
     const std::size_t width = size_of(info.type);
     const std::size_t stride = width * info.columns.size();
-    array.block = Block(stride * static_cast<std::size_t>(entry_.header.rows));
+    array.block = Block(stride * static_cast<std::size_t>(header_.rows));
     Destination to = { static_cast<char*>(array.block.data()), static_cast<std::ptrdiff_t>(stride),
       false };
     if (info.type == ValueType::Text)
@@ -161,11 +175,11 @@ void FrameDecoder::lay(Points& points)
 
 void FrameDecoder::lay_points()
 {
-  points_.plan = plan_positions(schema_, entry_.header.box, request_.coordinates, where_, notices_);
+  points_.plan = plan_positions(schema_, header_.box, request_.coordinates, where_, notices_);
   points_.point_origin = request_.point_origin;
   const std::size_t stride = 3 * (request_.single_precision ? sizeof(float) : sizeof(double));
   frame_.coordinates = points_.plan.coordinates;
-  frame_.points = Block(stride * static_cast<std::size_t>(entry_.header.rows));
+  frame_.points = Block(stride * static_cast<std::size_t>(header_.rows));
   points_.xyz = request_.single_precision
     ? this->scratch(3 * sizeof(double))
     : Destination{ static_cast<char*>(frame_.points.data()), 3 * sizeof(double), false };
@@ -184,8 +198,7 @@ void FrameDecoder::lay_filters()
     Notices known; // lay_points has said what there is to say
     keep_.assign(batch_rows, 1);
     region_.emplace();
-    region_->plan =
-      plan_positions(schema_, entry_.header.box, Coordinates::Absolute, where_, known);
+    region_->plan = plan_positions(schema_, header_.box, Coordinates::Absolute, where_, known);
     if (region_->plan.coordinates != Coordinates::Absolute &&
       request_.coordinates != Coordinates::Absolute)
     {
@@ -201,7 +214,7 @@ void FrameDecoder::lay_filters()
   if (id >= 0 && (request_.stride > 1 || request_.sort_by_id) && !wires_.contains(id))
   {
     // as an array of its own, so that filters treat it like all others
-    ids_ = Block(sizeof(std::int64_t) * static_cast<std::size_t>(entry_.header.rows));
+    ids_ = Block(sizeof(std::int64_t) * static_cast<std::size_t>(header_.rows));
     this->want(
       id, ValueType::Int64, { static_cast<char*>(ids_.data()), sizeof(std::int64_t), false });
   }
@@ -219,46 +232,58 @@ void FrameDecoder::aim(std::vector<ColumnSink>& sinks) const
 
 std::optional<Misfit> FrameDecoder::run(Progress& progress)
 {
-  TextRows rows(source_, entry_);
   std::vector<ColumnSink> sinks;
   for (const auto& [column, wire] : wires_)
   {
     sinks.push_back({ static_cast<std::uint32_t>(column), wire.kind, nullptr, wire.first.stride });
   }
-  for (int batch = 0;; ++batch)
+  for (std::size_t piece = 0; piece < pieces_.entries.size(); ++piece)
   {
-    if (batch % report_batches == 0)
+    if (piece > 0)
     {
-      progress.step(rows.fraction());
+      this->open(piece);
     }
-    this->aim(sinks);
-    const std::int64_t count = rows.decode(sinks, batch_rows);
-    if (rows.misfit())
+    this->run_piece(sinks, progress);
+    if (std::optional<Misfit> misfit = rows_->misfit())
     {
-      return Misfit{ rows.result().column, rows.result().status, std::string(rows.word()),
-        rows.where() };
+      return misfit;
     }
-    if (count == 0)
-    {
-      break;
-    }
-    this->finish_batch(static_cast<std::size_t>(count));
-  }
-  if (rows.surplus())
-  {
-    notices_.push_back({ where_,
-      "expected " + std::to_string(schema_.columns().size()) +
-        " words in a row, got more in some rows; the rest of them was ignored" });
+    rows_->note(notices_);
   }
   progress.step(1);
   return std::nullopt;
 }
 
+/// Decodes the rows of the piece at hand, or up to a value that does not fit.
+void FrameDecoder::run_piece(std::vector<ColumnSink>& sinks, Progress& progress)
+{
+  const std::int64_t before = seen_;
+  const auto all = static_cast<double>(std::max(std::int64_t{ 1 }, header_.rows));
+  const auto rows = static_cast<double>(rows_->header().rows);
+  for (int batch = 0;; ++batch)
+  {
+    if (batch % report_batches == 0)
+    {
+      progress.step((static_cast<double>(before) + rows_->fraction() * rows) / all);
+    }
+    this->aim(sinks);
+    const std::int64_t count = rows_->decode(sinks, batch_rows);
+    if (count == 0)
+    {
+      return;
+    }
+    this->finish_batch(static_cast<std::size_t>(count));
+  }
+}
+
 void FrameDecoder::finish_batch(std::size_t count)
 {
   this->copy_batch(count);
-  this->index_texts(count);
-  points_.convert(entry_.header.box, row_, count);
+  for (TextColumn& column : texts_)
+  {
+    column.index(frame_.arrays[column.array], row_, count, where_);
+  }
+  points_.convert(header_.box, row_, count);
   if (request_.single_precision)
   {
     const auto* const from = reinterpret_cast<const double*>(points_.xyz.base);
@@ -330,7 +355,7 @@ void FrameDecoder::choose_rows(std::size_t count)
   }
   if (region_)
   {
-    region_->convert(entry_.header.box, row_, count);
+    region_->convert(header_.box, row_, count);
     const auto* point = reinterpret_cast<const double*>(region_->xyz.base);
     for (std::size_t i = 0; i < count; ++i, point += 3)
     {
@@ -358,32 +383,6 @@ void FrameDecoder::compact(Block& block, std::size_t width, std::size_t count) c
   }
 }
 
-/// Texts become indices of the words that occur: there are few, and rows may be many.
-void FrameDecoder::index_texts(std::size_t count)
-{
-  for (TextColumn& column : texts_)
-  {
-    DumpArray& array = frame_.arrays[column.array];
-    auto* const indices = static_cast<std::int32_t*>(array.block.data()) + row_;
-    const auto* const texts = reinterpret_cast<const std::string_view*>(column.scratch);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      auto found = column.indices.find(texts[i]);
-      if (found == column.indices.end())
-      {
-        if (array.words.size() == std::numeric_limits<std::int32_t>::max())
-        {
-          throw LimitError("expected at most 2147483647 different words in a column", where_);
-        }
-        found =
-          column.indices.emplace(texts[i], static_cast<std::int32_t>(array.words.size())).first;
-        array.words.emplace_back(texts[i]);
-      }
-      indices[i] = found->second;
-    }
-  }
-}
-
 DumpFrame FrameDecoder::take(Block& ids)
 {
   const auto rows = static_cast<std::size_t>(row_);
@@ -393,6 +392,8 @@ DumpFrame FrameDecoder::take(Block& ids)
   {
     array.block.shrink(rows * size_of(array.info.type) * array.info.columns.size());
   }
+  frame_.header = std::move(header_);
+  frame_.schema = schema_;
   ids = std::move(ids_);
   return std::move(frame_);
 }

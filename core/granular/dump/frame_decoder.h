@@ -5,7 +5,8 @@
 #include "granular/base/block.h"
 #include "granular/base/row_text.h"
 #include "granular/dump/dump_reader.h"
-#include "granular/dump/text_rows.h"
+#include "granular/dump/frame_rows.h"
+#include "granular/dump/text_column.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +14,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace granular
@@ -44,25 +42,6 @@ struct Wire
   std::vector<Copy> copies;
 };
 
-/// Lets words be looked up without a copy.
-struct WordHash
-{
-  using is_transparent = void;
-
-  std::size_t operator()(std::string_view word) const noexcept
-  {
-    return std::hash<std::string_view>{}(word);
-  }
-};
-
-/// A column of texts.
-struct TextColumn
-{
-  std::size_t array;   ///< index of its array in the frame
-  const char* scratch; ///< std::string_views of a batch
-  std::unordered_map<std::string, std::int32_t, WordHash, std::equal_to<>> indices; ///< of words
-};
-
 /// Points of a batch: three doubles a row, made from columns.
 struct Points
 {
@@ -74,24 +53,26 @@ struct Points
   void convert(const Box& box, std::int64_t row, std::size_t count);
 };
 
-/// A word that does not fit the type of its column, where another type would do.
-struct Misfit
+/// The pieces of a frame, and how to get at their bytes.
+struct PieceList
 {
-  int column;
-  RowStatus status; ///< NotExact or NotANumber
-  std::string word;
-  Where where;
+  std::vector<const FrameEntry*> entries;
+  std::function<std::shared_ptr<const ByteSource>(std::size_t piece)> open;
+
+  std::int64_t rows() const noexcept; ///< of all pieces
 };
 
 /// Decodes one frame: lays the wires, then runs batches of rows through them.
 class FrameDecoder
 {
 public:
-  FrameDecoder(const ByteSource& source, const FrameEntry& entry, const ColumnSchema& schema,
-    const DumpRequest& request, Notices& notices);
+  FrameDecoder(const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request,
+    Notices& notices);
 
-  /// Decodes all rows, or up to a word that does not fit.
+  /// Decodes all rows, or up to a value that does not fit.
   std::optional<Misfit> run(Progress& progress);
+
+  const Where& where() const noexcept { return where_; } ///< the frame
 
   /// The frame; ids gets the ids where they are needed for sorting and no array of the frame.
   DumpFrame take(Block& ids);
@@ -104,18 +85,21 @@ private:
   void want(int column, ValueType type, Destination to, double scale = 1);
   Destination scratch(std::size_t bytes_a_row);
   void aim(std::vector<ColumnSink>& sinks) const;
+  void open(std::size_t piece);
+  void run_piece(std::vector<ColumnSink>& sinks, Progress& progress);
   void finish_batch(std::size_t count);
   void copy_batch(std::size_t count);
   void choose_rows(std::size_t count);
   void compact(Block& block, std::size_t width, std::size_t count) const;
-  void index_texts(std::size_t count);
 
-  const ByteSource& source_;
-  const FrameEntry& entry_;
+  const PieceList& pieces_;
   const ColumnSchema& schema_;
   const DumpRequest& request_;
   Notices& notices_;
-  Where where_;
+  Where where_;                              ///< of the first piece
+  std::shared_ptr<const ByteSource> source_; ///< of the piece at hand
+  std::unique_ptr<FrameRows> rows_;
+  FrameHeader header_; ///< of the first piece, with the rows of all
 
   std::map<int, Wire> wires_; ///< by column
   std::vector<std::unique_ptr<char[]>> scratch_;

@@ -1,50 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/frame_index.h"
 
-#include "granular/dump/text_dump.h"
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <utility>
 
 namespace granular
 {
-/// One file of the series and what is known of it.
-struct FrameIndex::File
-{
-  FileStamp stamp;
-  TextIndex index;
-  std::exception_ptr error; ///< the file could not be opened or read
-};
-
 namespace
 {
-/// Whether the file only grew since it was indexed: the same file, and what was indexed last is
-/// still there. A run that starts over writes a new file of the same name, or into the same one:
-/// one that changed and is as long as it was is not the same.
-bool only_grew(const ByteSource& source, const FileStamp& before, const FileStamp& now,
-  const std::vector<FrameEntry>& frames)
-{
-  if (before.inode != now.inode || before.device != now.device || now.size <= before.size)
-  {
-    return false;
-  }
-  try
-  {
-    if (!frames.empty())
-    {
-      check_unchanged(source, frames.front());
-      check_unchanged(source, frames.back());
-    }
-    return true;
-  }
-  catch (const IoError&)
-  {
-    return false; // changed: it is read anew
-  }
-}
+/// Compressed files may be a great many: past this their restart points are not kept, and reading a
+/// frame of one starts at the beginning of the file.
+constexpr std::size_t most_restart_bytes = std::size_t{ 1 } << 28;
 
 Notice left_out(const std::exception_ptr& error)
 {
@@ -57,152 +25,158 @@ Notice left_out(const std::exception_ptr& error)
     return { e.where(), e.text() + "; the file is left out" };
   }
 }
+
+/// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
+/// is kept of the index.
+bool is_beside(const std::string& path)
+{
+  return path.find("boundingBox", path.rfind('/') + 1) != path.npos ||
+    path.ends_with(index_file_suffix);
+}
 }
 
-FrameIndex::FrameIndex() = default;
-FrameIndex::FrameIndex(FrameIndex&&) noexcept = default;
-FrameIndex& FrameIndex::operator=(FrameIndex&&) noexcept = default;
-FrameIndex::~FrameIndex() = default;
-
-void FrameIndex::update(const std::vector<std::string>& files, Notices& notices, Progress& progress)
+void FrameIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
+  Notices& notices, Progress& progress)
 {
-  std::map<std::string, File> known;
-  for (std::size_t i = 0; i < paths_.size(); ++i)
+  std::vector<std::string> dumps = files;
+  std::erase_if(dumps, is_beside);
+  series_ = {};
+  this->update_files(dumps.empty() ? files : dumps, options, notices, progress);
+  Notices found;
+  series_ = FileSeries(files_, options.repeated_steps, found);
+  if (series_.size() == 0)
   {
-    known[paths_[i]] = std::move(records_[i]);
+    this->fail(found);
+  }
+  notices.insert(notices.end(), found.begin(), found.end());
+  this->note_files(notices);
+  this->note_times(notices);
+}
+
+void FrameIndex::update_files(const std::vector<std::string>& files, const IndexOptions& options,
+  Notices& notices, Progress& progress)
+{
+  std::map<std::string, FileIndex> known;
+  const auto kinds =
+    files_.empty() ? std::make_shared<FrameKinds>() : std::as_const(files_.front()).kinds;
+  const std::string kept = files.empty() ? "" : index_file_path(options.index_file, files.front());
+  if (files_.empty() && !kept.empty())
+  {
+    files_ = load_index(kept, files.front(), kinds, notices);
+  }
+  for (FileIndex& file : files_)
+  {
+    known[file.path] = std::move(file);
   }
   // if this is left by an exception, what is known so far is gone and will be read anew
-  paths_.clear();
-  records_.clear();
-  frames_.clear();
-  for (std::size_t i = 0; i < files.size(); ++i)
+  files_.clear();
+  bool changed = known.size() != files.size() || kept != kept_;
+  kept_ = kept;
+  std::size_t restart_bytes = 0;
+  for (const std::string& path : files)
   {
-    progress.step(static_cast<double>(i) / static_cast<double>(files.size()));
-    File file = std::move(known[files[i]]);
-    FrameIndex::update_file(file, files[i], notices, progress);
-    paths_.push_back(files[i]);
-    records_.push_back(std::move(file));
+    progress.step(static_cast<double>(files_.size()) / static_cast<double>(files.size()));
+    FileIndex& file = files_.emplace_back(std::move(known[path]));
+    file.path = path;
+    file.kinds = kinds;
+    const bool loaded = file.loaded;
+    const bool read = update_file_index(file, options.column_names, progress);
+    changed = changed || read;
+    if (read || loaded)
+    {
+      notices.insert(notices.end(), file.notices.begin(), file.notices.end());
+    }
+    restart_bytes += file.points ? file.points->bytes() : 0;
+    if (restart_bytes > most_restart_bytes)
+    {
+      file.points.reset();
+    }
   }
-  this->collect(notices);
-  if (frames_.empty())
+  if (changed && !kept.empty())
   {
-    this->fail();
+    save_index(kept, files_, notices);
   }
-  for (const File& file : records_)
+}
+
+bool FrameIndex::changed() const
+{
+  return std::ranges::any_of(
+    files_, [](const FileIndex& file) { return !(stamp_of(file.path) == file.stamp); });
+}
+
+FramePiece FrameIndex::first_piece(std::size_t frame) const
+{
+  const FileSeries::Place place = series_.pieces(frame).front();
+  return { files_[place.file], files_[place.file].frames[place.frame] };
+}
+
+std::vector<FramePiece> FrameIndex::pieces(std::size_t frame) const
+{
+  std::vector<FramePiece> pieces;
+  for (const FileSeries::Place place : series_.pieces(frame))
+  {
+    pieces.push_back({ files_[place.file], files_[place.file].frames[place.frame] });
+  }
+  return pieces;
+}
+
+/// Says which files cannot be read, and, once, that columns have names that are not in the file.
+void FrameIndex::note_files(Notices& notices) const
+{
+  for (const FileIndex& file : files_)
   {
     if (file.error)
     {
       notices.push_back(left_out(file.error));
     }
   }
-}
-
-void FrameIndex::update_file(
-  File& file, const std::string& path, Notices& notices, Progress& progress)
-{
-  try
-  {
-    file.error = nullptr;
-    const std::unique_ptr<ByteSource> source = open_file(path);
-    const FileStamp stamp = source->stamp();
-    if (stamp == file.stamp)
+  const auto guessed = std::ranges::find_if(files_,
+    [](const FileIndex& file)
     {
-      return;
-    }
-    if (!only_grew(*source, file.stamp, stamp, file.index.frames))
-    {
-      file.index = {};
-    }
-    file.index.notices.clear();
-    file.index.defect.reset();
-    index_text_dump(*source, file.index, progress);
-    file.stamp = stamp;
-    notices.insert(notices.end(), file.index.notices.begin(), file.index.notices.end());
-    if (!file.index.defect)
-    {
-      file.index.defect = { { path },
-        std::string("expected a dump, got ") +
-          (stamp.size == 0 ? "an empty file" : "no complete frame") };
-    }
-  }
-  catch (const Error&)
+      return file.unnamed && file.column_names.empty() && !file.frames.empty() &&
+        file.frames.front().kind->named;
+    });
+  if (guessed != files_.end())
   {
-    file = {};
-    file.error = std::current_exception();
-  }
-}
-
-/// Orders the frames of all files; of a repeated timestep the last stays.
-void FrameIndex::collect(Notices& notices)
-{
-  for (std::size_t i = 0; i < records_.size(); ++i)
-  {
-    for (const FrameEntry& frame : records_[i].index.frames)
-    {
-      frames_.push_back(frame);
-      frames_.back().file = i;
-    }
-  }
-  const auto step = [](const FrameEntry& frame) { return frame.header.timestep; };
-  std::ranges::stable_sort(frames_, {}, step);
-  std::vector<FrameEntry> last;
-  for (FrameEntry& frame : frames_)
-  {
-    if (!last.empty() && step(last.back()) == step(frame))
-    {
-      last.pop_back();
-    }
-    last.push_back(std::move(frame));
-  }
-  frames_ = std::move(last);
-  this->note_hidden_files(notices);
-  this->note_times(notices);
-}
-
-/// Says so if all frames of a file are hidden by those of later ones: a restart repeats a step or
-/// two, but this is another run, or one file a process.
-void FrameIndex::note_hidden_files(Notices& notices) const
-{
-  std::vector<bool> shown(records_.size());
-  for (const FrameEntry& frame : frames_)
-  {
-    shown[frame.file] = true;
-  }
-  for (std::size_t i = 0; i < records_.size(); ++i)
-  {
-    if (!shown[i] && !records_[i].index.frames.empty())
-    {
-      notices.push_back(
-        { { paths_[i] }, "no frame of this file is shown: later files have the same timesteps" });
-    }
+    notices.push_back({ { guessed->path },
+      "the file does not name its columns: they are taken for " +
+        guessed->frames.front().kind->schema.text() +
+        "; if they are others, or coordinates are not scaled, set ColumnNames" });
   }
 }
 
 /// Says so if only some frames have a time, or times that do not increase.
 void FrameIndex::note_times(Notices& notices) const
 {
-  const auto has_time = [](const FrameEntry& frame) { return frame.header.time.has_value(); };
-  if (std::ranges::any_of(frames_, has_time) && this->header_times().size() < frames_.size())
+  std::size_t with_time = 0;
+  for (std::size_t i = 0; i < this->size(); ++i)
   {
-    const bool all = std::ranges::all_of(frames_, has_time);
-    notices.push_back({ { paths_[frames_.front().file] },
+    with_time += std::isnan(this->first_piece(i).entry.time) ? 0U : 1U;
+  }
+  if (with_time > 0 && this->header_times().size() < this->size())
+  {
+    notices.push_back({ { this->first_piece(0).file.path },
       std::string("expected an increasing ITEM: TIME in every frame, got ") +
-        (all ? "one that does not increase" : "frames without") +
+        (with_time == this->size() ? "one that does not increase" : "frames without") +
         "; times are timestep x TimestepSize" });
   }
 }
 
-void FrameIndex::fail() const
+void FrameIndex::fail(const Notices& notices) const
 {
-  if (records_.empty())
+  if (files_.empty())
   {
     throw IoError("expected the name of a file, got none");
   }
-  if (records_.front().error)
+  if (files_.front().error)
   {
-    std::rethrow_exception(records_.front().error);
+    std::rethrow_exception(files_.front().error);
   }
-  const Notice& defect = *records_.front().index.defect;
+  if (!notices.empty())
+  {
+    throw FormatError(notices.front().text, notices.front().where); // pieces are missing
+  }
+  const Notice& defect = *files_.front().defect;
   throw FormatError(defect.text, defect.where);
 }
 
@@ -210,13 +184,14 @@ void FrameIndex::fail() const
 std::vector<double> FrameIndex::header_times() const
 {
   std::vector<double> from_header;
-  for (const FrameEntry& frame : frames_)
+  for (std::size_t i = 0; i < this->size(); ++i)
   {
-    const std::optional<double>& time = frame.header.time;
-    if (time && std::isfinite(*time) && (from_header.empty() || *time > from_header.back()))
+    const double time = this->first_piece(i).entry.time;
+    if (!std::isfinite(time) || (!from_header.empty() && time <= from_header.back()))
     {
-      from_header.push_back(*time);
+      break;
     }
+    from_header.push_back(time);
   }
   return from_header;
 }
@@ -224,14 +199,14 @@ std::vector<double> FrameIndex::header_times() const
 std::vector<double> FrameIndex::times(double timestep_size) const
 {
   std::vector<double> from_header = this->header_times();
-  if (from_header.size() == frames_.size())
+  if (from_header.size() == this->size())
   {
     return from_header;
   }
   std::vector<double> from_steps;
-  for (const FrameEntry& frame : frames_)
+  for (std::size_t i = 0; i < this->size(); ++i)
   {
-    from_steps.push_back(static_cast<double>(frame.header.timestep) * timestep_size);
+    from_steps.push_back(static_cast<double>(this->first_piece(i).entry.timestep) * timestep_size);
   }
   return from_steps;
 }

@@ -2,55 +2,63 @@
 #ifndef granular_dump_frame_index_h
 #define granular_dump_frame_index_h
 
-#include "granular/base/column.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
-#include "granular/dump/frame.h"
+#include "granular/dump/file_index.h"
+#include "granular/dump/file_series.h"
+#include "granular/dump/index_file.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace granular
 {
-/// Where a frame lies in its file. The rows are the lines of [rows_offset, end).
-struct FrameEntry
+/// What of the files is the user's word.
+struct IndexOptions
 {
-  std::size_t file = 0; ///< index into FrameIndex::files()
-  std::int64_t offset = 0;
-  std::int64_t rows_offset = 0;
-  std::int64_t end = 0;
-  std::int64_t line = 1;      ///< line number at offset
-  std::int64_t rows_line = 1; ///< line number at rows_offset
-  std::uint64_t hash = 0;     ///< of the header and the last rows: tells whether it is still there
-  FrameHeader header;
-  std::shared_ptr<const ColumnSchema> schema; ///< shared by frames of a file with the same columns
+  std::vector<std::string> column_names; ///< of binary files that do not name their columns
+  RepeatedSteps repeated_steps = RepeatedSteps::Auto;
+  IndexFile index_file = IndexFile::Never;
+};
+
+/// A piece of a frame: all of it, or what one process wrote.
+struct FramePiece
+{
+  const FileIndex& file;
+  const FrameEntry& entry;
 };
 
 /// All complete frames of a run, found at scan speed without decoding rows.
 ///
-/// Frames are ordered by timestep. Where a timestep is repeated (a restarted run) the frame that
-/// stands last, in the order of the files and in its file, is taken. A last frame that is not
-/// complete is left out: its writer is still at work. Frames in the middle that are not what
-/// their header says are left out with a notice.
+/// Frames are ordered by timestep. Where a timestep is repeated the frames are pieces of one, or the
+/// one that stands last is taken, in the order of the files and in its file: see FileSeries. A last
+/// frame that is not complete is left out: its writer is still at work. Frames in the middle that are
+/// not what their header says are left out with a notice. Files with `boundingBox` in their names,
+/// which LIGGGHTS writes beside some dumps, and index files are passed over.
 class FrameIndex
 {
 public:
-  FrameIndex();
-  FrameIndex(FrameIndex&&) noexcept;
-  FrameIndex& operator=(FrameIndex&&) noexcept;
-  ~FrameIndex();
-
   /// Brings the index up to what the files hold now. Files that only grew are read from where the
   /// last complete frame ended; files that are the same are not read; others are read anew.
   /// notices gets what is to be said of the files that were read now, and of those that cannot be.
   /// Throws IoError or FormatError if no file yields a frame, saying what is wrong with the first;
   /// Cancelled.
-  void update(const std::vector<std::string>& files, Notices& notices, Progress& progress);
+  void update(const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
+    Progress& progress);
 
-  const std::vector<FrameEntry>& frames() const noexcept { return frames_; }
-  const std::vector<std::string>& files() const noexcept { return paths_; }
+  /// Whether a file is not what it was at the last update, to judge by size, time and inode.
+  bool changed() const;
+
+  std::size_t size() const noexcept { return series_.size(); }
+  const std::vector<FileIndex>& files() const noexcept { return files_; }
+
+  /// The pieces of a frame, at least one. Valid until the next update.
+  std::vector<FramePiece> pieces(std::size_t frame) const;
+
+  /// The first piece of a frame.
+  FramePiece first_piece(std::size_t frame) const;
 
   /// Time of every frame [s]: ITEM: TIME if every frame has one and it strictly increases,
   /// else timestep * timestep_size.
@@ -62,19 +70,16 @@ public:
   static std::size_t find(const std::vector<double>& times, double time) noexcept;
 
 private:
-  struct File;
-
-  static void update_file(
-    File& file, const std::string& path, Notices& notices, Progress& progress);
-  void collect(Notices& notices);
-  void note_hidden_files(Notices& notices) const;
+  void update_files(const std::vector<std::string>& files, const IndexOptions& options,
+    Notices& notices, Progress& progress);
+  void note_files(Notices& notices) const;
   void note_times(Notices& notices) const;
   std::vector<double> header_times() const;
-  [[noreturn]] void fail() const;
+  [[noreturn]] void fail(const Notices& notices) const;
 
-  std::vector<std::string> paths_;
-  std::vector<File> records_; ///< one a path
-  std::vector<FrameEntry> frames_;
+  std::vector<FileIndex> files_;
+  std::string kept_; ///< path of the index file
+  FileSeries series_;
 };
 }
 #endif

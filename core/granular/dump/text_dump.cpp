@@ -50,43 +50,15 @@ ColumnSchema make_schema(
   return schema;
 }
 
-/// FNV-1a of the bytes [first, last), going on from hash.
-std::uint64_t hash_bytes(
-  const ByteSource& source, std::int64_t first, std::int64_t last, std::uint64_t hash)
-{
-  std::array<char, 4096> part;
-  while (first < last)
-  {
-    const std::size_t got = source.read(
-      first, part.data(), std::min(part.size(), static_cast<std::size_t>(last - first)));
-    for (const char byte : std::span(part.data(), got))
-    {
-      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-    }
-    first = got > 0 ? first + static_cast<std::int64_t>(got) : last;
-  }
-  return hash;
-}
-
-/// Of the header and of the last of the rows: tells a run that was started over.
-std::uint64_t hash_frame(const ByteSource& source, const FrameEntry& entry)
-{
-  constexpr std::int64_t tail = 256;
-  const std::uint64_t header =
-    hash_bytes(source, entry.offset, entry.rows_offset, 0xcbf29ce484222325);
-  return hash_bytes(source, std::max(entry.rows_offset, entry.end - tail), entry.end, header);
-}
-
 /// Finds the frames of a text, one after the other.
 class Indexer
 {
 public:
-  Indexer(const ByteSource& source, TextIndex& index, Progress& progress)
+  Indexer(const ByteSource& source, FileIndex& index, Progress& progress)
     : source_(source)
     , index_(index)
     , progress_(progress)
     , scanner_(source, index.resume_offset, index.resume_line)
-    , total_(source.stamp().size)
   {
   }
 
@@ -101,18 +73,18 @@ private:
   bool next_frame();
   bool read_frame(TextHeader& reader);
   bool finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end);
-  std::shared_ptr<const ColumnSchema> schema(const TextHeader& reader, const FrameHeader& header);
+  ColumnSchema schema(const TextHeader& reader);
   void leave_out(const Where& where, const std::string& why);
-  void set_defect(const Notice& defect);
   bool go_to_next_frame();
   bool peek(std::string_view& line);
+  bool unfinished_line() const;
   bool find_glued_header(FrameEntry& entry, std::int64_t& rows);
 
   const ByteSource& source_;
-  TextIndex& index_;
+  FileIndex& index_;
   Progress& progress_;
   TextScanner scanner_;
-  std::int64_t total_;
+  std::int64_t rows_offset_ = 0; ///< of the frame at hand
 };
 
 /// False at the end of the text.
@@ -140,27 +112,31 @@ bool Indexer::read_frame(TextHeader& reader)
   {
     if (reader.opened())
     {
-      this->set_defect({ { source_.path(), reader.line() },
-        "expected a complete frame, got the end of the file in its header" });
+      set_defect(index_,
+        { { source_.path(), reader.line() },
+          "expected a complete frame, got the end of the file in its header" });
     }
     return false;
   }
+  const FrameHeader& header = reader.header();
+  rows_offset_ = scanner_.offset();
+  index_.units = header.units;
   FrameEntry entry;
-  entry.header = std::move(reader.header());
+  entry.timestep = header.timestep;
+  entry.rows = header.rows;
   entry.offset = reader.offset();
   entry.line = reader.line();
-  entry.rows_offset = scanner_.offset();
-  entry.rows_line = scanner_.line();
-  index_.units = entry.header.units;
-  entry.schema = this->schema(reader, entry.header);
-  std::int64_t rows = scanner_.skip_to_item(progress_, total_);
+  entry.time = header.time.value_or(FrameEntry::no_time);
+  entry.kind = index_.kinds->share({ this->schema(reader), header.units });
+  entry.shape = hash_shape(header, entry.kind->schema);
+  std::int64_t rows = scanner_.skip_to_item(progress_);
   entry.end = scanner_.offset();
   std::string_view next;
   const bool at_end = !this->peek(next);
-  if (this->find_glued_header(entry, rows) && rows != entry.header.rows)
+  if (this->find_glued_header(entry, rows) && rows != entry.rows)
   {
     this->leave_out({ source_.path(), entry.line },
-      "expected " + std::to_string(entry.header.rows) +
+      "expected " + std::to_string(entry.rows) +
         " rows, got the header of another frame within a row");
     return true;
   }
@@ -170,33 +146,30 @@ bool Indexer::read_frame(TextHeader& reader)
 /// Keeps the frame if it has the rows that its header promises.
 bool Indexer::finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
 {
-  if (rows == entry.header.rows)
+  if (rows == entry.rows)
   {
     index_.resume_offset = scanner_.offset();
     index_.resume_line = scanner_.line();
-    entry.hash = hash_frame(source_, entry);
     index_.frames.push_back(std::move(entry));
     return true;
   }
   const Where where{ source_.path(), entry.line };
-  std::string why =
-    "expected " + std::to_string(entry.header.rows) + " rows, got " + std::to_string(rows);
-  if (at_end && rows < entry.header.rows)
+  std::string why = "expected " + std::to_string(entry.rows) + " rows, got " + std::to_string(rows);
+  if (at_end && rows < entry.rows)
   {
-    why += scanner_.offset() < total_ ? ", and a last line without its line feed" : "";
-    this->set_defect({ where, why });
+    why += this->unfinished_line() ? ", and a last line without its line feed" : "";
+    set_defect(index_, { where, why });
     return false;
   }
   this->leave_out(where, why);
   return true;
 }
 
-std::shared_ptr<const ColumnSchema> Indexer::schema(
-  const TextHeader& reader, const FrameHeader& header)
+ColumnSchema Indexer::schema(const TextHeader& reader)
 {
   const Where where = scanner_.where();
   std::string_view first_row;
-  bool found = header.rows > 0;
+  bool found = reader.header().rows > 0;
   while (found && split_words(first_row).empty())
   {
     found = scanner_.next(first_row);
@@ -206,26 +179,20 @@ std::shared_ptr<const ColumnSchema> Indexer::schema(
   {
     scanner_.put_back();
   }
-  for (const FrameEntry& frame : index_.frames)
-  {
-    if (*frame.schema == schema)
-    {
-      return frame.schema;
-    }
-  }
-  return std::make_shared<const ColumnSchema>(std::move(schema));
+  return schema;
+}
+
+/// Whether something follows the last line feed.
+bool Indexer::unfinished_line() const
+{
+  char byte = 0;
+  return source_.read(scanner_.offset(), &byte, 1) > 0;
 }
 
 void Indexer::leave_out(const Where& where, const std::string& why)
 {
-  this->set_defect({ where, why });
+  set_defect(index_, { where, why });
   index_.notices.push_back({ where, why + "; the frame is left out" });
-}
-
-/// What is wrong first is what is said if there is no frame at all.
-void Indexer::set_defect(const Notice& defect)
-{
-  index_.defect = index_.defect ? index_.defect : defect;
 }
 
 bool Indexer::go_to_next_frame()
@@ -233,7 +200,7 @@ bool Indexer::go_to_next_frame()
   std::string_view line;
   for (;;)
   {
-    scanner_.skip_to_item(progress_, total_);
+    scanner_.skip_to_item(progress_);
     if (!this->peek(line))
     {
       return false;
@@ -272,7 +239,7 @@ bool Indexer::find_glued_header(FrameEntry& entry, std::int64_t& rows)
 {
   constexpr std::int64_t reach = 512; // two sections of a header, and more
   const std::int64_t to = scanner_.offset();
-  const std::int64_t start = std::max(entry.rows_offset, to - reach);
+  const std::int64_t start = std::max(rows_offset_, to - reach);
   std::string tail(static_cast<std::size_t>(to - start), ' ');
   tail.resize(source_.read(start, tail.data(), tail.size()));
   for (const std::string_view opening : { "ITEM: UNITS", "ITEM: TIME", "ITEM: TIMESTEP" })
@@ -323,25 +290,8 @@ bool is_text_dump(std::string_view first_bytes)
   return opened;
 }
 
-void index_text_dump(const ByteSource& source, TextIndex& index, Progress& progress)
+void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress)
 {
   Indexer(source, index, progress).run();
-}
-
-void check_unchanged(const ByteSource& source, const FrameEntry& entry)
-{
-  const std::int64_t size = source.stamp().size;
-  if (size < entry.end)
-  {
-    throw IoError("the file was shortened since it was indexed: expected at least " +
-        std::to_string(entry.end) + " bytes, got " + std::to_string(size) + "; reload the files",
-      { source.path() });
-  }
-  if (hash_frame(source, entry) != entry.hash)
-  {
-    throw IoError("the file changed since it was indexed: expected the frame of timestep " +
-        std::to_string(entry.header.timestep) + "; reload the files",
-      { source.path(), entry.line });
-  }
 }
 }

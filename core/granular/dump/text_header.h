@@ -45,6 +45,7 @@ public:
   bool read();
 
   FrameHeader& header() noexcept { return header_; }
+  const FrameHeader& header() const noexcept { return header_; }
   const std::vector<std::string>& column_names() const noexcept { return column_names_; }
   std::int64_t offset() const noexcept { return offset_; } ///< of the frame's first line
   std::int64_t line() const noexcept { return line_; }

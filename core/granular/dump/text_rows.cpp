@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <utility>
 
 namespace granular
 {
@@ -14,15 +15,42 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   : source_(source)
   , entry_(entry)
   , buffer_(std::size_t{ 1 } << 18)
-  , buffer_offset_(entry.rows_offset)
 {
+  this->read_header();
+  check_header(source.path(), entry, header_);
+  buffer_offset_ = rows_offset_;
+}
+
+void TextRows::read_header()
+{
+  constexpr std::size_t window = 4096; // most headers are shorter
+  TextScanner scanner(source_, entry_.offset, entry_.line, window);
+  TextHeader reader(scanner, entry_.kind->units);
+  try
+  {
+    if (!reader.read())
+    {
+      reader.header().rows = -1; // not what the index says
+    }
+  }
+  catch (const FormatError& error)
+  {
+    if (error.where().byte >= 0)
+    {
+      throw; // compressed data that are damaged
+    }
+    reader.header().rows = -1;
+  }
+  header_ = std::move(reader.header());
+  rows_offset_ = scanner.offset();
+  rows_line_ = scanner.line();
 }
 
 double TextRows::fraction() const noexcept
 {
-  const auto bytes = static_cast<double>(entry_.end - entry_.rows_offset);
+  const auto bytes = static_cast<double>(entry_.end - rows_offset_);
   const auto done =
-    static_cast<double>(buffer_offset_ + static_cast<std::int64_t>(at_) - entry_.rows_offset);
+    static_cast<double>(buffer_offset_ + static_cast<std::int64_t>(at_) - rows_offset_);
   return bytes > 0 ? done / bytes : 1.0;
 }
 
@@ -43,7 +71,7 @@ bool TextRows::fill()
       {
         throw LimitError("expected rows of at most " + std::to_string(TextScanner::longest_line) +
             " bytes, got a longer one",
-          { source_.path(), entry_.rows_line });
+          { source_.path(), rows_line_ });
       }
       buffer_.resize(2 * buffer_.size());
     }
@@ -52,10 +80,9 @@ bool TextRows::fill()
     const std::size_t got = source_.read(offset, buffer_.data() + end_, wanted);
     if (got < wanted)
     {
-      const std::int64_t there =
-        std::min(source_.stamp().size, offset + static_cast<std::int64_t>(got));
       throw IoError("the file was shortened while it was read: expected " +
-          std::to_string(entry_.end) + " bytes, got " + std::to_string(there),
+          std::to_string(entry_.end) + " bytes, got " +
+          std::to_string(offset + static_cast<std::int64_t>(got)),
         { source_.path() });
     }
     if (got == 0)
@@ -71,7 +98,7 @@ bool TextRows::fill()
 
 std::int64_t TextRows::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
 {
-  const auto columns = static_cast<std::uint32_t>(entry_.schema->columns().size());
+  const auto columns = static_cast<std::uint32_t>(entry_.kind->schema.columns().size());
   for (;;)
   {
     if (at_ == lines_end_ && !this->fill())
@@ -79,7 +106,7 @@ std::int64_t TextRows::decode(std::span<ColumnSink> sinks, std::int64_t max_rows
       this->check_count(rows_);
       return 0;
     }
-    const std::int64_t left = entry_.header.rows - rows_;
+    const std::int64_t left = entry_.rows - rows_;
     result_ = decode_rows(buffer_.data() + at_, buffer_.data() + lines_end_, columns,
       left > 0 ? sinks : sinks.first(0), left > 0 ? std::min(max_rows, left) : 1);
     rows_ += result_.rows;
@@ -89,30 +116,53 @@ std::int64_t TextRows::decode(std::span<ColumnSink> sinks, std::int64_t max_rows
     }
     surplus_ = surplus_ || result_.surplus;
     at_ = static_cast<std::size_t>(result_.ptr - buffer_.data());
-    if (result_.status != RowStatus::Done && !this->misfit())
+    if (result_.status != RowStatus::Done && !this->is_misfit())
     {
       this->fail();
     }
-    if (result_.rows > 0 || this->misfit())
+    if (this->is_misfit())
+    {
+      return 0;
+    }
+    if (result_.rows > 0)
     {
       return result_.rows;
     }
   }
 }
 
-bool TextRows::misfit() const
+std::optional<Misfit> TextRows::misfit() const
+{
+  if (!this->is_misfit())
+  {
+    return std::nullopt;
+  }
+  return Misfit{ result_.column, result_.status, std::string(this->word()), this->where() };
+}
+
+void TextRows::note(Notices& notices) const
+{
+  if (surplus_)
+  {
+    notices.push_back({ { source_.path(), entry_.line },
+      "expected " + std::to_string(entry_.kind->schema.columns().size()) +
+        " words in a row, got more in some rows; the rest of them was ignored" });
+  }
+}
+
+bool TextRows::is_misfit() const
 {
   return result_.status == RowStatus::NotExact ||
     (result_.status == RowStatus::NotANumber &&
-      !entry_.schema->columns()[static_cast<std::size_t>(result_.column)].known);
+      !entry_.kind->schema.columns()[static_cast<std::size_t>(result_.column)].known);
 }
 
 void TextRows::check_count(std::int64_t rows) const
 {
-  if (rows != entry_.header.rows)
+  if (rows != entry_.rows)
   {
-    throw FormatError("expected " + std::to_string(entry_.header.rows) + " rows, got " +
-        (rows > entry_.header.rows ? "more" : std::to_string(rows)),
+    throw FormatError("expected " + std::to_string(entry_.rows) + " rows, got " +
+        (rows > entry_.rows ? "more" : std::to_string(rows)),
       { source_.path(), entry_.line });
   }
 }
@@ -132,17 +182,17 @@ void TextRows::fail() const
   const char* const end = std::find(result_.ptr, buffer_.data() + lines_end_, '\n');
   const std::size_t words =
     split_words({ result_.ptr, static_cast<std::size_t>(end - result_.ptr) }).size();
-  throw FormatError("expected " + std::to_string(entry_.schema->columns().size()) +
+  throw FormatError("expected " + std::to_string(entry_.kind->schema.columns().size()) +
       " words in a row, got " + std::to_string(words),
     this->where());
 }
 
 Where TextRows::where() const
 {
-  Where where{ source_.path(), entry_.rows_line };
-  std::int64_t left = buffer_offset_ + (result_.ptr - buffer_.data()) - entry_.rows_offset;
+  Where where{ source_.path(), rows_line_ };
+  std::int64_t left = buffer_offset_ + (result_.ptr - buffer_.data()) - rows_offset_;
   std::string part(std::size_t{ 1 } << 18, ' ');
-  for (std::int64_t at = entry_.rows_offset; left > 0;)
+  for (std::int64_t at = rows_offset_; left > 0;)
   {
     const std::size_t wanted = std::min(part.size(), static_cast<std::size_t>(left));
     const std::size_t got = source_.read(at, part.data(), wanted);
@@ -152,7 +202,7 @@ Where TextRows::where() const
   }
   if (result_.column >= 0)
   {
-    where.column = entry_.schema->columns()[static_cast<std::size_t>(result_.column)].name;
+    where.column = entry_.kind->schema.columns()[static_cast<std::size_t>(result_.column)].name;
   }
   return where;
 }

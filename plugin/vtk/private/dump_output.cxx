@@ -37,8 +37,8 @@ std::vector<double> Values(const granular::Twofold3& vector)
 }
 }
 
-void FillParticles(vtkPolyData* output, granular::DumpFrame& frame,
-  const granular::ColumnSchema& schema, bool singlePrecision, VertexCells cells)
+void FillParticles(
+  vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision, VertexCells cells)
 {
   const auto rows = static_cast<vtkIdType>(frame.rows);
   output->SetPoints(TakePoints(frame.points, rows, singlePrecision));
@@ -49,7 +49,7 @@ void FillParticles(vtkPolyData* output, granular::DumpFrame& frame,
   vtkPointData* data = output->GetPointData();
   for (granular::DumpArray& from : frame.arrays)
   {
-    const auto array = TakeArray(from, rows, schema.columns());
+    const auto array = TakeArray(from, rows, frame.schema.columns());
     if (from.info.role == granular::ColumnRole::Id)
     {
       data->SetPedigreeIds(array);
@@ -96,10 +96,10 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
   return true;
 }
 
-void FillFieldData(vtkFieldData* data, const granular::FrameEntry& entry,
-  granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
+void FillFieldData(
+  vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin)
 {
-  const granular::FrameHeader& header = entry.header;
+  const granular::FrameHeader& header = frame.header;
   std::vector<double> vectors;
   for (const granular::Twofold3& vector : header.box.vectors)
   {
@@ -107,11 +107,11 @@ void FillFieldData(vtkFieldData* data, const granular::FrameEntry& entry,
     vectors.insert(vectors.end(), values.begin(), values.end());
   }
   std::vector<std::string> names;
-  for (const granular::ColumnInfo& column : entry.schema->columns())
+  for (const granular::ColumnInfo& column : frame.schema.columns())
   {
     names.push_back(column.name);
   }
-  data->AddArray(MakeStrings("Coordinates", { granular::to_string(coordinates) }));
+  data->AddArray(MakeStrings("Coordinates", { granular::to_string(frame.coordinates) }));
   data->AddArray(
     MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
   data->AddArray(MakeDoubles("BoxOrigin", Values(header.box.origin)));

@@ -3,7 +3,6 @@
 #define vtkGranularDumpOutput_h
 
 #include "granular/dump/dump_reader.h"
-#include "granular/dump/frame_index.h"
 
 class vtkFieldData;
 class vtkPolyData;
@@ -24,8 +23,8 @@ enum class VertexCells
 /**
  * The particles of a frame: points, vertices and point data. Takes the memory of the frame.
  */
-void FillParticles(vtkPolyData* output, granular::DumpFrame& frame,
-  const granular::ColumnSchema& schema, bool singlePrecision, VertexCells cells);
+void FillParticles(
+  vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision, VertexCells cells);
 
 /**
  * The box of a frame as one hexahedron less the origin; the unit cube where the points are scaled.
@@ -37,8 +36,8 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
 /**
  * What whoever comes after the reader needs to know about a frame.
  */
-void FillFieldData(vtkFieldData* data, const granular::FrameEntry& entry,
-  granular::Coordinates coordinates, const granular::Vector3& pointOrigin);
+void FillFieldData(
+  vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin);
 }
 
 #endif

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/binary_dump.h"
+
+#include "granular/base/words.h"
+#include "granular/dump/binary_header.h"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// The columns of dump atom, scaled or not only the user knows: by default they are.
+constexpr std::string_view atom_columns = "id type xs ys zs ix iy iz";
+
+/// The end of the frame; nothing if the source ends before it. Throws FormatError if the chunks do
+/// not add up.
+std::optional<std::int64_t> find_end(
+  const ByteSource& source, const BinaryHeader& header, bool swapped, Progress& progress)
+{
+  BinaryCursor cursor(source, header.chunks_offset, swapped);
+  constexpr std::int64_t step = std::int64_t{ 1 } << 24;
+  std::int64_t values = 0;
+  std::int64_t end = header.chunks_offset;
+  for (std::int32_t chunk = 0; chunk < header.chunks; ++chunk)
+  {
+    const Where where{ source.path(), 0, cursor.offset() };
+    const auto n = cursor.take<std::int32_t>();
+    if (cursor.ended())
+    {
+      return std::nullopt;
+    }
+    values += n;
+    if (n < 0 || n % header.size_one != 0 || values > header.values())
+    {
+      throw FormatError("expected the number of values in a chunk, a multiple of " +
+          std::to_string(header.size_one) + " and " + std::to_string(header.values()) +
+          " in all, got " + std::to_string(n),
+        where);
+    }
+    // compressed data are decompressed on the way: not all in one go
+    for (end = cursor.offset(); source.compressed() && end + step < cursor.offset() + 8LL * n;
+         end += step)
+    {
+      char byte = 0;
+      source.read(end, &byte, 1);
+      progress.step(source.fraction(end));
+    }
+    end = cursor.offset() + 8LL * n;
+    cursor.go_to(end);
+  }
+  if (values != header.values())
+  {
+    throw FormatError("expected " + std::to_string(header.values()) + " values, got " +
+        std::to_string(values) + " in " + std::to_string(header.chunks) + " chunks",
+      { source.path(), 0, header.chunks_offset });
+  }
+  char last = 0;
+  return source.read(end - 1, &last, 1) == 1 ? std::optional(end) : std::nullopt;
+}
+
+/// How well a layout fits the first frame, and where it ceases to.
+struct Fit
+{
+  enum Grade
+  {
+    Impossible,
+    Cut,   ///< the source ends within the frame
+    Alone, ///< what follows is no header
+    Whole
+  };
+
+  Grade grade = Impossible;
+  std::int64_t reach = 0;
+  std::optional<FormatError> error;
+};
+
+Fit try_layout(const ByteSource& source, const BinaryLayout& layout, Progress& progress)
+{
+  Fit fit;
+  try
+  {
+    const auto header = read_binary_header(source, 0, layout);
+    if (header && !layout.magic && !plausible_box(header->frame.box))
+    {
+      throw FormatError("expected the bounds of a box, got none", { source.path(), 0, 20 });
+    }
+    const auto end = header ? find_end(source, *header, layout.swapped, progress) : std::nullopt;
+    fit.grade = end ? Fit::Alone : Fit::Cut;
+    if (end)
+    {
+      read_binary_header(source, *end, layout);
+      fit.grade = Fit::Whole;
+    }
+  }
+  catch (const FormatError& error)
+  {
+    fit.reach = error.where().byte;
+    fit.error = error;
+  }
+  return fit;
+}
+
+/// The layout that fits best, of several the likeliest. Throws what is wrong with the one that comes
+/// furthest, if none does.
+int find_layout(const ByteSource& source, Progress& progress)
+{
+  std::vector<Fit> fits;
+  for (const BinaryLayout& layout : binary_layouts())
+  {
+    fits.push_back(try_layout(source, layout, progress));
+    if (fits.back().grade == Fit::Whole)
+    {
+      break;
+    }
+  }
+  const auto best = std::ranges::max_element(fits,
+    [](const Fit& a, const Fit& b)
+    { return std::pair(a.grade, a.reach) < std::pair(b.grade, b.reach); });
+  if (best->grade == Fit::Impossible)
+  {
+    const bool magic = binary_layouts()[static_cast<std::size_t>(best - fits.begin())].magic;
+    throw FormatError(
+      best->error->text() + (magic ? "" : "; no known layout of a binary dump fits"),
+      best->error->where());
+  }
+  return static_cast<int>(best - fits.begin());
+}
+
+/// The header at offset, or the first one behind it of a frame that has rows.
+BinaryHeader find_rows(const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
+{
+  Progress progress;
+  auto header = read_binary_header(source, offset, layout);
+  for (auto next = header; next; next = read_binary_header(source, offset, layout))
+  {
+    const auto end = find_end(source, *next, layout.swapped, progress);
+    header = next;
+    if (!end || next->frame.rows > 0)
+    {
+      break;
+    }
+    offset = *end;
+  }
+  return *header;
+}
+
+/// Finds the frames of a binary file, one after the other.
+class Indexer
+{
+public:
+  Indexer(const ByteSource& source, FileIndex& index, Progress& progress)
+    : source_(source)
+    , index_(index)
+    , progress_(progress)
+  {
+  }
+
+  void run();
+
+private:
+  bool next_frame();
+  ColumnSchema schema(const BinaryHeader& header);
+  std::vector<std::string> unnamed(const BinaryHeader& header);
+
+  const ByteSource& source_;
+  FileIndex& index_;
+  Progress& progress_;
+  int layout_ = 0;
+  bool named_ = true; ///< the columns of the frame at hand, by whomever
+};
+
+void Indexer::run()
+{
+  try
+  {
+    // a text there was before does not count
+    const int known = index_.frames.empty() ? FrameKind::text : index_.frames.back().kind->layout;
+    layout_ = known == FrameKind::text ? find_layout(source_, progress_) : known;
+    for (int frame = 0; this->next_frame(); ++frame)
+    {
+      constexpr int report = 256;
+      if (frame % report == 0)
+      {
+        progress_.step(source_.fraction(index_.resume_offset));
+      }
+    }
+  }
+  catch (const FormatError& error)
+  {
+    if (source_.compressed())
+    {
+      throw; // it may be the compressed data that are damaged: then nothing of them can be trusted
+    }
+    set_defect(index_, { error.where(), error.text() });
+    if (!index_.frames.empty())
+    {
+      index_.notices.push_back(
+        { error.where(), error.text() + "; the frame and all that follow are left out" });
+    }
+  }
+}
+
+/// False at the end of the file, and where a frame is not complete.
+bool Indexer::next_frame()
+{
+  const BinaryLayout& layout = binary_layouts()[static_cast<std::size_t>(layout_)];
+  const auto header = read_binary_header(source_, index_.resume_offset, layout);
+  const auto end = header ? find_end(source_, *header, layout.swapped, progress_) : std::nullopt;
+  if (!end)
+  {
+    char byte = 0;
+    if (source_.read(index_.resume_offset, &byte, 1) > 0)
+    {
+      set_defect(index_,
+        { { source_.path(), 0, index_.resume_offset },
+          "expected a complete frame, got the end of the file in it" });
+    }
+    return false;
+  }
+  if (!header->frame.units.empty())
+  {
+    index_.units = header->frame.units;
+  }
+  FrameEntry entry;
+  entry.timestep = header->frame.timestep;
+  entry.rows = header->frame.rows;
+  entry.offset = index_.resume_offset;
+  entry.end = *end;
+  entry.time = header->frame.time.value_or(FrameEntry::no_time);
+  ColumnSchema schema = this->schema(*header);
+  entry.kind = index_.kinds->share({ std::move(schema), index_.units, layout_, named_ });
+  entry.shape = hash_shape(header->frame, entry.kind->schema);
+  index_.frames.push_back(std::move(entry));
+  index_.resume_offset = *end;
+  return true;
+}
+
+ColumnSchema Indexer::schema(const BinaryHeader& header)
+{
+  std::vector<std::string> names;
+  named_ = true;
+  if (header.columns.empty())
+  {
+    names = this->unnamed(header);
+  }
+  else
+  {
+    for (const std::string_view word : split_words(header.columns))
+    {
+      names.emplace_back(word);
+    }
+  }
+  if (names.size() != static_cast<std::size_t>(header.size_one))
+  {
+    const bool of_user = header.columns.empty();
+    throw FormatError("expected " + std::to_string(header.size_one) +
+        (of_user ? " names in ColumnNames, got " : " column names, got ") +
+        std::to_string(names.size()) +
+        (of_user ? describe_first_row(source_, index_.resume_offset,
+                     binary_layouts()[static_cast<std::size_t>(layout_)])
+                 : ""),
+      { source_.path(), 0, header.size_one_offset });
+  }
+  ColumnSchema schema(names);
+  for (std::size_t column = 0; column < names.size(); ++column)
+  {
+    if (schema.columns()[column].type == ValueType::Text)
+    {
+      // an element is written as its type
+      schema.set_type(static_cast<int>(column), ValueType::Int32);
+    }
+  }
+  return schema;
+}
+
+/// Names for columns that the file does not name. Where the user has not either, and they cannot be
+/// those of dump atom, they get stand-ins: the frames can be listed, and the error comes when one is
+/// read.
+std::vector<std::string> Indexer::unnamed(const BinaryHeader& header)
+{
+  const auto columns = static_cast<std::size_t>(header.size_one);
+  const std::vector<std::string_view> atom = split_words(atom_columns);
+  index_.unnamed = true;
+  named_ = !index_.column_names.empty() || columns == 5 || columns == atom.size();
+  if (!index_.column_names.empty())
+  {
+    return index_.column_names;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < columns; ++i)
+  {
+    names.push_back(named_ ? std::string(atom[i]) : "column" + std::to_string(i + 1));
+  }
+  return names;
+}
+}
+
+bool holds_binary(std::string_view first_bytes) noexcept
+{
+  constexpr std::size_t enough = 64;
+  return std::ranges::any_of(
+    first_bytes.substr(0, enough), [](char c) { return c >= 0 && c < '\b'; });
+}
+
+bool is_binary_dump(std::string_view first_bytes)
+{
+  if (!holds_binary(first_bytes))
+  {
+    return false;
+  }
+  const std::unique_ptr<ByteSource> source = open_memory(first_bytes);
+  Progress progress;
+  return std::ranges::any_of(binary_layouts(),
+    [&](const BinaryLayout& layout)
+    {
+      try
+      {
+        const auto header = read_binary_header(*source, 0, layout);
+        if (!header || !(layout.magic || plausible_box(header->frame.box)))
+        {
+          return false;
+        }
+        find_end(*source, *header, layout.swapped, progress);
+        return true;
+      }
+      catch (const Error&)
+      {
+        return false;
+      }
+    });
+}
+
+std::string describe_first_row(
+  const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
+{
+  constexpr std::int32_t most = 16;
+  const BinaryHeader header = find_rows(source, offset, layout);
+  BinaryCursor cursor(source, header.chunks_offset, layout.swapped);
+  for (std::int32_t n = 0, chunk = 0; n == 0 && chunk < header.chunks; ++chunk)
+  {
+    n = cursor.take<std::int32_t>();
+  }
+  std::string text;
+  for (std::int32_t i = 0; header.frame.rows > 0 && i < std::min(most, header.size_one); ++i)
+  {
+    char number[32];
+    const auto end = std::to_chars(number, number + sizeof number, cursor.take<double>()).ptr;
+    text += (i > 0 ? " " : "; its first row is ") + std::string(number, end);
+  }
+  return text + (text.empty() || header.size_one <= most ? "" : " ...");
+}
+
+void index_binary_dump(const ByteSource& source, FileIndex& index, Progress& progress)
+{
+  Indexer(source, index, progress).run();
+}
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/binary_header.h"
+
+#include "granular/dump/text_header.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace granular
+{
+namespace
+{
+// clang-format off
+constexpr BinaryLayout layouts[] = {
+  // name                                                    magic  wide   triclinic boundary swapped
+  { "of LAMMPS, with DUMPATOM or DUMPCUSTOM",                true,  true,  true,     true,    false },
+  { "of LAMMPS, with DUMPATOM or DUMPCUSTOM, swapped",       true,  true,  true,     true,    true },
+  { "plain",                                                 false, true,  true,     true,    false },
+  { "plain, swapped",                                        false, true,  true,     true,    true },
+  { "plain, 32-bit integers",                                false, false, true,     true,    false },
+  { "plain, 32-bit integers, swapped",                       false, false, true,     true,    true },
+  { "plain, before 2011, with tilts",                        false, false, true,     false,   false },
+  { "plain, before 2011, with tilts, swapped",               false, false, true,     false,   true },
+  { "plain, before 2011",                                    false, false, false,    false,   false },
+  { "plain, before 2011, swapped",                           false, false, false,    false,   true },
+};
+// clang-format on
+
+constexpr std::int32_t most_columns = 10000;
+constexpr std::int32_t most_chunks = 1 << 24;
+constexpr std::int32_t longest_text = 1 << 20;
+
+/// Reads the fields one after the other; the first that cannot be ends it.
+class HeaderReader
+{
+public:
+  HeaderReader(const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
+    : source_(source)
+    , layout_(layout)
+    , cursor_(source, offset, layout.swapped)
+  {
+  }
+
+  /// False at the end of the source.
+  bool run()
+  {
+    this->read_magic();
+    this->read_counts();
+    this->read_box();
+    this->read_columns();
+    header.chunks_offset = cursor_.offset();
+    return !cursor_.ended();
+  }
+
+  BinaryHeader header;
+
+private:
+  template <typename T>
+  T take()
+  {
+    field_ = cursor_.offset();
+    return cursor_.take<T>();
+  }
+
+  std::int64_t take_count()
+  {
+    return layout_.wide ? this->take<std::int64_t>() : this->take<std::int32_t>();
+  }
+  Vector3 take_vector();
+  std::string take_text(const char* what);
+  void require(bool good, const std::string& expected, std::int64_t got) const;
+  void read_magic();
+  void read_counts();
+  void read_box();
+  void read_columns();
+
+  const ByteSource& source_;
+  const BinaryLayout& layout_;
+  BinaryCursor cursor_;
+  std::int64_t field_ = 0; ///< place of the last number
+  std::int32_t revision_ = 0;
+  std::int32_t triclinic_ = 0;
+};
+
+/// A field that is not there is not at fault.
+void HeaderReader::require(bool good, const std::string& expected, std::int64_t got) const
+{
+  if (!good && !cursor_.ended())
+  {
+    throw FormatError(
+      "expected " + expected + ", got " + std::to_string(got), { source_.path(), 0, field_ });
+  }
+}
+
+Vector3 HeaderReader::take_vector()
+{
+  const double x = this->take<double>();
+  const double y = this->take<double>();
+  return { x, y, this->take<double>() };
+}
+
+std::string HeaderReader::take_text(const char* what)
+{
+  const auto length = this->take<std::int32_t>();
+  this->require(
+    length >= 0 && length <= longest_text, std::string("the length of ") + what, length);
+  return cursor_.ended() ? std::string() : cursor_.take_text(length);
+}
+
+void HeaderReader::read_magic()
+{
+  if (!layout_.magic)
+  {
+    return;
+  }
+  const auto length = this->take<std::int64_t>();
+  constexpr std::int64_t longest_magic = 64;
+  this->require(
+    length < 0 && length >= -longest_magic, "the length of a magic word, -8 or -10", length);
+  const std::int64_t word = cursor_.offset();
+  const std::string magic = cursor_.take_text(-length);
+  if (!cursor_.ended() && magic != "DUMPATOM" && magic != "DUMPCUSTOM")
+  {
+    throw FormatError(
+      "expected DUMPATOM or DUMPCUSTOM, got " + quoted(magic), { source_.path(), 0, word });
+  }
+  const auto endian = this->take<std::int32_t>();
+  this->require(endian == 1, "the mark of the byte order, 1", endian);
+  revision_ = this->take<std::int32_t>();
+  this->require(revision_ == 1 || revision_ == 2, "revision 1 or 2", revision_);
+}
+
+void HeaderReader::read_counts()
+{
+  FrameHeader& frame = header.frame;
+  frame.timestep = this->take_count();
+  this->require(layout_.magic || frame.timestep >= 0, "a timestep >= 0", frame.timestep);
+  frame.rows = this->take_count();
+  constexpr std::int64_t most_rows = std::numeric_limits<std::int64_t>::max() /
+    (std::int64_t{ most_columns } * std::int64_t{ sizeof(double) });
+  this->require(frame.rows >= 0 && frame.rows <= most_rows, "a number of atoms", frame.rows);
+}
+
+void HeaderReader::read_box()
+{
+  triclinic_ = layout_.triclinic ? this->take<std::int32_t>() : 0;
+  const int largest = layout_.magic ? 2 : 1;
+  this->require(triclinic_ >= 0 && triclinic_ <= largest,
+    largest == 2 ? "triclinic 0, 1 or 2" : "triclinic 0 or 1", triclinic_);
+  std::string boundary;
+  for (int face = 0; layout_.boundary && face < 6; ++face)
+  {
+    const auto flag = this->take<std::int32_t>();
+    this->require(flag >= 0 && flag <= 3, "a boundary flag from 0 to 3", flag);
+    boundary += face > 0 && face % 2 == 0 ? " " : "";
+    boundary += "pfsm"[flag & 3];
+  }
+  Box& box = header.frame.box;
+  if (triclinic_ == 2)
+  {
+    const Vector3 a = this->take_vector();
+    const Vector3 b = this->take_vector();
+    const Vector3 c = this->take_vector();
+    box = Box::from_vectors(this->take_vector(), { a, b, c });
+  }
+  else
+  {
+    Vector3 lo = {};
+    Vector3 hi = {};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      lo[axis] = this->take<double>();
+      hi[axis] = this->take<double>();
+    }
+    const Vector3 tilts = triclinic_ == 1 ? this->take_vector() : Vector3{};
+    box = triclinic_ == 1 ? Box::from_tilted_bounds(lo, hi, tilts[0], tilts[1], tilts[2])
+                          : Box::from_bounds(lo, hi);
+  }
+  box.boundary = boundary;
+}
+
+void HeaderReader::read_columns()
+{
+  header.size_one = this->take<std::int32_t>();
+  header.size_one_offset = field_;
+  this->require(header.size_one >= 1 && header.size_one <= most_columns,
+    "1 to " + std::to_string(most_columns) + " columns", header.size_one);
+  if (revision_ > 1)
+  {
+    header.frame.units = this->take_text("the units");
+    if (this->take<char>() != 0)
+    {
+      header.frame.time = this->take<double>();
+    }
+    header.columns = this->take_text("the names of the columns");
+  }
+  header.chunks = this->take<std::int32_t>();
+  this->require(header.chunks >= 1 && header.chunks <= most_chunks,
+    "1 to " + std::to_string(most_chunks) + " chunks", header.chunks);
+}
+}
+
+std::span<const BinaryLayout> binary_layouts() noexcept
+{
+  return layouts;
+}
+
+void BinaryCursor::copy(char* to, std::size_t bytes)
+{
+  const std::int64_t at = offset_ - buffer_offset_;
+  if (at < 0 || at + static_cast<std::int64_t>(bytes) > static_cast<std::int64_t>(buffered_))
+  {
+    buffer_offset_ = offset_;
+    buffered_ = source_.read(offset_, buffer_.data(), buffer_.size());
+  }
+  offset_ += static_cast<std::int64_t>(bytes);
+  if (offset_ > buffer_offset_ + static_cast<std::int64_t>(buffered_))
+  {
+    ended_ = true;
+    return;
+  }
+  std::memcpy(
+    to, buffer_.data() + (offset_ - static_cast<std::int64_t>(bytes) - buffer_offset_), bytes);
+}
+
+std::string BinaryCursor::take_text(std::int64_t bytes)
+{
+  std::string text(static_cast<std::size_t>(std::max(std::int64_t{ 0 }, bytes)), '\0');
+  const std::size_t got = source_.read(offset_, text.data(), text.size());
+  offset_ += bytes;
+  ended_ = ended_ || got < text.size();
+  return text;
+}
+
+std::optional<BinaryHeader> read_binary_header(
+  const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
+{
+  HeaderReader reader(source, offset, layout);
+  return reader.run() ? std::optional(std::move(reader.header)) : std::nullopt;
+}
+
+bool plausible_box(const Box& box) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const Twofold& length = box.vectors[axis][axis];
+    if (!std::isfinite(box.origin[axis].hi) || !std::isfinite(length.hi) || !(length.hi >= 0))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/file_index.h"
+
+#include "granular/base/hash.h"
+#include "granular/dump/binary_dump.h"
+#include "granular/dump/text_dump.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Whether the file only grew since it was indexed: the same file, and the ends of what it was are
+/// still there. A run that starts over writes a new file of the same name, or into the same one:
+/// one that changed and is as long as it was is not the same.
+bool only_grew(const ByteSource& packed, const FileStamp& now, const FileIndex& index)
+{
+  const FileStamp& before = index.stamp;
+  return before.inode == now.inode && before.device == now.device && now.size > before.size &&
+    before.size > 0 && hash_ends(packed, before.size) == index.ends_hash;
+}
+
+/// An index that was kept in a file is good for a file of the same size, time and ends: a copy has
+/// another inode.
+void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
+{
+  index.loaded = false;
+  if (index.stamp.modified == now.modified && index.stamp.size == now.size)
+  {
+    index.stamp = hash_ends(packed, now.size) == index.ends_hash ? now : FileStamp{};
+  }
+}
+
+/// A file that was not indexed yet, of the same name and run.
+FileIndex blank(const FileIndex& index)
+{
+  FileIndex fresh;
+  fresh.path = index.path;
+  fresh.kinds = index.kinds;
+  return fresh;
+}
+
+/// Returns whether anything was read.
+bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress)
+{
+  std::unique_ptr<ByteSource> packed;
+  try
+  {
+    packed = open_file(index.path);
+  }
+  catch (const IoError&)
+  {
+    index.stamp = {};
+    throw;
+  }
+  const FileStamp stamp = packed->stamp();
+  if (index.loaded)
+  {
+    adopt(index, *packed, stamp);
+  }
+  const bool renamed = (index.unnamed || index.error) && index.column_names != column_names;
+  if (index.stamp == stamp && !renamed)
+  {
+    return false;
+  }
+  if (renamed || !only_grew(*packed, stamp, index))
+  {
+    index = blank(index);
+  }
+  index.stamp = stamp;
+  index.error = nullptr;
+  index.notices.clear();
+  index.defect.reset();
+  index.column_names = column_names;
+  index.ends_hash = hash_ends(*packed, stamp.size);
+  if (!index.points)
+  {
+    index.points = std::make_shared<RestartPoints>();
+  }
+  const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
+  index_dump(*source, index, progress);
+  if (const std::string unchecked = source->unchecked(); !unchecked.empty())
+  {
+    index.notices.push_back({ { index.path }, unchecked });
+  }
+  // a single frame is read from the start anyway
+  if (index.frames.size() <= 1)
+  {
+    index.points.reset();
+  }
+  index.frames.shrink_to_fit();
+  set_defect(index,
+    { { index.path },
+      std::string("expected a dump, got ") +
+        (stamp.size == 0 ? "an empty file" : "no complete frame") });
+  return true;
+}
+}
+
+void set_defect(FileIndex& index, const Notice& defect)
+{
+  if (!index.defect)
+  {
+    index.defect = defect;
+  }
+}
+
+bool is_dump(std::string_view first_bytes)
+{
+  return is_text_dump(first_bytes) || is_binary_dump(first_bytes);
+}
+
+bool is_dump_file(const std::string& path) noexcept
+{
+  // a header of ordinary length is there many times over, and more is not read for a question
+  constexpr std::size_t enough = 65536;
+  try
+  {
+    const std::unique_ptr<ByteSource> source = unpack(open_file(path));
+    std::string bytes(enough, '\0');
+    bytes.resize(source->read(0, bytes.data(), bytes.size()));
+    return is_dump(bytes);
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+
+void index_dump(const ByteSource& source, FileIndex& index, Progress& progress)
+{
+  std::array<char, 4096> first;
+  const std::string_view bytes(first.data(), source.read(0, first.data(), first.size()));
+  if (holds_binary(bytes))
+  {
+    index_binary_dump(source, index, progress);
+  }
+  else
+  {
+    index_text_dump(source, index, progress);
+  }
+}
+
+bool update_file_index(
+  FileIndex& index, const std::vector<std::string>& column_names, Progress& progress)
+{
+  try
+  {
+    return update(index, column_names, progress);
+  }
+  catch (const Error&)
+  {
+    FileIndex failed = blank(index);
+    failed.stamp = index.stamp; // it is not read again until it changes
+    failed.column_names = column_names;
+    failed.error = std::current_exception();
+    index = std::move(failed);
+    return true;
+  }
+}
+
+FileStamp stamp_of(const std::string& path)
+{
+  try
+  {
+    return open_file(path)->stamp();
+  }
+  catch (const IoError&)
+  {
+    return {};
+  }
+}
+
+std::unique_ptr<ByteSource> open_indexed(const FileIndex& index)
+{
+  std::unique_ptr<ByteSource> packed = open_file(index.path);
+  const FileStamp now = packed->stamp();
+  if (now.size < index.stamp.size)
+  {
+    throw IoError("the file was shortened since it was indexed: expected at least " +
+        std::to_string(index.stamp.size) + " bytes, got " + std::to_string(now.size) +
+        "; reload the files",
+      { index.path });
+  }
+  if (!(now == index.stamp) && hash_ends(*packed, index.stamp.size) != index.ends_hash)
+  {
+    throw IoError("the file changed since it was indexed; reload the files", { index.path });
+  }
+  return unpack(std::move(packed), index.points);
+}
+
+std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size)
+{
+  constexpr std::int64_t block = 4096;
+  std::array<char, block> bytes;
+  Hash hash;
+  for (const std::int64_t from : { std::int64_t{ 0 }, std::max(std::int64_t{ 0 }, size - block) })
+  {
+    const auto wanted = static_cast<std::size_t>(std::min(block, size - from));
+    hash.add(bytes.data(), packed.read(from, bytes.data(), wanted));
+  }
+  return hash.value();
+}
+}

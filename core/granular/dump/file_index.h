@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_file_index_h
+#define granular_dump_file_index_h
+
+#include "granular/base/byte_source.h"
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+#include "granular/dump/frame.h"
+
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// What is known of one dump: its frames, and how to go on when it has grown.
+struct FileIndex
+{
+  std::string path;
+  FileStamp stamp;             ///< when it was indexed
+  std::uint64_t ends_hash = 0; ///< of its first and last bytes then: see hash_ends
+  std::vector<FrameEntry> frames;
+  std::int64_t resume_offset = 0; ///< end of the last complete frame: where to go on
+  std::int64_t resume_line = 1;
+  std::string units; ///< of the last ITEM: UNITS; it is printed once a file
+  Notices notices;   ///< frames that were left out, and why
+  std::optional<Notice>
+    defect;                 ///< what is wrong with the first frame that was left out, or missing
+  std::exception_ptr error; ///< the file could not be opened or read
+  bool unnamed = false;     ///< binary, without the names of its columns
+  bool loaded = false;      ///< from an index file: to be held against the file first
+  std::vector<std::string> column_names; ///< of the user, for such a file
+  std::shared_ptr<RestartPoints> points; ///< of a compressed file
+  std::shared_ptr<FrameKinds> kinds = std::make_shared<FrameKinds>(); ///< may be shared by files
+};
+
+/// True if the first bytes of a file, uncompressed, are those of a dump of particles that
+/// index_dump can read.
+bool is_dump(std::string_view first_bytes);
+
+/// The same of a file by name, which may be compressed: looks at its first 64 KiB. Never throws:
+/// what cannot be read is no dump.
+bool is_dump_file(const std::string& path) noexcept;
+
+/// Finds the frames from index.resume_offset to the end of the source, text or binary. A last frame
+/// that is not complete is left out, silently; a frame in the middle that is not what its header
+/// says with a notice. Throws IoError, LimitError; FormatError of compressed data; Cancelled.
+void index_dump(const ByteSource& source, FileIndex& index, Progress& progress);
+
+/// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
+/// goes on if it only grew, and else starts anew. Errors end in index.error. Throws Cancelled.
+/// Returns whether anything was read.
+bool update_file_index(
+  FileIndex& index, const std::vector<std::string>& column_names, Progress& progress);
+
+/// The state of a file now; of one that cannot be opened, a state that no file has.
+FileStamp stamp_of(const std::string& path);
+
+/// Opens the content of a file for reading what the index says. Throws IoError also if the file
+/// changed other than by growing.
+std::unique_ptr<ByteSource> open_indexed(const FileIndex& index);
+
+/// Hash of the first 4 KiB of a file and of the 4 KiB before a size.
+std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size);
+
+/// Sets what is wrong with the file, if nothing was before: what is wrong first is what is said if
+/// there is no frame at all.
+void set_defect(FileIndex& index, const Notice& defect);
+}
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_file_series_h
+#define granular_dump_file_series_h
+
+#include "granular/base/error.h"
+#include "granular/dump/file_index.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// What frames of the same timestep in several files are.
+enum class RepeatedSteps : std::uint8_t
+{
+  Auto,  ///< Merge for files that can only be pieces, Last for all others
+  Merge, ///< pieces of one frame, one file a process
+  Last   ///< repetitions of a restarted run: the last one counts
+};
+
+/// The frames of a run, ordered by timestep, and where their pieces are.
+class FileSeries
+{
+public:
+  struct Place
+  {
+    std::uint32_t file;
+    std::uint32_t frame; ///< in the file
+  };
+
+  /// Auto takes files for pieces (`%` in the name of a dump) if
+  /// - their names, less .gz and .zst, differ in one number alone, and for more than half of what
+  ///   the other numbers stand for there is a file for each value of that number;
+  /// - they list the same timesteps with the same boxes and columns; a last frame may be missing in
+  ///   some, because it is not written yet.
+  /// Pieces are in the order of that number; with Merge in the order of the files. A frame of which a
+  /// piece is missing is left out, with a notice; silently if it is the last and its file is there.
+  FileSeries(const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
+  FileSeries() = default;
+
+  std::size_t size() const noexcept
+  {
+    return starts_.empty() ? places_.size() : starts_.size() - 1;
+  }
+
+  /// The pieces of a frame, at least one.
+  std::span<const Place> pieces(std::size_t frame) const noexcept;
+
+private:
+  std::vector<Place> places_;         ///< frame after frame
+  std::vector<std::uint32_t> starts_; ///< of the frames in places_, and the end; empty: one each
+};
+}
+#endif

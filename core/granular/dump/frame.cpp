@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/frame.h"
+
+#include "granular/base/hash.h"
+
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+void mix(Hash& hash, const Twofold3& vector)
+{
+  for (const Twofold& component : vector)
+  {
+    hash.add(&component.hi, sizeof component.hi);
+    hash.add(&component.lo, sizeof component.lo);
+  }
+}
+}
+
+std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
+{
+  for (const auto& known : kinds_)
+  {
+    if (*known == kind)
+    {
+      return known;
+    }
+  }
+  kinds_.push_back(std::make_shared<const FrameKind>(std::move(kind)));
+  return kinds_.back();
+}
+
+std::uint64_t hash_shape(const FrameHeader& header, const ColumnSchema& schema)
+{
+  Hash hash;
+  mix(hash, header.box.origin);
+  for (const Twofold3& vector : header.box.vectors)
+  {
+    mix(hash, vector);
+  }
+  const std::string texts = header.box.boundary + "\n" + schema.text();
+  hash.add(texts.data(), texts.size());
+  return hash.value();
+}
+
+Where where_of(const std::string& path, const FrameEntry& entry)
+{
+  const bool text = entry.kind->layout == FrameKind::text;
+  return { path, entry.line, text ? -1 : entry.offset };
+}
+
+void check_header(const std::string& path, const FrameEntry& entry, const FrameHeader& header)
+{
+  if (header.timestep != entry.timestep || header.rows != entry.rows ||
+    hash_shape(header, entry.kind->schema) != entry.shape)
+  {
+    throw IoError("the file changed since it was indexed: expected the frame of timestep " +
+        std::to_string(entry.timestep) + "; reload the files",
+      where_of(path, entry));
+  }
+}
+}

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An index file: a head, the kinds of frames, the files with their frames, a hash of all that.
+// Numbers are as in memory; what another byte order or another version wrote is not read.
+#include "granular/dump/index_bytes.h"
+
+#include "granular/base/hash.h"
+#include "granular/dump/binary_header.h"
+#include "granular/dump/index_archive.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// What an index file begins with.
+struct Head
+{
+  char magic[8] = { '\x89', 'G', 'I', 'D', 'X', '\r', '\n', '\x1a' };
+  std::uint32_t byte_order = 0x01020304;
+  /// To be raised with every change of what is written here, or of what it means: of the hashes, of
+  /// how frames are found, of how columns become arrays.
+  std::uint32_t version = 1;
+};
+
+/// A frame as it is kept.
+struct FrameRecord
+{
+  std::int64_t timestep;
+  std::int64_t rows;
+  std::int64_t offset;
+  std::int64_t end;
+  std::int64_t line;
+  double time;
+  std::uint64_t shape;
+  std::uint64_t kind; ///< index into the kinds of the index file
+};
+static_assert(sizeof(FrameRecord) == 64);
+
+/// No file is larger; sums of two do not overflow.
+constexpr std::int64_t largest_offset = std::numeric_limits<std::int64_t>::max() / 2;
+
+/// With the slash, as the user spells it; empty if there is none.
+std::string folder_of(const std::string& path)
+{
+  return path.substr(0, path.rfind('/') + 1);
+}
+
+std::uint64_t hash_of(std::string_view bytes)
+{
+  Hash hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.value();
+}
+
+/// The parts of a notice, for an IndexWriter or an IndexReader.
+template <typename Archive, typename Said>
+void visit_notice(Archive& archive, Said& notice)
+{
+  archive.path(notice.where.path);
+  archive.number(notice.where.line);
+  archive.number(notice.where.byte);
+  archive.text(notice.where.column);
+  archive.text(notice.text);
+}
+
+template <typename Archive, typename Points>
+void visit_points(Archive& archive, Points& all)
+{
+  archive.number(all.spacing);
+  archive.list(all.points,
+    [&](auto& point)
+    {
+      archive.number(point.offset);
+      archive.number(point.packed);
+      archive.number(point.bits);
+      archive.number(point.check);
+      archive.number(point.member_bytes);
+      archive.text(point.window);
+    });
+}
+
+/// All of a file but its frames.
+template <typename Archive, typename File>
+void visit_file(Archive& archive, File& file)
+{
+  const auto notice = [&](auto& said) { visit_notice(archive, said); };
+  archive.path(file.path);
+  archive.number(file.stamp);
+  archive.number(file.ends_hash);
+  archive.number(file.resume_offset);
+  archive.number(file.resume_line);
+  archive.text(file.units);
+  archive.list(file.notices, notice);
+  archive.perhaps(file.defect, notice);
+  archive.flag(file.unnamed);
+  archive.list(file.column_names, [&](auto& name) { archive.text(name); });
+  archive.perhaps(file.points, [&](auto& points) { visit_points(archive, points); });
+}
+
+/// The kinds of the frames of all files, numbered.
+class KindTable
+{
+public:
+  explicit KindTable(std::span<const FileIndex* const> files)
+  {
+    for (const FileIndex* file : files)
+    {
+      for (const FrameEntry& frame : file->frames)
+      {
+        this->number_of(*frame.kind);
+      }
+    }
+  }
+
+  std::uint64_t number_of(const FrameKind& kind)
+  {
+    // mostly it is that of the frame before
+    if (&kind != last_)
+    {
+      const auto [place, added] = numbers_.try_emplace(&kind, kinds_.size());
+      if (added)
+      {
+        kinds_.push_back(&kind);
+      }
+      last_ = &kind;
+      last_number_ = place->second;
+    }
+    return last_number_;
+  }
+
+  void write(IndexWriter& out) const
+  {
+    out.list(kinds_,
+      [&](const FrameKind* kind)
+      {
+        out.text(kind->units);
+        out.number(std::int32_t{ kind->layout });
+        out.flag(kind->named);
+        out.list(kind->schema.columns(),
+          [&](const ColumnInfo& column)
+          {
+            out.text(column.name);
+            out.number(column.type);
+          });
+      });
+  }
+
+private:
+  std::vector<const FrameKind*> kinds_;
+  std::map<const FrameKind*, std::uint64_t> numbers_;
+  const FrameKind* last_ = nullptr;
+  std::uint64_t last_number_ = 0;
+};
+
+/// A column and its type, which follows from the first row as well as from the name.
+struct KeptColumn
+{
+  std::string name;
+  ValueType type = ValueType::Float64;
+};
+
+ColumnSchema make_schema(const std::vector<KeptColumn>& columns, bool text)
+{
+  std::vector<std::string> names;
+  for (const KeptColumn& column : columns)
+  {
+    require(column.type < ValueType::Text || (text && column.type == ValueType::Text), "a type");
+    names.push_back(column.name);
+  }
+  ColumnSchema schema(names);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    if (schema.columns()[i].type != columns[i].type)
+    {
+      schema.set_type(static_cast<int>(i), columns[i].type);
+    }
+  }
+  require(std::ranges::equal(columns, schema.columns(), {}, &KeptColumn::type, &ColumnInfo::type),
+    "types that go together");
+  return schema;
+}
+
+using Kinds = std::vector<std::shared_ptr<const FrameKind>>;
+
+Kinds read_kinds(IndexReader& in, FrameKinds& store)
+{
+  const auto layouts = static_cast<std::int32_t>(binary_layouts().size());
+  Kinds kinds;
+  in.list(kinds,
+    [&](std::shared_ptr<const FrameKind>& shared)
+    {
+      FrameKind kind;
+      std::int32_t layout = 0;
+      std::vector<KeptColumn> columns;
+      in.text(kind.units);
+      in.number(layout);
+      in.flag(kind.named);
+      in.list(columns,
+        [&](KeptColumn& column)
+        {
+          in.text(column.name);
+          in.number(column.type);
+        });
+      require(layout >= FrameKind::text && layout < layouts, "a layout of binary dumps");
+      require(!columns.empty(), "a column");
+      kind.layout = layout;
+      kind.schema = make_schema(columns, layout == FrameKind::text);
+      shared = store.share(std::move(kind));
+    });
+  return kinds;
+}
+
+void write_frames(IndexWriter& out, const std::vector<FrameEntry>& frames, KindTable& kinds)
+{
+  out.list(frames,
+    [&](const FrameEntry& frame)
+    {
+      out.number(FrameRecord{ frame.timestep, frame.rows, frame.offset, frame.end, frame.line,
+        frame.time, frame.shape, kinds.number_of(*frame.kind) });
+    });
+}
+
+/// Whether as many rows as it says can lie where it says.
+bool plausible(const FrameRecord& frame, const FrameKind& kind)
+{
+  if (frame.offset < 0 || frame.end < frame.offset || frame.end > largest_offset ||
+    frame.rows < 0 || frame.line < 0 || frame.line > largest_offset)
+  {
+    return false;
+  }
+  // a row of text has a line feed at least
+  const std::size_t row_bytes =
+    kind.layout == FrameKind::text ? 1 : kind.schema.columns().size() * sizeof(double);
+  return static_cast<std::uint64_t>(frame.rows) <=
+    static_cast<std::uint64_t>(frame.end - frame.offset) / row_bytes;
+}
+
+void read_frames(IndexReader& in, std::vector<FrameEntry>& frames, const Kinds& kinds)
+{
+  const std::size_t count = in.count(sizeof(FrameRecord));
+  frames.reserve(count);
+  while (frames.size() < count)
+  {
+    FrameRecord frame;
+    in.number(frame);
+    require(frame.kind < kinds.size(), "a kind of frames");
+    const auto& kind = kinds[static_cast<std::size_t>(frame.kind)];
+    require(plausible(frame, *kind), "a frame within its file");
+    frames.push_back({ frame.timestep, frame.rows, frame.offset, frame.end, frame.line, frame.time,
+      frame.shape, kind });
+    require(kind->layout == frames.front().kind->layout, "frames of the same layout");
+  }
+}
+
+void check_points(const RestartPoints& all, const FileStamp& stamp)
+{
+  constexpr std::size_t largest_window = std::size_t{ 1 } << 15;
+  std::int64_t last = 0;
+  for (const RestartPoints::Point& point : all.points)
+  {
+    require(point.offset >= last && point.offset <= largest_offset, "increasing restart points");
+    require(
+      point.packed >= (point.bits > 0 ? 1 : 0) && point.packed <= stamp.size && point.bits < 8,
+      "a restart point within its file");
+    require(point.window.size() <= largest_window, "a window of gzip");
+    last = point.offset;
+  }
+  require(all.spacing > 0, "a spacing of restart points");
+}
+
+void read_file(IndexReader& in, FileIndex& file, const Kinds& kinds)
+{
+  const auto good = [](std::int64_t value, std::int64_t least)
+  { return value >= least && value <= largest_offset; };
+  visit_file(in, file);
+  require(good(file.stamp.size, 0), "the size of a file");
+  require(good(file.resume_offset, 0) && good(file.resume_line, 1), "a place in a file");
+  if (file.points)
+  {
+    check_points(*file.points, file.stamp);
+  }
+  read_frames(in, file.frames, kinds);
+  file.loaded = true;
+}
+
+/// About as many bytes as the index of the files needs, rather more.
+std::size_t estimate(std::span<const FileIndex* const> files)
+{
+  constexpr std::size_t kinds = 65536;
+  constexpr std::size_t others = 256; // of a file
+  std::size_t bytes = kinds;
+  for (const FileIndex* file : files)
+  {
+    bytes += file->path.size() + file->frames.size() * sizeof(FrameRecord) + others;
+    bytes += file->points ? file->points->bytes() : 0;
+  }
+  return bytes;
+}
+
+/// The part of an index file between its head and the hash at its end, which are made sure of.
+std::string_view body_of(std::string_view bytes)
+{
+  Head head;
+  std::uint64_t hash = 0;
+  if (bytes.size() < sizeof head + sizeof hash)
+  {
+    throw FormatError("expected at least " + std::to_string(sizeof head + sizeof hash) +
+      " bytes, got " + std::to_string(bytes.size()));
+  }
+  std::memcpy(&head, bytes.data(), sizeof head);
+  if (std::memcmp(head.magic, Head().magic, sizeof head.magic) != 0)
+  {
+    throw FormatError("expected the first bytes of an index file, got others");
+  }
+  if (head.byte_order != Head().byte_order)
+  {
+    throw UnsupportedError("expected the byte order of this machine, got another");
+  }
+  if (head.version != Head().version)
+  {
+    throw UnsupportedError(
+      "expected " + std::to_string(Head().version) + ", got " + std::to_string(head.version));
+  }
+  std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
+  bytes.remove_suffix(sizeof hash);
+  if (hash != hash_of(bytes))
+  {
+    throw FormatError("expected bytes that fit the hash at their end, got others");
+  }
+  return bytes.substr(sizeof head);
+}
+}
+
+std::string encode_index(const std::vector<FileIndex>& files)
+{
+  std::vector<const FileIndex*> kept;
+  for (const FileIndex& file : files)
+  {
+    if (!file.error)
+    {
+      kept.push_back(&file);
+    }
+  }
+  std::string bytes;
+  bytes.reserve(estimate(kept));
+  IndexWriter out(bytes, files.empty() ? "" : folder_of(files.front().path));
+  KindTable kinds(kept);
+  out.number(Head());
+  kinds.write(out);
+  out.list(kept,
+    [&](const FileIndex* file)
+    {
+      visit_file(out, *file);
+      write_frames(out, file->frames, kinds);
+    });
+  out.number(hash_of(bytes));
+  return bytes;
+}
+
+std::vector<FileIndex> decode_index(
+  std::string_view bytes, const std::string& first_file, const std::shared_ptr<FrameKinds>& kinds)
+{
+  IndexReader in(body_of(bytes), folder_of(first_file));
+  const Kinds table = read_kinds(in, *kinds);
+  std::vector<FileIndex> files;
+  in.list(files,
+    [&](FileIndex& file)
+    {
+      read_file(in, file, table);
+      file.kinds = kinds;
+    });
+  require(in.ended(), "the end of the index file");
+  return files;
+}
+}

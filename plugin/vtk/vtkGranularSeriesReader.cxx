@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularSeriesReader.h"
+
+#include "private/guard.h"
+#include "private/series_reader.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::Internals::Update(Self* self)
+{
+  if (this->FileNames.empty())
+  {
+    throw granular::IoError("no file to read: set FileNames first");
+  }
+  if (this->Valid && !this->Stale && this->IndexedNames == this->FileNames)
+  {
+    return;
+  }
+  if (this->IndexedNames != this->FileNames)
+  {
+    this->Told.clear();
+  }
+  this->IndexedNames = this->FileNames;
+  this->Valid = false;
+  granular::IndexOptions options;
+  options.column_names = this->ColumnNames;
+  options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
+  options.index_file = static_cast<granular::IndexFile>(self->IndexFile);
+  granular::Notices notices;
+  AlgorithmProgress progress(self);
+  this->Index.update(this->FileNames, options, notices, progress);
+  this->Valid = true;
+  this->Stale = false;
+  self->FramesChanged();
+  this->Tell(self, notices, true);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::Internals::Tell(
+  Self* self, const granular::Notices& notices, bool ofFrames)
+{
+  constexpr int most = 10;
+  std::map<std::string, std::string> texts;
+  std::map<std::string, int> counts;
+  for (const granular::Notice& notice : notices)
+  {
+    const std::string& path = notice.where.path;
+    // what is said of a column, or of all rows, holds for the next frames too; what is said of
+    // frames is new for each
+    const std::string about = ofFrames ? std::to_string(notice.where.line) : notice.where.column;
+    const std::string what = ofFrames || about.empty() ? notice.text : "";
+    if (this->Told.insert(path + "\n" + about + "\n" + what).second && ++counts[path] <= most)
+    {
+      std::string& joined = texts[path];
+      joined += (joined.empty() ? "" : "\n") + granular::to_string(notice);
+    }
+  }
+  int files = 0;
+  for (const auto& [path, text] : texts)
+  {
+    if (++files > most)
+    {
+      vtkWarningWithObjectMacro(
+        self, << "there is more to say of " << texts.size() - most << " more files");
+      break;
+    }
+    const int more = counts[path] - most;
+    vtkWarningWithObjectMacro(
+      self, << text << (more > 0 ? "\nand " + std::to_string(more) + " more" : ""));
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t vtkGranularSeriesReader::Internals::FindFrame(
+  Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time)
+{
+  const std::vector<double> times = this->Index.times(self->TimestepSize);
+  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
+    ? request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
+    : 0;
+  vtkInformation* info = outputs->GetInformationObject(port > 0 ? port : 0);
+  std::size_t frame = 0;
+  if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    frame = granular::FrameIndex::find(
+      times, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
+  }
+  time = times[frame];
+  return frame;
+}
+
+//------------------------------------------------------------------------------
+vtkGranularSeriesReader::vtkGranularSeriesReader()
+  : Series(std::make_unique<Internals>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkGranularSeriesReader::~vtkGranularSeriesReader() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::AddFileName(const char* fileName)
+{
+  if (fileName && *fileName)
+  {
+    this->Series->FileNames.emplace_back(fileName);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::ClearFileNames()
+{
+  if (!this->Series->FileNames.empty())
+  {
+    this->Series->FileNames.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularSeriesReader::GetNumberOfFileNames()
+{
+  return static_cast<int>(this->Series->FileNames.size());
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGranularSeriesReader::GetFileName(int index)
+{
+  return index >= 0 && index < this->GetNumberOfFileNames() ? this->Series->FileNames[index].c_str()
+                                                            : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::Refresh()
+{
+  this->Series->Stale = true;
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::SetRepeatedSteps(int repeated)
+{
+  repeated = std::clamp(repeated, static_cast<int>(AUTO), static_cast<int>(LAST));
+  if (this->RepeatedSteps != repeated)
+  {
+    this->RepeatedSteps = repeated;
+    this->Refresh();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::SetIndexFile(int where)
+{
+  where = std::clamp(where, static_cast<int>(NEVER), static_cast<int>(BESIDE));
+  if (this->IndexFile != where)
+  {
+    this->IndexFile = where;
+    this->Refresh();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::SetTimestepSize(double size)
+{
+  if (!std::isfinite(size) || size <= 0)
+  {
+    vtkErrorMacro("TimestepSize must be finite and greater than 0, got " << size);
+    return;
+  }
+  if (this->TimestepSize != size)
+  {
+    this->TimestepSize = size;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+// The first call of every update. A request to abort holds for one update, and observers of progress
+// may make it again while the pipeline leaves the aborted one: it is forgotten here. What was
+// aborted may have been the look at the files, so all is done again.
+int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
+  vtkMTimeType* mtime)
+{
+  if (this->Series->Cancelled)
+  {
+    this->Series->Cancelled = false;
+    this->SetAbortExecute(0);
+    this->SetAbortOutput(false);
+    this->Modified();
+  }
+  if (this->RefreshOnUpdate && this->Series->Index.changed())
+  {
+    this->Refresh();
+  }
+  return this->Superclass::ComputePipelineMTime(
+    request, inputVector, outputVector, requestFromOutputPort, mtime);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  std::vector<double> times;
+  const Outcome outcome = Guard(this, outputVector,
+    [&]
+    {
+      this->Series->Update(this);
+      times = this->Series->Index.times(this->TimestepSize);
+    });
+  this->Series->Cancelled = outcome == Outcome::Cancelled;
+  for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkInformation* info = outputVector->GetInformationObject(port);
+    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+    if (!times.empty())
+    {
+      const double range[] = { times.front(), times.back() };
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(),
+        static_cast<int>(times.size()));
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+    }
+  }
+  return outcome != Outcome::Failed;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileNames: " << this->GetNumberOfFileNames() << "\n";
+  for (const std::string& name : this->Series->FileNames)
+  {
+    os << indent.GetNextIndent() << name << "\n";
+  }
+  os << indent << "RefreshOnUpdate: " << (this->RefreshOnUpdate ? "On" : "Off") << "\n";
+  os << indent << "RepeatedSteps: " << this->RepeatedSteps << "\n";
+  os << indent << "IndexFile: " << this->IndexFile << "\n";
+  os << indent << "TimestepSize: " << this->TimestepSize << "\n";
+}

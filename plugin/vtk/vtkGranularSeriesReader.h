@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularSeriesReader
+ * @brief   What readers of the files of a run have in common: files, frames and times.
+ *
+ * All frames of all files form one run, ordered by timestep. Files may be compressed with gzip or
+ * Zstandard, whatever their names. A last frame that is not complete is left out, because the
+ * simulation is still writing it. Files with `boundingBox` in their names, which LIGGGHTS writes beside
+ * some dumps, are passed over.
+ *
+ * Frames of the same timestep in several files are pieces of one (one file a process, `%` in the
+ * name of a dump), or repetitions of a restarted run: see SetRepeatedSteps.
+ *
+ * Time is ITEM: TIME if every frame has it and it strictly increases, else timestep x TimestepSize.
+ * A request for a time shows the last frame at or before it, or the first.
+ *
+ * The files are looked at when FileNames changes and at Refresh; with RefreshOnUpdate at every update.
+ * What was appended is read then, and earlier frames are not read again. A file that shrank or was
+ * replaced is read anew; one that is gone takes its frames with it, with a warning.
+ *
+ * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
+ * abort holds for one update: the outputs are empty then, and the next update starts afresh.
+ */
+
+#ifndef vtkGranularSeriesReader_h
+#define vtkGranularSeriesReader_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+class VTKGRANULAR_EXPORT vtkGranularSeriesReader : public vtkPolyDataAlgorithm
+{
+public:
+  vtkTypeMacro(vtkGranularSeriesReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum RepeatedStepsType
+  {
+    AUTO = 0,
+    MERGE = 1,
+    LAST = 2
+  };
+
+  enum IndexFileType
+  {
+    NEVER = 0,
+    CACHE = 1,
+    BESIDE = 2
+  };
+
+  ///@{
+  /**
+   * The files of one run. Null and empty names are ignored. None by default.
+   */
+  void AddFileName(VTK_FILEPATH const char* fileName);
+  void ClearFileNames();
+  int GetNumberOfFileNames();
+  VTK_FILEPATH const char* GetFileName(int index);
+  ///@}
+
+  /**
+   * Has the next update look at the files again, without reading earlier frames again.
+   */
+  void Refresh();
+
+  ///@{
+  /**
+   * On: every update looks whether the files changed, and if so does as after Refresh. Off by default.
+   */
+  vtkSetMacro(RefreshOnUpdate, bool);
+  vtkGetMacro(RefreshOnUpdate, bool);
+  vtkBooleanMacro(RefreshOnUpdate, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What frames of the same timestep in several files are. MERGE: pieces of one frame; a timestep
+   * with fewer pieces than others is left out. LAST: repetitions, of which the one in the last file
+   * counts. AUTO, the default: pieces if the names differ in one number alone, there is a file for each
+   * of its values, and the files list the same timesteps, boxes and columns; else repetitions.
+   */
+  void SetRepeatedSteps(int repeated);
+  vtkGetMacro(RepeatedSteps, int);
+  ///@}
+
+  ///@{
+  /**
+   * Where the places of the frames are kept for the next opening. NEVER, the default; CACHE: in
+   * $XDG_CACHE_HOME/granular or ~/.cache/granular; BESIDE: beside the first file, under its name with
+   * .granular.idx behind. What is kept is used as far as size, time, first and last bytes of a file
+   * are still the same; what is damaged is ignored with a warning.
+   */
+  void SetIndexFile(int where);
+  vtkGetMacro(IndexFile, int);
+  ///@}
+
+  ///@{
+  /**
+   * Time of one timestep, in seconds (or the run's unit of time), where the files give no ITEM: TIME.
+   * Finite and greater than 0; anything else is an error and changes nothing. 1 by default.
+   */
+  void SetTimestepSize(double size);
+  vtkGetMacro(TimestepSize, double);
+  ///@}
+
+protected:
+  vtkGranularSeriesReader();
+  ~vtkGranularSeriesReader() override;
+
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  /**
+   * Called when the files were looked at: the frames may be others.
+   */
+  virtual void FramesChanged() {}
+
+  bool RefreshOnUpdate = false;
+  int RepeatedSteps = AUTO;
+  int IndexFile = NEVER;
+  double TimestepSize = 1;
+
+  struct Internals;
+  std::unique_ptr<Internals> Series;
+
+private:
+  vtkGranularSeriesReader(const vtkGranularSeriesReader&) = delete;
+  void operator=(const vtkGranularSeriesReader&) = delete;
+};
+
+#endif

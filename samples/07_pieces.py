@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One file a process (% in the name of the dump): the pieces of each step become one frame."""
+import sys
+from pathlib import Path
+
+import granular
+import numpy as np
+from paraview.simple import *
+
+data = Path(__file__).parent / "data"
+folder, whole = map(Path, sys.argv[1:3] if sys.argv[2:] else (data / "pieces", data / "grains.dump"))
+
+# All files in one list, in any order: 5 steps of 4 processes, pieces_STEP.PROCESS.dump. The reader sees
+# from their names that they are pieces; RepeatedSteps="Merge" says so where names do not tell.
+# Without one of the files its step would be left out, with a warning that names the missing piece.
+files = sorted(folder.glob("pieces_*.*.dump"))
+grains = OpenDataFile([str(file) for file in files], TimestepSize=2e-5)
+assert grains.RepeatedSteps == "Auto" and len(files) == 4 * len(grains.TimestepValues)
+
+# The particles come process by process: how many each file has tells whose they are.
+counts = {}
+for file in files:
+    step, process = map(int, file.stem.split("_")[1].split("."))
+    counts.setdefault(step, [0] * 4)[process] = int(file.read_text().splitlines()[3])
+owners = ProgrammableFilter(Input=grains, CopyArrays=1, Script=f"""
+import numpy
+counts = {counts}[int(inputs[0].FieldData["timestep"][0])]
+output.PointData.append(numpy.repeat(numpy.arange(4), counts), "process")
+""")
+
+LoadPalette("WhiteBackground")
+strip = CreateLayout()
+for place in 0, 1, 2:  # halves, and the halves of these: places 3 to 6
+    strip.SplitHorizontal(place, 0.5)
+for place, step in zip((3, 4, 5, 6), sorted(counts)[1:]):
+    view = CreateRenderView(OrientationAxesVisibility=0)
+    AssignViewToLayout(view, strip, place)
+    SetProperties(view, ViewTime=step * 2e-5, CameraPosition=[0.25, -0.41, 0.21],
+                  CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
+    granular.show(owners, view, color="process")
+    Show(OutputPort(grains, 1), view)
+    title = " + ".join(map(str, counts[step]))
+    Show(Text(Text=f"{view.ViewTime:g} s: {title}"), view, WindowLocation="Upper Center")
+colors = GetColorTransferFunction("process")
+SetProperties(colors, InterpretValuesAsCategories=1,
+              Annotations=[text for i in range(4) for text in (str(i), str(i))],
+              IndexedColors=[0.27, 0.45, 0.70, 0.95, 0.60, 0.20, 0.30, 0.65, 0.45, 0.75, 0.30, 0.30])
+SetProperties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1,
+              Orientation="Horizontal", WindowLocation="Lower Center")
+strip.SetSize(1200, 480)
+SaveScreenshot("pieces.png", strip, SeparatorWidth=0)
+
+# The same from the text: the last frame is that of the run as one file, in the order of the pieces.
+names = "id", "type", "x", "y", "z", "radius"
+
+
+def rows_of(path):
+    header, *rows = path.read_text().split("ITEM: ATOMS ")[-1].splitlines()
+    column = dict(zip(header.split(), np.array([row.split() for row in rows], float).T))
+    return np.array([column[name] for name in names]).T
+
+
+pieces = np.concatenate([rows_of(file) for file in files if file.match(f"*_{step}.*")])
+grains.UpdatePipeline(view.ViewTime)
+frame = FetchData(grains)[0]
+arrays = [frame.GetPointData().GetArray(name) for name in ("id", "type", "radius")]
+points = np.array(frame.GetPoints().GetData())
+assert np.array_equal(np.column_stack(arrays[:2] + [points, arrays[2]]), pieces)
+by_id = [rows[rows[:, 0].argsort()] for rows in (pieces, rows_of(whole))]
+assert np.array_equal(*by_id)
+print(f"{len(files)} files are {len(counts)} frames; see pieces.png")

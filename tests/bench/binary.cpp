@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Binary dumps: the rows of a frame to columns, against a plain copy of the same numbers.
+#include "bench.h"
+#include "dump_frame.h"
+#include "dump_text.h"
+
+#include "granular/dump/frame_rows.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <span>
+
+namespace bench
+{
+namespace
+{
+template <typename T>
+void put(std::string& bytes, T value)
+{
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.append(raw, sizeof raw);
+}
+
+void put_text(std::string& bytes, const std::string& text)
+{
+  put(bytes, static_cast<std::int32_t>(text.size()));
+  bytes += text;
+}
+
+/// What `dump custom` of LAMMPS writes before the chunks.
+std::string binary_header(const Rows& form, std::int32_t chunks)
+{
+  const std::string magic = "DUMPCUSTOM";
+  std::string bytes;
+  put(bytes, -static_cast<std::int64_t>(magic.size()));
+  bytes += magic;
+  put(bytes, std::int32_t{ 1 }); // the byte order
+  put(bytes, std::int32_t{ 2 }); // the revision
+  put(bytes, std::int64_t{ 0 }); // the timestep
+  put(bytes, form.count);
+  for (int i = 0; i < 7; ++i)
+  {
+    put(bytes, std::int32_t{ 0 }); // not triclinic, periodic
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    put(bytes, 0.0);
+    put(bytes, 1.0);
+  }
+  put(bytes, static_cast<std::int32_t>(form.words()));
+  put_text(bytes, ""); // units
+  bytes += '\0';       // no time
+  put_text(bytes, form.columns);
+  put(bytes, chunks);
+  return bytes;
+}
+
+/// A frame as it is in a file and as it comes out.
+struct Frame
+{
+  Frame(const Rows& rows, std::int64_t rows_a_chunk)
+    : form(rows)
+    , truth(rows, rows.count)
+  {
+    this->make_values();
+    const std::int64_t chunks = (form.count + rows_a_chunk - 1) / rows_a_chunk;
+    bytes = binary_header(form, static_cast<std::int32_t>(chunks));
+    for (std::int64_t row = 0; row < form.count; row += rows_a_chunk)
+    {
+      const auto n =
+        static_cast<std::size_t>(std::min(rows_a_chunk, form.count - row)) * form.words();
+      put(bytes, static_cast<std::int32_t>(n));
+      const double* const from = values.data() + static_cast<std::size_t>(row) * form.words();
+      bytes.append(reinterpret_cast<const char*>(from), n * sizeof(double));
+    }
+    file.append(bytes);
+    index = index_of({ file.path() });
+  }
+
+  void make_values();
+
+  Rows form;
+  Output truth;
+  std::vector<double> values; ///< row-major
+  std::string bytes;
+  TemporaryFile file;
+  granular::FrameIndex index;
+};
+
+void Frame::make_values()
+{
+  Random random(1);
+  std::vector<granular::ColumnSink> sinks = truth.sinks(0);
+  for (std::int64_t row = 0; row < form.count; ++row)
+  {
+    for (granular::ColumnSink& sink : sinks)
+    {
+      const auto number = static_cast<std::int32_t>(1 + random.bits() % 1'000'000);
+      const std::int64_t wide = number;
+      const double value = random.between(-1, 1);
+      const void* const sources[] = { &number, &wide, &value };
+      const auto kind = static_cast<std::size_t>(sink.kind);
+      std::memcpy(sink.data, sources[kind],
+        sink.kind == Kind::Int32 ? sizeof(std::int32_t) : sizeof(std::int64_t));
+      sink.data += sink.stride;
+      values.push_back(sink.kind == Kind::Float64 ? value : number);
+    }
+  }
+}
+
+/// The yardstick: row by row, and in it column by column, each double to an array of its column.
+/// Nothing is looked at.
+class PlainCopy
+{
+public:
+  explicit PlainCopy(const Frame& frame)
+    : values_(frame.values)
+    , arrays_(frame.form.words(), std::vector<double>(static_cast<std::size_t>(frame.form.count)))
+  {
+    for (std::vector<double>& array : arrays_)
+    {
+      columns_.push_back(array.data());
+    }
+  }
+
+  bool run()
+  {
+    const std::size_t columns = columns_.size();
+    const std::size_t rows = values_.size() / columns;
+    const double* from = values_.data();
+    double* const* const to = columns_.data();
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+      for (std::size_t column = 0; column < columns; ++column)
+      {
+        to[column][row] = *from++;
+      }
+    }
+    return arrays_.back().back() == values_.back();
+  }
+
+private:
+  std::span<const double> values_;
+  std::vector<std::vector<double>> arrays_;
+  std::vector<double*> columns_;
+};
+
+/// The rows of a frame to memory that has been touched, types narrowed as the sinks say.
+bool decode(const granular::ByteSource& source, const granular::FrameEntry& entry, Output& output)
+{
+  std::vector<granular::ColumnSink> sinks = output.sinks(0);
+  const std::unique_ptr<granular::FrameRows> rows = granular::open_rows(source, entry);
+  std::int64_t count = 0;
+  for (std::int64_t got = 1; got > 0; count += got)
+  {
+    got = rows->decode(sinks, std::numeric_limits<std::int64_t>::max());
+  }
+  return count == entry.rows && !rows->misfit();
+}
+
+void tell_speeds(benchmark::State& state, const Rounds& rounds)
+{
+  for (const char* const name : { "copy", "file", "memory", "read_dump" })
+  {
+    tell(state, name, 1e-9 / median(rounds.of(name)), "GB/s");
+  }
+  for (const std::string name : { "file", "memory", "read_dump" })
+  {
+    tell(state, name + " against copy", median_ratio(rounds.of("copy"), rounds.of(name)), "1");
+  }
+  tell(state, "spread", spread_of_ratio(rounds.of("copy"), rounds.of("file")), "1");
+}
+
+void measure(benchmark::State& state, const Rows& form, std::int64_t rows_a_chunk)
+{
+  const Frame frame(form, rows_a_chunk);
+  const granular::FrameEntry& entry = frame.index.first_piece(0).entry;
+  const auto memory = granular::open_memory(frame.bytes);
+  const auto file = granular::open_file(frame.file.path());
+  const std::size_t points_at = form.columns.starts_with("x") ? 0 : 2;
+  Output from_memory(form, form.count);
+  Output from_file(form, form.count);
+  PlainCopy copy(frame);
+  granular::DumpFrame read;
+  Rounds rounds;
+  rounds.add("copy", [&copy] { return copy.run(); });
+  rounds.add("file", [&] { return decode(*file, entry, from_file); });
+  rounds.add("memory", [&] { return decode(*memory, entry, from_memory); });
+  rounds.add("read_dump",
+    [&]
+    {
+      read = read_frame(frame.index, 0);
+      return read.rows == form.count;
+    });
+  const auto bytes = static_cast<double>(frame.values.size() * sizeof(double));
+  for (auto _ : state)
+  {
+    read = {};
+    const bool right = rounds.run(bytes);
+    if (!right || !(from_file == frame.truth) || !(from_memory == frame.truth) ||
+      !holds(read, frame.truth, form.count, points_at))
+    {
+      fail(state, "values differ from those that were written");
+      return;
+    }
+    state.SetIterationTime(rounds.of("file").back() * bytes);
+  }
+  tell_speeds(state, rounds);
+}
+}
+
+void add_benchmarks(const Size& size)
+{
+  const std::int64_t rows = size.pick(1'000'000, 3'000);
+  const Array vector = { Kind::Float64, 3 };
+  Rows custom = make_rows(Form::Custom, 0);
+  Rows scaled = { "id type xs ys zs", { { Kind::Int64, 1 }, { Kind::Int32, 1 }, vector }, 0, {} };
+  Rows doubles = { "x y z vx vy vz fx fy fz omegax omegay omegaz",
+    { vector, vector, vector, vector }, 0, {} };
+  custom.count = scaled.count = doubles.count = rows;
+  struct Case
+  {
+    const char* name;
+    const Rows& form;
+    std::int64_t rows_a_chunk;
+  };
+  const Case cases[] = {
+    { "12 columns", custom, rows },
+    { "12 columns, 16 chunks", custom, (rows + 15) / 16 },
+    { "12 columns, chunks of 100 rows", custom, 100 },
+    { "12 columns, all doubles", doubles, rows },
+    { "5 columns", scaled, rows },
+  };
+  for (const Case& each : cases)
+  {
+    add(std::string("binary/") + each.name, size.pick(15, 1),
+      [form = each.form, chunk = each.rows_a_chunk](benchmark::State& state)
+      { measure(state, form, chunk); });
+  }
+}
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the parts do with files of dumps: index them, read their frames, see whether these are right.
+#ifndef tests_bench_dump_frame_h
+#define tests_bench_dump_frame_h
+
+#include "dump_text.h"
+
+#include "granular/dump/dump_reader.h"
+#include "granular/dump/frame_index.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bench
+{
+/// The index of a run. Throws where there is anything to notice.
+granular::FrameIndex index_of(
+  const std::vector<std::string>& files, const granular::IndexOptions& options = {});
+
+/// A frame of it: double points and all arrays. Throws where there is anything to notice.
+granular::DumpFrame read_frame(const granular::FrameIndex& index, std::size_t frame);
+
+/// The same of a file that is open.
+granular::DumpFrame read_frame(
+  const granular::ByteSource& source, const granular::FrameEntry& entry);
+
+/// Whether a frame holds the values of the first truth_rows rows of truth, over and over. The box is
+/// that of 0 and 1, so that scaled coordinates are absolute ones; points_at is which of the arrays of
+/// the truth has the coordinates.
+bool holds(const granular::DumpFrame& frame, const Output& truth, std::int64_t truth_rows,
+  std::size_t points_at = 2);
+}
+#endif
