@@ -39,10 +39,11 @@ SaveScreenshot("lost.png", view, CompressionLevel="9")
 
 
 def rounded(numbers, digits):
+    """The numbers as a text with so many digits holds them; 17 are exact."""
     return np.char.mod(f"%.{digits}g", numbers).astype(float)
 
 
-# All frames from the bytes of the file, without ParaView. A frame has chunks, one from each process.
+# All frames from the bytes of the file, without ParaView. Each process wrote a chunk of a frame.
 content, at = Path(path).read_bytes(), 0
 while at < len(content):
     step, *_, width, chunks = struct.unpack_from("<2q i 6i 6d 2i", content, at)
@@ -63,6 +64,7 @@ while at < len(content):
 
 
 def overlaps(digits):
+    """How far each two grains of the last frame reach into each other."""
     *centres, radius = (rounded(column[name], digits) for name in ("x", "y", "z", "radius"))
     distance = np.sqrt(sum(np.subtract.outer(centre, centre)**2 for centre in centres))
     return np.add.outer(radius, radius) - distance
@@ -70,5 +72,5 @@ def overlaps(digits):
 
 touching = np.triu(overlaps(17) > 0, 1)
 wrong = abs(overlaps(6) / overlaps(17) - 1)[touching] > 0.01
-print(f"{touching.sum()} pairs of grains touch at step {step}; in the text the overlap, and with it")
-print(f"the force, is wrong by more than 1 % for {wrong.sum()} of them; see lost.png")
+print(f"{touching.sum()} pairs of grains touch at step {step}: the text has the overlap, and so")
+print(f"the force, wrong by more than 1 % for {wrong.sum()} of them; see lost.png")

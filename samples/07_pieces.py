@@ -8,11 +8,12 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
-folder, whole = map(Path, sys.argv[1:3] if sys.argv[2:] else (data / "pieces", data / "grains.dump"))
+folder = Path(sys.argv[1]) if sys.argv[1:] else data / "pieces"
+whole = Path(sys.argv[2]) if sys.argv[2:] else data / "grains.dump"
 
-# All files in one list, in any order: 5 steps of 4 processes, pieces_STEP.PROCESS.dump. The reader sees
-# from their names that they are pieces; RepeatedSteps="Merge" says so where names do not tell.
-# Without one of the files its step would be left out, with a warning that names the missing piece.
+# All files in one list, in any order: 5 steps of 4 processes, pieces_STEP.PROCESS.dump. Their names
+# tell that they are pieces; where names do not, RepeatedSteps="Merge" does. Were one missing, its
+# step would be left out, with a warning that says which one.
 files = sorted(folder.glob("pieces_*.*.dump"))
 grains = OpenDataFile([str(file) for file in files], TimestepSize=2e-5)
 assert grains.RepeatedSteps == "Auto" and len(files) == 4 * len(grains.TimestepValues)
@@ -44,13 +45,13 @@ for place, step in zip((3, 4, 5, 6), sorted(counts)[1:]):
 colors = GetColorTransferFunction("process")
 SetProperties(colors, InterpretValuesAsCategories=1,
               Annotations=[text for i in range(4) for text in (str(i), str(i))],
-              IndexedColors=[0.27, 0.45, 0.70, 0.95, 0.60, 0.20, 0.30, 0.65, 0.45, 0.75, 0.30, 0.30])
+              IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
 SetProperties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1,
               Orientation="Horizontal", WindowLocation="Lower Center")
 strip.SetSize(1200, 480)
 SaveScreenshot("pieces.png", strip, SeparatorWidth=0)
 
-# The same from the text: the last frame is that of the run as one file, in the order of the pieces.
+# The same from the text: the last frame is that of the run as one file, in the pieces' order.
 names = "id", "type", "x", "y", "z", "radius"
 
 
@@ -66,6 +67,6 @@ frame = FetchData(grains)[0]
 arrays = [frame.GetPointData().GetArray(name) for name in ("id", "type", "radius")]
 points = np.array(frame.GetPoints().GetData())
 assert np.array_equal(np.column_stack(arrays[:2] + [points, arrays[2]]), pieces)
-by_id = [rows[rows[:, 0].argsort()] for rows in (pieces, rows_of(whole))]
-assert np.array_equal(*by_id)
+one_file = rows_of(whole)
+assert np.array_equal(pieces[pieces[:, 0].argsort()], one_file[one_file[:, 0].argsort()])
 print(f"{len(files)} files are {len(counts)} frames; see pieces.png")

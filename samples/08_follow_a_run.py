@@ -9,8 +9,8 @@ import granular
 import numpy as np
 from paraview.simple import *
 
-# LAMMPS pours grains into a box. Where it is not installed, a script copies grains.dump in bursts
-# that end anywhere, also inside a number.
+# LAMMPS pours grains into a box, and rests after each frame, as if there were more to compute.
+# Where it is not installed, a script copies grains.dump in bursts that end inside lines and words.
 POUR = """
 units si
 atom_style sphere
@@ -50,10 +50,10 @@ else:
 
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
+Render(view)  # the first picture takes longest, and moves the camera
 camera = dict(CameraPosition=[0.25, -0.41, 0.21], CameraFocalPoint=[0, 0, 0.063],
               CameraViewUp=[0, 0, 1])
-SetProperties(view, ViewSize=[480, 600], OrientationAxesVisibility=0, **camera)
-Render(view)
+SetProperties(view, ViewSize=[360, 480], OrientationAxesVisibility=0, **camera)
 
 
 def ready(path):
@@ -66,10 +66,10 @@ run.unlink(missing_ok=True)
 give_up = time.monotonic() + 60
 writer = subprocess.Popen(command)
 try:
-    while not ready(run):
-        assert writer.poll() is None and time.monotonic() < give_up, "no frame is written"
+    while not ready(run) and writer.poll() is None and time.monotonic() < give_up:
         time.sleep(0.02)
-    reader = OpenDataFile(str(run), RefreshOnUpdate=1)
+    assert ready(run), f"{command[0]} has written no frame"
+    reader = OpenDataFile(str(run), RefreshOnUpdate=1)  # every update looks at the file again
     granular.show(reader, view, color="v")
     Show(OutputPort(reader, 1), view)
     colors = GetColorTransferFunction("v")
@@ -88,7 +88,7 @@ try:
         step = frame.GetFieldData().GetArray("timestep").GetValue(0)
         points = np.array(frame.GetPoints().GetData()).reshape(-1, 3)
         if step not in seen:
-            print(f"look {looks:2}: {frames:2} frames, the last with {len(points)} grains")
+            print(f"look {looks:2}: frame {frames:2} is the newest, with {len(points):4} grains")
             seen[step] = looks, frames, points
         time.sleep(0.3)
 finally:
@@ -106,7 +106,7 @@ for i, place in enumerate((3, 4, 5, 6)):
     SetProperties(view, ViewTime=step, **camera)
     granular.show(reader, view, color="v")
     Show(OutputPort(reader, 1), view)
-    Show(Text(Text="look {}: {} frames".format(*seen[step])), view, WindowLocation="Upper Center")
+    Show(Text(Text="look {}: frame {}".format(*seen[step])), view, WindowLocation="Upper Center")
 colors.RescaleTransferFunction(0, 1.5)
 SetProperties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
               Orientation="Horizontal", WindowLocation="Lower Center", RangeLabelFormat="%.1f")

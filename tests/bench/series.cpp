@@ -350,22 +350,22 @@ void add_benchmarks(const Size& size)
   {
     std::string name;
     Run::Files files;
+    Yardstick yardstick;
     std::int64_t frames;
     std::int64_t rows;
     std::int64_t pieces;
-    Yardstick yardstick;
     std::int64_t rounds;
   };
   using Files = Run::Files;
   const std::int64_t thousand = size.pick(1'000, 20);
   const std::int64_t many_rows = size.pick(10'000, 100);
   const Case cases[] = {
-    { "1000 frames", Files::One, thousand, many_rows, 1, Yardstick::CountFeeds, size.pick(9, 1) },
-    { "10^6 frames of 1 row", Files::One, size.pick(1'000'000, 1'000), 1, 1, Yardstick::CountFeeds,
+    { "1000 frames", Files::One, Yardstick::CountFeeds, thousand, many_rows, 1, size.pick(9, 1) },
+    { "10^6 frames of 1 row", Files::One, Yardstick::CountFeeds, size.pick(1'000'000, 1'000), 1, 1,
       size.pick(3, 1) },
-    { "10^4 files", Files::OneAFrame, size.pick(10'000, 50), 100, 1, Yardstick::LookInto,
+    { "10^4 files", Files::OneAFrame, Yardstick::LookInto, size.pick(10'000, 50), 100, 1,
       size.pick(11, 1) },
-    { "1000 frames of 4 files", Files::OneAPiece, thousand, 100, 4, Yardstick::LookInto,
+    { "1000 frames of 4 files", Files::OneAPiece, Yardstick::LookInto, thousand, 100, 4,
       size.pick(11, 1) },
   };
   for (const Case& each : cases)

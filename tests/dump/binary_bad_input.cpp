@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary dumps that are damaged, cut or still being written: every one is an error that names a place,
 // or the frames that are whole; never more memory than the file is worth.
+#include "granular/dump/binary_dump.h"
 #include "granular/dump/binary_header.h"
 #include "granular/dump/frame_index.h"
 
@@ -158,7 +159,8 @@ constexpr Value values[] = {
 bool holds(const Field& field, std::int64_t value)
 {
   const int bits = static_cast<int>(8 * field.bytes) - 1;
-  return field.bytes == 8 || (value >= -(std::int64_t{ 1 } << bits) && value < std::int64_t{ 1 } << bits);
+  return field.bytes == 8 ||
+    (value >= -(std::int64_t{ 1 } << bits) && value < std::int64_t{ 1 } << bits);
 }
 
 /// Whether the bounds can be those of a box: what a plain file is told by.
@@ -170,7 +172,8 @@ bool can_be_a_box(const Frame& frame)
   const double yz = tilted ? frame.box[8] : 0;
   const double lengths[] = { frame.box[1] - frame.box[0] - std::max({ 0.0, xy, xz, xy + xz }) +
       std::min({ 0.0, xy, xz, xy + xz }),
-    frame.box[3] - frame.box[2] - std::max(0.0, yz) + std::min(0.0, yz), frame.box[5] - frame.box[4] };
+    frame.box[3] - frame.box[2] - std::max(0.0, yz) + std::min(0.0, yz),
+    frame.box[5] - frame.box[4] };
   return std::all_of(std::begin(lengths), std::end(lengths),
     [](double length) { return length >= 0 && std::isfinite(length); });
 }
@@ -189,7 +192,8 @@ bool is_legal(
   }
   return (field.name == "timestep" && (magic || value >= 0)) ||
     (field.name == "boundary" && value >= 0 && value <= 3) || field.name == "time" ||
-    (field.name == "time flag" && value != 0) || (!field.real && value == binary::integer_at(bytes.bytes, form, field));
+    (field.name == "time flag" && value != 0) ||
+    (!field.real && value == binary::integer_at(bytes.bytes, form, field));
 }
 }
 
@@ -198,14 +202,14 @@ bool is_legal(
 TEST(BinaryBadInput, EveryNumberOfTheHeaderChanged)
 {
   const MemoryCheck memory;
-  std::map<std::string, int> said;
   for (const Form& form : forms())
   {
     for (int triclinic = 0; triclinic <= form.most_triclinic(); ++triclinic)
     {
       const Frame frame = binary::grains(form, 3, 5, triclinic);
       const Bytes good = binary::write(form, { frame });
-      const std::string behind = binary::write(form, { binary::grains(form, 4, 1, triclinic) }).bytes;
+      const std::string behind =
+        binary::write(form, { binary::grains(form, 4, 1, triclinic) }).bytes;
       for (const Field& field : good.fields)
       {
         for (const Value& value : values)
@@ -217,8 +221,8 @@ TEST(BinaryBadInput, EveryNumberOfTheHeaderChanged)
           const std::string bad = binary::with_field(good, form, field, value.number);
           for (const std::string& bytes : { bad, bad + behind })
           {
-            SCOPED_TRACE(form.name + ", triclinic " + std::to_string(triclinic) + ": " + field.name + " at " +
-              std::to_string(field.offset) + " is " + value.name +
+            SCOPED_TRACE(form.name + ", triclinic " + std::to_string(triclinic) + ": " +
+              field.name + " at " + std::to_string(field.offset) + " is " + value.name +
               (bytes.size() > bad.size() ? ", a frame behind" : ""));
             const Dump dump(bytes, binary::names_for(form));
             if (is_legal(form, frame, good, field, value.number))
@@ -234,12 +238,352 @@ TEST(BinaryBadInput, EveryNumberOfTheHeaderChanged)
             const std::int64_t place = place_of(defect);
             EXPECT_GE(place, 0) << defect;
             EXPECT_LT(place, static_cast<std::int64_t>(bytes.size())) << defect;
-            ++said[form.name + " " + field.name + " " + value.name + (bytes.size() > bad.size() ? " +" : "") + " " + std::to_string(place-static_cast<std::int64_t>(field.offset)) +": "+ defect];
           }
         }
       }
     }
   }
-  if (std::getenv("SHOW"))
-  for (auto& [a, b] : said) printf("%s\n", a.c_str());
+}
+
+// What a file with magic says, and one that is plain, is clear; of other layouts there is one that came
+// furthest.
+TEST(BinaryBadInput, TheFieldAtFaultIsNamed)
+{
+  struct Case
+  {
+    const char* field;
+    std::int64_t value;
+    const char* said;
+  };
+  const Case cases[] = {
+    { "magic length", -65, "expected the length of a magic word, -8 or -10, got -65" },
+    { "endian", 2, "expected the mark of the byte order, 1, got 2" },
+    { "revision", 3, "expected revision 1 or 2, got 3" },
+    { "atoms", -1, "expected a number of atoms, got -1" },
+    { "triclinic", 3, "expected triclinic 0, 1 or 2, got 3" },
+    { "triclinic", 2, "expected triclinic 0 or 1, got 2" },
+    { "boundary", 4, "expected a boundary flag from 0 to 3, got 4" },
+    { "size_one", 0, "expected 1 to 10000 columns, got 0" },
+    { "size_one", 10001, "expected 1 to 10000 columns, got 10001" },
+    { "units length", -1, "expected the length of the units, got -1" },
+    { "columns length", 1048577, "expected the length of the names of the columns, got 1048577" },
+    { "nchunk", 0, "expected 1 to 16777216 chunks, got 0" },
+    { "nchunk", 16777217, "expected 1 to 16777216 chunks, got 16777217" },
+    { "n", 13, "expected the number of values in a chunk, a multiple of 12 and 60 in all, got 13" },
+    { "n", -12,
+      "expected the number of values in a chunk, a multiple of 12 and 60 in all, got -12" },
+    { "n", 72, "expected the number of values in a chunk, a multiple of 12 and 60 in all, got 72" },
+  };
+  for (const Form& form : forms())
+  {
+    const bool magic = !form.magic.empty();
+    const Bytes good = binary::write(form, { binary::grains(form, 3, 5) });
+    for (const Case& one : cases)
+    {
+      const bool there = std::any_of(good.fields.begin(), good.fields.end(),
+        [&](const Field& field) { return field.name == one.field; });
+      const bool only_plain = std::string(one.said).find("triclinic 0 or 1") != std::string::npos;
+      const bool only_magic = std::string(one.said).find("0, 1 or 2") != std::string::npos;
+      const bool told = magic
+        ? !(form.big && one.value == -65)
+        : form.name.starts_with("plain, little") || form.name.starts_with("plain, big");
+      if (there && told && !(magic && only_plain) && !(!magic && only_magic))
+      {
+        const Field& field = good.field(one.field);
+        EXPECT_EQ(defect_of(Dump(
+                    binary::with_field(good, form, field, one.value), binary::names_for(form))),
+          "memory@" + std::to_string(field.offset) + ": " + one.said +
+            (magic ? "" : "; no known layout of a binary dump fits"))
+          << form.name;
+      }
+    }
+  }
+}
+
+TEST(BinaryBadInput, AnUnknownMagicWord)
+{
+  const Form& form = binary::form("DUMPATOM revision 2, big-endian");
+  std::string bytes = binary::write(form, { binary::grains(form, 3, 5) }).bytes;
+  bytes.replace(8, 8, "DUMPGRID");
+  EXPECT_EQ(defect_of(Dump(bytes)), "memory@8: expected DUMPATOM or DUMPCUSTOM, got 'DUMPGRID'");
+  // this is not DUMPCUSTOM either
+  bytes = binary::write(form, { binary::grains(form, 3, 5) }).bytes;
+  bytes[7] = '\xf6';
+  EXPECT_EQ(Dump(bytes).frames(), 0u);
+}
+
+// The user sees the place of the box, whatever the layout.
+TEST(BinaryBadInput, ABoxThatIsNoneIsNamed)
+{
+  for (const Form& form : forms())
+  {
+    if (form.name.starts_with("plain, little") || form.name.starts_with("plain, big"))
+    {
+      Frame frame = binary::grains(form, 3, 5);
+      frame.box = { 1, 0, 0, 1, 0, 1 };
+      const Bytes bytes = binary::write(form, { frame });
+      const std::string defect = defect_of(Dump(bytes.bytes, binary::names_for(form)));
+      EXPECT_TRUE(defect.starts_with("memory@44: expected the bounds of a box")) << defect;
+    }
+  }
+}
+
+// ---- frames in the middle --------------------------------------------------------------------------
+
+TEST(BinaryBadInput, ADamagedFrameEndsTheFileAndIsSaid)
+{
+  for (const Form& form : forms())
+  {
+    SCOPED_TRACE(form.name);
+    const Bytes good = binary::write(
+      form, { binary::grains(form, 1, 3), binary::grains(form, 2, 3), binary::grains(form, 3, 3) });
+    const auto second = std::find_if(good.fields.begin() + 20, good.fields.end(),
+      [&](const Field& field) { return field.name == "size_one" && field.offset > good.ends[0]; });
+    const Dump dump(binary::with_field(good, form, *second, 0), binary::names_for(form));
+    ASSERT_EQ(dump.frames(), 1u);
+    EXPECT_TRUE(is_whole(dump.read(), binary::grains(form, 1, 3)));
+    EXPECT_EQ(dump.said(),
+      "memory@" + std::to_string(second->offset) +
+        ": expected 1 to 10000 columns, got 0; the frame and all that follow are left out\n");
+    // something else behind the last frame
+    const Dump behind(good.bytes + std::string(200, '\x55'), binary::names_for(form));
+    EXPECT_EQ(behind.frames(), 3u);
+    EXPECT_TRUE(behind.said().starts_with("memory@")) << behind.said();
+    EXPECT_TRUE(behind.said().ends_with("; the frame and all that follow are left out\n"));
+    // zeros that a file system put there when the machine lost power
+    const Dump zeros(good.bytes + std::string(4096, '\0'), binary::names_for(form));
+    EXPECT_EQ(zeros.frames(), 3u);
+    EXPECT_TRUE(zeros.said().ends_with("; the frame and all that follow are left out\n"));
+  }
+}
+
+TEST(BinaryBadInput, AFrameOfAnotherLayoutEndsTheFile)
+{
+  for (const Form& form : forms())
+  {
+    for (const Form& other : forms())
+    {
+      // forms that are told apart by the first frame alone
+      if (other.magic.empty() != form.magic.empty() || other.big != form.big ||
+        other.wide != form.wide || other.boundary != form.boundary)
+      {
+        Bytes bytes = binary::write(form, { binary::grains(form, 1, 3) });
+        binary::add(bytes, other, binary::grains(other, 2, 3));
+        const Dump dump(bytes.bytes, binary::names_for(form));
+        EXPECT_EQ(dump.frames(), 1u) << form.name << " then " << other.name;
+        EXPECT_TRUE(is_whole(dump.read(), binary::grains(form, 1, 3)));
+      }
+    }
+  }
+}
+
+// ---- cut files ---------------------------------------------------------------------------------------
+
+TEST(BinaryBadInput, EveryTruncation)
+{
+  const MemoryCheck memory;
+  for (const Form& form : forms())
+  {
+    // the byte order does not move anything
+    for (int triclinic = form.big ? form.most_triclinic() : 0; triclinic <= form.most_triclinic();
+         ++triclinic)
+    {
+      for (const std::int64_t rows : { 0, 2 })
+      {
+        const std::vector<Frame> frames = { binary::grains(form, 1, rows, triclinic),
+          binary::grains(form, 2, 1, triclinic) };
+        const Bytes whole = binary::write(form, frames);
+        const auto source = granular::open_memory(whole.bytes);
+        const Dump all(whole.bytes, binary::names_for(form));
+        ASSERT_EQ(all.frames(), 2u);
+        for (std::size_t size = 0; size < whole.bytes.size(); ++size)
+        {
+          SCOPED_TRACE(form.name + ", triclinic " + std::to_string(triclinic) + ", rows " +
+            std::to_string(rows) + ", cut to " + std::to_string(size));
+          const Dump dump(whole.bytes.substr(0, size), binary::names_for(form));
+          ASSERT_EQ(dump.frames(), size < whole.ends[0] ? 0u : 1u);
+          EXPECT_EQ(dump.said(), "") << "its writer is still at work";
+          if (size >= whole.ends[0])
+          {
+            ASSERT_TRUE(is_whole(dump.read(), frames[0]));
+          }
+          // it grows
+          granular::FileIndex grown = dump.index();
+          granular::Progress progress;
+          index_dump(*source, grown, progress);
+          ASSERT_EQ(grown.frames.size(), 2u) << defect_of(dump);
+          for (std::size_t i = 0; i < 2; ++i)
+          {
+            const granular::FrameEntry& entry = grown.frames[i];
+            EXPECT_EQ(entry.offset, all.entry(i).offset);
+            EXPECT_EQ(entry.end, all.entry(i).end);
+            EXPECT_EQ(entry.shape, all.entry(i).shape);
+            EXPECT_EQ(entry.kind->layout, all.entry(i).kind->layout);
+            Decoded got;
+            got.frame = read_dump(*source, entry, {}, got.notices, progress);
+            ASSERT_TRUE(is_whole(got, frames[i]));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(BinaryBadInput, WhatIsSaidOfACutFile)
+{
+  for (const Form& form : forms())
+  {
+    const Bytes whole = binary::write(form, { binary::grains(form, 1, 3) });
+    for (std::size_t size = 1; size < whole.bytes.size(); ++size)
+    {
+      const std::string first = whole.bytes.substr(0, size);
+      // before the first byte that no text has, anything may come
+      EXPECT_EQ(defect_of(Dump(first, binary::names_for(form))),
+        granular::holds_binary(first)
+          ? "memory@0: expected a complete frame, got the end of the file in it"
+          : "nothing")
+        << form.name << " cut to " << size;
+    }
+  }
+}
+
+// A reader that looks again and again while a simulation writes.
+TEST(BinaryBadInput, AFileThatGrows)
+{
+  for (const char* const name :
+    { "plain, little-endian", "before 2011, big-endian", "DUMPCUSTOM revision 2, little-endian" })
+  {
+    const Form& form = binary::form(name);
+    const std::vector<Frame> frames = { binary::grains(form, 0, 0), binary::grains(form, 1, 3),
+      binary::grains(form, 2, 4), binary::grains(form, 3, 2) };
+    const Bytes whole = binary::write(form, frames);
+    const Folder folder;
+    const std::string path = folder.write("a.bin", "");
+    granular::IndexOptions options;
+    if (!form.named())
+    {
+      options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
+        "radius" };
+    }
+    granular::FrameIndex index;
+    for (std::size_t size = 0; size < whole.bytes.size(); size += 37)
+    {
+      SCOPED_TRACE(form.name + " up to " + std::to_string(size + 37));
+      folder.append("a.bin", whole.bytes.substr(size, 37));
+      granular::Notices notices;
+      granular::Progress progress;
+      const std::size_t there = std::min(size + 37, whole.bytes.size());
+      const auto complete = static_cast<std::size_t>(std::count_if(
+        whole.ends.begin(), whole.ends.end(), [&](std::size_t end) { return end <= there; }));
+      const std::string error =
+        error_of([&] { index.update({ path }, options, notices, progress); });
+      EXPECT_EQ(error.empty(), complete > 0) << error;
+      EXPECT_EQ(lines_of(notices), "");
+      ASSERT_EQ(index.size(), complete);
+      for (std::size_t i = 0; i < complete; ++i)
+      {
+        Decoded got;
+        got.frame = read_dump(index.pieces(i), {}, got.notices, progress);
+        ASSERT_TRUE(is_whole(got, frames[i]));
+      }
+    }
+    EXPECT_EQ(index.size(), 4u);
+  }
+}
+
+// ---- bytes -------------------------------------------------------------------------------------------
+
+TEST(BinaryBadInput, EveryByteChanged)
+{
+  const MemoryCheck memory;
+  for (const Form& form : forms())
+  {
+    const Frame frame = binary::grains(form, 258, 2, form.triclinic ? 1 : 0);
+    const Bytes good = binary::write(form, { frame });
+    int frames = 0;
+    for (std::size_t at = 0; at < good.bytes.size(); ++at)
+    {
+      for (const int change : { 0x01, 0x80, 0xff })
+      {
+        SCOPED_TRACE(form.name + ": byte " + std::to_string(at) + " xor " + std::to_string(change));
+        std::string bytes = good.bytes;
+        bytes[at] = static_cast<char>(bytes[at] ^ change);
+        const Dump dump(bytes, binary::names_for(form));
+        ASSERT_LE(dump.frames(), 1u);
+        if (dump.frames() == 0)
+        {
+          EXPECT_GE(place_of(defect_of(dump)), 0) << defect_of(dump);
+          continue;
+        }
+        ++frames;
+        const auto number = [&](const char* name)
+        { return binary::integer_at(bytes, form, good.field(name)); };
+        EXPECT_EQ(dump.entry().rows, number("atoms"));
+        EXPECT_EQ(dump.entry().timestep, number("timestep"));
+        EXPECT_EQ(dump.entry().end, static_cast<std::int64_t>(bytes.size()));
+        const granular::BinaryLayout& layout =
+          granular::binary_layouts()[static_cast<std::size_t>(dump.entry().kind->layout)];
+        EXPECT_EQ(layout.magic, !form.magic.empty());
+        EXPECT_EQ(layout.wide, form.wide);
+        EXPECT_EQ(layout.swapped, form.big);
+        for (const bool all : { false, true })
+        {
+          const granular::DumpRequest request = all ? everything() : granular::DumpRequest();
+          Decoded got;
+          const std::string error = error_of([&] { got = dump.read(request); });
+          // a name that changed may have been that of a coordinate
+          EXPECT_TRUE(error.empty() || (form.named() && error.find("coordinates") != error.npos))
+            << error;
+          EXPECT_TRUE(!error.empty() || got.rows() == 2);
+        }
+      }
+    }
+    // those of the values, of the box, of the timestep and others that may be anything
+    EXPECT_GT(frames, 3 * 12 * 8 * 2);
+  }
+}
+
+// The file was replaced since it was indexed, by one of the same size.
+TEST(BinaryBadInput, AFileThatChangedSinceItWasIndexed)
+{
+  const MemoryCheck memory;
+  for (const Form& form : forms())
+  {
+    const Frame frame = binary::grains(form, 258, 3, form.triclinic ? 1 : 0);
+    const Bytes good = binary::write(form, { frame });
+    const Dump dump(good.bytes, binary::names_for(form));
+    const auto read = [&](const std::string& bytes)
+    {
+      const auto source = granular::open_memory(bytes);
+      Decoded got;
+      granular::Progress progress;
+      const std::string error =
+        error_of([&] { got.frame = read_dump(*source, dump.entry(), {}, got.notices, progress); });
+      EXPECT_TRUE(!error.empty() || is_whole(got, frame));
+      return error;
+    };
+    for (const Field& field : good.fields)
+    {
+      for (const Value& value : values)
+      {
+        if (field.real || holds(field, value.number))
+        {
+          const std::string error = read(binary::with_field(good, form, field, value.number));
+          const bool harmless = field.name == "time" || field.name == "time flag" ||
+            field.name == "nchunk" ||
+            (!field.real && value.number == binary::integer_at(good.bytes, form, field)) ||
+            (field.name == "box" &&
+              good.bytes == binary::with_field(good, form, field, value.number));
+          EXPECT_TRUE(harmless || error.find("changed") != error.npos ||
+            error.find("shortened") != error.npos)
+            << form.name << ": " << field.name << " at " << field.offset << " is " << value.name
+            << ": '" << error << "'";
+        }
+      }
+    }
+    for (std::size_t size = 0; size < good.bytes.size(); ++size)
+    {
+      EXPECT_NE(read(good.bytes.substr(0, size)), "") << form.name << " " << size;
+    }
+  }
 }

@@ -79,7 +79,8 @@ Ids ids_of_pieces(int processes)
   Ids ids;
   for (int process = 0; process < processes; ++process)
   {
-    ids.insert(ids.end(), { 10 * process, 10 * process + 1 });
+    ids.push_back(10 * process);
+    ids.push_back(10 * process + 1);
   }
   return ids;
 }
@@ -571,7 +572,7 @@ TEST(Pieces, OfARunThatWasKilledWhileSomeHadWritten)
 TEST(Pieces, OfARunThatWentOnWithMoreProcesses)
 {
   const Folder folder;
-  for (const std::size_t later : { 2, 4, 6 }) // of eight steps
+  for (const std::size_t later : { 2u, 4u, 6u }) // of eight steps
   {
     Steps before;
     Steps after;
@@ -682,7 +683,7 @@ TEST(Pieces, AStepThatIsBeingWrittenIsLeftOutSilentlyAndFoundLater)
   // of the last step, the first `done` processes have written all, the others a part
   for (const int processes : { 2, 3, 4 })
   {
-    for (const std::size_t steps_before : { 1, 2, 3 })
+    for (const std::size_t steps_before : { 1u, 2u, 3u })
     {
       for (int done = 0; done < processes; ++done)
       {
@@ -733,7 +734,7 @@ TEST(Pieces, AStepOfWhichSomeFilesAreNotThereYet)
   // as above, but the others have not even opened their files
   for (const int processes : { 2, 3, 4 })
   {
-    for (const std::size_t steps_before : { 1, 2, 3 })
+    for (const std::size_t steps_before : { 1u, 2u, 3u })
     {
       for (int done = 1; done < processes; ++done)
       {
@@ -1134,7 +1135,7 @@ TEST(Pieces, OfTheRealProgram)
   EXPECT_EQ(run.said, "");
   EXPECT_EQ(run.steps(), (Steps{ 0, 1000, 2000 }));
   EXPECT_EQ(run.read(0).rows(), 0);
-  for (const std::size_t frame : { 1, 2 })
+  for (const std::size_t frame : { 1u, 2u })
   {
     granular::DumpRequest request;
     request.sort_by_id = true;

@@ -552,7 +552,8 @@ TEST(GrowingRun, OneFileAProcessInStep)
   for (std::int64_t frame = 0; frame < 60; ++frame)
   {
     processes.write(frame);
-    for (unsigned process = frame % 3; processes.left(process) > 0; process = (process + 1) % 3)
+    for (unsigned process = static_cast<unsigned>(frame % 3); processes.left(process) > 0;
+         process = (process + 1) % 3)
     {
       processes.flush(process, processes.left(process) * (random() % 4 + 1) / 3 + 1);
       ASSERT_NO_FATAL_FAILURE(processes.look(run)) << "while frame " << frame << " is written";

@@ -1,0 +1,656 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs in many files, files that grow, and what the user says about them, through VTK.
+#include "reader_helpers.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkErrorCode.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyDataAlgorithm.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <iterator>
+
+namespace
+{
+namespace fs = std::filesystem;
+
+std::vector<std::string> Pieces(const std::vector<std::string>& steps)
+{
+  std::vector<std::string> files;
+  for (const std::string& step : steps)
+  {
+    for (const char* process : { "2", "0", "3", "1" })
+    {
+      files.push_back(Good("pieces_" + step + "." + process + ".dump"));
+    }
+  }
+  return files;
+}
+
+/// One grain at every step, whose x is the step.
+std::string Grain(long step)
+{
+  return Frame(step, 1, "id x y z", "1 " + std::to_string(step) + " 0 0\n");
+}
+
+void Append(const std::string& file, const std::string& text)
+{
+  std::ofstream(file, std::ios::binary | std::ios::app) << text;
+}
+
+std::string ReadAll(const std::string& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return { std::istreambuf_iterator<char>(in), {} };
+}
+
+/// A copy of a file of the test data, in a folder of its own.
+std::string Copy(const std::string& name)
+{
+  return WriteFile(name, ReadAll(Good(name)));
+}
+
+void ExpectNothing(Reader& reader, unsigned long code)
+{
+  EXPECT_EQ(reader->GetErrorCode(), code);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(reader.Particles()->GetFieldData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(reader.Box()->GetNumberOfCells(), 0);
+}
+
+void ExpectGrainsAgain(Reader& reader)
+{
+  reader.Open(Good("grains_1000.dump"));
+  reader->Update();
+  EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+  EXPECT_EQ(reader.Box()->GetNumberOfCells(), 1);
+}
+
+/// A filter behind the reader, as there is in every pipeline.
+class Pass : public vtkPolyDataAlgorithm
+{
+public:
+  static Pass* New();
+  vtkTypeMacro(Pass, vtkPolyDataAlgorithm);
+
+protected:
+  int RequestData(vtkInformation*, vtkInformationVector** in, vtkInformationVector* out) override
+  {
+    vtkPolyData::GetData(out)->ShallowCopy(vtkPolyData::GetData(in[0]));
+    return 1;
+  }
+};
+vtkStandardNewMacro(Pass);
+
+/// Counts how often a reader reads.
+class Executions
+{
+public:
+  explicit Executions(Reader& reader)
+  {
+    vtkNew<vtkCallbackCommand> start;
+    start->SetClientData(&this->Count);
+    start->SetCallback(
+      [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+    reader->AddObserver(vtkCommand::StartEvent, start);
+  }
+
+  int Count = 0;
+};
+}
+
+// ---- pieces ------------------------------------------------------------------------------------
+
+TEST(ReaderSeries, PiecesAreOneFrame)
+{
+  Reader reader(Pieces({ "2000", "1000", "0" }));
+  reader->SetSortById(true);
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 1000, 2000 }));
+  for (const double time : { 2000., 0., 1000. })
+  {
+    reader->UpdateTimeStep(time);
+    ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), time > 0 ? 1200 : 0);
+    EXPECT_EQ(reader.Particles()->GetNumberOfVerts(), time > 0 ? 1200 : 0);
+    EXPECT_EQ(reader.Field("timestep")->GetComponent(0, 0), time);
+    EXPECT_EQ(reader.Box()->GetNumberOfCells(), 1);
+  }
+  vtkDataArray* ids = reader.Numbers("id");
+  ASSERT_NE(ids, nullptr);
+  for (vtkIdType i = 0; i < 1200; ++i)
+  {
+    ASSERT_EQ(ids->GetComponent(i, 0), static_cast<double>(i + 1));
+  }
+  // every row of every file is there
+  for (int process = 0; process < 4; ++process)
+  {
+    const PlainFrame plain =
+      ReadPlain(Good("pieces_1000." + std::to_string(process) + ".dump")).at(0);
+    for (std::size_t row = 0; row < plain.rows; ++row)
+    {
+      const auto point = static_cast<vtkIdType>(plain.Number("id", row)) - 1;
+      ASSERT_EQ(reader.Particles()->GetPoint(point)[2], plain.Number("z", row));
+      ASSERT_EQ(reader.Numbers("radius")->GetComponent(point, 0), plain.Number("radius", row));
+    }
+  }
+  EXPECT_TRUE(reader.Said->Errors.empty());
+  EXPECT_TRUE(reader.Said->Warnings.empty());
+}
+
+TEST(ReaderSeries, RepeatedStepsSaysWhetherTheyAre)
+{
+  Reader reader(Pieces({ "1000" }));
+  EXPECT_EQ(reader->GetRepeatedSteps(), vtkGranularDumpReader::AUTO);
+  reader->Update();
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+  reader->SetRepeatedSteps(vtkGranularDumpReader::LAST);
+  reader->Update();
+  EXPECT_EQ(
+    reader.Particles()->GetNumberOfPoints(), 293); // the last one given is that of process 1
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_NE(reader.Said->Warnings[0].find("set RepeatedSteps to Merge"), std::string::npos);
+  reader->SetRepeatedSteps(vtkGranularDumpReader::MERGE);
+  reader->Update();
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+  EXPECT_EQ(reader.Numbers("id")->GetComponent(0, 0),
+    ReadPlain(Good("pieces_1000.2.dump"))[0].Number("id", 0)); // in the order of the files
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+  // beyond the ends
+  reader->SetRepeatedSteps(7);
+  EXPECT_EQ(reader->GetRepeatedSteps(), vtkGranularDumpReader::LAST);
+  reader->SetRepeatedSteps(-1);
+  EXPECT_EQ(reader->GetRepeatedSteps(), vtkGranularDumpReader::AUTO);
+}
+
+TEST(ReaderSeries, AMissingPieceIsSaidOnce)
+{
+  std::vector<std::string> files = Pieces({ "0", "1000", "2000" });
+  files.erase(files.begin() + 4);
+  Reader reader(files);
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 2000 }));
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_EQ(reader.Said->Warnings[0],
+    Good("pieces_1000.0.dump") +
+      ":1: expected 4 pieces of timestep 1000, got 3 (none for 2); the frame is left out");
+  for (int round = 0; round < 3; ++round)
+  {
+    reader->Refresh();
+    reader->Update();
+  }
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_TRUE(reader.Said->Errors.empty());
+}
+
+// ---- files that grow ---------------------------------------------------------------------------
+
+TEST(ReaderSeries, RefreshOnUpdateSeesWhatWasAppended)
+{
+  for (const bool refresh : { false, true })
+  {
+    const std::string file = WriteFile("a.dump", Grain(0));
+    Reader reader({ file });
+    reader->SetRefreshOnUpdate(refresh);
+    EXPECT_EQ(reader->GetRefreshOnUpdate(), refresh);
+    EXPECT_EQ(reader.Times(), std::vector<double>{ 0 });
+    Append(file, Grain(10));
+    // by information alone, as animations ask
+    EXPECT_EQ(reader.Times().size(), refresh ? 2u : 1u);
+    reader->UpdateTimeStep(10);
+    EXPECT_EQ(reader.Particles()->GetPoint(0)[0], refresh ? 10 : 0);
+    // by data
+    Append(file, Grain(20));
+    reader->UpdateTimeStep(20);
+    EXPECT_EQ(reader.Particles()->GetPoint(0)[0], refresh ? 20 : 0);
+    EXPECT_EQ(reader.Times().size(), refresh ? 3u : 1u);
+    // by the other output
+    Append(file, Grain(30));
+    reader->GetOutputInformation(1)->Set(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP(), 30.);
+    reader->Update(1);
+    EXPECT_EQ(
+      reader.Box()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), refresh ? 30 : 0);
+    EXPECT_TRUE(reader.Said->Errors.empty());
+    EXPECT_TRUE(reader.Said->Warnings.empty());
+  }
+}
+
+TEST(ReaderSeries, RefreshOnUpdateOfAFilterBehindIt)
+{
+  const std::string file = WriteFile("a.dump", Grain(0));
+  Reader reader({ file });
+  reader->SetRefreshOnUpdate(true);
+  vtkNew<Pass> first;
+  vtkNew<Pass> second;
+  first->SetInputConnection(reader->GetOutputPort());
+  second->SetInputConnection(first->GetOutputPort());
+  second->Update();
+  for (const long step : { 10L, 20L, 30L })
+  {
+    Append(file, Grain(step));
+    second->UpdateTimeStep(static_cast<double>(step));
+    ASSERT_EQ(second->GetOutput()->GetNumberOfPoints(), 1);
+    EXPECT_EQ(second->GetOutput()->GetPoint(0)[0], static_cast<double>(step));
+    EXPECT_EQ(
+      second->GetOutputInformation(0)->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()),
+      static_cast<int>(step) / 10 + 1);
+  }
+}
+
+TEST(ReaderSeries, RefreshOnUpdateReadsNothingThatDidNotChange)
+{
+  const std::string file = WriteFile("a.dump", Grain(0) + Grain(10));
+  Reader reader({ file });
+  reader->SetRefreshOnUpdate(true);
+  const Executions executions(reader);
+  reader->UpdateTimeStep(0);
+  EXPECT_EQ(executions.Count, 1);
+  const vtkMTimeType time = reader->GetMTime();
+  for (int round = 0; round < 10; ++round)
+  {
+    reader->UpdateTimeStep(0);
+    reader->UpdateInformation();
+  }
+  EXPECT_EQ(executions.Count, 1);
+  EXPECT_EQ(reader->GetMTime(), time);
+  // a part of a frame changes no frame, but the file was looked at
+  Append(file, Grain(20).substr(0, 30));
+  reader->UpdateTimeStep(0);
+  const int after = executions.Count;
+  for (int round = 0; round < 10; ++round)
+  {
+    reader->UpdateTimeStep(0);
+  }
+  EXPECT_EQ(executions.Count, after);
+  EXPECT_EQ(reader.Times().size(), 2u);
+}
+
+TEST(ReaderSeries, RefreshOnUpdateBeforeThereIsAnything)
+{
+  // the simulation has not begun to write
+  const std::string file = WriteFile("a.dump", "");
+  fs::remove(file);
+  Reader reader({ file });
+  reader->SetRefreshOnUpdate(true);
+  reader->Update();
+  ASSERT_EQ(reader.Said->Errors.size(), 1u);
+  ExpectNothing(reader, vtkErrorCode::FileNotFoundError);
+  WriteFile("a.dump", Grain(0).substr(0, 40));
+  reader->Update();
+  ASSERT_EQ(reader.Said->Errors.size(), 2u);
+  EXPECT_EQ(reader.Said->Errors[1],
+    file + ":1: expected a complete frame, got the end of the file in its header");
+  ExpectNothing(reader, vtkErrorCode::FileFormatError);
+  Append(file, Grain(0).substr(40));
+  reader->Update();
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1);
+  EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(reader.Said->Errors.size(), 2u);
+}
+
+TEST(ReaderSeries, RefreshOnUpdateOfAFileThatIsReplacedOrRemoved)
+{
+  const std::string file = WriteFile("a.dump", Grain(0) + Grain(10) + Grain(20));
+  Reader reader({ file });
+  reader->SetRefreshOnUpdate(true);
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 10, 20 }));
+  WriteFile("a.dump", Grain(5));
+  EXPECT_EQ(reader.Times(), std::vector<double>{ 5 });
+  reader->UpdateTimeStep(20);
+  EXPECT_EQ(reader.Particles()->GetPoint(0)[0], 5);
+  fs::remove(file);
+  reader->Update();
+  ExpectNothing(reader, vtkErrorCode::FileNotFoundError);
+  WriteFile("a.dump", Grain(7) + Grain(8));
+  reader->UpdateTimeStep(8);
+  EXPECT_EQ(reader.Particles()->GetPoint(0)[0], 8);
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 7, 8 }));
+  EXPECT_EQ(reader.Said->Errors.size(), 1u);
+}
+
+TEST(ReaderSeries, WhatWasChosenStaysWhenFramesAreAdded)
+{
+  const std::string file =
+    WriteFile("a.dump", Frame(0, 1, "id x y z vx vy vz q", "1 0 0 0 1 2 3 4\n"));
+  Reader reader({ file });
+  reader->SetRefreshOnUpdate(true);
+  reader->Update();
+  reader->GetPointDataArraySelection()->DisableArray("v");
+  Append(file, Frame(10, 1, "id x y z vx vy vz q fx fy fz", "1 0 0 0 1 2 3 4 5 6 7\n"));
+  reader->UpdateTimeStep(10);
+  EXPECT_EQ(reader.Array("v"), nullptr);
+  EXPECT_NE(reader.Array("q"), nullptr);
+  EXPECT_NE(reader.Array("f"), nullptr) << "new arrays are on";
+}
+
+TEST(ReaderSeries, AGrowingFileSaysNothingTwice)
+{
+  const std::string file = WriteFile("a.dump", Grain(0) + "garbage\n" + Grain(10));
+  Reader reader({ file });
+  reader->SetRefreshOnUpdate(true);
+  reader->Update();
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+  for (long step = 20; step < 100; step += 10)
+  {
+    Append(file, Grain(step));
+    reader->UpdateTimeStep(static_cast<double>(step));
+    EXPECT_EQ(reader.Particles()->GetPoint(0)[0], static_cast<double>(step));
+  }
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_TRUE(reader.Said->Errors.empty());
+}
+
+// ---- columns without names ---------------------------------------------------------------------
+
+TEST(ReaderSeries, ColumnNamesAreForFilesThatHaveNone)
+{
+  Reader reader({ Good("grains.bin") });
+  EXPECT_STREQ(reader->GetColumnNames(), "");
+  reader->Update();
+  ASSERT_EQ(reader.Said->Errors.size(), 1u);
+  EXPECT_NE(reader.Said->Errors[0].find("expected 12 names in ColumnNames"), std::string::npos)
+    << reader.Said->Errors[0];
+  ExpectNothing(reader, vtkErrorCode::FileFormatError);
+
+  reader->SetColumnNames("id type x y z ix iy iz vx vy vz radius");
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 1000, 2000 }));
+  reader->SetSortById(true);
+  reader->UpdateTimeStep(1000);
+  EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+  for (const char* name : { "id", "type", "image", "v", "radius" })
+  {
+    EXPECT_NE(reader.Array(name), nullptr) << name;
+  }
+  const double radius = reader.Numbers("radius")->GetComponent(0, 0);
+  EXPECT_TRUE(radius == 0.0025 || radius == 0.0035) << radius;
+  EXPECT_EQ(reader.Text("Columns", 11), "radius");
+
+  // another word for the same numbers, and what was chosen stays
+  reader->GetPointDataArraySelection()->DisableArray("v");
+  reader->SetColumnNames("id type x y z ix iy iz vx vy vz size");
+  reader->UpdateTimeStep(1000);
+  EXPECT_EQ(reader.Array("radius"), nullptr);
+  ASSERT_NE(reader.Array("size"), nullptr);
+  EXPECT_EQ(reader.Numbers("size")->GetComponent(0, 0), radius);
+  EXPECT_EQ(reader.Array("v"), nullptr);
+  EXPECT_EQ(reader.Said->Errors.size(), 1u);
+
+  // too few of them
+  reader->SetColumnNames("id x y z");
+  reader->Update();
+  ASSERT_EQ(reader.Said->Errors.size(), 2u);
+  EXPECT_NE(
+    reader.Said->Errors[1].find("expected 12 names in ColumnNames, got 4"), std::string::npos)
+    << reader.Said->Errors[1];
+  ExpectNothing(reader, vtkErrorCode::FileFormatError);
+  reader->SetColumnNames(nullptr);
+  EXPECT_STREQ(reader->GetColumnNames(), "");
+  ExpectGrainsAgain(reader);
+}
+
+TEST(ReaderSeries, ColumnNamesAreNotForFilesThatHaveThem)
+{
+  for (const char* name : { "grains_1000.dump", "ortho_custom.bin", "ortho_000050.dump.gz" })
+  {
+    Reader plain({ Good(name) });
+    plain->Update();
+    Reader reader({ Good(name) });
+    reader->SetColumnNames("these are not used");
+    reader->Update();
+    EXPECT_TRUE(reader.Said->Errors.empty());
+    EXPECT_TRUE(reader.Said->Warnings.empty());
+    EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(),
+      plain.Particles()->GetPointData()->GetNumberOfArrays());
+    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), plain.Particles()->GetNumberOfPoints());
+    EXPECT_GT(reader.Particles()->GetNumberOfPoints(), 0);
+  }
+}
+
+// ---- compressed files --------------------------------------------------------------------------
+
+TEST(ReaderSeries, CompressedFilesOfARun)
+{
+  for (const std::string& box : { std::string("ortho"), std::string("tri") })
+  {
+    Reader reader({ Good(box + "_000100.dump.gz"), Good(box + "_000000.dump.gz"),
+      Good(box + "_000050.dump.gz") });
+    EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 50, 100 }));
+    Reader plain({ Good(box + "_scaled.dump") });
+    for (const double time : { 100., 0. })
+    {
+      reader->UpdateTimeStep(time);
+      plain->UpdateTimeStep(time);
+      ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 500);
+      for (vtkIdType i = 0; i < 500; i += 100)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          EXPECT_NEAR(
+            reader.Particles()->GetPoint(i)[axis], plain.Particles()->GetPoint(i)[axis], 1e-4);
+        }
+      }
+    }
+    EXPECT_TRUE(reader.Said->Warnings.empty());
+    EXPECT_TRUE(reader.Said->Errors.empty());
+  }
+}
+
+TEST(ReaderSeries, ADamagedFileIsAnErrorAndAmongOthersAWarning)
+{
+  std::string bytes = ReadAll(Good("ortho_000050.dump.gz"));
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
+  bytes[bytes.size() / 2 + 1] = static_cast<char>(bytes[bytes.size() / 2 + 1] ^ 0x55);
+  const std::string damaged = WriteFile("ortho_000050.dump.gz", bytes);
+  Reader reader({ damaged });
+  reader->Update();
+  ASSERT_EQ(reader.Said->Errors.size(), 1u);
+  EXPECT_EQ(reader.Said->Errors[0].substr(0, damaged.size() + 1), damaged + "@");
+  ExpectNothing(reader, vtkErrorCode::FileFormatError);
+  ExpectGrainsAgain(reader);
+
+  Reader others({ Good("ortho_000000.dump.gz"), damaged, Good("ortho_000100.dump.gz") });
+  EXPECT_EQ(others.Times(), (std::vector<double>{ 0, 100 }));
+  ASSERT_EQ(others.Said->Warnings.size(), 1u);
+  EXPECT_EQ(others.Said->Warnings[0].substr(0, damaged.size() + 1), damaged + "@");
+  EXPECT_NE(others.Said->Warnings[0].find("; the file is left out"), std::string::npos);
+  others->UpdateTimeStep(100);
+  EXPECT_EQ(others.Particles()->GetNumberOfPoints(), 500);
+  EXPECT_TRUE(others.Said->Errors.empty());
+}
+
+TEST(ReaderSeries, AFileThatIsCutIsReadAsFarAsItGoes)
+{
+  const std::string bytes = ReadAll(Good("ortho_000050.dump.gz"));
+  const std::string cut = WriteFile("ortho_000050.dump.gz", bytes.substr(0, bytes.size() - 100));
+  Reader reader({ Good("ortho_000000.dump.gz"), cut, Good("ortho_000100.dump.gz") });
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 100 }));
+  EXPECT_TRUE(reader.Said->Errors.empty());
+  // and when the rest has come
+  reader->SetRefreshOnUpdate(true);
+  Append(cut, bytes.substr(bytes.size() - 100));
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 50, 100 }));
+}
+
+// ---- index files -------------------------------------------------------------------------------
+
+namespace
+{
+/// A dump whose middle can be exchanged behind an index: of the same length, time and ends.
+struct Kept
+{
+  std::string File;
+  std::string Text;
+
+  explicit Kept(const std::string& name)
+  {
+    for (long step = 1000; step < 9000; step += 1000)
+    {
+      this->Text += Grain(step) + std::string(2000, '\n');
+    }
+    this->File = WriteFile(name, this->Text);
+    fs::remove(this->File + ".granular.idx"); // of an earlier run of the test
+  }
+
+  void Exchange() const
+  {
+    std::string other = this->Text;
+    const std::size_t at = other.find("\n4000\n");
+    ASSERT_GT(at, 4096u);
+    ASSERT_GT(other.size() - at, 4096u + 10);
+    other.replace(at, 6, "\n4567\n");
+    const auto time = fs::last_write_time(this->File);
+    std::ofstream(this->File, std::ios::binary | std::ios::in) << other;
+    fs::last_write_time(this->File, time);
+  }
+};
+
+const std::vector<double> KeptTimes = { 1000, 2000, 3000, 4000, 5000, 6000, 7000, 8000 };
+}
+
+TEST(ReaderSeries, AnIndexFileBesideTheFirstFile)
+{
+  const Kept kept("a.dump");
+  const std::string index = kept.File + ".granular.idx";
+  Reader first({ kept.File });
+  first->SetIndexFile(vtkGranularDumpReader::BESIDE);
+  EXPECT_EQ(first->GetIndexFile(), vtkGranularDumpReader::BESIDE);
+  EXPECT_EQ(first.Times(), KeptTimes);
+  EXPECT_TRUE(fs::exists(index));
+  kept.Exchange();
+  Reader second({ kept.File });
+  second->SetIndexFile(vtkGranularDumpReader::BESIDE);
+  EXPECT_EQ(second.Times(), KeptTimes) << "the frames are those of the index file";
+  second->UpdateTimeStep(8000);
+  EXPECT_EQ(second.Particles()->GetPoint(0)[0], 8000);
+  EXPECT_TRUE(second.Said->Warnings.empty());
+  EXPECT_TRUE(second.Said->Errors.empty());
+  Reader without({ kept.File });
+  EXPECT_EQ(without.Times()[3], 4567);
+  // a frame that is not what the index says is no frame
+  second->UpdateTimeStep(4000);
+  ASSERT_EQ(second.Said->Errors.size(), 1u);
+  ExpectNothing(second, vtkErrorCode::PrematureEndOfFileError);
+}
+
+TEST(ReaderSeries, AnIndexFileIsWrittenAlsoIfItIsAskedForLater)
+{
+  // somebody finds that opening takes long, and then turns it on
+  const Kept kept("a.dump");
+  Reader reader({ kept.File });
+  EXPECT_EQ(reader.Times(), KeptTimes);
+  EXPECT_FALSE(fs::exists(kept.File + ".granular.idx"));
+  reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
+  EXPECT_EQ(reader.Times(), KeptTimes);
+  EXPECT_TRUE(fs::exists(kept.File + ".granular.idx"));
+}
+
+TEST(ReaderSeries, AnIndexFileInTheCache)
+{
+  const Kept kept("a.dump");
+  const fs::path cache = fs::path(kept.File).parent_path() / "cache";
+  fs::remove_all(cache);
+  ASSERT_EQ(setenv("XDG_CACHE_HOME", cache.c_str(), 1), 0);
+  Reader first({ kept.File });
+  first->SetIndexFile(vtkGranularDumpReader::CACHE);
+  EXPECT_EQ(first.Times(), KeptTimes);
+  ASSERT_TRUE(fs::is_directory(cache / "granular"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(cache / "granular"), {}), 1);
+  EXPECT_FALSE(fs::exists(kept.File + ".granular.idx"));
+  kept.Exchange();
+  Reader second({ kept.File });
+  second->SetIndexFile(vtkGranularDumpReader::CACHE);
+  EXPECT_EQ(second.Times(), KeptTimes);
+  EXPECT_TRUE(second.Said->Warnings.empty());
+}
+
+TEST(ReaderSeries, AnIndexFileOfAFileThatGrewOrIsAnother)
+{
+  const Kept kept("a.dump");
+  {
+    Reader reader({ kept.File });
+    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
+    reader->Update();
+  }
+  Append(kept.File, Grain(9000));
+  {
+    Reader reader({ kept.File });
+    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
+    std::vector<double> times = KeptTimes;
+    times.push_back(9000);
+    EXPECT_EQ(reader.Times(), times);
+    EXPECT_TRUE(reader.Said->Warnings.empty());
+  }
+  WriteFile("a.dump", Grain(1) + Grain(2));
+  for (int round = 0; round < 2; ++round)
+  {
+    Reader reader({ kept.File });
+    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
+    EXPECT_EQ(reader.Times(), (std::vector<double>{ 1, 2 }));
+    EXPECT_TRUE(reader.Said->Warnings.empty());
+  }
+}
+
+TEST(ReaderSeries, ADamagedIndexFileIsIgnoredWithAWarning)
+{
+  const Kept kept("a.dump");
+  const std::string index = WriteFile("a.dump.granular.idx", "this is no index\n");
+  Reader reader({ kept.File });
+  reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
+  EXPECT_EQ(reader.Times(), KeptTimes);
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_EQ(reader.Said->Warnings[0].substr(0, index.size()), index);
+  // it was replaced by a good one
+  Reader second({ kept.File });
+  second->SetIndexFile(vtkGranularDumpReader::BESIDE);
+  EXPECT_EQ(second.Times(), KeptTimes);
+  EXPECT_TRUE(second.Said->Warnings.empty());
+}
+
+TEST(ReaderSeries, AnIndexFileOfPiecesAndCompressedFiles)
+{
+  std::vector<std::string> files;
+  for (const char* name :
+    { "pieces_1000.0.dump", "pieces_1000.1.dump", "pieces_1000.2.dump", "pieces_1000.3.dump",
+      "pieces_2000.0.dump", "pieces_2000.1.dump", "pieces_2000.2.dump", "pieces_2000.3.dump" })
+  {
+    files.push_back(Copy(name));
+  }
+  fs::remove(files[0] + ".granular.idx");
+  for (int round = 0; round < 2; ++round)
+  {
+    Reader reader(files);
+    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
+    EXPECT_EQ(reader.Times(), (std::vector<double>{ 1000, 2000 }));
+    reader->UpdateTimeStep(2000);
+    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+    EXPECT_TRUE(fs::exists(files[0] + ".granular.idx"));
+    EXPECT_TRUE(reader.Said->Warnings.empty());
+  }
+  const std::string packed = Copy("tri_000050.dump.gz");
+  fs::remove(packed + ".granular.idx");
+  for (int round = 0; round < 2; ++round)
+  {
+    Reader reader({ packed });
+    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
+    reader->Update();
+    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 500);
+    EXPECT_TRUE(fs::exists(packed + ".granular.idx"));
+  }
+}
+
+TEST(ReaderSeries, AnIndexFileThatCannotBeWritten)
+{
+  // a file in the place of a folder: nobody can write below it, not even root
+  const Kept kept("a.dump");
+  const std::string blocked = WriteFile("blocked", "");
+  ASSERT_EQ(setenv("XDG_CACHE_HOME", blocked.c_str(), 1), 0);
+  Reader reader({ kept.File });
+  reader->SetIndexFile(vtkGranularDumpReader::CACHE);
+  EXPECT_EQ(reader.Times(), KeptTimes);
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_NE(reader.Said->Warnings[0].find("the index is not kept"), std::string::npos);
+  EXPECT_TRUE(reader.Said->Errors.empty());
+}

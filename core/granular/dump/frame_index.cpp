@@ -63,6 +63,7 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
   if (files_.empty() && !kept.empty())
   {
     files_ = load_index(kept, files.front(), kinds, notices);
+    kept_ = files_.empty() ? "" : kept;
   }
   for (FileIndex& file : files_)
   {

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames of more than 2^31 values and files of more than 4 GiB: sparse files, whose holes read as
+// zeros.
+#include "granular/dump/frame_index.h"
+
+#include "binary_dumps.h"
+#include "dumps.h"
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace
+{
+using binary::Bytes;
+using binary::Form;
+using binary::Frame;
+
+/// A file of mostly holes, deleted at the end.
+class SparseFile
+{
+public:
+  explicit SparseFile(std::string path)
+    : path_(std::move(path))
+    , file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+  {
+  }
+
+  SparseFile(const SparseFile&) = delete;
+  SparseFile& operator=(const SparseFile&) = delete;
+
+  ~SparseFile()
+  {
+    ::close(file_);
+    ::unlink(path_.c_str());
+  }
+
+  const std::string& path() const { return path_; }
+  std::int64_t size() const { return size_; }
+
+  void append(const std::string& bytes)
+  {
+    good_ = good_ && ::pwrite(file_, bytes.data(), bytes.size(), size_) == std::ssize(bytes);
+    size_ += std::ssize(bytes);
+  }
+
+  void append_hole(std::int64_t bytes)
+  {
+    size_ += bytes;
+    good_ = good_ && ::ftruncate(file_, size_) == 0;
+  }
+
+  /// Whether the file system holds such a file, and its holes are none of the disk.
+  bool good() const
+  {
+    struct stat stat = {};
+    return good_ && ::fstat(file_, &stat) == 0 && stat.st_size == size_ &&
+      stat.st_blocks * std::int64_t{ 512 } < std::int64_t{ 1 } << 24;
+  }
+
+private:
+  std::string path_;
+  int file_;
+  std::int64_t size_ = 0;
+  bool good_ = true;
+};
+
+/// A frame of so many rows in its chunks, the last row given, all others zeros.
+std::int64_t append_large(
+  SparseFile& file, const Form& form, Frame frame, const std::vector<std::int64_t>& chunk_rows)
+{
+  const std::vector<double> last = frame.chunks.at(0);
+  frame.chunks.assign(chunk_rows.size(), {});
+  Bytes header = binary::write(form, { frame });
+  const std::int64_t rows =
+    std::accumulate(chunk_rows.begin(), chunk_rows.end(), std::int64_t{ 0 });
+  const binary::Field atoms = header.field("atoms");
+  header.bytes = binary::with_field(header, form, atoms, rows);
+  file.append(header.bytes.substr(0, header.field("n").offset));
+  for (std::size_t chunk = 0; chunk < chunk_rows.size(); ++chunk)
+  {
+    const std::int64_t values = chunk_rows[chunk] * frame.size_one;
+    header.bytes = binary::with_field(header, form, header.field("n"), values);
+    file.append(header.bytes.substr(header.field("n").offset, 4));
+    const bool at_end = chunk + 1 == chunk_rows.size();
+    file.append_hole(8 * (values - (at_end ? frame.size_one : 0)));
+    if (at_end)
+    {
+      frame.chunks = { last };
+      const Bytes row = binary::write(form, { frame });
+      file.append(row.bytes.substr(row.first_value));
+    }
+  }
+  return rows;
+}
+
+std::size_t peak_memory()
+{
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Stops a task after some reports.
+class Stop final : public granular::Progress
+{
+public:
+  explicit Stop(int reports)
+    : left_(reports)
+  {
+  }
+
+  bool report(double fraction) override
+  {
+    fraction_ = fraction;
+    return --left_ > 0;
+  }
+
+  double fraction() const { return fraction_; }
+
+private:
+  int left_;
+  double fraction_ = 0;
+};
+
+granular::IndexOptions names()
+{
+  granular::IndexOptions options;
+  options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
+    "radius" };
+  return options;
+}
+
+void expect_small_frame(const granular::FrameIndex& index, std::size_t number, const Frame& frame)
+{
+  granular::Progress progress;
+  Decoded got;
+  got.frame = read_dump(index.pieces(number), {}, got.notices, progress);
+  EXPECT_EQ(got.said(), "");
+  EXPECT_EQ(got.rows(), frame.rows());
+  EXPECT_EQ(got.values("id"), frame.values(0));
+  EXPECT_EQ(got.values("radius"), frame.values(11));
+}
+}
+
+TEST(BinaryLarge, TrapMoreValuesThan31Bits)
+{
+  for (const char* const name : { "plain, little-endian", "DUMPCUSTOM revision 2, big-endian" })
+  {
+    SCOPED_TRACE(name);
+    const Form& form = binary::form(name);
+    const Folder folder;
+    SparseFile file(folder.path("large.bin"));
+    // 2.4e9 values, in chunks of the largest number that fits an int32, of none, and of the rest
+    constexpr std::int64_t chunk = 2147483647 / 12;
+    const Frame first = binary::grains(form, 0, 3);
+    const Frame second = binary::grains(form, 2, 4);
+    file.append(binary::write(form, { first }).bytes);
+    const std::int64_t large_offset = file.size();
+    const std::int64_t rows =
+      append_large(file, form, binary::grains(form, 1, 1), { chunk, 0, 21045513 });
+    const std::int64_t large_end = file.size();
+    file.append(binary::write(form, { second }).bytes);
+    if (!file.good())
+    {
+      GTEST_SKIP() << "the file system has no sparse files of this size: " << std::strerror(errno);
+    }
+    ASSERT_GT(12 * rows, std::int64_t{ 1 } << 31);
+    ASSERT_GT(large_end, std::int64_t{ 1 } << 34);
+
+    granular::FrameIndex index;
+    granular::Notices notices;
+    granular::Progress progress;
+    index.update({ file.path() }, names(), notices, progress);
+    EXPECT_EQ(lines_of(notices), "");
+    ASSERT_EQ(index.size(), 3u);
+    const granular::FrameEntry entry = index.first_piece(1).entry;
+    EXPECT_EQ(entry.rows, rows);
+    EXPECT_EQ(entry.offset, large_offset);
+    EXPECT_EQ(entry.end, large_end);
+    EXPECT_EQ(index.first_piece(2).entry.offset, large_end);
+    expect_small_frame(index, 0, first);
+    expect_small_frame(index, 2, second);
+
+    // it grows, and only what is new is looked at
+    const Frame third = binary::grains(form, 3, 2);
+    const std::string more = binary::write(form, { third }).bytes;
+    file.append(more);
+    index.update({ file.path() }, names(), notices, progress);
+    ASSERT_EQ(index.size(), 4u);
+    expect_small_frame(index, 3, third);
+  }
+}
+
+// Memory is for the rows that are read, not for those that are said to be there.
+TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
+{
+  const Form& form = binary::form("plain, big-endian");
+  const Folder folder;
+  SparseFile file(folder.path("large.bin"));
+  Frame wide;
+  wide.size_one = 10000;
+  wide.chunks = { std::vector<double>(10000, 1) };
+  const std::int64_t rows = append_large(file, form, wide, { 200000, 20000 });
+  if (!file.good())
+  {
+    GTEST_SKIP() << "the file system has no sparse files of this size: " << std::strerror(errno);
+  }
+  ASSERT_GT(10000 * rows, std::int64_t{ 1 } << 31);
+  granular::IndexOptions options;
+  options.column_names = { "id", "x", "y", "z" };
+  for (int i = 5; i <= 10000; ++i)
+  {
+    options.column_names.push_back("c" + std::to_string(i));
+  }
+  granular::FrameIndex index;
+  granular::Notices notices;
+  granular::Progress progress;
+  index.update({ file.path() }, options, notices, progress);
+  ASSERT_EQ(index.size(), 1u);
+  EXPECT_EQ(index.first_piece(0).entry.rows, rows);
+
+  const std::size_t before = peak_memory();
+  granular::DumpRequest request;
+  request.stride = 1 << 30;
+  request.wanted = [](const granular::ArrayInfo&) { return false; };
+  Stop stop(4);
+  EXPECT_THROW(read_dump(index.pieces(0), request, notices, stop), granular::Cancelled);
+  EXPECT_GT(stop.fraction(), 0);
+  EXPECT_LT(stop.fraction(), 0.1);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(peak_memory() - before, std::size_t{ 1 } << 26);
+#endif
+}

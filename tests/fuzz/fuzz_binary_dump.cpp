@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A dump from memory, text or binary as its bytes say, all the way: index, then frames with several
+// requests, also of a file that changed since. Whatever the bytes are, there is an Error or a frame of
+// the rows it says, and no more memory than the bytes are worth.
+#include "granular/base/words.h"
+#include "granular/dump/binary_dump.h"
+#include "granular/dump/dump_reader.h"
+#include "granular/dump/file_index.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace granular;
+
+namespace
+{
+void require(bool good, const char* what)
+{
+  if (!good)
+  {
+    std::fprintf(stderr, "%s\n", what);
+    std::abort();
+  }
+}
+
+void check_frame(const DumpFrame& frame, const FrameEntry& entry, const DumpRequest& request)
+{
+  const auto rows = static_cast<std::size_t>(frame.rows);
+  const bool filtered = request.stride > 1 || request.region[0] <= request.region[1];
+  require(frame.rows == entry.rows || (filtered && frame.rows < entry.rows), "rows");
+  require(frame.points.bytes() == 3 * rows * (request.single_precision ? 4 : 8), "points");
+  for (const DumpArray& array : frame.arrays)
+  {
+    const std::size_t components =
+      array.info.type == ValueType::Text ? 1 : array.info.columns.size();
+    require(array.block.bytes() == rows * components * size_of(array.info.type), "array");
+  }
+}
+
+void read_frame(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
+{
+  Notices notices;
+  Progress progress;
+  try
+  {
+    check_frame(read_dump(source, entry, request, notices, progress), entry, request);
+  }
+  catch (const Error&)
+  {
+    // what it says is for a reader to judge
+  }
+}
+
+std::vector<DumpRequest> requests()
+{
+  std::vector<DumpRequest> all(4);
+  all[1].wanted = [](const ArrayInfo&) { return true; };
+  all[1].coordinates = Coordinates::Scaled;
+  all[1].stride = 3;
+  all[1].sort_by_id = true;
+  all[2].coordinates = Coordinates::Unwrapped;
+  all[2].single_precision = true;
+  all[2].region = { -0.5, 0.5, 1, -1, 1, -1 };
+  all[2].point_origin = { 1, 2, 3 };
+  all[3].wanted = [](const ArrayInfo&) { return false; };
+  all[3].sort_by_id = true;
+  return all;
+}
+
+void check_index(const FileIndex& index, std::size_t size)
+{
+  std::int64_t end = 0;
+  for (const FrameEntry& frame : index.frames)
+  {
+    require(frame.offset >= end && frame.offset < frame.end, "the places of a frame");
+    end = frame.end;
+    const std::int64_t bytes = frame.end - frame.offset;
+    require(frame.rows >= 0 && frame.rows <= bytes, "more rows than bytes");
+    if (frame.kind->layout != FrameKind::text)
+    {
+      const auto columns = static_cast<std::int64_t>(frame.kind->schema.columns().size());
+      require(columns > 0 && frame.rows <= bytes / 8 / columns, "more values than bytes");
+    }
+  }
+  require(end <= static_cast<std::int64_t>(size), "a frame beyond the end");
+}
+
+FileIndex index(std::string_view bytes, FileIndex index)
+{
+  const auto source = open_memory(bytes);
+  Progress progress;
+  try
+  {
+    index_dump(*source, index, progress);
+  }
+  catch (const Error&)
+  {
+    // a limit
+  }
+  check_index(index, bytes.size());
+  return index;
+}
+
+/// All there is to do with a file whose columns have names, or have none.
+void use(std::string_view bytes, std::string_view names)
+{
+  FileIndex blank;
+  for (const std::string_view name : split_words(names))
+  {
+    blank.column_names.emplace_back(name);
+  }
+  const FileIndex all = index(bytes, blank);
+  // as if the file had been half as long before
+  const FileIndex half = index(bytes.substr(0, bytes.size() / 2), blank);
+  const FileIndex grown = index(bytes, half);
+  // what was there is still there; to begin with, a file may be taken for one of another layout
+  require(grown.frames.size() >= half.frames.size(), "a file that grew has fewer frames");
+
+  const auto source = open_memory(bytes);
+  std::string changed(bytes);
+  std::for_each(changed.begin() + static_cast<std::ptrdiff_t>(changed.size() / 2), changed.end(),
+    [](char& byte) { byte = static_cast<char>(byte ^ 0x11); });
+  const auto other = open_memory(changed);
+  const auto cut = open_memory(bytes.substr(0, bytes.size() - bytes.size() / 8));
+  static const std::vector<DumpRequest> every = requests();
+  constexpr std::size_t most_frames = 8;
+  for (std::size_t i = 0; i < std::min(all.frames.size(), most_frames); ++i)
+  {
+    for (const DumpRequest& request : every)
+    {
+      read_frame(*source, all.frames[i], request);
+    }
+    read_frame(*other, all.frames[i], every[0]);
+    read_frame(*cut, all.frames[i], every[1]);
+  }
+}
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  static_cast<void>(is_dump(bytes));
+  static_cast<void>(is_binary_dump(bytes.substr(0, size / 2)));
+  use(bytes, "");
+  use(bytes, "id type x y z ix iy iz vx vy vz radius");
+  return 0;
+}
