@@ -175,7 +175,9 @@ void vtkGranularDumpReader::SetColumnNames(const char* names)
   const std::string wanted = names ? names : "";
   if (this->Internal->ColumnNames != wanted)
   {
-    const std::vector<std::string_view> words = granular::split_words(wanted);
+    std::string spaced = wanted; // no column has a comma in its name
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    const std::vector<std::string_view> words = granular::split_words(spaced);
     this->Internal->ColumnNames = wanted;
     this->Series->ColumnNames.assign(words.begin(), words.end());
     this->Refresh();

@@ -62,8 +62,9 @@ public:
 
   ///@{
   /**
-   * Names of all columns, blank-separated, for binary files that do not hold them (LIGGGHTS, and
-   * LAMMPS before 2020). Empty, the default: 5 or 8 columns are those of dump atom, scaled.
+   * Names of all columns, separated by blanks or commas, for binary files that do not hold them
+   * (LIGGGHTS, and LAMMPS before 2020). Empty, the default: 5 or 8 columns are those of dump atom,
+   * scaled, and frames of any other number cannot be read.
    */
   void SetColumnNames(const char* names);
   const char* GetColumnNames();

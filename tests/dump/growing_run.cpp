@@ -516,7 +516,9 @@ public:
   {
     const std::string error = error_of([&] { run.update(files); });
     ASSERT_EQ(run.index.size(), this->complete()) << error;
-    ASSERT_EQ(run.said, "");
+    // how many frames some have before others is worth a word
+    ASSERT_TRUE(run.said.empty() || run.said.ends_with("left out until all are there\n"))
+      << run.said;
     for (std::size_t i = run.index.size() - std::min(run.index.size(), std::size_t{ 2 });
          i < run.index.size(); ++i)
     {

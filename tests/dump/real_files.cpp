@@ -829,25 +829,34 @@ TEST(RealFiles, PlainBinaryOfLiggghts)
   }
 }
 
-// Without the names the user is told what the first row holds: the first frame has none.
+// Without the names the steps are there, and the user is told what the first row holds: the first
+// frame has none.
 TEST(RealFiles, PlainBinaryOfLiggghtsWithoutNames)
 {
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  const std::string said =
-    error_of([&] { index.update({ path_of("grains.bin") }, {}, notices, progress); });
-  const std::string expected = path_of("grains.bin") +
-    "@92: expected 12 names in ColumnNames, because the file does not name its columns, got none; "
-    "its first row is ";
-  ASSERT_TRUE(said.starts_with(expected)) << said;
-  const Table stored = tables_of_binary(data_file("good/grains.bin"), grain_names)[1];
-  const std::vector<std::string> words = words_of(said.substr(expected.size()));
-  ASSERT_EQ(words.size(), 12u);
-  for (std::size_t column = 0; column < 12; ++column)
+  index.update({ path_of("grains.bin") }, {}, notices, progress);
+  EXPECT_EQ(lines_of(notices), "");
+  EXPECT_EQ(index.times(1), (Doubles{ 0, 1000, 2000 }));
+  const std::vector<Table> stored = tables_of_binary(data_file("good/grains.bin"), grain_names);
+  for (std::size_t frame = 0; frame < 3; ++frame)
   {
-    EXPECT_EQ(std::strtod(words[column].c_str(), nullptr),
-      stored.rows.at(stored.ids[0]).at(words_of(grain_names)[column]));
+    const std::string said = error_of([&] { read(index, frame, {}); });
+    const std::string expected = path_of("grains.bin") + "@" +
+      std::to_string(index.first_piece(frame).entry.offset) +
+      ": expected 12 names in ColumnNames, because the file does not name its columns, got none; "
+      "its "
+      "first row is ";
+    ASSERT_TRUE(said.starts_with(expected)) << said;
+    const std::vector<std::string> words = words_of(said.substr(expected.size()));
+    ASSERT_EQ(words.size(), 12u);
+    const Table& table = stored[std::max<std::size_t>(1, frame)];
+    for (std::size_t column = 0; column < 12; ++column)
+    {
+      EXPECT_EQ(std::strtod(words[column].c_str(), nullptr),
+        table.rows.at(table.ids[0]).at(words_of(grain_names)[column]));
+    }
   }
 }
 

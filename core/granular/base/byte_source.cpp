@@ -90,6 +90,29 @@ private:
   int file_ = -1;
 };
 
+class FirstBytes final : public ByteSource
+{
+public:
+  FirstBytes(std::unique_ptr<ByteSource> source, std::int64_t bytes)
+    : source_(std::move(source))
+    , bytes_(bytes)
+  {
+  }
+
+  const std::string& path() const override { return source_->path(); }
+  FileStamp stamp() const override { return source_->stamp(); }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const auto left = static_cast<std::size_t>(std::max(std::int64_t{ 0 }, bytes_ - offset));
+    return source_->read(offset, buffer, std::min(bytes, left));
+  }
+
+private:
+  std::unique_ptr<ByteSource> source_;
+  std::int64_t bytes_;
+};
+
 class MemorySource final : public ByteSource
 {
 public:
@@ -144,6 +167,11 @@ std::unique_ptr<ByteSource> open_file(const std::string& path)
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name)
 {
   return std::make_unique<MemorySource>(bytes, std::move(name));
+}
+
+std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std::int64_t bytes)
+{
+  return std::make_unique<FirstBytes>(std::move(source), bytes);
 }
 
 void PaddedBuffer::resize(std::size_t bytes)

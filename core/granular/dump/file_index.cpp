@@ -80,7 +80,9 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index.points = std::make_shared<RestartPoints>();
   }
-  const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
+  // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
+  const std::unique_ptr<ByteSource> source =
+    unpack(first_bytes(std::move(packed), stamp.size), index.points);
   index_dump(*source, index, progress);
   if (const std::string unchecked = source->unchecked(); !unchecked.empty())
   {

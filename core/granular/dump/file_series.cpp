@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/file_series.h"
 
+#include "granular/dump/piece_sets.h"
+
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace granular
@@ -15,162 +15,6 @@ namespace granular
 namespace
 {
 using Place = FileSeries::Place;
-
-/// A number in a name: without leading zeros, so that 007 is 7.
-struct Digits
-{
-  std::string text;
-
-  bool operator==(const Digits&) const = default;
-  bool operator<(const Digits& other) const
-  {
-    return std::pair(text.size(), text) < std::pair(other.text.size(), other.text);
-  }
-};
-
-/// A name, its numbers taken out.
-struct NumberedName
-{
-  std::string rest; ///< with folder, without what compression adds
-  std::vector<Digits> numbers;
-};
-
-constexpr bool is_digit(char c) noexcept
-{
-  return c >= '0' && c <= '9';
-}
-
-NumberedName split_name(std::string_view path)
-{
-  for (const std::string_view suffix : { ".gz", ".zst" })
-  {
-    path = path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
-  }
-  const std::size_t slash = path.rfind('/');
-  const std::size_t start = slash == path.npos ? 0 : slash + 1;
-  NumberedName name = { std::string(path.substr(0, start)), {} };
-  for (const char *at = path.data() + start, *end = path.data() + path.size(); at < end;)
-  {
-    const char* const last = std::find_if_not(at, end, is_digit);
-    if (last == at)
-    {
-      name.rest += *at++;
-      continue;
-    }
-    at = std::find_if(at, last - 1, [](char c) { return c != '0'; });
-    name.rest += '*';
-    name.numbers.push_back({ std::string(at, last) });
-    at = last;
-  }
-  return name;
-}
-
-/// Files that hold pieces of the same frames.
-struct PieceSet
-{
-  std::vector<std::uint32_t> files; ///< in the order of the pieces
-  std::size_t expected = 0;         ///< how many pieces a frame has
-  std::string missing;              ///< the numbers that no file of the set has
-};
-
-/// Whether files list the same frames, but for a last one that may still be missing in some.
-bool list_same_frames(const std::vector<FileIndex>& files, const std::vector<std::uint32_t>& some)
-{
-  const auto count = [&](std::uint32_t file) { return files[file].frames.size(); };
-  const std::vector<FrameEntry>& all = files[*std::ranges::max_element(some, {}, count)].frames;
-  std::size_t holders = 0; // files that have frames at all
-  for (const std::uint32_t file : some)
-  {
-    const std::vector<FrameEntry>& frames = files[file].frames;
-    const bool same = std::equal(frames.begin(), frames.end(), all.begin(),
-      [](const FrameEntry& a, const FrameEntry& b)
-      { return a.timestep == b.timestep && a.shape == b.shape; });
-    if (!same || frames.size() + 1 < all.size())
-    {
-      return false;
-    }
-    holders += frames.empty() ? 0U : 1U;
-  }
-  return holders > 1;
-}
-
-/// The files of a family - names that differ in numbers only - by what one of the numbers is for given
-/// others.
-using Siblings = std::map<std::vector<Digits>, std::map<Digits, std::uint32_t>>;
-
-Siblings group_by_others(const std::map<std::uint32_t, std::vector<Digits>>& family, std::size_t at)
-{
-  Siblings groups;
-  for (const auto& [file, numbers] : family)
-  {
-    std::vector<Digits> others = numbers;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
-    groups[others][numbers[at]] = file; // of equal numbers the last file
-  }
-  return groups;
-}
-
-/// The sets if the number at that place of the names counts pieces; else none.
-std::vector<PieceSet> sets_of(const std::vector<FileIndex>& files, const Siblings& groups)
-{
-  std::set<Digits> values;
-  for (const auto& [others, group] : groups)
-  {
-    for (const auto& [value, file] : group)
-    {
-      values.insert(value);
-    }
-  }
-  std::vector<PieceSet> sets;
-  std::size_t full = 0;
-  for (const auto& [others, group] : groups)
-  {
-    PieceSet set;
-    set.expected = values.size();
-    for (const Digits& value : values)
-    {
-      const auto found = group.find(value);
-      if (found == group.end())
-      {
-        set.missing += " " + value.text;
-      }
-      else
-      {
-        set.files.push_back(found->second);
-      }
-    }
-    const bool same =
-      values.size() > 1 && (set.files.size() == 1 || list_same_frames(files, set.files));
-    full += same && set.files.size() == values.size() ? 1U : 0U;
-    if (same)
-    {
-      sets.push_back(std::move(set));
-    }
-  }
-  return 2 * full > groups.size() ? sets : std::vector<PieceSet>();
-}
-
-std::vector<PieceSet> find_piece_sets(const std::vector<FileIndex>& files)
-{
-  std::map<std::string, std::map<std::uint32_t, std::vector<Digits>>> families;
-  for (std::uint32_t i = 0; i < files.size(); ++i)
-  {
-    NumberedName name = split_name(files[i].path);
-    families[name.rest][i] = std::move(name.numbers);
-  }
-  std::vector<PieceSet> all;
-  for (const auto& [rest, family] : families)
-  {
-    const std::size_t places = family.size() > 1 ? family.begin()->second.size() : 0;
-    std::vector<PieceSet> sets;
-    for (std::size_t at = 0; at < places && sets.empty(); ++at)
-    {
-      sets = sets_of(files, group_by_others(family, at));
-    }
-    all.insert(all.end(), sets.begin(), sets.end());
-  }
-  return all;
-}
 
 /// Puts the frames of all files into their order.
 class Collector
@@ -192,8 +36,11 @@ private:
   }
   void list_frames();
   void expect_most_pieces(std::span<const Place> sorted);
-  void take(std::span<const Place> repeated, bool last);
-  bool complete(const std::vector<Place>& pieces, const PieceSet& set, bool last);
+  void take(std::span<const Place> repeated);
+  std::vector<Place> pieces_of(std::span<const Place> repeated, const Place& last) const;
+  std::string complaint(const std::vector<Place>& pieces, const PieceSet& set) const;
+  bool being_written(const PieceSet& set) const;
+  void say_what_waits();
   void note_hidden_files();
 
   const std::vector<FileIndex>& files_;
@@ -202,7 +49,9 @@ private:
   std::vector<PieceSet> sets_;
   std::vector<std::uint32_t> set_of_; ///< of each file: index into sets_, or alone
   std::vector<std::uint32_t> order_;  ///< of each file in its set
-  std::vector<bool> shown_; ///< of each file: whether a frame of it is, or why not was said
+  std::vector<bool> shown_;  ///< of each file: whether a frame of it is, or why not was said
+  Notices waiting_;          ///< of frames that are not complete, since the last that is
+  bool all_written_ = false; ///< some of these never will be
 };
 
 Collector::Collector(const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices)
@@ -246,8 +95,18 @@ void Collector::run()
   {
     const auto end = std::find_if(first, sorted.end(),
       [&](const Place& place) { return this->step(place) != this->step(*first); });
-    this->take({ first, end }, end == sorted.end());
+    this->take({ first, end });
     first = end;
+  }
+  if (all_written_)
+  {
+    this->say_what_waits();
+  }
+  if (waiting_.size() > 1) // one is as usual while the simulation runs
+  {
+    notices_.push_back({ waiting_.front().where,
+      "expected all pieces of this frame and of " + std::to_string(waiting_.size() - 1) +
+        " more, got a part; they are left out until all are there" });
   }
   this->note_hidden_files();
   starts.push_back(static_cast<std::uint32_t>(places.size()));
@@ -295,52 +154,100 @@ void Collector::expect_most_pieces(std::span<const Place> sorted)
   }
 }
 
-/// Takes what counts of the frames of one timestep: the last, or the pieces that the last belongs to.
-void Collector::take(std::span<const Place> repeated, bool last)
+/// Takes what counts of the frames of one timestep: the last, or all pieces of the last set that is
+/// complete.
+void Collector::take(std::span<const Place> repeated)
 {
-  const std::uint32_t set = set_of_[repeated.back().file];
+  std::set<std::uint32_t> tried;
+  std::string wrong;
+  for (auto last = repeated.rbegin(); last != repeated.rend(); ++last)
+  {
+    const std::uint32_t number = set_of_[last->file];
+    if (number != alone && !tried.insert(number).second)
+    {
+      continue;
+    }
+    const std::vector<Place> pieces = this->pieces_of(repeated, *last);
+    for (const Place& piece : pieces)
+    {
+      shown_[piece.file] = true;
+    }
+    const std::string text = number == alone ? "" : this->complaint(pieces, sets_[number]);
+    if (text.empty())
+    {
+      this->say_what_waits();
+      starts.push_back(static_cast<std::uint32_t>(places.size()));
+      places.insert(places.end(), pieces.begin(), pieces.end());
+      return;
+    }
+    wrong = wrong.empty() ? text : wrong;
+    all_written_ = all_written_ || pieces.size() == sets_[number].expected ||
+      !this->being_written(sets_[number]);
+  }
+  const Place& first = repeated.front();
+  waiting_.push_back(
+    { where_of(files_[first.file].path, files_[first.file].frames[first.frame]), wrong });
+}
+
+/// The frames of the set of the last one, each the last of its file, in the order of the pieces.
+std::vector<Place> Collector::pieces_of(std::span<const Place> repeated, const Place& last) const
+{
+  const std::uint32_t set = set_of_[last.file];
+  if (set == alone)
+  {
+    return { last };
+  }
   std::vector<Place> pieces;
   for (const Place& place : repeated)
   {
-    const bool wanted = set != alone ? set_of_[place.file] == set : &place == &repeated.back();
-    if (wanted && !pieces.empty() && pieces.back().file == place.file)
+    if (set_of_[place.file] != set)
     {
-      pieces.back() = place; // repeated within a file
+      continue;
     }
-    else if (wanted)
+    if (!pieces.empty() && pieces.back().file == place.file)
     {
-      pieces.push_back(place);
+      pieces.pop_back();
     }
-  }
-  for (const Place& piece : pieces)
-  {
-    shown_[piece.file] = true;
-  }
-  if (set != alone && !this->complete(pieces, sets_[set], last))
-  {
-    return;
+    pieces.push_back(place);
   }
   std::ranges::sort(pieces, {}, [this](const Place& place) { return order_[place.file]; });
-  starts.push_back(static_cast<std::uint32_t>(places.size()));
-  places.insert(places.end(), pieces.begin(), pieces.end());
+  return pieces;
 }
 
-bool Collector::complete(const std::vector<Place>& pieces, const PieceSet& set, bool last)
+/// What is wrong with a frame; empty if it is complete.
+std::string Collector::complaint(const std::vector<Place>& pieces, const PieceSet& set) const
 {
-  if (pieces.size() == set.expected)
+  const auto shape = [this](const Place& place)
+  { return files_[place.file].frames[place.frame].shape; };
+  const std::string what = " of timestep " + std::to_string(this->step(pieces.front()));
+  if (pieces.size() != set.expected)
   {
-    return true;
+    return "expected " + std::to_string(set.expected) + " pieces" + what + ", got " +
+      std::to_string(pieces.size()) +
+      (set.missing.empty() ? "" : " (none for" + set.missing + ")") + "; the frame is left out";
   }
-  if (!last || !set.missing.empty() || repeated_ == RepeatedSteps::Merge)
-  {
-    const FileIndex& file = files_[pieces.front().file];
-    notices_.push_back({ { file.path, file.frames[pieces.front().frame].line },
-      "expected " + std::to_string(set.expected) + " pieces of timestep " +
-        std::to_string(this->step(pieces.front())) + ", got " + std::to_string(pieces.size()) +
-        (set.missing.empty() ? "" : " (none for" + set.missing + ")") +
-        "; the frame is left out" });
-  }
-  return false;
+  // what the user calls pieces is for the reader to refuse, who says which of them is none
+  const bool same = repeated_ == RepeatedSteps::Merge ||
+    std::ranges::all_of(
+      pieces, [&](const Place& place) { return shape(place) == shape(pieces.front()); });
+  return same ? ""
+              : "expected pieces" + what +
+      " with the same box and columns, got others; the frame is left out";
+}
+
+/// Whether the pieces that are missing may still come.
+bool Collector::being_written(const PieceSet& set) const
+{
+  return set.missing.empty() &&
+    std::ranges::none_of(
+      set.files, [this](std::uint32_t file) { return files_[file].error != nullptr; });
+}
+
+void Collector::say_what_waits()
+{
+  notices_.insert(notices_.end(), waiting_.begin(), waiting_.end());
+  waiting_.clear();
+  all_written_ = false;
 }
 
 /// Says so if all frames of a file are hidden by those of later ones: a restart repeats a step or

@@ -30,13 +30,15 @@ public:
     std::uint32_t frame; ///< in the file
   };
 
-  /// Auto takes files for pieces (`%` in the name of a dump) if
-  /// - their names, less .gz and .zst, differ in one number alone, and for more than half of what
-  ///   the other numbers stand for there is a file for each value of that number;
-  /// - they list the same timesteps with the same boxes and columns; a last frame may be missing in
-  ///   some, because it is not written yet.
-  /// Pieces are in the order of that number; with Merge in the order of the files. A frame of which a
-  /// piece is missing is left out, with a notice; silently if it is the last and its file is there.
+  /// Auto takes files for pieces (`%` in the name of a dump) if their names, less .gz and .zst,
+  /// differ in one number, and these files share the first timestep and at least half of all, with the
+  /// same boxes and columns; all but a last one, if each holds many and they are not numbered from 0, as
+  /// processes are. A run that was restarted shares few, a series none. With one file a step, numbered
+  /// from 0, sharing more than half is enough.
+  ///
+  /// Pieces are in the order of that number; with Merge in the order of the files. A frame that has
+  /// not a piece for each number, or whose boxes or columns differ, is left out with a notice; a
+  /// single one at the end silently if its files are all there, because it is being written.
   FileSeries(const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
   FileSeries() = default;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace granular
@@ -26,6 +28,22 @@ Notice left_out(const std::exception_ptr& error)
   }
 }
 
+/// The names in their order; of one that occurs again the last counts.
+std::vector<std::string> distinct(const std::vector<std::string>& names)
+{
+  std::set<std::string_view> seen;
+  std::vector<std::string> kept;
+  for (auto name = names.rbegin(); name != names.rend(); ++name)
+  {
+    if (seen.insert(*name).second)
+    {
+      kept.push_back(*name);
+    }
+  }
+  std::ranges::reverse(kept);
+  return kept;
+}
+
 /// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
 /// is kept of the index.
 bool is_beside(const std::string& path)
@@ -38,10 +56,13 @@ bool is_beside(const std::string& path)
 void FrameIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
   Notices& notices, Progress& progress)
 {
-  std::vector<std::string> dumps = files;
-  std::erase_if(dumps, is_beside);
+  std::vector<std::string> dumps = distinct(files);
+  if (!std::ranges::all_of(dumps, is_beside))
+  {
+    std::erase_if(dumps, is_beside);
+  }
   series_ = {};
-  this->update_files(dumps.empty() ? files : dumps, options, notices, progress);
+  this->update_files(dumps, options, notices, progress);
   Notices found;
   series_ = FileSeries(files_, options.repeated_steps, found);
   if (series_.size() == 0)

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/piece_sets.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// A number in a name: without leading zeros, so that 007 is 7.
+struct Digits
+{
+  std::string text;
+
+  bool operator==(const Digits&) const = default;
+  bool operator<(const Digits& other) const
+  {
+    return std::pair(text.size(), text) < std::pair(other.text.size(), other.text);
+  }
+};
+
+/// A name, its numbers taken out.
+struct NumberedName
+{
+  std::string rest; ///< with folder, without what compression adds
+  std::vector<Digits> numbers;
+};
+
+constexpr bool is_digit(char c) noexcept
+{
+  return c >= '0' && c <= '9';
+}
+
+NumberedName split_name(std::string_view path)
+{
+  for (const std::string_view suffix : { ".gz", ".zst" })
+  {
+    path = path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
+  }
+  const std::size_t slash = path.rfind('/');
+  const std::size_t start = slash == path.npos ? 0 : slash + 1;
+  NumberedName name = { std::string(path.substr(0, start)), {} };
+  for (const char *at = path.data() + start, *end = path.data() + path.size(); at < end;)
+  {
+    const char* const last = std::find_if_not(at, end, is_digit);
+    if (last == at)
+    {
+      name.rest += *at++;
+      continue;
+    }
+    at = std::find_if(at, last - 1, [](char c) { return c != '0'; });
+    name.rest += '*';
+    name.numbers.push_back({ std::string(at, last) });
+    at = last;
+  }
+  return name;
+}
+
+/// The files of a family - names that differ in numbers only - by what one of the numbers is for given
+/// others.
+using Siblings = std::map<std::vector<Digits>, std::map<Digits, std::uint32_t>>;
+
+Siblings group_by_others(const std::map<std::uint32_t, std::vector<Digits>>& family, std::size_t at)
+{
+  Siblings groups;
+  for (const auto& [file, numbers] : family)
+  {
+    std::vector<Digits> others = numbers;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
+    groups[others][numbers[at]] = file; // of equal numbers the last file
+  }
+  return groups;
+}
+
+/// The values of the number, with those that were left out in between if it counts from 0, as the
+/// programs count processes.
+std::vector<Digits> piece_numbers(const Siblings& groups)
+{
+  std::set<Digits> values;
+  for (const auto& [others, group] : groups)
+  {
+    for (const auto& [value, file] : group)
+    {
+      values.insert(value);
+    }
+  }
+  std::vector<Digits> numbers(values.begin(), values.end());
+  constexpr std::size_t most_digits = 9;
+  if (numbers.front().text == "0" && numbers.back().text.size() <= most_digits)
+  {
+    const std::size_t count = std::stoul(numbers.back().text) + 1;
+    if (count > numbers.size() && count <= 2 * numbers.size())
+    {
+      numbers.clear();
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        numbers.push_back({ std::to_string(i) });
+      }
+    }
+  }
+  return numbers;
+}
+
+/// A frame in a group of files.
+struct GroupFrame
+{
+  std::int64_t timestep;
+  std::size_t group;
+  std::uint32_t file;
+  std::uint64_t shape;
+};
+
+/// The frames of all groups by timestep; of frames that a file repeats the last.
+std::vector<GroupFrame> list_frames(const std::vector<FileIndex>& files, const Siblings& groups)
+{
+  std::vector<GroupFrame> frames;
+  std::size_t number = 0;
+  for (const auto& [others, group] : groups)
+  {
+    for (const auto& [value, file] : group)
+    {
+      for (const FrameEntry& entry : files[file].frames)
+      {
+        frames.push_back({ entry.timestep, number, file, entry.shape });
+      }
+    }
+    ++number;
+  }
+  const auto key = [](const GroupFrame& frame)
+  { return std::tuple(frame.timestep, frame.group, frame.file); };
+  std::ranges::stable_sort(frames, {}, key);
+  std::vector<GroupFrame> last;
+  for (const GroupFrame& frame : frames)
+  {
+    if (!last.empty() && key(last.back()) == key(frame))
+    {
+      last.pop_back();
+    }
+    last.push_back(frame);
+  }
+  return last;
+}
+
+/// Whether files begin a run together: only one of them has frames so far, and all are there.
+bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
+{
+  constexpr std::size_t least = 3; // two may be a series as well
+  const auto& group = groups.begin()->second;
+  const auto has_frames = [&](const auto& entry) { return !files[entry.second].frames.empty(); };
+  return groups.size() == 1 && group.size() >= least &&
+    std::ranges::count_if(group, has_frames) == 1 &&
+    std::ranges::none_of(
+      group, [&](const auto& entry) { return files[entry.second].error != nullptr; });
+}
+
+/// Whether the files of the groups hold pieces of the same frames, rather than frames of a series or
+/// of a run that was restarted: the first frame is shared, and most are.
+bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups, bool from_zero)
+{
+  const std::vector<GroupFrame> frames = list_frames(files, groups);
+  std::size_t all = 0;
+  std::size_t shared = 0;
+  bool first_shared = false;
+  for (auto first = frames.begin(); first != frames.end();)
+  {
+    const auto end = std::find_if(first, frames.end(),
+      [&](const GroupFrame& frame)
+      { return frame.timestep != first->timestep || frame.group != first->group; });
+    const bool same = end - first > 1 &&
+      std::all_of(first, end, [&](const GroupFrame& frame) { return frame.shape == first->shape; });
+    first_shared = all == 0 ? same : first_shared;
+    shared += same ? 1U : 0U;
+    ++all;
+    first = end;
+  }
+  if (shared == 0)
+  {
+    return from_zero && just_begun(files, groups);
+  }
+  if (groups.size() == 1 && !from_zero)
+  {
+    return first_shared && all - shared <= 1;
+  }
+  // with one file a step the first may be gone
+  return (first_shared && 2 * shared >= all) ||
+    (from_zero && groups.size() > 1 && 2 * shared > all);
+}
+
+/// The sets if the number that tells the files of a group apart counts pieces; else none.
+std::vector<PieceSet> sets_of(const std::vector<FileIndex>& files, const Siblings& groups)
+{
+  const std::vector<Digits> numbers = piece_numbers(groups);
+  const bool from_zero =
+    numbers.front().text == "0" && numbers.back().text == std::to_string(numbers.size() - 1);
+  if (numbers.size() < 2 || !share_frames(files, groups, from_zero))
+  {
+    return {};
+  }
+  std::vector<PieceSet> sets;
+  for (const auto& [others, group] : groups)
+  {
+    PieceSet& set = sets.emplace_back();
+    set.expected = numbers.size();
+    for (const Digits& number : numbers)
+    {
+      const auto found = group.find(number);
+      if (found == group.end())
+      {
+        set.missing += " " + number.text;
+      }
+      else
+      {
+        set.files.push_back(found->second);
+      }
+    }
+  }
+  return sets;
+}
+}
+
+std::vector<PieceSet> find_piece_sets(const std::vector<FileIndex>& files)
+{
+  std::map<std::string, std::map<std::uint32_t, std::vector<Digits>>> families;
+  for (std::uint32_t i = 0; i < files.size(); ++i)
+  {
+    NumberedName name = split_name(files[i].path);
+    families[name.rest][i] = std::move(name.numbers);
+  }
+  std::vector<PieceSet> all;
+  for (const auto& [rest, family] : families)
+  {
+    const std::size_t places = family.size() > 1 ? family.begin()->second.size() : 0;
+    std::vector<PieceSet> sets;
+    for (std::size_t at = 0; at < places && sets.empty(); ++at)
+    {
+      sets = sets_of(files, group_by_others(family, at));
+    }
+    all.insert(all.end(), sets.begin(), sets.end());
+  }
+  return all;
+}
+}
