@@ -4,8 +4,10 @@
 #include "vtkGranularDumpReader.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVXMLElement.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 
+#include <set>
 #include <string>
 
 vtkStandardNewMacro(vtkSMGranularDumpReaderProxy);
@@ -36,6 +38,28 @@ bool vtkSMGranularDumpReaderProxy::HasRadii()
     }
   }
   return false;
+}
+
+void vtkSMGranularDumpReaderProxy::UpdatePipelineInformation()
+{
+  this->Superclass::UpdatePipelineInformation();
+  vtkSMPropertyHelper chosen(this, "PointArrayStatus"); // name, "0" or "1", name, ...
+  vtkSMPropertyHelper there(this, "PointArrayInfo");
+  std::set<std::string> names;
+  for (unsigned int i = 0; i + 1 < there.GetNumberOfElements(); i += 2)
+  {
+    names.insert(there.GetAsString(i));
+  }
+  bool gone = chosen.GetNumberOfElements() > 0 && !names.empty();
+  for (unsigned int i = 0; gone && i + 1 < chosen.GetNumberOfElements(); i += 2)
+  {
+    gone = names.count(chosen.GetAsString(i)) == 0;
+  }
+  if (gone)
+  {
+    this->GetProperty("PointArrayStatus")->Copy(this->GetProperty("PointArrayInfo"));
+    this->UpdateVTKObjects();
+  }
 }
 
 void vtkSMGranularDumpReaderProxy::PostUpdateData(bool usingCache)

@@ -29,6 +29,12 @@ public:
    */
   vtkPVXMLElement* GetHints() override;
 
+  /**
+   * Chooses anew from the arrays if none that was chosen is there any more: the user has named the
+   * columns of a binary file, or opened other files.
+   */
+  void UpdatePipelineInformation() override;
+
 protected:
   vtkSMGranularDumpReaderProxy();
   ~vtkSMGranularDumpReaderProxy() override;

@@ -1285,11 +1285,19 @@ TEST(BinaryDump, TextDumpsAreNone)
 
 TEST(BinaryDump, RandomBytesAreNone)
 {
-  std::mt19937_64 random;
   std::string bytes(200, '\0');
+  std::vector<std::uint64_t> taken;
   for (std::uint64_t seed = 0; seed < 100'000; ++seed)
   {
-    random.seed(seed);
+    std::uint64_t state = seed << 32;
+    const auto random = [&state]
+    {
+      // SplitMix64
+      std::uint64_t word = state += 0x9e3779b97f4a7c15;
+      word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9;
+      word = (word ^ (word >> 27)) * 0x94d049bb133111eb;
+      return word ^ (word >> 31);
+    };
     // also small integers, which files of all kinds are full of
     const unsigned kind = seed % 4;
     for (std::size_t i = 0; i < bytes.size(); i += 4)
@@ -1304,6 +1312,10 @@ TEST(BinaryDump, RandomBytesAreNone)
         bytes[i + byte] = static_cast<char>(number >> (8 * byte) & 0xff);
       }
     }
-    ASSERT_FALSE(granular::is_binary_dump(bytes)) << "seed " << seed;
+    if (granular::is_binary_dump(bytes))
+    {
+      taken.push_back(seed);
+    }
   }
+  EXPECT_EQ(taken.size(), 0u) << "the first is " << (taken.empty() ? 0 : taken[0]);
 }

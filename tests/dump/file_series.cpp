@@ -278,26 +278,35 @@ TEST(FileSeries, OneOfThreeFilesIsNoDump)
 
 TEST(FileSeries, ARestartRepeatsTheStepItStartsFrom)
 {
-  const Folder folder;
-  const auto write = [&](const std::string& name, std::int64_t step, std::int64_t id)
-  { return folder.write(name, grains(step, { id })); };
-  Files files = { write("run1_0", 0, 1), write("run1_500", 500, 1), write("run1_1000", 1000, 1),
-    write("run2_1000", 1000, 2), write("run2_1500", 1500, 2), write("run2_2000", 2000, 2) };
-  Series run;
-  run.update(files);
-  EXPECT_EQ(run.steps(), (Steps{ 0, 500, 1000, 1500, 2000 }));
-  EXPECT_EQ(run.names(2), "run2_1000");
-  EXPECT_EQ(run.ids(2), Ids{ 2 });
-  EXPECT_EQ(run.said, hidden(folder.path("run1_1000")));
-  // as a shell lists them
-  std::ranges::sort(files);
-  run.update(files);
-  EXPECT_EQ(run.names(2), "run2_1000");
+  for (int number = 0; number < 3; ++number)
+  {
+    const Folder folder;
+    const std::string first = "run" + std::to_string(number) + "_";
+    const std::string second = "run" + std::to_string(number + 1) + "_";
+    Files files;
+    for (const int step : { 0, 500, 1000 })
+    {
+      files.push_back(folder.write(first + std::to_string(step), grains(step, { 1 })));
+    }
+    for (const int step : { 1000, 1500, 2000 })
+    {
+      files.push_back(folder.write(second + std::to_string(step), grains(step, { 2 })));
+    }
+    Series run;
+    run.update(files);
+    EXPECT_EQ(run.steps(), (Steps{ 0, 500, 1000, 1500, 2000 }));
+    EXPECT_EQ(run.names(2), second + "1000");
+    EXPECT_EQ(run.ids(2), Ids{ 2 });
+    EXPECT_EQ(run.said, hidden(folder.path(first + "1000")));
+    // as a shell lists them
+    std::ranges::sort(files);
+    run.update(files);
+    EXPECT_EQ(run.names(2), second + "1000");
+  }
 }
 
 TEST(FileSeries, ARestartOfManyFramesAFile)
 {
-  const Folder folder;
   const auto frames = [](std::int64_t first, std::int64_t last, std::int64_t id)
   {
     std::string text;
@@ -307,24 +316,72 @@ TEST(FileSeries, ARestartOfManyFramesAFile)
     }
     return text;
   };
-  Series run;
-  // goes on from the last frame, from an earlier one, from one that the first run did not dump
-  for (const std::int64_t from : { 50, 30, 60 })
+  for (int number = 0; number < 3; ++number)
   {
-    run.update({ folder.write("run.1.dump", frames(0, 50, 1)),
-      folder.write("run.2.dump", frames(from, 100, 2)) });
-    ASSERT_EQ(run.index.size(), 11u) << from;
-    EXPECT_EQ(run.said, "");
-    for (std::size_t i = 0; i < 11; ++i)
+    const Folder folder;
+    const std::string first = "run." + std::to_string(number) + ".dump";
+    const std::string second = "run." + std::to_string(number + 1) + ".dump";
+    Series run;
+    // goes on from the last frame, from an earlier one, from one that the first run did not dump
+    for (const std::int64_t from : { 50, 30, 10, 60 })
     {
-      EXPECT_EQ(run.ids(i), Ids{ 10 * static_cast<std::int64_t>(i) < from ? 1 : 2 }) << from;
+      run.update(
+        { folder.write(first, frames(0, 50, 1)), folder.write(second, frames(from, 100, 2)) });
+      ASSERT_EQ(run.index.size(), 11u) << from;
+      EXPECT_EQ(run.said, "");
+      for (std::size_t i = 0; i < 11; ++i)
+      {
+        EXPECT_EQ(run.ids(i), Ids{ 10 * static_cast<std::int64_t>(i) < from ? 1 : 2 }) << from;
+      }
     }
   }
-  // it begins again where it had begun, and has come further
-  run.update({ folder.write("run.1.dump", frames(0, 50, 1)),
-    folder.write("run.2.dump", frames(0, 100, 2)) });
-  EXPECT_EQ(run.index.size(), 11u);
-  EXPECT_EQ(run.ids(0), Ids{ 2 });
+}
+
+TEST(FileSeries, ARestartWithMostOfTheStepsAgain)
+{
+  // a file a step; the second run goes on from an early step, and repeats most of them
+  for (int number = 0; number < 3; ++number)
+  {
+    const Folder folder;
+    Files files;
+    for (int step = 0; step <= 1000; step += 100)
+    {
+      files.push_back(folder.write(
+        "run" + std::to_string(number) + "_" + std::to_string(step), grains(step, { 1 })));
+    }
+    for (int step = 200; step <= 1000; step += 100)
+    {
+      files.push_back(folder.write(
+        "run" + std::to_string(number + 1) + "_" + std::to_string(step), grains(step, { 2 })));
+    }
+    Series run;
+    run.update(files);
+    ASSERT_EQ(run.index.size(), 11u) << number;
+    for (std::size_t i = 0; i < 11; ++i)
+    {
+      EXPECT_EQ(run.ids(i), Ids{ i < 2 ? 1 : 2 }) << "run" << number << ", frame " << i;
+    }
+  }
+}
+
+TEST(FileSeries, ARunThatBeganAgain)
+{
+  // from its first step on, under another number, and has come further; its number is not 0
+  const Folder folder;
+  std::string before;
+  std::string after;
+  for (int step = 0; step <= 100; step += 10)
+  {
+    before += step <= 50 ? grains(step, { 1 }) : "";
+    after += grains(step, { 2 });
+  }
+  Series run;
+  run.update({ folder.write("run.1.dump", before), folder.write("run.2.dump", after) });
+  ASSERT_EQ(run.index.size(), 11u);
+  for (std::size_t i = 0; i < 11; ++i)
+  {
+    EXPECT_EQ(run.ids(i), Ids{ 2 });
+  }
   EXPECT_EQ(run.said, hidden(folder.path("run.1.dump")));
 }
 
@@ -638,6 +695,21 @@ TEST(Pieces, AnUnreadableOneLeavesTheFrameOut)
   EXPECT_EQ(run.said,
     lacking(files[3], 3, 100, 2) + files[4] +
       ": cannot open: No such file or directory; the file is left out\n");
+}
+
+TEST(Pieces, OneWithAnotherBoxLeavesTheFrameOut)
+{
+  const Folder folder;
+  const Files files = write_pieces(folder, "dump.", { 0, 100, 200, 300 }, 3);
+  folder.write("dump.100.1.dump", grains(100, { 10, 11 }, "0 2"));
+  Series run;
+  run.update(files);
+  EXPECT_EQ(run.steps(), (Steps{ 0, 200, 300 }));
+  EXPECT_EQ(run.said,
+    files[3] +
+      ":1: expected pieces of timestep 100 with the same box and columns, got others; the "
+      "frame is left out\n");
+  EXPECT_EQ(run.ids(1), ids_of_pieces(3));
 }
 
 TEST(Pieces, OfADamagedFileOfManyFramesNoPartIsShown)

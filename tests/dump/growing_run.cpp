@@ -559,6 +559,7 @@ TEST(GrowingRun, OneFileAProcessInStep)
     {
       processes.flush(process, processes.left(process) * (random() % 4 + 1) / 3 + 1);
       ASSERT_NO_FATAL_FAILURE(processes.look(run)) << "while frame " << frame << " is written";
+      EXPECT_EQ(run.said, "") << "while frame " << frame << " is written";
     }
     for (unsigned process = 0; process < Processes::count; ++process)
     {

@@ -7,6 +7,7 @@ import shutil
 import struct
 
 os.environ["XDG_CACHE_HOME"] = os.path.abspath("cache")  # before the reader is asked for it
+shutil.rmtree("cache", ignore_errors=True)
 
 from paraview.simple import *
 

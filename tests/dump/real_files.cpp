@@ -450,7 +450,8 @@ void expect_types(const Decoded& frame, const std::map<std::int64_t, std::int64_
 std::map<std::int64_t, std::int64_t> types_of(const std::string& run)
 {
   std::map<std::int64_t, std::int64_t> types;
-  for (const auto& [id, row] : tables_of_text(data_file("good/" + run + "_plain.dump"))[0].rows)
+  const std::vector<Table> tables = tables_of_text(data_file("good/" + run + "_plain.dump"));
+  for (const auto& [id, row] : tables[0].rows)
   {
     types[id] = static_cast<std::int64_t>(row.at("type"));
   }

@@ -153,6 +153,7 @@ void index(std::string_view text, FileIndex& index)
 {
   const auto source = open_memory(text);
   Progress progress;
+  index.kinds = index.kinds ? index.kinds : std::make_shared<FrameKinds>();
   try
   {
     index_text_dump(*source, index, progress);

@@ -105,12 +105,31 @@ public:
   std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
   {
     const auto left = static_cast<std::size_t>(std::max(std::int64_t{ 0 }, bytes_ - offset));
-    return source_->read(offset, buffer, std::min(bytes, left));
+    const std::size_t wanted = std::min(bytes, left);
+    // small files, and the beginning of others, are looked at several times
+    if (offset + static_cast<std::int64_t>(wanted) <= static_cast<std::int64_t>(head_bytes))
+    {
+      if (!head_)
+      {
+        head_.reset(new char[head_bytes]);
+        there_ =
+          source_->read(0, head_.get(), std::min(head_bytes, static_cast<std::size_t>(bytes_)));
+      }
+      const std::size_t start = std::min(static_cast<std::size_t>(offset), there_);
+      const std::size_t count = std::min(wanted, there_ - start);
+      std::copy_n(head_.get() + start, count, buffer);
+      return count;
+    }
+    return source_->read(offset, buffer, wanted);
   }
 
 private:
+  static constexpr std::size_t head_bytes = std::size_t{ 1 } << 14;
+
   std::unique_ptr<ByteSource> source_;
   std::int64_t bytes_;
+  mutable std::unique_ptr<char[]> head_;
+  mutable std::size_t there_ = 0; ///< bytes in it
 };
 
 class MemorySource final : public ByteSource

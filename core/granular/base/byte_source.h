@@ -80,7 +80,8 @@ std::unique_ptr<ByteSource> open_file(const std::string& path);
 /// The bytes of a string, which must outlive the source.
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name = "memory");
 
-/// The first bytes of a source: what a file held at one moment, while others append to it.
+/// The first bytes of a source: what a file held at one moment, while others append to it. The
+/// beginning is read once and kept; for one thread at a time.
 std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std::int64_t bytes);
 
 /// What is inside, by content: the decompressed bytes of gzip (RFC 1952, any number of members) and

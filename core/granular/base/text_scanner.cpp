@@ -120,6 +120,18 @@ std::int64_t TextScanner::skip_to_item(Progress& progress)
   return rows;
 }
 
+std::string_view TextScanner::before(std::size_t bytes, std::string& buffer) const
+{
+  if (at_ >= bytes)
+  {
+    return { window_.data() + at_ - bytes, bytes };
+  }
+  buffer.resize(bytes);
+  buffer.resize(
+    source_.read(this->offset() - static_cast<std::int64_t>(bytes), buffer.data(), bytes));
+  return buffer;
+}
+
 void TextScanner::go_to(std::int64_t offset, std::int64_t line) noexcept
 {
   line_ = line;

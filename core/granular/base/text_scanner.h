@@ -42,6 +42,10 @@ public:
   /// Returns how many lines with words were passed; one without LF is not counted.
   std::int64_t skip_to_item(Progress& progress);
 
+  /// The bytes before the next line, as many as asked for: those in the window, or read again into the
+  /// buffer. Valid until the next call.
+  std::string_view before(std::size_t bytes, std::string& buffer) const;
+
   std::int64_t offset() const noexcept { return window_offset_ + static_cast<std::int64_t>(at_); }
   std::int64_t line() const noexcept { return line_; } ///< number of the line that comes next
 

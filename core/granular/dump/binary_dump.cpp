@@ -62,7 +62,7 @@ std::optional<std::int64_t> find_end(
   return source.read(end - 1, &last, 1) == 1 ? std::optional(end) : std::nullopt;
 }
 
-/// How well a layout fits the first frame, and where it ceases to.
+/// How well a layout fits the first frame.
 struct Fit
 {
   enum Grade
@@ -74,21 +74,22 @@ struct Fit
   };
 
   Grade grade = Impossible;
-  std::int64_t reach = 0;
+  int faults = 0; ///< of the header
   std::optional<FormatError> error;
 };
 
 Fit try_layout(const ByteSource& source, const BinaryLayout& layout, Progress& progress)
 {
-  Fit fit;
+  const HeaderCheck check = check_binary_header(source, layout);
+  Fit fit = { Fit::Impossible, check.faults, check.error };
+  if (check.error)
+  {
+    return fit;
+  }
   try
   {
-    const auto header = read_binary_header(source, 0, layout);
-    if (header && !layout.magic && !plausible_box(header->frame.box))
-    {
-      throw FormatError("expected the bounds of a box, got none", { source.path(), 0, 20 });
-    }
-    const auto end = header ? find_end(source, *header, layout.swapped, progress) : std::nullopt;
+    const auto end =
+      check.header ? find_end(source, *check.header, layout.swapped, progress) : std::nullopt;
     fit.grade = end ? Fit::Alone : Fit::Cut;
     if (end)
     {
@@ -98,14 +99,13 @@ Fit try_layout(const ByteSource& source, const BinaryLayout& layout, Progress& p
   }
   catch (const FormatError& error)
   {
-    fit.reach = error.where().byte;
     fit.error = error;
   }
   return fit;
 }
 
-/// The layout that fits best, of several the likeliest. Throws what is wrong with the one that comes
-/// furthest, if none does.
+/// The layout that fits best, of several the likeliest. Throws what is wrong with the one that has the
+/// fewest faults, if none does.
 int find_layout(const ByteSource& source, Progress& progress)
 {
   std::vector<Fit> fits;
@@ -117,9 +117,8 @@ int find_layout(const ByteSource& source, Progress& progress)
       break;
     }
   }
-  const auto best = std::ranges::max_element(fits,
-    [](const Fit& a, const Fit& b)
-    { return std::pair(a.grade, a.reach) < std::pair(b.grade, b.reach); });
+  const auto best = std::ranges::max_element(
+    fits, {}, [](const Fit& fit) { return std::pair(fit.grade, -fit.faults); });
   if (best->grade == Fit::Impossible)
   {
     const bool magic = binary_layouts()[static_cast<std::size_t>(best - fits.begin())].magic;
@@ -130,22 +129,30 @@ int find_layout(const ByteSource& source, Progress& progress)
   return static_cast<int>(best - fits.begin());
 }
 
-/// The header at offset, or the first one behind it of a frame that has rows.
-BinaryHeader find_rows(const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
+/// The first header from offset on, of a whole frame of as many columns that has rows.
+std::optional<BinaryHeader> find_rows(
+  const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
 {
   Progress progress;
-  auto header = read_binary_header(source, offset, layout);
-  for (auto next = header; next; next = read_binary_header(source, offset, layout))
+  try
   {
-    const auto end = find_end(source, *next, layout.swapped, progress);
-    header = next;
-    if (!end || next->frame.rows > 0)
+    std::int32_t size_one = 0;
+    while (const auto header = read_binary_header(source, offset, layout))
     {
-      break;
+      const auto end = find_end(source, *header, layout.swapped, progress);
+      size_one = size_one == 0 ? header->size_one : size_one;
+      if (!end || header->size_one != size_one || header->frame.rows > 0)
+      {
+        return end && header->size_one == size_one ? header : std::nullopt;
+      }
+      offset = *end;
     }
-    offset = *end;
   }
-  return *header;
+  catch (const FormatError&)
+  {
+    // not a row to show
+  }
+  return std::nullopt;
 }
 
 /// Finds the frames of a binary file, one after the other.
@@ -319,13 +326,14 @@ bool is_binary_dump(std::string_view first_bytes)
     {
       try
       {
-        const auto header = read_binary_header(*source, 0, layout);
-        if (!header || !(layout.magic || plausible_box(header->frame.box)))
+        const HeaderCheck check = check_binary_header(*source, layout);
+        if (check.header)
         {
-          return false;
+          find_end(*source, *check.header, layout.swapped, progress);
         }
-        find_end(*source, *header, layout.swapped, progress);
-        return true;
+        // a header with texts may be long, but the magic word is enough
+        constexpr std::size_t word = 24;
+        return check.header || (layout.magic && !check.error && first_bytes.size() >= word);
       }
       catch (const Error&)
       {
@@ -338,20 +346,23 @@ std::string describe_first_row(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
 {
   constexpr std::int32_t most = 16;
-  const BinaryHeader header = find_rows(source, offset, layout);
-  BinaryCursor cursor(source, header.chunks_offset, layout.swapped);
-  for (std::int32_t n = 0, chunk = 0; n == 0 && chunk < header.chunks; ++chunk)
+  const std::optional<BinaryHeader> header = find_rows(source, offset, layout);
+  if (!header)
   {
-    n = cursor.take<std::int32_t>();
+    return {};
+  }
+  BinaryCursor cursor(source, header->chunks_offset, layout.swapped);
+  while (cursor.take<std::int32_t>() == 0)
+  {
   }
   std::string text;
-  for (std::int32_t i = 0; header.frame.rows > 0 && i < std::min(most, header.size_one); ++i)
+  for (std::int32_t i = 0; i < std::min(most, header->size_one); ++i)
   {
     char number[32];
     const auto end = std::to_chars(number, number + sizeof number, cursor.take<double>()).ptr;
     text += (i > 0 ? " " : "; its first row is ") + std::string(number, end);
   }
-  return text + (text.empty() || header.size_one <= most ? "" : " ...");
+  return text + (header->size_one <= most ? "" : " ...");
 }
 
 void index_binary_dump(const ByteSource& source, FileIndex& index, Progress& progress)

@@ -24,7 +24,7 @@ bool holds_binary(std::string_view first_bytes) noexcept;
 std::string describe_first_row(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout);
 
-/// As index_dump, of a binary file. Passes over the values from chunk to chunk.
+/// As index_dump, of a binary file. index.kinds must be there. Passes over the values from chunk to chunk.
 ///
 /// Files without magic, and those of revision 1, do not name their columns: index.column_names does,
 /// and must name all; where it is empty, frames of 5 or 8 columns are taken for those of dump atom

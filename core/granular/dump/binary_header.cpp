@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <string_view>
 
 namespace granular
 {
@@ -31,8 +33,34 @@ constexpr BinaryLayout layouts[] = {
 constexpr std::int32_t most_columns = 10000;
 constexpr std::int32_t most_chunks = 1 << 24;
 constexpr std::int32_t longest_text = 1 << 20;
+constexpr std::int64_t longest_magic = 64;
+constexpr std::int64_t longest_magic_word = 10;
+constexpr std::string_view magic_words[] = { "DUMPATOM", "DUMPCUSTOM" };
+constexpr int all_faults = 100; // more than there are fields
 
-/// Reads the fields one after the other; the first that cannot be ends it.
+/// Whether a box can be that of a simulation, as far as a file without magic can be told by it: small
+/// integers, of which other files are full, are tiny as doubles.
+bool plausible_box(const Box& box) noexcept
+{
+  const auto tiny = [](double value)
+  { return value != 0 && std::abs(value) < std::numeric_limits<double>::min(); };
+  double longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double origin = box.origin[axis].hi;
+    const double length = box.vectors[axis][axis].hi;
+    if (!std::isfinite(origin) || !std::isfinite(length) || !(length >= 0) || tiny(origin) ||
+      tiny(length))
+    {
+      return false;
+    }
+    longest = std::max(longest, length);
+  }
+  return longest > 0;
+}
+
+/// Reads the fields one after the other, also behind one that cannot be: how many there are tells
+/// which layout is meant.
 class HeaderReader
 {
 public:
@@ -46,15 +74,19 @@ public:
   /// False at the end of the source.
   bool run()
   {
-    this->read_magic();
-    this->read_counts();
-    this->read_box();
-    this->read_columns();
-    header.chunks_offset = cursor_.offset();
+    if (this->read_magic())
+    {
+      this->read_counts();
+      this->read_box();
+      this->read_columns();
+      header.chunks_offset = cursor_.offset();
+    }
     return !cursor_.ended();
   }
 
   BinaryHeader header;
+  std::optional<FormatError> error; ///< about the first field that cannot be
+  int faults = 0;                   ///< fields that cannot be
 
 private:
   template <typename T>
@@ -70,8 +102,9 @@ private:
   }
   Vector3 take_vector();
   std::string take_text(const char* what);
-  void require(bool good, const std::string& expected, std::int64_t got) const;
-  void read_magic();
+  void require(bool good, const std::string& expected, std::int64_t got);
+  void blame(const FormatError& fault);
+  bool read_magic();
   void read_counts();
   void read_box();
   void read_columns();
@@ -85,12 +118,21 @@ private:
 };
 
 /// A field that is not there is not at fault.
-void HeaderReader::require(bool good, const std::string& expected, std::int64_t got) const
+void HeaderReader::blame(const FormatError& fault)
 {
-  if (!good && !cursor_.ended())
+  if (!cursor_.ended())
   {
-    throw FormatError(
-      "expected " + expected + ", got " + std::to_string(got), { source_.path(), 0, field_ });
+    ++faults;
+    error = error ? error : fault;
+  }
+}
+
+void HeaderReader::require(bool good, const std::string& expected, std::int64_t got)
+{
+  if (!good)
+  {
+    this->blame(FormatError(
+      "expected " + expected + ", got " + std::to_string(got), { source_.path(), 0, field_ }));
   }
 }
 
@@ -104,32 +146,44 @@ Vector3 HeaderReader::take_vector()
 std::string HeaderReader::take_text(const char* what)
 {
   const auto length = this->take<std::int32_t>();
-  this->require(
-    length >= 0 && length <= longest_text, std::string("the length of ") + what, length);
-  return cursor_.ended() ? std::string() : cursor_.take_text(length);
+  const bool good = length >= 0 && length <= longest_text;
+  this->require(good, std::string("the length of ") + what, length);
+  return good ? cursor_.take_text(length) : std::string();
 }
 
-void HeaderReader::read_magic()
+/// False if there is none where one should be: nothing behind it means anything then.
+bool HeaderReader::read_magic()
 {
   if (!layout_.magic)
   {
-    return;
+    return true;
   }
   const auto length = this->take<std::int64_t>();
-  constexpr std::int64_t longest_magic = 64;
-  this->require(
-    length < 0 && length >= -longest_magic, "the length of a magic word, -8 or -10", length);
   const std::int64_t word = cursor_.offset();
-  const std::string magic = cursor_.take_text(-length);
-  if (!cursor_.ended() && magic != "DUMPATOM" && magic != "DUMPCUSTOM")
+  const std::string text = cursor_.take_text(longest_magic_word);
+  const auto magic = std::ranges::find_if(
+    magic_words, [&](std::string_view known) { return text.starts_with(known); });
+  const bool good = length < 0 && length >= -longest_magic;
+  this->require(good, "the length of a magic word, -8 or -10", length);
+  if (magic == std::end(magic_words))
   {
-    throw FormatError(
-      "expected DUMPATOM or DUMPCUSTOM, got " + quoted(magic), { source_.path(), 0, word });
+    cursor_.go_to(word);
+    const std::string other = good ? cursor_.take_text(-length) : std::string();
+    this->blame(FormatError(
+      "expected DUMPATOM or DUMPCUSTOM, got " + quoted(other), { source_.path(), 0, word }));
+    const bool is_word =
+      !other.empty() && std::ranges::all_of(other, [](char c) { return c >= '0' && c <= 'Z'; });
+    faults = is_word ? 1 : all_faults;
+    return false;
   }
+  this->require(-length == static_cast<std::int64_t>(magic->size()),
+    "the length of " + std::string(*magic), length);
+  cursor_.go_to(word + static_cast<std::int64_t>(magic->size()));
   const auto endian = this->take<std::int32_t>();
   this->require(endian == 1, "the mark of the byte order, 1", endian);
   revision_ = this->take<std::int32_t>();
   this->require(revision_ == 1 || revision_ == 2, "revision 1 or 2", revision_);
+  return true;
 }
 
 void HeaderReader::read_counts()
@@ -149,6 +203,7 @@ void HeaderReader::read_box()
   const int largest = layout_.magic ? 2 : 1;
   this->require(triclinic_ >= 0 && triclinic_ <= largest,
     largest == 2 ? "triclinic 0, 1 or 2" : "triclinic 0 or 1", triclinic_);
+  triclinic_ = triclinic_ >= 0 && triclinic_ <= largest ? triclinic_ : 0;
   std::string boundary;
   for (int face = 0; layout_.boundary && face < 6; ++face)
   {
@@ -158,6 +213,7 @@ void HeaderReader::read_box()
     boundary += "pfsm"[flag & 3];
   }
   Box& box = header.frame.box;
+  header.box_offset = cursor_.offset();
   if (triclinic_ == 2)
   {
     const Vector3 a = this->take_vector();
@@ -238,19 +294,32 @@ std::optional<BinaryHeader> read_binary_header(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout)
 {
   HeaderReader reader(source, offset, layout);
-  return reader.run() ? std::optional(std::move(reader.header)) : std::nullopt;
+  const bool whole = reader.run();
+  if (reader.error)
+  {
+    throw FormatError(*reader.error);
+  }
+  return whole ? std::optional(std::move(reader.header)) : std::nullopt;
 }
 
-bool plausible_box(const Box& box) noexcept
+HeaderCheck check_binary_header(const ByteSource& source, const BinaryLayout& layout)
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  HeaderReader reader(source, 0, layout);
+  HeaderCheck check;
+  const bool whole = reader.run();
+  check.faults = reader.faults;
+  check.error = reader.error;
+  if (whole && !layout.magic && !plausible_box(reader.header.frame.box))
   {
-    const Twofold& length = box.vectors[axis][axis];
-    if (!std::isfinite(box.origin[axis].hi) || !std::isfinite(length.hi) || !(length.hi >= 0))
-    {
-      return false;
-    }
+    ++check.faults;
+    check.error = check.error ? check.error
+                              : FormatError("expected the bounds of a box, got none",
+                                  { source.path(), 0, reader.header.box_offset });
   }
-  return true;
+  if (whole && !check.error)
+  {
+    check.header = std::move(reader.header);
+  }
+  return check;
 }
 }

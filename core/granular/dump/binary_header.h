@@ -38,6 +38,7 @@ struct BinaryHeader
   std::string columns; ///< blank-separated; empty: the file does not name them
   std::int32_t size_one = 0;
   std::int32_t chunks = 0;
+  std::int64_t box_offset = 0;
   std::int64_t size_one_offset = 0;
   std::int64_t chunks_offset = 0; ///< of the first chunk: int32 n, n doubles
 
@@ -92,7 +93,15 @@ private:
 std::optional<BinaryHeader> read_binary_header(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout);
 
-/// Whether the box can be one, as far as a file without magic can be told by it: lo <= hi, finite.
-bool plausible_box(const Box& box) noexcept;
+/// What a layout makes of the beginning of a source.
+struct HeaderCheck
+{
+  std::optional<BinaryHeader> header; ///< of the first frame; none at the end of the source
+  std::optional<FormatError> error;   ///< about the first field that cannot be
+  int faults = 0;                     ///< how many cannot be
+};
+
+/// Reads the first header, also behind what is wrong. Without magic the box must look like one.
+HeaderCheck check_binary_header(const ByteSource& source, const BinaryLayout& layout);
 }
 #endif

@@ -75,14 +75,14 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   index.notices.clear();
   index.defect.reset();
   index.column_names = column_names;
+  // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
+  packed = first_bytes(std::move(packed), stamp.size);
   index.ends_hash = hash_ends(*packed, stamp.size);
   if (!index.points)
   {
     index.points = std::make_shared<RestartPoints>();
   }
-  // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
-  const std::unique_ptr<ByteSource> source =
-    unpack(first_bytes(std::move(packed), stamp.size), index.points);
+  const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   index_dump(*source, index, progress);
   if (const std::string unchecked = source->unchecked(); !unchecked.empty())
   {
@@ -134,6 +134,10 @@ bool is_dump_file(const std::string& path) noexcept
 
 void index_dump(const ByteSource& source, FileIndex& index, Progress& progress)
 {
+  if (!index.kinds)
+  {
+    index.kinds = std::make_shared<FrameKinds>();
+  }
   std::array<char, 4096> first;
   const std::string_view bytes(first.data(), source.read(0, first.data(), first.size()));
   if (holds_binary(bytes))

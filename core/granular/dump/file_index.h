@@ -35,7 +35,7 @@ struct FileIndex
   bool loaded = false;      ///< from an index file: to be held against the file first
   std::vector<std::string> column_names; ///< of the user, for such a file
   std::shared_ptr<RestartPoints> points; ///< of a compressed file
-  std::shared_ptr<FrameKinds> kinds = std::make_shared<FrameKinds>(); ///< may be shared by files
+  std::shared_ptr<FrameKinds> kinds;     ///< may be shared by files; made where it is missing
 };
 
 /// True if the first bytes of a file, uncompressed, are those of a dump of particles that

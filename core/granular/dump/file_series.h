@@ -33,8 +33,7 @@ public:
   /// Auto takes files for pieces (`%` in the name of a dump) if their names, less .gz and .zst,
   /// differ in one number, and these files share the first timestep and at least half of all, with the
   /// same boxes and columns; all but a last one, if each holds many and they are not numbered from 0, as
-  /// processes are. A run that was restarted shares few, a series none. With one file a step, numbered
-  /// from 0, sharing more than half is enough.
+  /// processes are. A run that was restarted does not share the first, a series none.
   ///
   /// Pieces are in the order of that number; with Merge in the order of the files. A frame that has
   /// not a piece for each number, or whose boxes or columns differ, is left out with a notice; a

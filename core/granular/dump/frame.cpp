@@ -25,11 +25,11 @@ std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
   {
     if (*known == kind)
     {
-      return known;
+      return last_ = known;
     }
   }
   kinds_.push_back(std::make_shared<const FrameKind>(std::move(kind)));
-  return kinds_.back();
+  return last_ = kinds_.back();
 }
 
 std::uint64_t hash_shape(const FrameHeader& header, const ColumnSchema& schema)

@@ -45,7 +45,11 @@ class FrameKinds
 public:
   std::shared_ptr<const FrameKind> share(FrameKind kind);
 
+  /// The one that was shared last, or null: the next frame is mostly of the same kind.
+  const std::shared_ptr<const FrameKind>& last() const noexcept { return last_; }
+
 private:
+  std::shared_ptr<const FrameKind> last_;
   std::vector<std::shared_ptr<const FrameKind>> kinds_;
 };
 

@@ -98,7 +98,9 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
   for (const std::string& path : files)
   {
     progress.step(static_cast<double>(files_.size()) / static_cast<double>(files.size()));
-    FileIndex& file = files_.emplace_back(std::move(known[path]));
+    const auto found = known.find(path);
+    FileIndex& file =
+      files_.emplace_back(found == known.end() ? FileIndex() : std::move(found->second));
     file.path = path;
     file.kinds = kinds;
     const bool loaded = file.loaded;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/piece_sets.h"
 
+#include "granular/base/number.h"
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -93,7 +95,10 @@ std::vector<Digits> piece_numbers(const Siblings& groups)
   constexpr std::size_t most_digits = 9;
   if (numbers.front().text == "0" && numbers.back().text.size() <= most_digits)
   {
-    const std::size_t count = std::stoul(numbers.back().text) + 1;
+    const std::string& largest = numbers.back().text;
+    std::int64_t last = 0;
+    parse_int64(largest.data(), largest.data() + largest.size(), last);
+    const std::size_t count = static_cast<std::size_t>(last) + 1;
     if (count > numbers.size() && count <= 2 * numbers.size())
     {
       numbers.clear();
@@ -165,7 +170,9 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups, b
   const std::vector<GroupFrame> frames = list_frames(files, groups);
   std::size_t all = 0;
   std::size_t shared = 0;
-  bool first_shared = false;
+  bool first_shared = false; // or would be, if the files that there are by name could be read
+  const auto files_of = [&](std::size_t group)
+  { return std::next(groups.begin(), static_cast<std::ptrdiff_t>(group))->second.size(); };
   for (auto first = frames.begin(); first != frames.end();)
   {
     const auto end = std::find_if(first, frames.end(),
@@ -173,7 +180,10 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups, b
       { return frame.timestep != first->timestep || frame.group != first->group; });
     const bool same = end - first > 1 &&
       std::all_of(first, end, [&](const GroupFrame& frame) { return frame.shape == first->shape; });
-    first_shared = all == 0 ? same : first_shared;
+    if (all == 0)
+    {
+      first_shared = same || (groups.size() > 1 && files_of(first->group) > 1);
+    }
     shared += same ? 1U : 0U;
     ++all;
     first = end;
@@ -186,9 +196,7 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups, b
   {
     return first_shared && all - shared <= 1;
   }
-  // with one file a step the first may be gone
-  return (first_shared && 2 * shared >= all) ||
-    (from_zero && groups.size() > 1 && 2 * shared > all);
+  return first_shared && 2 * shared >= all;
 }
 
 /// The sets if the number that tells the files of a group apart counts pieces; else none.

@@ -27,27 +27,47 @@ std::vector<std::string> unnamed_columns(std::size_t words, const Where& where)
   return { names, names + (words == 8 ? 8 : 5) };
 }
 
+bool is_number(std::string_view word)
+{
+  double number = 0;
+  return static_cast<bool>(parse_double(word.data(), word.data() + word.size(), number));
+}
+
 /// The schema of a frame, from its names and its first row: a column that the table does not know
 /// holds texts if the first one is no number.
-ColumnSchema make_schema(
-  std::vector<std::string> names, std::string_view first_row, const Where& where)
+ColumnSchema make_schema(std::vector<std::string> names,
+  const std::vector<std::string_view>& first_row, const Where& where)
 {
-  const std::vector<std::string_view> words = split_words(first_row);
   if (names.empty())
   {
-    names = unnamed_columns(words.size(), where);
+    names = unnamed_columns(first_row.size(), where);
   }
   ColumnSchema schema(names);
-  for (std::size_t i = 0; i < std::min(names.size(), words.size()); ++i)
+  for (std::size_t i = 0; i < std::min(names.size(), first_row.size()); ++i)
   {
-    double number = 0;
-    if (!schema.columns()[i].known &&
-      !parse_double(words[i].data(), words[i].data() + words[i].size(), number))
+    if (!schema.columns()[i].known && !is_number(first_row[i]))
     {
       schema.set_type(static_cast<int>(i), ValueType::Text);
     }
   }
   return schema;
+}
+
+/// Whether make_schema would give that schema.
+bool makes_schema(const std::vector<std::string>& names,
+  const std::vector<std::string_view>& first_row, const ColumnSchema& schema)
+{
+  const std::vector<ColumnInfo>& columns = schema.columns();
+  for (std::size_t i = 0; i < columns.size() && names.size() == columns.size(); ++i)
+  {
+    const bool text = !columns[i].known && i < first_row.size() && !is_number(first_row[i]);
+    if (columns[i].name != names[i] ||
+      (!columns[i].known && text != (columns[i].type == ValueType::Text)))
+    {
+      return false;
+    }
+  }
+  return names.size() == columns.size();
 }
 
 /// Finds the frames of a text, one after the other.
@@ -73,7 +93,7 @@ private:
   bool next_frame();
   bool read_frame(TextHeader& reader);
   bool finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end);
-  ColumnSchema schema(const TextHeader& reader);
+  std::shared_ptr<const FrameKind> kind(const TextHeader& reader);
   void leave_out(const Where& where, const std::string& why);
   bool go_to_next_frame();
   bool peek(std::string_view& line);
@@ -127,7 +147,7 @@ bool Indexer::read_frame(TextHeader& reader)
   entry.offset = reader.offset();
   entry.line = reader.line();
   entry.time = header.time.value_or(FrameEntry::no_time);
-  entry.kind = index_.kinds->share({ this->schema(reader), header.units });
+  entry.kind = this->kind(reader);
   entry.shape = hash_shape(header, entry.kind->schema);
   std::int64_t rows = scanner_.skip_to_item(progress_);
   entry.end = scanner_.offset();
@@ -165,21 +185,30 @@ bool Indexer::finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
   return true;
 }
 
-ColumnSchema Indexer::schema(const TextHeader& reader)
+std::shared_ptr<const FrameKind> Indexer::kind(const TextHeader& reader)
 {
   const Where where = scanner_.where();
-  std::string_view first_row;
+  std::string_view line;
+  std::vector<std::string_view> first_row;
   bool found = reader.header().rows > 0;
-  while (found && split_words(first_row).empty())
+  while (found && first_row.empty())
   {
-    found = scanner_.next(first_row);
+    found = scanner_.next(line);
+    first_row = found ? split_words(line) : first_row;
   }
-  ColumnSchema schema = make_schema(reader.column_names(), found ? first_row : "", where);
+  const std::vector<std::string>& names = reader.column_names();
+  const std::string& units = reader.header().units;
+  std::shared_ptr<const FrameKind> kind = index_.kinds->last();
+  if (!kind || kind->layout != FrameKind::text || kind->units != units ||
+    !makes_schema(names, first_row, kind->schema))
+  {
+    kind = index_.kinds->share({ make_schema(names, first_row, where), units });
+  }
   if (found)
   {
     scanner_.put_back();
   }
-  return schema;
+  return kind;
 }
 
 /// Whether something follows the last line feed.
@@ -240,8 +269,8 @@ bool Indexer::find_glued_header(FrameEntry& entry, std::int64_t& rows)
   constexpr std::int64_t reach = 512; // two sections of a header, and more
   const std::int64_t to = scanner_.offset();
   const std::int64_t start = std::max(rows_offset_, to - reach);
-  std::string tail(static_cast<std::size_t>(to - start), ' ');
-  tail.resize(source_.read(start, tail.data(), tail.size()));
+  std::string buffer;
+  const std::string_view tail = scanner_.before(static_cast<std::size_t>(to - start), buffer);
   for (const std::string_view opening : { "ITEM: UNITS", "ITEM: TIME", "ITEM: TIMESTEP" })
   {
     const std::size_t found = tail.find(opening);

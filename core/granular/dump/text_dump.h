@@ -15,7 +15,7 @@ namespace granular
 /// go, ITEM: NUMBER OF ATOMS (files of dump local count ENTRIES or a word of the user's).
 bool is_text_dump(std::string_view first_bytes);
 
-/// As index_dump, of a text.
+/// As index_dump, of a text. index.kinds must be there.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress);
 }
 #endif
