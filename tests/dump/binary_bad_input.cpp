@@ -18,7 +18,9 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sys/resource.h>
@@ -600,6 +602,93 @@ TEST(BinaryBadInput, AFileThatChangedSinceItWasIndexed)
     for (std::size_t size = 0; size < good.bytes.size(); ++size)
     {
       EXPECT_NE(read(good.bytes.substr(0, size)), "") << form.name << " " << size;
+    }
+  }
+}
+
+namespace
+{
+/// Bytes of which fewer are there after some reads; too many reads are an endless loop.
+class ShrinkingSource final : public granular::ByteSource
+{
+public:
+  ShrinkingSource(const std::string& bytes, int reads, std::size_t then)
+    : bytes_(bytes)
+    , reads_(reads)
+    , then_(then)
+  {
+  }
+
+  const std::string& path() const override { return path_; }
+  granular::FileStamp stamp() const override { return {}; }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    constexpr int endless = 10'000;
+    if (++done_ > endless)
+    {
+      throw std::runtime_error("reads without end");
+    }
+    const std::string_view there =
+      std::string_view(bytes_).substr(0, done_ > reads_ ? then_ : bytes_.size());
+    return offset < 0 || static_cast<std::size_t>(offset) >= there.size()
+      ? 0
+      : there.substr(static_cast<std::size_t>(offset)).copy(buffer, bytes);
+  }
+
+  int done() const { return done_; }
+
+private:
+  const std::string& bytes_;
+  int reads_;
+  std::size_t then_;
+  mutable int done_ = 0;
+  std::string path_ = "shrinking";
+};
+}
+
+TEST(BinaryBadInput, AFileThatShrinksWhileItIsRead)
+{
+  for (const Form& form : forms())
+  {
+    // with names, and without: then the first row is shown
+    for (const bool named : { false, true })
+    {
+      Frame first = binary::grains(form, 1, 0);
+      Frame second = binary::grains(form, 2, 600);
+      first.columns = second.columns = form.named() && named ? binary::grain_columns : "";
+      const Bytes bytes = binary::write(form, { first, second });
+      const std::size_t sizes[] = { 0, bytes.ends[0] - 4, bytes.ends[0], bytes.ends[0] + 30,
+        bytes.first_value - 4, bytes.first_value + 3 };
+      bool more = true;
+      for (int reads = 0; more; ++reads)
+      {
+        more = false;
+        for (const std::size_t size : sizes)
+        {
+          SCOPED_TRACE(form.name + (named ? ", named" : "") + ", " + std::to_string(reads) +
+            " reads, then " + std::to_string(size) + " bytes");
+          const ShrinkingSource source(bytes.bytes, reads, size);
+          granular::FileIndex index;
+          granular::Progress progress;
+          if (named && !form.named())
+          {
+            index.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
+              "radius" };
+          }
+          ASSERT_NO_THROW(error_of([&] { index_dump(source, index, progress); }));
+          for (std::size_t i = 0; i < index.frames.size(); ++i)
+          {
+            Decoded got;
+            std::string error;
+            ASSERT_NO_THROW(
+              error = error_of([&]
+                { got.frame = read_dump(source, index.frames[i], {}, got.notices, progress); }));
+            EXPECT_TRUE(!error.empty() || is_whole(got, i == 0 ? first : second));
+          }
+          more = more || source.done() > reads;
+        }
+      }
     }
   }
 }

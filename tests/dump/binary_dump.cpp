@@ -800,20 +800,23 @@ TEST(BinaryDump, TheFileNamesTooFewOrTooMany)
     { "DUMPATOM revision 2, little-endian", "DUMPCUSTOM revision 2, big-endian" })
   {
     const Form& form = binary::form(name);
-    for (const std::string columns : { "id type xs ys", "id type xs ys zs q", "   " })
+    for (const std::string columns : { "id type xs ys", "id type xs ys zs q" })
     {
       const Bytes bytes = binary::write(form, { frame_of(form, columns, 5, { 1, 2, 3, 4, 5 }) });
       const Dump dump(bytes.bytes, "id type xs ys zs");
       EXPECT_EQ(dump.frames(), 0u);
-      const auto count = columns == "   " ? 0 : std::count(columns.begin(), columns.end(), ' ') + 1;
+      const auto count = std::count(columns.begin(), columns.end(), ' ') + 1;
       EXPECT_EQ(to_string(dump.index().defect.value_or(granular::Notice{})),
         "memory@" + std::to_string(bytes.field("size_one").offset) +
           ": expected 5 column names, got " + std::to_string(count));
     }
     // none at all is as in revision 1
-    const Dump none(binary::write(form, { frame_of(form, "", 5, { 1, 2, 3, 4, 5 }) }).bytes);
-    EXPECT_EQ(none.frames(), 1u);
-    EXPECT_TRUE(none.index().unnamed);
+    for (const std::string columns : { "", "   " })
+    {
+      const Dump none(binary::write(form, { frame_of(form, columns, 5, { 1, 2, 3, 4, 5 }) }).bytes);
+      EXPECT_EQ(none.frames(), 1u);
+      EXPECT_TRUE(none.index().unnamed);
+    }
   }
 }
 
@@ -1244,6 +1247,8 @@ TEST(BinaryDump, OtherFilesAreNone)
     { "HDF5", hdf5 },
     { "netCDF", netcdf },
     { "integers", counting },
+    { "a small number",
+      bytes_of("c0ffffffffffffff 5b5c5d5e5f606162 0102030405060708 090a0b0c0d0e") },
     { "VTK",
       "# vtk DataFile Version 2.0\nLIGGGHTS mesh/gran/VTK export\nASCII\nDATASET "
       "RECTILINEAR_GRID\n" },

@@ -2,7 +2,7 @@
 // Series of files on disk, as a run writes them and as they change while somebody looks.
 #include "granular/dump/frame_index.h"
 
-#include "dumps.h"
+#include "series.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,9 @@
 namespace
 {
 namespace fs = std::filesystem;
-using granular::FrameEntry;
 using granular::FrameIndex;
 using granular::Notices;
 using granular::Progress;
-using Files = std::vector<std::string>;
-using Steps = std::vector<std::int64_t>;
 using Times = std::vector<double>;
 
 /// A frame of rows grains, whose x is the timestep.
@@ -42,67 +39,6 @@ std::string frame(std::int64_t step, int rows = 2, const std::string& before = "
 std::string at_time(double time, std::int64_t step)
 {
   return frame(step, 1, "ITEM: TIME\n" + std::to_string(time) + "\n");
-}
-
-/// An index and what it said last.
-struct Series
-{
-  FrameIndex index;
-  granular::IndexOptions options;
-  std::string said;
-
-  void update(const Files& files)
-  {
-    Notices notices;
-    Progress progress;
-    said = "";
-    index.update(files, options, notices, progress);
-    said = lines_of(notices);
-  }
-
-  Steps steps() const
-  {
-    Steps steps;
-    for (std::size_t i = 0; i < index.size(); ++i)
-    {
-      steps.push_back(this->entry(i).timestep);
-    }
-    return steps;
-  }
-
-  const FrameEntry& entry(std::size_t number) const { return index.first_piece(number).entry; }
-
-  /// The index of the file of a frame.
-  std::size_t file(std::size_t number) const
-  {
-    return static_cast<std::size_t>(&index.first_piece(number).file - index.files().data());
-  }
-
-  /// "file:offset" of every frame.
-  std::string places() const
-  {
-    std::string text;
-    for (std::size_t i = 0; i < index.size(); ++i)
-    {
-      text += (text.empty() ? "" : " ") + std::to_string(this->file(i)) + ":" +
-        std::to_string(this->entry(i).offset);
-    }
-    return text;
-  }
-
-  Decoded read(std::size_t number) const
-  {
-    Decoded decoded;
-    Progress progress;
-    decoded.frame = granular::read_dump(index.pieces(number), {}, decoded.notices, progress);
-    return decoded;
-  }
-};
-
-/// Moves the time of last change, so that a change within the clock's tick is one.
-void touch(const std::string& path, int seconds)
-{
-  fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(seconds));
 }
 }
 

@@ -71,9 +71,32 @@ struct Series
     Steps steps;
     for (std::size_t i = 0; i < index.size(); ++i)
     {
-      steps.push_back(index.first_piece(i).entry.timestep);
+      steps.push_back(this->entry(i).timestep);
     }
     return steps;
+  }
+
+  const granular::FrameEntry& entry(std::size_t frame) const
+  {
+    return index.first_piece(frame).entry;
+  }
+
+  /// The place of the file of a frame among the files.
+  std::size_t file(std::size_t frame) const
+  {
+    return static_cast<std::size_t>(&index.first_piece(frame).file - index.files().data());
+  }
+
+  /// "file:offset" of every frame.
+  std::string places() const
+  {
+    std::string text;
+    for (std::size_t i = 0; i < index.size(); ++i)
+    {
+      text += (text.empty() ? "" : " ") + std::to_string(this->file(i)) + ":" +
+        std::to_string(this->entry(i).offset);
+    }
+    return text;
   }
 
   /// The names of the files that a frame is made of, without their folder, blank-separated.

@@ -248,19 +248,9 @@ bool Indexer::next_frame()
 
 ColumnSchema Indexer::schema(const BinaryHeader& header)
 {
-  std::vector<std::string> names;
   named_ = true;
-  if (header.columns.empty())
-  {
-    names = this->unnamed(header);
-  }
-  else
-  {
-    for (const std::string_view word : split_words(header.columns))
-    {
-      names.emplace_back(word);
-    }
-  }
+  const std::vector<std::string> names =
+    header.columns.empty() ? this->unnamed(header) : header.columns;
   if (names.size() != static_cast<std::size_t>(header.size_one))
   {
     const bool of_user = header.columns.empty();
@@ -352,8 +342,12 @@ std::string describe_first_row(
     return {};
   }
   BinaryCursor cursor(source, header->chunks_offset, layout.swapped);
-  while (cursor.take<std::int32_t>() == 0)
+  while (cursor.take<std::int32_t>() == 0 && !cursor.ended())
   {
+  }
+  if (cursor.ended())
+  {
+    return {}; // the file has changed meanwhile
   }
   std::string text;
   for (std::int32_t i = 0; i < std::min(most, header->size_one); ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/binary_header.h"
 
+#include "granular/base/words.h"
 #include "granular/dump/text_header.h"
 
 #include <algorithm>
@@ -19,6 +20,8 @@ constexpr BinaryLayout layouts[] = {
   // name                                                    magic  wide   triclinic boundary swapped
   { "of LAMMPS, with DUMPATOM or DUMPCUSTOM",                true,  true,  true,     true,    false },
   { "of LAMMPS, with DUMPATOM or DUMPCUSTOM, swapped",       true,  true,  true,     true,    true },
+  { "of LAMMPS, 32-bit integers",                            true,  false, true,     true,    false },
+  { "of LAMMPS, 32-bit integers, swapped",                   true,  false, true,     true,    true },
   { "plain",                                                 false, true,  true,     true,    false },
   { "plain, swapped",                                        false, true,  true,     true,    true },
   { "plain, 32-bit integers",                                false, false, true,     true,    false },
@@ -158,25 +161,28 @@ bool HeaderReader::read_magic()
   {
     return true;
   }
-  const auto length = this->take<std::int64_t>();
+  const std::int64_t length = this->take_count();
   const std::int64_t word = cursor_.offset();
   const std::string text = cursor_.take_text(longest_magic_word);
   const auto magic = std::ranges::find_if(
     magic_words, [&](std::string_view known) { return text.starts_with(known); });
   const bool good = length < 0 && length >= -longest_magic;
   this->require(good, "the length of a magic word, -8 or -10", length);
-  if (magic == std::end(magic_words))
+  if (magic == std::end(magic_words) && !cursor_.ended())
   {
-    cursor_.go_to(word);
-    const std::string other = good ? cursor_.take_text(-length) : std::string();
+    std::string other(good ? static_cast<std::size_t>(-length) : 0, '\0');
+    other.resize(source_.read(word, other.data(), other.size()));
     this->blame(FormatError(
       "expected DUMPATOM or DUMPCUSTOM, got " + quoted(other), { source_.path(), 0, word }));
     const bool is_word =
       !other.empty() && std::ranges::all_of(other, [](char c) { return c >= '0' && c <= 'Z'; });
     faults = is_word ? 1 : all_faults;
+  }
+  if (magic == std::end(magic_words))
+  {
     return false;
   }
-  this->require(-length == static_cast<std::int64_t>(magic->size()),
+  this->require(length == -static_cast<std::int64_t>(magic->size()),
     "the length of " + std::string(*magic), length);
   cursor_.go_to(word + static_cast<std::int64_t>(magic->size()));
   const auto endian = this->take<std::int32_t>();
@@ -250,7 +256,11 @@ void HeaderReader::read_columns()
     {
       header.frame.time = this->take<double>();
     }
-    header.columns = this->take_text("the names of the columns");
+    const std::string columns = this->take_text("the names of the columns");
+    for (const std::string_view name : split_words(columns))
+    {
+      header.columns.emplace_back(name);
+    }
   }
   header.chunks = this->take<std::int32_t>();
   this->require(header.chunks >= 1 && header.chunks <= most_chunks,

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace granular
 {
@@ -35,7 +36,7 @@ std::span<const BinaryLayout> binary_layouts() noexcept;
 struct BinaryHeader
 {
   FrameHeader frame;
-  std::string columns; ///< blank-separated; empty: the file does not name them
+  std::vector<std::string> columns; ///< names; empty: the file does not name them
   std::int32_t size_one = 0;
   std::int32_t chunks = 0;
   std::int64_t box_offset = 0;

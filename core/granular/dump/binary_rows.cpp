@@ -85,6 +85,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
   const BinaryLayout& layout = binary_layouts()[static_cast<std::size_t>(entry.kind->layout)];
   const std::size_t columns = entry.kind->schema.columns().size();
   swapped_ = layout.swapped;
+  std::vector<std::string> names;
   header_.rows = -1; // what is no header is not the one that was there
   try
   {
@@ -92,6 +93,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
     if (header && static_cast<std::size_t>(header->size_one) == columns)
     {
       header_ = header->frame;
+      names = header->columns;
       next_offset_ = header->chunks_offset;
     }
   }
@@ -102,7 +104,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
       throw;
     }
   }
-  check_header(source.path(), entry, header_);
+  check_header(source.path(), entry, header_, names);
   if (!entry.kind->named)
   {
     throw FormatError("expected " + std::to_string(columns) +

@@ -3,6 +3,7 @@
 
 #include "granular/base/hash.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace granular
@@ -51,9 +52,12 @@ Where where_of(const std::string& path, const FrameEntry& entry)
   return { path, entry.line, text ? -1 : entry.offset };
 }
 
-void check_header(const std::string& path, const FrameEntry& entry, const FrameHeader& header)
+void check_header(const std::string& path, const FrameEntry& entry, const FrameHeader& header,
+  const std::vector<std::string>& columns)
 {
-  if (header.timestep != entry.timestep || header.rows != entry.rows ||
+  const bool same_columns = columns.empty() ||
+    std::ranges::equal(columns, entry.kind->schema.columns(), {}, {}, &ColumnInfo::name);
+  if (!same_columns || header.timestep != entry.timestep || header.rows != entry.rows ||
     hash_shape(header, entry.kind->schema) != entry.shape)
   {
     throw IoError("the file changed since it was indexed: expected the frame of timestep " +

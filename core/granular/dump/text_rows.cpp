@@ -16,12 +16,12 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   , entry_(entry)
   , buffer_(std::size_t{ 1 } << 18)
 {
-  this->read_header();
-  check_header(source.path(), entry, header_);
+  check_header(source.path(), entry, header_, this->read_header());
   buffer_offset_ = rows_offset_;
 }
 
-void TextRows::read_header()
+/// Returns the names of the columns.
+std::vector<std::string> TextRows::read_header()
 {
   constexpr std::size_t window = 4096; // most headers are shorter
   TextScanner scanner(source_, entry_.offset, entry_.line, window);
@@ -44,6 +44,7 @@ void TextRows::read_header()
   header_ = std::move(reader.header());
   rows_offset_ = scanner.offset();
   rows_line_ = scanner.line();
+  return reader.column_names();
 }
 
 double TextRows::fraction() const noexcept

@@ -5,7 +5,9 @@
 #include "granular/dump/frame_rows.h"
 
 #include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace granular
 {
@@ -22,7 +24,7 @@ public:
   void note(Notices& notices) const override;
 
 private:
-  void read_header();
+  std::vector<std::string> read_header();
   bool fill();
   bool is_misfit() const;
   void check_count(std::int64_t rows) const;
