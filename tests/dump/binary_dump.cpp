@@ -854,6 +854,13 @@ TEST(BinaryDump, OneFileAProcess)
       // the second process has no rows in the frame
       Frame first = binary::grains(form, 0, 0);
       Frame second = binary::grains(form, 1, piece == 1 ? 0 : 3 + piece);
+      for (std::vector<double>& chunk : second.chunks)
+      {
+        for (std::size_t i = 0; i < chunk.size(); i += static_cast<std::size_t>(second.size_one))
+        {
+          chunk[i] += 100.0 * static_cast<double>(piece); // ids of its own
+        }
+      }
       const Bytes bytes = binary::write(form, { first, second });
       files.insert(files.begin(), folder.write("a." + std::to_string(piece) + ".bin", bytes.bytes));
       const Integers some = integers(second.values(0));
@@ -909,6 +916,17 @@ TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
 }
 
 // Other names are asked for, or given, in the window of a reader that shows the file already.
+TEST(BinaryDump, ColumnsThatAreNotThoseOfDumpAtom)
+{
+  // eight columns that nobody named, of which the last three are no image counts
+  const Form& form = binary::form("plain, little-endian");
+  const Dump dump(
+    binary::write(form, { frame_of(form, "", 8, { 1, 2, 0.1, 0.2, 0.3, 1.5, -2, 0 }) }).bytes);
+  EXPECT_EQ(dump.error(),
+    "memory@144: column 'ix': expected an integer, got '1.5'; the columns, which the file does not "
+    "name, are not those of dump atom: set ColumnNames");
+}
+
 TEST(BinaryDump, NamesThatChange)
 {
   const Form& form = binary::form("plain, little-endian");
@@ -922,8 +940,9 @@ TEST(BinaryDump, NamesThatChange)
   index.update({ path }, options, notices, progress);
   EXPECT_EQ(lines_of(notices),
     path +
-      ": the file does not name its columns: they are taken for id type xs ys zs; if they are "
-      "others, or coordinates are not scaled, set ColumnNames\n");
+      ": set ColumnNames if the columns, which the file does not name, are others than id type xs "
+      "ys "
+      "zs; its first row is 1 2 0.5 0.25 0.75\n");
   EXPECT_EQ(index.first_piece(0).entry.kind->schema.text(), "id type xs ys zs");
   options.column_names = { "id", "type", "x", "y" };
   EXPECT_EQ(error_of([&] { index.update({ path }, options, notices, progress); }),

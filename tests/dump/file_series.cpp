@@ -654,6 +654,45 @@ TEST(Pieces, OfARunThatWentOnWithMoreProcesses)
   }
 }
 
+TEST(Pieces, ARunThatWasDoneAgainIsNone)
+{
+  // a study: the same steps and box under names that differ in a number; no particle is there twice
+  const Folder folder;
+  for (const int first : { 0, 1 })
+  {
+    Files files;
+    for (int run = first; run < first + 2; ++run)
+    {
+      files.push_back(folder.write("study." + std::to_string(run) + ".dump",
+        grains(0, {}) + grains(10, { 5, 1, run, 9 }) + grains(20, { 5, 1, run, 9 })));
+    }
+    Series run;
+    run.update(files);
+    EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
+    EXPECT_EQ(run.ids(1), (Ids{ 5, 1, first + 1, 9 }));
+    EXPECT_EQ(run.said, hidden(files[0]));
+  }
+}
+
+TEST(Pieces, TheFirstIsNumberedZero)
+{
+  const Folder folder;
+  Files files;
+  for (int process = 1; process < 4; ++process)
+  {
+    files.push_back(
+      folder.write("d." + std::to_string(process), grains(0, ids_from(10 * process, 2))));
+  }
+  Series run;
+  EXPECT_EQ(error_of([&] { run.update(files); }),
+    files[0] +
+      ":1: expected 4 pieces of timestep 0, got 3 (none for 0); if these are all, set "
+      "RepeatedSteps to Merge; the frame is left out");
+  run.options.repeated_steps = RepeatedSteps::Merge;
+  run.update(files);
+  EXPECT_EQ(run.ids(0), (Ids{ 10, 11, 20, 21, 30, 31 }));
+}
+
 // ---- pieces that are not there -----------------------------------------------------------------
 
 TEST(Pieces, AMissingOneLeavesTheFrameOut)

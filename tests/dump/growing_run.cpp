@@ -376,14 +376,14 @@ TEST(GrowingRun, Binary)
   const Folder folder;
   // without a name for its columns: id type xs ys zs in a box from 0 to 1
   follow(folder.path("a.bin"), all_frames(binary_frame, frames, most_rows), frames, most_rows,
-    looks, "the file does not name its columns");
+    looks, "set ColumnNames if the columns, which the file does not name");
 }
 
 TEST(GrowingRun, BinaryOfLargeFrames)
 {
   const Folder folder;
   follow(folder.path("a.bin"), all_frames(binary_frame, 30, 20000), 30, 20000, 200,
-    "the file does not name its columns");
+    "set ColumnNames if the columns, which the file does not name");
 }
 
 TEST(GrowingRun, GzipThatIsFlushed)

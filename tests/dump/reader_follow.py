@@ -15,11 +15,11 @@ import os
 from paraview.simple import *
 
 
-def frame(step, rows):
-    """The grains have as many rows as the step has tens, and one more."""
+def frame(step, rows, first=1):
+    """So many grains, with ids from the first on."""
     return (f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{rows}\nITEM: BOX BOUNDS pp pp ff\n"
             "0 1\n0 1\n0 1\nITEM: ATOMS id type x y z radius\n" +
-            "".join(f"{i} 1 0.{i} 0.5 0.25 0.05\n" for i in range(1, rows + 1)))
+            "".join(f"{i} 1 0.{i} 0.5 0.25 0.05\n" for i in range(first, first + rows)))
 
 
 class Run:
@@ -135,18 +135,18 @@ Delete(reader)
 # ---- one file a process ------------------------------------------------------------------------
 
 names = [os.path.abspath(f"piece.{process}.dump") for process in range(3)]
-for name in names:
+for process, name in enumerate(names):
     with open(name, "w") as file:
-        file.write(frame(0, 2))
+        file.write(frame(0, 2, 10 * process + 1))
 reader = OpenDataFile(names)
 reader.RefreshOnUpdate = 1
 reader.UpdatePipeline()
 assert points(reader) == 6
-for name in names:
+for process, name in enumerate(names):
     reader.UpdatePipelineInformation()
     assert list(reader.TimestepValues) == [0], reader.TimestepValues
     with open(name, "a") as file:
-        file.write(frame(10, 3))
+        file.write(frame(10, 3, 10 * process + 1))
 reader.UpdatePipelineInformation()
 assert list(reader.TimestepValues) == [0, 10]
 reader.UpdatePipeline(10)

@@ -177,7 +177,8 @@ private:
   FileIndex& index_;
   Progress& progress_;
   int layout_ = 0;
-  bool named_ = true; ///< the columns of the frame at hand, by whomever
+  bool named_ = true; ///< the columns of the frame at hand: see FrameKind
+  bool guessed_ = false;
 };
 
 void Indexer::run()
@@ -239,7 +240,7 @@ bool Indexer::next_frame()
   entry.end = *end;
   entry.time = header->frame.time.value_or(FrameEntry::no_time);
   ColumnSchema schema = this->schema(*header);
-  entry.kind = index_.kinds->share({ std::move(schema), index_.units, layout_, named_ });
+  entry.kind = index_.kinds->share({ std::move(schema), index_.units, layout_, named_, guessed_ });
   entry.shape = hash_shape(header->frame, entry.kind->schema);
   index_.frames.push_back(std::move(entry));
   index_.resume_offset = *end;
@@ -249,6 +250,7 @@ bool Indexer::next_frame()
 ColumnSchema Indexer::schema(const BinaryHeader& header)
 {
   named_ = true;
+  guessed_ = false;
   const std::vector<std::string> names =
     header.columns.empty() ? this->unnamed(header) : header.columns;
   if (names.size() != static_cast<std::size_t>(header.size_one))
@@ -282,7 +284,8 @@ std::vector<std::string> Indexer::unnamed(const BinaryHeader& header)
   const auto columns = static_cast<std::size_t>(header.size_one);
   const std::vector<std::string_view> atom = split_words(atom_columns);
   index_.unnamed = true;
-  named_ = !index_.column_names.empty() || columns == 5 || columns == atom.size();
+  guessed_ = index_.column_names.empty() && (columns == 5 || columns == atom.size());
+  named_ = guessed_ || !index_.column_names.empty();
   if (!index_.column_names.empty())
   {
     return index_.column_names;

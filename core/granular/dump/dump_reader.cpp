@@ -14,15 +14,22 @@ namespace
 {
 /// An integer column that holds other numbers is read again as doubles, a column that the table does
 /// not know and that holds a word as texts. Ids of a text must be integers: those of a binary file
-/// are where the user says that they are.
-void widen(const Misfit& misfit, bool binary, ColumnSchema& schema, Notices& notices)
+/// are where the user says that they are. Columns that nobody named must be what they are taken for.
+void widen(const Misfit& misfit, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
 {
+  const bool binary = kind.layout != FrameKind::text;
   const bool number = misfit.status == RowStatus::NotExact;
   const std::string text = std::string("expected ") + (number ? "an integer" : "a number") +
     ", got " + quoted(misfit.word);
   if (schema.columns()[static_cast<std::size_t>(misfit.column)].role == ColumnRole::Id && !binary)
   {
     throw FormatError(text, misfit.where);
+  }
+  if (kind.guessed)
+  {
+    throw FormatError(text +
+        "; the columns, which the file does not name, are not those of dump atom: set ColumnNames",
+      misfit.where);
   }
   notices.push_back(
     { misfit.where, text + "; the column is kept as " + (number ? "doubles" : "texts") });
@@ -66,7 +73,6 @@ DumpFrame read(
   {
     throw LimitError("expected a stride >= 1, got " + std::to_string(request.stride));
   }
-  const bool binary = pieces.entries.front()->kind->layout != FrameKind::text;
   ColumnSchema schema = join_schemas(pieces);
   for (;;)
   {
@@ -74,7 +80,7 @@ DumpFrame read(
     FrameDecoder decoder(pieces, schema, request, found);
     if (const std::optional<Misfit> misfit = decoder.run(progress))
     {
-      widen(*misfit, binary, schema, notices);
+      widen(*misfit, *pieces.entries.front()->kind, schema, notices);
       continue;
     }
     Block ids;

@@ -87,6 +87,10 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   if (const std::string unchecked = source->unchecked(); !unchecked.empty())
   {
     index.notices.push_back({ { index.path }, unchecked });
+    if (index.defect)
+    {
+      index.defect->text += "; " + unchecked;
+    }
   }
   // a single frame is read from the start anyway
   if (index.frames.size() <= 1)

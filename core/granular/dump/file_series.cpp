@@ -224,7 +224,9 @@ std::string Collector::complaint(const std::vector<Place>& pieces, const PieceSe
   {
     return "expected " + std::to_string(set.expected) + " pieces" + what + ", got " +
       std::to_string(pieces.size()) +
-      (set.missing.empty() ? "" : " (none for" + set.missing + ")") + "; the frame is left out";
+      (set.missing.empty() ? "" : " (none for" + set.missing + ")") +
+      (set.missing.starts_with(" 0") ? "; if these are all, set RepeatedSteps to Merge" : "") +
+      "; the frame is left out";
   }
   // what the user calls pieces is for the reader to refuse, who says which of them is none
   const bool same = repeated_ == RepeatedSteps::Merge ||

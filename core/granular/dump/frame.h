@@ -35,6 +35,7 @@ struct FrameKind
   std::string units;
   int layout = text; ///< index into binary_layouts(), or text
   bool named = true; ///< false: nobody has named the columns of a binary file, these are stand-ins
+  bool guessed = false; ///< nobody has, and they are taken for those of dump atom
 
   bool operator==(const FrameKind&) const = default;
 };

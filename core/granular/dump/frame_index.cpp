@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/frame_index.h"
 
+#include "granular/dump/binary_dump.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,6 +27,21 @@ Notice left_out(const std::exception_ptr& error)
   catch (const Error& e)
   {
     return { e.where(), e.text() + "; the file is left out" };
+  }
+}
+
+/// See describe_first_row; nothing if it cannot be read.
+std::string first_row_of(const FileIndex& file)
+{
+  const FrameEntry& entry = file.frames.front();
+  try
+  {
+    return describe_first_row(*open_indexed(file), entry.offset,
+      binary_layouts()[static_cast<std::size_t>(entry.kind->layout)]);
+  }
+  catch (const Error&)
+  {
+    return {};
   }
 }
 
@@ -156,16 +173,12 @@ void FrameIndex::note_files(Notices& notices) const
   }
   const auto guessed = std::ranges::find_if(files_,
     [](const FileIndex& file)
-    {
-      return file.unnamed && file.column_names.empty() && !file.frames.empty() &&
-        file.frames.front().kind->named;
-    });
+    { return !file.frames.empty() && file.frames.front().kind->guessed; });
   if (guessed != files_.end())
   {
     notices.push_back({ { guessed->path },
-      "the file does not name its columns: they are taken for " +
-        guessed->frames.front().kind->schema.text() +
-        "; if they are others, or coordinates are not scaled, set ColumnNames" });
+      "set ColumnNames if the columns, which the file does not name, are others than " +
+        guessed->frames.front().kind->schema.text() + first_row_of(*guessed) });
   }
 }
 

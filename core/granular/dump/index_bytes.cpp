@@ -142,6 +142,7 @@ public:
         out.text(kind->units);
         out.number(std::int32_t{ kind->layout });
         out.flag(kind->named);
+        out.flag(kind->guessed);
         out.list(kind->schema.columns(),
           [&](const ColumnInfo& column)
           {
@@ -201,6 +202,7 @@ Kinds read_kinds(IndexReader& in, FrameKinds& store)
       in.text(kind.units);
       in.number(layout);
       in.flag(kind.named);
+      in.flag(kind.guessed);
       in.list(columns,
         [&](KeptColumn& column)
         {

@@ -2,6 +2,7 @@
 #include "granular/dump/piece_sets.h"
 
 #include "granular/base/number.h"
+#include "granular/dump/frame_rows.h"
 
 #include <algorithm>
 #include <map>
@@ -79,9 +80,7 @@ Siblings group_by_others(const std::map<std::uint32_t, std::vector<Digits>>& fam
   return groups;
 }
 
-/// The values of the number, with those that were left out in between if it counts from 0, as the
-/// programs count processes.
-std::vector<Digits> piece_numbers(const Siblings& groups)
+std::vector<Digits> values_of(const Siblings& groups)
 {
   std::set<Digits> values;
   for (const auto& [others, group] : groups)
@@ -91,22 +90,25 @@ std::vector<Digits> piece_numbers(const Siblings& groups)
       values.insert(value);
     }
   }
-  std::vector<Digits> numbers(values.begin(), values.end());
+  return { values.begin(), values.end() };
+}
+
+/// The numbers of all pieces, with those that are missing: the programs count processes from 0.
+std::vector<Digits> piece_numbers(const std::vector<Digits>& values)
+{
   constexpr std::size_t most_digits = 9;
-  if (numbers.front().text == "0" && numbers.back().text.size() <= most_digits)
+  const std::string& largest = values.back().text;
+  std::int64_t last = 0;
+  parse_int64(largest.data(), largest.data() + std::min(largest.size(), most_digits), last);
+  const std::size_t count = static_cast<std::size_t>(last) + 1;
+  if (largest.size() > most_digits || count > 2 * values.size())
   {
-    const std::string& largest = numbers.back().text;
-    std::int64_t last = 0;
-    parse_int64(largest.data(), largest.data() + largest.size(), last);
-    const std::size_t count = static_cast<std::size_t>(last) + 1;
-    if (count > numbers.size() && count <= 2 * numbers.size())
-    {
-      numbers.clear();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        numbers.push_back({ std::to_string(i) });
-      }
-    }
+    return values; // they count something else
+  }
+  std::vector<Digits> numbers;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    numbers.push_back({ std::to_string(i) });
   }
   return numbers;
 }
@@ -114,10 +116,11 @@ std::vector<Digits> piece_numbers(const Siblings& groups)
 /// A frame in a group of files.
 struct GroupFrame
 {
-  std::int64_t timestep;
   std::size_t group;
   std::uint32_t file;
-  std::uint64_t shape;
+  const FrameEntry* entry;
+
+  std::int64_t timestep() const noexcept { return entry->timestep; }
 };
 
 /// The frames of all groups by timestep; of frames that a file repeats the last.
@@ -131,13 +134,13 @@ std::vector<GroupFrame> list_frames(const std::vector<FileIndex>& files, const S
     {
       for (const FrameEntry& entry : files[file].frames)
       {
-        frames.push_back({ entry.timestep, number, file, entry.shape });
+        frames.push_back({ number, file, &entry });
       }
     }
     ++number;
   }
   const auto key = [](const GroupFrame& frame)
-  { return std::tuple(frame.timestep, frame.group, frame.file); };
+  { return std::tuple(frame.timestep(), frame.group, frame.file); };
   std::ranges::stable_sort(frames, {}, key);
   std::vector<GroupFrame> last;
   for (const GroupFrame& frame : frames)
@@ -165,9 +168,9 @@ bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
 
 /// Whether the files of the groups hold pieces of the same frames, rather than frames of a series or
 /// of a run that was restarted: the first frame is shared, and most are.
-bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups, bool from_zero)
+bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
+  const std::vector<GroupFrame>& frames, bool from_zero)
 {
-  const std::vector<GroupFrame> frames = list_frames(files, groups);
   std::size_t all = 0;
   std::size_t shared = 0;
   bool first_shared = false; // or would be, if the files that there are by name could be read
@@ -177,9 +180,10 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups, b
   {
     const auto end = std::find_if(first, frames.end(),
       [&](const GroupFrame& frame)
-      { return frame.timestep != first->timestep || frame.group != first->group; });
+      { return frame.timestep() != first->timestep() || frame.group != first->group; });
     const bool same = end - first > 1 &&
-      std::all_of(first, end, [&](const GroupFrame& frame) { return frame.shape == first->shape; });
+      std::all_of(first, end,
+        [&](const GroupFrame& frame) { return frame.entry->shape == first->entry->shape; });
     if (all == 0)
     {
       first_shared = same || (groups.size() > 1 && files_of(first->group) > 1);
@@ -199,13 +203,82 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups, b
   return first_shared && 2 * shared >= all;
 }
 
+/// The ids of the first rows of a frame; none if there are none to be had.
+std::vector<std::int64_t> first_ids(const FileIndex& file, const FrameEntry& entry)
+{
+  constexpr std::size_t most = 1000;
+  std::vector<std::int64_t> ids(most);
+  std::size_t count = 0;
+  const int column = entry.kind->schema.find(ColumnRole::Id);
+  try
+  {
+    const std::unique_ptr<ByteSource> source = open_indexed(file);
+    const std::unique_ptr<FrameRows> rows = open_rows(*source, entry);
+    ColumnSink sink = { static_cast<std::uint32_t>(column), ColumnSink::Kind::Int64,
+      reinterpret_cast<char*>(ids.data()), sizeof ids[0] };
+    for (std::int64_t got = 1; column >= 0 && got > 0 && count < most;
+         count += static_cast<std::size_t>(got))
+    {
+      got = rows->decode({ &sink, 1 }, static_cast<std::int64_t>(most - count));
+    }
+  }
+  catch (const Error&)
+  {
+    // who reads the frame will hear of it
+  }
+  ids.resize(count);
+  return ids;
+}
+
+/// Whether several files have the same particle in the first frame in which they have any: a run that
+/// was done again, under the same name with another number, looks like pieces but for that.
+bool share_particles(const std::vector<FileIndex>& files, const std::vector<GroupFrame>& frames)
+{
+  constexpr std::size_t most_files = 8;
+  std::set<std::int64_t> seen;
+  const GroupFrame* first = nullptr;
+  std::size_t looked = 0;
+  for (const GroupFrame& frame : frames)
+  {
+    const bool same = first && frame.timestep() == first->timestep() && frame.group == first->group;
+    if (frame.entry->rows == 0 || (same && looked == most_files))
+    {
+      continue;
+    }
+    if (first && !same && looked > 1)
+    {
+      return false;
+    }
+    if (!same)
+    {
+      seen.clear();
+      looked = 0;
+      first = &frame;
+    }
+    ++looked;
+    const std::vector<std::int64_t> ids = first_ids(files[frame.file], *frame.entry);
+    if (std::ranges::any_of(ids, [&](std::int64_t id) { return seen.contains(id); }))
+    {
+      return true;
+    }
+    seen.insert(ids.begin(), ids.end());
+  }
+  return false;
+}
+
 /// The sets if the number that tells the files of a group apart counts pieces; else none.
 std::vector<PieceSet> sets_of(const std::vector<FileIndex>& files, const Siblings& groups)
 {
-  const std::vector<Digits> numbers = piece_numbers(groups);
-  const bool from_zero =
+  const std::vector<Digits> values = values_of(groups);
+  if (values.size() < 2)
+  {
+    return {};
+  }
+  const std::vector<Digits> numbers = piece_numbers(values);
+  const std::vector<GroupFrame> frames = list_frames(files, groups);
+  const bool from_zero = values.front().text == "0" && numbers.size() <= 2 * values.size() &&
     numbers.front().text == "0" && numbers.back().text == std::to_string(numbers.size() - 1);
-  if (numbers.size() < 2 || !share_frames(files, groups, from_zero))
+  if (!share_frames(files, groups, frames, from_zero) || share_particles(files, frames))
   {
     return {};
   }

@@ -2,12 +2,14 @@
 """Discrete-element data in VTK and ParaView.
 
     granular.vtkGranularDumpReader()   the VTK classes, in pvpython and in plain python3
+    granular.files("dump_*.%.gz")      the files of a run, for FileNames of a reader
     granular.load_plugin()             the proxies for paraview.simple: GranularDumpReader, ...
     granular.show(reader)              particles as spheres of their radius
     granular.write_series(files, dt)   a .series file: one clock for STL, VTK and dump files
 
 Importing this package does not import paraview; show and load_plugin do.
 """
+from ._files import files
 from ._plugin import load_plugin
 from ._series import write_series
 from ._show import show

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files of a run by a pattern, as simulation codes spell it."""
+import glob
+import os
+import re
+
+
+def _numbers_in_order(path):
+    """Sorts name_2 before name_10."""
+    return [(int(part), part) if part.isdigit() else (-1, part)
+            for part in re.split("([0-9]+)", path)]
+
+
+def files(*patterns):
+    """The names of the files of a run, absolute and in the order of their numbers, for FileNames of a
+    reader: OpenDataFile(granular.files("post/grains_*.%.dump")).
+
+    patterns  as in the `dump` command: '*' stands for the timestep and '%' for the process, or anything
+              else in a name; '?' and [..] as in a shell. Plain and compressed files go together:
+              "post/*.dump" also finds post/a.dump.gz and post/a.dump.zst.
+
+    Left out are the boundingBox files of LIGGGHTS and kept indices (.granular.idx). Call it again and
+    set FileNames for the files that a running simulation has added meanwhile.
+    Raises FileNotFoundError if a pattern fits no file.
+    """
+    found = set()
+    for pattern in patterns:
+        pattern = os.fspath(pattern).replace("%", "*")
+        names = [name for ending in ("", ".gz", ".zst") for name in glob.glob(pattern + ending)
+                 if os.path.isfile(name) and "boundingBox" not in os.path.basename(name)
+                 and not name.endswith(".granular.idx")]
+        if not names:
+            raise FileNotFoundError(f"no file fits the pattern: {pattern}")
+        found.update(os.path.abspath(name) for name in names)
+    return sorted(found, key=_numbers_in_order)

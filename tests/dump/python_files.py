@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files of a run by their pattern, in the order of their numbers."""
+import os
+
+import granular
+
+here = os.getcwd()
+names = ["run_10.0.dump", "run_10.1.dump", "run_2.0.dump", "run_2.1.dump.gz", "run_100.0.dump.zst",
+         "run_boundingBox_2.dump", "run_2.0.dump.granular.idx", "other.dump"]
+for name in names:
+    open(name, "w").close()
+
+expected = ["run_2.0.dump", "run_2.1.dump.gz", "run_10.0.dump", "run_10.1.dump", "run_100.0.dump.zst"]
+assert granular.files("run_*.%.dump") == [os.path.join(here, name) for name in expected]
+assert granular.files(os.path.join(here, "run_2.%.dump")) == [
+    os.path.join(here, name) for name in expected[:2]]
+assert granular.files("run_2.*", "run_2.0.*", "other.dump") == [
+    os.path.join(here, name) for name in ("other.dump", "run_2.0.dump", "run_2.1.dump.gz")]
+assert granular.files("run_*.*") == granular.files("run_*.%.dump")
+for pattern in ("nothing_*", "run_boundingBox*"):
+    try:
+        granular.files(pattern)
+    except FileNotFoundError as error:
+        assert pattern in str(error), error
+    else:
+        raise AssertionError(f"{pattern} should fit no file")
