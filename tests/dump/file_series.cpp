@@ -1130,13 +1130,13 @@ TEST(Pieces, StrideWithoutIdsCountsTheRowsOfAll)
 TEST(Pieces, AnErrorNamesTheFileAndItsLine)
 {
   const Folder folder;
-  const std::string good = header(5, 2, "id x y z") + "1 0 0 0\n2 0 0 0\n";
   const std::string second = folder.path("p.2");
   const auto error = [&](const std::string& rows)
   {
     Series run;
-    run.update({ folder.write("p.0", good), folder.write("p.1", good),
-      folder.write("p.2", header(5, 2, "id x y z") + rows), folder.write("p.3", good) });
+    run.update(
+      { folder.write("p.0", grains(5, { 1, 2 })), folder.write("p.1", grains(5, { 11, 12 })),
+        folder.write("p.2", header(5, 2) + rows), folder.write("p.3", grains(5, { 31, 32 })) });
     EXPECT_EQ(run.index.pieces(0).size(), 4u);
     return error_of([&] { run.read(0); });
   };
