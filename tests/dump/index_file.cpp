@@ -913,6 +913,19 @@ TEST_F(IndexFileTest, NothingIsWrittenWhereNothingChanged)
   EXPECT_EQ(Opened({ path }).steps(), steps_from(0, 21));
 }
 
+TEST_F(IndexFileTest, WhatWasLeftOutIsSaidAtEveryOpening)
+{
+  const std::string good = frame(0);
+  const std::string path = this->write(
+    "a.dump", good + frame(1).substr(0, frame(1).rfind('\n', frame(1).size() - 2) + 1) + frame(2));
+  const std::string said = Opened({ path }).said;
+  EXPECT_NE(said.find("the frame is left out"), std::string::npos) << said;
+  EXPECT_EQ(Opened({ path }).said, said);
+  append(path, frame(3));
+  EXPECT_EQ(Opened({ path }).said, said);
+  EXPECT_EQ(Opened({ path }).said, said);
+}
+
 TEST_F(IndexFileTest, WhatIsNoDumpGetsNoIndex)
 {
   const std::string path = this->write("photo.jpg", "\xff\xd8\xff\xe0 no dump at all\n");

@@ -82,7 +82,7 @@ Fit try_layout(const ByteSource& source, const BinaryLayout& layout, Progress& p
 {
   const HeaderCheck check = check_binary_header(source, layout);
   Fit fit = { Fit::Impossible, check.faults, check.error };
-  if (check.error)
+  if (check.error && !check.header)
   {
     return fit;
   }
@@ -96,10 +96,16 @@ Fit try_layout(const ByteSource& source, const BinaryLayout& layout, Progress& p
       read_binary_header(source, *end, layout);
       fit.grade = Fit::Whole;
     }
+    if (check.error)
+    {
+      // a box may be none because the simulation failed: then all else must fit
+      fit.grade = fit.grade == Fit::Whole ? Fit::Alone : Fit::Impossible;
+    }
   }
   catch (const FormatError& error)
   {
-    fit.error = error;
+    fit.grade = check.error ? Fit::Impossible : fit.grade;
+    fit.error = check.error ? check.error : error;
   }
   return fit;
 }
@@ -320,13 +326,14 @@ bool is_binary_dump(std::string_view first_bytes)
       try
       {
         const HeaderCheck check = check_binary_header(*source, layout);
-        if (check.header)
+        if (check.header && !check.error)
         {
           find_end(*source, *check.header, layout.swapped, progress);
         }
         // a header with texts may be long, but the magic word is enough
         constexpr std::size_t word = 24;
-        return check.header || (layout.magic && !check.error && first_bytes.size() >= word);
+        return (check.header && !check.error) ||
+          (layout.magic && !check.error && first_bytes.size() >= word);
       }
       catch (const Error&)
       {

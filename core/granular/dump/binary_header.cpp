@@ -62,6 +62,13 @@ bool plausible_box(const Box& box) noexcept
   return longest > 0;
 }
 
+/// Whether bounds are the wrong way round. Others that are not plausible may come of a simulation that
+/// failed.
+bool inverted_box(const Box& box) noexcept
+{
+  return box.vectors[0][0].hi < 0 || box.vectors[1][1].hi < 0 || box.vectors[2][2].hi < 0;
+}
+
 /// Reads the fields one after the other, also behind one that cannot be: how many there are tells
 /// which layout is meant.
 class HeaderReader
@@ -319,6 +326,7 @@ HeaderCheck check_binary_header(const ByteSource& source, const BinaryLayout& la
   const bool whole = reader.run();
   check.faults = reader.faults;
   check.error = reader.error;
+  const bool good = !check.error && (layout.magic || !inverted_box(reader.header.frame.box));
   if (whole && !layout.magic && !plausible_box(reader.header.frame.box))
   {
     ++check.faults;
@@ -326,7 +334,7 @@ HeaderCheck check_binary_header(const ByteSource& source, const BinaryLayout& la
                               : FormatError("expected the bounds of a box, got none",
                                   { source.path(), 0, reader.header.box_offset });
   }
-  if (whole && !check.error)
+  if (whole && good)
   {
     check.header = std::move(reader.header);
   }

@@ -97,7 +97,8 @@ std::optional<BinaryHeader> read_binary_header(
 /// What a layout makes of the beginning of a source.
 struct HeaderCheck
 {
-  std::optional<BinaryHeader> header; ///< of the first frame; none at the end of the source
+  std::optional<BinaryHeader> header; ///< of the first frame; none at the end of the source, and
+                                      ///< where more is wrong than that a box may be none
   std::optional<FormatError> error;   ///< about the first field that cannot be
   int faults = 0;                     ///< how many cannot be
 };

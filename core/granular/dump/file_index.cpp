@@ -72,7 +72,6 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   }
   index.stamp = stamp;
   index.error = nullptr;
-  index.notices.clear();
   index.defect.reset();
   index.column_names = column_names;
   // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
@@ -86,6 +85,8 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   index_dump(*source, index, progress);
   if (const std::string unchecked = source->unchecked(); !unchecked.empty())
   {
+    std::erase_if(index.notices, [&](const Notice& said) { return said.text == unchecked; });
+    index.told = std::min(index.told, index.notices.size());
     index.notices.push_back({ { index.path }, unchecked });
     if (index.defect)
     {
@@ -157,18 +158,31 @@ void index_dump(const ByteSource& source, FileIndex& index, Progress& progress)
 bool update_file_index(
   FileIndex& index, const std::vector<std::string>& column_names, Progress& progress)
 {
-  try
-  {
-    return update(index, column_names, progress);
-  }
-  catch (const Error&)
+  const auto fail = [&](const FileStamp& stamp)
   {
     FileIndex failed = blank(index);
-    failed.stamp = index.stamp; // it is not read again until it changes
+    failed.stamp = stamp;
     failed.column_names = column_names;
     failed.error = std::current_exception();
     index = std::move(failed);
     return true;
+  };
+  try
+  {
+    return update(index, column_names, progress);
+  }
+  catch (const IoError&)
+  {
+    return fail({}); // the system may be in a better mood next time
+  }
+  catch (const Error&)
+  {
+    return fail(index.stamp); // it is not read again until it changes
+  }
+  catch (...)
+  {
+    index = blank(index); // half of it would pass for all
+    throw;
   }
 }
 

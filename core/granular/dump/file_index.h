@@ -26,8 +26,9 @@ struct FileIndex
   std::vector<FrameEntry> frames;
   std::int64_t resume_offset = 0; ///< end of the last complete frame: where to go on
   std::int64_t resume_line = 1;
-  std::string units; ///< of the last ITEM: UNITS; it is printed once a file
-  Notices notices;   ///< frames that were left out, and why
+  std::string units;    ///< of the last ITEM: UNITS; it is printed once a file
+  Notices notices;      ///< frames that were left out, and why
+  std::size_t told = 0; ///< how many of these the user has had
   std::optional<Notice>
     defect;                 ///< what is wrong with the first frame that was left out, or missing
   std::exception_ptr error; ///< the file could not be opened or read

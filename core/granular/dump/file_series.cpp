@@ -224,9 +224,7 @@ std::string Collector::complaint(const std::vector<Place>& pieces, const PieceSe
   {
     return "expected " + std::to_string(set.expected) + " pieces" + what + ", got " +
       std::to_string(pieces.size()) +
-      (set.missing.empty() ? "" : " (none for" + set.missing + ")") +
-      (set.missing.starts_with(" 0") ? "; if these are all, set RepeatedSteps to Merge" : "") +
-      "; the frame is left out";
+      (set.missing.empty() ? "" : " (none for" + set.missing + ")") + "; the frame is left out";
   }
   // what the user calls pieces is for the reader to refuse, who says which of them is none
   const bool same = repeated_ == RepeatedSteps::Merge ||
@@ -247,7 +245,17 @@ bool Collector::being_written(const PieceSet& set) const
 
 void Collector::say_what_waits()
 {
-  notices_.insert(notices_.end(), waiting_.begin(), waiting_.end());
+  // a great many frames may lack the same file
+  constexpr std::size_t most = 10;
+  const std::size_t count = std::min(most, waiting_.size());
+  notices_.insert(
+    notices_.end(), waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+  if (waiting_.size() > most)
+  {
+    notices_.push_back({ waiting_[most].where,
+      "pieces are missing of this frame, too, and of " +
+        std::to_string(waiting_.size() - most - 1) + " that follow; they are left out" });
+  }
   waiting_.clear();
   all_written_ = false;
 }

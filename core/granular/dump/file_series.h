@@ -31,14 +31,15 @@ public:
   };
 
   /// Auto takes files for pieces (`%` in the name of a dump) if their names, less .gz and .zst,
-  /// differ in one number, and these files share the first timestep and at least half of all, with the
-  /// same boxes and columns; all but a last one, if each holds many and they are not numbered from 0, as
-  /// processes are. A run that was restarted does not share the first, a series none, and one that was
-  /// done again has the same particles, of which the first 1000 of some files are looked at.
+  /// differ in one number that counts from 0, as the programs count processes; and if these files share
+  /// the first timestep and at least half of all, or all that a file has so far, with the same boxes and
+  /// columns, but not the same particles, of which the first of some files are looked at. A run that was
+  /// restarted does not share the first timestep, a series none, and one that was done again has the same
+  /// particles.
   ///
   /// Pieces are in the order of that number; with Merge in the order of the files. A frame that has
-  /// not a piece for each number from 0 on, or whose boxes or columns differ, is left out with a notice; a
-  /// single one at the end silently if its files are all there, because it is being written.
+  /// not a piece for each number from 0 on, or whose boxes or columns differ, is left out with a
+  /// notice; a single one at the end silently if its files are all there, because it is being written.
   FileSeries(const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
   FileSeries() = default;
 

@@ -120,13 +120,10 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
       files_.emplace_back(found == known.end() ? FileIndex() : std::move(found->second));
     file.path = path;
     file.kinds = kinds;
-    const bool loaded = file.loaded;
-    const bool read = update_file_index(file, options.column_names, progress);
-    changed = changed || read;
-    if (read || loaded)
-    {
-      notices.insert(notices.end(), file.notices.begin(), file.notices.end());
-    }
+    changed = update_file_index(file, options.column_names, progress) || changed;
+    notices.insert(notices.end(), file.notices.begin() + static_cast<std::ptrdiff_t>(file.told),
+      file.notices.end());
+    file.told = file.notices.size();
     restart_bytes += file.points ? file.points->bytes() : 0;
     if (restart_bytes > most_restart_bytes)
     {
@@ -213,7 +210,8 @@ void FrameIndex::fail(const Notices& notices) const
   {
     throw FormatError(notices.front().text, notices.front().where); // pieces are missing
   }
-  const Notice& defect = *files_.front().defect;
+  const Notice defect = files_.front().defect.value_or(
+    Notice{ { files_.front().path }, "expected a dump, got no complete frame" });
   throw FormatError(defect.text, defect.where);
 }
 

@@ -93,7 +93,7 @@ std::vector<Digits> values_of(const Siblings& groups)
   return { values.begin(), values.end() };
 }
 
-/// The numbers of all pieces, with those that are missing: the programs count processes from 0.
+/// The numbers of all pieces, with those that are missing.
 std::vector<Digits> piece_numbers(const std::vector<Digits>& values)
 {
   constexpr std::size_t most_digits = 9;
@@ -166,10 +166,29 @@ bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
       group, [&](const auto& entry) { return files[entry.second].error != nullptr; });
 }
 
+/// Whether files list the same frames as far as they go.
+bool only_lag(const std::vector<FileIndex>& files, const std::map<Digits, std::uint32_t>& group)
+{
+  const std::vector<FrameEntry>* longest = nullptr;
+  for (const auto& [value, file] : group)
+  {
+    const std::vector<FrameEntry>& frames = files[file].frames;
+    longest = !longest || frames.size() > longest->size() ? &frames : longest;
+  }
+  return std::ranges::all_of(group,
+    [&](const auto& entry)
+    {
+      const std::vector<FrameEntry>& frames = files[entry.second].frames;
+      return std::equal(frames.begin(), frames.end(), longest->begin(),
+        [](const FrameEntry& a, const FrameEntry& b)
+        { return a.timestep == b.timestep && a.shape == b.shape; });
+    });
+}
+
 /// Whether the files of the groups hold pieces of the same frames, rather than frames of a series or
-/// of a run that was restarted: the first frame is shared, and most are.
+/// of a run that was restarted: the first frame is shared, and most are, or all that a file has.
 bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
-  const std::vector<GroupFrame>& frames, bool from_zero)
+  const std::vector<GroupFrame>& frames)
 {
   std::size_t all = 0;
   std::size_t shared = 0;
@@ -194,19 +213,16 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
   }
   if (shared == 0)
   {
-    return from_zero && just_begun(files, groups);
+    return just_begun(files, groups);
   }
-  if (groups.size() == 1 && !from_zero)
-  {
-    return first_shared && all - shared <= 1;
-  }
-  return first_shared && 2 * shared >= all;
+  return first_shared &&
+    (2 * shared >= all || (groups.size() == 1 && only_lag(files, groups.begin()->second)));
 }
 
 /// The ids of the first rows of a frame; none if there are none to be had.
 std::vector<std::int64_t> first_ids(const FileIndex& file, const FrameEntry& entry)
 {
-  constexpr std::size_t most = 1000;
+  constexpr std::size_t most = 20'000;
   std::vector<std::int64_t> ids(most);
   std::size_t count = 0;
   const int column = entry.kind->schema.find(ColumnRole::Id);
@@ -234,7 +250,7 @@ std::vector<std::int64_t> first_ids(const FileIndex& file, const FrameEntry& ent
 /// was done again, under the same name with another number, looks like pieces but for that.
 bool share_particles(const std::vector<FileIndex>& files, const std::vector<GroupFrame>& frames)
 {
-  constexpr std::size_t most_files = 8;
+  constexpr std::size_t most_files = 4;
   std::set<std::int64_t> seen;
   const GroupFrame* first = nullptr;
   std::size_t looked = 0;
@@ -270,18 +286,16 @@ bool share_particles(const std::vector<FileIndex>& files, const std::vector<Grou
 std::vector<PieceSet> sets_of(const std::vector<FileIndex>& files, const Siblings& groups)
 {
   const std::vector<Digits> values = values_of(groups);
-  if (values.size() < 2)
+  if (values.size() < 2 || values.front().text != "0")
+  {
+    return {}; // the programs count processes from 0
+  }
+  const std::vector<GroupFrame> frames = list_frames(files, groups);
+  if (!share_frames(files, groups, frames) || share_particles(files, frames))
   {
     return {};
   }
   const std::vector<Digits> numbers = piece_numbers(values);
-  const std::vector<GroupFrame> frames = list_frames(files, groups);
-  const bool from_zero = values.front().text == "0" && numbers.size() <= 2 * values.size() &&
-    numbers.front().text == "0" && numbers.back().text == std::to_string(numbers.size() - 1);
-  if (!share_frames(files, groups, frames, from_zero) || share_particles(files, frames))
-  {
-    return {};
-  }
   std::vector<PieceSet> sets;
   for (const auto& [others, group] : groups)
   {
