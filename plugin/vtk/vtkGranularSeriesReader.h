@@ -78,8 +78,9 @@ public:
   /**
    * What frames of the same timestep in several files are. MERGE: pieces of one frame; a timestep
    * with fewer pieces than others is left out. LAST: repetitions, of which the one in the last file
-   * counts. AUTO, the default: pieces if the names differ in one number alone and the files share the
-   * first and most timesteps, with the same boxes and columns, but no particles; else repetitions.
+   * counts. AUTO, the default: pieces if the names differ in one number that counts from 0 and the
+   * files share the first and most timesteps, with the same boxes and columns, but no particles; else
+   * repetitions.
    */
   void SetRepeatedSteps(int repeated);
   vtkGetMacro(RepeatedSteps, int);

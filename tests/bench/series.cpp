@@ -208,6 +208,9 @@ struct Indexing
     : run(a_run)
   {
     options.index_file = where;
+    // pieces with the same particles are none unless somebody says so
+    options.repeated_steps =
+      run.pieces > 1 ? granular::RepeatedSteps::Merge : granular::RepeatedSteps::Auto;
   }
 
   bool operator()()
@@ -236,7 +239,7 @@ void measure_index(benchmark::State& state, const Run& run, const std::function<
     {
       granular::Notices notices;
       granular::Progress progress;
-      anew.index.update(run.paths, {}, notices, progress);
+      anew.index.update(run.paths, anew.options, notices, progress);
       return notices.empty();
     });
   const auto works = static_cast<double>(run.frames);
