@@ -11,10 +11,10 @@ data = Path(__file__).parent / "data"
 folder = Path(sys.argv[1]) if sys.argv[1:] else data / "pieces"
 whole = Path(sys.argv[2]) if sys.argv[2:] else data / "grains.dump"
 
-# All files in one list, in any order: 5 steps of 4 processes, pieces_STEP.PROCESS.dump. Their names
-# tell that they are pieces; where names do not, RepeatedSteps="Merge" does. Were one missing, its
-# step would be left out, with a warning that says which one.
-files = sorted(folder.glob("pieces_*.*.dump"))
+# All files in one list: 5 steps of 4 processes, by the pattern of the dump command. Their names tell
+# that they are pieces; where names do not, RepeatedSteps="Merge" does. Were one missing, its step
+# would be left out, with a warning that says which one.
+files = [Path(file) for file in granular.files(folder / "pieces_*.%.dump")]
 grains = OpenDataFile([str(file) for file in files], TimestepSize=2e-5)
 assert grains.RepeatedSteps == "Auto" and len(files) == 4 * len(grains.TimestepValues)
 

@@ -2,16 +2,15 @@
 // A dump from memory, text or binary as its bytes say, all the way: index, then frames with several
 // requests, also of a file that changed since. Whatever the bytes are, there is an Error or a frame of
 // the rows it says, and no more memory than the bytes are worth.
+#include "dump_checks.h"
+
 #include "granular/base/words.h"
 #include "granular/dump/binary_dump.h"
-#include "granular/dump/dump_reader.h"
 #include "granular/dump/file_index.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,59 +19,6 @@ using namespace granular;
 
 namespace
 {
-void require(bool good, const char* what)
-{
-  if (!good)
-  {
-    std::fprintf(stderr, "%s\n", what);
-    std::abort();
-  }
-}
-
-void check_frame(const DumpFrame& frame, const FrameEntry& entry, const DumpRequest& request)
-{
-  const auto rows = static_cast<std::size_t>(frame.rows);
-  const bool filtered = request.stride > 1 || request.region[0] <= request.region[1];
-  require(frame.rows == entry.rows || (filtered && frame.rows < entry.rows), "rows");
-  require(frame.points.bytes() == 3 * rows * (request.single_precision ? 4 : 8), "points");
-  for (const DumpArray& array : frame.arrays)
-  {
-    const std::size_t components =
-      array.info.type == ValueType::Text ? 1 : array.info.columns.size();
-    require(array.block.bytes() == rows * components * size_of(array.info.type), "array");
-  }
-}
-
-void read_frame(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
-{
-  Notices notices;
-  Progress progress;
-  try
-  {
-    check_frame(read_dump(source, entry, request, notices, progress), entry, request);
-  }
-  catch (const Error&)
-  {
-    // what it says is for a reader to judge
-  }
-}
-
-std::vector<DumpRequest> requests()
-{
-  std::vector<DumpRequest> all(4);
-  all[1].wanted = [](const ArrayInfo&) { return true; };
-  all[1].coordinates = Coordinates::Scaled;
-  all[1].stride = 3;
-  all[1].sort_by_id = true;
-  all[2].coordinates = Coordinates::Unwrapped;
-  all[2].single_precision = true;
-  all[2].region = { -0.5, 0.5, 1, -1, 1, -1 };
-  all[2].point_origin = { 1, 2, 3 };
-  all[3].wanted = [](const ArrayInfo&) { return false; };
-  all[3].sort_by_id = true;
-  return all;
-}
-
 void check_index(const FileIndex& index, std::size_t size)
 {
   std::int64_t end = 0;

@@ -2,17 +2,16 @@
 // A text dump from memory, all the way: index, then every frame with several requests. Whatever
 // the bytes are, there is an Error or a frame of the rows it says; and every instruction set
 // decodes the rows alike.
+#include "dump_checks.h"
+
 #include "granular/base/line_scan.h"
 #include "granular/base/row_text.h"
-#include "granular/dump/dump_reader.h"
 #include "granular/dump/text_dump.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <string_view>
 #include <vector>
@@ -21,76 +20,12 @@ using namespace granular;
 
 namespace
 {
-void require(bool good, const char* what)
-{
-  if (!good)
-  {
-    std::fprintf(stderr, "%s\n", what);
-    std::abort();
-  }
-}
-
 std::vector<Simd> instruction_sets()
 {
   std::vector<Simd> sets = { Simd::Portable, Simd::Avx2, Simd::Avx512 };
   sets.erase(
     std::remove_if(sets.begin(), sets.end(), [](Simd s) { return s > best_simd(); }), sets.end());
   return sets;
-}
-
-void check_frame(const DumpFrame& frame, const FrameEntry& entry, const DumpRequest& request)
-{
-  const auto rows = static_cast<std::size_t>(frame.rows);
-  const bool filtered = request.stride > 1 || request.region[0] <= request.region[1];
-  require(frame.rows == entry.rows || (filtered && frame.rows < entry.rows), "rows");
-  require(frame.points.bytes() == 3 * rows * (request.single_precision ? 4 : 8), "points");
-  for (const DumpArray& array : frame.arrays)
-  {
-    if (array.info.type == ValueType::Text)
-    {
-      const auto* const indices = static_cast<const std::int32_t*>(array.block.data());
-      for (std::size_t row = 0; row < rows; ++row)
-      {
-        require(indices[row] >= 0, "index of a word");
-        require(static_cast<std::size_t>(indices[row]) < array.words.size(), "index of a word");
-      }
-    }
-    else
-    {
-      require(array.block.bytes() == rows * array.info.columns.size() * size_of(array.info.type),
-        "array");
-    }
-  }
-}
-
-void read_frame(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
-{
-  Notices notices;
-  Progress progress;
-  try
-  {
-    check_frame(read_dump(source, entry, request, notices, progress), entry, request);
-  }
-  catch (const Error&)
-  {
-    // what it says is for a reader to judge
-  }
-}
-
-std::vector<DumpRequest> requests()
-{
-  std::vector<DumpRequest> all(4);
-  all[1].wanted = [](const ArrayInfo&) { return true; };
-  all[1].coordinates = Coordinates::Scaled;
-  all[1].stride = 3;
-  all[1].sort_by_id = true;
-  all[2].coordinates = Coordinates::Unwrapped;
-  all[2].single_precision = true;
-  all[2].region = { -0.5, 0.5, 1, -1, 1, -1 };
-  all[2].point_origin = { 1, 2, 3 };
-  all[3].wanted = [](const ArrayInfo&) { return false; };
-  all[3].sort_by_id = true;
-  return all;
 }
 
 /// All columns as doubles, or as texts.
