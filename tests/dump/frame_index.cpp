@@ -416,6 +416,11 @@ TEST(FrameIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
     "ELF\x02\x01\n");
   EXPECT_EQ(
     error(garbage), garbage + "@0: expected a complete frame, got the end of the file in it");
+  const std::string bzip2 = folder.write("dump.bz2", "BZh91AY&SY\x01\x02");
+  EXPECT_EQ(error(bzip2),
+    bzip2 +
+      ": expected a dump, plain or packed by gzip or Zstandard, got one packed by bzip2: unpack it "
+      "first");
   const std::string zeros = folder.write("zeros", std::string(5'000'000, '\0'));
   EXPECT_EQ(error(zeros),
     zeros + "@92: expected 1 to 10000 columns, got 0; no known layout of a binary dump fits");

@@ -43,6 +43,29 @@ FileIndex blank(const FileIndex& index)
   return fresh;
 }
 
+/// What else LAMMPS packs dumps with, by the first bytes.
+// clang-format off
+constexpr std::pair<std::string_view, const char*> other_packings[] = {
+  { "\xfd" "7zXZ", "xz" },
+  { "BZh", "bzip2" },
+  { "\x04\x22\x4d\x18", "lz4" },
+};
+// clang-format on
+
+void refuse_other_packings(const std::string& path, std::string_view first_bytes)
+{
+  for (const auto& [magic, name] : other_packings)
+  {
+    if (first_bytes.starts_with(magic))
+    {
+      throw UnsupportedError(
+        std::string("expected a dump, plain or packed by gzip or Zstandard, got one packed by ") +
+          name + ": unpack it first",
+        { path });
+    }
+  }
+}
+
 /// Returns whether anything was read.
 bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress)
 {
@@ -145,6 +168,7 @@ void index_dump(const ByteSource& source, FileIndex& index, Progress& progress)
   }
   std::array<char, 4096> first;
   const std::string_view bytes(first.data(), source.read(0, first.data(), first.size()));
+  refuse_other_packings(source.path(), bytes);
   if (holds_binary(bytes))
   {
     index_binary_dump(source, index, progress);

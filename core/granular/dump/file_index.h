@@ -49,7 +49,8 @@ bool is_dump_file(const std::string& path) noexcept;
 
 /// Finds the frames from index.resume_offset to the end of the source, text or binary. A last frame
 /// that is not complete is left out, silently; a frame in the middle that is not what its header
-/// says with a notice. Throws IoError, LimitError; FormatError of compressed data; Cancelled.
+/// says with a notice. Throws IoError, LimitError; FormatError of compressed data; UnsupportedError of
+/// data packed in other ways; Cancelled.
 void index_dump(const ByteSource& source, FileIndex& index, Progress& progress);
 
 /// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
