@@ -263,4 +263,20 @@ void expect_random_reads(
     offset += got;
   }
 }
+
+std::shared_ptr<granular::RestartPoints> spaced(std::int64_t spacing)
+{
+  auto points = std::make_shared<granular::RestartPoints>();
+  points->spacing = spacing;
+  return points;
+}
+
+void expect_content(const std::string& packed, const std::string& content)
+{
+  const auto source = open(packed);
+  EXPECT_TRUE(source->compressed());
+  EXPECT_TRUE(read_all(*source) == content);
+  EXPECT_EQ(source->unchecked(), "");
+  EXPECT_TRUE(read_all(*open(packed), 1000) == content);
+}
 }

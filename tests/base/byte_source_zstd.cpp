@@ -13,31 +13,17 @@
 namespace
 {
 using granular::RestartPoints;
+using packing::expect_content;
 using packing::open;
 using packing::Outcomes;
 using packing::read_all;
 using packing::rows;
+using packing::spaced;
 using packing::zstd;
 using packing::zstd_skippable;
 
 constexpr const char* cut_text =
   "expected the end of the zstd data, got the end of the file; what is there is taken unchecked";
-
-std::shared_ptr<RestartPoints> spaced(std::int64_t spacing)
-{
-  auto points = std::make_shared<RestartPoints>();
-  points->spacing = spacing;
-  return points;
-}
-
-void expect_content(const std::string& packed, const std::string& content)
-{
-  const auto source = open(packed);
-  EXPECT_TRUE(source->compressed());
-  EXPECT_TRUE(read_all(*source) == content);
-  EXPECT_EQ(source->unchecked(), "");
-  EXPECT_TRUE(read_all(*open(packed), 1000) == content);
-}
 
 /// A frame of three bytes as RFC 8878 describes it: no size, no checksum, one raw block. Its window
 /// is 2^(10 + exponent) and mantissa eighths of that.

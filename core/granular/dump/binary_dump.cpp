@@ -176,6 +176,7 @@ public:
 
 private:
   bool next_frame();
+  std::shared_ptr<const FrameKind> kind(const BinaryHeader& header);
   ColumnSchema schema(const BinaryHeader& header);
   std::vector<std::string> unnamed(const BinaryHeader& header);
 
@@ -183,7 +184,9 @@ private:
   FileIndex& index_;
   Progress& progress_;
   int layout_ = 0;
-  bool named_ = true; ///< the columns of the frame at hand: see FrameKind
+  std::shared_ptr<const FrameKind> kind_; ///< of the frame before: most have the same
+  std::vector<std::string> columns_;      ///< as its header names them
+  bool named_ = true;                     ///< the columns of the frame at hand: see FrameKind
   bool guessed_ = false;
 };
 
@@ -245,12 +248,24 @@ bool Indexer::next_frame()
   entry.offset = index_.resume_offset;
   entry.end = *end;
   entry.time = header->frame.time.value_or(FrameEntry::no_time);
-  ColumnSchema schema = this->schema(*header);
-  entry.kind = index_.kinds->share({ std::move(schema), index_.units, layout_, named_, guessed_ });
-  entry.shape = hash_shape(header->frame, entry.kind->schema);
+  entry.kind = this->kind(*header);
+  entry.shape = hash_shape(header->frame, *entry.kind);
   index_.frames.push_back(std::move(entry));
   index_.resume_offset = *end;
   return true;
+}
+
+std::shared_ptr<const FrameKind> Indexer::kind(const BinaryHeader& header)
+{
+  const bool same = kind_ && kind_->units == index_.units && columns_ == header.columns &&
+    kind_->schema.columns().size() == static_cast<std::size_t>(header.size_one);
+  if (!same)
+  {
+    ColumnSchema schema = this->schema(header);
+    kind_ = index_.kinds->share({ std::move(schema), index_.units, layout_, named_, guessed_ });
+    columns_ = header.columns;
+  }
+  return kind_;
 }
 
 ColumnSchema Indexer::schema(const BinaryHeader& header)
@@ -332,8 +347,7 @@ bool is_binary_dump(std::string_view first_bytes)
         }
         // a header with texts may be long, but the magic word is enough
         constexpr std::size_t word = 24;
-        return (check.header && !check.error) ||
-          (layout.magic && !check.error && first_bytes.size() >= word);
+        return !check.error && (check.header || (layout.magic && first_bytes.size() >= word));
       }
       catch (const Error&)
       {

@@ -66,19 +66,23 @@ void refuse_other_packings(const std::string& path, std::string_view first_bytes
   }
 }
 
+/// What lies behind the last frame that was kept is looked at each time that the file has grown: what
+/// is wrong there is not said again.
+void drop_repeated(Notices& notices, std::size_t known)
+{
+  const auto first_new = notices.begin() + static_cast<std::ptrdiff_t>(known);
+  const auto repeated = [&](const Notice& notice)
+  {
+    return std::any_of(notices.begin(), first_new,
+      [text = to_string(notice)](const Notice& said) { return to_string(said) == text; });
+  };
+  notices.erase(std::remove_if(first_new, notices.end(), repeated), notices.end());
+}
+
 /// Returns whether anything was read.
 bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress)
 {
-  std::unique_ptr<ByteSource> packed;
-  try
-  {
-    packed = open_file(index.path);
-  }
-  catch (const IoError&)
-  {
-    index.stamp = {};
-    throw;
-  }
+  std::unique_ptr<ByteSource> packed = open_file(index.path);
   const FileStamp stamp = packed->stamp();
   if (index.loaded)
   {
@@ -105,19 +109,16 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
     index.points = std::make_shared<RestartPoints>();
   }
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
+  const std::size_t known = index.notices.size();
   index_dump(*source, index, progress);
-  if (const std::string unchecked = source->unchecked(); !unchecked.empty())
+  drop_repeated(index.notices, known);
+  index.unchecked = source->unchecked();
+  if (index.defect && !index.unchecked.empty())
   {
-    std::erase_if(index.notices, [&](const Notice& said) { return said.text == unchecked; });
-    index.told = std::min(index.told, index.notices.size());
-    index.notices.push_back({ { index.path }, unchecked });
-    if (index.defect)
-    {
-      index.defect->text += "; " + unchecked;
-    }
+    index.defect->text += "; " + index.unchecked;
   }
   // a single frame is read from the start anyway
-  if (index.frames.size() <= 1)
+  if (!source->compressed() || index.frames.size() <= 1)
   {
     index.points.reset();
   }

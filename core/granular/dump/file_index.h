@@ -31,6 +31,7 @@ struct FileIndex
   std::size_t told = 0; ///< how many of these the user has had
   std::optional<Notice>
     defect;                 ///< what is wrong with the first frame that was left out, or missing
+  std::string unchecked;    ///< see ByteSource::unchecked
   std::exception_ptr error; ///< the file could not be opened or read
   bool unnamed = false;     ///< binary, without the names of its columns
   bool loaded = false;      ///< from an index file: to be held against the file first

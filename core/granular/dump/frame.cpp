@@ -22,6 +22,10 @@ void mix(Hash& hash, const Twofold3& vector)
 
 std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
 {
+  const std::string names = kind.schema.text();
+  Hash hash;
+  hash.add(names.data(), names.size());
+  kind.names_hash = hash.value();
   for (const auto& known : kinds_)
   {
     if (*known == kind)
@@ -33,7 +37,7 @@ std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
   return last_ = kinds_.back();
 }
 
-std::uint64_t hash_shape(const FrameHeader& header, const ColumnSchema& schema)
+std::uint64_t hash_shape(const FrameHeader& header, const FrameKind& kind)
 {
   Hash hash;
   mix(hash, header.box.origin);
@@ -41,8 +45,8 @@ std::uint64_t hash_shape(const FrameHeader& header, const ColumnSchema& schema)
   {
     mix(hash, vector);
   }
-  const std::string texts = header.box.boundary + "\n" + schema.text();
-  hash.add(texts.data(), texts.size());
+  hash.add(header.box.boundary.data(), header.box.boundary.size());
+  hash.add(&kind.names_hash, sizeof kind.names_hash);
   return hash.value();
 }
 
@@ -58,7 +62,7 @@ void check_header(const std::string& path, const FrameEntry& entry, const FrameH
   const bool same_columns = columns.empty() ||
     std::ranges::equal(columns, entry.kind->schema.columns(), {}, {}, &ColumnInfo::name);
   if (!same_columns || header.timestep != entry.timestep || header.rows != entry.rows ||
-    hash_shape(header, entry.kind->schema) != entry.shape)
+    hash_shape(header, *entry.kind) != entry.shape)
   {
     throw IoError("the file changed since it was indexed: expected the frame of timestep " +
         std::to_string(entry.timestep) + "; reload the files",

@@ -35,7 +35,8 @@ struct FrameKind
   std::string units;
   int layout = text; ///< index into binary_layouts(), or text
   bool named = true; ///< false: nobody has named the columns of a binary file, these are stand-ins
-  bool guessed = false; ///< nobody has, and they are taken for those of dump atom
+  bool guessed = false;         ///< nobody has, and they are taken for those of dump atom
+  std::uint64_t names_hash = 0; ///< of the columns; set where the kind is shared
 
   bool operator==(const FrameKind&) const = default;
 };
@@ -71,7 +72,7 @@ struct FrameEntry
 };
 
 /// What frames of one timestep must share to be pieces of one: a hash of the box and the column names.
-std::uint64_t hash_shape(const FrameHeader& header, const ColumnSchema& schema);
+std::uint64_t hash_shape(const FrameHeader& header, const FrameKind& kind);
 
 /// The place of a frame: the line of its header, or the byte in a binary file.
 Where where_of(const std::string& path, const FrameEntry& entry);

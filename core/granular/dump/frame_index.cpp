@@ -95,8 +95,7 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
   Notices& notices, Progress& progress)
 {
   std::map<std::string, FileIndex> known;
-  const auto kinds =
-    files_.empty() ? std::make_shared<FrameKinds>() : std::as_const(files_.front()).kinds;
+  const auto kinds = files_.empty() ? std::make_shared<FrameKinds>() : files_.front().kinds;
   const std::string kept = files.empty() ? "" : index_file_path(options.index_file, files.front());
   if (files_.empty() && !kept.empty())
   {
@@ -158,7 +157,7 @@ std::vector<FramePiece> FrameIndex::pieces(std::size_t frame) const
   return pieces;
 }
 
-/// Says which files cannot be read, and, once, that columns have names that are not in the file.
+/// Says which files cannot be read or checked, and, once, that columns have names that are not in the file.
 void FrameIndex::note_files(Notices& notices) const
 {
   for (const FileIndex& file : files_)
@@ -166,6 +165,10 @@ void FrameIndex::note_files(Notices& notices) const
     if (file.error)
     {
       notices.push_back(left_out(file.error));
+    }
+    if (!file.unchecked.empty() && !file.frames.empty())
+    {
+      notices.push_back({ { file.path }, file.unchecked });
     }
   }
   const auto guessed = std::ranges::find_if(files_,

@@ -96,6 +96,7 @@ void visit_file(Archive& archive, File& file)
   archive.number(file.resume_offset);
   archive.number(file.resume_line);
   archive.text(file.units);
+  archive.text(file.unchecked);
   archive.list(file.notices, notice);
   archive.perhaps(file.defect, notice);
   archive.flag(file.unnamed);

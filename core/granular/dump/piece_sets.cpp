@@ -223,17 +223,20 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
 std::vector<std::int64_t> first_ids(const FileIndex& file, const FrameEntry& entry)
 {
   constexpr std::size_t most = 20'000;
+  const int column = entry.kind->schema.find(ColumnRole::Id);
+  if (column < 0)
+  {
+    return {};
+  }
   std::vector<std::int64_t> ids(most);
   std::size_t count = 0;
-  const int column = entry.kind->schema.find(ColumnRole::Id);
   try
   {
     const std::unique_ptr<ByteSource> source = open_indexed(file);
     const std::unique_ptr<FrameRows> rows = open_rows(*source, entry);
     ColumnSink sink = { static_cast<std::uint32_t>(column), ColumnSink::Kind::Int64,
       reinterpret_cast<char*>(ids.data()), sizeof ids[0] };
-    for (std::int64_t got = 1; column >= 0 && got > 0 && count < most;
-         count += static_cast<std::size_t>(got))
+    for (std::int64_t got = 1; got > 0 && count < most; count += static_cast<std::size_t>(got))
     {
       got = rows->decode({ &sink, 1 }, static_cast<std::int64_t>(most - count));
     }

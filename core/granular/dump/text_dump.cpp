@@ -148,7 +148,7 @@ bool Indexer::read_frame(TextHeader& reader)
   entry.line = reader.line();
   entry.time = header.time.value_or(FrameEntry::no_time);
   entry.kind = this->kind(reader);
-  entry.shape = hash_shape(header, entry.kind->schema);
+  entry.shape = hash_shape(header, *entry.kind);
   std::int64_t rows = scanner_.skip_to_item(progress_);
   entry.end = scanner_.offset();
   std::string_view next;
