@@ -3,6 +3,8 @@
 
 #include "granular/base/error.h"
 
+#include "own_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,21 +25,9 @@ namespace
 namespace fs = std::filesystem;
 using granular::write_file;
 
-/// A folder of its own for each test.
-class WriteFile : public ::testing::Test
+class WriteFile : public OwnFolder
 {
 protected:
-  void SetUp() override
-  {
-    folder_ = std::string(GRANULAR_OUTPUT) + "/" +
-      ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-
-  const std::string& folder() const { return folder_; }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-
   std::string content(const std::string& name) const
   {
     std::ifstream stream(this->path(name), std::ios::binary);
@@ -48,16 +38,13 @@ protected:
   std::vector<std::string> names() const
   {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_))
+    for (const auto& entry : fs::directory_iterator(this->folder()))
     {
       names.push_back(entry.path().filename());
     }
     std::sort(names.begin(), names.end());
     return names;
   }
-
-private:
-  std::string folder_;
 };
 
 using Names = std::vector<std::string>;

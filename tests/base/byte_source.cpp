@@ -3,6 +3,8 @@
 
 #include "granular/base/error.h"
 
+#include "own_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,28 +22,8 @@ using granular::open_file;
 using granular::open_memory;
 using granular::PaddedBuffer;
 
-/// A folder of its own for each test.
-class OpenFile : public ::testing::Test
+class OpenFile : public OwnFolder
 {
-protected:
-  void SetUp() override
-  {
-    folder_ = std::string(GRANULAR_OUTPUT) + "/" +
-      ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-
-  std::string write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(this->path(name), std::ios::binary) << text;
-    return this->path(name);
-  }
-
-private:
-  std::string folder_;
 };
 
 void expect_refused(const std::string& path, const std::string& why)

@@ -350,6 +350,23 @@ TEST(FrameIndex, AfterAnErrorItStartsOver)
   EXPECT_EQ(run.steps(), Steps{ 0 });
 }
 
+TEST(FrameIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
+{
+  const Folder folder;
+  const std::string bad = "ITEM: TIMESTEP\nx\n";
+  const std::string path = folder.write("a.dump", frame(0) + bad + "ITEM: TIMESTEP\n");
+  Series run;
+  run.update({ path });
+  EXPECT_NE(run.said.find("got 'x'; the frame is left out"), std::string::npos) << run.said;
+  for (int i = 0; i < 5; ++i)
+  {
+    folder.append("a.dump", i == 0 ? "10\n" : "\n");
+    run.update({ path });
+    EXPECT_EQ(run.said, "") << i;
+    EXPECT_EQ(run.index.files()[0].notices.size(), 1u) << i;
+  }
+}
+
 TEST(FrameIndex, CancelledAtAnyReportThenWhole)
 {
   class Stop final : public Progress

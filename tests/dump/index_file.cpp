@@ -3,6 +3,8 @@
 // was, or not at all, and never stand against what the files hold.
 #include "granular/dump/index_file.h"
 
+#include "../base/own_folder.h"
+
 #include "granular/base/hash.h"
 #include "granular/dump/binary_header.h"
 #include "granular/dump/frame_index.h"
@@ -33,33 +35,16 @@ using Files = std::vector<FileIndex>;
 using Names = std::vector<std::string>;
 using Steps = std::vector<std::int64_t>;
 
-/// A folder of its own for each test.
-class IndexFileTest : public ::testing::Test
+class IndexFileTest : public OwnFolder
 {
 protected:
-  void SetUp() override
-  {
-    folder_ = std::string(GRANULAR_OUTPUT) + "/" +
-      ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
+  using OwnFolder::folder;
 
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
   std::string folder(const std::string& name) const
   {
     fs::create_directories(this->path(name));
     return this->path(name);
   }
-
-  std::string write(const std::string& name, const std::string& bytes) const
-  {
-    std::ofstream(this->path(name), std::ios::binary | std::ios::trunc) << bytes;
-    return this->path(name);
-  }
-
-private:
-  std::string folder_;
 };
 
 std::string content(const std::string& path)
