@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_base_communicator_h
+#define granular_base_communicator_h
+
+#include "granular/base/error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// The processes that work on one thing. All but rank, size and node_size are collective: every rank
+/// calls them, in the same order. Sizes are 64-bit throughout.
+class Communicator
+{
+public:
+  virtual ~Communicator() = default;
+
+  virtual int rank() const noexcept = 0;
+  virtual int size() const noexcept = 0;
+
+  /// How many of the ranks, this one among them, run on this machine.
+  virtual int node_size() const noexcept = 0;
+
+  /// Gives all ranks the bytes of the root.
+  virtual void broadcast(std::string& bytes, int root) = 0;
+
+  /// The bytes of every rank, by rank, on all ranks. Meant for what is small.
+  virtual std::vector<std::string> all_gather(std::string_view bytes) = 0;
+
+  /// Adds up each value over the ranks, on all ranks.
+  virtual void sum(std::span<std::int64_t> values) = 0;
+
+  /// Sends each rank its part of `from`, and puts what the ranks send, by rank, into `to`. from_bytes
+  /// and to_bytes hold one count of bytes a rank; what to_bytes says must be what is sent.
+  virtual void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+    std::span<const std::int64_t> to_bytes) = 0;
+};
+
+/// The only process.
+class SerialCommunicator final : public Communicator
+{
+public:
+  int rank() const noexcept override { return 0; }
+  int size() const noexcept override { return 1; }
+  int node_size() const noexcept override { return 1; }
+  void broadcast(std::string&, int) override {}
+  std::vector<std::string> all_gather(std::string_view bytes) override;
+  void sum(std::span<std::int64_t>) override {}
+  void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+    std::span<const std::int64_t> to_bytes) override;
+};
+
+/// Ends a step of work in which any rank may have failed: returns on all ranks if none did, else throws
+/// the same on all: the error of the lowest rank that has one, with the rank in its text ("... (on rank
+/// 2 of 3)"), of the same kind, place and code; memory that ran out becomes a LimitError, an exception of
+/// another kind an Error; Cancelled if some were cancelled and none has an error. A single process
+/// throws its own exception as it is. failure is null where nothing is wrong.
+void agree(Communicator& ranks, const std::exception_ptr& failure);
+}
+#endif
