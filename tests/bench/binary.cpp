@@ -153,12 +153,15 @@ bool decode(const granular::ByteSource& source, const granular::FrameEntry& entr
 {
   std::vector<granular::ColumnSink> sinks = output.sinks(0);
   const std::unique_ptr<granular::FrameRows> rows = granular::open_rows(source, entry);
+  const std::unique_ptr<granular::RowReader> reader = rows->reader();
+  const std::int64_t chunk = granular::chunk_extent(entry, std::size_t{ 1 } << 18);
   std::int64_t count = 0;
-  for (std::int64_t got = 1; got > 0; count += got)
+  for (std::int64_t row = 0; row < entry.rows; row += chunk)
   {
-    got = rows->decode(sinks, std::numeric_limits<std::int64_t>::max());
+    reader->open(row, std::min(row + chunk, entry.rows));
+    count += reader->decode(sinks, chunk);
   }
-  return count == entry.rows && !rows->misfit();
+  return count == entry.rows;
 }
 
 void tell_speeds(benchmark::State& state, const Rounds& rounds)

@@ -45,6 +45,7 @@ class Turns
 public:
   void wait(std::size_t chunk) const noexcept; ///< until all chunks before have passed
   void pass(std::size_t chunk) noexcept;       ///< lets the next one pass
+  void restart() noexcept { next_ = 0; }       ///< when nobody waits
 
 private:
   std::atomic<std::size_t> next_ = 0;

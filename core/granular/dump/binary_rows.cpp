@@ -16,8 +16,6 @@ namespace granular
 {
 namespace
 {
-constexpr std::size_t buffer_bytes = std::size_t{ 1 } << 18;
-
 /// Rows whose columns are converted one after the other: they stay in the nearest cache.
 constexpr std::size_t block_bytes = std::size_t{ 1 } << 14;
 
@@ -86,6 +84,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
   const std::size_t columns = entry.kind->schema.columns().size();
   swapped_ = layout.swapped;
   std::vector<std::string> names;
+  std::int64_t chunks_offset = 0;
   header_.rows = -1; // what is no header is not the one that was there
   try
   {
@@ -94,7 +93,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
     {
       header_ = header->frame;
       names = header->columns;
-      next_offset_ = header->chunks_offset;
+      chunks_offset = header->chunks_offset;
     }
   }
   catch (const FormatError&)
@@ -113,111 +112,165 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
       where_of(source.path(), entry));
   }
   header_.units = entry.kind->units;
-  row_bytes_ = columns * sizeof(double);
-  buffer_ = std::make_unique<char[]>(std::max(buffer_bytes, row_bytes_));
+  row_bytes_ = static_cast<std::int64_t>(columns * sizeof(double));
+  runs_.push_back({ 0, 0, chunks_offset });
 }
 
-double BinaryRows::fraction() const noexcept
+std::unique_ptr<RowReader> BinaryRows::reader() const
 {
-  return entry_.rows > 0 ? static_cast<double>(rows_) / static_cast<double>(entry_.rows) : 1.0;
+  return std::make_unique<BinaryReader>(*this);
 }
 
-/// Makes sure that bytes are in the buffer behind at_.
-void BinaryRows::fill(std::size_t bytes)
+Misfit BinaryRows::describe(const RowFault& fault) const
 {
-  if (end_ - at_ >= bytes)
+  return { fault.column, fault.status, fault.text,
+    { source_.path(), 0, fault.offset,
+      entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].name } };
+}
+
+/// The run behind a run: its number of values stands before it.
+BinaryRows::Run BinaryRows::next_run(const Run& run) const
+{
+  const std::int64_t at = run.offset + run.rows * row_bytes_;
+  const std::int64_t before = run.first + run.rows;
+  std::int32_t n = 0;
+  const auto left = static_cast<std::size_t>(std::max(std::int64_t{ 0 }, entry_.end - at));
+  char bytes[sizeof n];
+  const std::size_t got = source_.read(at, bytes, std::min(left, sizeof n));
+  if (got < sizeof n)
+  {
+    throw IoError("the file was shortened while it was read: expected " +
+        std::to_string(entry_.end) + " bytes, got " +
+        std::to_string(at + static_cast<std::int64_t>(got)),
+      { source_.path() });
+  }
+  std::memcpy(&n, bytes, sizeof n);
+  n = swapped_ ? static_cast<std::int32_t>(__builtin_bswap32(static_cast<std::uint32_t>(n))) : n;
+  const std::int64_t columns = row_bytes_ / static_cast<std::int64_t>(sizeof(double));
+  if (n < 0 || n % columns != 0 || n / columns > entry_.rows - before)
+  {
+    throw IoError("the file changed while it was read: expected a chunk of at most " +
+        std::to_string((entry_.rows - before) * columns) + " values, got " + std::to_string(n),
+      { source_.path() });
+  }
+  return { before, n / columns, at + static_cast<std::int64_t>(sizeof n) };
+}
+
+/// The parts of runs that are rows [first, last).
+void BinaryRows::find_runs(std::int64_t first, std::int64_t last, std::vector<Run>& runs) const
+{
+  const std::lock_guard lock(mutex_);
+  while (runs_.back().first + runs_.back().rows < last)
+  {
+    const Run next = this->next_run(runs_.back());
+    if (next.rows > 0 || runs_.back().rows > 0)
+    {
+      runs_.push_back(next);
+    }
+    else
+    {
+      runs_.back() = next; // there may be many processes without rows
+    }
+  }
+  auto run = std::upper_bound(runs_.begin(), runs_.end(), first,
+    [](std::int64_t row, const Run& of) { return row < of.first; });
+  runs.clear();
+  for (--run; run != runs_.end() && run->first < last; ++run)
+  {
+    const std::int64_t from = std::max(first, run->first);
+    const std::int64_t to = std::min(last, run->first + run->rows);
+    if (from < to)
+    {
+      runs.push_back({ from, to - from, run->offset + (from - run->first) * row_bytes_ });
+    }
+  }
+}
+
+void BinaryReader::open(std::int64_t first, std::int64_t last)
+{
+  of_.find_runs(first, last, runs_);
+  run_ = 0;
+  in_run_ = decoded_ = 0;
+  rows_ = std::max(std::int64_t{ 0 }, last - first);
+  if (runs_.empty())
   {
     return;
   }
-  std::memmove(buffer_.get(), buffer_.get() + at_, end_ - at_);
-  end_ -= at_;
-  at_ = 0;
-  const std::size_t room = std::max(buffer_bytes, row_bytes_) - end_;
-  const auto left = static_cast<std::size_t>(entry_.end - next_offset_);
-  const std::size_t got = source_.read(next_offset_, buffer_.get() + end_, std::min(room, left));
-  end_ += got;
-  next_offset_ += static_cast<std::int64_t>(got);
-  if (end_ < bytes)
+  offset_ = runs_.front().offset;
+  const std::int64_t end = runs_.back().offset + runs_.back().rows * of_.row_bytes_;
+  const auto bytes = static_cast<std::size_t>(end - offset_);
+  if (capacity_ < bytes)
+  {
+    buffer_.reset(new char[bytes]); // not value-initialised
+    capacity_ = bytes;
+  }
+  const std::size_t got = of_.source_.read(offset_, buffer_.get(), bytes);
+  if (got < bytes)
   {
     throw IoError("the file was shortened while it was read: expected " +
-        std::to_string(entry_.end) + " bytes, got " + std::to_string(next_offset_),
-      { source_.path() });
+        std::to_string(of_.entry_.end) + " bytes, got " +
+        std::to_string(offset_ + static_cast<std::int64_t>(got)),
+      { of_.source_.path() });
   }
 }
 
-/// Goes on to the next chunk that has rows.
-void BinaryRows::next_chunk()
+std::int64_t BinaryReader::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
 {
-  while (chunk_rows_ == 0)
+  std::int64_t done = 0;
+  while (done < max_rows && this->more())
   {
-    std::int32_t n = 0;
-    this->fill(sizeof n);
-    std::memcpy(&n, buffer_.get() + at_, sizeof n);
-    n = swapped_ ? static_cast<std::int32_t>(__builtin_bswap32(static_cast<std::uint32_t>(n))) : n;
-    at_ += sizeof n;
-    const auto columns = static_cast<std::int32_t>(row_bytes_ / sizeof(double));
-    if (n < 0 || n % columns != 0 || n / columns > entry_.rows - rows_)
+    const BinaryRows::Run& run = runs_[run_];
+    const std::int64_t rows = std::min(max_rows - done, run.rows - in_run_);
+    const char* const from = buffer_.get() + (run.offset + in_run_ * of_.row_bytes_ - offset_);
+    this->convert(sinks, from, static_cast<std::size_t>(rows));
+    done += rows;
+    decoded_ += rows;
+    in_run_ += rows;
+    if (in_run_ == run.rows)
     {
-      throw IoError("the file changed while it was read: expected a chunk of at most " +
-          std::to_string((entry_.rows - rows_) * columns) + " values, got " + std::to_string(n),
-        { source_.path() });
+      ++run_;
+      in_run_ = 0;
     }
-    chunk_rows_ = n / columns;
   }
+  return done;
 }
 
-std::int64_t BinaryRows::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
+void BinaryReader::convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const
 {
-  if (rows_ == entry_.rows)
-  {
-    return 0;
-  }
-  this->next_chunk();
-  this->fill(row_bytes_);
-  const auto buffered = static_cast<std::int64_t>((end_ - at_) / row_bytes_);
-  const std::int64_t rows = std::min({ max_rows, chunk_rows_, buffered });
-  this->convert(sinks, rows);
-  if (misfit_)
-  {
-    return 0;
-  }
-  at_ += static_cast<std::size_t>(rows) * row_bytes_;
-  chunk_rows_ -= rows;
-  rows_ += rows;
-  return rows;
-}
-
-void BinaryRows::convert(std::span<ColumnSink> sinks, std::int64_t rows)
-{
-  const std::size_t block = std::max(std::size_t{ 1 }, block_bytes / row_bytes_);
-  const char* from = buffer_.get() + at_;
-  for (auto left = static_cast<std::size_t>(rows); left > 0;)
+  const auto row_bytes = static_cast<std::size_t>(of_.row_bytes_);
+  const std::size_t block = std::max(std::size_t{ 1 }, block_bytes / row_bytes);
+  for (std::size_t left = rows; left > 0;)
   {
     const std::size_t count = std::min(block, left);
+    const char* misfit = nullptr;
+    const ColumnSink* in = nullptr;
     for (ColumnSink& sink : sinks)
     {
       const ConvertColumn convert_one =
-        convert_columns[static_cast<std::size_t>(sink.kind)][swapped_];
-      const char* const misfit =
-        convert_one(from + sink.column * sizeof(double), row_bytes_, count, sink);
-      if (misfit)
+        convert_columns[static_cast<std::size_t>(sink.kind)][of_.swapped_];
+      const char* const found =
+        convert_one(from + sink.column * sizeof(double), row_bytes, count, sink);
+      if (found && (!misfit || found < misfit))
       {
-        this->set_misfit(sink, misfit);
-        return;
+        misfit = found;
+        in = &sink;
       }
     }
-    from += count * row_bytes_;
+    if (misfit)
+    {
+      this->fail(*in, misfit);
+    }
+    from += count * row_bytes;
     left -= count;
   }
 }
 
-void BinaryRows::set_misfit(const ColumnSink& sink, const char* value)
+void BinaryReader::fail(const ColumnSink& sink, const char* value) const
 {
-  const double number = swapped_ ? load<true>(value) : load<false>(value);
+  const double number = of_.swapped_ ? load<true>(value) : load<false>(value);
   char word[32];
   const auto end = std::to_chars(word, word + sizeof word, number).ptr;
-  const std::int64_t behind = buffer_.get() + end_ - value;
-  misfit_ = Misfit{ static_cast<int>(sink.column), RowStatus::NotExact, std::string(word, end),
-    { source_.path(), 0, next_offset_ - behind, entry_.kind->schema.columns()[sink.column].name } };
+  throw RowFault{ RowStatus::NotExact, static_cast<int>(sink.column), std::string(word, end),
+    offset_ + (value - buffer_.get()) };
 }
 }

@@ -5,39 +5,72 @@
 #include "granular/dump/frame_rows.h"
 
 #include <cstddef>
+#include <mutex>
+#include <vector>
 
 namespace granular
 {
-/// The rows of a frame of a binary dump: chunks of doubles, row-major. Values are narrowed to the
-/// column's type where that is exact; others are a misfit.
+/// The rows of a frame of a binary dump: what each process wrote, one after the other, as doubles,
+/// row-major. Values are narrowed to the column's type where that is exact; others are a fault.
 class BinaryRows final : public FrameRows
 {
 public:
   BinaryRows(const ByteSource& source, const FrameEntry& entry);
 
   const FrameHeader& header() const noexcept override { return header_; }
-  std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
-  std::optional<Misfit> misfit() const override { return misfit_; }
-  double fraction() const noexcept override;
+  std::unique_ptr<RowReader> reader() const override;
+  Misfit describe(const RowFault& fault) const override;
 
 private:
-  void fill(std::size_t bytes);
-  void next_chunk();
-  void convert(std::span<ColumnSink> sinks, std::int64_t rows);
-  void set_misfit(const ColumnSink& sink, const char* value);
+  friend class BinaryReader;
+
+  /// What one process wrote: rows behind their number.
+  struct Run
+  {
+    std::int64_t first; ///< row
+    std::int64_t rows;
+    std::int64_t offset; ///< of the first row
+  };
+
+  void find_runs(std::int64_t first, std::int64_t last, std::vector<Run>& runs) const;
+  Run next_run(const Run& run) const;
 
   const ByteSource& source_;
   FrameEntry entry_;
   FrameHeader header_;
   bool swapped_;
-  std::size_t row_bytes_ = 0;
+  std::int64_t row_bytes_ = 0;
+  mutable std::mutex mutex_;
+  mutable std::vector<Run> runs_; ///< those that were met; the first is the empty one before all
+};
+
+/// Some rows, all in memory.
+class BinaryReader final : public RowReader
+{
+public:
+  explicit BinaryReader(const BinaryRows& of)
+    : of_(of)
+  {
+  }
+
+  void open(std::int64_t first, std::int64_t last) override;
+  std::int64_t rows() const noexcept override { return rows_; }
+  bool more() const noexcept override { return decoded_ < rows_; }
+  std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
+
+private:
+  void convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const;
+  [[noreturn]] void fail(const ColumnSink& sink, const char* value) const;
+
+  const BinaryRows& of_;
+  std::vector<BinaryRows::Run> runs_; ///< their rows, all or some of them
+  std::size_t run_ = 0;               ///< of the next row
+  std::int64_t in_run_ = 0;           ///< its rows that were decoded
   std::unique_ptr<char[]> buffer_;
-  std::size_t at_ = 0;           ///< next byte in buffer_
-  std::size_t end_ = 0;          ///< bytes in buffer_
-  std::int64_t next_offset_ = 0; ///< of the byte behind buffer_ in the file
-  std::int64_t chunk_rows_ = 0;  ///< left of the chunk at hand
-  std::int64_t rows_ = 0;        ///< decoded
-  std::optional<Misfit> misfit_;
+  std::size_t capacity_ = 0;
+  std::int64_t offset_ = 0; ///< of buffer_ in the content
+  std::int64_t rows_ = 0;
+  std::int64_t decoded_ = 0;
 };
 }
 #endif

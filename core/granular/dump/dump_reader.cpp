@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/dump_reader.h"
 
+#include "granular/dump/frame_chunks.h"
 #include "granular/dump/frame_decoder.h"
 #include "granular/dump/sort_rows.h"
 #include "granular/dump/text_header.h"

@@ -30,6 +30,10 @@ struct DumpRequest
   std::array<double, 6> region = { 1, -1, 1, -1, 1, -1 }; ///< xlo xhi ylo yhi zlo zhi, closed, in
     ///< absolute coordinates; an axis with lo > hi is not restricted
   std::function<bool(const ArrayInfo&)> wanted; ///< which arrays; empty: all but position forms
+  int piece = 0; ///< the part of the rows that is wanted, of `pieces` in all: see read_dump
+  int pieces = 1;
+  int threads = 1;                                  ///< >= 1; changes no result
+  std::size_t chunk_bytes = std::size_t{ 1 } << 18; ///< of the file that a thread does at a time
 };
 
 /// One array of a decoded frame: rows x components values, row-major.

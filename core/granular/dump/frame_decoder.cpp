@@ -1,72 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/frame_decoder.h"
 
+#include "granular/dump/text_dictionary.h"
+
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace granular
 {
 namespace
 {
-/// Rows decoded at a time: what is made from them is made while they are in the cache.
-constexpr std::size_t batch_rows = 2048;
-
-/// Batches between two reports of progress: a few milliseconds.
-constexpr int report_batches = 32;
-
-constexpr ColumnSink::Kind kind_of(ValueType type) noexcept
+/// A fault, and the piece that it is in.
+struct PieceFault
 {
-  constexpr ColumnSink::Kind kinds[] = { ColumnSink::Kind::Int32, ColumnSink::Kind::Int64,
-    ColumnSink::Kind::Float64, ColumnSink::Kind::Text };
-  return kinds[static_cast<std::size_t>(type)];
-}
+  std::size_t piece;
+  RowFault fault;
+};
 
-template <typename T>
-void copy_scaled(const char* from, std::ptrdiff_t stride, const Wire::Copy& copy, char* to,
-  std::size_t count) noexcept
+/// There are more rows than there is room for.
+struct TooManyRows
 {
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double value = static_cast<double>(*reinterpret_cast<const T*>(from)) * copy.scale;
-    *reinterpret_cast<double*>(to) = value;
-    from += stride;
-    to += copy.to.stride;
-  }
-}
-
-bool restricts(const std::array<double, 6>& region) noexcept
-{
-  return region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5];
-}
-
-/// A coordinate that is no number is in no region.
-bool contains(const std::array<double, 6>& region, const double* point) noexcept
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double lo = region[2 * axis];
-    const double hi = region[2 * axis + 1];
-    if (lo <= hi && !(point[axis] >= lo && point[axis] <= hi))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-}
-
-void Points::convert(const Box& box, std::int64_t row, std::size_t count)
-{
-  const std::span<double> points(reinterpret_cast<double*>(xyz.at(row)), 3 * count);
-  convert_positions(plan, box, point_origin, images, points);
-}
-
-std::int64_t PieceList::rows() const noexcept
-{
-  return std::accumulate(entries.begin(), entries.end(), std::int64_t{ 0 },
-    [](std::int64_t rows, const FrameEntry* entry) { return rows + entry->rows; });
+  std::size_t piece;
+};
 }
 
 FrameDecoder::FrameDecoder(
@@ -75,326 +33,309 @@ FrameDecoder::FrameDecoder(
   , schema_(schema)
   , request_(request)
   , notices_(notices)
+  , executor_(request.threads)
+  , ranges_(cut_frame(pieces, request.piece, request.pieces))
+  , chunks_(cut_chunks(pieces, ranges_, request.chunk_bytes))
+  , sources_(pieces.entries.size())
 {
-  this->open(0);
-  where_ = where_of(source_->path(), *pieces.entries[0]);
-  header_ = rows_->header();
+  first_ = this->open(0);
+  where_ = where_of(first_->bytes->path(), *pieces.entries[0]);
+  header_ = first_->rows->header();
   header_.rows = pieces.rows();
-  this->lay_arrays();
-  this->lay_points();
-  this->lay_filters();
 }
 
-void FrameDecoder::open(std::size_t piece)
+std::shared_ptr<const FrameDecoder::Source> FrameDecoder::open(std::size_t piece)
 {
-  rows_.reset();
-  source_ = pieces_.open(piece);
-  rows_ = open_rows(*source_, *pieces_.entries[piece]);
-}
-
-/// Memory for a batch.
-Destination FrameDecoder::scratch(std::size_t bytes_a_row)
-{
-  scratch_.push_back(std::make_unique<char[]>(bytes_a_row * batch_rows));
-  return { scratch_.back().get(), static_cast<std::ptrdiff_t>(bytes_a_row), true };
-}
-
-/// Adds a destination to a column. The first one gets the values as they are parsed; others get
-/// copies as doubles.
-void FrameDecoder::want(int column, ValueType type, Destination to, double scale)
-{
-  const auto found = wires_.find(column);
-  if (found != wires_.end())
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const Source> source = sources_[piece].lock();
+  if (!source)
   {
-    found->second.copies.push_back({ to, scale });
+    std::shared_ptr<const ByteSource> bytes = pieces_.open(piece);
+    std::unique_ptr<const FrameRows> rows = open_rows(*bytes, *pieces_.entries[piece]);
+    source = std::make_shared<const Source>(Source{ std::move(bytes), std::move(rows) });
+    sources_[piece] = source;
   }
-  else if (scale == 1)
+  return source;
+}
+
+void FrameDecoder::go_to(Worker& worker, std::size_t piece)
+{
+  if (!worker.source || worker.piece != piece)
   {
-    wires_[column] = { kind_of(type), to, {} };
-  }
-  else
-  {
-    wires_[column] = { kind_of(type), this->scratch(size_of(type)), { { to, scale } } };
+    worker.reader.reset();
+    worker.source = this->open(piece);
+    worker.reader = worker.source->rows->reader();
+    worker.piece = piece;
   }
 }
 
-void FrameDecoder::lay_arrays()
+/// No part has more than the pieces that it is of.
+std::int64_t FrameDecoder::most_rows() const
 {
-  for (const ArrayInfo& info : schema_.arrays())
+  return std::accumulate(ranges_.begin(), ranges_.end(), std::int64_t{ 0 },
+    [&](std::int64_t rows, const RowRange& range)
+    { return rows + pieces_.entries[range.piece]->rows; });
+}
+
+/// Rows of a text differ in length; a part of it rarely has many more than its share.
+std::int64_t FrameDecoder::likely_rows() const
+{
+  std::int64_t rows = 0;
+  for (const RowRange& range : ranges_)
   {
-    if (request_.wanted ? !request_.wanted(info) : info.position_form)
+    const FrameEntry& entry = *pieces_.entries[range.piece];
+    const double share =
+      static_cast<double>(range.last - range.first) / static_cast<double>(extent_of(entry));
+    const double likely = 1.25 * share * static_cast<double>(entry.rows) + 4096;
+    const bool all = range.last - range.first == extent_of(entry);
+    rows += all || likely >= static_cast<double>(entry.rows) ? entry.rows
+                                                             : static_cast<std::int64_t>(likely);
+  }
+  return rows;
+}
+
+/// Rows of the frame before this part: where they are chosen by their numbers.
+std::int64_t FrameDecoder::rows_before(Progress& progress)
+{
+  if (request_.stride == 1 || schema_.find(ColumnRole::Id) >= 0 || ranges_.empty())
+  {
+    return 0;
+  }
+  const RowRange& range = ranges_.front();
+  std::int64_t before = 0;
+  for (std::size_t piece = 0; piece < range.piece; ++piece)
+  {
+    before += pieces_.entries[piece]->rows;
+  }
+  if (pieces_.entries[range.piece]->kind->layout != FrameKind::text)
+  {
+    return before + range.first;
+  }
+  const std::vector<RowRange> chunks =
+    cut_chunks(pieces_, { { range.piece, 0, range.first } }, request_.chunk_bytes);
+  const std::shared_ptr<const Source> source = this->open(range.piece);
+  std::vector<std::unique_ptr<RowReader>> readers(executor_.workers(chunks.size()));
+  std::vector<std::int64_t> rows(chunks.size());
+  Turns reads;
+  const auto count = [&](std::size_t chunk, std::size_t worker)
+  {
+    Turn read(reads, chunk);
+    readers[worker] = readers[worker] ? std::move(readers[worker]) : source->rows->reader();
+    read.wait();
+    if (!source->bytes->compressed())
     {
-      continue;
+      read.pass();
     }
-    DumpArray array{ info, {}, {} };
-    const std::size_t width = size_of(info.type);
-    const std::size_t stride = width * info.columns.size();
-    array.block = Block(stride * static_cast<std::size_t>(header_.rows));
-    Destination to = { static_cast<char*>(array.block.data()), static_cast<std::ptrdiff_t>(stride),
-      false };
-    if (info.type == ValueType::Text)
-    {
-      to = this->scratch(sizeof(std::string_view));
-      texts_.push_back({ frame_.arrays.size(), to.base, {} });
-    }
-    for (const int column : info.columns)
-    {
-      this->want(column, info.type, to, info.scale);
-      to.base += width;
-    }
-    frame_.arrays.push_back(std::move(array));
-  }
-}
-
-/// Wires the columns that points are made from.
-void FrameDecoder::lay(Points& points)
-{
-  Destination to = points.xyz;
-  for (const PositionPlan::Axis& axis : points.plan.axes)
-  {
-    if (axis.column >= 0)
-    {
-      this->want(axis.column, ValueType::Float64, to);
-    }
-    to.base += sizeof(double);
-  }
-  if (std::any_of(
-        points.plan.images.begin(), points.plan.images.end(), [](int c) { return c >= 0; }))
-  {
-    points.images.assign(3 * batch_rows, 0);
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    if (points.plan.images[axis] >= 0)
-    {
-      char* const base = reinterpret_cast<char*>(points.images.data() + axis);
-      this->want(points.plan.images[axis], ValueType::Float64, { base, 3 * sizeof(double), true });
-    }
-  }
-}
-
-void FrameDecoder::lay_points()
-{
-  points_.plan = plan_positions(schema_, header_.box, request_.coordinates, where_, notices_);
-  points_.point_origin = request_.point_origin;
-  const std::size_t stride = 3 * (request_.single_precision ? sizeof(float) : sizeof(double));
-  frame_.coordinates = points_.plan.coordinates;
-  frame_.points = Block(stride * static_cast<std::size_t>(header_.rows));
-  points_.xyz = request_.single_precision
-    ? this->scratch(3 * sizeof(double))
-    : Destination{ static_cast<char*>(frame_.points.data()), 3 * sizeof(double), false };
-  this->lay(points_);
-}
-
-void FrameDecoder::lay_filters()
-{
-  const int id = schema_.find(ColumnRole::Id);
-  if (request_.stride > 1)
-  {
-    keep_.assign(batch_rows, 1);
-  }
-  if (restricts(request_.region))
-  {
-    Notices known; // lay_points has said what there is to say
-    keep_.assign(batch_rows, 1);
-    region_.emplace();
-    region_->plan = plan_positions(schema_, header_.box, Coordinates::Absolute, where_, known);
-    if (region_->plan.coordinates != Coordinates::Absolute &&
-      request_.coordinates != Coordinates::Absolute)
-    {
-      notices_.push_back({ where_,
-        std::string(
-          "expected image counts ix iy iz to make Absolute coordinates for the region, got "
-          "none; the region is in ") +
-          to_string(region_->plan.coordinates) + " coordinates" });
-    }
-    region_->xyz = this->scratch(3 * sizeof(double));
-    this->lay(*region_);
-  }
-  if (id >= 0 && (request_.stride > 1 || request_.sort_by_id) && !wires_.contains(id))
-  {
-    // as an array of its own, so that filters treat it like all others
-    ids_ = Block(sizeof(std::int64_t) * static_cast<std::size_t>(header_.rows));
-    this->want(
-      id, ValueType::Int64, { static_cast<char*>(ids_.data()), sizeof(std::int64_t), false });
-  }
-}
-
-/// Points the sinks at where the next row goes.
-void FrameDecoder::aim(std::vector<ColumnSink>& sinks) const
-{
-  auto sink = sinks.begin();
-  for (const auto& [column, wire] : wires_)
-  {
-    sink++->data = wire.first.at(row_);
-  }
+    readers[worker]->open(chunks[chunk].first, chunks[chunk].last);
+    read.pass();
+    rows[chunk] = readers[worker]->rows();
+  };
+  executor_.parallel_for(chunks.size(), count, progress);
+  return std::accumulate(rows.begin(), rows.end(), before);
 }
 
 std::optional<Misfit> FrameDecoder::run(Progress& progress)
 {
-  std::vector<ColumnSink> sinks;
-  for (const auto& [column, wire] : wires_)
+  try
   {
-    sinks.push_back({ static_cast<std::uint32_t>(column), wire.kind, nullptr, wire.first.stride });
+    first_number_ = this->rows_before(progress);
+    const std::int64_t likely = this->likely_rows();
+    if (!this->decode(likely, progress))
+    {
+      this->decode(this->most_rows(), progress);
+    }
   }
-  for (std::size_t piece = 0; piece < pieces_.entries.size(); ++piece)
+  catch (const PieceFault& found)
   {
-    if (piece > 0)
-    {
-      this->open(piece);
-    }
-    this->run_piece(sinks, progress);
-    if (std::optional<Misfit> misfit = rows_->misfit())
-    {
-      return misfit;
-    }
-    rows_->note(notices_);
+    return this->open(found.piece)->rows->describe(found.fault);
   }
+  this->check_counts();
+  this->note_surplus();
+  this->join_words();
+  this->join_rows(progress);
   progress.step(1);
   return std::nullopt;
 }
 
-/// Decodes the rows of the piece at hand, or up to a value that does not fit.
-void FrameDecoder::run_piece(std::vector<ColumnSink>& sinks, Progress& progress)
+/// False if there is not room enough, and could be more.
+bool FrameDecoder::decode(std::int64_t room, Progress& progress)
 {
-  const std::int64_t before = seen_;
-  const auto all = static_cast<double>(std::max(std::int64_t{ 1 }, header_.rows));
-  const auto rows = static_cast<double>(rows_->header().rows);
-  for (int batch = 0;; ++batch)
+  Notices notices;
+  layout_ = std::make_unique<FrameLayout>(schema_, header_, request_, room, where_, notices);
+  decoded_.assign(chunks_.size(), {});
+  counts_.assign(pieces_.entries.size(), 0);
+  next_row_ = next_number_ = 0;
+  alone_ = executor_.workers(chunks_.size()) == 1;
+  reads_.restart();
+  places_.restart();
+  std::vector<Worker> workers(executor_.workers(chunks_.size()));
+  for (Worker& worker : workers)
   {
-    if (batch % report_batches == 0)
+    worker.decoder = std::make_unique<ChunkDecoder>(*layout_, request_);
+  }
+  try
+  {
+    executor_.parallel_for(
+      chunks_.size(),
+      [&](std::size_t chunk, std::size_t worker) { this->decode_chunk(chunk, workers[worker]); },
+      progress);
+  }
+  catch (const TooManyRows& found)
+  {
+    if (room < this->most_rows())
     {
-      progress.step((static_cast<double>(before) + rows_->fraction() * rows) / all);
+      return false;
     }
-    this->aim(sinks);
-    const std::int64_t count = rows_->decode(sinks, batch_rows);
-    if (count == 0)
-    {
-      return;
-    }
-    this->finish_batch(static_cast<std::size_t>(count));
+    counts_[found.piece] = std::max(counts_[found.piece], pieces_.entries[found.piece]->rows + 1);
+    this->check_counts();
+  }
+  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
+  {
+    counts_[chunks_[chunk].piece] += decoded_[chunk].rows;
+  }
+  notices_.insert(notices_.end(), notices.begin(), notices.end());
+  return true;
+}
+
+void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
+{
+  const RowRange& range = chunks_[chunk];
+  DecodedChunk& decoded = decoded_[chunk];
+  Turn place(places_, chunk);
+  Turn read(reads_, chunk);
+  this->go_to(worker, range.piece);
+  read.wait();
+  if (!worker.source->bytes->compressed())
+  {
+    read.pass();
+  }
+  worker.reader->open(range.first, range.last);
+  read.pass();
+  const std::int64_t rows = alone_ ? 0 : worker.reader->rows();
+  place.wait();
+  decoded.row = next_row_;
+  const std::int64_t number = next_number_;
+  if (!alone_)
+  {
+    next_row_ += rows;
+    next_number_ += rows;
+    place.pass();
+  }
+  try
+  {
+    worker.decoder->decode(
+      *worker.reader, first_number_ + number, layout_->rows - number, where_, decoded);
+  }
+  catch (RowFault& fault)
+  {
+    throw PieceFault{ range.piece, std::move(fault) };
+  }
+  if (worker.reader->more())
+  {
+    throw TooManyRows{ range.piece };
+  }
+  if (alone_)
+  {
+    next_row_ += decoded.kept;
+    next_number_ += decoded.rows;
   }
 }
 
-void FrameDecoder::finish_batch(std::size_t count)
+/// Pieces of which all was read must have the rows that their headers promise, others no more.
+void FrameDecoder::check_counts() const
 {
-  this->copy_batch(count);
-  for (TextColumn& column : texts_)
+  for (const RowRange& range : ranges_)
   {
-    column.index(frame_.arrays[column.array], row_, count, where_);
-  }
-  points_.convert(header_.box, row_, count);
-  if (request_.single_precision)
-  {
-    const auto* const from = reinterpret_cast<const double*>(points_.xyz.base);
-    std::transform(from, from + 3 * count, static_cast<float*>(frame_.points.data()) + 3 * row_,
-      [](double coordinate) { return static_cast<float>(coordinate); });
-  }
-  std::size_t kept = count;
-  if (!keep_.empty())
-  {
-    this->choose_rows(count);
-    kept = static_cast<std::size_t>(
-      std::count(keep_.begin(), keep_.begin() + static_cast<std::ptrdiff_t>(count), 1));
-  }
-  if (kept < count)
-  {
-    const std::size_t point = 3 * (request_.single_precision ? sizeof(float) : sizeof(double));
-    this->compact(frame_.points, point, count);
-    this->compact(ids_, sizeof(std::int64_t), count);
-    for (DumpArray& array : frame_.arrays)
+    const FrameEntry& entry = *pieces_.entries[range.piece];
+    const std::int64_t count = counts_[range.piece];
+    const bool all = range.first == 0 && range.last == extent_of(entry);
+    if (count > entry.rows || (all && count < entry.rows))
     {
-      this->compact(array.block, size_of(array.info.type) * array.info.columns.size(), count);
+      throw FormatError("expected " + std::to_string(entry.rows) + " rows, got " +
+          (count > entry.rows ? "more" : std::to_string(count)),
+        where_of(pieces_.open(range.piece)->path(), entry));
     }
   }
-  seen_ += static_cast<std::int64_t>(count);
-  row_ += static_cast<std::int64_t>(kept);
 }
 
-void FrameDecoder::copy_batch(std::size_t count)
+/// Says once a piece that there were more words in its rows than columns.
+void FrameDecoder::note_surplus()
 {
-  for (const auto& [column, wire] : wires_)
+  std::size_t said = pieces_.entries.size();
+  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
   {
-    const char* const from = wire.first.at(row_);
-    for (const Wire::Copy& copy : wire.copies)
+    const std::size_t piece = chunks_[chunk].piece;
+    if (decoded_[chunk].surplus && piece != said)
     {
-      char* const to = copy.to.at(row_);
-      switch (wire.kind)
+      notices_.push_back({ where_of(pieces_.open(piece)->path(), *pieces_.entries[piece]),
+        "expected " + std::to_string(schema_.columns().size()) +
+          " words in a row, got more in some rows; the rest of them was ignored" });
+      said = piece;
+    }
+  }
+}
+
+/// Makes one dictionary of those of the chunks.
+void FrameDecoder::join_words()
+{
+  for (std::size_t text = 0; text < layout_->texts.size(); ++text)
+  {
+    DumpArray& array = layout_->frame.arrays[layout_->texts[text].array];
+    TextDictionary all;
+    for (const DecodedChunk& chunk : decoded_)
+    {
+      std::vector<std::int32_t> index_of;
+      for (const std::string& word : chunk.words[text])
       {
-        case ColumnSink::Kind::Int32:
-          copy_scaled<std::int32_t>(from, wire.first.stride, copy, to, count);
-          break;
-        case ColumnSink::Kind::Int64:
-          copy_scaled<std::int64_t>(from, wire.first.stride, copy, to, count);
-          break;
-        case ColumnSink::Kind::Float64:
-          copy_scaled<double>(from, wire.first.stride, copy, to, count);
-          break;
-        case ColumnSink::Kind::Text:
-          break; // no text is ever copied to a number
+        index_of.push_back(all.index(word, where_));
       }
+      std::int32_t* const first = static_cast<std::int32_t*>(array.block.data()) + chunk.row;
+      std::for_each(first, first + chunk.kept,
+        [&](std::int32_t& index) { index = index_of[static_cast<std::size_t>(index)]; });
     }
+    array.words = all.take();
   }
 }
 
-/// Sets keep_ for each row of the batch.
-void FrameDecoder::choose_rows(std::size_t count)
+/// Closes the gaps that filters left between chunks.
+void FrameDecoder::join_rows(Progress& progress)
 {
-  std::fill(keep_.begin(), keep_.end(), char{ 1 });
-  const auto id = wires_.find(schema_.find(ColumnRole::Id));
-  for (std::size_t i = 0; request_.stride > 1 && i < count; ++i)
+  next_row_ = 0;
+  struct Move
   {
-    std::int64_t number = seen_ + static_cast<std::int64_t>(i);
-    if (id != wires_.end())
+    std::int64_t from;
+    std::int64_t to;
+    std::int64_t rows;
+  };
+  std::vector<Move> moves;
+  for (const DecodedChunk& chunk : decoded_)
+  {
+    if (chunk.row != next_row_ && chunk.kept > 0)
     {
-      const char* const from = id->second.first.at(row_);
-      std::memcpy(
-        &number, from + static_cast<std::ptrdiff_t>(i) * id->second.first.stride, sizeof number);
+      moves.push_back({ chunk.row, next_row_, chunk.kept });
     }
-    keep_[i] = number % request_.stride == 0;
+    next_row_ += chunk.kept;
   }
-  if (region_)
+  std::vector<std::pair<char*, std::size_t>> blocks; // and bytes a row
+  layout_->for_each_block(
+    [&](Block& block, std::size_t bytes_a_row) {
+      blocks.push_back({ static_cast<char*>(block.data()), bytes_a_row });
+    });
+  const auto close = [&](std::size_t block, std::size_t)
   {
-    region_->convert(header_.box, row_, count);
-    const auto* point = reinterpret_cast<const double*>(region_->xyz.base);
-    for (std::size_t i = 0; i < count; ++i, point += 3)
+    const auto [data, bytes] = blocks[block];
+    for (const Move& move : moves)
     {
-      keep_[i] = keep_[i] && contains(request_.region, point);
+      std::memmove(data + static_cast<std::size_t>(move.to) * bytes,
+        data + static_cast<std::size_t>(move.from) * bytes,
+        static_cast<std::size_t>(move.rows) * bytes);
     }
-  }
-}
-
-/// Moves the rows that stay together, from where the batch begins.
-void FrameDecoder::compact(Block& block, std::size_t width, std::size_t count) const
-{
-  if (block.bytes() == 0)
-  {
-    return;
-  }
-  const char* from = static_cast<char*>(block.data()) + static_cast<std::size_t>(row_) * width;
-  char* to = static_cast<char*>(block.data()) + static_cast<std::size_t>(row_) * width;
-  for (std::size_t i = 0; i < count; ++i, from += width)
-  {
-    if (keep_[i])
-    {
-      std::memmove(to, from, width);
-      to += width;
-    }
-  }
+  };
+  executor_.parallel_for(moves.empty() ? 0 : blocks.size(), close, progress);
 }
 
 DumpFrame FrameDecoder::take(Block& ids)
 {
-  const auto rows = static_cast<std::size_t>(row_);
-  frame_.rows = row_;
-  frame_.points.shrink(3 * rows * (request_.single_precision ? sizeof(float) : sizeof(double)));
-  for (DumpArray& array : frame_.arrays)
-  {
-    array.block.shrink(rows * size_of(array.info.type) * array.info.columns.size());
-  }
-  frame_.header = std::move(header_);
-  frame_.schema = schema_;
-  ids = std::move(ids_);
-  return std::move(frame_);
+  return layout_->take(next_row_, ids);
 }
 }

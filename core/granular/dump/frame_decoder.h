@@ -2,67 +2,25 @@
 #ifndef granular_dump_frame_decoder_h
 #define granular_dump_frame_decoder_h
 
-#include "granular/base/block.h"
-#include "granular/base/row_text.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/base/executor.h"
+#include "granular/dump/chunk_decoder.h"
+#include "granular/dump/frame_chunks.h"
+#include "granular/dump/frame_layout.h"
 #include "granular/dump/frame_rows.h"
-#include "granular/dump/text_column.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
 namespace granular
 {
-/// Where values go: by the row of the frame, or by the row of the batch.
-struct Destination
-{
-  char* base = nullptr;
-  std::ptrdiff_t stride = 0;
-  bool scratch = false; ///< starts anew with each batch
-
-  char* at(std::int64_t row) const noexcept { return base + (scratch ? 0 : row * stride); }
-};
-
-/// A column on its way: to its first destination by the decoder, from there to others.
-struct Wire
-{
-  struct Copy
-  {
-    Destination to; ///< doubles
-    double scale;
-  };
-
-  ColumnSink::Kind kind;
-  Destination first;
-  std::vector<Copy> copies;
-};
-
-/// Points of a batch: three doubles a row, made from columns.
-struct Points
-{
-  PositionPlan plan;
-  Vector3 point_origin = {};
-  Destination xyz;
-  std::vector<double> images; ///< of a batch
-
-  void convert(const Box& box, std::int64_t row, std::size_t count);
-};
-
-/// The pieces of a frame, and how to get at their bytes.
-struct PieceList
-{
-  std::vector<const FrameEntry*> entries;
-  std::function<std::shared_ptr<const ByteSource>(std::size_t piece)> open;
-
-  std::int64_t rows() const noexcept; ///< of all pieces
-};
-
-/// Decodes one frame: lays the wires, then runs batches of rows through them.
+/// Decodes a part of a frame, chunk by chunk, on several threads.
+///
+/// The chunks are read by whoever has time, those of compressed files in their order; each counts its
+/// rows, and so knows the place of the first row of the next. From then on nobody waits for anybody.
 class FrameDecoder
 {
 public:
@@ -78,39 +36,56 @@ public:
   DumpFrame take(Block& ids);
 
 private:
-  void lay_arrays();
-  void lay_points();
-  void lay_filters();
-  void lay(Points& points);
-  void want(int column, ValueType type, Destination to, double scale = 1);
-  Destination scratch(std::size_t bytes_a_row);
-  void aim(std::vector<ColumnSink>& sinks) const;
-  void open(std::size_t piece);
-  void run_piece(std::vector<ColumnSink>& sinks, Progress& progress);
-  void finish_batch(std::size_t count);
-  void copy_batch(std::size_t count);
-  void choose_rows(std::size_t count);
-  void compact(Block& block, std::size_t width, std::size_t count) const;
+  /// A piece, open.
+  struct Source
+  {
+    std::shared_ptr<const ByteSource> bytes;
+    std::unique_ptr<const FrameRows> rows;
+  };
+
+  /// What a thread has of its own.
+  struct Worker
+  {
+    std::shared_ptr<const Source> source;
+    std::size_t piece = 0;
+    std::unique_ptr<RowReader> reader;
+    std::unique_ptr<ChunkDecoder> decoder;
+  };
+
+  std::shared_ptr<const Source> open(std::size_t piece);
+  void go_to(Worker& worker, std::size_t piece);
+  std::int64_t likely_rows() const;
+  std::int64_t most_rows() const;
+  std::int64_t rows_before(Progress& progress);
+  bool decode(std::int64_t room, Progress& progress);
+  void decode_chunk(std::size_t chunk, Worker& worker);
+  void check_counts() const;
+  void note_surplus();
+  void join_words();
+  void join_rows(Progress& progress);
 
   const PieceList& pieces_;
   const ColumnSchema& schema_;
   const DumpRequest& request_;
   Notices& notices_;
-  Where where_;                              ///< of the first piece
-  std::shared_ptr<const ByteSource> source_; ///< of the piece at hand
-  std::unique_ptr<FrameRows> rows_;
-  FrameHeader header_; ///< of the first piece, with the rows of all
+  Executor executor_;
+  std::vector<RowRange> ranges_;
+  std::vector<RowRange> chunks_;
+  Where where_; ///< of the first piece
+  std::mutex mutex_;
+  std::vector<std::weak_ptr<const Source>> sources_; ///< those that are open
+  std::shared_ptr<const Source> first_;              ///< of the first piece
+  FrameHeader header_;                               ///< its own, with the rows of all
 
-  std::map<int, Wire> wires_; ///< by column
-  std::vector<std::unique_ptr<char[]>> scratch_;
-  Points points_;
-  std::optional<Points> region_; ///< absolute coordinates, where a region restricts the rows
-  std::vector<TextColumn> texts_;
-  std::vector<char> keep_; ///< of a batch; empty: all rows stay
-  Block ids_;              ///< where they are needed but not wanted as an array
-  DumpFrame frame_;
-  std::int64_t row_ = 0;  ///< rows kept
-  std::int64_t seen_ = 0; ///< rows decoded
+  std::unique_ptr<FrameLayout> layout_;
+  std::vector<DecodedChunk> decoded_;
+  std::vector<std::int64_t> counts_; ///< rows of each piece
+  bool alone_ = true;                ///< one thread: it need not count rows before it has them
+  Turns reads_;
+  Turns places_;
+  std::int64_t next_row_ = 0;     ///< in memory
+  std::int64_t next_number_ = 0;  ///< rows before, kept or not
+  std::int64_t first_number_ = 0; ///< rows of the frame before this part
 };
 }
 #endif

@@ -4,8 +4,24 @@
 #include "granular/dump/binary_rows.h"
 #include "granular/dump/text_rows.h"
 
+#include <algorithm>
+
 namespace granular
 {
+std::int64_t extent_of(const FrameEntry& entry) noexcept
+{
+  return entry.kind->layout == FrameKind::text ? entry.end - entry.offset : entry.rows;
+}
+
+std::int64_t chunk_extent(const FrameEntry& entry, std::size_t bytes) noexcept
+{
+  const std::size_t unit = entry.kind->layout == FrameKind::text
+    ? 1
+    : entry.kind->schema.columns().size() * sizeof(double);
+  return static_cast<std::int64_t>(
+    std::max(std::size_t{ 1 }, bytes / std::max<std::size_t>(unit, 1)));
+}
+
 std::unique_ptr<FrameRows> open_rows(const ByteSource& source, const FrameEntry& entry)
 {
   if (entry.kind->layout == FrameKind::text)

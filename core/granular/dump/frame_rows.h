@@ -7,9 +7,9 @@
 #include "granular/base/row_text.h"
 #include "granular/dump/frame.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -24,7 +24,48 @@ struct Misfit
   Where where;
 };
 
-/// The rows of a frame, text or binary, read in order through a buffer of constant size.
+/// What a RowReader throws of a row that cannot be decoded; FrameRows::describe says it in full.
+struct RowFault
+{
+  RowStatus status;
+  int column;          ///< -1: of TooFew
+  std::string text;    ///< the word at fault, or the row
+  std::int64_t offset; ///< of it in the content of the file
+};
+
+/// The size of a frame in its own measure, by which it is cut into pieces and chunks: bytes of a text,
+/// header and rows; rows of a binary dump.
+std::int64_t extent_of(const FrameEntry& entry) noexcept;
+
+/// The extent of a chunk of about so many bytes, at least 1.
+std::int64_t chunk_extent(const FrameEntry& entry, std::size_t bytes) noexcept;
+
+/// Reads some rows of a frame at a time. One for each thread.
+class RowReader
+{
+public:
+  virtual ~RowReader() = default;
+
+  /// Reads the rows that begin in [first, last) of the extent of the frame, for decode. Where the
+  /// source is compressed, for one thread at a time, and cheap only in order. Throws IoError,
+  /// FormatError of compressed data, LimitError.
+  virtual void open(std::int64_t first, std::int64_t last) = 0;
+
+  /// How many rows there are, decoded or not.
+  virtual std::int64_t rows() const noexcept = 0;
+
+  /// Whether there are rows that were not decoded.
+  virtual bool more() const noexcept = 0;
+
+  /// Whether a row that was decoded since the last open had more words than there are columns.
+  virtual bool surplus() const noexcept { return false; }
+
+  /// Decodes the next rows, at most max_rows, into the sinks and moves them on. Returns how many; 0 only
+  /// if max_rows is 0 or there are no more. Throws RowFault. Texts stay valid until the next open.
+  virtual std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) = 0;
+};
+
+/// The rows of a frame, text or binary.
 class FrameRows
 {
 public:
@@ -32,19 +73,11 @@ public:
 
   virtual const FrameHeader& header() const noexcept = 0;
 
-  /// Decodes the next rows, at most max_rows, into the sinks and moves them on. Returns how many; 0
-  /// at the end of the frame, and at a misfit. All other errors, and a frame with other than its
-  /// header's number of rows, throw FormatError; a file that changed throws IoError. Texts stay valid
-  /// until the next call.
-  virtual std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) = 0;
+  /// Who reads rows of it, as long as this lives.
+  virtual std::unique_ptr<RowReader> reader() const = 0;
 
-  virtual std::optional<Misfit> misfit() const = 0;
-
-  /// How much of the frame has been decoded, 0 to 1.
-  virtual double fraction() const noexcept = 0;
-
-  /// What there is to say of the rows that were read.
-  virtual void note(Notices& notices) const { static_cast<void>(notices); }
+  /// The misfit that a fault is; throws the FormatError if it is none. May read the source.
+  virtual Misfit describe(const RowFault& fault) const = 0;
 };
 
 /// Reads the header at the place of a frame and makes the rows behind it ready. Throws IoError if

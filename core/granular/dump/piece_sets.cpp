@@ -236,14 +236,21 @@ std::vector<std::int64_t> first_ids(const FileIndex& file, const FrameEntry& ent
     const std::unique_ptr<FrameRows> rows = open_rows(*source, entry);
     ColumnSink sink = { static_cast<std::uint32_t>(column), ColumnSink::Kind::Int64,
       reinterpret_cast<char*>(ids.data()), sizeof ids[0] };
-    for (std::int64_t got = 1; got > 0 && count < most; count += static_cast<std::size_t>(got))
+    const std::unique_ptr<RowReader> reader = rows->reader();
+    const std::int64_t step = chunk_extent(entry, std::size_t{ 1 } << 18);
+    for (std::int64_t at = 0; at < extent_of(entry) && count < most; at += step)
     {
-      got = rows->decode({ &sink, 1 }, static_cast<std::int64_t>(most - count));
+      reader->open(at, std::min(at + step, extent_of(entry)));
+      count += static_cast<std::size_t>(
+        reader->decode({ &sink, 1 }, static_cast<std::int64_t>(most - count)));
     }
   }
   catch (const Error&)
   {
     // who reads the frame will hear of it
+  }
+  catch (const RowFault&)
+  {
   }
   ids.resize(count);
   return ids;

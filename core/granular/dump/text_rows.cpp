@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/text_rows.h"
 
+#include "granular/base/line_scan.h"
 #include "granular/base/text_scanner.h"
 #include "granular/dump/text_header.h"
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 #include <utility>
 
@@ -14,10 +14,8 @@ namespace granular
 TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   : source_(source)
   , entry_(entry)
-  , buffer_(std::size_t{ 1 } << 18)
 {
   check_header(source.path(), entry, header_, this->read_header());
-  buffer_offset_ = rows_offset_;
 }
 
 /// Returns the names of the columns.
@@ -47,151 +45,38 @@ std::vector<std::string> TextRows::read_header()
   return reader.column_names();
 }
 
-double TextRows::fraction() const noexcept
+std::unique_ptr<RowReader> TextRows::reader() const
 {
-  const auto bytes = static_cast<double>(entry_.end - rows_offset_);
-  const auto done =
-    static_cast<double>(buffer_offset_ + static_cast<std::int64_t>(at_) - rows_offset_);
-  return bytes > 0 ? done / bytes : 1.0;
+  return std::make_unique<TextReader>(*this);
 }
 
-/// Brings at least one more whole line into the buffer. False at the end of the frame.
-bool TextRows::fill()
+bool TextRows::is_misfit(const RowFault& fault) const
 {
-  std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);
-  buffer_offset_ += static_cast<std::int64_t>(at_);
-  end_ -= at_;
-  at_ = 0;
-  lines_end_ = 0;
-  while (lines_end_ == 0)
+  return fault.status == RowStatus::NotExact ||
+    (fault.status == RowStatus::NotANumber &&
+      !entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].known);
+}
+
+Misfit TextRows::describe(const RowFault& fault) const
+{
+  if (this->is_misfit(fault))
   {
-    const std::int64_t offset = buffer_offset_ + static_cast<std::int64_t>(end_);
-    if (end_ == buffer_.size())
-    {
-      if (buffer_.size() > TextScanner::longest_line)
-      {
-        throw LimitError("expected rows of at most " + std::to_string(TextScanner::longest_line) +
-            " bytes, got a longer one",
-          { source_.path(), rows_line_ });
-      }
-      buffer_.resize(2 * buffer_.size());
-    }
-    const auto left = static_cast<std::size_t>(entry_.end - offset);
-    const std::size_t wanted = std::min(left, buffer_.size() - end_);
-    const std::size_t got = source_.read(offset, buffer_.data() + end_, wanted);
-    if (got < wanted)
-    {
-      throw IoError("the file was shortened while it was read: expected " +
-          std::to_string(entry_.end) + " bytes, got " +
-          std::to_string(offset + static_cast<std::int64_t>(got)),
-        { source_.path() });
-    }
-    if (got == 0)
-    {
-      return false;
-    }
-    const std::size_t feed = std::string_view(buffer_.data() + end_, got).rfind('\n');
-    lines_end_ = feed == std::string_view::npos ? 0 : end_ + feed + 1;
-    end_ += got;
+    return { fault.column, fault.status, fault.text, this->where(fault) };
   }
-  return true;
-}
-
-std::int64_t TextRows::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
-{
-  const auto columns = static_cast<std::uint32_t>(entry_.kind->schema.columns().size());
-  for (;;)
+  if (fault.status == RowStatus::NotANumber)
   {
-    if (at_ == lines_end_ && !this->fill())
-    {
-      this->check_count(rows_);
-      return 0;
-    }
-    const std::int64_t left = entry_.rows - rows_;
-    result_ = decode_rows(buffer_.data() + at_, buffer_.data() + lines_end_, columns,
-      left > 0 ? sinks : sinks.first(0), left > 0 ? std::min(max_rows, left) : 1);
-    rows_ += result_.rows;
-    if (left <= 0)
-    {
-      this->check_count(rows_);
-    }
-    surplus_ = surplus_ || result_.surplus;
-    at_ = static_cast<std::size_t>(result_.ptr - buffer_.data());
-    if (result_.status != RowStatus::Done && !this->is_misfit())
-    {
-      this->fail();
-    }
-    if (this->is_misfit())
-    {
-      return 0;
-    }
-    if (result_.rows > 0)
-    {
-      return result_.rows;
-    }
+    throw FormatError("expected a number, got " + quoted(fault.text), this->where(fault));
   }
-}
-
-std::optional<Misfit> TextRows::misfit() const
-{
-  if (!this->is_misfit())
-  {
-    return std::nullopt;
-  }
-  return Misfit{ result_.column, result_.status, std::string(this->word()), this->where() };
-}
-
-void TextRows::note(Notices& notices) const
-{
-  if (surplus_)
-  {
-    notices.push_back({ { source_.path(), entry_.line },
-      "expected " + std::to_string(entry_.kind->schema.columns().size()) +
-        " words in a row, got more in some rows; the rest of them was ignored" });
-  }
-}
-
-bool TextRows::is_misfit() const
-{
-  return result_.status == RowStatus::NotExact ||
-    (result_.status == RowStatus::NotANumber &&
-      !entry_.kind->schema.columns()[static_cast<std::size_t>(result_.column)].known);
-}
-
-void TextRows::check_count(std::int64_t rows) const
-{
-  if (rows != entry_.rows)
-  {
-    throw FormatError("expected " + std::to_string(entry_.rows) + " rows, got " +
-        (rows > entry_.rows ? "more" : std::to_string(rows)),
-      { source_.path(), entry_.line });
-  }
-}
-
-std::string_view TextRows::word() const
-{
-  const char* const end = std::find_if(result_.ptr, buffer_.data() + lines_end_, is_blank);
-  return { result_.ptr, static_cast<std::size_t>(end - result_.ptr) };
-}
-
-void TextRows::fail() const
-{
-  if (result_.status == RowStatus::NotANumber)
-  {
-    throw FormatError("expected a number, got " + quoted(this->word()), this->where());
-  }
-  const char* const end = std::find(result_.ptr, buffer_.data() + lines_end_, '\n');
-  const std::size_t words =
-    split_words({ result_.ptr, static_cast<std::size_t>(end - result_.ptr) }).size();
   throw FormatError("expected " + std::to_string(entry_.kind->schema.columns().size()) +
-      " words in a row, got " + std::to_string(words),
-    this->where());
+      " words in a row, got " + std::to_string(split_words(fault.text).size()),
+    this->where(fault));
 }
 
-Where TextRows::where() const
+/// The line is counted only now.
+Where TextRows::where(const RowFault& fault) const
 {
   Where where{ source_.path(), rows_line_ };
-  std::int64_t left = buffer_offset_ + (result_.ptr - buffer_.data()) - rows_offset_;
+  std::int64_t left = fault.offset - rows_offset_;
   std::string part(std::size_t{ 1 } << 18, ' ');
   for (std::int64_t at = rows_offset_; left > 0;)
   {
@@ -201,10 +86,131 @@ Where TextRows::where() const
     at += static_cast<std::int64_t>(got);
     left = got == wanted ? left - static_cast<std::int64_t>(got) : 0;
   }
-  if (result_.column >= 0)
+  if (fault.column >= 0)
   {
-    where.column = entry_.kind->schema.columns()[static_cast<std::size_t>(result_.column)].name;
+    where.column = entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].name;
   }
   return where;
+}
+
+/// Brings [from, to) of the content behind what is in the buffer.
+void TextReader::load(std::int64_t from, std::int64_t to)
+{
+  const auto bytes = static_cast<std::size_t>(to - from);
+  if (buffer_.size() < filled_ + bytes)
+  {
+    constexpr std::size_t step = std::size_t{ 1 } << 14; // chunks differ a little
+    buffer_.resize((filled_ + bytes) / step * step + 2 * step);
+  }
+  const std::size_t got = of_.source_.read(from, buffer_.data() + filled_, bytes);
+  if (got < bytes)
+  {
+    throw IoError("the file was shortened while it was read: expected " +
+        std::to_string(of_.entry_.end) + " bytes, got " +
+        std::to_string(from + static_cast<std::int64_t>(got)),
+      { of_.source_.path() });
+  }
+  filled_ += bytes;
+}
+
+/// The end of the line that the byte at `at` is in, which is loaded as far as it is not. A line without
+/// a line feed at the end of the frame counts as not there.
+std::size_t TextReader::load_line(std::size_t at)
+{
+  std::int64_t more = 4096;
+  for (;;)
+  {
+    const std::size_t feed = std::string_view(buffer_.data(), filled_).find('\n', at);
+    if (feed != std::string_view::npos)
+    {
+      return feed + 1;
+    }
+    at = filled_;
+    const std::int64_t offset = offset_ + static_cast<std::int64_t>(filled_);
+    if (offset == of_.entry_.end)
+    {
+      const std::size_t last = std::string_view(buffer_.data(), filled_).rfind('\n');
+      return last == std::string_view::npos ? first_ : std::max(first_, last + 1);
+    }
+    if (filled_ - first_ > TextScanner::longest_line)
+    {
+      throw LimitError("expected rows of at most " + std::to_string(TextScanner::longest_line) +
+          " bytes, got a longer one",
+        { of_.source_.path(), of_.rows_line_ });
+    }
+    this->load(offset, std::min(of_.entry_.end, offset + more));
+    more *= 2;
+  }
+}
+
+void TextReader::open(std::int64_t first, std::int64_t last)
+{
+  constexpr std::int64_t rest = 512; // of the last row: most are shorter
+  const std::int64_t from = std::max(of_.rows_offset_, of_.entry_.offset + first);
+  const std::int64_t to = std::min(of_.entry_.end, of_.entry_.offset + last);
+  first_ = at_ = end_ = filled_ = 0;
+  surplus_ = false;
+  if (from >= to)
+  {
+    return;
+  }
+  const bool inside = from > of_.rows_offset_; // then the line feed before tells where rows begin
+  offset_ = from - (inside ? 1 : 0);
+  this->load(offset_, std::min(of_.entry_.end, to + rest));
+  const auto limit = static_cast<std::size_t>(to - offset_); // rows begin before
+  const std::string_view text(buffer_.data(), limit);
+  if (inside)
+  {
+    const std::size_t feed = text.substr(0, limit - 1).find('\n');
+    if (feed == text.npos)
+    {
+      return;
+    }
+    first_ = at_ = feed + 1;
+  }
+  end_ = this->load_line(limit - 1);
+}
+
+std::int64_t TextReader::rows() const noexcept
+{
+  std::int64_t rows = 0;
+  const char* const last = buffer_.data() + end_;
+  for (const char* first = buffer_.data() + first_; first < last;)
+  {
+    // a line may begin with any byte: that one is passed over as one that begins with another
+    const LineScan scan = scan_lines(first, last, '\0', { first == buffer_.data() + first_, true });
+    rows += scan.feeds - scan.blank_lines;
+    first = scan.ptr < last ? scan.ptr + 1 : last;
+  }
+  return rows;
+}
+
+bool TextReader::more() const noexcept
+{
+  return !std::all_of(buffer_.data() + at_, buffer_.data() + end_, is_blank);
+}
+
+std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
+{
+  const auto columns = static_cast<std::uint32_t>(of_.entry_.kind->schema.columns().size());
+  const RowResult result =
+    decode_rows(buffer_.data() + at_, buffer_.data() + end_, columns, sinks, max_rows);
+  if (result.status != RowStatus::Done)
+  {
+    this->fail(result);
+  }
+  at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
+  surplus_ = surplus_ || result.surplus;
+  return result.rows;
+}
+
+void TextReader::fail(const RowResult& result) const
+{
+  const char* const last = buffer_.data() + end_;
+  const char* const end = result.status == RowStatus::TooFew
+    ? std::find(result.ptr, last, '\n')
+    : std::find_if(result.ptr, last, is_blank);
+  throw RowFault{ result.status, result.status == RowStatus::TooFew ? -1 : result.column,
+    std::string(result.ptr, end), offset_ + (result.ptr - buffer_.data()) };
 }
 }

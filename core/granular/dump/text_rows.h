@@ -18,33 +18,51 @@ public:
   TextRows(const ByteSource& source, const FrameEntry& entry);
 
   const FrameHeader& header() const noexcept override { return header_; }
-  std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
-  std::optional<Misfit> misfit() const override;
-  double fraction() const noexcept override;
-  void note(Notices& notices) const override;
+  std::unique_ptr<RowReader> reader() const override;
+  Misfit describe(const RowFault& fault) const override;
 
 private:
+  friend class TextReader;
+
   std::vector<std::string> read_header();
-  bool fill();
-  bool is_misfit() const;
-  void check_count(std::int64_t rows) const;
-  std::string_view word() const;
-  Where where() const;
-  [[noreturn]] void fail() const;
+  bool is_misfit(const RowFault& fault) const;
+  Where where(const RowFault& fault) const;
 
   const ByteSource& source_;
   FrameEntry entry_;
   FrameHeader header_;
   std::int64_t rows_offset_ = 0;
   std::int64_t rows_line_ = 0;
+};
+
+/// Whole lines, all in memory: a row belongs to the chunk that holds its first byte.
+class TextReader final : public RowReader
+{
+public:
+  explicit TextReader(const TextRows& of)
+    : of_(of)
+  {
+  }
+
+  void open(std::int64_t first, std::int64_t last) override;
+  std::int64_t rows() const noexcept override;
+  bool more() const noexcept override;
+  bool surplus() const noexcept override { return surplus_; }
+  std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
+
+private:
+  void load(std::int64_t from, std::int64_t to);
+  std::size_t load_line(std::size_t at);
+  [[noreturn]] void fail(const RowResult& result) const;
+
+  const TextRows& of_;
   PaddedBuffer buffer_;
-  std::size_t at_ = 0;             ///< next row in buffer_
-  std::size_t lines_end_ = 0;      ///< end of the last whole line in buffer_
-  std::size_t end_ = 0;            ///< bytes in buffer_
-  std::int64_t buffer_offset_ = 0; ///< of buffer_ in the file
-  std::int64_t rows_ = 0;
-  RowResult result_{ nullptr };
-  bool surplus_ = false; ///< a row had more words than the header names columns
+  std::int64_t offset_ = 0; ///< of buffer_ in the content
+  std::size_t filled_ = 0;  ///< bytes in buffer_
+  std::size_t first_ = 0;   ///< of the rows
+  std::size_t at_ = 0;      ///< next row
+  std::size_t end_ = 0;     ///< of the rows
+  bool surplus_ = false;
 };
 }
 #endif

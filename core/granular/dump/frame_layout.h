@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_frame_layout_h
+#define granular_dump_frame_layout_h
+
+#include "granular/base/block.h"
+#include "granular/base/row_text.h"
+#include "granular/dump/dump_reader.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace granular
+{
+/// Rows decoded at a time: what is made from them is made while they are in the cache.
+inline constexpr std::size_t batch_rows = 2048;
+
+/// Where values go: by the row of the frame, or by the row of the batch into a thread's own memory.
+struct Destination
+{
+  char* base = nullptr;
+  std::size_t offset = 0; ///< in scratch memory
+  std::ptrdiff_t stride = 0;
+  bool scratch = false;
+
+  char* at(std::int64_t row, char* memory) const noexcept
+  {
+    return scratch ? memory + offset : base + row * stride;
+  }
+};
+
+/// A column on its way: to its first destination by the decoder, from there to others.
+struct Wire
+{
+  struct Copy
+  {
+    Destination to; ///< doubles
+    double scale;
+  };
+
+  ColumnSink::Kind kind;
+  Destination first;
+  std::vector<Copy> copies;
+};
+
+/// Points: three doubles a row, made from columns.
+struct PointsWire
+{
+  PositionPlan plan;
+  Vector3 point_origin = {};
+  Destination xyz;
+  std::optional<Destination> images; ///< three doubles
+};
+
+/// A column of texts, which become indices of the words that occur.
+struct TextWire
+{
+  std::size_t array; ///< in the frame
+  Destination texts; ///< std::string_views of a batch
+};
+
+/// The memory that a frame is decoded into, and the wires from its columns to there. Any number of
+/// threads decode along it, each into rows of its own.
+class FrameLayout
+{
+public:
+  /// rows is how many there is room for. Throws what plan_positions throws; std::bad_alloc.
+  FrameLayout(const ColumnSchema& schema, const FrameHeader& header, const DumpRequest& request,
+    std::int64_t rows, const Where& where, Notices& notices);
+
+  /// Cuts the memory to the rows that there are. ids gets the ids where they are needed for sorting
+  /// and no array of the frame.
+  DumpFrame take(std::int64_t rows, Block& ids);
+
+  /// Calls visit(block, bytes a row) for every block that has rows.
+  template <typename Visit>
+  void for_each_block(Visit&& visit)
+  {
+    visit(frame.points, point_bytes);
+    if (ids.bytes() > 0)
+    {
+      visit(ids, sizeof(std::int64_t));
+    }
+    for (DumpArray& array : frame.arrays)
+    {
+      visit(array.block, size_of(array.info.type) * array.info.columns.size());
+    }
+  }
+
+  std::int64_t rows; ///< there is room for
+  DumpFrame frame;
+  Block ids; ///< where they are needed but not wanted as an array
+  std::size_t point_bytes;
+  std::size_t scratch_bytes = 0;
+  std::map<int, Wire> wires; ///< by column
+  PointsWire points;
+  std::optional<PointsWire> region; ///< absolute coordinates, where a region restricts the rows
+  std::vector<TextWire> texts;
+  int id_column; ///< -1: there is none
+
+private:
+  void lay_arrays();
+  void lay_points(const Where& where, Notices& notices);
+  void lay_filters(const Where& where, Notices& notices);
+  void lay(PointsWire& wire);
+  void want(int column, ValueType type, Destination to, double scale = 1);
+  Destination scratch(std::size_t bytes_a_row);
+
+  const ColumnSchema& schema_;
+  const DumpRequest& request_;
+};
+}
+#endif
