@@ -2,6 +2,8 @@
 #ifndef granular_base_progress_h
 #define granular_base_progress_h
 
+#include <algorithm>
+
 namespace granular
 {
 /// Thrown out of a long task after Progress::report asked it to stop. Not an Error: nothing is wrong.
@@ -31,6 +33,35 @@ public:
       throw Cancelled{};
     }
   }
+};
+
+/// The progress of a part of a task, as that of the whole, which never goes back.
+class PartialProgress final : public Progress
+{
+public:
+  explicit PartialProgress(Progress& whole)
+    : whole_(whole)
+  {
+  }
+
+  /// What is reported from now on lies in [first, last] of the whole.
+  void set_part(double first, double last) noexcept
+  {
+    first_ = first;
+    last_ = last;
+  }
+
+  bool report(double fraction) override
+  {
+    reported_ = std::max(reported_, first_ + fraction * (last_ - first_));
+    return whole_.report(reported_);
+  }
+
+private:
+  Progress& whole_;
+  double first_ = 0;
+  double last_ = 1;
+  double reported_ = 0;
 };
 }
 #endif

@@ -134,11 +134,14 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
   return std::accumulate(rows.begin(), rows.end(), before);
 }
 
-std::optional<Misfit> FrameDecoder::run(Progress& progress)
+std::optional<Misfit> FrameDecoder::run(Progress& whole)
 {
+  PartialProgress progress(whole);
   try
   {
+    progress.set_part(0, 0.25);
     first_number_ = this->rows_before(progress);
+    progress.set_part(0, 1);
     const std::int64_t likely = this->likely_rows();
     if (!this->decode(likely, progress))
     {
@@ -152,6 +155,7 @@ std::optional<Misfit> FrameDecoder::run(Progress& progress)
   this->check_counts();
   this->note_surplus();
   this->join_words();
+  progress.set_part(1, 1);
   this->join_rows(progress);
   progress.step(1);
   return std::nullopt;
