@@ -149,6 +149,41 @@ TEST_F(OpenFile, OffsetsAbove32Bits)
   EXPECT_EQ(std::string(buffer, 3), "end");
 }
 
+TEST_F(OpenFile, TheFirstBytesStayWhatTheyWere)
+{
+  std::string bytes;
+  for (int i = 0; bytes.size() < 100'000; ++i)
+  {
+    bytes += std::to_string(i) + " ";
+  }
+  const std::string path = this->write("file", bytes);
+  constexpr std::size_t kept = 50'000;
+  const auto source = granular::first_bytes(open_file(path), kept);
+  const std::string first = bytes.substr(0, kept);
+  for (const std::size_t offset : { 0u, 1u, 16'000u, 16'384u, 20'000u, 49'999u, 50'000u, 99'000u })
+  {
+    for (const std::size_t count : { 1u, 300u, 16'384u, 40'000u })
+    {
+      std::string read(count, '?');
+      read.resize(source->read(static_cast<std::int64_t>(offset), read.data(), count));
+      EXPECT_EQ(read, first.substr(std::min(offset, kept), count)) << offset << " " << count;
+    }
+  }
+  this->write("file", "another");
+  char byte = 0;
+  EXPECT_EQ(source->read(0, &byte, 1), 1u);
+  EXPECT_EQ(byte, '0');
+}
+
+TEST_F(OpenFile, SeveralThreadsMayReadPlainBytes)
+{
+  const std::string path = this->write("file", "some bytes");
+  EXPECT_TRUE(open_file(path)->concurrent());
+  EXPECT_TRUE(open_memory("some bytes")->concurrent());
+  EXPECT_TRUE(granular::first_bytes(open_file(path), 4)->concurrent());
+  EXPECT_TRUE(granular::unpack(open_file(path))->concurrent());
+}
+
 TEST(OpenMemory, ReadsAnyPart)
 {
   const auto source = open_memory("0123456789", "name");

@@ -275,6 +275,7 @@ void expect_content(const std::string& packed, const std::string& content)
 {
   const auto source = open(packed);
   EXPECT_TRUE(source->compressed());
+  EXPECT_FALSE(source->concurrent());
   EXPECT_TRUE(read_all(*source) == content);
   EXPECT_EQ(source->unchecked(), "");
   EXPECT_TRUE(read_all(*open(packed), 1000) == content);

@@ -46,6 +46,7 @@ public:
   ~FileSource() override { ::close(file_); }
 
   const std::string& path() const override { return path_; }
+  bool concurrent() const override { return true; }
 
   FileStamp stamp() const override
   {
@@ -96,11 +97,14 @@ public:
   FirstBytes(std::unique_ptr<ByteSource> source, std::int64_t bytes)
     : source_(std::move(source))
     , bytes_(bytes)
+    , head_(new char[head_bytes]) // not value-initialised: many files are smaller
+    , there_(source_->read(0, head_.get(), std::min(head_bytes, static_cast<std::size_t>(bytes))))
   {
   }
 
   const std::string& path() const override { return source_->path(); }
   FileStamp stamp() const override { return source_->stamp(); }
+  bool concurrent() const override { return source_->concurrent(); }
 
   std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
   {
@@ -109,12 +113,6 @@ public:
     // small files, and the beginning of others, are looked at several times
     if (offset + static_cast<std::int64_t>(wanted) <= static_cast<std::int64_t>(head_bytes))
     {
-      if (!head_)
-      {
-        head_.reset(new char[head_bytes]);
-        there_ =
-          source_->read(0, head_.get(), std::min(head_bytes, static_cast<std::size_t>(bytes_)));
-      }
       const std::size_t start = std::min(static_cast<std::size_t>(offset), there_);
       const std::size_t count = std::min(wanted, there_ - start);
       std::copy_n(head_.get() + start, count, buffer);
@@ -128,8 +126,8 @@ private:
 
   std::unique_ptr<ByteSource> source_;
   std::int64_t bytes_;
-  mutable std::unique_ptr<char[]> head_;
-  mutable std::size_t there_ = 0; ///< bytes in it
+  std::unique_ptr<char[]> head_;
+  std::size_t there_; ///< bytes in it
 };
 
 class MemorySource final : public ByteSource
@@ -142,6 +140,7 @@ public:
   }
 
   const std::string& path() const override { return path_; }
+  bool concurrent() const override { return true; }
 
   FileStamp stamp() const override
   {

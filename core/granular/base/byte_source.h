@@ -46,6 +46,9 @@ public:
   /// Whether going far back costs, and stamp().size is not the number of bytes.
   virtual bool compressed() const { return false; }
 
+  /// Whether several threads may read at once: so from files and memory.
+  virtual bool concurrent() const { return false; }
+
   /// What to say of bytes that could not be checked: compressed data that end before their end, as
   /// those of a running simulation do. Known once the end was read; empty: nothing.
   virtual std::string unchecked() const { return {}; }
@@ -81,7 +84,7 @@ std::unique_ptr<ByteSource> open_file(const std::string& path);
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name = "memory");
 
 /// The first bytes of a source: what a file held at one moment, while others append to it. The
-/// beginning is read once and kept; for one thread at a time.
+/// beginning is read here, once, and kept. Throws what reading throws.
 std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std::int64_t bytes);
 
 /// What is inside, by content: the decompressed bytes of gzip (RFC 1952, any number of members) and
