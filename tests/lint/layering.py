@@ -5,7 +5,7 @@
     core/granular/SYSTEM   base, its own folder, and what SYSTEM_MAY_USE says
     core/mpi               base, its own folder, mpi.h
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
-    plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView
+    plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/
     plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
     samples                paraview.simple, granular, numpy and Python's own modules
 """
@@ -33,6 +33,7 @@ SYSTEM_HEADERS = (
     (_OPERATING_SYSTEM + r"|(zlib|zstd|zstd_errors)\.h",
      r"core/granular/base/byte_(source|sink)(_\w+)?\.cpp"),
     (r"sys/mman\.h", r"core/granular/base/block\.cpp"),
+    (r"sched\.h", r"core/granular/base/executor\.cpp"),
     (r"immintrin\.h", r"core/granular/base/(line_scan|row_text)\w*\.(cpp|h|inc)"),
     (r"mpi\.h", r"core/mpi/.*"),
 )
@@ -99,6 +100,7 @@ def check_vtk_header(root, path):
 
 
 def check_vtk_source(root, path):
+    private = path.startswith("plugin/vtk/private/")
     for line, bracket, name, _ in includes(tree.read(root, path)):
         if name.startswith("granular/") or (bracket == "<" and name in STANDARD):
             continue
@@ -107,8 +109,10 @@ def check_vtk_source(root, path):
             yield path, line, f"{name} is of ParaView: the VTK layer stands on VTK alone"
         elif re.match(r"(pq[A-Z]|Q[A-Z]|Qt)", name):
             yield path, line, f"{name} is of a user interface: the VTK layer stands on VTK alone"
+        elif name.startswith("mpi/") and not private:
+            yield path, line, f"{name}: MPI is known in plugin/vtk/private/ only"
         elif bracket == "<" and not re.match(r"vtk_", name):
-            if not (path.startswith("plugin/vtk/private/") and name == "mpi.h"):
+            if not (private and name == "mpi.h"):
                 yield path, line, f"<{name}> is neither of VTK nor of the C++ standard library"
 
 

@@ -51,13 +51,15 @@ class Layering(unittest.TestCase):
             core__granular__base__byte_source_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
             core__granular__base__byte_source_x_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
             core__granular__base__byte_source_x_dot_h="#include <zstd.h>\n",
-            core__granular__base__block_dot_cpp="#include <sys/mman.h>\n",
+            core__granular__base__block_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
+            core__granular__base__executor_dot_cpp="#include <sched.h>\n",
             core__granular__dump__d_dot_cpp='#include "granular/euler/e.h"\n#include "d.h"\n',
             core__granular__euler__e_dot_cpp='#include "granular/dump/d.h"\n#include <mpi.h>\n',
             core__granular__restart__r_dot_cpp='#include "granular/bonds/b.h"\n',
             core__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/base/b.h"\n'
             '#include "granular/dump/d.h"\n'), [
                 "core/granular/base/a.h:3", "core/granular/base/a.h:5", "core/granular/base/a.h:6",
+                "core/granular/base/block.cpp:2",
                 "core/granular/base/byte_source_x.h:1",
                 "core/granular/dump/d.cpp:1", "core/granular/dump/d.cpp:2",
                 "core/granular/euler/e.cpp:2", "core/mpi/m.cpp:3"])
@@ -79,9 +81,9 @@ class Layering(unittest.TestCase):
             plugin__vtk__a_dot_cxx='#include "granular/base/a.h"\n#include "vtkNew.h"\n'
             '#include "private/guard.h"\n#include <string>\n#include "vtkSMProxy.h"\n'
             '#include "vtkPVSession.h"\n#include <QWidget>\n#include "pqApplicationCore.h"\n'
-            '#include <mpi.h>\n#include "vtkSMPTools.h"\n',
-            plugin__vtk__private__mpi_glue_dot_h="#include <mpi.h>\n"), [
-                f"plugin/vtk/a.cxx:{line}" for line in (5, 6, 7, 8, 9)])
+            '#include <mpi.h>\n#include "vtkSMPTools.h"\n#include "mpi/m.h"\n',
+            plugin__vtk__private__mpi_glue_dot_h='#include <mpi.h>\n#include "mpi/m.h"\n'), [
+                f"plugin/vtk/a.cxx:{line}" for line in (11, 5, 6, 7, 8, 9)])
 
     def test_server_manager(self):
         self.assertEqual(found(

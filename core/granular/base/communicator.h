@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,7 +28,7 @@ public:
   /// How many of the ranks, this one among them, run on this machine.
   virtual int node_size() const noexcept = 0;
 
-  /// Gives all ranks the bytes of the root.
+  /// Gives all ranks the bytes of the root, from 0 to size() - 1.
   virtual void broadcast(std::string& bytes, int root) = 0;
 
   /// The bytes of every rank, by rank, on all ranks. Meant for what is small.
@@ -62,5 +63,8 @@ public:
 /// another kind an Error; Cancelled if some were cancelled and none has an error. A single process
 /// throws its own exception as it is. failure is null where nothing is wrong.
 void agree(Communicator& ranks, const std::exception_ptr& failure);
+
+/// Does work, which must not be collective, on every rank, and agrees on how it went.
+void do_together(Communicator& ranks, const std::function<void()>& work);
 }
 #endif

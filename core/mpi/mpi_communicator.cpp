@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mpi/mpi_communicator.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <new>
+#include <numeric>
+
+namespace granular
+{
+namespace
+{
+void check(int status)
+{
+  if (status == MPI_SUCCESS)
+  {
+    return;
+  }
+  char text[MPI_MAX_ERROR_STRING] = {};
+  int length = 0;
+  MPI_Error_string(status, text, &length);
+  throw IoError("expected the ranks to exchange data, got " +
+      std::string(text, static_cast<std::size_t>(length)),
+    {}, std::errc::io_error);
+}
+
+/// Calls call(offset, count) for parts of at most `most`, one behind the other.
+template <class Call>
+void in_parts(std::int64_t count, std::int64_t most, const Call& call)
+{
+  for (std::int64_t offset = 0; offset < count; offset += most)
+  {
+    call(offset, static_cast<int>(std::min(most, count - offset)));
+  }
+}
+
+/// Makes room on all ranks or on none: no rank must wait for one that has left.
+void make_room(MPI_Comm ranks, const std::function<void()>& make)
+{
+  int enough = 1;
+  try
+  {
+    make();
+  }
+  catch (const std::exception&)
+  {
+    enough = 0;
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &enough, 1, MPI_INT, MPI_MIN, ranks));
+  if (!enough)
+  {
+    throw std::bad_alloc();
+  }
+}
+
+/// Waits for messages, and looks into each if something is wrong with any.
+void wait(std::vector<MPI_Request>& messages)
+{
+  std::vector<MPI_Status> states(messages.size());
+  const int status = MPI_Waitall(static_cast<int>(messages.size()), messages.data(), states.data());
+  if (status == MPI_ERR_IN_STATUS)
+  {
+    for (const MPI_Status& state : states)
+    {
+      check(state.MPI_ERROR == MPI_ERR_PENDING ? MPI_SUCCESS : state.MPI_ERROR);
+    }
+  }
+  check(status);
+  messages.clear();
+}
+}
+
+MpiCommunicator::MpiCommunicator(MPI_Comm ranks, std::int64_t most_bytes)
+  : most_bytes_(most_bytes)
+{
+  check(MPI_Comm_dup(ranks, &ranks_));
+  check(MPI_Comm_set_errhandler(ranks_, MPI_ERRORS_RETURN));
+  check(MPI_Comm_rank(ranks_, &rank_));
+  check(MPI_Comm_size(ranks_, &size_));
+  MPI_Comm node = MPI_COMM_NULL;
+  check(MPI_Comm_split_type(ranks_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node));
+  check(MPI_Comm_size(node, &node_size_));
+  check(MPI_Comm_free(&node));
+}
+
+MpiCommunicator::~MpiCommunicator()
+{
+  int finalized = 0;
+  if (MPI_Finalized(&finalized) == MPI_SUCCESS && !finalized)
+  {
+    MPI_Comm_free(&ranks_);
+  }
+}
+
+void MpiCommunicator::broadcast(char* bytes, std::int64_t count, int root)
+{
+  in_parts(count, most_bytes_,
+    [&](std::int64_t offset, int part)
+    { check(MPI_Bcast(bytes + offset, part, MPI_BYTE, root, ranks_)); });
+}
+
+void MpiCommunicator::broadcast(std::string& bytes, int root)
+{
+  auto count = static_cast<std::int64_t>(bytes.size());
+  check(MPI_Bcast(&count, 1, MPI_INT64_T, root, ranks_));
+  make_room(ranks_, [&] { bytes.resize(static_cast<std::size_t>(count)); });
+  this->broadcast(bytes.data(), count, root);
+}
+
+std::vector<std::string> MpiCommunicator::all_gather(std::string_view bytes)
+{
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(size_));
+  const auto count = static_cast<std::int64_t>(bytes.size());
+  check(MPI_Allgather(&count, 1, MPI_INT64_T, counts.data(), 1, MPI_INT64_T, ranks_));
+  std::vector<std::int64_t> begins(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), begins.begin(), std::int64_t{ 0 });
+  const std::int64_t total = begins.back() + counts.back();
+  std::vector<std::string> all(counts.size());
+  if (total == 0)
+  {
+    return all;
+  }
+
+  std::string joined;
+  make_room(ranks_,
+    [&]
+    {
+      joined.resize(static_cast<std::size_t>(total));
+      for (std::size_t rank = 0; rank < all.size(); ++rank)
+      {
+        all[rank].reserve(static_cast<std::size_t>(counts[rank]));
+      }
+    });
+  const std::int64_t own = begins[static_cast<std::size_t>(rank_)];
+  std::copy(bytes.begin(), bytes.end(), joined.begin() + own);
+  if (total <= most_bytes_)
+  {
+    const std::vector<int> parts(counts.begin(), counts.end());
+    const std::vector<int> offsets(begins.begin(), begins.end());
+    check(MPI_Allgatherv(
+      MPI_IN_PLACE, 0, MPI_BYTE, joined.data(), parts.data(), offsets.data(), MPI_BYTE, ranks_));
+  }
+  else
+  {
+    for (std::size_t rank = 0; rank < all.size(); ++rank)
+    {
+      this->broadcast(joined.data() + begins[rank], counts[rank], static_cast<int>(rank));
+    }
+  }
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    all[rank].assign(
+      joined, static_cast<std::size_t>(begins[rank]), static_cast<std::size_t>(counts[rank]));
+  }
+  return all;
+}
+
+void MpiCommunicator::sum(std::span<std::int64_t> values)
+{
+  constexpr auto width = static_cast<std::int64_t>(sizeof(std::int64_t));
+  in_parts(static_cast<std::int64_t>(values.size()), most_bytes_ / width,
+    [&](std::int64_t offset, int part)
+    {
+      check(
+        MPI_Allreduce(MPI_IN_PLACE, values.data() + offset, part, MPI_INT64_T, MPI_SUM, ranks_));
+    });
+}
+
+void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+  std::span<const std::int64_t> to_bytes)
+{
+  const auto begin = [](std::span<const std::int64_t> counts, int rank)
+  { return std::accumulate(counts.begin(), counts.begin() + rank, std::int64_t{ 0 }); };
+  const auto own = static_cast<std::size_t>(rank_);
+  std::copy_n(from + begin(from_bytes, rank_), from_bytes[own], to + begin(to_bytes, rank_));
+
+  // one partner to send to and one to receive from at a time: messages of one pair stay in order
+  std::vector<MPI_Request> messages;
+  for (int step = 1; step < size_; ++step)
+  {
+    const int target = (rank_ + step) % size_;
+    const int source = (rank_ - step + size_) % size_;
+    in_parts(to_bytes[static_cast<std::size_t>(source)], most_bytes_,
+      [&, into = to + begin(to_bytes, source)](std::int64_t offset, int part)
+      {
+        check(MPI_Irecv(into + offset, part, MPI_BYTE, source, 0, ranks_,
+          &messages.emplace_back(MPI_REQUEST_NULL)));
+      });
+    in_parts(from_bytes[static_cast<std::size_t>(target)], most_bytes_,
+      [&, out = from + begin(from_bytes, target)](std::int64_t offset, int part)
+      {
+        check(MPI_Isend(out + offset, part, MPI_BYTE, target, 0, ranks_,
+          &messages.emplace_back(MPI_REQUEST_NULL)));
+      });
+    wait(messages);
+  }
+}
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef mpi_mpi_communicator_h
+#define mpi_mpi_communicator_h
+
+#include "granular/base/communicator.h"
+
+#include <mpi.h>
+
+#include <cstdint>
+
+namespace granular
+{
+/// The processes of an MPI communicator. What MPI finds wrong becomes an IoError; after one the state of
+/// the communicator is MPI's affair.
+class MpiCommunicator final : public Communicator
+{
+public:
+  /// Collective, like the destructor. Works on a duplicate, so that messages never mix with others of
+  /// the program; between MPI_Init and MPI_Finalize. MPI counts in int: what is larger than most_bytes
+  /// goes in several messages; from 8 to 2^31 - 1, the same on all ranks.
+  explicit MpiCommunicator(MPI_Comm ranks, std::int64_t most_bytes = std::int64_t{ 1 } << 30);
+  MpiCommunicator(const MpiCommunicator&) = delete;
+  MpiCommunicator& operator=(const MpiCommunicator&) = delete;
+  ~MpiCommunicator() override;
+
+  int rank() const noexcept override { return rank_; }
+  int size() const noexcept override { return size_; }
+  int node_size() const noexcept override { return node_size_; }
+  void broadcast(std::string& bytes, int root) override;
+  std::vector<std::string> all_gather(std::string_view bytes) override;
+  void sum(std::span<std::int64_t> values) override;
+  void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+    std::span<const std::int64_t> to_bytes) override;
+
+private:
+  void broadcast(char* bytes, std::int64_t count, int root);
+
+  MPI_Comm ranks_ = MPI_COMM_NULL;
+  std::int64_t most_bytes_;
+  int rank_ = 0;
+  int size_ = 1;
+  int node_size_ = 1;
+};
+}
+#endif

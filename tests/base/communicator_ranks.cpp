@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Run by mpirun.
+#include "mpi/mpi_communicator.h"
+
+#include "communicator_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+using granular::MpiCommunicator;
+
+namespace
+{
+/// The limits: the smallest there may be, one that cuts parts unevenly, and the usual one.
+constexpr std::int64_t limits[] = { 8, 100, std::int64_t{ 1 } << 30 };
+}
+
+TEST(MpiCommunicator, knows_its_ranks)
+{
+  int rank = 0;
+  int size = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const MpiCommunicator ranks(MPI_COMM_WORLD);
+  EXPECT_EQ(ranks.rank(), rank);
+  EXPECT_EQ(ranks.size(), size);
+  EXPECT_EQ(ranks.node_size(), size); // mpirun starts them all here
+}
+
+TEST(MpiCommunicator, moves_bytes)
+{
+  for (const std::int64_t limit : limits)
+  {
+    MpiCommunicator ranks(MPI_COMM_WORLD, limit);
+    check_broadcast(ranks);
+    check_all_gather(ranks);
+    check_sum(ranks);
+    check_exchange(ranks);
+  }
+}
+
+TEST(MpiCommunicator, agree)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  if (ranks.size() > 1)
+  {
+    check_agree(ranks);
+  }
+}
+
+/// Parts of a group that work apart, and the whole in between.
+TEST(MpiCommunicator, part_of_a_group)
+{
+  MpiCommunicator all(MPI_COMM_WORLD);
+  MPI_Comm half = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, all.rank() % 2, all.rank(), &half);
+  MpiCommunicator ranks(half);
+  MPI_Comm_free(&half);
+  EXPECT_EQ(ranks.rank(), all.rank() / 2);
+  std::string bytes = std::to_string(all.rank());
+  ranks.broadcast(bytes, 0);
+  EXPECT_EQ(bytes, std::to_string(all.rank() % 2));
+  check_exchange(all);
+  check_exchange(ranks);
+}
+
+/// Messages of the program under way on the communicator that it gave stay its own.
+TEST(MpiCommunicator, stays_apart_from_the_program)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const int next = (ranks.rank() + 1) % ranks.size();
+  int sent = ranks.rank();
+  int got = -1;
+  MPI_Request requests[2];
+  MPI_Irecv(&got, 1, MPI_INT, MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &requests[0]);
+  check_exchange(ranks);
+  MPI_Isend(&sent, 1, MPI_INT, next, 0, MPI_COMM_WORLD, &requests[1]);
+  MPI_Waitall(2, requests, MPI_STATUSES_IGNORE);
+  EXPECT_EQ(got, (ranks.rank() + ranks.size() - 1) % ranks.size());
+}
+
+TEST(MpiCommunicator, errors_of_mpi_are_errors)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  std::string bytes = "x";
+  try
+  {
+    ranks.broadcast(bytes, ranks.size());
+    ADD_FAILURE() << "there is no such root";
+  }
+  catch (const granular::IoError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("MPI_ERR_ROOT"), std::string::npos) << error.what();
+  }
+}
+
+/// More is sent than there is room for: the receiver hears of it and keeps to its room.
+TEST(MpiCommunicator, too_much)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  std::vector<std::int64_t> from_bytes(size, 2);
+  std::vector<std::int64_t> to_bytes(size, 1);
+  from_bytes[rank] = to_bytes[rank] = 0;
+  const std::string from(2 * size, 'y');
+  std::string to(size, 'x');
+  try
+  {
+    ranks.exchange(from.data(), from_bytes, to.data(), to_bytes);
+    EXPECT_EQ(ranks.size(), 1);
+  }
+  catch (const granular::IoError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("MPI_ERR_TRUNCATE"), std::string::npos)
+      << error.what();
+  }
+}
