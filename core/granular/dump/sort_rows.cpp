@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/sort_rows.h"
 
+#include "granular/dump/exchange_rows.h"
+#include "granular/dump/row_order.h"
+
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace granular
 {
 namespace
 {
-struct Place
-{
-  std::int64_t id;
-  std::size_t row;
-
-  auto operator<=>(const Place&) const = default; // rows differ: the order is that of a stable sort
-};
-
-const std::int64_t* find_ids(const DumpFrame& frame, const Block& ids)
+const std::int64_t* find_ids(const DumpFrame& frame, const Block& ids) noexcept
 {
   for (const DumpArray& array : frame.arrays)
   {
@@ -29,49 +30,217 @@ const std::int64_t* find_ids(const DumpFrame& frame, const Block& ids)
   return static_cast<const std::int64_t*>(ids.data());
 }
 
-void permute(Block& block, const std::vector<Place>& order)
+std::size_t row_width(const DumpArray& array) noexcept
 {
-  if (order.empty() || block.bytes() == 0)
+  return size_of(array.info.type) * array.info.columns.size();
+}
+
+void note_no_ids(Notices& notices, const Where& where)
+{
+  notices.push_back(
+    { where, "expected a column id to sort by, got none; the order is the file's" });
+}
+
+/// Calls call(block, width) for all that has a value a row.
+template <class Call>
+void for_each_block(DumpFrame& frame, const Call& call)
+{
+  if (frame.rows > 0)
   {
-    return;
+    call(frame.points, frame.points.bytes() / static_cast<std::size_t>(frame.rows));
   }
-  const std::size_t width = block.bytes() / order.size();
-  Block sorted(block.bytes());
-  const char* const from = static_cast<const char*>(block.data());
-  char* to = static_cast<char*>(sorted.data());
-  for (const Place& place : order)
+  for (DumpArray& array : frame.arrays)
   {
-    std::memcpy(to, from + place.row * width, width);
-    to += width;
+    call(array.block, row_width(array));
   }
-  block = std::move(sorted);
+}
+
+/// What each rank tells of itself before the rows move.
+struct Share
+{
+  std::int64_t rows;
+  std::int64_t has_ids;
+  std::int64_t point_width; ///< bytes; 0 where there are no rows
+};
+
+/// The rows of all ranks.
+struct Survey
+{
+  std::int64_t rows = 0;
+  std::size_t point_width = 0;
+  bool has_ids = false;
+};
+
+/// The arrays: what must be the same on all ranks.
+std::string shape_of(const DumpFrame& frame)
+{
+  std::string shape;
+  for (const DumpArray& array : frame.arrays)
+  {
+    shape += array.info.name + ' ' + std::to_string(static_cast<int>(array.info.type)) + ' ' +
+      std::to_string(array.info.components()) + '\n';
+  }
+  return shape;
+}
+
+Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
+{
+  const std::int64_t width =
+    frame.rows > 0 ? static_cast<std::int64_t>(frame.points.bytes()) / frame.rows : 0;
+  const Share own = { frame.rows, has_ids, width };
+  std::string told(reinterpret_cast<const char*>(&own), sizeof own);
+  told += shape_of(frame);
+  const std::vector<std::string> all = ranks.all_gather(told);
+
+  Survey sum;
+  bool lacking = false; // a rank with rows has no ids
+  for (const std::string& one : all)
+  {
+    if (one.substr(sizeof(Share)) != all.front().substr(sizeof(Share)))
+    {
+      throw Error("expected the same arrays on all ranks, got others");
+    }
+    Share share;
+    std::memcpy(&share, one.data(), sizeof share);
+    sum.rows += share.rows;
+    sum.point_width = std::max(sum.point_width, static_cast<std::size_t>(share.point_width));
+    sum.has_ids = sum.has_ids || share.has_ids;
+    lacking = lacking || (share.rows > 0 && !share.has_ids);
+  }
+  sum.has_ids = sum.has_ids && !lacking;
+  return sum;
+}
+
+/// Gives a column of texts the words of all ranks, in the order in which they first occur.
+void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows)
+{
+  std::string joined;
+  do_together(ranks,
+    [&]
+    {
+      for (const std::string& word : array.words)
+      {
+        joined += word + '\n'; // which no word holds
+      }
+    });
+  const std::vector<std::string> all = ranks.all_gather(joined);
+  do_together(ranks,
+    [&]
+    {
+      std::unordered_map<std::string_view, std::int32_t> found;
+      std::vector<std::string> words;
+      std::vector<std::int32_t> renumbered; // by the index of a word here
+      for (std::size_t rank = 0; rank < all.size(); ++rank)
+      {
+        std::string_view rest = all[rank];
+        for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1))
+        {
+          if (words.size() == std::numeric_limits<std::int32_t>::max())
+          {
+            throw LimitError("expected at most 2147483647 different words in a column");
+          }
+          const auto [place, is_new] =
+            found.emplace(rest.substr(0, end), static_cast<std::int32_t>(words.size()));
+          if (is_new)
+          {
+            words.emplace_back(place->first);
+          }
+          if (static_cast<int>(rank) == ranks.rank())
+          {
+            renumbered.push_back(place->second);
+          }
+        }
+      }
+      array.words = std::move(words);
+      auto* const indices = static_cast<std::int32_t*>(array.block.data());
+      std::transform(indices, indices + rows, indices,
+        [&](std::int32_t index) { return renumbered[static_cast<std::size_t>(index)]; });
+    });
 }
 }
 
-void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where)
+void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where,
+  const Executor& executor)
 {
   const std::int64_t* const numbers = find_ids(frame, ids);
   if (!numbers)
   {
-    notices.push_back(
-      { where, "expected a column id to sort by, got none; the order is the file's" });
+    note_no_ids(notices, where);
     return;
   }
-  std::vector<Place> order;
-  order.reserve(static_cast<std::size_t>(frame.rows));
-  for (std::size_t row = 0; row < static_cast<std::size_t>(frame.rows); ++row)
+  const RowOrder order({ numbers, static_cast<std::size_t>(frame.rows) });
+  for_each_block(
+    frame, [&](Block& block, std::size_t width) { order.apply(block, width, executor); });
+}
+
+void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
+  const Where& where, const Executor& executor)
+{
+  if (ranks.size() == 1)
   {
-    order.push_back({ numbers[row], row });
+    sort_by_id(frame, ids, notices, where, executor);
+    return;
   }
-  if (std::is_sorted(order.begin(), order.end()))
+  const std::int64_t* const numbers = find_ids(frame, ids);
+  const Survey all = survey(frame, numbers != nullptr, ranks);
+  if (!all.has_ids)
+  {
+    note_no_ids(notices, where);
+    return;
+  }
+  if (all.rows == 0)
   {
     return;
   }
-  std::sort(order.begin(), order.end());
-  permute(frame.points, order);
   for (DumpArray& array : frame.arrays)
   {
-    permute(array.block, order);
+    if (array.info.type == ValueType::Text)
+    {
+      join_words(array, ranks, frame.rows);
+    }
   }
+
+  constexpr std::size_t id_width = sizeof(std::int64_t);
+  const auto values = [](const Block& block)
+  { return std::span(static_cast<const std::int64_t*>(block.data()), block.bytes() / id_width); };
+  Block sorted;
+  RowOrder leave;
+  do_together(ranks,
+    [&]
+    {
+      sorted = Block(static_cast<std::size_t>(frame.rows) * id_width);
+      std::copy_n(numbers, frame.rows, static_cast<std::int64_t*>(sorted.data()));
+      leave = RowOrder(values(sorted));
+      leave.apply(sorted, id_width, executor);
+    });
+  const RowExchange rows(all.rows, values(sorted), ranks);
+  const RowOrder stay;
+  rows.move(sorted, id_width, stay, stay, executor);
+  RowOrder arrive;
+  do_together(ranks, [&] { arrive = RowOrder(values(sorted)); });
+  sorted = Block();
+
+  rows.move(frame.points, all.point_width, leave, arrive, executor);
+  for (DumpArray& array : frame.arrays)
+  {
+    rows.move(array.block, row_width(array), leave, arrive, executor);
+  }
+  frame.rows = rows.rows();
+}
+
+void keep_rows(DumpFrame& frame, std::int64_t first, std::int64_t count)
+{
+  for_each_block(frame,
+    [&](Block& block, std::size_t width)
+    {
+      if (block.bytes() > 0)
+      {
+        auto* const data = static_cast<char*>(block.data());
+        const std::size_t bytes = static_cast<std::size_t>(count) * width;
+        std::memmove(data, data + static_cast<std::size_t>(first) * width, bytes);
+        block.shrink(bytes);
+      }
+    });
+  frame.rows = count;
 }
 }

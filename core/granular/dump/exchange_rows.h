@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_exchange_rows_h
+#define granular_dump_exchange_rows_h
+
+#include "granular/base/block.h"
+#include "granular/base/communicator.h"
+#include "granular/base/executor.h"
+#include "granular/dump/row_order.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// Where part of parts begins among so many rows: rows * part / parts, rounded down. part may be parts:
+/// the end of the last. For rows up to 2^62.
+std::int64_t begin_of_part(std::int64_t rows, int part, int parts) noexcept;
+
+/// Moves rows between ranks so that each holds its part of the sorted rows of all. Collective.
+class RowExchange
+{
+public:
+  /// rows: of all ranks. sorted: the ids of this rank. Among equal ids those of the lower ranks are first.
+  /// Each rank gets its part of all, exactly.
+  RowExchange(std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks);
+
+  std::int64_t rows() const noexcept { return rows_; } ///< that this rank gets
+
+  /// Brings the rows of a block, width bytes each, into the order in which they leave, which is that of
+  /// the sorted ids, sends and receives them, and brings what came, by rank, into the order arrive.
+  void move(Block& block, std::size_t width, const RowOrder& leave, const RowOrder& arrive,
+    const Executor& executor) const;
+
+private:
+  Communicator& ranks_;
+  std::vector<std::int64_t> out_; ///< rows for each rank
+  std::vector<std::int64_t> in_;  ///< rows from each rank
+  std::int64_t rows_;
+};
+}
+#endif
