@@ -32,8 +32,12 @@ _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
     (_OPERATING_SYSTEM + r"|(zlib|zstd|zstd_errors)\.h",
      r"core/granular/base/byte_(source|sink)(_\w+)?\.cpp"),
+<<<<<<< HEAD
     (r"sys/mman\.h", r"core/granular/base/block\.cpp"),
     (r"sched\.h", r"core/granular/base/executor\.cpp"),
+=======
+    (r"sys/mman\.h", r"core/granular/base/mapping\.cpp"),
+>>>>>>> df5f1f6 (Blocks of output memory may come from a pool and go back to it)
     (r"immintrin\.h", r"core/granular/base/(line_scan|row_text)\w*\.(cpp|h|inc)"),
     (r"mpi\.h", r"core/mpi/.*"),
 )

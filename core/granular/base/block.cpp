@@ -1,41 +1,71 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/block.h"
 
-#include <algorithm>
-#include <cstdlib>
+#include "granular/base/block_pool.h"
+
+#include <cstring>
+#include <limits>
 #include <new>
 #include <utility>
-
-#include <sys/mman.h>
 
 namespace granular
 {
 namespace
 {
-/// First touch of fresh memory costs as much as decoding into it, a page at a time; large pages make
-/// that a small part. Only advice: it may be refused, and memory that is never touched stays free.
-void* allocate(std::size_t bytes) noexcept
+/// Stands before the data: Block::free knows nothing else.
+struct alignas(Block::alignment) Header
 {
-  constexpr std::size_t large_page = std::size_t{ 1 } << 21;
-  if (bytes < 2 * large_page)
+  Mapping mapping; ///< that this is the start of; without base: of operator new
+  std::weak_ptr<BlockPool> pool;
+};
+
+static_assert(sizeof(Header) == Block::alignment);
+
+/// Smaller ones are what malloc is good at.
+constexpr std::size_t least_mapping = std::size_t{ 1 } << 18;
+
+Header* header_of(void* data) noexcept
+{
+  return static_cast<Header*>(data) - 1;
+}
+
+Header* allocate_small(std::size_t size) noexcept
+{
+  void* const memory = ::operator new (size, std::align_val_t{ alignof(Header) }, std::nothrow);
+  return memory ? new (memory) Header : nullptr;
+}
+
+Header* allocate_mapping(std::size_t size, const std::shared_ptr<BlockPool>& pool)
+{
+  Mapping mapping = pool ? pool->take(size) : map_memory(size);
+  if (pool && !mapping.base)
   {
-    return std::malloc(std::max<std::size_t>(bytes, 1));
+    // room to grow, so that it serves the next frames of a run that gains particles, too
+    mapping = map_memory(size + size / 4);
   }
-  void* data = nullptr;
-  if (::posix_memalign(&data, large_page, bytes) != 0)
+  if (!mapping.base)
   {
     return nullptr;
   }
-#ifdef MADV_HUGEPAGE
-  // not the rest behind the last whole page: it would take a large page for itself
-  ::madvise(data, bytes / large_page * large_page, MADV_HUGEPAGE);
-#endif
-  return data;
+  expect_bytes(mapping, size);
+  return new (mapping.base) Header{ mapping, pool };
+}
+
+/// Null if there is no memory.
+void* allocate(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
+{
+  if (bytes > std::numeric_limits<std::size_t>::max() / 2)
+  {
+    return nullptr;
+  }
+  const std::size_t size = sizeof(Header) + bytes;
+  Header* const header = size < least_mapping ? allocate_small(size) : allocate_mapping(size, pool);
+  return header ? header + 1 : nullptr;
 }
 }
 
-Block::Block(std::size_t bytes)
-  : data_(allocate(bytes))
+Block::Block(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
+  : data_(allocate(bytes, pool))
   , bytes_(bytes)
 {
   if (!data_)
@@ -64,15 +94,24 @@ Block::~Block()
 
 void Block::shrink(std::size_t bytes) noexcept
 {
-  if (bytes < bytes_)
+  if (bytes >= bytes_)
   {
-    // a shrinking realloc that fails leaves the larger block as it was, which serves as well
-    if (void* smaller = std::realloc(data_, std::max<std::size_t>(bytes, 1)))
-    {
-      data_ = smaller;
-    }
-    bytes_ = bytes;
+    return;
   }
+  const std::size_t size = sizeof(Header) + bytes;
+  Header* const small =
+    size < least_mapping && bytes <= bytes_ / 2 ? allocate_small(size) : nullptr;
+  if (small)
+  {
+    void* const larger = std::exchange(data_, small + 1);
+    std::memcpy(data_, larger, bytes);
+    Block::free(larger);
+  }
+  else if (header_of(data_)->mapping.base)
+  {
+    keep_bytes(header_of(data_)->mapping, size);
+  }
+  bytes_ = bytes;
 }
 
 void* Block::release() noexcept
@@ -83,6 +122,25 @@ void* Block::release() noexcept
 
 void Block::free(void* data) noexcept
 {
-  std::free(data);
+  if (!data)
+  {
+    return;
+  }
+  Header* const header = header_of(data);
+  const Mapping mapping = header->mapping;
+  const std::shared_ptr<BlockPool> pool = header->pool.lock();
+  header->~Header();
+  if (!mapping.base)
+  {
+    ::operator delete (header, std::align_val_t{ alignof(Header) });
+  }
+  else if (pool)
+  {
+    pool->give_back(mapping);
+  }
+  else
+  {
+    unmap_memory(mapping);
+  }
 }
 }
