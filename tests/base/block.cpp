@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <new>
 #include <numeric>
 #include <thread>
 #include <utility>
+#include <vector>
 
 using granular::Block;
 
@@ -21,8 +23,8 @@ namespace
 constexpr std::size_t mib = std::size_t{ 1 } << 20;
 
 /// Small ones, and those on both sides of where blocks are made in another way.
-constexpr std::size_t sizes[] = { 0, 1, 63, 64, 1000, mib / 4 - 65, mib / 4 - 64, mib / 4, mib,
-  4 * mib - 64, 4 * mib, 5 * mib + 7, 33 * mib };
+constexpr std::size_t sizes[] = { 0, 1, 63, 64, 1000, mib / 4 - 1, mib / 4, mib, 4 * mib - 64,
+  4 * mib, 5 * mib + 7, 33 * mib };
 
 std::uint64_t* numbers_of(const Block& block)
 {
@@ -132,6 +134,24 @@ TEST(Block, IsFreedByAnotherThread)
   {
     void* const data = Block(size).release();
     std::thread([data] { Block::free(data); }).join();
+  }
+}
+
+TEST(Block, FreesWhatMallocGave)
+{
+  // of every place in a page, where other blocks may have been before
+  for (std::size_t i = 0; i < 1000; ++i)
+  {
+    std::vector<void*> all;
+    for (std::size_t k = 0; k < 20; ++k)
+    {
+      all.push_back(std::malloc(16 * (i % 70) + k * 1000));
+      all.push_back(Block(k * 20000).release());
+    }
+    for (void* const each : all)
+    {
+      Block::free(each);
+    }
   }
 }
 

@@ -3,6 +3,9 @@
 
 #include "granular/base/block_pool.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -12,31 +15,49 @@ namespace granular
 {
 namespace
 {
-/// Stands before the data: Block::free knows nothing else.
+/// Start of a mapping; the data are behind it. Small blocks are malloc's, without more.
 struct alignas(Block::alignment) Header
 {
-  Mapping mapping; ///< that this is the start of; without base: of operator new
+  std::uint64_t mark; ///< that this is a header, and that of this address
+  std::uintptr_t self;
+  Mapping mapping;
   std::weak_ptr<BlockPool> pool;
 };
 
 static_assert(sizeof(Header) == Block::alignment);
 
-/// Smaller ones are what malloc is good at.
+constexpr std::uint64_t header_mark = 0x6b636f6c42c0ffee;
+constexpr std::uintptr_t least_page = 4096;
+
+/// Smaller blocks are what malloc is good at.
 constexpr std::size_t least_mapping = std::size_t{ 1 } << 18;
 
-Header* header_of(void* data) noexcept
+/// Null if the data are malloc's. What is read then may be of others, but lies in the same page.
+__attribute__((no_sanitize("address", "thread"))) Header* header_of(void* data) noexcept
 {
-  return static_cast<Header*>(data) - 1;
+  const auto address = reinterpret_cast<std::uintptr_t>(data);
+  if (address % least_page != sizeof(Header))
+  {
+    return nullptr;
+  }
+  Header* const header = static_cast<Header*>(data) - 1;
+  const volatile Header& seen = *header;
+  const bool found =
+    seen.mark == header_mark && seen.self == reinterpret_cast<std::uintptr_t>(header);
+  return found ? header : nullptr;
 }
 
-Header* allocate_small(std::size_t size) noexcept
+void* allocate_small(std::size_t bytes) noexcept
 {
-  void* const memory = ::operator new (size, std::align_val_t{ alignof(Header) }, std::nothrow);
-  return memory ? new (memory) Header : nullptr;
+  void* data = nullptr;
+  const bool failed =
+    ::posix_memalign(&data, Block::alignment, std::max<std::size_t>(bytes, 1)) != 0;
+  return failed ? nullptr : data;
 }
 
-Header* allocate_mapping(std::size_t size, const std::shared_ptr<BlockPool>& pool)
+void* allocate_mapping(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
 {
+  const std::size_t size = sizeof(Header) + bytes;
   Mapping mapping = pool ? pool->take(size) : map_memory(size);
   if (pool && !mapping.base)
   {
@@ -48,7 +69,8 @@ Header* allocate_mapping(std::size_t size, const std::shared_ptr<BlockPool>& poo
     return nullptr;
   }
   expect_bytes(mapping, size);
-  return new (mapping.base) Header{ mapping, pool };
+  const auto self = reinterpret_cast<std::uintptr_t>(mapping.base);
+  return new (mapping.base) Header{ header_mark, self, mapping, pool } + 1;
 }
 
 /// Null if there is no memory.
@@ -58,9 +80,7 @@ void* allocate(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
   {
     return nullptr;
   }
-  const std::size_t size = sizeof(Header) + bytes;
-  Header* const header = size < least_mapping ? allocate_small(size) : allocate_mapping(size, pool);
-  return header ? header + 1 : nullptr;
+  return bytes < least_mapping ? allocate_small(bytes) : allocate_mapping(bytes, pool);
 }
 }
 
@@ -98,18 +118,16 @@ void Block::shrink(std::size_t bytes) noexcept
   {
     return;
   }
-  const std::size_t size = sizeof(Header) + bytes;
-  Header* const small =
-    size < least_mapping && bytes <= bytes_ / 2 ? allocate_small(size) : nullptr;
+  void* const small =
+    bytes < least_mapping && bytes <= bytes_ / 2 ? allocate_small(bytes) : nullptr;
   if (small)
   {
-    void* const larger = std::exchange(data_, small + 1);
-    std::memcpy(data_, larger, bytes);
-    Block::free(larger);
+    std::memcpy(small, data_, bytes);
+    Block::free(std::exchange(data_, small));
   }
-  else if (header_of(data_)->mapping.base)
+  else if (Header* const header = header_of(data_))
   {
-    keep_bytes(header_of(data_)->mapping, size);
+    keep_bytes(header->mapping, sizeof(Header) + bytes);
   }
   bytes_ = bytes;
 }
@@ -122,19 +140,16 @@ void* Block::release() noexcept
 
 void Block::free(void* data) noexcept
 {
-  if (!data)
+  Header* const header = header_of(data);
+  if (!header)
   {
+    std::free(data);
     return;
   }
-  Header* const header = header_of(data);
   const Mapping mapping = header->mapping;
   const std::shared_ptr<BlockPool> pool = header->pool.lock();
   header->~Header();
-  if (!mapping.base)
-  {
-    ::operator delete (header, std::align_val_t{ alignof(Header) });
-  }
-  else if (pool)
+  if (pool)
   {
     pool->give_back(mapping);
   }

@@ -37,7 +37,8 @@ public:
   /// Hands the memory over; the block is empty afterwards. Never null for a block that was made.
   void* release() noexcept;
 
-  /// Frees what release() handed over.
+  /// Frees what release() handed over, and what malloc gave: an array of VTK that takes new memory from
+  /// malloc frees that by the same function.
   static void free(void* data) noexcept;
 
 private:

@@ -9,6 +9,7 @@
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace vtkGranularPrivate
@@ -59,28 +60,36 @@ void NameComponents(vtkAbstractArray* array, const granular::ArrayInfo& info,
 }
 
 template <typename Index>
-vtkSmartPointer<vtkCellArray> MakeVerticesOf(vtkIdType points, bool onePerPoint)
+vtkSmartPointer<Index> CountUp(vtkIdType count, const std::shared_ptr<granular::BlockPool>& pool)
 {
-  const vtkIdType cells = onePerPoint ? points : 1;
-  auto offsets = vtkSmartPointer<Index>::New();
-  auto connectivity = vtkSmartPointer<Index>::New();
-  offsets->SetNumberOfValues(cells + 1);
-  connectivity->SetNumberOfValues(points);
-  auto* first = offsets->GetPointer(0);
-  if (onePerPoint)
+  using Value = typename Index::ValueType;
+  granular::Block block(static_cast<std::size_t>(count) * sizeof(Value), pool);
+  auto* first = static_cast<Value*>(block.data());
+  std::iota(first, first + count, 0);
+  return TakeBlock<Index>(block, count, 1);
+}
+
+template <typename Index>
+vtkSmartPointer<vtkCellArray> MakeVerticesOf(
+  vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool)
+{
+  auto offsets = CountUp<Index>(onePerPoint ? points + 1 : 2, pool);
+  if (!onePerPoint)
   {
-    std::iota(first, first + cells + 1, 0);
+    offsets->SetValue(1, static_cast<typename Index::ValueType>(points));
   }
-  else
-  {
-    first[0] = 0;
-    first[1] = static_cast<typename Index::ValueType>(points);
-  }
-  auto* index = connectivity->GetPointer(0);
-  std::iota(index, index + points, 0);
   auto vertices = vtkSmartPointer<vtkCellArray>::New();
-  vertices->SetData(offsets.Get(), connectivity.Get());
+  vertices->SetData(offsets.Get(), CountUp<Index>(points, pool).Get());
   return vertices;
+}
+
+/**
+ * Changes of cells or of the arrays behind them that were announced.
+ */
+vtkMTimeType TimeOf(vtkCellArray* cells)
+{
+  return std::max({ cells->GetMTime(), cells->GetOffsetsArray()->GetMTime(),
+    cells->GetConnectivityArray()->GetMTime() });
 }
 }
 
@@ -155,13 +164,35 @@ vtkSmartPointer<vtkAbstractArray> MakeStrings(
   return array;
 }
 
-vtkSmartPointer<vtkCellArray> MakeVertices(vtkIdType points, bool onePerPoint)
+vtkSmartPointer<vtkCellArray> MakeVertices(
+  vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool)
 {
   if (points == 0)
   {
     return vtkSmartPointer<vtkCellArray>::New();
   }
-  return points < VTK_TYPE_INT32_MAX ? MakeVerticesOf<vtkTypeInt32Array>(points, onePerPoint)
-                                     : MakeVerticesOf<vtkTypeInt64Array>(points, onePerPoint);
+  return points < VTK_TYPE_INT32_MAX ? MakeVerticesOf<vtkTypeInt32Array>(points, onePerPoint, pool)
+                                     : MakeVerticesOf<vtkTypeInt64Array>(points, onePerPoint, pool);
+}
+
+VertexCache::VertexCache() = default;
+
+VertexCache::~VertexCache() = default;
+
+vtkSmartPointer<vtkCellArray> VertexCache::Get(
+  vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool)
+{
+  const bool same = this->Cells && this->Points == points && this->OnePerPoint == onePerPoint &&
+    this->Cells->GetNumberOfCells() == (onePerPoint ? points : std::min<vtkIdType>(points, 1)) &&
+    this->Cells->GetNumberOfConnectivityIds() == points && TimeOf(this->Cells) == this->Time;
+  if (!same)
+  {
+    this->Cells = nullptr; // into the pool, if nobody else has it
+    this->Cells = MakeVertices(points, onePerPoint, pool);
+    this->Points = points;
+    this->OnePerPoint = onePerPoint;
+    this->Time = TimeOf(this->Cells);
+  }
+  return this->Cells;
 }
 }

@@ -9,6 +9,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,29 @@ vtkSmartPointer<vtkAbstractArray> MakeStrings(
  * One vertex a point, or one cell with all points; with 32-bit indices where they suffice. No
  * points give no cells.
  */
-vtkSmartPointer<vtkCellArray> MakeVertices(vtkIdType points, bool onePerPoint);
+vtkSmartPointer<vtkCellArray> MakeVertices(
+  vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool = nullptr);
+
+/**
+ * MakeVertices, but the cells of the frame before where those would be the same. Nothing may be
+ * changed in the cells of an output; who does that all the same, and says so, or who changes their
+ * number, gets new ones with the next frame.
+ */
+class VertexCache
+{
+public:
+  VertexCache();
+  ~VertexCache();
+
+  vtkSmartPointer<vtkCellArray> Get(
+    vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool);
+
+private:
+  vtkSmartPointer<vtkCellArray> Cells;
+  vtkIdType Points = 0;
+  bool OnePerPoint = false;
+  vtkMTimeType Time = 0; ///< of Cells when they were made
+};
 }
 
 #endif
