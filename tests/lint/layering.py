@@ -33,7 +33,6 @@ SYSTEM_HEADERS = (
     (_OPERATING_SYSTEM + r"|(zlib|zstd|zstd_errors)\.h",
      r"core/granular/base/byte_(source|sink)(_\w+)?\.cpp"),
 <<<<<<< HEAD
-    (r"sys/mman\.h", r"core/granular/base/block\.cpp"),
     (r"sched\.h", r"core/granular/base/executor\.cpp"),
 =======
     (r"sys/mman\.h", r"core/granular/base/mapping\.cpp"),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/communicator.h"
 
+#include "granular/base/archive.h"
 #include "granular/base/progress.h"
 
 #include <algorithm>
-#include <cstring>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -96,56 +96,12 @@ Failure describe(const std::exception_ptr& failure)
   throw Error(text, failure.where);
 }
 
-/// Writes the parts of a failure one behind the other.
-struct Packer
-{
-  std::string bytes = {};
-
-  template <class Value>
-  void number(Value& value)
-  {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-
-  void text(std::string& value)
-  {
-    const std::size_t size = value.size();
-    this->number(size);
-    bytes += value;
-  }
-};
-
-/// Takes them apart again.
-struct Unpacker
-{
-  std::string_view bytes;
-
-  template <class Value>
-  void number(Value& value)
-  {
-    std::memcpy(&value, bytes.data(), sizeof value);
-    bytes.remove_prefix(sizeof value);
-  }
-
-  void text(std::string& value)
-  {
-    std::size_t size = 0;
-    this->number(size);
-    value = bytes.substr(0, size);
-    bytes.remove_prefix(size);
-  }
-};
-
-/// The one order of the parts, for both.
 template <class Archive>
 void pass(Archive& archive, Failure& failure)
 {
   archive.number(failure.kind);
   archive.text(failure.text);
-  archive.text(failure.where.path);
-  archive.number(failure.where.line);
-  archive.number(failure.where.byte);
-  archive.text(failure.where.column);
+  pass(archive, failure.where);
   archive.number(failure.code);
 }
 

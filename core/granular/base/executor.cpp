@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <sched.h>
+#include <unistd.h>
 
 namespace granular
 {
@@ -55,6 +56,11 @@ struct Work
 };
 }
 
+int machine_cores() noexcept
+{
+  return std::max(1, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)));
+}
+
 int available_cores() noexcept
 {
   cpu_set_t set;
@@ -62,7 +68,7 @@ int available_cores() noexcept
   {
     return std::max(1, CPU_COUNT(&set));
   }
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return machine_cores();
 }
 
 Executor::Executor(int threads) noexcept

@@ -10,6 +10,9 @@
 
 namespace granular
 {
+/// Cores of the machine, at least 1.
+int machine_cores() noexcept;
+
 /// Cores that this process may run on, at least 1.
 int available_cores() noexcept;
 

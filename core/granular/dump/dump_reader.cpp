@@ -6,8 +6,12 @@
 #include "granular/dump/sort_rows.h"
 #include "granular/dump/text_header.h"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace granular
 {
@@ -67,37 +71,138 @@ ColumnSchema join_schemas(const PieceList& pieces)
   return schema;
 }
 
-DumpFrame read(
-  const PieceList& pieces, const DumpRequest& request, Notices& notices, Progress& progress)
+/// Which rows a process decodes: one that is alone sorts all to get its part of them.
+DumpRequest own_request(const DumpRequest& request, bool together)
+{
+  DumpRequest own = request;
+  if (request.sort_by_id && !together)
+  {
+    own.piece = 0;
+    own.pieces = 1;
+  }
+  return own;
+}
+
+void check(const DumpRequest& request)
 {
   if (request.stride < 1)
   {
     throw LimitError("expected a stride >= 1, got " + std::to_string(request.stride));
   }
-  ColumnSchema schema = join_schemas(pieces);
-  for (;;)
+  if (request.piece < 0 || request.piece >= request.pieces)
   {
-    Notices found;
-    FrameDecoder decoder(pieces, schema, request, found);
-    if (const std::optional<Misfit> misfit = decoder.run(progress))
-    {
-      widen(*misfit, *pieces.entries.front()->kind, schema, notices);
-      continue;
-    }
-    Block ids;
-    DumpFrame frame = decoder.take(ids);
-    if (request.sort_by_id)
-    {
-      sort_by_id(frame, ids, found, decoder.where());
-    }
-    notices.insert(notices.end(), found.begin(), found.end());
-    return frame;
+    throw LimitError("expected a piece from 0 to below " + std::to_string(request.pieces) +
+      ", got " + std::to_string(request.piece));
   }
 }
+
+DumpPart decode(const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request,
+  Progress& progress)
+{
+  DumpPart part;
+  FrameDecoder decoder(pieces, schema, request, part.notices);
+  part.misfit = decoder.run(progress);
+  if (!part.misfit)
+  {
+    part.frame = decoder.take(part.ids);
+  }
+  return part;
 }
 
-DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
-  Notices& notices, Progress& progress)
+template <class Archive>
+void pass(Archive& archive, Misfit& misfit)
+{
+  archive.number(misfit.column);
+  archive.number(misfit.status);
+  archive.text(misfit.word);
+  pass(archive, misfit.where);
+}
+
+/// Puts together what all ranks have to say, on all: the first misfit, and each notice once.
+void share_remarks(Communicator& ranks, DumpPart& part)
+{
+  if (ranks.size() == 1)
+  {
+    return;
+  }
+  Packer packer;
+  std::vector<Misfit> misfit;
+  if (part.misfit)
+  {
+    misfit.push_back(*part.misfit);
+  }
+  pass(packer, misfit);
+  pass(packer, part.notices);
+  part.misfit.reset();
+  part.notices.clear();
+  std::set<std::string> said;
+  for (const std::string& bytes : ranks.all_gather(packer.bytes))
+  {
+    Unpacker unpacker{ bytes };
+    std::vector<Misfit> of_rank;
+    Notices notices;
+    pass(unpacker, of_rank);
+    pass(unpacker, notices);
+    if (!part.misfit && !of_rank.empty())
+    {
+      part.misfit = of_rank.front();
+    }
+    std::ranges::copy_if(notices, std::back_inserter(part.notices),
+      [&](const Notice& notice) { return said.insert(to_string(notice)).second; });
+  }
+}
+
+/// Sorts the rows if that is asked for. Collective.
+void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const Where& where)
+{
+  if (!request.sort_by_id)
+  {
+    return;
+  }
+  const Executor executor(request.threads);
+  if (ranks.size() > 1)
+  {
+    sort_by_id(part.frame, part.ids, ranks, part.notices, where, executor);
+    return;
+  }
+  sort_by_id(part.frame, part.ids, part.notices, where, executor);
+  if (request.pieces > 1)
+  {
+    const std::int64_t first = begin_of_part(part.frame.rows, request.piece, request.pieces);
+    const std::int64_t end = begin_of_part(part.frame.rows, request.piece + 1, request.pieces);
+    keep_rows(part.frame, first, end - first);
+  }
+}
+
+DumpFrame read(const PieceList& pieces, const Where& where, const DumpRequest& request,
+  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
+{
+  check(request);
+  const DumpRequest own = own_request(request, ranks.size() > 1);
+  std::optional<ColumnSchema> schema;
+  for (;;)
+  {
+    DumpPart part;
+    do_together(ranks,
+      [&]
+      {
+        schema = schema ? std::move(schema) : join_schemas(pieces);
+        part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, progress);
+        ahead.reset();
+      });
+    share_remarks(ranks, part);
+    if (part.misfit)
+    {
+      widen(*part.misfit, *pieces.entries.front()->kind, *schema, notices);
+      continue;
+    }
+    sort(part, request, ranks, where);
+    notices.insert(notices.end(), part.notices.begin(), part.notices.end());
+    return std::move(part.frame);
+  }
+}
+
+PieceList list_of(const std::vector<FramePiece>& pieces)
 {
   PieceList list;
   for (const FramePiece& piece : pieces)
@@ -105,7 +210,22 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
     list.entries.push_back(&piece.entry);
   }
   list.open = [&pieces](std::size_t i) { return open_indexed(pieces[i].file); };
-  return read(list, request, notices, progress);
+  return list;
+}
+}
+
+DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
+{
+  const Where where = where_of(pieces.front().file.path, pieces.front().entry);
+  return read(list_of(pieces), where, request, ranks, std::move(ahead), notices, progress);
+}
+
+DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  Notices& notices, Progress& progress)
+{
+  SerialCommunicator alone;
+  return read_dump(pieces, request, alone, std::nullopt, notices, progress);
 }
 
 DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
@@ -114,6 +234,16 @@ DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const Dum
   const auto lent = [](const ByteSource*) {};
   const PieceList list = { { &entry },
     [&](std::size_t) { return std::shared_ptr<const ByteSource>(&source, lent); } };
-  return read(list, request, notices, progress);
+  SerialCommunicator alone;
+  return read(
+    list, where_of(source.path(), entry), request, alone, std::nullopt, notices, progress);
+}
+
+DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  bool together, Progress& progress)
+{
+  check(request);
+  const PieceList list = list_of(pieces);
+  return decode(list, join_schemas(list), own_request(request, together), progress);
 }
 }

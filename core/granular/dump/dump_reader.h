@@ -4,15 +4,19 @@
 
 #include "granular/base/block.h"
 #include "granular/base/byte_source.h"
+#include "granular/base/communicator.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
 #include "granular/dump/frame.h"
 #include "granular/dump/frame_index.h"
+#include "granular/dump/frame_rows.h"
 #include "granular/dump/positions.h"
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +37,7 @@ struct DumpRequest
   int piece = 0; ///< the part of the rows that is wanted, of `pieces` in all: see read_dump
   int pieces = 1;
   int threads = 1;                                  ///< >= 1; changes no result
+  std::shared_ptr<BlockPool> pool;                  ///< where the memory comes from; may be null
   std::size_t chunk_bytes = std::size_t{ 1 } << 18; ///< of the file that a thread does at a time
 };
 
@@ -56,12 +61,25 @@ struct DumpFrame
   ColumnSchema schema; ///< of all pieces, types as they came to be
 };
 
-/// Decodes one frame, text or binary, from all its pieces in their order.
+/// What one process has decoded of a frame, before the processes have spoken to each other.
+struct DumpPart
+{
+  DumpFrame frame;
+  Block ids; ///< for sorting, where the frame has no array of them
+  std::optional<Misfit> misfit;
+  Notices notices;
+};
+
+/// Decodes one frame, text or binary, from all its pieces in their order, or part request.piece of
+/// request.pieces of it. The parts hold each row once, in their order: of a text the rows whose first byte
+/// lies in the part's share of the bytes, of a binary dump a share of the rows, of sorted rows a share of
+/// these. There may be more parts than rows.
 ///
-/// Reads the rows once, in order, through a buffer of constant size, straight into the blocks;
-/// columns that nobody asked for are not parsed. The frame must still be where the index says:
-/// a file that was replaced or shortened gives an IoError. Values that an integer column cannot
-/// hold turn the whole array into Float64, with a notice.
+/// Reads the rows once, on several threads, straight into the blocks; columns that nobody asked for are
+/// not parsed. Compressed files are decompressed in order, while rows that were are decoded. Result,
+/// notices and errors do not depend on the number of threads: the first error by position counts. The
+/// frame must still be where the index says: a file that was replaced or shortened gives an IoError.
+/// Values that an integer column cannot hold turn the whole array into Float64, with a notice.
 /// Throws Error with path, line or byte, and column; Cancelled; std::bad_alloc.
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   Notices& notices, Progress& progress);
@@ -69,5 +87,16 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
 /// The same from an open source, of a frame of one piece.
 DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
   Notices& notices, Progress& progress);
+
+/// The same by all ranks together, each its own part: request.piece is the rank, request.pieces their
+/// number. Collective, but for the decoding itself. Notices of all ranks are on all; errors, also those
+/// of one rank alone, are thrown on all: see agree. ahead may be what decode_dump gave for the same
+/// request before, and is used up.
+DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress);
+
+/// What of that a process can do alone, and ahead of time, in any thread. together: for the ranks.
+DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  bool together, Progress& progress);
 }
 #endif

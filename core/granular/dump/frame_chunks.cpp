@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/frame_chunks.h"
 
+#include "granular/dump/exchange_rows.h"
 #include "granular/dump/frame_rows.h"
 
 #include <algorithm>
@@ -8,15 +9,6 @@
 
 namespace granular
 {
-namespace
-{
-/// total * part / parts without overflow.
-std::int64_t cut(std::int64_t total, std::int64_t part, std::int64_t parts) noexcept
-{
-  return total / parts * part + total % parts * part / parts;
-}
-}
-
 std::int64_t PieceList::rows() const noexcept
 {
   return std::accumulate(entries.begin(), entries.end(), std::int64_t{ 0 },
@@ -30,8 +22,8 @@ std::vector<RowRange> cut_frame(const PieceList& pieces, int part, int parts)
   {
     all += extent_of(*entry);
   }
-  const std::int64_t first = cut(all, part, parts);
-  const std::int64_t last = cut(all, part + 1, parts);
+  const std::int64_t first = begin_of_part(all, part, parts);
+  const std::int64_t last = begin_of_part(all, part + 1, parts);
   std::vector<RowRange> ranges;
   std::int64_t begin = 0;
   for (std::size_t piece = 0; piece < pieces.entries.size(); ++piece)

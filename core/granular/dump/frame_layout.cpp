@@ -75,7 +75,7 @@ void FrameLayout::lay_arrays()
     DumpArray array{ info, {}, {} };
     const std::size_t width = size_of(info.type);
     const std::size_t stride = width * info.columns.size();
-    array.block = Block(stride * static_cast<std::size_t>(rows));
+    array.block = Block(stride * static_cast<std::size_t>(rows), request_.pool);
     Destination to = { static_cast<char*>(array.block.data()), 0,
       static_cast<std::ptrdiff_t>(stride), false };
     if (info.type == ValueType::Text)
@@ -126,7 +126,7 @@ void FrameLayout::lay_points(const Where& where, Notices& notices)
   points.plan = plan_positions(schema_, frame.header.box, request_.coordinates, where, notices);
   points.point_origin = request_.point_origin;
   frame.coordinates = points.plan.coordinates;
-  frame.points = Block(point_bytes * static_cast<std::size_t>(rows));
+  frame.points = Block(point_bytes * static_cast<std::size_t>(rows), request_.pool);
   points.xyz = request_.single_precision
     ? this->scratch(3 * sizeof(double))
     : Destination{ static_cast<char*>(frame.points.data()), 0, 3 * sizeof(double), false };
@@ -155,7 +155,7 @@ void FrameLayout::lay_filters(const Where& where, Notices& notices)
   if (id_column >= 0 && (request_.stride > 1 || request_.sort_by_id) && !wires.contains(id_column))
   {
     // as an array of its own, so that filters treat it like all others
-    ids = Block(sizeof(std::int64_t) * static_cast<std::size_t>(rows));
+    ids = Block(sizeof(std::int64_t) * static_cast<std::size_t>(rows), request_.pool);
     this->want(id_column, ValueType::Int64,
       { static_cast<char*>(ids.data()), 0, sizeof(std::int64_t), false });
   }
