@@ -124,4 +124,27 @@ LineScan scan_lines(
 #endif
   return scan_portable(first, last, mark, state);
 }
+
+LineScan scan_to_word(const char* first, const char* last, const char* end, std::string_view word,
+  LineState state) noexcept
+{
+  LineScan all{ first };
+  all.state = state;
+  for (;;)
+  {
+    const LineScan part = scan_lines(all.ptr, last, word.front(), all.state);
+    all.ptr = part.ptr;
+    all.feeds += part.feeds;
+    all.blank_lines += part.blank_lines;
+    all.after_last_feed = part.after_last_feed ? part.after_last_feed : all.after_last_feed;
+    all.state = part.state;
+    if (all.ptr >= last ||
+      std::string_view(all.ptr, static_cast<std::size_t>(end - all.ptr)).starts_with(word))
+    {
+      return all;
+    }
+    ++all.ptr;
+    all.state = { false, false };
+  }
+}
 }

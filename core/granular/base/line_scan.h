@@ -5,6 +5,7 @@
 #include "granular/base/row_text.h"
 
 #include <cstdint>
+#include <string_view>
 
 namespace granular
 {
@@ -29,5 +30,9 @@ struct LineScan
 /// state is that of the line at first. The text lies in a PaddedBuffer.
 LineScan scan_lines(const char* first, const char* last, char mark, LineState state,
   Simd simd = best_simd()) noexcept;
+
+/// The same up to the first line that begins with a word, which may go on behind last, up to end.
+LineScan scan_to_word(const char* first, const char* last, const char* end, std::string_view word,
+  LineState state) noexcept;
 }
 #endif

@@ -14,17 +14,34 @@ constexpr bool is_blank(char c) noexcept
   return static_cast<unsigned char>(c) <= ' ';
 }
 
+/// Takes the first word off a line, with what is before it. Empty: the line has none.
+inline std::string_view take_word(std::string_view& line) noexcept
+{
+  const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
+  const auto end = std::find_if(first, line.end(), is_blank);
+  line = { end, line.end() };
+  return { first, end };
+}
+
+inline bool has_words(std::string_view line) noexcept
+{
+  return !take_word(line).empty();
+}
+
+/// Adds the words of a line.
+inline void append_words(std::string_view line, std::vector<std::string_view>& words)
+{
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
+  {
+    words.push_back(word);
+  }
+}
+
 /// The words of a line.
 inline std::vector<std::string_view> split_words(std::string_view line)
 {
   std::vector<std::string_view> words;
-  auto at = std::find_if_not(line.begin(), line.end(), is_blank);
-  while (at != line.end())
-  {
-    const auto end = std::find_if(at, line.end(), is_blank);
-    words.emplace_back(at, end);
-    at = std::find_if_not(end, line.end(), is_blank);
-  }
+  append_words(line, words);
   return words;
 }
 }

@@ -80,7 +80,8 @@ void drop_repeated(Notices& notices, std::size_t known)
 }
 
 /// Returns whether anything was read.
-bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress)
+bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
+  const ScanAhead& ahead)
 {
   std::unique_ptr<ByteSource> packed = open_file(index.path);
   const FileStamp stamp = packed->stamp();
@@ -110,7 +111,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   }
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();
-  index_dump(*source, index, progress);
+  index_dump(*source, index, progress, ahead);
   drop_repeated(index.notices, known);
   index.unchecked = source->unchecked();
   if (index.defect && !index.unchecked.empty())
@@ -161,7 +162,8 @@ bool is_dump_file(const std::string& path) noexcept
   }
 }
 
-void index_dump(const ByteSource& source, FileIndex& index, Progress& progress)
+void index_dump(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
 {
   if (!index.kinds)
   {
@@ -176,12 +178,12 @@ void index_dump(const ByteSource& source, FileIndex& index, Progress& progress)
   }
   else
   {
-    index_text_dump(source, index, progress);
+    index_text_dump(source, index, progress, ahead);
   }
 }
 
-bool update_file_index(
-  FileIndex& index, const std::vector<std::string>& column_names, Progress& progress)
+bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
+  Progress& progress, const ScanAhead& ahead)
 {
   const auto fail = [&](const FileStamp& stamp)
   {
@@ -194,7 +196,7 @@ bool update_file_index(
   };
   try
   {
-    return update(index, column_names, progress);
+    return update(index, column_names, progress, ahead);
   }
   catch (const IoError&)
   {

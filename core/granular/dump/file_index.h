@@ -5,6 +5,7 @@
 #include "granular/base/byte_source.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
+#include "granular/base/text_scanner.h"
 #include "granular/dump/frame.h"
 
 #include <cstdint>
@@ -51,14 +52,15 @@ bool is_dump_file(const std::string& path) noexcept;
 /// Finds the frames from index.resume_offset to the end of the source, text or binary. A last frame
 /// that is not complete is left out, silently; a frame in the middle that is not what its header
 /// says with a notice. Throws IoError, LimitError; FormatError of compressed data; UnsupportedError of
-/// data packed in other ways; Cancelled.
-void index_dump(const ByteSource& source, FileIndex& index, Progress& progress);
+/// data packed in other ways; Cancelled. Large frames of a text are passed over by several threads.
+void index_dump(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
 
 /// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
 /// goes on if it only grew, and else starts anew. Errors end in index.error. Throws Cancelled.
 /// Returns whether anything was read.
-bool update_file_index(
-  FileIndex& index, const std::vector<std::string>& column_names, Progress& progress);
+bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
+  Progress& progress, const ScanAhead& ahead = {});
 
 /// The state of a file now; of one that cannot be opened, a state that no file has.
 FileStamp stamp_of(const std::string& path);

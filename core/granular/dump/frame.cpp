@@ -26,6 +26,7 @@ std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
   Hash hash;
   hash.add(names.data(), names.size());
   kind.names_hash = hash.value();
+  const std::lock_guard lock(mutex_);
   for (const auto& known : kinds_)
   {
     if (*known == kind)
@@ -35,6 +36,12 @@ std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
   }
   kinds_.push_back(std::make_shared<const FrameKind>(std::move(kind)));
   return last_ = kinds_.back();
+}
+
+std::shared_ptr<const FrameKind> FrameKinds::last() const
+{
+  const std::lock_guard lock(mutex_);
+  return last_;
 }
 
 std::uint64_t hash_shape(const FrameHeader& header, const FrameKind& kind)

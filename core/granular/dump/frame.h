@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,16 +42,17 @@ struct FrameKind
   bool operator==(const FrameKind&) const = default;
 };
 
-/// The kinds of the frames of a run, each held once.
+/// The kinds of the frames of a run, each held once. Several threads may share them.
 class FrameKinds
 {
 public:
   std::shared_ptr<const FrameKind> share(FrameKind kind);
 
   /// The one that was shared last, or null: the next frame is mostly of the same kind.
-  const std::shared_ptr<const FrameKind>& last() const noexcept { return last_; }
+  std::shared_ptr<const FrameKind> last() const;
 
 private:
+  mutable std::mutex mutex_;
   std::shared_ptr<const FrameKind> last_;
   std::vector<std::shared_ptr<const FrameKind>> kinds_;
 };

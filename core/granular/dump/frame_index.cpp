@@ -2,6 +2,7 @@
 #include "granular/dump/frame_index.h"
 
 #include "granular/dump/binary_dump.h"
+#include "granular/dump/update_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +15,6 @@ namespace granular
 {
 namespace
 {
-/// Compressed files may be a great many: past this their restart points are not kept, and reading a
-/// frame of one starts at the beginning of the file.
-constexpr std::size_t most_restart_bytes = std::size_t{ 1 } << 28;
-
 Notice left_out(const std::exception_ptr& error)
 {
   try
@@ -110,24 +107,25 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
   files_.clear();
   bool changed = known.size() != files.size() || kept != kept_;
   kept_ = kept;
-  std::size_t restart_bytes = 0;
-  for (const std::string& path : files)
+  std::vector<FileIndex> updated(files.size());
+  for (std::size_t i = 0; i < files.size(); ++i)
   {
-    progress.step(static_cast<double>(files_.size()) / static_cast<double>(files.size()));
-    const auto found = known.find(path);
-    FileIndex& file =
-      files_.emplace_back(found == known.end() ? FileIndex() : std::move(found->second));
-    file.path = path;
-    file.kinds = kinds;
-    changed = update_file_index(file, options.column_names, progress) || changed;
+    const auto found = known.find(files[i]);
+    if (found != known.end())
+    {
+      updated[i] = std::move(found->second);
+    }
+    updated[i].path = files[i];
+    updated[i].kinds = kinds;
+  }
+  changed =
+    granular::update_files(updated, options.column_names, options.threads, progress) || changed;
+  files_ = std::move(updated);
+  for (FileIndex& file : files_)
+  {
     notices.insert(notices.end(), file.notices.begin() + static_cast<std::ptrdiff_t>(file.told),
       file.notices.end());
     file.told = file.notices.size();
-    restart_bytes += file.points ? file.points->bytes() : 0;
-    if (restart_bytes > most_restart_bytes)
-    {
-      file.points.reset();
-    }
   }
   if (changed && !kept.empty())
   {

@@ -15,12 +15,13 @@
 
 namespace granular
 {
-/// What of the files is the user's word.
+/// What is the user's word.
 struct IndexOptions
 {
   std::vector<std::string> column_names; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
   IndexFile index_file = IndexFile::Never;
+  int threads = 1; ///< >= 1; what is found does not depend on it
 };
 
 /// A piece of a frame: all of it, or what one process wrote.

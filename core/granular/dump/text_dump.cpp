@@ -74,11 +74,12 @@ bool makes_schema(const std::vector<std::string>& names,
 class Indexer
 {
 public:
-  Indexer(const ByteSource& source, FileIndex& index, Progress& progress)
+  Indexer(const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
     : source_(source)
     , index_(index)
     , progress_(progress)
-    , scanner_(source, index.resume_offset, index.resume_line)
+    , scanner_(source, index.resume_offset, index.resume_line, window, ahead)
+    , reader_(scanner_, index.units)
   {
   }
 
@@ -91,29 +92,34 @@ public:
 
 private:
   bool next_frame();
-  bool read_frame(TextHeader& reader);
+  bool read_frame();
   bool finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end);
-  std::shared_ptr<const FrameKind> kind(const TextHeader& reader);
+  const std::shared_ptr<const FrameKind>& kind();
   void leave_out(const Where& where, const std::string& why);
   bool go_to_next_frame();
   bool peek(std::string_view& line);
   bool unfinished_line() const;
   bool find_glued_header(FrameEntry& entry, std::int64_t& rows);
 
+  static constexpr std::size_t window = std::size_t{ 1 } << 18;
+
   const ByteSource& source_;
   FileIndex& index_;
   Progress& progress_;
   TextScanner scanner_;
-  std::int64_t rows_offset_ = 0; ///< of the frame at hand
+  TextHeader reader_;                       ///< of the frame at hand
+  std::vector<std::string_view> first_row_; ///< its words
+  std::shared_ptr<const FrameKind> kind_;   ///< of the frame before: most have the same
+  std::int64_t rows_offset_ = 0;            ///< of the frame at hand
 };
 
 /// False at the end of the text.
 bool Indexer::next_frame()
 {
-  TextHeader reader(scanner_, index_.units);
+  reader_.restart(index_.units);
   try
   {
-    return this->read_frame(reader);
+    return this->read_frame();
   }
   catch (const FormatError& error)
   {
@@ -126,28 +132,28 @@ bool Indexer::next_frame()
   return this->go_to_next_frame();
 }
 
-bool Indexer::read_frame(TextHeader& reader)
+bool Indexer::read_frame()
 {
-  if (!reader.read())
+  if (!reader_.read())
   {
-    if (reader.opened())
+    if (reader_.opened())
     {
       set_defect(index_,
-        { { source_.path(), reader.line() },
+        { { source_.path(), reader_.line() },
           "expected a complete frame, got the end of the file in its header" });
     }
     return false;
   }
-  const FrameHeader& header = reader.header();
+  const FrameHeader& header = reader_.header();
   rows_offset_ = scanner_.offset();
   index_.units = header.units;
   FrameEntry entry;
   entry.timestep = header.timestep;
   entry.rows = header.rows;
-  entry.offset = reader.offset();
-  entry.line = reader.line();
+  entry.offset = reader_.offset();
+  entry.line = reader_.line();
   entry.time = header.time.value_or(FrameEntry::no_time);
-  entry.kind = this->kind(reader);
+  entry.kind = this->kind();
   entry.shape = hash_shape(header, *entry.kind);
   std::int64_t rows = scanner_.skip_to_item(progress_);
   entry.end = scanner_.offset();
@@ -185,30 +191,34 @@ bool Indexer::finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
   return true;
 }
 
-std::shared_ptr<const FrameKind> Indexer::kind(const TextHeader& reader)
+const std::shared_ptr<const FrameKind>& Indexer::kind()
 {
-  const Where where = scanner_.where();
+  const std::int64_t line_of_names = scanner_.last_line();
   std::string_view line;
-  std::vector<std::string_view> first_row;
-  bool found = reader.header().rows > 0;
-  while (found && first_row.empty())
+  first_row_.clear();
+  bool found = reader_.header().rows > 0;
+  while (found && first_row_.empty())
   {
     found = scanner_.next(line);
-    first_row = found ? split_words(line) : first_row;
+    append_words(found ? line : std::string_view(), first_row_);
   }
-  const std::vector<std::string>& names = reader.column_names();
-  const std::string& units = reader.header().units;
-  std::shared_ptr<const FrameKind> kind = index_.kinds->last();
-  if (!kind || kind->layout != FrameKind::text || kind->units != units ||
-    !makes_schema(names, first_row, kind->schema))
+  const std::vector<std::string>& names = reader_.column_names();
+  const std::string& units = reader_.header().units;
+  if (!kind_)
   {
-    kind = index_.kinds->share({ make_schema(names, first_row, where), units });
+    kind_ = index_.kinds->last(); // another file is mostly of the same
+  }
+  if (!kind_ || kind_->layout != FrameKind::text || kind_->units != units ||
+    !makes_schema(names, first_row_, kind_->schema))
+  {
+    kind_ = index_.kinds->share(
+      { make_schema(names, first_row_, { source_.path(), line_of_names }), units });
   }
   if (found)
   {
     scanner_.put_back();
   }
-  return kind;
+  return kind_;
 }
 
 /// Whether something follows the last line feed.
@@ -319,8 +329,9 @@ bool is_text_dump(std::string_view first_bytes)
   return opened;
 }
 
-void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress)
+void index_text_dump(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
 {
-  Indexer(source, index, progress).run();
+  Indexer(source, index, progress, ahead).run();
 }
 }

@@ -4,6 +4,7 @@
 
 #include "granular/base/byte_source.h"
 #include "granular/base/progress.h"
+#include "granular/base/text_scanner.h"
 #include "granular/dump/file_index.h"
 
 #include <string_view>
@@ -16,6 +17,7 @@ namespace granular
 bool is_text_dump(std::string_view first_bytes);
 
 /// As index_dump, of a text. index.kinds must be there.
-void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress);
+void index_text_dump(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
 }
 #endif

@@ -12,14 +12,28 @@ namespace granular
 {
 namespace
 {
+/// Takes the mark off a line that begins with it; else false.
+bool take_item(std::string_view& line) noexcept
+{
+  if (line.starts_with(byte_order_mark))
+  {
+    line.remove_prefix(byte_order_mark.size());
+  }
+  return take_word(line) == item_mark;
+}
+
 /// Where in a line that is no start of a frame the header of one begins; 0: nowhere. A run that was
 /// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
 std::size_t find_glued_header(std::string_view line)
 {
+  if (line.find(item_mark, 1) == line.npos)
+  {
+    return 0;
+  }
   const std::size_t found = line.rfind(item_mark); // the last: it may have been killed twice
   const std::string_view before = line.substr(0, found);
-  return found == line.npos || found == 0 || before == byte_order_mark ||
-      split_words(before).empty() || !opens_frame(item_words(line.substr(found)))
+  return before == byte_order_mark || !has_words(before) ||
+      !opens_frame(item_words(line.substr(found)))
     ? 0
     : found;
 }
@@ -36,28 +50,27 @@ std::string quoted(std::string_view text)
 
 std::vector<std::string_view> item_words(std::string_view line)
 {
-  if (line.starts_with(byte_order_mark))
-  {
-    line.remove_prefix(byte_order_mark.size());
-  }
-  std::vector<std::string_view> words = split_words(line);
-  if (words.empty() || words.front() != item_mark)
-  {
-    return {};
-  }
-  words.erase(words.begin());
-  return words;
+  return take_item(line) ? split_words(line) : std::vector<std::string_view>();
 }
 
-bool opens_frame(std::span<const std::string_view> words)
+bool opens_frame(std::span<const std::string_view> words) noexcept
 {
   return words.size() == 1 && (words[0] == "TIMESTEP" || words[0] == "UNITS" || words[0] == "TIME");
 }
 
-bool begins_with(std::span<const std::string_view> words, std::string_view name)
+bool begins_with(
+  std::span<const std::string_view> words, std::string_view name, bool alone) noexcept
 {
-  const std::vector<std::string_view> wanted = split_words(name);
-  return words.size() >= wanted.size() && std::equal(wanted.begin(), wanted.end(), words.begin());
+  std::size_t same = 0;
+  for (auto wanted = take_word(name); !wanted.empty(); wanted = take_word(name))
+  {
+    if (same == words.size() || words[same] != wanted)
+    {
+      return false;
+    }
+    ++same;
+  }
+  return !alone || same == words.size();
 }
 
 const TextHeader::Section TextHeader::sections[] = {
@@ -72,44 +85,67 @@ const TextHeader::Section TextHeader::sections[] = {
   { "", false, &TextHeader::skip_section },
 };
 
+void TextHeader::restart(const std::string& units)
+{
+  header_.time.reset();
+  header_.label.clear();
+  header_.units = units;
+  next_line_ = 0;
+  opened_ = false;
+  has_timestep_ = false;
+  has_rows_ = false;
+  has_box_ = false;
+  has_columns_ = false;
+}
+
 bool TextHeader::read()
 {
   std::string_view line;
   while (this->next(line))
   {
-    if (split_words(line).empty() || line == byte_order_mark)
+    if (has_words(line) && line != byte_order_mark)
     {
-      continue;
-    }
-    // the words outlive the line: the sections read on
-    const std::string copy(line);
-    const std::vector<std::string_view> words = item_words(copy);
-    if (!opened_ && !words.empty() && find_section(words).parse == &TextHeader::skip_section)
-    {
-      this->skip_section(words); // between frames, or behind the last
-      continue;
-    }
-    if (words.empty() || (!opened_ && !opens_frame(words)))
-    {
-      this->fail(opened_ ? "an ITEM: line" : "ITEM: TIMESTEP, UNITS or TIME", copy);
-    }
-    if (!opened_)
-    {
-      opened_ = true;
-      offset_ = scanner_.last_offset();
-      line_ = scanner_.where().line;
-    }
-    this->look_for_next_frame(words, copy);
-    if (!(this->*find_section(words).parse)(words))
-    {
-      return false;
-    }
-    if (has_columns_)
-    {
-      return true;
+      if (!this->read_section(line))
+      {
+        return false;
+      }
+      if (has_columns_)
+      {
+        return true;
+      }
     }
   }
   return false;
+}
+
+/// A section, or what lies between frames, from its first line on. False at the end of the text.
+bool TextHeader::read_section(std::string_view line)
+{
+  // the words outlive the line: the sections read on
+  section_ = line;
+  std::string_view rest = section_;
+  words_.clear();
+  if (take_item(rest))
+  {
+    append_words(rest, words_);
+  }
+  const Section& section = find_section(words_);
+  if (!opened_ && !words_.empty() && section.parse == &TextHeader::skip_section)
+  {
+    return this->skip_section(words_); // between frames, or behind the last
+  }
+  if (words_.empty() || (!opened_ && !opens_frame(words_)))
+  {
+    this->fail(opened_ ? "an ITEM: line" : "ITEM: TIMESTEP, UNITS or TIME", section_);
+  }
+  if (!opened_)
+  {
+    opened_ = true;
+    offset_ = scanner_.last_offset();
+    line_ = scanner_.last_line();
+  }
+  this->look_for_next_frame(words_, section_);
+  return (this->*section.parse)(words_);
 }
 
 bool TextHeader::next(std::string_view& line)
@@ -137,7 +173,7 @@ void TextHeader::look_for_next_frame(Words words, std::string_view line)
   if (next_line_ == 0)
   {
     next_offset_ = scanner_.last_offset();
-    next_line_ = scanner_.where().line;
+    next_line_ = scanner_.last_line();
   }
   if (words[0] == "TIMESTEP")
   {
@@ -148,14 +184,10 @@ void TextHeader::look_for_next_frame(Words words, std::string_view line)
   }
 }
 
-const TextHeader::Section& TextHeader::find_section(Words words)
+const TextHeader::Section& TextHeader::find_section(Words words) noexcept
 {
   return *std::find_if(std::begin(sections), std::end(sections),
-    [words](const Section& entry)
-    {
-      return begins_with(words, entry.name) &&
-        (!entry.alone || words.size() == split_words(entry.name).size());
-    });
+    [words](const Section& entry) { return begins_with(words, entry.name, entry.alone); });
 }
 
 void TextHeader::fail(const std::string& expected, std::string_view got) const
@@ -180,7 +212,7 @@ bool TextHeader::value_line(std::string_view& line)
     {
       return false;
     }
-  } while (split_words(line).empty());
+  } while (!has_words(line));
   if (line.starts_with(item_mark))
   {
     const std::string copy(line);
@@ -208,7 +240,7 @@ bool TextHeader::parse_timestep(Words)
     return false;
   }
   // some tools add the time as a second word
-  header_.timestep = this->integer(split_words(line).front(), "an integer timestep");
+  header_.timestep = this->integer(take_word(line), "an integer timestep");
   has_timestep_ = true;
   return true;
 }
@@ -231,7 +263,7 @@ bool TextHeader::parse_units(Words)
   {
     return false;
   }
-  header_.units = split_words(line).front();
+  header_.units = take_word(line);
   return true;
 }
 
@@ -253,7 +285,7 @@ bool TextHeader::parse_rows(Words)
   {
     return false;
   }
-  const std::string_view word = split_words(line).front();
+  const std::string_view word = take_word(line);
   header_.rows = this->integer(word, "a number of atoms");
   if (header_.rows < 0)
   {
@@ -319,16 +351,22 @@ bool TextHeader::read_numbers(std::size_t count, double* numbers)
   {
     return false;
   }
-  const std::vector<std::string_view> words = split_words(line);
-  if (words.size() != count)
+  std::array<std::string_view, 4> words;
+  std::size_t there = 0;
+  std::string_view rest = line;
+  for (auto word = take_word(rest); !word.empty(); word = take_word(rest))
+  {
+    words[std::min(there++, words.size() - 1)] = word;
+  }
+  if (there != count)
   {
     this->fail(std::to_string(count) + (count == 1 ? " number" : " numbers"), line);
   }
-  for (const std::string_view word : words)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    if (!parse_double(word.data(), word.data() + word.size(), *numbers++))
+    if (!parse_double(words[i].data(), words[i].data() + words[i].size(), numbers[i]))
     {
-      this->fail("a number", word);
+      this->fail("a number", words[i]);
     }
   }
   return true;
@@ -349,7 +387,8 @@ bool TextHeader::skip_section(Words)
   std::string_view line;
   while (this->next(line))
   {
-    if (!item_words(line).empty())
+    std::string_view rest = line;
+    if (take_item(rest) && has_words(rest))
     {
       scanner_.put_back();
       return true;

@@ -19,12 +19,13 @@ inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 /// A line "ITEM: ...": its words after the first. Empty for other lines.
 std::vector<std::string_view> item_words(std::string_view line);
 
-/// Whether words begin with the blank-separated words of name.
-bool begins_with(std::span<const std::string_view> words, std::string_view name);
+/// Whether words begin with the blank-separated words of name; alone: and have no others.
+bool begins_with(
+  std::span<const std::string_view> words, std::string_view name, bool alone = false) noexcept;
 
 /// Whether the section of that name may be the first of a frame: TIMESTEP, or UNITS and TIME,
 /// which LAMMPS puts before it.
-bool opens_frame(std::span<const std::string_view> words);
+bool opens_frame(std::span<const std::string_view> words) noexcept;
 
 /// In quotes, shortened to what fits a message; other than printable bytes become '?'.
 std::string quoted(std::string_view text);
@@ -34,11 +35,14 @@ std::string quoted(std::string_view text);
 class TextHeader
 {
 public:
-  TextHeader(TextScanner& scanner, std::string units)
+  TextHeader(TextScanner& scanner, const std::string& units)
     : scanner_(scanner)
   {
-    header_.units = std::move(units);
+    this->restart(units);
   }
+
+  /// Makes ready for the header of another frame.
+  void restart(const std::string& units);
 
   /// Reads up to and including the line ITEM: ATOMS. False at the end of the text.
   /// Throws FormatError.
@@ -64,7 +68,8 @@ private:
 
   static const Section sections[];
 
-  static const Section& find_section(Words words);
+  static const Section& find_section(Words words) noexcept;
+  bool read_section(std::string_view line);
   bool next(std::string_view& line);
   void look_for_next_frame(Words words, std::string_view line);
   bool value_line(std::string_view& line);
@@ -85,6 +90,8 @@ private:
   TextScanner& scanner_;
   FrameHeader header_;
   std::vector<std::string> column_names_;
+  std::string section_;                 ///< the line ITEM: of the section at hand
+  std::vector<std::string_view> words_; ///< of it
   std::int64_t offset_ = 0;
   std::int64_t line_ = 0;
   std::int64_t next_offset_ = 0; ///< of the first section that may be another frame's
