@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/file_series.h"
 
+#include "granular/dump/index_archive.h"
 #include "granular/dump/piece_sets.h"
 
 #include <algorithm>
@@ -298,5 +299,31 @@ std::span<const FileSeries::Place> FileSeries::pieces(std::size_t frame) const n
   return starts_.empty()
     ? std::span(places_).subspan(frame, 1)
     : std::span(places_).subspan(starts_[frame], starts_[frame + 1] - starts_[frame]);
+}
+
+void FileSeries::write(IndexWriter& out) const
+{
+  out.list(places_, [&](const Place& place) { out.number(place); });
+  out.list(starts_, [&](std::uint32_t start) { out.number(start); });
+}
+
+FileSeries FileSeries::read(IndexReader& in, const std::vector<FileIndex>& files)
+{
+  FileSeries series;
+  in.list(series.places_,
+    [&](Place& place)
+    {
+      in.number(place);
+      require(place.file < files.size() && place.frame < files[place.file].frames.size(),
+        "a frame that is there");
+    });
+  in.list(series.starts_, [&](std::uint32_t& start) { in.number(start); });
+  const auto& starts = series.starts_;
+  const auto not_before = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
+  require(starts.empty() ||
+      (starts.front() == 0 && starts.back() == series.places_.size() &&
+        std::ranges::adjacent_find(starts, not_before) == starts.end()),
+    "a piece for each frame");
+  return series;
 }
 }

@@ -12,6 +12,9 @@
 
 namespace granular
 {
+class IndexReader;
+class IndexWriter;
+
 /// What frames of the same timestep in several files are.
 enum class RepeatedSteps : std::uint8_t
 {
@@ -50,6 +53,10 @@ public:
 
   /// The pieces of a frame, at least one.
   std::span<const Place> pieces(std::size_t frame) const noexcept;
+
+  /// To bytes and back; files are those of before. Throws FormatError.
+  void write(IndexWriter& out) const;
+  static FileSeries read(IndexReader& in, const std::vector<FileIndex>& files);
 
 private:
   std::vector<Place> places_;         ///< frame after frame

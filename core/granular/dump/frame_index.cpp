@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/frame_index.h"
 
+#include "granular/base/hash.h"
 #include "granular/dump/binary_dump.h"
+#include "granular/dump/index_archive.h"
+#include "granular/dump/index_bytes.h"
 #include "granular/dump/update_files.h"
 
 #include <algorithm>
@@ -255,5 +258,89 @@ std::size_t FrameIndex::find(const std::vector<double>& times, double time) noex
   const bool nearly =
     next > 0 && after != times.end() && *after - time <= tolerance * (*after - times[next - 1]);
   return next == 0 || nearly ? next : next - 1;
+}
+
+std::string FrameIndex::encode() const
+{
+  std::string bytes;
+  IndexWriter out(bytes, "");
+  out.text(encode_files(files_));
+  series_.write(out);
+  return bytes;
+}
+
+void FrameIndex::decode(std::string_view bytes)
+{
+  IndexReader in(bytes, "");
+  FrameIndex index;
+  std::string files;
+  in.text(files);
+  index.files_ = decode_index(files, "", std::make_shared<FrameKinds>());
+  index.series_ = FileSeries::read(in, index.files_);
+  require(in.ended(), "the end of the index");
+  *this = std::move(index);
+}
+
+void update_frame_index(FrameIndex& index, Communicator& ranks,
+  const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
+  Progress& progress)
+{
+  const bool looks = ranks.rank() == 0;
+  const auto together = [&](const std::function<void()>& step)
+  {
+    std::exception_ptr failure;
+    try
+    {
+      step();
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+    }
+    agree(ranks, failure);
+  };
+  try
+  {
+    std::string bytes; // empty: nothing is new
+    together(
+      [&]
+      {
+        if (looks)
+        {
+          index.update(files, options, notices, progress);
+          bytes = ranks.size() > 1 ? index.encode() : "";
+          Hash hash;
+          hash.add(bytes.data(), bytes.size());
+          bytes = hash.value() == index.shared_ ? "" : std::move(bytes);
+          index.shared_ = hash.value();
+        }
+      });
+    ranks.broadcast(bytes, 0);
+    together(
+      [&]
+      {
+        if (!looks && !bytes.empty())
+        {
+          index.decode(bytes);
+        }
+      });
+  }
+  catch (...)
+  {
+    index.series_ = {};
+    index.shared_ = 0;
+    throw;
+  }
+}
+
+bool is_changed(const FrameIndex& index, Communicator& ranks)
+{
+  std::string answer;
+  if (ranks.rank() == 0 && index.changed())
+  {
+    answer = "changed";
+  }
+  ranks.broadcast(answer, 0);
+  return !answer.empty();
 }
 }

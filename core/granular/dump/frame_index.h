@@ -2,6 +2,7 @@
 #ifndef granular_dump_frame_index_h
 #define granular_dump_frame_index_h
 
+#include "granular/base/communicator.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
 #include "granular/dump/file_index.h"
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace granular
@@ -70,7 +72,17 @@ public:
   /// 3000 * 2e-5, which is a little more.
   static std::size_t find(const std::vector<double>& times, double time) noexcept;
 
+  /// All that is needed to read every frame elsewhere, as bytes; not what is wrong with files.
+  std::string encode() const;
+
+  /// Becomes the index that was encoded. Throws FormatError.
+  void decode(std::string_view bytes);
+
 private:
+  friend void update_frame_index(FrameIndex& index, Communicator& ranks,
+    const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
+    Progress& progress);
+
   void update_files(const std::vector<std::string>& files, const IndexOptions& options,
     Notices& notices, Progress& progress);
   void note_files(Notices& notices) const;
@@ -81,6 +93,16 @@ private:
   std::vector<FileIndex> files_;
   std::string kept_; ///< path of the index file
   FileSeries series_;
+  std::uint64_t shared_ = 0; ///< hash of the bytes that all ranks have, 0: none
 };
+
+/// Collective: FrameIndex::update on rank 0, which alone looks at files, has notices and reports; then
+/// all ranks have the same index. Throws the same on all, and then their indexes have no frames.
+void update_frame_index(FrameIndex& index, Communicator& ranks,
+  const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
+  Progress& progress);
+
+/// Collective: FrameIndex::changed on rank 0, for all.
+bool is_changed(const FrameIndex& index, Communicator& ranks);
 }
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How things are written into an index file and read back. Both sides have the same functions, so
-// that one description of a thing does for both. For index_bytes.cpp alone.
+// How the parts of an index are written as bytes and read back. Both sides have the same functions, so
+// that one description of a thing does for both.
 #ifndef granular_dump_index_archive_h
 #define granular_dump_index_archive_h
 
@@ -20,7 +20,7 @@
 
 namespace granular
 {
-/// Appends to the bytes of an index file.
+/// Appends to the bytes of an index.
 class IndexWriter
 {
 public:

@@ -338,6 +338,24 @@ std::string_view body_of(std::string_view bytes)
   }
   return bytes.substr(sizeof head);
 }
+
+std::string encode(const std::vector<const FileIndex*>& files, const std::string& folder)
+{
+  std::string bytes;
+  bytes.reserve(estimate(files));
+  IndexWriter out(bytes, folder);
+  KindTable kinds(files);
+  out.number(Head());
+  kinds.write(out);
+  out.list(files,
+    [&](const FileIndex* file)
+    {
+      visit_file(out, *file);
+      write_frames(out, file->frames, kinds);
+    });
+  out.number(hash_of(bytes));
+  return bytes;
+}
 }
 
 std::string encode_index(const std::vector<FileIndex>& files)
@@ -350,20 +368,17 @@ std::string encode_index(const std::vector<FileIndex>& files)
       kept.push_back(&file);
     }
   }
-  std::string bytes;
-  bytes.reserve(estimate(kept));
-  IndexWriter out(bytes, files.empty() ? "" : folder_of(files.front().path));
-  KindTable kinds(kept);
-  out.number(Head());
-  kinds.write(out);
-  out.list(kept,
-    [&](const FileIndex* file)
-    {
-      visit_file(out, *file);
-      write_frames(out, file->frames, kinds);
-    });
-  out.number(hash_of(bytes));
-  return bytes;
+  return encode(kept, files.empty() ? "" : folder_of(files.front().path));
+}
+
+std::string encode_files(const std::vector<FileIndex>& files)
+{
+  std::vector<const FileIndex*> all;
+  for (const FileIndex& file : files)
+  {
+    all.push_back(&file);
+  }
+  return encode(all, "");
 }
 
 std::vector<FileIndex> decode_index(
