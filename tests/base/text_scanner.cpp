@@ -252,22 +252,38 @@ Skipped skip(TextScanner& scanner)
   return { lines, scanner.line(), scanner.offset() };
 }
 
-void expect_skips(std::string_view text)
+void expect_skips(std::string_view text, const granular::ScanAhead& ahead)
 {
   const auto source = open_memory(text);
-  TextScanner scanner(*source, 0, 1);
+  TextScanner scanner(*source, 0, 1, window, ahead);
   std::string_view line;
   for (;;)
   {
     const Skipped expected =
       naive_skip(text, static_cast<std::size_t>(scanner.offset()), scanner.line());
-    ASSERT_EQ(skip(scanner), expected);
+    ASSERT_EQ(skip(scanner), expected) << ahead.threads << " " << ahead.chunk;
     if (!scanner.next(line))
     {
       break;
     }
     ASSERT_EQ(line, naive_lines(text.substr(static_cast<std::size_t>(expected.offset)))[0].text);
     ASSERT_EQ(scanner.where().line, expected.line);
+  }
+}
+
+/// By one thread and by several, which take more or less of it.
+void expect_skips(std::string_view text)
+{
+  expect_skips(text, {});
+  const bool small = text.size() < 1000;
+  for (const int threads : { 2, 5 })
+  {
+    for (const std::size_t chunk : small ? std::vector<std::size_t>{ 1, 2, 3, 4, 5, 6, 7, 64 }
+                                         : std::vector<std::size_t>{ 4'001, 100'000 })
+    {
+      expect_skips(text, { threads, 0, chunk });
+      expect_skips(text, { threads, small ? 3 : 300'000, chunk });
+    }
   }
 }
 }
@@ -297,6 +313,7 @@ TEST(TextScanner, SkipsToTheStartOfALineWithoutLineFeed)
   expect_skips("1\nITEM: TIM");
   expect_skips("\n\n");
   expect_skips("1\n \n\r\n\n2\n \t");
+  expect_skips("     \n   x   \n      ITEM:\nITEM: a\n        \n");
 }
 
 TEST(TextScanner, ItemSplitAtTheEndOfTheWindow)

@@ -19,8 +19,9 @@ namespace
 class RestartBudget
 {
 public:
-  explicit RestartBudget(std::vector<FileIndex>& files)
+  RestartBudget(std::vector<FileIndex>& files, std::size_t most)
     : files_(files)
+    , most_(most)
     , end_(files.size())
   {
   }
@@ -35,7 +36,7 @@ public:
     const std::lock_guard lock(mutex_);
     kept_[file] = files_[file].points->bytes();
     bytes_ += kept_[file];
-    while (!kept_.empty() && (bytes_ > most || std::prev(kept_.end())->first >= end_))
+    while (!kept_.empty() && (bytes_ > most_ || std::prev(kept_.end())->first >= end_))
     {
       const auto last = std::prev(kept_.end());
       end_ = std::min(end_, last->first);
@@ -46,9 +47,8 @@ public:
   }
 
 private:
-  static constexpr std::size_t most = std::size_t{ 1 } << 28;
-
   std::vector<FileIndex>& files_;
+  std::size_t most_;
   std::mutex mutex_;
   std::map<std::size_t, std::size_t> kept_; ///< bytes by file
   std::size_t bytes_ = 0;                   ///< of them
@@ -110,12 +110,12 @@ private:
 }
 
 bool update_files(std::vector<FileIndex>& files, const std::vector<std::string>& column_names,
-  int threads, Progress& progress)
+  int threads, Progress& progress, std::size_t most_restart_bytes)
 {
   const Executor executor(threads);
   ScanAhead ahead;
   ahead.threads = executor.threads() / static_cast<int>(executor.workers(files.size()));
-  RestartBudget budget(files);
+  RestartBudget budget(files, most_restart_bytes);
   FilesProgress all(progress, files.size());
   std::atomic<bool> changed = false;
   const auto update = [&](std::size_t file, std::size_t worker)
