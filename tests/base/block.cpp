@@ -170,7 +170,7 @@ TEST(Block, TakesMemoryOnlyForWhatIsTouched)
 
 TEST(Block, GivesBackWhatIsBehindItsNewEnd)
 {
-  for (const std::size_t size : { 3 * mib, 40 * mib })
+  for (const std::size_t size : { 9 * mib, 40 * mib })
   {
     Block block(size);
     std::memset(block.data(), 1, size);

@@ -149,6 +149,7 @@ TEST_F(ReaderMemory, OfAnArrayThatIsUsedAgainIsFreedAsItWasMade)
         break;
       case 1:
         array->Allocate(12 * Rows);
+        array->SetNumberOfTuples(2 * Rows);
         break;
       case 2:
         array->InsertNextValue(1);

@@ -29,8 +29,10 @@ static_assert(sizeof(Header) == Block::alignment);
 constexpr std::uint64_t header_mark = 0x6b636f6c42c0ffee;
 constexpr std::uintptr_t least_page = 4096;
 
-/// Smaller blocks are what malloc is good at.
-constexpr std::size_t least_mapping = std::size_t{ 1 } << 18;
+/// Smaller blocks are what malloc is good at: it keeps some memory itself, but gives back, and fetches
+/// again, more than a pool does.
+constexpr std::size_t least_pooled = std::size_t{ 1 } << 16;
+constexpr std::size_t least_mapped = std::size_t{ 1 } << 22;
 
 /// Null if the data are malloc's. What is read then may be of others, but lies in the same page.
 __attribute__((no_sanitize("address", "thread"))) Header* header_of(void* data) noexcept
@@ -80,7 +82,8 @@ void* allocate(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
   {
     return nullptr;
   }
-  return bytes < least_mapping ? allocate_small(bytes) : allocate_mapping(bytes, pool);
+  return bytes < (pool ? least_pooled : least_mapped) ? allocate_small(bytes)
+                                                      : allocate_mapping(bytes, pool);
 }
 }
 
@@ -118,14 +121,15 @@ void Block::shrink(std::size_t bytes) noexcept
   {
     return;
   }
-  void* const small =
-    bytes < least_mapping && bytes <= bytes_ / 2 ? allocate_small(bytes) : nullptr;
-  if (small)
+  Header* const header = header_of(data_);
+  const bool little = bytes < least_mapped && bytes <= bytes_ / 2;
+  if (void* const smaller =
+        little ? allocate(bytes, header ? header->pool.lock() : nullptr) : nullptr)
   {
-    std::memcpy(small, data_, bytes);
-    Block::free(std::exchange(data_, small));
+    std::memcpy(smaller, data_, bytes);
+    Block::free(std::exchange(data_, smaller));
   }
-  else if (Header* const header = header_of(data_))
+  else if (header)
   {
     keep_bytes(header->mapping, sizeof(Header) + bytes);
   }

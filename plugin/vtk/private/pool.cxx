@@ -39,9 +39,10 @@ std::size_t Limit(granular::Notices& notices)
   std::int64_t mib = -1;
   if (!granular::parse_int64(text.data(), text.data() + text.size(), mib) || mib < 0)
   {
-    notices.push_back({ {},
-      std::string("expected a number of MiB in ") + Variable + ", got '" + text +
-        "'; memory is kept as if it were not set" });
+    granular::Notice notice;
+    notice.text = std::string("expected a number of MiB in ") + Variable + ", got '" + text +
+      "'; memory is kept as if it were not set";
+    notices.push_back(notice);
     return DefaultLimit();
   }
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() >> 20;
