@@ -5,12 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
 #include <vector>
 
 #include <sys/mman.h>
 #include <unistd.h>
 
-/// Bytes of the pages of the range that are in memory; -1 if the system does not say.
+/// Bytes of the pages of the range that are in memory; -1 if they are not of this process.
 inline std::int64_t resident_bytes(const void* data, std::size_t bytes)
 {
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
@@ -29,4 +32,41 @@ inline std::int64_t resident_bytes(const void* data, std::size_t bytes)
   }
   return static_cast<std::int64_t>(resident);
 }
+
+/// Bytes of this process that the system may take where it runs short.
+inline std::int64_t lent_bytes()
+{
+  std::ifstream file("/proc/self/smaps");
+  std::int64_t bytes = 0;
+  for (std::string line; std::getline(file, line);)
+  {
+    bytes += line.rfind("LazyFree:", 0) == 0 ? 1024 * std::stol(line.substr(9)) : 0;
+  }
+  return bytes;
+}
+
+/// What this system tells of memory, found out by means of its own.
+struct SystemTells
+{
+  bool resident = false;
+  bool lent = false;
+
+  SystemTells()
+  {
+    constexpr std::size_t size = std::size_t{ 1 } << 20;
+    void* const memory =
+      ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED)
+    {
+      return;
+    }
+    const bool none = resident_bytes(memory, size) == 0;
+    std::memset(memory, 1, size);
+    resident = none && resident_bytes(memory, size) == static_cast<std::int64_t>(size);
+#ifdef MADV_FREE
+    lent = ::madvise(memory, size, MADV_FREE) == 0 && lent_bytes() > 0;
+#endif
+    ::munmap(memory, size);
+  }
+};
 #endif
