@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpReader.h"
 
+#include "private/arrays.h"
 #include "private/dump_output.h"
+#include "private/frame_ahead.h"
 #include "private/guard.h"
 #include "private/series_reader.h"
 
@@ -17,13 +19,17 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -39,10 +45,31 @@ struct vtkGranularDumpReader::Internals
   vtkNew<vtkDataArraySelection> PointArrays;
   std::set<std::string> ArrayNames; ///< of all frames
 
+  VertexCache Vertices; ///< of the frame before
+  FrameAhead Ahead;     ///< the next frame
+  std::size_t LastFrame = 0;
+
+  /**
+   * What is to be read: a frame, and what of it.
+   */
+  struct Task
+  {
+    std::size_t Frame = 0;
+    double Time = 0;
+    granular::DumpRequest Request;
+  };
+
   void UpdateSelection(const granular::FrameIndex& index);
   void CheckSelection(const std::string& path, granular::Notices& notices);
-  granular::DumpRequest MakeRequest(Self* self);
-  void FillOutputs(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+  granular::DumpRequest MakeRequest(Self* self, vtkInformation* output);
+  void FindTask(Self* self, vtkInformation* request, vtkInformationVector* outputs, Task& task);
+  static bool AreTogether(granular::Communicator& ranks, const Task& task);
+  granular::DumpFrame Read(Self* self, const Task& task, bool together, granular::Notices& notices);
+  void FillOutputs(Self* self, vtkInformationVector* outputs, const Task& task,
+    granular::DumpFrame& frame, granular::Notices& notices);
+  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+  FrameAhead::Key KeyOf(Self* self, const Task& task, bool together);
+  void StartNext(Self* self, const Task& task, bool together);
 };
 
 //------------------------------------------------------------------------------
@@ -89,7 +116,8 @@ void vtkGranularDumpReader::Internals::CheckSelection(
 }
 
 //------------------------------------------------------------------------------
-granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(Self* self)
+granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
+  Self* self, vtkInformation* output)
 {
   granular::DumpRequest request;
   request.coordinates = static_cast<granular::Coordinates>(self->Coordinates);
@@ -98,50 +126,161 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(Self* self)
   request.sort_by_id = self->SortById;
   request.stride = self->Stride;
   std::copy_n(self->RegionOfInterest, 6, request.region.begin());
-  request.wanted = [this](const granular::ArrayInfo& array)
-  { return this->PointArrays->ArrayIsEnabled(array.name.c_str()) != 0; };
+  std::set<std::string> names; // a copy: the frame may be decoded while the selection changes
+  for (int i = 0; i < this->PointArrays->GetNumberOfArrays(); ++i)
+  {
+    if (this->PointArrays->GetArraySetting(i) != 0)
+    {
+      names.insert(this->PointArrays->GetArrayName(i));
+    }
+  }
+  request.wanted = [names](const granular::ArrayInfo& array)
+  { return names.count(array.name) != 0; };
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (output->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
+  {
+    request.piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
+    request.pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+  }
+  request.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
+  request.pool = self->Series->Pool;
   return request;
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularDumpReader::Internals::FillOutputs(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+// What the port that is asked for wants, whatever it is that the other ranks want.
+void vtkGranularDumpReader::Internals::FindTask(
+  Self* self, vtkInformation* request, vtkInformationVector* outputs, Task& task)
 {
-  double time = 0;
-  const std::size_t number = self->Series->FindFrame(self, request, outputs, time);
-  const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(number);
-  const std::string& path = pieces.front().file.path;
-  const granular::DumpRequest wanted = this->MakeRequest(self);
-  for (double coordinate : wanted.point_origin)
+  task.Frame = self->Series->FindFrame(self, request, outputs, task.Time);
+  task.Request =
+    this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
+  for (double coordinate : task.Request.point_origin)
   {
     if (!std::isfinite(coordinate))
     {
       throw granular::LimitError("PointOrigin must be finite");
     }
   }
-  granular::Notices notices;
-  this->CheckSelection(path, notices);
-  AlgorithmProgress progress(self);
-  progress.step(0);
-  granular::DumpFrame frame = granular::read_dump(pieces, wanted, notices, progress);
-  progress.step(1);
+}
 
-  const VertexCells cells[] = { VertexCells::None, VertexCells::One, VertexCells::OnePerPoint };
-  FillParticles(
-    vtkPolyData::GetData(outputs, 0), frame, wanted.single_precision, cells[self->Vertices]);
-  if (!FillBox(vtkUnstructuredGrid::GetData(outputs, 1), frame.header.box, frame.coordinates,
-        wanted.point_origin))
+//------------------------------------------------------------------------------
+// Whether the ranks want the pieces of one frame, each its own: then they read it together. Else each is
+// alone, such as where a filter asks one rank for another time.
+bool vtkGranularDumpReader::Internals::AreTogether(granular::Communicator& ranks, const Task& task)
+{
+  const vtkTypeInt64 wanted[] = { static_cast<vtkTypeInt64>(task.Frame), task.Request.piece,
+    task.Request.pieces };
+  vtkTypeInt64 rank = 0;
+  for (const std::string& bytes :
+    ranks.all_gather({ reinterpret_cast<const char*>(wanted), sizeof wanted }))
   {
+    vtkTypeInt64 other[3];
+    std::memcpy(other, bytes.data(), sizeof other);
+    if (other[0] != wanted[0] || other[1] != rank++ || other[2] != ranks.size())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+granular::DumpFrame vtkGranularDumpReader::Internals::Read(
+  Self* self, const Task& task, bool together, granular::Notices& notices)
+{
+  granular::Communicator& ranks = self->Series->GetRanks();
+  const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(task.Frame);
+  AlgorithmProgress progress(self);
+  std::optional<granular::DumpPart> ahead;
+  granular::do_together(ranks,
+    [&]
+    {
+      progress.step(0);
+      ahead = this->Ahead.Take(this->KeyOf(self, task, together), progress);
+    });
+  granular::DumpFrame frame;
+  if (together)
+  {
+    frame = granular::read_dump(pieces, task.Request, ranks, std::move(ahead), notices, progress);
+  }
+  else
+  {
+    granular::SerialCommunicator alone;
+    granular::do_together(ranks,
+      [&] {
+        frame =
+          granular::read_dump(pieces, task.Request, alone, std::move(ahead), notices, progress);
+      });
+  }
+  granular::do_together(ranks, [&] { progress.step(1); });
+  return frame;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDumpReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
+  const Task& task, granular::DumpFrame& frame, granular::Notices& notices)
+{
+  const VertexCells cells[] = { VertexCells::None, VertexCells::One, VertexCells::OnePerPoint };
+  FillParticles(vtkPolyData::GetData(outputs, 0), frame, task.Request.single_precision,
+    cells[self->Vertices], this->Vertices, self->Series->Pool);
+  auto* box = vtkUnstructuredGrid::GetData(outputs, 1);
+  if (task.Request.piece == 0 &&
+    !FillBox(box, frame.header.box, frame.coordinates, task.Request.point_origin))
+  {
+    const granular::FramePiece piece = self->Series->Index.first_piece(task.Frame);
     notices.push_back(
-      { granular::where_of(path, pieces.front().entry), "the box is not finite and not shown" });
+      { granular::where_of(piece.file.path, piece.entry), "the box is not finite and not shown" });
   }
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkDataObject* output = vtkDataObject::GetData(outputs, port);
-    FillFieldData(output->GetFieldData(), frame, wanted.point_origin);
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    FillFieldData(output->GetFieldData(), frame, task.Request.point_origin);
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), task.Time);
   }
+}
+
+//------------------------------------------------------------------------------
+// Collective: what may fail on one rank alone is done together.
+void vtkGranularDumpReader::Internals::Run(
+  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+{
+  granular::Communicator& ranks = self->Series->GetRanks();
+  granular::Notices notices;
+  Task task;
+  granular::do_together(ranks,
+    [&]
+    {
+      self->Series->StartFrame(notices);
+      this->FindTask(self, request, outputs, task);
+      this->CheckSelection(self->Series->Index.first_piece(task.Frame).file.path, notices);
+    });
+  const bool together = AreTogether(ranks, task);
+  granular::DumpFrame frame = this->Read(self, task, together, notices);
+  granular::do_together(ranks, [&] { this->FillOutputs(self, outputs, task, frame, notices); });
   self->Series->Tell(self, notices, false);
+  this->StartNext(self, task, together);
+}
+
+//------------------------------------------------------------------------------
+FrameAhead::Key vtkGranularDumpReader::Internals::KeyOf(Self* self, const Task& task, bool together)
+{
+  return { task.Frame, task.Request.piece, task.Request.pieces, together, self->GetMTime() };
+}
+
+//------------------------------------------------------------------------------
+// The next frame in the direction in which they are looked at.
+void vtkGranularDumpReader::Internals::StartNext(Self* self, const Task& task, bool together)
+{
+  const bool back = task.Frame + 1 == this->LastFrame;
+  this->LastFrame = task.Frame;
+  Task next = task;
+  next.Frame += back ? -1 : 1;
+  if (self->Prefetch && next.Frame < self->Series->Index.size())
+  {
+    this->Ahead.Start(
+      this->KeyOf(self, next, together), self->Series->Index.pieces(next.Frame), next.Request);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -156,6 +295,12 @@ vtkGranularDumpReader::vtkGranularDumpReader()
 
 //------------------------------------------------------------------------------
 vtkGranularDumpReader::~vtkGranularDumpReader() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularDumpReader::ForgetFrames()
+{
+  this->Internal->Ahead.Drop();
+}
 
 //------------------------------------------------------------------------------
 void vtkGranularDumpReader::FramesChanged()
@@ -206,6 +351,16 @@ void vtkGranularDumpReader::SetStride(vtkTypeInt64 stride)
 }
 
 //------------------------------------------------------------------------------
+void vtkGranularDumpReader::SetPrefetch(bool prefetch)
+{
+  this->Prefetch = prefetch; // changes no result: nothing is to be read again
+  if (!prefetch)
+  {
+    this->Internal->Ahead.Drop();
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkDataArraySelection* vtkGranularDumpReader::GetPointDataArraySelection()
 {
   return this->Internal->PointArrays;
@@ -231,9 +386,13 @@ int vtkGranularDumpReader::RequestData(vtkInformation* request,
       }
       // valid already, but for a pipeline that goes on after RequestInformation failed
       this->Series->Update(this);
-      this->Internal->FillOutputs(this, request, outputVector);
+      this->Internal->Run(this, request, outputVector);
     });
   this->Series->Cancelled = outcome == Outcome::Cancelled;
+  if (outcome != Outcome::Done)
+  {
+    this->Internal->Ahead.Drop();
+  }
   return outcome != Outcome::Failed;
 }
 
@@ -249,6 +408,7 @@ void vtkGranularDumpReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SortById: " << (this->SortById ? "On" : "Off") << "\n";
   os << indent << "Vertices: " << this->Vertices << "\n";
   os << indent << "Stride: " << this->Stride << "\n";
+  os << indent << "Prefetch: " << (this->Prefetch ? "On" : "Off") << "\n";
   os << indent << "RegionOfInterest:";
   for (double bound : this->RegionOfInterest)
   {

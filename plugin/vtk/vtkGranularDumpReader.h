@@ -26,7 +26,12 @@
  * and `time` where the file has them.
  *
  * Only what is asked for is read: the frame shown, the arrays switched on, the rows of Stride and
- * RegionOfInterest. Parallel reading is not supported: piece 0 holds everything.
+ * RegionOfInterest.
+ *
+ * A pipeline may ask for any piece of any number, such as one a rank: the pieces hold each particle
+ * once, in the order of the whole. Of a text a particle belongs to the piece in whose share of the bytes
+ * its row begins; of a binary dump, and of sorted particles, pieces have equal numbers of rows. The box
+ * is in piece 0 alone. See SetController for how the ranks of a parallel program read.
  */
 
 #ifndef vtkGranularDumpReader_h
@@ -141,6 +146,16 @@ public:
   vtkGetVector6Macro(RegionOfInterest, double);
   ///@}
 
+  ///@{
+  /**
+   * On: while a frame is shown the next one, in the direction in which they were looked at, is decoded in
+   * the background, which takes the memory of one more frame. It changes no result. Off by default.
+   */
+  void SetPrefetch(bool prefetch);
+  vtkGetMacro(Prefetch, bool);
+  vtkBooleanMacro(Prefetch, bool);
+  ///@}
+
   /**
    * Which point arrays are read. Filled by UpdateInformation() with the arrays of all frames: on, but
    * for coordinate columns. What was chosen stays when the files are read again.
@@ -151,6 +166,7 @@ protected:
   vtkGranularDumpReader();
   ~vtkGranularDumpReader() override;
 
+  void ForgetFrames() override;
   void FramesChanged() override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -166,6 +182,7 @@ private:
   bool SortById = false;
   int Vertices = VERTEX;
   vtkTypeInt64 Stride = 1;
+  bool Prefetch = false;
   double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
 
   struct Internals;

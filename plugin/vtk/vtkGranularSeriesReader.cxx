@@ -2,10 +2,13 @@
 #include "vtkGranularSeriesReader.h"
 
 #include "private/guard.h"
+#include "private/pool.h"
+#include "private/ranks.h"
 #include "private/series_reader.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -15,6 +18,25 @@
 #include <vector>
 
 using namespace vtkGranularPrivate;
+
+//------------------------------------------------------------------------------
+int vtkGranularSeriesReader::Internals::PortOf(vtkInformation* request)
+{
+  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
+    ? request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
+    : 0;
+  return port > 0 ? port : 0;
+}
+
+//------------------------------------------------------------------------------
+granular::Communicator& vtkGranularSeriesReader::Internals::GetRanks()
+{
+  if (!this->Ranks)
+  {
+    this->Ranks = MakeRanks(this->Controller);
+  }
+  return *this->Ranks;
+}
 
 //------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::Update(Self* self)
@@ -27,6 +49,7 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
   {
     return;
   }
+  self->ForgetFrames();
   if (this->IndexedNames != this->FileNames)
   {
     this->Told.clear();
@@ -37,9 +60,11 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
   options.column_names = this->ColumnNames;
   options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
   options.index_file = static_cast<granular::IndexFile>(self->IndexFile);
+  options.threads = ChooseThreads(self->Threads, this->GetRanks());
   granular::Notices notices;
   AlgorithmProgress progress(self);
-  this->Index.update(this->FileNames, options, notices, progress);
+  granular::update_frame_index(
+    this->Index, this->GetRanks(), this->FileNames, options, notices, progress);
   this->Valid = true;
   this->Stale = false;
   self->FramesChanged();
@@ -51,6 +76,10 @@ void vtkGranularSeriesReader::Internals::Tell(
   Self* self, const granular::Notices& notices, bool ofFrames)
 {
   constexpr int most = 10;
+  if (this->GetRanks().rank() > 0)
+  {
+    return;
+  }
   std::map<std::string, std::string> texts;
   std::map<std::string, int> counts;
   for (const granular::Notice& notice : notices)
@@ -82,14 +111,25 @@ void vtkGranularSeriesReader::Internals::Tell(
 }
 
 //------------------------------------------------------------------------------
+void vtkGranularSeriesReader::Internals::StartFrame(granular::Notices& notices)
+{
+  if (!this->PoolMade)
+  {
+    this->Pool = MakePool(notices);
+    this->PoolMade = true;
+  }
+  if (this->Pool)
+  {
+    this->Pool->next_frame();
+  }
+}
+
+//------------------------------------------------------------------------------
 std::size_t vtkGranularSeriesReader::Internals::FindFrame(
   Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time)
 {
   const std::vector<double> times = this->Index.times(self->TimestepSize);
-  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
-    ? request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
-    : 0;
-  vtkInformation* info = outputs->GetInformationObject(port > 0 ? port : 0);
+  vtkInformation* info = outputs->GetInformationObject(PortOf(request));
   std::size_t frame = 0;
   if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
   {
@@ -104,6 +144,7 @@ std::size_t vtkGranularSeriesReader::Internals::FindFrame(
 vtkGranularSeriesReader::vtkGranularSeriesReader()
   : Series(std::make_unique<Internals>())
 {
+  this->Series->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 //------------------------------------------------------------------------------
@@ -172,6 +213,34 @@ void vtkGranularSeriesReader::SetIndexFile(int where)
 }
 
 //------------------------------------------------------------------------------
+void vtkGranularSeriesReader::SetThreads(int threads)
+{
+  if (threads < 0)
+  {
+    vtkErrorMacro("Threads must be at least 0, got " << threads);
+    return;
+  }
+  this->Threads = threads; // changes no result: nothing is to be read again
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Series->Controller != controller)
+  {
+    this->Series->Controller = controller;
+    this->Series->Ranks.reset();
+    this->Refresh();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkMultiProcessController* vtkGranularSeriesReader::GetController()
+{
+  return this->Series->Controller;
+}
+
+//------------------------------------------------------------------------------
 void vtkGranularSeriesReader::SetTimestepSize(double size)
 {
   if (!std::isfinite(size) || size <= 0)
@@ -201,7 +270,8 @@ int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
     this->SetAbortOutput(false);
     this->Modified();
   }
-  if (this->RefreshOnUpdate && this->Series->Index.changed())
+  if (this->RefreshOnUpdate && this->Series->Valid &&
+    granular::is_changed(this->Series->Index, this->Series->GetRanks()))
   {
     this->Refresh();
   }
@@ -224,6 +294,7 @@ int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(reque
   for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputVector->GetInformationObject(port);
+    info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
     info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
     info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
     if (!times.empty())
@@ -250,4 +321,6 @@ void vtkGranularSeriesReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RepeatedSteps: " << this->RepeatedSteps << "\n";
   os << indent << "IndexFile: " << this->IndexFile << "\n";
   os << indent << "TimestepSize: " << this->TimestepSize << "\n";
+  os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "Controller: " << this->Series->Controller.Get() << "\n";
 }

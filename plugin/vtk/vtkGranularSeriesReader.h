@@ -30,6 +30,8 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkMultiProcessController;
+
 class VTKGRANULAR_EXPORT vtkGranularSeriesReader : public vtkPolyDataAlgorithm
 {
 public:
@@ -106,6 +108,26 @@ public:
   vtkGetMacro(TimestepSize, double);
   ///@}
 
+  ///@{
+  /**
+   * How many threads look at files and decode frames. 0, the default: the cores of the machine, divided
+   * by the processes of the Controller that run on it. Changes how fast it goes and nothing else. Below
+   * 0 is an error and changes nothing.
+   */
+  void SetThreads(int threads);
+  vtkGetMacro(Threads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The processes that read together, each of them its piece: all of them must update the reader, in the
+   * same order. Rank 0 looks at the files for all. What goes wrong on one of them is an error of all.
+   * The global controller by default; null: this process is alone, whatever others do.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
 protected:
   vtkGranularSeriesReader();
   ~vtkGranularSeriesReader() override;
@@ -116,6 +138,11 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /**
+   * Called when the files are going to be looked at: what is known of frames is about to go.
+   */
+  virtual void ForgetFrames() {}
+
+  /**
    * Called when the files were looked at: the frames may be others.
    */
   virtual void FramesChanged() {}
@@ -124,6 +151,7 @@ protected:
   int RepeatedSteps = AUTO;
   int IndexFile = NEVER;
   double TimestepSize = 1;
+  int Threads = 0;
 
   struct Internals;
   std::unique_ptr<Internals> Series;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/dump_reader.h"
 
+#include "granular/base/archive.h"
+#include "granular/base/executor.h"
+#include "granular/dump/exchange_rows.h"
 #include "granular/dump/frame_chunks.h"
 #include "granular/dump/frame_decoder.h"
 #include "granular/dump/sort_rows.h"
@@ -15,6 +18,15 @@
 
 namespace granular
 {
+template <class Archive>
+static void pass(Archive& archive, Misfit& misfit)
+{
+  archive.number(misfit.column);
+  archive.number(misfit.status);
+  archive.text(misfit.word);
+  pass(archive, misfit.where);
+}
+
 namespace
 {
 /// An integer column that holds other numbers is read again as doubles, a column that the table does
@@ -107,15 +119,6 @@ DumpPart decode(const PieceList& pieces, const ColumnSchema& schema, const DumpR
     part.frame = decoder.take(part.ids);
   }
   return part;
-}
-
-template <class Archive>
-void pass(Archive& archive, Misfit& misfit)
-{
-  archive.number(misfit.column);
-  archive.number(misfit.status);
-  archive.text(misfit.word);
-  pass(archive, misfit.where);
 }
 
 /// Puts together what all ranks have to say, on all: the first misfit, and each notice once.

@@ -37,14 +37,14 @@ std::vector<double> Values(const granular::Twofold3& vector)
 }
 }
 
-void FillParticles(
-  vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision, VertexCells cells)
+void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision,
+  VertexCells cells, VertexCache& cache, const std::shared_ptr<granular::BlockPool>& pool)
 {
   const auto rows = static_cast<vtkIdType>(frame.rows);
   output->SetPoints(TakePoints(frame.points, rows, singlePrecision));
   if (cells != VertexCells::None && rows > 0)
   {
-    output->SetVerts(MakeVertices(rows, cells == VertexCells::OnePerPoint));
+    output->SetVerts(cache.Get(rows, cells == VertexCells::OnePerPoint, pool));
   }
   vtkPointData* data = output->GetPointData();
   for (granular::DumpArray& from : frame.arrays)

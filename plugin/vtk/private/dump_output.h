@@ -4,12 +4,16 @@
 
 #include "granular/dump/dump_reader.h"
 
+#include <memory>
+
 class vtkFieldData;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace vtkGranularPrivate
 {
+class VertexCache;
+
 /**
  * What cells the particles get.
  */
@@ -21,10 +25,11 @@ enum class VertexCells
 };
 
 /**
- * The particles of a frame: points, vertices and point data. Takes the memory of the frame.
+ * The particles of a frame: points, vertices and point data. Takes the memory of the frame, and the
+ * vertices of the frame before where they are the same.
  */
-void FillParticles(
-  vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision, VertexCells cells);
+void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision,
+  VertexCells cells, VertexCache& cache, const std::shared_ptr<granular::BlockPool>& pool);
 
 /**
  * The box of a frame as one hexahedron less the origin; the unit cube where the points are scaled.

@@ -38,7 +38,6 @@ int ChooseThreads(int wanted, const granular::Communicator& ranks)
     return wanted;
   }
   // a rank that is bound to some cores has these for itself
-  return std::clamp(
-    granular::machine_cores() / ranks.node_size(), 1, granular::available_cores());
+  return std::clamp(granular::machine_cores() / ranks.node_size(), 1, granular::available_cores());
 }
 }

@@ -4,13 +4,20 @@
 
 #include "vtkGranularSeriesReader.h"
 
+#include "ranks.h"
+
+#include "granular/base/block_pool.h"
 #include "granular/dump/frame_index.h"
 
+#include "vtkSmartPointer.h"
+
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 class vtkInformation;
+class vtkMultiProcessController;
 class vtkInformationVector;
 
 /**
@@ -28,12 +35,31 @@ struct vtkGranularSeriesReader::Internals
   bool Stale = false;                    ///< the files are to be looked at again
   bool Cancelled = false;                ///< the last request was
   std::set<std::string> Told;            ///< notices the user has had
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  std::unique_ptr<granular::Communicator> Ranks; ///< of the controller; null: not made yet
+  std::shared_ptr<granular::BlockPool> Pool;     ///< of output memory; null: none, or not made yet
+  bool PoolMade = false;
 
   /**
-   * Brings the index up to the files, if they are to be looked at at all. Throws, and leaves the index
-   * invalid, if there is nothing to show.
+   * The processes that read together. Collective when it is called first.
+   */
+  granular::Communicator& GetRanks();
+
+  /**
+   * Brings the index up to the files, if they are to be looked at at all: rank 0 looks, for all. Throws,
+   * on all ranks, and leaves the index invalid, if there is nothing to show. Collective.
    */
   void Update(Self* self);
+
+  /**
+   * The output port that a request is for.
+   */
+  static int PortOf(vtkInformation* request);
+
+  /**
+   * Readies the memory for a frame.
+   */
+  void StartFrame(granular::Notices& notices);
 
   /**
    * The frame that the port which is asked for shows, and its time.
@@ -42,7 +68,8 @@ struct vtkGranularSeriesReader::Internals
     Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time);
 
   /**
-   * One warning a file, and each notice once, for whichever frame it came first; not too many.
+   * One warning a file, and each notice once, for whichever frame it came first; not too many. Of
+   * what all ranks know rank 0 speaks.
    */
   void Tell(Self* self, const granular::Notices& notices, bool ofFrames);
 };
