@@ -11,6 +11,9 @@ namespace granular
 {
 namespace
 {
+constexpr int data_tag = 0;
+constexpr int call_tag = 1;
+
 void check(int status)
 {
   if (status == MPI_SUCCESS)
@@ -156,6 +159,37 @@ std::vector<std::string> MpiCommunicator::all_gather(std::string_view bytes)
   return all;
 }
 
+void MpiCommunicator::call_off()
+{
+  for (int rank = 0; rank < size_; ++rank)
+  {
+    if (rank != rank_)
+    {
+      check(MPI_Isend(
+        nullptr, 0, MPI_BYTE, rank, call_tag, ranks_, &calls_.emplace_back(MPI_REQUEST_NULL)));
+    }
+  }
+}
+
+bool MpiCommunicator::called_off()
+{
+  int called = 0;
+  check(MPI_Iprobe(MPI_ANY_SOURCE, call_tag, ranks_, &called, MPI_STATUS_IGNORE));
+  return called != 0;
+}
+
+void MpiCommunicator::settle(std::span<const int> callers)
+{
+  for (const int rank : callers)
+  {
+    if (rank != rank_)
+    {
+      check(MPI_Recv(nullptr, 0, MPI_BYTE, rank, call_tag, ranks_, MPI_STATUS_IGNORE));
+    }
+  }
+  wait(calls_);
+}
+
 void MpiCommunicator::sum(std::span<std::int64_t> values)
 {
   constexpr auto width = static_cast<std::int64_t>(sizeof(std::int64_t));
@@ -184,13 +218,13 @@ void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> f
     in_parts(to_bytes[static_cast<std::size_t>(source)], most_bytes_,
       [&, into = to + begin(to_bytes, source)](std::int64_t offset, int part)
       {
-        check(MPI_Irecv(into + offset, part, MPI_BYTE, source, 0, ranks_,
+        check(MPI_Irecv(into + offset, part, MPI_BYTE, source, data_tag, ranks_,
           &messages.emplace_back(MPI_REQUEST_NULL)));
       });
     in_parts(from_bytes[static_cast<std::size_t>(target)], most_bytes_,
       [&, out = from + begin(from_bytes, target)](std::int64_t offset, int part)
       {
-        check(MPI_Isend(out + offset, part, MPI_BYTE, target, 0, ranks_,
+        check(MPI_Isend(out + offset, part, MPI_BYTE, target, data_tag, ranks_,
           &messages.emplace_back(MPI_REQUEST_NULL)));
       });
     wait(messages);

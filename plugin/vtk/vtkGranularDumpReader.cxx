@@ -191,7 +191,8 @@ granular::DumpFrame vtkGranularDumpReader::Internals::Read(
 {
   granular::Communicator& ranks = self->Series->GetRanks();
   const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(task.Frame);
-  AlgorithmProgress progress(self);
+  AlgorithmProgress own(self);
+  granular::SharedProgress progress(own, ranks);
   std::optional<granular::DumpPart> ahead;
   granular::do_together(ranks,
     [&]
@@ -202,7 +203,7 @@ granular::DumpFrame vtkGranularDumpReader::Internals::Read(
   granular::DumpFrame frame;
   if (together)
   {
-    frame = granular::read_dump(pieces, task.Request, ranks, std::move(ahead), notices, progress);
+    frame = granular::read_dump(pieces, task.Request, ranks, std::move(ahead), notices, own);
   }
   else
   {

@@ -161,7 +161,20 @@ void agree(Communicator& ranks, const std::exception_ptr& failure)
     }
     return;
   }
+  if (failure)
+  {
+    ranks.call_off();
+  }
   const std::vector<std::string> answers = ranks.all_gather(pack(failure));
+  std::vector<int> failed;
+  for (std::size_t rank = 0; rank < answers.size(); ++rank)
+  {
+    if (!answers[rank].empty())
+    {
+      failed.push_back(static_cast<int>(rank));
+    }
+  }
+  ranks.settle(failed);
   bool cancelled = false;
   for (std::size_t rank = 0; rank < answers.size(); ++rank)
   {

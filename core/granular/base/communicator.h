@@ -3,6 +3,7 @@
 #define granular_base_communicator_h
 
 #include "granular/base/error.h"
+#include "granular/base/progress.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,16 @@ public:
   /// Adds up each value over the ranks, on all ranks.
   virtual void sum(std::span<std::int64_t> values) = 0;
 
+  /// Tells the other ranks at once that this one has failed, so that they need not go on with what they
+  /// do: called_off. Not collective, like called_off; agree sees to both.
+  virtual void call_off() {}
+
+  /// Whether another rank has called off what this one is doing.
+  virtual bool called_off() { return false; }
+
+  /// Ends what call_off began, when all ranks know who called off, by rank.
+  virtual void settle(std::span<const int> callers) { static_cast<void>(callers); }
+
   /// Sends each rank its part of `from`, and puts what the ranks send, by rank, into `to`. from_bytes
   /// and to_bytes hold one count of bytes a rank; what to_bytes says must be what is sent.
   virtual void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
@@ -66,5 +77,22 @@ void agree(Communicator& ranks, const std::exception_ptr& failure);
 
 /// Does work, which must not be collective, on every rank, and agrees on how it went.
 void do_together(Communicator& ranks, const std::function<void()>& work);
+
+/// Progress of work that is done together: stops it also where another rank has failed.
+class SharedProgress final : public Progress
+{
+public:
+  SharedProgress(Progress& own, Communicator& ranks)
+    : own_(own)
+    , ranks_(ranks)
+  {
+  }
+
+  bool report(double fraction) override { return own_.report(fraction) && !ranks_.called_off(); }
+
+private:
+  Progress& own_;
+  Communicator& ranks_;
+};
 }
 #endif

@@ -182,6 +182,7 @@ DumpFrame read(const PieceList& pieces, const Where& where, const DumpRequest& r
 {
   check(request);
   const DumpRequest own = own_request(request, ranks.size() > 1);
+  SharedProgress shared(progress, ranks);
   std::optional<ColumnSchema> schema;
   for (;;)
   {
@@ -190,7 +191,7 @@ DumpFrame read(const PieceList& pieces, const Where& where, const DumpRequest& r
       [&]
       {
         schema = schema ? std::move(schema) : join_schemas(pieces);
-        part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, progress);
+        part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, shared);
         ahead.reset();
       });
     share_remarks(ranks, part);
