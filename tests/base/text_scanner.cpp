@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace
@@ -368,18 +369,30 @@ TEST(TextScanner, SkippingReportsAndCanBeStopped)
   public:
     bool report(double fraction) override
     {
+      EXPECT_GT(fraction, last);
+      EXPECT_EQ(std::this_thread::get_id(), caller_);
       last = fraction;
       return ++reports < 3;
     }
     int reports = 0;
     double last = 0;
+
+  private:
+    std::thread::id caller_ = std::this_thread::get_id();
   };
   const std::string text(std::size_t{ 160 } << 20, '\n');
   const auto source = open_memory(text);
-  TextScanner scanner(*source, 0, 1);
+  Stopping alone;
+  EXPECT_THROW(TextScanner(*source, 0, 1).skip_to_item(alone), granular::Cancelled);
+  EXPECT_EQ(alone.reports, 3);
+  EXPECT_GT(alone.last, 0.55);
+  EXPECT_LT(alone.last, 0.65);
+  // of several threads the caller's may get little to do: every 128 chunks a thread, and more often
+  granular::ScanAhead ahead;
+  ahead.threads = 2;
+  ahead.chunk = std::size_t{ 1 } << 17;
   Stopping progress;
-  EXPECT_THROW(scanner.skip_to_item(progress), granular::Cancelled);
+  EXPECT_THROW(
+    TextScanner(*source, 0, 1, window, ahead).skip_to_item(progress), granular::Cancelled);
   EXPECT_EQ(progress.reports, 3);
-  EXPECT_GT(progress.last, 0.55);
-  EXPECT_LT(progress.last, 0.65);
 }

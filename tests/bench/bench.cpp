@@ -19,6 +19,13 @@ namespace
 {
 bool failed = false;
 
+double read_clock(clockid_t clock)
+{
+  std::timespec time = {};
+  ::clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 Samples ratios(const Samples& a, const Samples& b)
 {
   Samples found;
@@ -62,9 +69,12 @@ void tell(benchmark::State& state, const std::string& metric, double value, cons
 
 double now()
 {
-  std::timespec time = {};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return read_clock(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double wall()
+{
+  return read_clock(CLOCK_MONOTONIC);
 }
 
 std::int64_t page_faults()
@@ -102,13 +112,13 @@ bool Rounds::run(double work, int repeats)
   {
     Contender& contender = contenders_[(first_ + i) % contenders_.size()];
     const std::int64_t faults = page_faults();
-    const double start = now();
+    const double start = clock_();
     for (int repeat = 0; repeat < repeats; ++repeat)
     {
       right = contender.run() && right;
       benchmark::ClobberMemory();
     }
-    contender.samples.push_back((now() - start) / (work * repeats));
+    contender.samples.push_back((clock_() - start) / (work * repeats));
     faults_ += page_faults() - faults;
   }
   ++first_;

@@ -4,7 +4,8 @@
 // The machine may be busy, and the clock of its cores may wander: no time is compared with one
 // that was taken at another moment. A round runs every contender once, each on the same work, and
 // what is judged is the ratio of times within a round, as the median over many short rounds.
-// Times are processor time of the calling thread: what others do to the machine counts less.
+// Times are processor time of the calling thread: what others do to the machine counts less. Only where
+// several threads work does the clock on the wall count.
 #ifndef tests_bench_bench_h
 #define tests_bench_bench_h
 
@@ -47,6 +48,9 @@ void tell(
 /// Processor time of this thread [s].
 double now();
 
+/// Time on the wall [s].
+double wall();
+
 /// Page faults of this thread so far that needed no disk.
 std::int64_t page_faults();
 
@@ -64,6 +68,11 @@ double spread_of_ratio(const Samples& a, const Samples& b);
 class Rounds
 {
 public:
+  explicit Rounds(double (*clock)() = now)
+    : clock_(clock)
+  {
+  }
+
   /// One contender. Does the same work as the others; gives false when the result is wrong.
   void add(std::string name, std::function<bool()> contender);
 
@@ -85,6 +94,7 @@ private:
     Samples samples;
   };
 
+  double (*clock_)();
   std::vector<Contender> contenders_;
   std::size_t first_ = 0;
   std::int64_t faults_ = 0;

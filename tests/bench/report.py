@@ -298,7 +298,9 @@ PARTS = (
          where the index of an earlier one lies beside the dump; again an update where nothing
          changed. Memory is what operator new gave and still has out, peak the most on the way; each
          frame counts once, however many files it has. The last frame is read alone: no byte of
-         another is.""",
+         another is. threads: the index made by one thread and by two, time on the wall; of frames of
+         10^6 rows both pass over one, of files each takes its own, and a file of smaller frames is for
+         one thread.""",
          [cases_by_metrics(r"^1",
                            Column("yardstick ms", "yardstick:ms", ".1f"),
                            Column("index ms", "index:ms", ".1f"),
@@ -309,6 +311,11 @@ PARTS = (
                            Column("again ms", "again:ms", ".1f"),
                            Column("memory B/frame", "memory:B/frame", ".0f"),
                            Column("peak B/frame", "peak:B/frame", ".0f")),
+          cases_by_metrics(r"^threads",
+                           Column("1 thread ms", "1 thread:ms", ".1f"),
+                           Column("2 threads ms", "2 threads:ms", ".1f"),
+                           Column("ratio", "2 against 1:1", ".2f"),
+                           Column("spread", "2 against 1, spread:1", ".0%")),
           cases_by_metrics(r"^last",
                            Column("last frame ms", "last frame:ms", ".2f"),
                            Column("time against the first", "against the first:1", ".2f"),

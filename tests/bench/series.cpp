@@ -327,6 +327,30 @@ void measure_last_frame(benchmark::State& state, const Run& run)
     static_cast<double>(watched.all) / static_cast<double>(last.end - last.offset), "1");
 }
 
+/// Indexing a run with one thread and with two.
+void measure_threads(benchmark::State& state, const Run& run)
+{
+  Indexing alone(run);
+  Indexing both(run);
+  both.options.threads = 2;
+  Rounds rounds(wall);
+  rounds.add("1", std::ref(alone));
+  rounds.add("2", std::ref(both));
+  for (auto _ : state)
+  {
+    if (!rounds.run(1) || !lists(alone.index, run) || both.index.encode() != alone.index.encode())
+    {
+      fail(state, "the index does not hold the frames of the run");
+      return;
+    }
+    state.SetIterationTime(rounds.of("2").back());
+  }
+  tell(state, "1 thread", 1e3 * median(rounds.of("1")), "ms");
+  tell(state, "2 threads", 1e3 * median(rounds.of("2")), "ms");
+  tell(state, "2 against 1", median_ratio(rounds.of("2"), rounds.of("1")), "1");
+  tell(state, "2 against 1, spread", spread_of_ratio(rounds.of("2"), rounds.of("1")), "1");
+}
+
 /// How to look at the files of a run without thinking.
 enum class Yardstick
 {
@@ -379,6 +403,18 @@ void add_benchmarks(const Size& size)
         const Run run(each.files, Form::Atom, each.frames, each.rows, each.pieces);
         index_run(state, run, each.yardstick);
       });
+  }
+  const Case threaded[] = {
+    { "frames of 10^6 rows", Files::One, {}, size.pick(3, 2), size.pick(1'000'000, 100'000), 1,
+      size.pick(31, 1) },
+    { "frames of 1000 rows", Files::One, {}, size.pick(3'000, 20), 1'000, 1, size.pick(31, 1) },
+    { "10^4 files", Files::OneAFrame, {}, size.pick(10'000, 50), 100, 1, size.pick(21, 1) },
+  };
+  for (const Case& each : threaded)
+  {
+    add("series/threads, " + each.name, each.rounds,
+      [each](benchmark::State& state)
+      { measure_threads(state, Run(each.files, Form::Atom, each.frames, each.rows)); });
   }
   add("series/last of 1000 frames", size.pick(21, 1),
     [thousand, many_rows](benchmark::State& state)

@@ -16,7 +16,7 @@ constexpr std::size_t rest_of_mark = item_mark.size() - 1;
 }
 
 /// Reports now and then how far a scan is.
-class TextScanner::ScanProgress final : public Progress
+class TextScanner::ScanProgress
 {
 public:
   ScanProgress(Progress& progress, const ByteSource& source, std::int64_t offset) noexcept
@@ -36,25 +36,10 @@ public:
     }
   }
 
-  /// What report() speaks of.
-  void set_part(std::int64_t offset, std::int64_t bytes) noexcept
-  {
-    offset_ = offset;
-    bytes_ = static_cast<double>(bytes);
-  }
-
-  bool report(double fraction) override
-  {
-    this->reach(offset_ + static_cast<std::int64_t>(fraction * bytes_));
-    return true;
-  }
-
 private:
   Progress& progress_;
   const ByteSource& source_;
   std::int64_t reported_;
-  std::int64_t offset_ = 0;
-  double bytes_ = 0;
 };
 
 /// What was found in a part of the text. Its first line may have begun before it.
@@ -195,6 +180,7 @@ bool TextScanner::skip_chunks(Passed& passed, ScanProgress& reports)
   constexpr std::int64_t chunks_a_thread = 128; // each round costs new threads
   const auto bytes = static_cast<std::int64_t>(ahead_.chunk);
   const std::int64_t from = this->offset();
+  reports.reach(from);
   const std::int64_t left = std::max(std::int64_t{ 0 }, source_.stamp().size - from);
   const auto count =
     static_cast<std::size_t>(std::min(ahead_.threads * chunks_a_thread, left / bytes + 1));
@@ -207,21 +193,25 @@ bool TextScanner::skip_chunks(Passed& passed, ScanProgress& reports)
   std::atomic<std::size_t> needed = count; // of them, as far as is known
   const auto scan = [&](std::size_t chunk, std::size_t worker)
   {
-    if (chunk < needed)
+    if (chunk >= needed)
     {
-      chunks[chunk] = this->scan_chunk(from + static_cast<std::int64_t>(chunk) * bytes,
-        chunk == 0 ? &passed.state : nullptr, buffers_[worker]);
-      if (chunks[chunk].item >= 0 || chunks[chunk].last)
-      {
-        for (std::size_t known = needed; chunk + 1 < known;)
-        {
-          needed.compare_exchange_weak(known, chunk + 1);
-        }
-      }
+      return;
+    }
+    const std::int64_t offset = from + static_cast<std::int64_t>(chunk) * bytes;
+    if (worker == 0)
+    {
+      reports.reach(offset);
+    }
+    chunks[chunk] =
+      this->scan_chunk(offset, chunk == 0 ? &passed.state : nullptr, buffers_[worker]);
+    const bool ends = chunks[chunk].item >= 0 || chunks[chunk].last;
+    for (std::size_t known = needed; ends && chunk + 1 < known;)
+    {
+      needed.compare_exchange_weak(known, chunk + 1);
     }
   };
-  reports.set_part(from, static_cast<std::int64_t>(count) * bytes);
-  executor.parallel_for(count, scan, reports);
+  Progress ignored; // it does not know that some chunks are not needed
+  executor.parallel_for(count, scan, ignored);
   this->go_to(from + static_cast<std::int64_t>(count) * bytes, line_);
   return std::ranges::any_of(chunks, [&](const Chunk& chunk) { return this->join(chunk, passed); });
 }
