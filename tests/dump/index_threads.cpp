@@ -20,6 +20,8 @@
 #include <thread>
 #include <vector>
 
+#include <sys/resource.h>
+
 namespace
 {
 using granular::FileIndex;
@@ -200,6 +202,26 @@ TEST(IndexThreads, ManyFilesOfAllSorts)
     run.update(files);
     EXPECT_TRUE(run.index.encode() == alone.index.encode()) << threads;
   }
+}
+
+TEST(IndexThreads, FarMoreFilesThanMayBeOpenAtOnce)
+{
+  const Folder folder;
+  Files files;
+  for (int i = 0; i < 300; ++i)
+  {
+    files.push_back(folder.write(std::to_string(i), grains(i, { 1 })));
+  }
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit few = { 40, before.rlim_max };
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  Series run;
+  run.options.threads = 8;
+  run.update(files);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(run.index.size(), 300u);
+  EXPECT_EQ(run.said, "");
 }
 
 TEST(IndexThreads, ARunThatGrows)
