@@ -32,8 +32,8 @@ _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
     (_OPERATING_SYSTEM + r"|(zlib|zstd|zstd_errors)\.h",
      r"core/granular/base/byte_(source|sink)(_\w+)?\.cpp"),
-    (r"sys/mman\.h", r"core/granular/base/mapping\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/base/executor\.cpp"),
+    (r"sys/mman\.h", r"core/granular/base/mapping\.cpp"),
     (r"immintrin\.h", r"core/granular/base/(line_scan|row_text)\w*\.(cpp|h|inc)"),
     (r"mpi\.h", r"core/mpi/.*"),
 )
