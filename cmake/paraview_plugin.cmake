@@ -27,12 +27,23 @@ if(GRANULAR_BUILD_PYTHON AND NOT VTK_WRAP_PYTHON)
     "This ParaView was built without Python: set GRANULAR_BUILD_PYTHON=OFF.")
 endif()
 
-# ---- the VTK module, and the one for the server manager, which only the plugin has ----------------
+# What ParaView's views draw with. plugin/views includes none of it, but the targets of the views'
+# libraries name it, and its development files need not be there.
+foreach(library IN ITEMS Freetype::Freetype GLEW::GLEW X11::X11)
+  if(NOT TARGET ${library})
+    add_library(${library} INTERFACE IMPORTED)
+  endif()
+endforeach()
+
+# ---- the VTK module, and those for the server manager and the views, which only the plugin has -----
 vtk_module_find_modules(granular_module_files
-  "${PROJECT_SOURCE_DIR}/plugin/vtk" "${PROJECT_SOURCE_DIR}/plugin/servermanager")
+  "${PROJECT_SOURCE_DIR}/plugin/vtk"
+  "${PROJECT_SOURCE_DIR}/plugin/servermanager"
+  "${PROJECT_SOURCE_DIR}/plugin/views")
 vtk_module_scan(
   MODULE_FILES ${granular_module_files}
-  REQUEST_MODULES Granular::vtkGranular Granular::vtkGranularServerManager
+  REQUEST_MODULES
+    Granular::vtkGranular Granular::vtkGranularServerManager Granular::vtkGranularViews
   PROVIDES_MODULES granular_modules
   REQUIRES_MODULES granular_required_modules
   HIDE_MODULES_FROM_CACHE ON)

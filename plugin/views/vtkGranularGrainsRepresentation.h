@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularGrainsRepresentation
+ * @brief   Point Gaussian for grains: whole on any number of ranks.
+ *
+ * vtkPointGaussianRepresentation tells ParaView where the points are, not the spheres. Three things
+ * follow from that, and are put right here:
+ *
+ * - Under several ranks only the part of the picture that the points of a rank cover is taken from
+ *   it, and a sphere is cut off where it reaches beyond. Here the bounds hold the spheres. That also
+ *   keeps a sphere in the picture whose centre has left it.
+ * - The ranks' pictures are laid over one another in the order of the regions of space they stand
+ *   for. Spheres reach into other regions, where that order is wrong. Here each pixel is taken from
+ *   the rank where it is nearest, as for surfaces, unless the grains are translucent: then the order
+ *   of regions is the best there is.
+ * - For that order points are sent from rank to rank. Here opaque grains stay where they were read.
+ *
+ * Made for the preset Sphere and radii without a transfer function, as the XML sets them.
+ */
+
+#ifndef vtkGranularGrainsRepresentation_h
+#define vtkGranularGrainsRepresentation_h
+
+#include "vtkGranularViewsModule.h" // For export macro
+#include "vtkPointGaussianRepresentation.h"
+
+class VTKGRANULARVIEWS_EXPORT vtkGranularGrainsRepresentation
+  : public vtkPointGaussianRepresentation
+{
+public:
+  static vtkGranularGrainsRepresentation* New();
+  vtkTypeMacro(vtkGranularGrainsRepresentation, vtkPointGaussianRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
+
+protected:
+  vtkGranularGrainsRepresentation();
+  ~vtkGranularGrainsRepresentation() override;
+
+private:
+  vtkGranularGrainsRepresentation(const vtkGranularGrainsRepresentation&) = delete;
+  void operator=(const vtkGranularGrainsRepresentation&) = delete;
+
+  bool IsTranslucent();
+};
+
+#endif
