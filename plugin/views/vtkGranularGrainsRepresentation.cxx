@@ -98,6 +98,11 @@ void vtkGranularGrainsRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IsTranslucent: " << this->IsTranslucent() << "\n";
 }
 
+void vtkGranularGrainsRepresentation::SetRadiusArray(const char* name)
+{
+  this->SelectScaleArray(0, 0, 0, 0, name);
+}
+
 bool vtkGranularGrainsRepresentation::IsTranslucent()
 {
   if (this->Actor->GetProperty()->GetOpacity() < 1.0)

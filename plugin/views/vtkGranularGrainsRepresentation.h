@@ -35,6 +35,12 @@ public:
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
 
+  /**
+   * Name of the point array of the radii, in the unit of the points. Where there is no such array,
+   * and where the name is empty, all radii are 1. All are multiplied by the splat size.
+   */
+  void SetRadiusArray(const char* name);
+
 protected:
   vtkGranularGrainsRepresentation();
   ~vtkGranularGrainsRepresentation() override;

@@ -62,7 +62,7 @@ expect(display, 1.5, 0.25)
 
 # opened our way
 display = granular.show(reader, view)
-assert display.Representation == "Point Gaussian" and display.ShaderPreset == "Sphere"
+assert display.Representation == "Grains"
 expect(display, 3, 0.5)
 expect(granular.show(reader, view, radius=2), 2, 2)
 expect(granular.show(reader), 3, 0.5)
@@ -85,7 +85,7 @@ Hide(plain, view)
 # radii are lengths, scaled coordinates are not
 reader.Coordinates = "Scaled"
 display = granular.show(reader, view)
-assert display.ScaleByArray == 0 and display.GaussianRadius < 1
+assert display.GrainRadiusArray == "" and display.GrainScale < 1
 Delete(reader)
 
 # so it is when opened the plain way, and where the radii are not loaded; what counts is the last read

@@ -7,6 +7,7 @@
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/
     plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
+    plugin/views           VTK, ParaView's views, but no core and no Qt
     samples                paraview.simple, granular, numpy and Python's own modules
 """
 import ast
@@ -116,13 +117,13 @@ def check_vtk_source(root, path):
                 yield path, line, f"<{name}> is neither of VTK nor of the C++ standard library"
 
 
-def check_server_manager(root, path):
+def check_paraview(root, path):
     for line, bracket, name, _ in includes(tree.read(root, path)):
         if bracket == "<" and name in STANDARD:
             continue
         if not re.match(r"vtk\w+\.h$", name):
-            yield path, line, (f"{name}: the server manager's classes stand on VTK's, ParaView's and "
-                               "ours, and on the standard library")
+            yield path, line, (f"{name}: ParaView's side stands on VTK's classes, ParaView's and ours, "
+                               "and on the standard library")
 
 
 def imported(node):
@@ -153,8 +154,8 @@ def check(root):
             yield from check_vtk_header(root, path)
         elif re.match(r"plugin/vtk/.*\.(h|cxx|txx)$", path):
             yield from check_vtk_source(root, path)
-        elif re.match(r"plugin/servermanager/.*\.(h|cxx|txx)$", path):
-            yield from check_server_manager(root, path)
+        elif re.match(r"plugin/(servermanager|views)/.*\.(h|cxx|txx)$", path):
+            yield from check_paraview(root, path)
         elif re.match(r"samples/[^/]+\.py$", path):
             yield from check_sample(root, path)
 

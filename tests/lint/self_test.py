@@ -84,13 +84,16 @@ class Layering(unittest.TestCase):
             plugin__vtk__private__mpi_glue_dot_h='#include <mpi.h>\n#include "mpi/m.h"\n'), [
                 f"plugin/vtk/a.cxx:{line}" for line in (11, 5, 6, 7, 8, 9)])
 
-    def test_server_manager(self):
+    def test_paraview(self):
         self.assertEqual(found(
             layering.check,
+            plugin__views__vtkGranularA_dot_cxx='#include "granular/base/a.h"\n'
+            '#include "vtkPVView.h"\n',
             plugin__servermanager__vtkSMA_dot_h='#include "vtkSMSourceProxy.h"\n#include <string>\n'
             '#include "granular/base/a.h"\n#include "vtkGranularA.h"\n#include <QWidget>\n'
             '#include "pqCore.h"\n#include <mpi.h>\n'), [
-                f"plugin/servermanager/vtkSMA.h:{line}" for line in (3, 5, 6, 7)])
+                f"plugin/servermanager/vtkSMA.h:{line}" for line in (3, 5, 6, 7)] + [
+                    "plugin/views/vtkGranularA.cxx:1"])
 
     def test_sample(self):
         self.assertEqual(found(
@@ -241,7 +244,8 @@ class vtkGranularA : public vtkPolyDataAlgorithm
             'name="a" command="AddFileName"', 'name="b" command="SetSize"',
             'name="c" command="SortOn"', 'name="d" command="SetInputConnection"',
             'name="e" command="Commented"', 'name="f" command="AddFileName" clean_command="Clear"',
-            'name="g" information_property="h"', 'name="i" information_property="a"'))
+            'name="g" information_property="h"', 'name="i" information_property="a"',
+            'name="j" command="OfTheBase" override="1"'))
         self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)),
                          ["xml/a.xml:7", "xml/a.xml:8", "xml/a.xml:9"])
 

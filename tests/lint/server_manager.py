@@ -66,8 +66,9 @@ def methods(header):
 
 def known_methods(root, class_name):
     """Methods of a class of ours and of its superclasses of ours; None if there is no header."""
-    header = f"plugin/vtk/{class_name}.h"
-    if not os.path.exists(os.path.join(root, header)):
+    headers = [f"plugin/{folder}/{class_name}.h" for folder in ("vtk", "views")]
+    header = next((one for one in headers if os.path.exists(os.path.join(root, one))), None)
+    if header is None:
         return None
     text = tree.read(root, header)
     base = re.search(rf"\bclass\s+(?:\w+\s+)?{class_name}\s*:\s*public\s+(vtkGranular\w+)",
@@ -79,7 +80,8 @@ def check_property(path, prop, known, proxies_class):
     name = prop.get("name")
     for attribute in COMMANDS:
         command = prop.get(attribute)
-        if command and known is not None and command not in known:
+        # what overrides a property of ParaView's may keep its command, of a class of ParaView's
+        if command and known is not None and command not in known and not prop.get("override"):
             yield path, prop.line, f"{name}: {attribute} {command} is not a method of {proxies_class}"
     if "label" in prop.attributes:
         yield path, prop.line, f"{name}: a label becomes the property's name in Python: leave it out"
@@ -96,7 +98,7 @@ def check_proxy(root, path, proxy):
     if known is not None:
         known |= INHERITED
     elif proxies_class.startswith("vtkGranular"):
-        yield path, proxy.line, f"{name}: there is no plugin/vtk/{proxies_class}.h"
+        yield path, proxy.line, f"{name}: there is no {proxies_class}.h in plugin/vtk or plugin/views"
     # ParaView makes a vtkSMX of an element X; one it does not find leaves no proxy and no error
     header = f"plugin/servermanager/vtkSM{proxy.tag}.h"
     if proxy.tag.startswith("Granular") and not os.path.exists(os.path.join(root, header)):

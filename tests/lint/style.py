@@ -11,7 +11,7 @@ WITH_LICENCE = re.compile(
 # Neither text nor ours to shape.
 NOT_TEXT = re.compile(r"\.(png|jpg|gz|zst|bin)$")
 
-_LIBRARIES = r"(core|plugin/(vtk|servermanager))/"
+_LIBRARIES = r"(core|plugin/(vtk|servermanager|views))/"
 # (where, what, why), matched in code without comments and strings.
 BANNED = (
     (_LIBRARIES, r"\b(?:std::)?(?:cout|cerr|clog)\b|(?<!\w)(?:std::)?v?f?printf\s*\(|"

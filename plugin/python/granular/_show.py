@@ -23,7 +23,7 @@ def _is_scaled(source):
 
 
 def show(reader, view=None, radius="radius", color=None):
-    """Shows particles as spheres (Point Gaussian) and returns their display.
+    """Shows particles as spheres and returns their display.
 
     reader  a GranularDumpReader, or any source or filter whose first output has points.
     view    a render view; by default the active one, or a new one.
@@ -32,28 +32,30 @@ def show(reader, view=None, radius="radius", color=None):
             half the mean distance of the points are shown.
     color   name of a point array to colour by; by default as ParaView decides.
 
-    The spheres are drawn with exactly these radii. ParaView draws them as flat discs with the shading
-    of spheres: where they overlap they do not cut into each other.
+    The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the
+    same on any number of ranks. They are flat discs with the shading of spheres: where they overlap
+    they do not cut into each other.
+
+    Raises RuntimeError if the plugin was not loaded before.
     """
     from paraview import simple
 
     display = simple.Show(reader, view)
-    display.SetRepresentationType("Point Gaussian")
-    display.ShaderPreset = "Sphere"
+    if "Grains" not in display.GetProperty("Representation").Available:
+        raise RuntimeError("expected the plugin Granular, got a ParaView without it: load it first, "
+                           "as with granular.load_plugin()")
+    display.SetRepresentationType("Grains")
     # ParaView does not know the arrays of a frame without particles: later ones will have them
     empty = reader.GetDataInformation().GetNumberOfPoints() == 0
     by_array = isinstance(radius, str) and not _is_scaled(reader) and \
         (empty or radius in reader.PointData.keys())
-    display.ScaleByArray = int(by_array)
+    display.GrainRadiusArray = radius if by_array else ""
     if by_array:
-        display.SetScaleArray = ["POINTS", radius]
-        display.ScaleArrayComponent = 0
-        display.UseScaleFunction = 0
-        display.GaussianRadius = 1.0
+        display.GrainScale = 1.0
     elif isinstance(radius, str):
-        display.GaussianRadius = _spacing_radius(reader) or 1.0
+        display.GrainScale = _spacing_radius(reader) or 1.0
     else:
-        display.GaussianRadius = float(radius)
+        display.GrainScale = float(radius)
     if color is not None and empty:
         # there is no range to fit the colours to yet
         display.ColorArrayName = ["POINTS", color]
