@@ -6,9 +6,7 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
-#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLActor.h"
 #include "vtkPVRenderView.h"
@@ -22,38 +20,62 @@
 
 namespace
 {
-// The largest radius that the mapper draws of one data set. VTK keeps the range with the array.
-double LargestRadius(vtkPointGaussianMapper* mapper, vtkDataSet* data)
+// From each sphere, not from all centres and the largest radius: how the points are dealt to ranks
+// must not show in where the camera is put.
+void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
 {
+  auto* mapper = vtkPointGaussianMapper::SafeDownCast(actor->GetMapper());
   const char* name = mapper->GetScaleArray();
   vtkDataArray* radii = name ? data->GetPointData()->GetArray(name) : nullptr;
-  double range[2] = { 1.0, 1.0 };
-  if (radii)
+  const double factor = mapper->GetScaleFactor();
+  vtkMatrix4x4* matrix = actor->GetIsIdentity() ? nullptr : actor->GetMatrix();
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
-    const int components = radii->GetNumberOfComponents();
-    const int component = components == 1 ? 0 : mapper->GetScaleArrayComponent();
-    const bool one = 0 <= component && component < components;
-    radii->GetFiniteRange(range, one ? component : -1); // -1: the length of the vector
-    if (range[0] > range[1])
+    double centre[4] = { 0.0, 0.0, 0.0, 1.0 };
+    data->GetPoint(i, centre);
+    if (matrix)
     {
-      return 0.0; // not one number among them
+      matrix->MultiplyPoint(centre, centre);
+    }
+    double radius = factor * (radii ? radii->GetComponent(i, 0) : 1.0);
+    if (!(radius > 0.0 && std::isfinite(radius)))
+    {
+      radius = 0.0; // nothing is drawn of it
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      bounds[2 * axis] = std::min(bounds[2 * axis], centre[axis] - radius);
+      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], centre[axis] + radius);
     }
   }
-  return mapper->GetScaleFactor() * std::max(std::abs(range[0]), std::abs(range[1]));
 }
 
-double LargestRadius(vtkPointGaussianMapper* mapper, vtkDataObject* data)
+// The box around the spheres that an actor makes of some data, in the world's coordinates.
+class SphereBounds
 {
-  double radius = 0.0;
-  for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(data))
+public:
+  double* Of(vtkActor* actor, vtkDataObject* data)
   {
-    if (block->GetNumberOfPoints() > 0)
+    const vtkMTimeType changed =
+      std::max({ actor->GetMTime(), actor->GetMapper()->GetMTime(), data ? data->GetMTime() : 0 });
+    if (data != this->Data || this->Time < changed)
     {
-      radius = std::max(radius, LargestRadius(mapper, block));
+      vtkBoundingBox().GetBounds(this->Bounds); // of nothing
+      for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(data))
+      {
+        AddSpheres(this->Bounds, actor, block);
+      }
+      this->Data = data;
+      this->Time = changed;
     }
+    return this->Bounds;
   }
-  return radius;
-}
+
+private:
+  double Bounds[6];
+  vtkDataObject* Data = nullptr; // only compared
+  vtkMTimeType Time = 0;
+};
 
 // An actor whose bounds hold the spheres, not their centres alone: cullers and IceT go by them.
 class GrainsActor : public vtkOpenGLActor
@@ -64,20 +86,14 @@ public:
 
   double* GetBounds() override
   {
-    double* centres = this->Superclass::GetBounds();
-    auto* mapper = vtkPointGaussianMapper::SafeDownCast(this->Mapper);
-    if (!mapper || !centres || !vtkMath::AreBoundsInitialized(centres))
-    {
-      return centres;
-    }
-    vtkBoundingBox box(centres);
-    box.Inflate(LargestRadius(mapper, mapper->GetInputDataObject(0, 0)));
-    box.GetBounds(this->Spheres);
-    return this->Spheres;
+    return this->Drawn.Of(this, this->Mapper->GetInputDataObject(0, 0));
   }
 
+  double* GetBoundsOf(vtkDataObject* data) { return this->Read.Of(this, data); }
+
 private:
-  double Spheres[6];
+  SphereBounds Drawn; // what this rank draws
+  SphereBounds Read;  // what was read on this rank, before it is sent anywhere
 };
 vtkStandardNewMacro(GrainsActor);
 }
@@ -127,22 +143,8 @@ int vtkGranularGrainsRepresentation::ProcessViewRequest(
   }
   if (request == vtkPVView::REQUEST_UPDATE())
   {
-    vtkBoundingBox box;
-    for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(this->ProcessedData))
-    {
-      double bounds[6];
-      block->GetBounds(bounds);
-      box.AddBounds(bounds);
-    }
-    if (box.IsValid())
-    {
-      double bounds[6];
-      box.Inflate(LargestRadius(this->Mapper, this->ProcessedData));
-      box.GetBounds(bounds);
-      vtkNew<vtkMatrix4x4> matrix;
-      this->Actor->GetMatrix(matrix);
-      vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
-    }
+    double* bounds = static_cast<GrainsActor*>(this->Actor.Get())->GetBoundsOf(this->ProcessedData);
+    vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds);
     if (!this->IsTranslucent())
     {
       outInfo->Remove(vtkPVRenderView::NEED_ORDERED_COMPOSITING());
