@@ -155,8 +155,6 @@ std::optional<Misfit> FrameDecoder::run(Progress& whole)
   this->check_counts();
   this->note_surplus();
   this->join_words();
-  progress.set_part(1, 1);
-  this->join_rows(progress);
   progress.step(1);
   return std::nullopt;
 }
@@ -170,8 +168,10 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   counts_.assign(pieces_.entries.size(), 0);
   next_row_ = next_number_ = 0;
   alone_ = executor_.workers(chunks_.size()) == 1;
+  filtered_ = request_.stride > 1 || layout_->region;
   reads_.restart();
   places_.restart();
+  kept_.restart();
   std::vector<Worker> workers(executor_.workers(chunks_.size()));
   for (Worker& worker : workers)
   {
@@ -193,9 +193,11 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
     counts_[found.piece] = std::max(counts_[found.piece], pieces_.entries[found.piece]->rows + 1);
     this->check_counts();
   }
+  next_row_ = 0;
   for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
   {
     counts_[chunks_[chunk].piece] += decoded_[chunk].rows;
+    next_row_ += decoded_[chunk].kept;
   }
   notices_.insert(notices_.end(), notices.begin(), notices.end());
   return true;
@@ -215,16 +217,32 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
   }
   worker.reader->open(range.first, range.last);
   read.pass();
-  const std::int64_t rows = alone_ ? 0 : worker.reader->rows();
-  place.wait();
-  decoded.row = next_row_;
-  const std::int64_t number = next_number_;
   if (!alone_)
   {
-    next_row_ += rows;
+    const std::int64_t rows = worker.reader->rows();
+    place.wait();
+    const std::int64_t number = next_number_;
     next_number_ += rows;
     place.pass();
+    if (filtered_)
+    {
+      this->decode_aside(chunk, number, rows, worker);
+      return;
+    }
+    decoded.row = number;
+    this->decode_rows(range.piece, number, worker, decoded);
+    return;
   }
+  decoded.row = next_row_;
+  this->decode_rows(range.piece, next_number_, worker, decoded);
+  next_row_ += decoded.kept;
+  next_number_ += decoded.rows;
+}
+
+/// Decodes what the reader has open to where decoded.row is; number: rows before it in this part.
+void FrameDecoder::decode_rows(
+  std::size_t piece, std::int64_t number, Worker& worker, DecodedChunk& decoded)
+{
   try
   {
     worker.decoder->decode(
@@ -232,17 +250,44 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
   }
   catch (RowFault& fault)
   {
-    throw PieceFault{ range.piece, std::move(fault) };
+    throw PieceFault{ piece, std::move(fault) };
   }
   if (worker.reader->more())
   {
-    throw TooManyRows{ range.piece };
+    throw TooManyRows{ piece };
   }
-  if (alone_)
+}
+
+/// The same where filters leave few rows: they go to memory of the thread's own first, and from there
+/// behind those of the chunk before. Else all rows would be in memory at once.
+void FrameDecoder::decode_aside(
+  std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker)
+{
+  DecodedChunk& decoded = decoded_[chunk];
+  Turn turn(kept_, chunk);
+  if (!worker.aside || worker.aside->rows < rows)
   {
-    next_row_ += decoded.kept;
-    next_number_ += decoded.rows;
+    Notices known;
+    worker.aside =
+      std::make_unique<FrameLayout>(schema_, header_, request_, rows + rows / 8, where_, known);
+    worker.decoder = std::make_unique<ChunkDecoder>(*worker.aside, request_);
   }
+  this->decode_rows(chunks_[chunk].piece, number, worker, decoded);
+  turn.wait();
+  decoded.row = next_row_;
+  next_row_ += decoded.kept;
+  turn.pass();
+  std::vector<const char*> from;
+  worker.aside->for_each_block(
+    [&](Block& block, std::size_t) { from.push_back(static_cast<const char*>(block.data())); });
+  auto next = from.begin();
+  layout_->for_each_block(
+    [&](Block& block, std::size_t bytes_a_row)
+    {
+      std::memcpy(
+        static_cast<char*>(block.data()) + static_cast<std::size_t>(decoded.row) * bytes_a_row,
+        *next++, static_cast<std::size_t>(decoded.kept) * bytes_a_row);
+    });
 }
 
 /// Pieces of which all was read must have the rows that their headers promise, others no more.
@@ -299,43 +344,6 @@ void FrameDecoder::join_words()
     }
     array.words = all.take();
   }
-}
-
-/// Closes the gaps that filters left between chunks.
-void FrameDecoder::join_rows(Progress& progress)
-{
-  next_row_ = 0;
-  struct Move
-  {
-    std::int64_t from;
-    std::int64_t to;
-    std::int64_t rows;
-  };
-  std::vector<Move> moves;
-  for (const DecodedChunk& chunk : decoded_)
-  {
-    if (chunk.row != next_row_ && chunk.kept > 0)
-    {
-      moves.push_back({ chunk.row, next_row_, chunk.kept });
-    }
-    next_row_ += chunk.kept;
-  }
-  std::vector<std::pair<char*, std::size_t>> blocks; // and bytes a row
-  layout_->for_each_block(
-    [&](Block& block, std::size_t bytes_a_row) {
-      blocks.push_back({ static_cast<char*>(block.data()), bytes_a_row });
-    });
-  const auto close = [&](std::size_t block, std::size_t)
-  {
-    const auto [data, bytes] = blocks[block];
-    for (const Move& move : moves)
-    {
-      std::memmove(data + static_cast<std::size_t>(move.to) * bytes,
-        data + static_cast<std::size_t>(move.from) * bytes,
-        static_cast<std::size_t>(move.rows) * bytes);
-    }
-  };
-  executor_.parallel_for(moves.empty() ? 0 : blocks.size(), close, progress);
 }
 
 DumpFrame FrameDecoder::take(Block& ids)

@@ -49,6 +49,7 @@ private:
     std::shared_ptr<const Source> source;
     std::size_t piece = 0;
     std::unique_ptr<RowReader> reader;
+    std::unique_ptr<FrameLayout> aside; ///< memory of its own, where filters leave few rows
     std::unique_ptr<ChunkDecoder> decoder;
   };
 
@@ -59,10 +60,11 @@ private:
   std::int64_t rows_before(Progress& progress);
   bool decode(std::int64_t room, Progress& progress);
   void decode_chunk(std::size_t chunk, Worker& worker);
+  void decode_rows(std::size_t piece, std::int64_t number, Worker& worker, DecodedChunk& decoded);
+  void decode_aside(std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker);
   void check_counts() const;
   void note_surplus();
   void join_words();
-  void join_rows(Progress& progress);
 
   const PieceList& pieces_;
   const ColumnSchema& schema_;
@@ -80,9 +82,11 @@ private:
   std::unique_ptr<FrameLayout> layout_;
   std::vector<DecodedChunk> decoded_;
   std::vector<std::int64_t> counts_; ///< rows of each piece
+  bool filtered_ = false;            ///< not all rows stay
   bool alone_ = true;                ///< one thread: it need not count rows before it has them
   Turns reads_;
   Turns places_;
+  Turns kept_;
   std::int64_t next_row_ = 0;     ///< in memory
   std::int64_t next_number_ = 0;  ///< rows before, kept or not
   std::int64_t first_number_ = 0; ///< rows of the frame before this part

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The same script on one core, on all cores, and on four processes: what it says is the same."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import granular
+import numpy as np
+from paraview.simple import *
+
+
+def widen(source, target, tiles):
+    """The last three frames of 1200 grains, each tiles x tiles times side by side."""
+    frames = source.read_text().split("ITEM: TIMESTEP\n")[-3:]
+    with open(target, "w") as out:
+        for frame in frames:
+            header, body = frame.split("ITEM: ATOMS ")
+            names, *rows = body.splitlines()
+            columns = names.split()
+            table = np.array([row.split() for row in rows], float)
+            header = re.sub(r"^1200$", str(1200 * tiles ** 2), header, flags=re.M)
+            header = re.sub(r"^(-0.05) 0.05$", f"-0.05 {0.1 * tiles - 0.05:g}", header, flags=re.M)
+            out.write("ITEM: TIMESTEP\n" + header + "ITEM: ATOMS " + names + "\n")
+            for tile in range(tiles ** 2):
+                table[:, columns.index("id")] += 1200 if tile else 0
+                moved = table.copy()
+                moved[:, columns.index("x")] += 0.1 * (tile % tiles)
+                moved[:, columns.index("y")] += 0.1 * (tile // tiles)
+                np.savetxt(out, moved, fmt="%.6g")
+
+
+def look(file, threads, picture):
+    """What anybody would write; the only word about cores is Threads."""
+    start = time.perf_counter()
+    reader = OpenDataFile(file, Threads=threads, TimestepSize=2e-5)
+    times = reader.TimestepValues
+    for moment in times:
+        reader.UpdatePipeline(moment)
+    took = time.perf_counter() - start
+    grains = reader.GetDataInformation().GetNumberOfPoints()
+    fastest = reader.PointData["v"].GetRange(-1)[1]
+
+    LoadPalette("WhiteBackground")
+    view = GetActiveViewOrCreate("RenderView")
+    SetProperties(view, ViewSize=[640, 360], ViewTime=times[-1], OrientationAxesVisibility=0)
+    granular.show(reader, view, color="v")
+    GetColorTransferFunction("v").RescaleTransferFunction(0, 1.5)
+    Render(view)  # the first picture moves the camera
+    SetProperties(view, CameraPosition=[0.35, -0.75, 0.65], CameraFocalPoint=[0.35, 0.25, 0])
+    SaveScreenshot(picture, view)
+    print(f"{grains} grains, the fastest at {fastest:.17g} m/s: {len(times)} frames in {took:.2f} s")
+
+
+def run(name, *command):
+    # not what the MPI of this process left in the environment
+    environment = {key: value for key, value in os.environ.items()
+                   if not key.startswith(("OMPI_", "PMIX_", "ORTE_"))}
+    # for root, and for a machine with fewer cores than processes
+    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                       OMPI_MCA_rmaps_base_oversubscribe="1",
+                       OMPI_MCA_hwloc_base_binding_policy="none")
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    said = re.search(r"^(.* m/s): (.*)$", done.stdout, re.M)
+    assert done.returncode == 0 and said, done.stdout + done.stderr
+    print(f"{name:15}{said[0]}")
+    return said[1]
+
+
+if len(sys.argv) > 1:
+    look(sys.argv[1], int(sys.argv[2]), sys.argv[3])
+else:
+    widen(Path(__file__).parent / "data/grains.dump", "wide.dump", 8)
+    python, batch, mpirun = (shutil.which(name) for name in ("pvpython", "pvbatch", "mpirun"))
+    results = {
+        run("one core", python, __file__, "wide.dump", "1", "one_core.png"),
+        run("all cores", python, __file__, "wide.dump", "0", "all_cores.png"),
+        run("four processes", mpirun, "-n", "4", batch, __file__, "wide.dump", "0",
+            "four_processes.png"),
+    }
+    assert len(results) == 1, results
+    print("the same grains at the same speeds; see one_core.png and four_processes.png")
