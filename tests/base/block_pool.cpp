@@ -318,3 +318,15 @@ TEST(BlockPool, IsSharedByThreads)
   EXPECT_TRUE(right);
   EXPECT_TRUE(passed.empty());
 }
+
+TEST(BlockPool, IsKnownByItsLargeBlocks)
+{
+  const auto pool = make_pool();
+  Block block(8 * mib, pool);
+  EXPECT_EQ(block.pool(), pool);
+  block.shrink(mib);
+  EXPECT_EQ(block.pool(), pool);
+  EXPECT_EQ(Block(8 * mib).pool(), nullptr);
+  EXPECT_EQ(Block(100, pool).pool(), nullptr) << "small ones are malloc's";
+  EXPECT_EQ(Block().pool(), nullptr);
+}

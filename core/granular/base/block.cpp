@@ -115,6 +115,12 @@ Block::~Block()
   Block::free(data_);
 }
 
+std::shared_ptr<BlockPool> Block::pool() const noexcept
+{
+  const Header* const header = header_of(data_);
+  return header ? header->pool.lock() : nullptr;
+}
+
 void Block::shrink(std::size_t bytes) noexcept
 {
   if (bytes >= bytes_)
@@ -124,7 +130,7 @@ void Block::shrink(std::size_t bytes) noexcept
   Header* const header = header_of(data_);
   const bool little = bytes < least_mapped && bytes <= bytes_ / 2;
   if (void* const smaller =
-        little ? allocate(bytes, header ? header->pool.lock() : nullptr) : nullptr)
+        little ? allocate(bytes, this->pool()) : nullptr)
   {
     std::memcpy(smaller, data_, bytes);
     Block::free(std::exchange(data_, smaller));

@@ -30,6 +30,9 @@ public:
   void* data() const noexcept { return data_; }
   std::size_t bytes() const noexcept { return bytes_; }
 
+  /// Where it came from and another one of its kind should; null: there is none, or it is gone.
+  std::shared_ptr<BlockPool> pool() const noexcept;
+
   /// Keeps the first bytes; bytes <= this->bytes(). Pointers into the block become invalid. Frees what
   /// is worth it: of a large block whole large pages, of a small one half and more.
   void shrink(std::size_t bytes) noexcept;

@@ -123,7 +123,7 @@ void RowExchange::move(Block& block, std::size_t width, const RowOrder& leave,
     [&]
     {
       leave.apply(block, width, executor);
-      came = Block(static_cast<std::size_t>(rows_) * width);
+      came = Block(static_cast<std::size_t>(rows_) * width, block.pool());
     });
   ranks_.exchange(static_cast<const char*>(block.data()), in_bytes(out_, width),
     static_cast<char*>(came.data()), in_bytes(in_, width));

@@ -143,7 +143,7 @@ void RowOrder::apply(Block& block, std::size_t width, const Executor& executor) 
   constexpr std::size_t chunk_rows = std::size_t{ 1 } << 15;
   const std::span<const Row> rows(rows_of(rows_), rows_.bytes() / sizeof(Row));
   const Gather gather = gather_of(width);
-  Block sorted(block.bytes());
+  Block sorted(block.bytes(), block.pool());
   const auto* const from = static_cast<const char*>(block.data());
   auto* const to = static_cast<char*>(sorted.data());
   Progress quiet; // a moment, next to what was read
