@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <new>
 #include <numeric>
 
@@ -39,7 +38,8 @@ void in_parts(std::int64_t count, std::int64_t most, const Call& call)
 }
 
 /// Makes room on all ranks or on none: no rank must wait for one that has left.
-void make_room(MPI_Comm ranks, const std::function<void()>& make)
+template <class Make>
+void make_room(MPI_Comm ranks, const Make& make)
 {
   int enough = 1;
   try
@@ -57,10 +57,10 @@ void make_room(MPI_Comm ranks, const std::function<void()>& make)
   }
 }
 
-/// Waits for messages, and looks into each if something is wrong with any.
-void wait(std::vector<MPI_Request>& messages)
+/// Waits for messages, and looks into each if something is wrong with any. There is room for the states.
+void wait(std::vector<MPI_Request>& messages, std::vector<MPI_Status>& states)
 {
-  std::vector<MPI_Status> states(messages.size());
+  states.resize(messages.size());
   const int status = MPI_Waitall(static_cast<int>(messages.size()), messages.data(), states.data());
   if (status == MPI_ERR_IN_STATUS)
   {
@@ -85,6 +85,7 @@ MpiCommunicator::MpiCommunicator(MPI_Comm ranks, std::int64_t most_bytes)
   check(MPI_Comm_split_type(ranks_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node));
   check(MPI_Comm_size(node, &node_size_));
   check(MPI_Comm_free(&node));
+  calls_.reserve(static_cast<std::size_t>(size_));
 }
 
 MpiCommunicator::~MpiCommunicator()
@@ -113,23 +114,37 @@ void MpiCommunicator::broadcast(std::string& bytes, int root)
 
 std::vector<std::string> MpiCommunicator::all_gather(std::string_view bytes)
 {
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(size_));
+  std::vector<std::int64_t> counts;
+  std::vector<std::int64_t> begins;
+  std::vector<std::string> all;
+  make_room(ranks_,
+    [&]
+    {
+      counts.resize(static_cast<std::size_t>(size_));
+      begins.resize(counts.size());
+      all.resize(counts.size());
+    });
   const auto count = static_cast<std::int64_t>(bytes.size());
   check(MPI_Allgather(&count, 1, MPI_INT64_T, counts.data(), 1, MPI_INT64_T, ranks_));
-  std::vector<std::int64_t> begins(counts.size());
   std::exclusive_scan(counts.begin(), counts.end(), begins.begin(), std::int64_t{ 0 });
   const std::int64_t total = begins.back() + counts.back();
-  std::vector<std::string> all(counts.size());
   if (total == 0)
   {
     return all;
   }
 
   std::string joined;
+  std::vector<int> parts;
+  std::vector<int> offsets;
   make_room(ranks_,
     [&]
     {
       joined.resize(static_cast<std::size_t>(total));
+      if (total <= most_bytes_)
+      {
+        parts.assign(counts.begin(), counts.end());
+        offsets.assign(begins.begin(), begins.end());
+      }
       for (std::size_t rank = 0; rank < all.size(); ++rank)
       {
         all[rank].reserve(static_cast<std::size_t>(counts[rank]));
@@ -139,8 +154,6 @@ std::vector<std::string> MpiCommunicator::all_gather(std::string_view bytes)
   std::copy(bytes.begin(), bytes.end(), joined.begin() + own);
   if (total <= most_bytes_)
   {
-    const std::vector<int> parts(counts.begin(), counts.end());
-    const std::vector<int> offsets(begins.begin(), begins.end());
     check(MPI_Allgatherv(
       MPI_IN_PLACE, 0, MPI_BYTE, joined.data(), parts.data(), offsets.data(), MPI_BYTE, ranks_));
   }
@@ -178,16 +191,15 @@ bool MpiCommunicator::called_off()
   return called != 0;
 }
 
-void MpiCommunicator::settle(std::span<const int> callers)
+void MpiCommunicator::settle(std::int64_t callers)
 {
-  for (const int rank : callers)
+  // whose they are does not matter: one that comes early, of what is done next, leaves another behind
+  for (std::int64_t call = calls_.empty() ? 0 : 1; call < callers; ++call)
   {
-    if (rank != rank_)
-    {
-      check(MPI_Recv(nullptr, 0, MPI_BYTE, rank, call_tag, ranks_, MPI_STATUS_IGNORE));
-    }
+    check(MPI_Recv(nullptr, 0, MPI_BYTE, MPI_ANY_SOURCE, call_tag, ranks_, MPI_STATUS_IGNORE));
   }
-  wait(calls_);
+  check(MPI_Waitall(static_cast<int>(calls_.size()), calls_.data(), MPI_STATUSES_IGNORE));
+  calls_.clear();
 }
 
 void MpiCommunicator::sum(std::span<std::int64_t> values)
@@ -209,8 +221,23 @@ void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> f
   const auto own = static_cast<std::size_t>(rank_);
   std::copy_n(from + begin(from_bytes, rank_), from_bytes[own], to + begin(to_bytes, rank_));
 
-  // one partner to send to and one to receive from at a time: messages of one pair stay in order
+  const auto parts_of = [&](std::span<const std::int64_t> counts)
+  {
+    const auto add = [&](std::int64_t sum, std::int64_t count)
+    { return sum + (count + most_bytes_ - 1) / most_bytes_; };
+    return static_cast<std::size_t>(
+      std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 }, add));
+  };
   std::vector<MPI_Request> messages;
+  std::vector<MPI_Status> states;
+  make_room(ranks_,
+    [&]
+    {
+      messages.reserve(parts_of(from_bytes) + parts_of(to_bytes));
+      states.reserve(messages.capacity());
+    });
+
+  // one partner to send to and one to receive from at a time: messages of one pair stay in order
   for (int step = 1; step < size_; ++step)
   {
     const int target = (rank_ + step) % size_;
@@ -227,7 +254,7 @@ void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> f
         check(MPI_Isend(out + offset, part, MPI_BYTE, target, data_tag, ranks_,
           &messages.emplace_back(MPI_REQUEST_NULL)));
       });
-    wait(messages);
+    wait(messages, states);
   }
 }
 }

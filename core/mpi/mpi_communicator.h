@@ -31,7 +31,7 @@ public:
   std::vector<std::string> all_gather(std::string_view bytes) override;
   void call_off() override;
   bool called_off() override;
-  void settle(std::span<const int> callers) override;
+  void settle(std::int64_t callers) override;
   void sum(std::span<std::int64_t> values) override;
   void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
     std::span<const std::int64_t> to_bytes) override;
@@ -40,7 +40,7 @@ private:
   void broadcast(char* bytes, std::int64_t count, int root);
 
   MPI_Comm ranks_ = MPI_COMM_NULL;
-  std::vector<MPI_Request> calls_; ///< on their way, of call_off
+  std::vector<MPI_Request> calls_; ///< on their way, of call_off; has room for them
   std::int64_t most_bytes_;
   int rank_ = 0;
   int size_ = 1;

@@ -7,6 +7,7 @@
 #include "private/guard.h"
 #include "private/series_reader.h"
 
+#include "granular/base/archive.h"
 #include "granular/base/words.h"
 #include "granular/dump/dump_reader.h"
 #include "granular/dump/file_index.h"
@@ -63,13 +64,14 @@ struct vtkGranularDumpReader::Internals
   void CheckSelection(const std::string& path, granular::Notices& notices);
   granular::DumpRequest MakeRequest(Self* self, vtkInformation* output);
   void FindTask(Self* self, vtkInformation* request, vtkInformationVector* outputs, Task& task);
-  static bool AreTogether(granular::Communicator& ranks, const Task& task);
+  std::string FormOf(const Task& task) const;
+  static bool AreTogether(granular::Communicator& ranks, const Task& task, const std::string& form);
   granular::DumpFrame Read(Self* self, const Task& task, bool together, granular::Notices& notices);
   void FillOutputs(Self* self, vtkInformationVector* outputs, const Task& task,
     granular::DumpFrame& frame, granular::Notices& notices);
   void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
   FrameAhead::Key KeyOf(Self* self, const Task& task, bool together);
-  void StartNext(Self* self, const Task& task, bool together);
+  void StartNext(Self* self, const Task& task, bool together) noexcept;
 };
 
 //------------------------------------------------------------------------------
@@ -165,24 +167,48 @@ void vtkGranularDumpReader::Internals::FindTask(
 }
 
 //------------------------------------------------------------------------------
-// Whether the ranks want the pieces of one frame, each its own: then they read it together. Else each is
-// alone, such as where a filter asks one rank for another time.
-bool vtkGranularDumpReader::Internals::AreTogether(granular::Communicator& ranks, const Task& task)
+// What must be the same on ranks that read together, behind the piece: they exchange rows.
+std::string vtkGranularDumpReader::Internals::FormOf(const Task& task) const
 {
-  const vtkTypeInt64 wanted[] = { static_cast<vtkTypeInt64>(task.Frame), task.Request.piece,
-    task.Request.pieces };
-  vtkTypeInt64 rank = 0;
-  for (const std::string& bytes :
-    ranks.all_gather({ reinterpret_cast<const char*>(wanted), sizeof wanted }))
+  granular::DumpRequest request = task.Request;
+  granular::Packer form;
+  form.number(request.piece);
+  form.number(request.pieces);
+  std::size_t frame = task.Frame;
+  form.number(frame);
+  form.number(request.coordinates);
+  form.number(request.single_precision);
+  form.number(request.point_origin);
+  form.number(request.sort_by_id);
+  form.number(request.stride);
+  form.number(request.region);
+  for (int i = 0; i < this->PointArrays->GetNumberOfArrays(); ++i)
   {
-    vtkTypeInt64 other[3];
-    std::memcpy(other, bytes.data(), sizeof other);
-    if (other[0] != wanted[0] || other[1] != rank++ || other[2] != ranks.size())
+    if (this->PointArrays->GetArraySetting(i) != 0)
     {
-      return false;
+      std::string name = this->PointArrays->GetArrayName(i);
+      form.text(name);
     }
   }
-  return true;
+  return form.bytes;
+}
+
+//------------------------------------------------------------------------------
+// Whether the ranks want the pieces of one frame, each its own: then they read it together. Else each is
+// alone, such as where a filter asks one rank for another time.
+bool vtkGranularDumpReader::Internals::AreTogether(
+  granular::Communicator& ranks, const Task& task, const std::string& form)
+{
+  constexpr std::size_t piece = sizeof task.Request.piece;
+  int rank = 0;
+  bool together = task.Request.pieces == ranks.size();
+  for (const std::string& other : ranks.all_gather(form))
+  {
+    together = together && std::memcmp(other.data(), &rank, piece) == 0 &&
+      other.compare(piece, other.npos, form, piece) == 0;
+    ++rank;
+  }
+  return together;
 }
 
 //------------------------------------------------------------------------------
@@ -190,7 +216,7 @@ granular::DumpFrame vtkGranularDumpReader::Internals::Read(
   Self* self, const Task& task, bool together, granular::Notices& notices)
 {
   granular::Communicator& ranks = self->Series->GetRanks();
-  const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(task.Frame);
+  std::vector<granular::FramePiece> pieces;
   AlgorithmProgress own(self);
   granular::SharedProgress progress(own, ranks);
   std::optional<granular::DumpPart> ahead;
@@ -198,6 +224,7 @@ granular::DumpFrame vtkGranularDumpReader::Internals::Read(
     [&]
     {
       progress.step(0);
+      pieces = self->Series->Index.pieces(task.Frame);
       ahead = this->Ahead.Take(this->KeyOf(self, task, together), progress);
     });
   granular::DumpFrame frame;
@@ -249,17 +276,26 @@ void vtkGranularDumpReader::Internals::Run(
   granular::Communicator& ranks = self->Series->GetRanks();
   granular::Notices notices;
   Task task;
+  std::string form;
   granular::do_together(ranks,
     [&]
     {
       self->Series->StartFrame(notices);
       this->FindTask(self, request, outputs, task);
       this->CheckSelection(self->Series->Index.first_piece(task.Frame).file.path, notices);
+      form = this->FormOf(task);
     });
-  const bool together = AreTogether(ranks, task);
+  const bool together = AreTogether(ranks, task, form);
   granular::DumpFrame frame = this->Read(self, task, together, notices);
-  granular::do_together(ranks, [&] { this->FillOutputs(self, outputs, task, frame, notices); });
-  self->Series->Tell(self, notices, false);
+  granular::do_together(ranks,
+    [&]
+    {
+      this->FillOutputs(self, outputs, task, frame, notices);
+      if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
+      {
+        self->Series->Tell(self, notices, false);
+      }
+    });
   this->StartNext(self, task, together);
 }
 
@@ -270,17 +306,25 @@ FrameAhead::Key vtkGranularDumpReader::Internals::KeyOf(Self* self, const Task& 
 }
 
 //------------------------------------------------------------------------------
-// The next frame in the direction in which they are looked at.
-void vtkGranularDumpReader::Internals::StartNext(Self* self, const Task& task, bool together)
+// The next frame in the direction in which they are looked at. Where there is no memory or no thread for
+// that, it is decoded when it is asked for.
+void vtkGranularDumpReader::Internals::StartNext(
+  Self* self, const Task& task, bool together) noexcept
 {
   const bool back = task.Frame + 1 == this->LastFrame;
   this->LastFrame = task.Frame;
-  Task next = task;
-  next.Frame += back ? -1 : 1;
-  if (self->Prefetch && next.Frame < self->Series->Index.size())
+  try
   {
-    this->Ahead.Start(
-      this->KeyOf(self, next, together), self->Series->Index.pieces(next.Frame), next.Request);
+    Task next = task;
+    next.Frame += back ? -1 : 1;
+    if (self->Prefetch && next.Frame < self->Series->Index.size())
+    {
+      this->Ahead.Start(
+        this->KeyOf(self, next, together), self->Series->Index.pieces(next.Frame), next.Request);
+    }
+  }
+  catch (const std::exception&)
+  {
   }
 }
 
@@ -389,7 +433,7 @@ int vtkGranularDumpReader::RequestData(vtkInformation* request,
       this->Series->Update(this);
       this->Internal->Run(this, request, outputVector);
     });
-  this->Series->Cancelled = outcome == Outcome::Cancelled;
+  this->Series->End(this, outcome);
   if (outcome != Outcome::Done)
   {
     this->Internal->Ahead.Drop();

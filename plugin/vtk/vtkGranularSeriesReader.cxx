@@ -49,26 +49,37 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
   {
     return;
   }
-  self->ForgetFrames();
-  if (this->IndexedNames != this->FileNames)
-  {
-    this->Told.clear();
-  }
-  this->IndexedNames = this->FileNames;
+  granular::Communicator& ranks = this->GetRanks();
   this->Valid = false;
   granular::IndexOptions options;
-  options.column_names = this->ColumnNames;
-  options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
-  options.index_file = static_cast<granular::IndexFile>(self->IndexFile);
-  options.threads = ChooseThreads(self->Threads, this->GetRanks());
+  granular::do_together(ranks,
+    [&]
+    {
+      self->ForgetFrames();
+      if (this->IndexedNames != this->FileNames)
+      {
+        this->Told.clear();
+        this->IndexedNames = this->FileNames;
+      }
+      options.column_names = this->ColumnNames;
+      options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
+      options.index_file = static_cast<granular::IndexFile>(self->IndexFile);
+      options.threads = ChooseThreads(self->Threads, ranks);
+    });
   granular::Notices notices;
   AlgorithmProgress progress(self);
-  granular::update_frame_index(
-    this->Index, this->GetRanks(), this->FileNames, options, notices, progress);
+  granular::update_frame_index(this->Index, ranks, this->FileNames, options, notices, progress);
+  granular::do_together(ranks,
+    [&]
+    {
+      self->FramesChanged();
+      if (ranks.rank() == 0)
+      {
+        this->Tell(self, notices, true);
+      }
+    });
   this->Valid = true;
   this->Stale = false;
-  self->FramesChanged();
-  this->Tell(self, notices, true);
 }
 
 //------------------------------------------------------------------------------
@@ -76,10 +87,6 @@ void vtkGranularSeriesReader::Internals::Tell(
   Self* self, const granular::Notices& notices, bool ofFrames)
 {
   constexpr int most = 10;
-  if (this->GetRanks().rank() > 0)
-  {
-    return;
-  }
   std::map<std::string, std::string> texts;
   std::map<std::string, int> counts;
   for (const granular::Notice& notice : notices)
@@ -107,6 +114,18 @@ void vtkGranularSeriesReader::Internals::Tell(
     const int more = counts[path] - most;
     vtkWarningWithObjectMacro(
       self, << text << (more > 0 ? "\nand " + std::to_string(more) + " more" : ""));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::Internals::End(Self* self, Outcome outcome)
+{
+  this->Cancelled = outcome == Outcome::Cancelled;
+  if (outcome == Outcome::Failed)
+  {
+    // who asked to stop, while another rank failed, has had the answer
+    self->SetAbortExecute(0);
+    self->SetAbortOutput(false);
   }
 }
 
@@ -228,8 +247,11 @@ void vtkGranularSeriesReader::SetController(vtkMultiProcessController* controlle
 {
   if (this->Series->Controller != controller)
   {
+    this->ForgetFrames();
     this->Series->Controller = controller;
     this->Series->Ranks.reset();
+    this->Series->Index = {}; // the new ranks have none, or others
+    this->Series->Valid = false;
     this->Refresh();
   }
 }
@@ -238,6 +260,13 @@ void vtkGranularSeriesReader::SetController(vtkMultiProcessController* controlle
 vtkMultiProcessController* vtkGranularSeriesReader::GetController()
 {
   return this->Series->Controller;
+}
+
+//------------------------------------------------------------------------------
+// Modifies nothing: else, asked on one rank of many, that rank alone would read again, and wait for ever.
+void vtkGranularSeriesReader::SetAbortExecute(vtkTypeBool abort)
+{
+  this->AbortExecute = abort;
 }
 
 //------------------------------------------------------------------------------
@@ -258,7 +287,8 @@ void vtkGranularSeriesReader::SetTimestepSize(double size)
 //------------------------------------------------------------------------------
 // The first call of every update. A request to abort holds for one update, and observers of progress
 // may make it again while the pipeline leaves the aborted one: it is forgotten here. What was
-// aborted may have been the look at the files, so all is done again.
+// aborted may have been the look at the files, so all is done again. Exceptions must not pass the
+// pipeline: where it cannot be told whether files changed, the update that follows says why.
 int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
   vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
   vtkMTimeType* mtime)
@@ -270,8 +300,15 @@ int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
     this->SetAbortOutput(false);
     this->Modified();
   }
-  if (this->RefreshOnUpdate && this->Series->Valid &&
-    granular::is_changed(this->Series->Index, this->Series->GetRanks()))
+  bool changed = this->RefreshOnUpdate && this->Series->Valid;
+  try
+  {
+    changed = changed && granular::is_changed(this->Series->Index, this->Series->GetRanks());
+  }
+  catch (const std::exception&)
+  {
+  }
+  if (changed)
   {
     this->Refresh();
   }
@@ -288,9 +325,10 @@ int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(reque
     [&]
     {
       this->Series->Update(this);
-      times = this->Series->Index.times(this->TimestepSize);
+      granular::do_together(
+        this->Series->GetRanks(), [&] { times = this->Series->Index.times(this->TimestepSize); });
     });
-  this->Series->Cancelled = outcome == Outcome::Cancelled;
+  this->Series->End(this, outcome);
   for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputVector->GetInformationObject(port);

@@ -120,13 +120,19 @@ public:
 
   ///@{
   /**
-   * The processes that read together, each of them its piece: all of them must update the reader, in the
-   * same order. Rank 0 looks at the files for all. What goes wrong on one of them is an error of all.
-   * The global controller by default; null: this process is alone, whatever others do.
+   * The processes that read together, each of them its piece: all of them must set it, set the same
+   * properties, and update the reader, in the same order and all of them when one has something to read.
+   * Rank 0 looks at the files for all. What goes wrong on one of them is an error of all. The global
+   * controller by default; null: this process is alone, whatever others do.
    */
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
   ///@}
+
+  /**
+   * Has the update that reads next, or that is reading, stop, on all ranks of the Controller: see above.
+   */
+  void SetAbortExecute(vtkTypeBool abort) override;
 
 protected:
   vtkGranularSeriesReader();

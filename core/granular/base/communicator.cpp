@@ -165,16 +165,14 @@ void agree(Communicator& ranks, const std::exception_ptr& failure)
   {
     ranks.call_off();
   }
-  const std::vector<std::string> answers = ranks.all_gather(pack(failure));
-  std::vector<int> failed;
-  for (std::size_t rank = 0; rank < answers.size(); ++rank)
+  std::int64_t failed = failure ? 1 : 0;
+  ranks.sum({ &failed, 1 });
+  if (failed == 0)
   {
-    if (!answers[rank].empty())
-    {
-      failed.push_back(static_cast<int>(rank));
-    }
+    return;
   }
   ranks.settle(failed);
+  const std::vector<std::string> answers = ranks.all_gather(pack(failure));
   bool cancelled = false;
   for (std::size_t rank = 0; rank < answers.size(); ++rank)
   {
@@ -194,19 +192,5 @@ void agree(Communicator& ranks, const std::exception_ptr& failure)
   {
     throw Cancelled{};
   }
-}
-
-void do_together(Communicator& ranks, const std::function<void()>& work)
-{
-  std::exception_ptr failure;
-  try
-  {
-    work();
-  }
-  catch (...)
-  {
-    failure = std::current_exception();
-  }
-  agree(ranks, failure);
 }
 }

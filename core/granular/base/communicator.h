@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,14 +38,14 @@ public:
   virtual void sum(std::span<std::int64_t> values) = 0;
 
   /// Tells the other ranks at once that this one has failed, so that they need not go on with what they
-  /// do: called_off. Not collective, like called_off; agree sees to both.
+  /// do: called_off. Not collective, like called_off; agree sees to both. Throws nothing for lack of memory.
   virtual void call_off() {}
 
   /// Whether another rank has called off what this one is doing.
   virtual bool called_off() { return false; }
 
-  /// Ends what call_off began, when all ranks know who called off, by rank.
-  virtual void settle(std::span<const int> callers) { static_cast<void>(callers); }
+  /// Ends what call_off began, when all ranks know how many called off.
+  virtual void settle(std::int64_t callers) { static_cast<void>(callers); }
 
   /// Sends each rank its part of `from`, and puts what the ranks send, by rank, into `to`. from_bytes
   /// and to_bytes hold one count of bytes a rank; what to_bytes says must be what is sent.
@@ -72,11 +71,26 @@ public:
 /// the same on all: the error of the lowest rank that has one, with the rank in its text ("... (on rank
 /// 2 of 3)"), of the same kind, place and code; memory that ran out becomes a LimitError, an exception of
 /// another kind an Error; Cancelled if some were cancelled and none has an error. A single process
-/// throws its own exception as it is. failure is null where nothing is wrong.
+/// throws its own exception as it is. failure is null where nothing is wrong; then this needs no memory.
 void agree(Communicator& ranks, const std::exception_ptr& failure);
 
-/// Does work, which must not be collective, on every rank, and agrees on how it went.
-void do_together(Communicator& ranks, const std::function<void()>& work);
+/// Does work, which must not be collective, on every rank, and agrees on how it went. All that a rank
+/// does between two collective calls belongs here, were it to make a string: a rank that throws elsewhere
+/// leaves the others waiting.
+template <class Work>
+void do_together(Communicator& ranks, const Work& work)
+{
+  std::exception_ptr failure;
+  try
+  {
+    work();
+  }
+  catch (...)
+  {
+    failure = std::current_exception();
+  }
+  agree(ranks, failure);
+}
 
 /// Progress of work that is done together: stops it also where another rank has failed.
 class SharedProgress final : public Progress

@@ -29,15 +29,19 @@ static void pass(Archive& archive, Misfit& misfit)
 
 namespace
 {
-/// An integer column that holds other numbers is read again as doubles, a column that the table does
-/// not know and that holds a word as texts. Ids of a text must be integers: those of a binary file
-/// are where the user says that they are. Columns that nobody named must be what they are taken for.
-void widen(const Misfit& misfit, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
+std::string text_of(const Misfit& misfit)
+{
+  return std::string("expected ") +
+    (misfit.status == RowStatus::NotExact ? "an integer" : "a number") + ", got " +
+    quoted(misfit.word);
+}
+
+/// Throws if a column must be what it is taken for. Ids of a text must be integers: those of a binary file
+/// are where the user says that they are. Columns that nobody named are none.
+void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
 {
   const bool binary = kind.layout != FrameKind::text;
-  const bool number = misfit.status == RowStatus::NotExact;
-  const std::string text = std::string("expected ") + (number ? "an integer" : "a number") +
-    ", got " + quoted(misfit.word);
+  const std::string text = text_of(misfit);
   if (schema.columns()[static_cast<std::size_t>(misfit.column)].role == ColumnRole::Id && !binary)
   {
     throw FormatError(text, misfit.where);
@@ -48,8 +52,15 @@ void widen(const Misfit& misfit, const FrameKind& kind, ColumnSchema& schema, No
         "; the columns, which the file does not name, are not those of dump atom: set ColumnNames",
       misfit.where);
   }
-  notices.push_back(
-    { misfit.where, text + "; the column is kept as " + (number ? "doubles" : "texts") });
+}
+
+/// An integer column that holds other numbers is read again as doubles, a column that the table does
+/// not know and that holds a word as texts.
+void widen(const Misfit& misfit, ColumnSchema& schema, Notices& notices)
+{
+  const bool number = misfit.status == RowStatus::NotExact;
+  notices.push_back({ misfit.where,
+    text_of(misfit) + "; the column is kept as " + (number ? "doubles" : "texts") });
   schema.set_type(misfit.column, number ? ValueType::Float64 : ValueType::Text);
 }
 
@@ -129,30 +140,39 @@ void share_remarks(Communicator& ranks, DumpPart& part)
     return;
   }
   Packer packer;
-  std::vector<Misfit> misfit;
-  if (part.misfit)
-  {
-    misfit.push_back(*part.misfit);
-  }
-  pass(packer, misfit);
-  pass(packer, part.notices);
-  part.misfit.reset();
-  part.notices.clear();
-  std::set<std::string> said;
-  for (const std::string& bytes : ranks.all_gather(packer.bytes))
-  {
-    Unpacker unpacker{ bytes };
-    std::vector<Misfit> of_rank;
-    Notices notices;
-    pass(unpacker, of_rank);
-    pass(unpacker, notices);
-    if (!part.misfit && !of_rank.empty())
+  do_together(ranks,
+    [&]
     {
-      part.misfit = of_rank.front();
-    }
-    std::ranges::copy_if(notices, std::back_inserter(part.notices),
-      [&](const Notice& notice) { return said.insert(to_string(notice)).second; });
-  }
+      std::vector<Misfit> misfit;
+      if (part.misfit)
+      {
+        misfit.push_back(*part.misfit);
+      }
+      pass(packer, misfit);
+      pass(packer, part.notices);
+    });
+  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
+  do_together(ranks,
+    [&]
+    {
+      part.misfit.reset();
+      part.notices.clear();
+      std::set<std::string> said;
+      for (const std::string& bytes : all)
+      {
+        Unpacker unpacker{ bytes };
+        std::vector<Misfit> of_rank;
+        Notices notices;
+        pass(unpacker, of_rank);
+        pass(unpacker, notices);
+        if (!part.misfit && !of_rank.empty())
+        {
+          part.misfit = of_rank.front();
+        }
+        std::ranges::copy_if(notices, std::back_inserter(part.notices),
+          [&](const Notice& notice) { return said.insert(to_string(notice)).second; });
+      }
+    });
 }
 
 /// Sorts the rows if that is asked for. Collective.
@@ -181,29 +201,33 @@ DumpFrame read(const PieceList& pieces, const Where& where, const DumpRequest& r
   Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
 {
   check(request);
-  const DumpRequest own = own_request(request, ranks.size() > 1);
+  DumpRequest own;
   SharedProgress shared(progress, ranks);
   std::optional<ColumnSchema> schema;
-  for (;;)
+  DumpPart part;
+  do_together(ranks,
+    [&]
+    {
+      own = own_request(request, ranks.size() > 1);
+      schema = join_schemas(pieces);
+      part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, shared);
+      ahead.reset();
+    });
+  for (share_remarks(ranks, part); part.misfit; share_remarks(ranks, part))
   {
-    DumpPart part;
+    check_misfit(*part.misfit, *pieces.entries.front()->kind, *schema);
     do_together(ranks,
       [&]
       {
-        schema = schema ? std::move(schema) : join_schemas(pieces);
-        part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, shared);
-        ahead.reset();
+        widen(*part.misfit, *schema, notices);
+        part = {}; // the memory of a rank whose own rows did fit
+        part = decode(pieces, *schema, own, shared);
       });
-    share_remarks(ranks, part);
-    if (part.misfit)
-    {
-      widen(*part.misfit, *pieces.entries.front()->kind, *schema, notices);
-      continue;
-    }
-    sort(part, request, ranks, where);
-    notices.insert(notices.end(), part.notices.begin(), part.notices.end());
-    return std::move(part.frame);
   }
+  sort(part, request, ranks, where);
+  do_together(
+    ranks, [&] { notices.insert(notices.end(), part.notices.begin(), part.notices.end()); });
+  return std::move(part.frame);
 }
 
 PieceList list_of(const std::vector<FramePiece>& pieces)
@@ -221,8 +245,15 @@ PieceList list_of(const std::vector<FramePiece>& pieces)
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
 {
-  const Where where = where_of(pieces.front().file.path, pieces.front().entry);
-  return read(list_of(pieces), where, request, ranks, std::move(ahead), notices, progress);
+  Where where;
+  PieceList list;
+  do_together(ranks,
+    [&]
+    {
+      where = where_of(pieces.front().file.path, pieces.front().entry);
+      list = list_of(pieces);
+    });
+  return read(list, where, request, ranks, std::move(ahead), notices, progress);
 }
 
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,

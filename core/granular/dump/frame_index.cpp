@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 #include <string_view>
@@ -287,23 +286,10 @@ void update_frame_index(FrameIndex& index, Communicator& ranks,
   Progress& progress)
 {
   const bool looks = ranks.rank() == 0;
-  const auto together = [&](const std::function<void()>& step)
-  {
-    std::exception_ptr failure;
-    try
-    {
-      step();
-    }
-    catch (...)
-    {
-      failure = std::current_exception();
-    }
-    agree(ranks, failure);
-  };
   try
   {
     std::string bytes; // empty: nothing is new
-    together(
+    do_together(ranks,
       [&]
       {
         if (looks)
@@ -317,7 +303,7 @@ void update_frame_index(FrameIndex& index, Communicator& ranks,
         }
       });
     ranks.broadcast(bytes, 0);
-    together(
+    do_together(ranks,
       [&]
       {
         if (!looks && !bytes.empty())
@@ -336,12 +322,9 @@ void update_frame_index(FrameIndex& index, Communicator& ranks,
 
 bool is_changed(const FrameIndex& index, Communicator& ranks)
 {
-  std::string answer;
-  if (ranks.rank() == 0 && index.changed())
-  {
-    answer = "changed";
-  }
-  ranks.broadcast(answer, 0);
-  return !answer.empty();
+  std::int64_t changed = 0;
+  do_together(ranks, [&] { changed = ranks.rank() == 0 && index.changed() ? 1 : 0; });
+  ranks.sum({ &changed, 1 });
+  return changed != 0;
 }
 }

@@ -88,15 +88,20 @@ Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
   const std::int64_t width =
     frame.rows > 0 ? static_cast<std::int64_t>(frame.points.bytes()) / frame.rows : 0;
   const Share own = { frame.rows, has_ids, width };
-  std::string told(reinterpret_cast<const char*>(&own), sizeof own);
-  told += shape_of(frame);
+  std::string told;
+  do_together(ranks,
+    [&]
+    {
+      told.assign(reinterpret_cast<const char*>(&own), sizeof own);
+      told += shape_of(frame);
+    });
   const std::vector<std::string> all = ranks.all_gather(told);
 
   Survey sum;
   bool lacking = false; // a rank with rows has no ids
   for (const std::string& one : all)
   {
-    if (one.substr(sizeof(Share)) != all.front().substr(sizeof(Share)))
+    if (one.compare(sizeof(Share), one.npos, all.front(), sizeof(Share)) != 0)
     {
       throw Error("expected the same arrays on all ranks, got others");
     }
@@ -185,7 +190,7 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices
   const Survey all = survey(frame, numbers != nullptr, ranks);
   if (!all.has_ids)
   {
-    note_no_ids(notices, where);
+    do_together(ranks, [&] { note_no_ids(notices, where); });
     return;
   }
   if (all.rows == 0)

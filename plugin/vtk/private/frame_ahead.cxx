@@ -2,7 +2,6 @@
 #include "frame_ahead.h"
 
 #include <chrono>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -70,14 +69,7 @@ void FrameAhead::Start(
   work->Pieces = std::move(pieces);
   work->Request = request;
   work->Part = work->Promise.get_future();
-  try
-  {
-    work->Thread = std::thread(&Work::Run, work.get());
-  }
-  catch (const std::system_error&)
-  {
-    return; // the system gives no thread: the frame is decoded when it is asked for
-  }
+  work->Thread = std::thread(&Work::Run, work.get());
   this->Running = std::move(work);
 }
 

@@ -42,6 +42,7 @@ public:
 
   /**
    * Begins, in place of what was begun before. What the pieces refer to must stay until Take or Drop.
+   * Throws what the lack of memory or of a thread throws, and has begun nothing then.
    */
   void Start(
     const Key& key, std::vector<granular::FramePiece> pieces, const granular::DumpRequest& request);

@@ -4,6 +4,7 @@
 
 #include "vtkGranularSeriesReader.h"
 
+#include "guard.h"
 #include "ranks.h"
 
 #include "granular/base/block_pool.h"
@@ -68,8 +69,12 @@ struct vtkGranularSeriesReader::Internals
     Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time);
 
   /**
-   * One warning a file, and each notice once, for whichever frame it came first; not too many. Of
-   * what all ranks know rank 0 speaks.
+   * What is left to do when a request is done with.
+   */
+  void End(Self* self, vtkGranularPrivate::Outcome outcome);
+
+  /**
+   * One warning a file, and each notice once, for whichever frame it came first; not too many.
    */
   void Tell(Self* self, const granular::Notices& notices, bool ofFrames);
 };
