@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <limits>
 
 namespace granular
 {
@@ -11,7 +12,11 @@ namespace
 {
 __extension__ using Wide = unsigned __int128;
 
-constexpr int largest_power = 64;
+/// A power in the tables.
+constexpr std::size_t place(int q)
+{
+  return static_cast<std::size_t>(q - smallest_power);
+}
 
 /// 5^q, scaled by a power of two so that the highest of 128 bits is set: below the true value by
 /// less than one unit for q >= 0, above it by at most one unit for q < 0.
@@ -21,8 +26,8 @@ struct PowerOfFive
   std::uint64_t low;
 };
 
-/// A natural number of 512 bits, lowest limb first; only for the table.
-using Natural = std::array<std::uint32_t, 16>;
+/// A natural number of 1024 bits, lowest limb first; only for the table.
+using Natural = std::array<std::uint32_t, 32>;
 
 constexpr void multiply_by_five(Natural& n)
 {
@@ -62,43 +67,74 @@ constexpr Wide leading_bits(const Natural& n)
 
 constexpr auto powers_of_five = []
 {
-  std::array<PowerOfFive, 2 * largest_power + 1> table{};
-  const auto set = [&](int q, Wide bits)
-  {
-    table[static_cast<std::size_t>(q + largest_power)] = { static_cast<std::uint64_t>(bits >> 64),
-      static_cast<std::uint64_t>(bits) };
+  std::array<PowerOfFive, place(largest_power) + 1> table{};
+  const auto set = [&](int q, Wide bits) {
+    table[place(q)] = { static_cast<std::uint64_t>(bits >> 64), static_cast<std::uint64_t>(bits) };
   };
   Natural power{ 1 };
-  Natural inverse{};
-  inverse.back() = 0x80000000u; // 2^511 leaves more than 128 bits after 64 divisions
   for (int q = 0; q <= largest_power; ++q)
   {
-    if (q > 0)
-    {
-      multiply_by_five(power);
-      divide_by_five(inverse); // the floor of floors is the floor of all
-      set(-q, leading_bits(inverse) + 1);
-    }
     set(q, leading_bits(power));
+    multiply_by_five(power);
+  }
+  Natural inverse{};
+  inverse.back() = 0x80000000u; // 2^1023 leaves more than 128 bits after 342 divisions
+  for (int q = -1; q >= smallest_power; --q)
+  {
+    divide_by_five(inverse); // the floor of floors is the floor of all
+    set(q, leading_bits(inverse) + 1);
   }
   return table;
 }();
 
-/// floor(log2(10^q)) for |q| <= 342
-constexpr int binary_exponent(int q) noexcept
+constexpr std::uint64_t fraction_bits = (std::uint64_t{ 1 } << 52) - 1;
+
+/// mantissa * 2^(exponent - 1023 - 53), rounded up where the last bit of the mantissa is set.
+double round_last_bit(std::uint64_t mantissa, int exponent) noexcept
 {
-  return (217706 * q) >> 16;
+  if (exponent <= 0) // subnormal
+  {
+    mantissa = exponent > -63 ? mantissa >> (1 - exponent) : 0;
+    exponent = 0;
+  }
+  mantissa = (mantissa + (mantissa & 1)) >> 1;
+  if (mantissa >> 53 != 0)
+  {
+    mantissa >>= 1;
+    ++exponent;
+  }
+  exponent += exponent == 0 ? static_cast<int>(mantissa >> 52) : 0; // became normal
+  if (exponent >= 2047)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::bit_cast<double>(
+    static_cast<std::uint64_t>(exponent) << 52 | (mantissa & fraction_bits));
 }
 }
 
+constinit const std::array<PowerPair, place(largest_power) + 1> power_pairs = []
+{
+  std::array<PowerPair, place(largest_power) + 1> table{};
+  for (std::size_t i = 0; i < table.size(); ++i)
+  {
+    const Wide bits = Wide{ powers_of_five[i].high } << 64 | powers_of_five[i].low;
+    const Wide first = bits >> 75; // 53 bits; the other 75 are rounded as a sum of two parts
+    const auto rest = static_cast<double>(static_cast<std::uint64_t>(bits >> 11)) * 0x1p-116;
+    table[i] = { static_cast<double>(static_cast<std::uint64_t>(first)) * 0x1p-52, rest };
+  }
+  return table;
+}();
+
 bool nearest_double(std::uint64_t digits, std::int64_t power, double& value) noexcept
 {
-  if (power < -largest_power || power > largest_power)
+  if (digits == 0 || power < smallest_power || power > largest_power)
   {
-    return false;
+    value = digits == 0 || power < 0 ? 0 : std::numeric_limits<double>::infinity();
+    return true;
   }
   const int q = static_cast<int>(power);
-  const PowerOfFive& five = powers_of_five[static_cast<std::size_t>(q + largest_power)];
+  const PowerOfFive& five = powers_of_five[place(q)];
   const int zeros = std::countl_zero(digits);
   const std::uint64_t normal = digits << zeros;
   Wide product = Wide{ normal } * five.high;
@@ -120,19 +156,7 @@ bool nearest_double(std::uint64_t digits, std::int64_t power, double& value) noe
   const bool exact_middle =
     low <= 1 && q >= -4 && q <= 23 && (mantissa & 3) == 1 && mantissa << shift == high;
   mantissa -= exact_middle ? 1 : 0;
-  mantissa = (mantissa + (mantissa & 1)) >> 1;
-  int exponent = binary_exponent(q) + 63 + top - zeros + 1023;
-  if (mantissa >> 53 != 0)
-  {
-    mantissa >>= 1;
-    ++exponent;
-  }
-  if (exponent <= 0 || exponent >= 2047)
-  {
-    return false;
-  }
-  const std::uint64_t fraction = mantissa & ((std::uint64_t{ 1 } << 52) - 1);
-  value = std::bit_cast<double>(static_cast<std::uint64_t>(exponent) << 52 | fraction);
+  value = round_last_bit(mantissa, binary_exponent(q) + 63 + top - zeros + 1023);
   return true;
 }
 }

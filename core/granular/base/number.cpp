@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/number.h"
 
+#include "granular/base/number_scan.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -15,11 +17,6 @@ namespace
 constexpr ParseResult invalid(const char* ptr) noexcept
 {
   return { ptr, std::errc::invalid_argument };
-}
-
-constexpr bool is_digit(char c) noexcept
-{
-  return c >= '0' && c <= '9';
 }
 
 /// Words that old Microsoft run-time libraries print after the sign.
@@ -80,6 +77,11 @@ double out_of_range(const char* first, const char* last) noexcept
 
 ParseResult parse_double(const char* first, const char* last, double& value) noexcept
 {
+  if (double plain = 0; scan_double(first, last, plain) == last && first != last)
+  {
+    value = plain;
+    return { last, {} };
+  }
   const char* start = first;
   const bool negative = start != last && *start == '-';
   if (start != last && (*start == '-' || *start == '+'))
@@ -110,8 +112,13 @@ ParseResult parse_double(const char* first, const char* last, double& value) noe
 
 ParseResult parse_int64(const char* first, const char* last, std::int64_t& value) noexcept
 {
-  const char* const start = first != last && *first == '+' ? first + 1 : first;
   std::int64_t whole = 0;
+  if (scan_int64(first, last, whole) == last && first != last)
+  {
+    value = whole;
+    return { last, {} };
+  }
+  const char* const start = first != last && *first == '+' ? first + 1 : first;
   const auto [ptr, ec] = std::from_chars(start, last, whole);
   if (ec == std::errc{} && ptr == last && (start == first || *start != '-'))
   {

@@ -2,11 +2,10 @@
 #include "granular/base/row_text.h"
 
 #include "granular/base/number.h"
+#include "granular/base/number_scan.h"
 #include "granular/base/row_text_detail.h"
 #include "granular/base/words.h"
 
-#include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <string_view>
 
@@ -73,19 +72,15 @@ RowStatus store(const char* first, const char* last, const ColumnSink& sink) noe
 
 /// Parses a number without knowing where its word ends. Returns the end; null, with nothing stored,
 /// for all words that are not plain numbers of the sink's kind.
-const char* store_direct(const char* word, const char* line_end, const ColumnSink& sink) noexcept
+const char* store_direct(const char* word, const char* last, const ColumnSink& sink) noexcept
 {
-  const char* const digit = word + (*word == '-' ? 1 : 0);
-  if (digit == line_end || *digit < '0' || *digit > '9' || sink.kind == ColumnSink::Kind::Text)
-  {
-    return nullptr; // nan, inf, '+' and the like too
-  }
-  const bool real = sink.kind == ColumnSink::Kind::Float64;
   double number = 0;
   std::int64_t whole = 0;
-  const auto [end, ec] =
-    real ? std::from_chars(word, line_end, number) : std::from_chars(word, line_end, whole);
-  if (ec != std::errc{} || (end != line_end && !is_blank(*end)))
+  const bool real = sink.kind == ColumnSink::Kind::Float64;
+  const char* const end = real            ? scan_double(word, last, number)
+    : sink.kind != ColumnSink::Kind::Text ? scan_int64(word, last, whole)
+                                          : nullptr;
+  if (!end || !is_blank(*end))
   {
     return nullptr;
   }
@@ -97,56 +92,73 @@ const char* store_direct(const char* word, const char* line_end, const ColumnSin
   return store_integer(whole, sink.kind, sink.data) == RowStatus::Done ? end : nullptr;
 }
 
-/// Counts the words of [at, line_end), storing those that are wanted. count and word are of the
-/// word where it stopped.
-RowStatus store_row(const char* at, const char* line_end, RowPlan& plan, std::uint32_t& count,
-  const char*& word) noexcept
+const char* skip_blanks(const char* at) noexcept
+{
+  while (is_blank(*at) && *at != '\n')
+  {
+    ++at;
+  }
+  return at;
+}
+
+const char* skip_word(const char* at) noexcept
+{
+  while (!is_blank(*at))
+  {
+    ++at;
+  }
+  return at;
+}
+
+/// A row that is being decoded.
+struct Row
+{
+  std::uint32_t count = 0; ///< words so far
+  const char* word;        ///< the last one
+  const char* end;         ///< of what was read
+};
+
+/// Counts the words of the line at row.word, storing those that are wanted, up to a word that is not
+/// what it should be. last: of the text.
+RowStatus store_row(const char* last, const RowPlan& plan, Row& row) noexcept
 {
   auto sink = plan.sinks.begin();
-  for (count = 0;; ++count)
+  for (row.end = row.word;; ++row.count)
   {
-    at = std::find_if_not(at, line_end, is_blank);
-    if (at == line_end)
+    row.end = skip_blanks(row.end);
+    if (*row.end == '\n')
     {
-      return count == 0 || count >= plan.columns ? RowStatus::Done : RowStatus::TooFew;
+      return row.count == 0 || row.count >= plan.columns ? RowStatus::Done : RowStatus::TooFew;
     }
-    word = at;
-    const bool wanted = sink != plan.sinks.end() && sink->column == count;
-    if (const char* const end = wanted ? store_direct(word, line_end, *sink) : nullptr)
+    row.word = row.end;
+    if (sink == plan.sinks.end() || sink->column != row.count)
     {
-      at = end;
-      ++sink;
+      row.end = skip_word(row.word);
       continue;
     }
-    at = std::find_if(at, line_end, is_blank);
-    if (wanted)
+    const char* const end = store_direct(row.word, last, *sink);
+    row.end = end ? end : skip_word(row.word);
+    const RowStatus status = end ? RowStatus::Done : store(row.word, row.end, *sink);
+    if (status != RowStatus::Done)
     {
-      const RowStatus status = store(word, at, *sink);
-      if (status != RowStatus::Done)
-      {
-        return status;
-      }
-      ++sink;
+      return status;
     }
+    ++sink;
   }
 }
 
 /// Decodes the line at result.ptr, which may be blank, the plain way.
 void decode_plain_row(const char* last, RowPlan& plan, RowResult& result) noexcept
 {
-  const void* const feed =
-    std::memchr(result.ptr, '\n', static_cast<std::size_t>(last - result.ptr));
-  const char* const line_end = static_cast<const char*>(feed);
-  std::uint32_t count = 0;
-  const char* word = result.ptr;
-  result.status = store_row(result.ptr, line_end, plan, count, word);
+  Row row{ .word = result.ptr, .end = result.ptr };
+  result.status = store_row(last, plan, row);
   if (result.status == RowStatus::Done)
   {
-    result.ptr = line_end + 1;
-    if (count != 0)
+    result.ptr = row.end + 1;
+    if (row.count != 0)
     {
       ++result.rows;
-      result.surplus = result.surplus || count > plan.columns;
+      result.surplus = result.surplus || row.count > plan.columns;
       for (ColumnSink& sink : plan.sinks)
       {
         sink.data += sink.stride;
@@ -155,8 +167,8 @@ void decode_plain_row(const char* last, RowPlan& plan, RowResult& result) noexce
   }
   else if (result.status != RowStatus::TooFew)
   {
-    result.ptr = word;
-    result.column = static_cast<int>(count);
+    result.ptr = row.word;
+    result.column = static_cast<int>(row.count);
   }
 }
 }

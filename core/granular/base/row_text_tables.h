@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace granular::row_text
 {
@@ -35,6 +37,14 @@ struct Rows
   std::uint32_t end; ///< offset of the line behind the last row
   bool surplus;      ///< a row had more words than columns
   std::uint16_t first_edges[batch_bytes / 2];
+};
+
+/// Words of some columns of a batch, and the bits of their values.
+struct Words
+{
+  std::uint32_t count;
+  alignas(64) std::uint16_t edges[batch_bytes + 128];
+  alignas(64) std::uint64_t values[batch_bytes / 2 + 8];
 };
 
 struct BlockMarks
@@ -80,50 +90,5 @@ inline constexpr auto digits_behind = []
   }
   return counts;
 }();
-
-/// 10^0 to 10^22: those that a double holds exactly.
-inline constexpr auto powers_of_ten = []
-{
-  std::array<double, 23> powers{};
-  double power = 1;
-  for (double& entry : powers)
-  {
-    entry = power;
-    power *= 10;
-  }
-  return powers;
-}();
-
-/// 10^p as a factor or a divisor, both exact.
-struct Scale
-{
-  double factor;
-  double divisor;
-};
-
-inline constexpr auto scales = []
-{
-  std::array<Scale, 45> table{};
-  for (std::size_t p = 0; p <= 22; ++p)
-  {
-    table[22 + p] = { powers_of_ten[p], 1 };
-    table[22 - p] = { 1, powers_of_ten[p] };
-  }
-  return table;
-}();
-
-/// digits * 10^power, rounded once. False where that takes more than a double or a wide product.
-inline bool scale(std::uint64_t digits, int power, double& value) noexcept
-{
-  if (digits >> 53 == 0 && static_cast<unsigned>(power + 22) <= 44u)
-  {
-    // both operands are exact, and one of the two factors is 1
-    const Scale factors = scales[static_cast<std::size_t>(power + 22)];
-    value =
-      static_cast<double>(static_cast<std::int64_t>(digits)) * factors.factor / factors.divisor;
-    return true;
-  }
-  return digits != 0 && nearest_double(digits, power, value);
-}
 }
 #endif
