@@ -47,7 +47,7 @@ struct Digits
 /// Appends the digits at first to number, as long as there are any.
 inline Digits take_digits(const char* first, const char* last, std::uint64_t number) noexcept
 {
-  constexpr std::uint64_t powers[] = { 1, 10, 100, 1000, 10000, 100000, 1000000, 10000000,
+  static constexpr std::uint64_t powers[] = { 1, 10, 100, 1000, 10000, 100000, 1000000, 10000000,
     100000000 };
   while (last - first >= 8)
   {
@@ -56,9 +56,13 @@ inline Digits take_digits(const char* first, const char* last, std::uint64_t num
     const std::uint64_t others = ((digits + 0x7676767676767676) | digits) & 0x8080808080808080;
     if (others != 0)
     {
-      const auto bits = static_cast<unsigned>(std::countr_zero(others)) - 7; // of the digits
-      number = number * powers[bits / 8] + combine_eight(digits << 1 << (63 - bits));
-      return { first + bits / 8, number };
+      const int count = std::countr_zero(others) / 8;
+      if (count == 0) // as behind 8 or 16 digits
+      {
+        return { first, number };
+      }
+      number = number * powers[count] + combine_eight(digits << (64 - 8 * count));
+      return { first + count, number };
     }
     number = number * powers[8] + combine_eight(digits);
     first += 8;
@@ -135,7 +139,8 @@ inline const char* scan_double(const char* first, const char* last, double& valu
   {
     return nullptr;
   }
-  value = negative ? -magnitude : magnitude;
+  value = std::bit_cast<double>(
+    std::bit_cast<std::uint64_t>(magnitude) | std::uint64_t{ negative } << 63);
   return end;
 }
 
@@ -144,13 +149,16 @@ inline const char* scan_int64(const char* first, const char* last, std::int64_t&
 {
   const bool negative = first != last && *first == '-';
   const char* const start = first + (negative ? 1 : 0);
-  const Digits digits = take_digits(start, last, 0);
+  // a single digit is common, and to know its end without arithmetic lets the next word start early
+  const bool single = last - start > 1 && is_digit(start[0]) && !is_digit(start[1]);
+  const Digits digits = single ? Digits{ start + 1, static_cast<std::uint64_t>(start[0] - '0') }
+                               : take_digits(start, last, 0);
   if (digits.end == start || digits.end - start >= most_digits)
   {
     return nullptr;
   }
-  const auto magnitude = static_cast<std::int64_t>(digits.number);
-  value = negative ? -magnitude : magnitude;
+  const auto sign = std::uint64_t{ negative };
+  value = static_cast<std::int64_t>((digits.number ^ (0 - sign)) + sign);
   return digits.end;
 }
 }

@@ -110,39 +110,45 @@ const char* skip_word(const char* at) noexcept
   return at;
 }
 
-/// A row that is being decoded.
-struct Row
+/// Where decoding a row stopped.
+struct RowEnd
 {
-  std::uint32_t count = 0; ///< words so far
-  const char* word;        ///< the last one
-  const char* end;         ///< of what was read
+  RowStatus status;
+  std::uint32_t count; ///< words before
+  const char* word;    ///< that is not what it should be; Done: the line feed
 };
 
-/// Counts the words of the line at row.word, storing those that are wanted, up to a word that is not
+/// Counts the words of the line at first, storing those that are wanted, up to a word that is not
 /// what it should be. last: of the text.
-RowStatus store_row(const char* last, const RowPlan& plan, Row& row) noexcept
+RowEnd store_row(const char* first, const char* last, const RowPlan& plan) noexcept
 {
-  auto sink = plan.sinks.begin();
-  for (row.end = row.word;; ++row.count)
+  const ColumnSink* sink = plan.sinks.data();
+  const ColumnSink* const sinks_end = sink + plan.sinks.size();
+  const char* at = first;
+  for (std::uint32_t count = 0;; ++count)
   {
-    row.end = skip_blanks(row.end);
-    if (*row.end == '\n')
+    at = skip_blanks(at);
+    if (*at == '\n')
     {
-      return row.count == 0 || row.count >= plan.columns ? RowStatus::Done : RowStatus::TooFew;
+      const bool whole = count == 0 || count >= plan.columns;
+      return { whole ? RowStatus::Done : RowStatus::TooFew, count, at };
     }
-    row.word = row.end;
-    if (sink == plan.sinks.end() || sink->column != row.count)
+    if (sink == sinks_end || sink->column != count)
     {
-      row.end = skip_word(row.word);
+      at = skip_word(at);
       continue;
     }
-    const char* const end = store_direct(row.word, last, *sink);
-    row.end = end ? end : skip_word(row.word);
-    const RowStatus status = end ? RowStatus::Done : store(row.word, row.end, *sink);
-    if (status != RowStatus::Done)
+    const char* end = store_direct(at, last, *sink);
+    if (!end)
     {
-      return status;
+      end = skip_word(at);
+      const RowStatus status = store(at, end, *sink);
+      if (status != RowStatus::Done)
+      {
+        return { status, count, at };
+      }
     }
+    at = end;
     ++sink;
   }
 }
@@ -150,11 +156,11 @@ RowStatus store_row(const char* last, const RowPlan& plan, Row& row) noexcept
 /// Decodes the line at result.ptr, which may be blank, the plain way.
 void decode_plain_row(const char* last, RowPlan& plan, RowResult& result) noexcept
 {
-  Row row{ .word = result.ptr, .end = result.ptr };
-  result.status = store_row(last, plan, row);
-  if (result.status == RowStatus::Done)
+  const RowEnd row = store_row(result.ptr, last, plan);
+  result.status = row.status;
+  if (row.status == RowStatus::Done)
   {
-    result.ptr = row.end + 1;
+    result.ptr = row.word + 1;
     if (row.count != 0)
     {
       ++result.rows;
@@ -165,7 +171,7 @@ void decode_plain_row(const char* last, RowPlan& plan, RowResult& result) noexce
       }
     }
   }
-  else if (result.status != RowStatus::TooFew)
+  else if (row.status != RowStatus::TooFew)
   {
     result.ptr = row.word;
     result.column = static_cast<int>(row.count);
