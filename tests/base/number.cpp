@@ -2,6 +2,8 @@
 #include "granular/base/number.h"
 
 #include "decimals.h"
+#include "granular/base/decimal.h"
+#include "quad.h"
 
 #include <gtest/gtest.h>
 
@@ -264,6 +266,95 @@ TEST(ParseDouble, TrapLocaleWithADecimalComma)
   EXPECT_EQ(value_of("1.2345678901234567890123"), 1.2345678901234567890123);
   EXPECT_TRUE(is_refused("1,5"));
   std::setlocale(LC_ALL, "C");
+}
+
+// ---- digits and powers -------------------------------------------------------------------------
+
+// Every power that the tables hold and some that they do not, with digits that fill all 64 bits,
+// that are next to a power of two, and that are few.
+TEST(NearestDouble, EqualsStrtodForEveryPower)
+{
+  std::mt19937_64 random(99);
+  std::int64_t undecided = 0;
+  for (int power = -400; power <= 400; ++power)
+  {
+    for (int i = 0; i < 300; ++i)
+    {
+      const std::uint64_t edge = std::uint64_t{ 1 } << (i % 64);
+      const std::uint64_t digits = i < 64 ? edge
+        : i < 128                         ? edge - 1
+        : i < 192                         ? ~std::uint64_t{ 0 } - (edge - 1)
+                                          : random() >> (random() % 64);
+      const std::string word = std::to_string(digits) + "e" + std::to_string(power);
+      double value = 0;
+      if (!granular::nearest_double(digits, power, value))
+      {
+        ++undecided;
+        continue;
+      }
+      ASSERT_EQ(bits(value), bits(std::strtod(word.c_str(), nullptr))) << word;
+    }
+  }
+  EXPECT_LT(undecided, 10) << "numbers for which the product was not enough";
+}
+
+// Halfway between two doubles, and one digit beside: integers of 54 bits times powers of two and five.
+TEST(NearestDouble, MiddleBetweenTwoDoubles)
+{
+  std::mt19937_64 random(5);
+  for (int power = 0; power <= 23; ++power)
+  {
+    for (int i = 0; i < 2000; ++i)
+    {
+      // odd * 5^power has 54 bits: the last is half a unit
+      double five = 1;
+      for (int k = 0; k < power; ++k)
+      {
+        five *= 5;
+      }
+      const double lowest = 0x1p53 / five;
+      const auto digits =
+        static_cast<std::uint64_t>(lowest * (1 + static_cast<double>(random() >> 11) * 0x1p-53)) |
+        1;
+      for (const std::uint64_t near : { digits - 1, digits, digits + 1 })
+      {
+        expect_as_strtod(std::to_string(near) + "e" + std::to_string(power), "middle");
+      }
+    }
+  }
+  std::uint64_t ten = 1;
+  for (int power = 0; power >= -3; --power, ten *= 10)
+  {
+    for (int i = 0; i < 2000; ++i)
+    {
+      // an odd number of 54 bits, as a quotient
+      const std::uint64_t digits = ((std::uint64_t{ 1 } << 53) + (random() >> 12 | 1)) * ten;
+      for (const std::uint64_t near : { digits - 1, digits, digits + 1 })
+      {
+        expect_as_strtod(std::to_string(near) + "e" + std::to_string(power), "middle");
+      }
+    }
+  }
+}
+
+// The sum of two doubles against 113 bits, which hold 10^48 exactly.
+TEST(PowerPairs, HoldPowersOfTen)
+{
+  Quad power = 1;
+  for (int q = 0; q <= 48; ++q, power *= 10)
+  {
+    const granular::PowerPair& pair =
+      granular::power_pairs[static_cast<std::size_t>(q - granular::smallest_power)];
+    Quad scale = 1;
+    for (int k = 0; k < granular::binary_exponent(q); ++k)
+    {
+      scale *= 2;
+    }
+    const Quad error = absolute(static_cast<Quad>(pair.high) + pair.low - power / scale);
+    EXPECT_LE(static_cast<double>(error), 0x1p-103) << q;
+    EXPECT_GE(pair.high, 1.0);
+    EXPECT_LT(pair.high, 2.0);
+  }
 }
 
 // ---- integers ----------------------------------------------------------------------------------

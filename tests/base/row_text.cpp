@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
@@ -120,6 +122,166 @@ TEST(DecodeRows, NumbersAsByParseDoubleToTheBit)
       {
         ASSERT_EQ(got.bits[i][0], expected[i]) << "column " << i << " of " << text << name_of(simd);
       }
+    }
+  }
+}
+
+namespace
+{
+/// Rows of words that are all alike: none of them keeps the others from being parsed together.
+void expect_alike(const std::vector<std::string>& words, const std::string& what)
+{
+  constexpr std::uint32_t columns = 16;
+  std::vector<Wanted> wanted;
+  for (std::uint32_t i = 0; i < columns; ++i)
+  {
+    wanted.push_back({ i, Kind::Float64 });
+  }
+  std::string text;
+  for (std::size_t i = 0; i < words.size() / columns * columns; ++i)
+  {
+    text += words[i] + (i % columns + 1 == columns ? "\n" : " ");
+  }
+  for (const Simd simd : instruction_sets())
+  {
+    const Decoded got = decode(text, columns, wanted, all_rows, simd);
+    ASSERT_EQ(static_cast<std::size_t>(got.rows), words.size() / columns) << what;
+    for (std::size_t i = 0; i < words.size() / columns * columns; ++i)
+    {
+      const double expected = std::strtod(words[i].c_str(), nullptr);
+      ASSERT_EQ(got.bits[i % columns][i / columns], std::bit_cast<std::uint64_t>(expected))
+        << words[i] << ' ' << name_of(simd) << ' ' << what;
+    }
+  }
+}
+}
+
+// Words of about the same length are parsed together, long ones and short ones in different ways.
+TEST(DecodeRows, NumbersAmongTheirLike)
+{
+  Decimals decimals(1234);
+  constexpr std::size_t limits[] = { 8, 16, 26, 27, 32, 40, 1000 };
+  std::vector<std::string> alike[std::size(limits)];
+  const std::int64_t count = numbers_to_try(1'000'000);
+  for (std::int64_t i = 0; i < count && !HasFailure(); ++i)
+  {
+    const std::string& word = decimals.next();
+    const bool common = word[0] != '+' && word.find_first_of("eE") + 1 != word.size();
+    const std::size_t length = common ? word.size() : 1000;
+    const auto kind = static_cast<std::size_t>(
+      std::lower_bound(std::begin(limits), std::end(limits), length) - std::begin(limits));
+    alike[kind].push_back(word);
+    if (alike[kind].size() == 160)
+    {
+      expect_alike(alike[kind], decimals.kind());
+      alike[kind].clear();
+    }
+  }
+}
+
+// Every power of ten that counts, with digits that need all bits, and with few.
+TEST(DecodeRows, EveryPowerOfTenAmongItsLike)
+{
+  constexpr const char* mantissas[] = { "1", "-9", "1.5", "-7.25", "9007199254740991",
+    "9007199254740993", "4.503599627370497", "-1.2345678901234567", "9.9999999999999999",
+    "1.000000000000000001", "-0.000123456", "0.0", "7205759403792793", "922337203685477580",
+    "-1844674407370955161", "1.797693134862315807" };
+  for (int power = -400; power <= 400 && !HasFailure(); ++power)
+  {
+    char exponent[16];
+    std::snprintf(exponent, sizeof exponent, "e%+03d", power);
+    std::vector<std::string> mixed;
+    for (const char* mantissa : mantissas)
+    {
+      mixed.push_back(mantissa + std::string(exponent));
+      expect_alike(std::vector<std::string>(16, mixed.back()), exponent);
+    }
+    expect_alike(mixed, exponent);
+  }
+}
+
+// One that is not common among 31 that are, at every place.
+TEST(DecodeRows, OneThatIsDifferent)
+{
+  const std::string zeros(20, '0');
+  const std::vector<std::string> others = { "nan", "-inf", "+5", "1e5", "-1E-5", "1e-05",
+    "-1.5e+005", "2.5e-100", "1.#INF", "4.9e-324", "1e-400", "1e400", "0." + zeros + "12345678",
+    "1" + zeros + zeros, "1234567" + zeros + ".0", "-12345678901234567890123456789012",
+    "1" + zeros + "000000", "1" + zeros + "00000000000", "9007199254740993", "-9007199254740993.0",
+    "0.1234567890123456", "12345678901234567e-05", "1234567890123456789.5e-100" };
+  for (const std::string& other : others)
+  {
+    for (std::size_t place = 0; place < 32; ++place)
+    {
+      std::vector<std::string> words;
+      for (std::size_t i = 0; i < 32; ++i)
+      {
+        words.push_back(i == place ? other : "-0.12345" + std::to_string(i));
+      }
+      for (std::size_t i = 0; i < 32; ++i)
+      {
+        const Decoded got = decode_all(words[i] + "\n", 1, { { 0, Kind::Float64 } });
+        ASSERT_EQ(got.rows, 1) << words[i];
+      }
+      std::string text;
+      for (const std::string& word : words)
+      {
+        text += word + "\n";
+      }
+      const Decoded got = decode_all(text, 1, { { 0, Kind::Float64 } });
+      ASSERT_EQ(got.rows, 32) << other;
+      for (std::size_t i = 0; i < 32; ++i)
+      {
+        ASSERT_EQ(got.bits[0][i], as_double(words[i]).bits) << words[i] << " beside " << other;
+      }
+    }
+  }
+}
+
+// A word that is no number among many that are: every path must find it.
+TEST(DecodeRows, OneThatIsNoNumber)
+{
+  for (const char* wrong : { "-", ".", "-.", "1.2.3", "1-2", "--1", "1e", "1e+", "1e-", "e-05",
+         "1ee-05", "1e-0.", "1.5e05.", "-e-05", ".e-05", "1e--5", "12e-1e-05", "1-e-05", "1,5",
+         "1.2345678901234567e-0x", "1.23456789012345.67e-05", "1234567890123456789e--05", "x" })
+  {
+    for (int place = 0; place < 16; ++place)
+    {
+      std::string doubles;
+      std::string integers;
+      for (int i = 0; i < 16; ++i)
+      {
+        doubles += (i == place ? std::string(wrong) : "-0.25e-05") + "\n";
+        integers += (i == place ? std::string(wrong) : "-12345") + "\n";
+      }
+      const Decoded got = decode_all(doubles, 1, { { 0, Kind::Float64 } });
+      ASSERT_EQ(got.status, RowStatus::NotANumber) << wrong;
+      ASSERT_EQ(got.rows, place) << wrong;
+      const Decoded whole = decode_all(integers, 1, { { 0, Kind::Int64 } });
+      ASSERT_EQ(whole.status, RowStatus::NotANumber) << wrong;
+      ASSERT_EQ(whole.rows, place) << wrong;
+    }
+  }
+}
+
+TEST(DecodeRows, IntegersOfEveryLengthAmongTheirLike)
+{
+  std::mt19937_64 random(17);
+  for (int digits = 1; digits <= 19; ++digits)
+  {
+    for (int round = 0; round < 50; ++round)
+    {
+      std::string text;
+      std::vector<std::uint64_t> expected;
+      for (int i = 0; i < 37; ++i)
+      {
+        std::string word = std::to_string(random() | std::uint64_t{ 1 } << 63);
+        word = "0" + word.substr(0, static_cast<std::size_t>(digits) - 1);
+        word = (random() % 2 == 0 ? "-" : "") + word;
+        text += word + "\n";
+        expected.push_back(static_cast<std::uint64_t>(std::strtoll(word.c_str(), nullptr, 10)));
+      }
+      ASSERT_EQ(decode_all(text, 1, { { 0, Kind::Int64 } }).bits[0], expected) << digits;
     }
   }
 }

@@ -77,7 +77,7 @@ double out_of_range(const char* first, const char* last) noexcept
 
 ParseResult parse_double(const char* first, const char* last, double& value) noexcept
 {
-  if (double plain = 0; scan_double(first, last, plain) == last && first != last)
+  if (double plain = 0; scan_number(first, last, plain) == last && first != last)
   {
     value = plain;
     return { last, {} };
@@ -113,7 +113,7 @@ ParseResult parse_double(const char* first, const char* last, double& value) noe
 ParseResult parse_int64(const char* first, const char* last, std::int64_t& value) noexcept
 {
   std::int64_t whole = 0;
-  if (scan_int64(first, last, whole) == last && first != last)
+  if (scan_number(first, last, whole) == last && first != last)
   {
     value = whole;
     return { last, {} };

@@ -56,11 +56,17 @@ inline Digits take_digits(const char* first, const char* last, std::uint64_t num
     const std::uint64_t others = ((digits + 0x7676767676767676) | digits) & 0x8080808080808080;
     if (others != 0)
     {
-      const int count = std::countr_zero(others) / 8;
-      if (count == 0) // as behind 8 or 16 digits
+      // none behind 8 or 16 of them, or a single one: where it ends is known before the arithmetic
+      // is done, and the next word starts early
+      if ((others & 0x80) != 0)
       {
         return { first, number };
       }
+      if ((others & 0x8000) != 0)
+      {
+        return { first + 1, number * 10 + (digits & 0xff) };
+      }
+      const int count = std::countr_zero(others) / 8;
       number = number * powers[count] + combine_eight(digits << (64 - 8 * count));
       return { first + count, number };
     }
@@ -103,7 +109,7 @@ inline constexpr std::ptrdiff_t most_digits = 19;
 
 /// The number that a text begins with, if it is a plain one: a minus sign or none, up to 19 digits
 /// and a point, perhaps an exponent. Returns its end; null, with value left alone, for all others.
-inline const char* scan_double(const char* first, const char* last, double& value) noexcept
+inline const char* scan_number(const char* first, const char* last, double& value) noexcept
 {
   const bool negative = first != last && *first == '-';
   const char* const start = first + (negative ? 1 : 0);
@@ -145,14 +151,11 @@ inline const char* scan_double(const char* first, const char* last, double& valu
 }
 
 /// The same for an integer: a minus sign or none, and up to 18 digits.
-inline const char* scan_int64(const char* first, const char* last, std::int64_t& value) noexcept
+inline const char* scan_number(const char* first, const char* last, std::int64_t& value) noexcept
 {
   const bool negative = first != last && *first == '-';
   const char* const start = first + (negative ? 1 : 0);
-  // a single digit is common, and to know its end without arithmetic lets the next word start early
-  const bool single = last - start > 1 && is_digit(start[0]) && !is_digit(start[1]);
-  const Digits digits = single ? Digits{ start + 1, static_cast<std::uint64_t>(start[0] - '0') }
-                               : take_digits(start, last, 0);
+  const Digits digits = take_digits(start, last, 0);
   if (digits.end == start || digits.end - start >= most_digits)
   {
     return nullptr;

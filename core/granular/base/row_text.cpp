@@ -70,25 +70,31 @@ RowStatus store(const char* first, const char* last, const ColumnSink& sink) noe
   }
 }
 
-/// Parses a number without knowing where its word ends. Returns the end; null, with nothing stored,
-/// for all words that are not plain numbers of the sink's kind.
-const char* store_direct(const char* word, const char* last, const ColumnSink& sink) noexcept
+/// The number of a word that ends nobody knows where; its end, null if it is not a plain one.
+template <typename Value>
+const char* scan_word(const char* word, const char* last, Value& value) noexcept
 {
-  double number = 0;
-  std::int64_t whole = 0;
-  const bool real = sink.kind == ColumnSink::Kind::Float64;
-  const char* const end = real            ? scan_double(word, last, number)
-    : sink.kind != ColumnSink::Kind::Text ? scan_int64(word, last, whole)
-                                          : nullptr;
-  if (!end || !is_blank(*end))
+  const char* const end = scan_number(word, last, value);
+  return end && is_blank(*end) ? end : nullptr;
+}
+
+/// Stores a plain number of the sink's kind. Returns the end of the word; null, with nothing stored
+/// that counts, for all other words.
+const char* store_plain(const char* word, const char* last, const ColumnSink& sink) noexcept
+{
+  if (sink.kind == ColumnSink::Kind::Float64)
   {
-    return nullptr;
-  }
-  if (real)
-  {
+    double number = 0;
+    const char* const end = scan_word(word, last, number);
     std::memcpy(sink.data, &number, sizeof number);
     return end;
   }
+  if (sink.kind == ColumnSink::Kind::Text)
+  {
+    return nullptr;
+  }
+  std::int64_t whole = 0;
+  const char* const end = scan_word(word, last, whole);
   return store_integer(whole, sink.kind, sink.data) == RowStatus::Done ? end : nullptr;
 }
 
@@ -138,7 +144,7 @@ RowEnd store_row(const char* first, const char* last, const RowPlan& plan) noexc
       at = skip_word(at);
       continue;
     }
-    const char* end = store_direct(at, last, *sink);
+    const char* end = store_plain(at, last, *sink);
     if (!end)
     {
       end = skip_word(at);
