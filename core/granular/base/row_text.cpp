@@ -13,6 +13,14 @@ namespace granular
 {
 namespace row_text
 {
+void store_text(const char* first, const char* last, char* data) noexcept
+{
+  const std::string_view text(first, static_cast<std::size_t>(last - first));
+  std::memcpy(data, &text, sizeof text);
+}
+
+namespace
+{
 RowStatus store_integer(std::int64_t value, ColumnSink::Kind kind, char* data) noexcept
 {
   if (kind == ColumnSink::Kind::Int64)
@@ -25,49 +33,30 @@ RowStatus store_integer(std::int64_t value, ColumnSink::Kind kind, char* data) n
   return narrow == value ? RowStatus::Done : RowStatus::NotExact;
 }
 
-RowStatus store_integer(
-  const char* first, const char* last, ColumnSink::Kind kind, char* data) noexcept
+/// A word of any kind.
+RowStatus store(const char* first, const char* last, const ColumnSink& sink) noexcept
 {
-  std::int64_t whole = 0;
-  double number = 0;
-  if (parse_int64(first, last, whole))
+  if (sink.kind == ColumnSink::Kind::Text)
   {
-    return store_integer(whole, kind, data);
+    store_text(first, last, sink.data);
+    return RowStatus::Done;
   }
-  return parse_double(first, last, number) ? RowStatus::NotExact : RowStatus::NotANumber;
-}
-
-RowStatus store_text(const char* first, const char* last, char* data) noexcept
-{
-  const std::string_view text(first, static_cast<std::size_t>(last - first));
-  std::memcpy(data, &text, sizeof text);
-  return RowStatus::Done;
-}
-
-RowStatus store_double(const char* first, const char* last, char* data) noexcept
-{
-  double value = 0;
-  if (!parse_double(first, last, value))
+  double number = 0;
+  std::int64_t whole = 0;
+  if (sink.kind != ColumnSink::Kind::Float64 && parse_int64(first, last, whole))
+  {
+    return store_integer(whole, sink.kind, sink.data);
+  }
+  if (!parse_double(first, last, number))
   {
     return RowStatus::NotANumber;
   }
-  std::memcpy(data, &value, sizeof value);
-  return RowStatus::Done;
-}
-
-namespace
-{
-RowStatus store(const char* first, const char* last, const ColumnSink& sink) noexcept
-{
-  switch (sink.kind)
+  if (sink.kind != ColumnSink::Kind::Float64)
   {
-    case ColumnSink::Kind::Float64:
-      return store_double(first, last, sink.data);
-    case ColumnSink::Kind::Text:
-      return store_text(first, last, sink.data);
-    default:
-      return store_integer(first, last, sink.kind, sink.data);
+    return RowStatus::NotExact;
   }
+  std::memcpy(sink.data, &number, sizeof number);
+  return RowStatus::Done;
 }
 
 /// The number of a word that ends nobody knows where; its end, null if it is not a plain one.

@@ -65,130 +65,13 @@ GRANULAR_TARGET inline void append_lines(
   edges.lines += static_cast<std::uint32_t>(count);
 }
 
-/// A word of up to 16 digits, right-aligned, as a number. digits: values 0 to 9, zeros in front.
-GRANULAR_TARGET inline std::uint64_t combine_digits(__m128i digits) noexcept
-{
-  const __m128i pairs = _mm_maddubs_epi16(
-    digits, _mm_setr_epi8(10, 1, 10, 1, 10, 1, 10, 1, 10, 1, 10, 1, 10, 1, 10, 1));
-  const __m128i fours = _mm_madd_epi16(pairs, _mm_setr_epi16(100, 1, 100, 1, 100, 1, 100, 1));
-  const __m128i packed = _mm_packus_epi32(fours, fours);
-  const __m128i eights =
-    _mm_madd_epi16(packed, _mm_setr_epi16(10000, 1, 10000, 1, 10000, 1, 10000, 1));
-  const auto both = static_cast<std::uint64_t>(_mm_cvtsi128_si64(eights));
-  return (both & 0xffffffffu) * 100'000'000u + (both >> 32);
-}
+/// Words that are parsed together.
+constexpr std::uint32_t group = 4;
 
-/// The last count bytes before end, minus '0', right-aligned behind zeros. 0 <= count <= 16.
-GRANULAR_TARGET inline __m128i load_word(const char* end, std::size_t count) noexcept
+/// None need to be kept.
+struct Constants
 {
-  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(end - 16));
-  const __m128i keep = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&keep_last[16 + count]));
-  return _mm_and_si128(_mm_sub_epi8(bytes, _mm_set1_epi8('0')), keep);
-}
-
-GRANULAR_TARGET inline bool all_digits(__m128i digits) noexcept
-{
-  // unsigned saturation: 118 + 10 is the first to set the sign bit
-  return _mm_movemask_epi8(_mm_adds_epu8(digits, _mm_set1_epi8(118))) == 0;
-}
-
-/// An exponent "e+05" of two digits, which is the last four bytes before last.
-GRANULAR_TARGET inline bool parse_exponent(const char* last, int& power) noexcept
-{
-  const unsigned tens = static_cast<unsigned char>(last[-2]) - unsigned{ '0' };
-  const unsigned ones = static_cast<unsigned char>(last[-1]) - unsigned{ '0' };
-  const char sign = last[-3];
-  const int magnitude = static_cast<int>(tens * 10 + ones);
-  power = sign == '-' ? -magnitude : magnitude;
-  return (tens <= 9) & (ones <= 9) & ((sign == '-') | (sign == '+'));
-}
-
-/// Up to 16 digits and a point before end, as digits and how many of them are behind the point.
-GRANULAR_TARGET inline bool parse_short(
-  const char* end, std::size_t count, std::uint64_t& value, int& behind) noexcept
-{
-  __m128i digits = load_word(end, count);
-  const auto points =
-    static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(digits, _mm_set1_epi8('.' - '0'))));
-  const auto point = static_cast<std::size_t>(__builtin_ctz(points | 0x10000u)); // 16: none
-  digits = _mm_shuffle_epi8(
-    digits, _mm_load_si128(reinterpret_cast<const __m128i*>(drop_point[point].data())));
-  value = combine_digits(digits);
-  behind = digits_behind[point];
-  return all_digits(digits) & ((point == 16) | (count > 1));
-}
-
-/// The same for 17 to 32 bytes, of which at most 19 are digits.
-GRANULAR_TARGET inline bool parse_long(
-  const char* end, std::size_t count, std::uint64_t& value, int& behind) noexcept
-{
-  const __m256i zero = _mm256_set1_epi8('0');
-  const __m256i keep = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(&keep_last[count]));
-  __m256i bytes = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(end - 32));
-  bytes = _mm256_and_si256(_mm256_sub_epi8(bytes, zero), keep);
-  const auto points = static_cast<std::uint32_t>(
-    _mm256_movemask_epi8(_mm256_cmpeq_epi8(bytes, _mm256_set1_epi8('.' - '0'))));
-  behind = 0;
-  std::size_t digit_count = count;
-  if (points != 0)
-  {
-    // bytes up to the point come from one place further on
-    behind = __builtin_clz(points);
-    --digit_count;
-    const __m256i before = _mm256_loadu_si256(
-      reinterpret_cast<const __m256i*>(&keep_last[static_cast<std::size_t>(behind)]));
-    const __m256i shifted =
-      _mm256_sub_epi8(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(end - 33)), zero);
-    bytes = _mm256_blendv_epi8(shifted, bytes, before);
-    bytes = _mm256_and_si256(
-      bytes, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(&keep_last[digit_count])));
-  }
-  const __m128i high = _mm256_castsi256_si128(bytes);
-  const __m128i low = _mm256_extracti128_si256(bytes, 1);
-  value = combine_digits(high) * 10'000'000'000'000'000u + combine_digits(low);
-  return digit_count <= 19 && all_digits(_mm_max_epu8(high, low));
-}
-
-/// The common cases of parse_double: a sign, up to 19 digits and a point, a two-digit exponent.
-/// False for anything else, which is then parse_double's.
-GRANULAR_TARGET inline bool parse_common_double(
-  const char* first, const char* last, double& value) noexcept
-{
-  const bool negative = *first == '-';
-  const char* const start = first + negative;
-  const char* end = last;
-  int power = 0;
-  if ((last[-4] | 0x20) == 'e' && last - start > 4)
-  {
-    if (!parse_exponent(last, power))
-    {
-      return false;
-    }
-    end = last - 4;
-  }
-  const auto count = static_cast<std::size_t>(end - start);
-  std::uint64_t digits;
-  int behind;
-  if (count - 1 < 16)
-  {
-    if (!parse_short(end, count, digits, behind))
-    {
-      return false;
-    }
-  }
-  else if (count - 1 >= 32 || !parse_long(end, count, digits, behind))
-  {
-    return false;
-  }
-  double magnitude;
-  if (!to_double(digits, power - behind, magnitude))
-  {
-    return false;
-  }
-  value = std::bit_cast<double>(
-    std::bit_cast<std::uint64_t>(magnitude) | std::uint64_t{ negative } << 63);
-  return true;
-}
+};
 
 /// The bytes of a register by their place in its lanes of so many bytes.
 template <std::size_t Bytes>
@@ -275,10 +158,14 @@ GRANULAR_TARGET inline bool has_others(__m256i digits) noexcept
 }
 
 /// Four doubles of a sign, digits and a point, of up to 16 characters. False if one is not.
-GRANULAR_TARGET inline bool parse_four_doubles(
-  const char* base, const std::uint16_t* edges, std::uint64_t* values) noexcept
+GRANULAR_TARGET inline bool parse_doubles(
+  const char* base, const std::uint16_t* edges, const Constants&, std::uint64_t* values) noexcept
 {
   const __m128i length = lengths(edges);
+  if (_mm_movemask_epi8(_mm_cmpgt_epi32(length, _mm_set1_epi32(16))) != 0)
+  {
+    return false;
+  }
   const __m128i start = _mm_sub_epi32(_mm_set1_epi32(16), length);
   const __m256i starts = _mm256_broadcastsi128_si256(start);
   const TwoWords a = read_two<0>(base, edges, starts);
@@ -300,8 +187,7 @@ GRANULAR_TARGET inline bool parse_four_doubles(
   const __m256i enough = _mm256_cmpgt_epi64(ordered, others);
   const __m256i large = _mm256_srli_epi64(number, 53);
   if (has_others(_mm256_max_epu8(a.digits, b.digits)) || !all_zero(large) ||
-    _mm256_movemask_epi8(enough) != -1 ||
-    _mm_movemask_epi8(_mm_cmpgt_epi32(length, _mm_set1_epi32(16))) != 0)
+    _mm256_movemask_epi8(enough) != -1)
   {
     return false;
   }
@@ -353,8 +239,8 @@ GRANULAR_TARGET inline EightDigits read_digits(
 }
 
 /// Four integers of a sign and digits, of up to 16 characters. False if one is not.
-GRANULAR_TARGET inline bool parse_four_integers(
-  const char* base, const std::uint16_t* edges, std::uint64_t* values) noexcept
+GRANULAR_TARGET inline bool parse_integers(
+  const char* base, const std::uint16_t* edges, const Constants&, std::uint64_t* values) noexcept
 {
   const __m128i length = lengths(edges);
   EightDigits low = read_digits(base, edges, 8, _mm_sub_epi32(_mm_set1_epi32(8), length));
@@ -378,50 +264,7 @@ GRANULAR_TARGET inline bool parse_four_integers(
   return good && !has_others(low.digits) && all_zero(_mm256_and_si256(single, sign));
 }
 
-GRANULAR_TARGET inline bool parse_integers(const char* base, Words& words) noexcept
-{
-  for (std::uint32_t first = 0; first < words.count; first += 4)
-  {
-    if (parse_four_integers(base, words.edges + 2 * first, words.values + first))
-    {
-      continue;
-    }
-    for (std::uint32_t i = first; i < std::min(first + 4, words.count); ++i)
-    {
-      std::int64_t value;
-      if (!parse_int64(base + words.edges[2 * i], base + words.edges[2 * i + 1], value))
-      {
-        return false;
-      }
-      words.values[i] = std::bit_cast<std::uint64_t>(value);
-    }
-  }
-  return true;
-}
-
-GRANULAR_TARGET inline bool parse_doubles(const char* base, Words& words) noexcept
-{
-  for (std::uint32_t first = 0; first < words.count; first += 4)
-  {
-    if (parse_four_doubles(base, words.edges + 2 * first, words.values + first))
-    {
-      continue;
-    }
-    for (std::uint32_t i = first; i < std::min(first + 4, words.count); ++i)
-    {
-      const char* const start = base + words.edges[2 * i];
-      const char* const end = base + words.edges[2 * i + 1];
-      double value;
-      if (!parse_common_double(start, end, value) && !parse_double(start, end, value))
-      {
-        return false;
-      }
-      words.values[i] = std::bit_cast<std::uint64_t>(value);
-    }
-  }
-  return true;
-}
-
+#include "granular/base/row_text_avx2_word.inc"
 #include "granular/base/row_text_kernel.inc"
 }
 

@@ -85,6 +85,38 @@ GRANULAR_TARGET inline __m256i lengths(const std::uint16_t* edges) noexcept
     _mm256_srli_epi32(edge, 16), _mm256_and_si256(edge, _mm256_set1_epi32(0xffff)));
 }
 
+/// Words that are parsed together.
+constexpr std::uint32_t group = 8;
+
+/// A constant that is kept in a register, or in memory: it is not made anew each time.
+GRANULAR_TARGET inline __m512i all_bytes(int value) noexcept
+{
+  __m512i bytes = _mm512_set1_epi8(static_cast<char>(value));
+  asm("" : "+v"(bytes));
+  return bytes;
+}
+
+/// For doubles.
+struct Constants
+{
+  __m512i zero;
+  __m512i minus;
+  __m512i point;
+  __m512i one;
+  __m512i sign_bit;
+  __m512i nine;
+
+  GRANULAR_TARGET Constants() noexcept
+    : zero(all_bytes('0'))
+    , minus(all_bytes('-'))
+    , point(all_bytes('.' - '0'))
+    , one(all_bytes(1))
+    , sign_bit(all_bytes(0x80))
+    , nine(all_bytes(9))
+  {
+  }
+};
+
 /// Digits four by four as numbers: in the low half of each 32 bits.
 GRANULAR_TARGET inline __m512i combine_fours(__m512i digits) noexcept
 {
@@ -131,8 +163,8 @@ GRANULAR_TARGET inline EightDigits read_digits(
 }
 
 /// Eight integers of a sign and digits, of up to 16 characters. False if one is none.
-GRANULAR_TARGET inline bool parse_eight_integers(
-  const char* base, const std::uint16_t* edges, std::uint64_t* values) noexcept
+GRANULAR_TARGET inline bool parse_integers(
+  const char* base, const std::uint16_t* edges, const Constants&, std::uint64_t* values) noexcept
 {
   const __m256i length = lengths(edges);
   EightDigits low = read_digits(base, edges, 8, _mm256_sub_epi32(_mm256_set1_epi32(8), length));
@@ -150,25 +182,10 @@ GRANULAR_TARGET inline bool parse_eight_integers(
   return low.good && _mm256_mask_cmpeq_epi32_mask(low.negative, length, _mm256_set1_epi32(1)) == 0;
 }
 
-GRANULAR_TARGET inline bool parse_integers(const char* base, Words& words) noexcept
+template <typename Value>
+GRANULAR_TARGET inline bool parse_plain(const char* first, const char* last, Value& value) noexcept
 {
-  for (std::uint32_t first = 0; first < words.count; first += 8)
-  {
-    if (parse_eight_integers(base, words.edges + 2 * first, words.values + first))
-    {
-      continue;
-    }
-    for (std::uint32_t i = first; i < std::min(first + 8, words.count); ++i)
-    {
-      std::int64_t value;
-      if (!parse_int64(base + words.edges[2 * i], base + words.edges[2 * i + 1], value))
-      {
-        return false;
-      }
-      words.values[i] = std::bit_cast<std::uint64_t>(value);
-    }
-  }
-  return true;
+  return scan_number(first, last + 8, value) == last;
 }
 
 #include "granular/base/row_text_avx512_doubles.inc"

@@ -14,13 +14,7 @@ struct RowPlan
   std::uint32_t columns;
 };
 
-// The words that are not common: the same for all instruction sets.
-
-RowStatus store_integer(std::int64_t value, ColumnSink::Kind kind, char* data) noexcept;
-RowStatus store_integer(
-  const char* first, const char* last, ColumnSink::Kind kind, char* data) noexcept;
-RowStatus store_double(const char* first, const char* last, char* data) noexcept;
-RowStatus store_text(const char* first, const char* last, char* data) noexcept;
+void store_text(const char* first, const char* last, char* data) noexcept;
 
 /// Goes on from result, word by word, until it has max_rows rows, the text ends or a word is not
 /// what it should be.
