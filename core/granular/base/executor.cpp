@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -21,9 +21,9 @@ struct Work
   std::size_t chunks;
   const std::function<void(std::size_t, std::size_t)>& task;
   std::atomic<std::size_t> next = 0; ///< chunk to be begun
-  std::mutex mutex;
-  std::size_t failed; ///< the first chunk that threw, or chunks
-  std::exception_ptr exception;
+  std::mutex mutex{};
+  std::size_t failed = std::numeric_limits<std::size_t>::max(); ///< the first chunk that threw
+  std::exception_ptr exception{};
 
   bool run_next(std::size_t worker)
   {
@@ -84,12 +84,13 @@ std::size_t Executor::workers(std::size_t chunks) const noexcept
 void Executor::parallel_for(std::size_t chunks,
   const std::function<void(std::size_t chunk, std::size_t worker)>& task, Progress& progress) const
 {
-  Work work{ chunks, task, 0, {}, chunks, nullptr };
+  Work work{ chunks, task };
   bool cancelled = false;
   {
     std::vector<std::jthread> threads; // joined at the end of the block
     try
     {
+      threads.reserve(this->workers(chunks) - 1);
       for (std::size_t worker = 1; worker < this->workers(chunks); ++worker)
       {
         threads.emplace_back(
@@ -101,9 +102,9 @@ void Executor::parallel_for(std::size_t chunks,
           });
       }
     }
-    catch (const std::system_error&)
+    catch (const std::exception&)
     {
-      // the system gives no more threads: those that there are do it
+      // the system gives no more threads, or no memory for them: those that there are do it
     }
     try
     {

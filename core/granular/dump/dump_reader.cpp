@@ -81,7 +81,7 @@ ColumnSchema join_schemas(const PieceList& pieces)
           std::string(!same_form ? "text where others are binary"
               : same_columns     ? "another box"
                                  : "the columns " + other.text()),
-        where_of(pieces.open(i)->path(), entry));
+        pieces.where(i));
     }
     for (std::size_t column = 0; column < other.columns().size(); ++column)
     {
@@ -128,6 +128,7 @@ DumpPart decode(const PieceList& pieces, const ColumnSchema& schema, const DumpR
   if (!part.misfit)
   {
     part.frame = decoder.take(part.ids);
+    part.counts = decoder.take_counts();
   }
   return part;
 }
@@ -175,6 +176,26 @@ void share_remarks(Communicator& ranks, DumpPart& part)
     });
 }
 
+/// The parts of all ranks must have the rows that the headers promise: none of them sees them all.
+void check_counts(Communicator& ranks, const PieceList& pieces, DumpPart& part)
+{
+  if (ranks.size() == 1)
+  {
+    return;
+  }
+  ranks.sum(part.counts);
+  for (std::size_t piece = 0; piece < part.counts.size(); ++piece)
+  {
+    const std::int64_t rows = pieces.entries[piece]->rows;
+    if (part.counts[piece] != rows)
+    {
+      throw FormatError("expected " + std::to_string(rows) + " rows, got " +
+          (part.counts[piece] > rows ? "more" : std::to_string(part.counts[piece])),
+        pieces.where(piece));
+    }
+  }
+}
+
 /// Sorts the rows if that is asked for. Collective.
 void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const Where& where)
 {
@@ -197,20 +218,23 @@ void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const
   }
 }
 
-DumpFrame read(const PieceList& pieces, const Where& where, const DumpRequest& request,
-  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
+DumpFrame read(const PieceList& pieces, const DumpRequest& request, Communicator& ranks,
+  std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
 {
   check(request);
   DumpRequest own;
+  Where where;
   SharedProgress shared(progress, ranks);
+  PartialProgress forward(shared); // also where a frame is read again
   std::optional<ColumnSchema> schema;
   DumpPart part;
   do_together(ranks,
     [&]
     {
       own = own_request(request, ranks.size() > 1);
+      where = pieces.where(0);
       schema = join_schemas(pieces);
-      part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, shared);
+      part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, forward);
       ahead.reset();
     });
   for (share_remarks(ranks, part); part.misfit; share_remarks(ranks, part))
@@ -221,9 +245,10 @@ DumpFrame read(const PieceList& pieces, const Where& where, const DumpRequest& r
       {
         widen(*part.misfit, *schema, notices);
         part = {}; // the memory of a rank whose own rows did fit
-        part = decode(pieces, *schema, own, shared);
+        part = decode(pieces, *schema, own, forward);
       });
   }
+  check_counts(ranks, pieces, part);
   sort(part, request, ranks, where);
   do_together(
     ranks, [&] { notices.insert(notices.end(), part.notices.begin(), part.notices.end()); });
@@ -236,6 +261,7 @@ PieceList list_of(const std::vector<FramePiece>& pieces)
   for (const FramePiece& piece : pieces)
   {
     list.entries.push_back(&piece.entry);
+    list.paths.push_back(piece.file.path);
   }
   list.open = [&pieces](std::size_t i) { return open_indexed(pieces[i].file); };
   return list;
@@ -245,15 +271,9 @@ PieceList list_of(const std::vector<FramePiece>& pieces)
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
 {
-  Where where;
   PieceList list;
-  do_together(ranks,
-    [&]
-    {
-      where = where_of(pieces.front().file.path, pieces.front().entry);
-      list = list_of(pieces);
-    });
-  return read(list, where, request, ranks, std::move(ahead), notices, progress);
+  do_together(ranks, [&] { list = list_of(pieces); });
+  return read(list, request, ranks, std::move(ahead), notices, progress);
 }
 
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
@@ -267,11 +287,10 @@ DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const Dum
   Notices& notices, Progress& progress)
 {
   const auto lent = [](const ByteSource*) {};
-  const PieceList list = { { &entry },
+  const PieceList list = { { &entry }, { source.path() },
     [&](std::size_t) { return std::shared_ptr<const ByteSource>(&source, lent); } };
   SerialCommunicator alone;
-  return read(
-    list, where_of(source.path(), entry), request, alone, std::nullopt, notices, progress);
+  return read(list, request, alone, std::nullopt, notices, progress);
 }
 
 DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,

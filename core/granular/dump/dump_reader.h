@@ -68,6 +68,7 @@ struct DumpPart
   Block ids; ///< for sorting, where the frame has no array of them
   std::optional<Misfit> misfit;
   Notices notices;
+  std::vector<std::int64_t> counts; ///< of each piece of the frame, the rows that are in this part
 };
 
 /// Decodes one frame, text or binary, from all its pieces in their order, or part request.piece of

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/frame_chunks.h"
 
+#include "granular/base/text_scanner.h"
 #include "granular/dump/exchange_rows.h"
 #include "granular/dump/frame_rows.h"
 
@@ -13,6 +14,11 @@ std::int64_t PieceList::rows() const noexcept
 {
   return std::accumulate(entries.begin(), entries.end(), std::int64_t{ 0 },
     [](std::int64_t rows, const FrameEntry* entry) { return rows + entry->rows; });
+}
+
+Where PieceList::where(std::size_t piece) const
+{
+  return where_of(paths[piece], *entries[piece]);
 }
 
 std::vector<RowRange> cut_frame(const PieceList& pieces, int part, int parts)
@@ -43,10 +49,11 @@ std::vector<RowRange> cut_frame(const PieceList& pieces, int part, int parts)
 std::vector<RowRange> cut_chunks(
   const PieceList& pieces, const std::vector<RowRange>& ranges, std::size_t chunk_bytes)
 {
+  const std::size_t bytes = std::min(chunk_bytes, TextScanner::longest_line);
   std::vector<RowRange> chunks;
   for (const RowRange& range : ranges)
   {
-    const std::int64_t step = chunk_extent(*pieces.entries[range.piece], chunk_bytes);
+    const std::int64_t step = chunk_extent(*pieces.entries[range.piece], bytes);
     for (std::int64_t first = range.first; first < range.last;)
     {
       const std::int64_t last = std::min(range.last, (first / step + 1) * step);

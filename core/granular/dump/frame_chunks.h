@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace granular
@@ -17,9 +18,11 @@ namespace granular
 struct PieceList
 {
   std::vector<const FrameEntry*> entries;
+  std::vector<std::string> paths;
   std::function<std::shared_ptr<const ByteSource>(std::size_t piece)> open;
 
-  std::int64_t rows() const noexcept; ///< of all pieces
+  std::int64_t rows() const noexcept;   ///< of all pieces
+  Where where(std::size_t piece) const; ///< its place
 };
 
 /// Part of a piece: the rows that begin in [first, last) of its extent.
@@ -34,7 +37,8 @@ struct RowRange
 /// hold each row once, in their order; there may be more of them than rows.
 std::vector<RowRange> cut_frame(const PieceList& pieces, int part, int parts);
 
-/// The ranges in chunks of about so many bytes, whose bounds do not depend on the ranges.
+/// The ranges in chunks of about so many bytes, but none longer than the longest row: a row that is too
+/// long does not fit one, and so is found. The bounds do not depend on the ranges.
 std::vector<RowRange> cut_chunks(
   const PieceList& pieces, const std::vector<RowRange>& ranges, std::size_t chunk_bytes);
 }

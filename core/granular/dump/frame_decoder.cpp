@@ -39,7 +39,7 @@ FrameDecoder::FrameDecoder(
   , sources_(pieces.entries.size())
 {
   first_ = this->open(0);
-  where_ = where_of(first_->bytes->path(), *pieces.entries[0]);
+  where_ = pieces.where(0);
   header_ = first_->rows->header();
   header_.rows = pieces.rows();
 }
@@ -122,7 +122,7 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
     Turn read(reads, chunk);
     readers[worker] = readers[worker] ? std::move(readers[worker]) : source->rows->reader();
     read.wait();
-    if (!source->bytes->compressed())
+    if (source->bytes->concurrent())
     {
       read.pass();
     }
@@ -150,9 +150,11 @@ std::optional<Misfit> FrameDecoder::run(Progress& whole)
   }
   catch (const PieceFault& found)
   {
+    this->count_rows();
+    this->check_counts(found.piece); // those before come first
     return this->open(found.piece)->rows->describe(found.fault);
   }
-  this->check_counts();
+  this->check_counts(pieces_.entries.size());
   this->note_surplus();
   this->join_words();
   progress.step(1);
@@ -165,7 +167,6 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   Notices notices;
   layout_ = std::make_unique<FrameLayout>(schema_, header_, request_, room, where_, notices);
   decoded_.assign(chunks_.size(), {});
-  counts_.assign(pieces_.entries.size(), 0);
   next_row_ = next_number_ = 0;
   alone_ = executor_.workers(chunks_.size()) == 1;
   filtered_ = request_.stride > 1 || layout_->region;
@@ -190,15 +191,12 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
     {
       return false;
     }
-    counts_[found.piece] = std::max(counts_[found.piece], pieces_.entries[found.piece]->rows + 1);
-    this->check_counts();
+    this->count_rows();
+    this->check_counts(found.piece);
+    counts_[found.piece] = pieces_.entries[found.piece]->rows + 1;
+    this->check_counts(found.piece + 1);
   }
-  next_row_ = 0;
-  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
-  {
-    counts_[chunks_[chunk].piece] += decoded_[chunk].rows;
-    next_row_ += decoded_[chunk].kept;
-  }
+  this->count_rows();
   notices_.insert(notices_.end(), notices.begin(), notices.end());
   return true;
 }
@@ -211,7 +209,7 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
   Turn read(reads_, chunk);
   this->go_to(worker, range.piece);
   read.wait();
-  if (!worker.source->bytes->compressed())
+  if (worker.source->bytes->concurrent())
   {
     read.pass();
   }
@@ -230,23 +228,24 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
       return;
     }
     decoded.row = number;
-    this->decode_rows(range.piece, number, worker, decoded);
+    this->decode_rows(range.piece, number, rows, worker, decoded);
     return;
   }
   decoded.row = next_row_;
-  this->decode_rows(range.piece, next_number_, worker, decoded);
+  this->decode_rows(range.piece, next_number_, layout_->rows, worker, decoded);
   next_row_ += decoded.kept;
   next_number_ += decoded.rows;
 }
 
-/// Decodes what the reader has open to where decoded.row is; number: rows before it in this part.
+/// Decodes what the reader has open, at most so many rows, to where decoded.row is; number: rows before it
+/// in this part.
 void FrameDecoder::decode_rows(
-  std::size_t piece, std::int64_t number, Worker& worker, DecodedChunk& decoded)
+  std::size_t piece, std::int64_t number, std::int64_t most, Worker& worker, DecodedChunk& decoded)
 {
   try
   {
-    worker.decoder->decode(
-      *worker.reader, first_number_ + number, layout_->rows - number, where_, decoded);
+    worker.decoder->decode(*worker.reader, first_number_ + number,
+      std::min(layout_->rows - number, most), where_, decoded);
   }
   catch (RowFault& fault)
   {
@@ -272,7 +271,7 @@ void FrameDecoder::decode_aside(
       std::make_unique<FrameLayout>(schema_, header_, request_, rows + rows / 8, where_, known);
     worker.decoder = std::make_unique<ChunkDecoder>(*worker.aside, request_);
   }
-  this->decode_rows(chunks_[chunk].piece, number, worker, decoded);
+  this->decode_rows(chunks_[chunk].piece, number, rows, worker, decoded);
   turn.wait();
   decoded.row = next_row_;
   next_row_ += decoded.kept;
@@ -290,11 +289,26 @@ void FrameDecoder::decode_aside(
     });
 }
 
-/// Pieces of which all was read must have the rows that their headers promise, others no more.
-void FrameDecoder::check_counts() const
+void FrameDecoder::count_rows()
+{
+  counts_.assign(pieces_.entries.size(), 0);
+  next_row_ = 0;
+  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
+  {
+    counts_[chunks_[chunk].piece] += decoded_[chunk].rows;
+    next_row_ += decoded_[chunk].kept;
+  }
+}
+
+/// The first pieces: of which all was read must have the rows that their headers promise, others no more.
+void FrameDecoder::check_counts(std::size_t pieces) const
 {
   for (const RowRange& range : ranges_)
   {
+    if (range.piece >= pieces)
+    {
+      return;
+    }
     const FrameEntry& entry = *pieces_.entries[range.piece];
     const std::int64_t count = counts_[range.piece];
     const bool all = range.first == 0 && range.last == extent_of(entry);
@@ -302,7 +316,7 @@ void FrameDecoder::check_counts() const
     {
       throw FormatError("expected " + std::to_string(entry.rows) + " rows, got " +
           (count > entry.rows ? "more" : std::to_string(count)),
-        where_of(pieces_.open(range.piece)->path(), entry));
+        pieces_.where(range.piece));
     }
   }
 }
@@ -316,7 +330,7 @@ void FrameDecoder::note_surplus()
     const std::size_t piece = chunks_[chunk].piece;
     if (decoded_[chunk].surplus && piece != said)
     {
-      notices_.push_back({ where_of(pieces_.open(piece)->path(), *pieces_.entries[piece]),
+      notices_.push_back({ pieces_.where(piece),
         "expected " + std::to_string(schema_.columns().size()) +
           " words in a row, got more in some rows; the rest of them was ignored" });
       said = piece;

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -30,10 +31,11 @@ public:
   /// Decodes all rows, or up to a value that does not fit.
   std::optional<Misfit> run(Progress& progress);
 
-  const Where& where() const noexcept { return where_; } ///< the frame
-
   /// The frame; ids gets the ids where they are needed for sorting and no array of the frame.
   DumpFrame take(Block& ids);
+
+  /// Rows of each piece that are in this part.
+  std::vector<std::int64_t> take_counts() { return std::move(counts_); }
 
 private:
   /// A piece, open.
@@ -60,9 +62,11 @@ private:
   std::int64_t rows_before(Progress& progress);
   bool decode(std::int64_t room, Progress& progress);
   void decode_chunk(std::size_t chunk, Worker& worker);
-  void decode_rows(std::size_t piece, std::int64_t number, Worker& worker, DecodedChunk& decoded);
+  void decode_rows(std::size_t piece, std::int64_t number, std::int64_t most, Worker& worker,
+    DecodedChunk& decoded);
   void decode_aside(std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker);
-  void check_counts() const;
+  void count_rows();
+  void check_counts(std::size_t pieces) const;
   void note_surplus();
   void join_words();
 
@@ -81,7 +85,7 @@ private:
 
   std::unique_ptr<FrameLayout> layout_;
   std::vector<DecodedChunk> decoded_;
-  std::vector<std::int64_t> counts_; ///< rows of each piece
+  std::vector<std::int64_t> counts_; ///< rows of each piece that were decoded
   bool filtered_ = false;            ///< not all rows stay
   bool alone_ = true;                ///< one thread: it need not count rows before it has them
   Turns reads_;

@@ -113,14 +113,28 @@ void TextReader::load(std::int64_t from, std::int64_t to)
   filled_ += bytes;
 }
 
+/// A longer one may be anything: it is not read into memory to find its end.
+void TextReader::check_length(std::size_t first, std::size_t end) const
+{
+  if (end - first > TextScanner::longest_line)
+  {
+    throw LimitError("expected a row of at most " + std::to_string(TextScanner::longest_line) +
+        " bytes, got a longer one",
+      of_.where({ RowStatus::TooFew, -1, {}, offset_ + static_cast<std::int64_t>(first) }));
+  }
+}
+
 /// The end of the line that the byte at `at` is in, which is loaded as far as it is not. A line without
 /// a line feed at the end of the frame counts as not there.
 std::size_t TextReader::load_line(std::size_t at)
 {
+  const std::size_t before = std::string_view(buffer_.data(), at).rfind('\n');
+  const std::size_t line = before == std::string_view::npos ? first_ : std::max(first_, before + 1);
   std::int64_t more = 4096;
   for (;;)
   {
     const std::size_t feed = std::string_view(buffer_.data(), filled_).find('\n', at);
+    this->check_length(line, std::min(feed, filled_));
     if (feed != std::string_view::npos)
     {
       return feed + 1;
@@ -129,14 +143,7 @@ std::size_t TextReader::load_line(std::size_t at)
     const std::int64_t offset = offset_ + static_cast<std::int64_t>(filled_);
     if (offset == of_.entry_.end)
     {
-      const std::size_t last = std::string_view(buffer_.data(), filled_).rfind('\n');
-      return last == std::string_view::npos ? first_ : std::max(first_, last + 1);
-    }
-    if (filled_ - first_ > TextScanner::longest_line)
-    {
-      throw LimitError("expected rows of at most " + std::to_string(TextScanner::longest_line) +
-          " bytes, got a longer one",
-        { of_.source_.path(), of_.rows_line_ });
+      return line;
     }
     this->load(offset, std::min(of_.entry_.end, offset + more));
     more *= 2;

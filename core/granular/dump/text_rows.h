@@ -53,6 +53,7 @@ public:
 private:
   void load(std::int64_t from, std::int64_t to);
   std::size_t load_line(std::size_t at);
+  void check_length(std::size_t first, std::size_t end) const;
   [[noreturn]] void fail(const RowResult& result) const;
 
   const TextRows& of_;
