@@ -28,7 +28,8 @@ bool fails() noexcept
 }
 }
 
-void* operator new(std::size_t bytes)
+// not inline: the compiler would take malloc and delete for a mismatch
+__attribute__((noinline)) void* operator new(std::size_t bytes)
 {
   void* const memory = fails() ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
   if (memory == nullptr)
@@ -38,12 +39,12 @@ void* operator new(std::size_t bytes)
   return memory;
 }
 
-void operator delete(void* memory) noexcept
+__attribute__((noinline)) void operator delete(void* memory) noexcept
 {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::size_t) noexcept
+__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept
 {
   std::free(memory);
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 namespace granular
@@ -47,19 +48,106 @@ inline void check_frame(const DumpFrame& frame, const FrameEntry& entry, const D
   }
 }
 
-inline void read_frame(
-  const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
+/// What came of reading a frame: its rows, column after column, or what is wrong with it.
+struct Reading
 {
+  std::string error;
+  std::string said;                ///< the notices
+  std::vector<std::string> values; ///< of texts the words
+  ColumnSchema schema;
+
+  bool operator==(const Reading&) const = default;
+};
+
+inline std::string values_of(const DumpArray& array, std::int64_t rows)
+{
+  if (array.info.type != ValueType::Text)
+  {
+    return { static_cast<const char*>(array.block.data()), array.block.bytes() };
+  }
+  std::string text;
+  const auto* const indices = static_cast<const std::int32_t*>(array.block.data());
+  for (std::int64_t row = 0; row < rows; ++row)
+  {
+    text += array.words[static_cast<std::size_t>(indices[row])] + "\n";
+  }
+  return text;
+}
+
+inline Reading read_frame(const ByteSource& source, const FrameEntry& entry, DumpRequest request,
+  int threads, std::size_t chunk_bytes)
+{
+  request.threads = threads;
+  request.chunk_bytes = chunk_bytes;
+  Reading reading;
   Notices notices;
   Progress progress;
   try
   {
-    check_frame(read_dump(source, entry, request, notices, progress), entry, request);
+    const DumpFrame frame = read_dump(source, entry, request, notices, progress);
+    require(request.pieces > 1 || frame.rows <= entry.rows, "rows");
+    if (request.pieces == 1)
+    {
+      check_frame(frame, entry, request);
+    }
+    reading.schema = frame.schema;
+    reading.values.emplace_back(
+      static_cast<const char*>(frame.points.data()), frame.points.bytes());
+    for (const DumpArray& array : frame.arrays)
+    {
+      reading.values.push_back(values_of(array, frame.rows));
+    }
   }
-  catch (const Error&)
+  catch (const Error& error)
   {
-    // what it says is for a reader to judge
+    reading.error = error.what(); // what it says is for a reader to judge
   }
+  for (const Notice& notice : notices)
+  {
+    reading.said += to_string(notice) + "\n";
+  }
+  return reading;
+}
+
+/// Three parts give the same rows. What is wrong in one, or another column in it, is not in all.
+inline void check_parts(
+  const ByteSource& source, const FrameEntry& entry, DumpRequest request, const Reading& whole)
+{
+  Reading all;
+  all.values.resize(whole.values.size());
+  request.pieces = 3;
+  for (request.piece = 0; request.piece < request.pieces; ++request.piece)
+  {
+    const Reading part = read_frame(source, entry, request, 2, 100);
+    require(whole.error.empty() <= part.error.empty(), "a part of a good frame is wrong");
+    if (!part.error.empty() || !(part.schema == whole.schema))
+    {
+      return;
+    }
+    for (std::size_t i = 0; i < all.values.size(); ++i)
+    {
+      all.values[i] += part.values.at(i);
+    }
+  }
+  require(whole.error.empty(), "parts of a frame that is wrong are good");
+  require(all.values == whole.values, "parts differ from the whole");
+}
+
+/// The same for any number of threads, of a file that is what it was.
+inline void check_readings(
+  const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
+{
+  const Reading whole = read_frame(source, entry, request, 1, std::size_t{ 1 } << 18);
+  require(read_frame(source, entry, request, 3, 16) == whole, "threads differ");
+  check_parts(source, entry, request, whole);
+}
+
+/// Of a file that changed since.
+inline void check_changed(
+  const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
+{
+  require(read_frame(source, entry, request, 1, 64) == read_frame(source, entry, request, 3, 64),
+    "threads differ");
 }
 
 inline std::vector<DumpRequest> requests()

@@ -80,10 +80,10 @@ void use(std::string_view bytes, std::string_view names)
   {
     for (const DumpRequest& request : every)
     {
-      read_frame(*source, all.frames[i], request);
+      check_readings(*source, all.frames[i], request);
     }
-    read_frame(*other, all.frames[i], every[0]);
-    read_frame(*cut, all.frames[i], every[1]);
+    check_changed(*other, all.frames[i], every[0]);
+    check_changed(*cut, all.frames[i], every[1]);
   }
 }
 }

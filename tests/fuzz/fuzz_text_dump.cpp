@@ -125,7 +125,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const FrameEntry& entry = all.frames[i];
     for (const DumpRequest& request : every)
     {
-      read_frame(*source, entry, request);
+      check_readings(*source, entry, request);
     }
     compare_paths(text.substr(static_cast<std::size_t>(entry.offset),
                     static_cast<std::size_t>(entry.end - entry.offset)),

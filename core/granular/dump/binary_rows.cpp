@@ -19,6 +19,12 @@ namespace
 /// Rows whose columns are converted one after the other: they stay in the nearest cache.
 constexpr std::size_t block_bytes = std::size_t{ 1 } << 14;
 
+/// Of the number of values before a run.
+constexpr std::int64_t count_bytes = sizeof(std::int32_t);
+
+/// Bytes for such numbers that are read with the rows of a chunk.
+constexpr std::int64_t run_counts = 512;
+
 template <bool swapped>
 double load(const char* from) noexcept
 {
@@ -128,90 +134,139 @@ Misfit BinaryRows::describe(const RowFault& fault) const
       entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].name } };
 }
 
-/// The run behind a run: its number of values stands before it.
-BinaryRows::Run BinaryRows::next_run(const Run& run) const
+void BinaryRows::fail_short(std::int64_t end) const
 {
-  const std::int64_t at = run.offset + run.rows * row_bytes_;
-  const std::int64_t before = run.first + run.rows;
-  std::int32_t n = 0;
-  const auto left = static_cast<std::size_t>(std::max(std::int64_t{ 0 }, entry_.end - at));
-  char bytes[sizeof n];
-  const std::size_t got = source_.read(at, bytes, std::min(left, sizeof n));
-  if (got < sizeof n)
-  {
-    throw IoError("the file was shortened while it was read: expected " +
-        std::to_string(entry_.end) + " bytes, got " +
-        std::to_string(at + static_cast<std::int64_t>(got)),
-      { source_.path() });
-  }
-  std::memcpy(&n, bytes, sizeof n);
-  n = swapped_ ? static_cast<std::int32_t>(__builtin_bswap32(static_cast<std::uint32_t>(n))) : n;
-  const std::int64_t columns = row_bytes_ / static_cast<std::int64_t>(sizeof(double));
-  if (n < 0 || n % columns != 0 || n / columns > entry_.rows - before)
-  {
-    throw IoError("the file changed while it was read: expected a chunk of at most " +
-        std::to_string((entry_.rows - before) * columns) + " values, got " + std::to_string(n),
-      { source_.path() });
-  }
-  return { before, n / columns, at + static_cast<std::int64_t>(sizeof n) };
+  throw IoError("the file was shortened while it was read: expected " + std::to_string(entry_.end) +
+      " bytes, got " + std::to_string(end),
+    { source_.path() });
 }
 
-/// The parts of runs that are rows [first, last).
-void BinaryRows::find_runs(std::int64_t first, std::int64_t last, std::vector<Run>& runs) const
+/// Of the number of values of a run.
+void BinaryRows::check_place(std::int64_t at) const
+{
+  if (at + count_bytes > entry_.end)
+  {
+    throw IoError("the file changed while it was read: expected all rows up to byte " +
+        std::to_string(entry_.end) + ", got some of them behind it",
+      { source_.path() });
+  }
+}
+
+std::int32_t BinaryRows::load_values(const char* from) const noexcept
+{
+  std::uint32_t values = 0;
+  std::memcpy(&values, from, sizeof values);
+  return static_cast<std::int32_t>(swapped_ ? __builtin_bswap32(values) : values);
+}
+
+/// The run behind a run, which holds so many values.
+BinaryRows::Run BinaryRows::next_run(const Run& run, std::int32_t values) const
+{
+  const std::int64_t before = run.first + run.rows;
+  const std::int64_t columns = row_bytes_ / static_cast<std::int64_t>(sizeof(double));
+  if (values < 0 || values % columns != 0 || values / columns > entry_.rows - before)
+  {
+    throw IoError("the file changed while it was read: expected a chunk of at most " +
+        std::to_string((entry_.rows - before) * columns) + " values, got " + std::to_string(values),
+      { source_.path() });
+  }
+  return { before, values / columns, this->behind(run) + count_bytes };
+}
+
+/// The run that holds a row. Those before it that nobody has met are passed over.
+BinaryRows::Run BinaryRows::find_run(std::int64_t row) const
 {
   const std::lock_guard lock(mutex_);
-  while (runs_.back().first + runs_.back().rows < last)
+  for (Run run = runs_.back(); run.first + run.rows <= row;)
   {
-    const Run next = this->next_run(runs_.back());
-    if (next.rows > 0 || runs_.back().rows > 0)
+    const std::int64_t at = this->behind(run);
+    this->check_place(at);
+    char bytes[count_bytes];
+    const std::size_t got = source_.read(at, bytes, sizeof bytes);
+    if (got < sizeof bytes)
     {
-      runs_.push_back(next);
+      this->fail_short(at + static_cast<std::int64_t>(got));
     }
-    else
+    run = this->next_run(run, this->load_values(bytes));
+    if (run.rows > 0) // there may be many processes without
     {
-      runs_.back() = next; // there may be many processes without rows
+      runs_.push_back(run);
     }
   }
-  auto run = std::upper_bound(runs_.begin(), runs_.end(), first,
-    [](std::int64_t row, const Run& of) { return row < of.first; });
-  runs.clear();
-  for (--run; run != runs_.end() && run->first < last; ++run)
+  const auto behind_it = std::upper_bound(runs_.begin(), runs_.end(), row,
+    [](std::int64_t wanted, const Run& of) { return wanted < of.first; });
+  return behind_it[-1];
+}
+
+/// Keeps the runs that a reader has met, one behind the other, for those who come. In a file that
+/// changes another may have met others.
+void BinaryRows::keep_runs(const std::vector<Run>& runs) const
+{
+  const std::lock_guard lock(mutex_);
+  for (const Run& run : runs)
   {
-    const std::int64_t from = std::max(first, run->first);
-    const std::int64_t to = std::min(last, run->first + run->rows);
-    if (from < to)
+    if (run.first == runs_.back().first + runs_.back().rows)
     {
-      runs.push_back({ from, to - from, run->offset + (from - run->first) * row_bytes_ });
+      runs_.push_back(run);
     }
   }
+}
+
+/// Fills the buffer up to that place of the content.
+void BinaryReader::fill(std::int64_t end)
+{
+  const std::int64_t from = offset_ + static_cast<std::int64_t>(filled_);
+  const auto bytes = static_cast<std::size_t>(std::max(std::int64_t{ 0 }, end - from));
+  if (capacity_ < filled_ + bytes)
+  {
+    const std::size_t capacity = filled_ + bytes + std::size_t{ 2 * run_counts };
+    std::unique_ptr<char[]> larger(new char[capacity]); // not value-initialised
+    std::copy_n(buffer_.get(), filled_, larger.get());
+    buffer_ = std::move(larger);
+    capacity_ = capacity;
+  }
+  const std::size_t got = of_.source_.read(from, buffer_.get() + filled_, bytes);
+  if (got < bytes)
+  {
+    of_.fail_short(from + static_cast<std::int64_t>(got));
+  }
+  filled_ += bytes;
 }
 
 void BinaryReader::open(std::int64_t first, std::int64_t last)
 {
-  of_.find_runs(first, last, runs_);
-  run_ = 0;
+  runs_.clear();
+  run_ = filled_ = 0;
   in_run_ = decoded_ = 0;
   rows_ = std::max(std::int64_t{ 0 }, last - first);
-  if (runs_.empty())
+  if (rows_ == 0)
   {
     return;
   }
-  offset_ = runs_.front().offset;
-  const std::int64_t end = runs_.back().offset + runs_.back().rows * of_.row_bytes_;
-  const auto bytes = static_cast<std::size_t>(end - offset_);
-  if (capacity_ < bytes)
+  BinaryRows::Run run = of_.find_run(first);
+  offset_ = run.offset + (first - run.first) * of_.row_bytes_;
+  std::int64_t more = run_counts;
+  this->fill(std::min(offset_ + rows_ * of_.row_bytes_ + more, of_.entry_.end));
+  runs_.push_back(run);
+  while (run.first + run.rows < last)
   {
-    buffer_.reset(new char[bytes]); // not value-initialised
-    capacity_ = bytes;
+    const std::int64_t at = of_.behind(run);
+    of_.check_place(at);
+    if (at + count_bytes > offset_ + static_cast<std::int64_t>(filled_))
+    {
+      this->fill(std::min(at + more, of_.entry_.end));
+      more *= 2;
+    }
+    run = of_.next_run(run, of_.load_values(buffer_.get() + (at - offset_)));
+    if (run.rows > 0)
+    {
+      runs_.push_back(run);
+    }
   }
-  const std::size_t got = of_.source_.read(offset_, buffer_.get(), bytes);
-  if (got < bytes)
-  {
-    throw IoError("the file was shortened while it was read: expected " +
-        std::to_string(of_.entry_.end) + " bytes, got " +
-        std::to_string(offset_ + static_cast<std::int64_t>(got)),
-      { of_.source_.path() });
-  }
+  of_.keep_runs(runs_);
+  this->fill(run.offset + (last - run.first) * of_.row_bytes_);
+  runs_.back().rows = last - run.first;
+  runs_.front() = { first, runs_.front().first + runs_.front().rows - first, offset_ };
 }
 
 std::int64_t BinaryReader::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)

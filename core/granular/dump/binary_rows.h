@@ -32,8 +32,14 @@ private:
     std::int64_t offset; ///< of the first row
   };
 
-  void find_runs(std::int64_t first, std::int64_t last, std::vector<Run>& runs) const;
-  Run next_run(const Run& run) const;
+  Run find_run(std::int64_t row) const;
+  Run next_run(const Run& run, std::int32_t values) const;
+  std::int32_t load_values(const char* from) const noexcept;
+  void keep_runs(const std::vector<Run>& runs) const;
+  void check_place(std::int64_t at) const;
+  [[noreturn]] void fail_short(std::int64_t end) const;
+
+  std::int64_t behind(const Run& run) const noexcept { return run.offset + run.rows * row_bytes_; }
 
   const ByteSource& source_;
   FrameEntry entry_;
@@ -41,7 +47,8 @@ private:
   bool swapped_;
   std::int64_t row_bytes_ = 0;
   mutable std::mutex mutex_;
-  mutable std::vector<Run> runs_; ///< those that were met; the first is the empty one before all
+  mutable std::vector<Run>
+    runs_; ///< those that were met, with rows; first the empty one before all
 };
 
 /// Some rows, all in memory.
@@ -59,6 +66,7 @@ public:
   std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
 
 private:
+  void fill(std::int64_t end);
   void convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const;
   [[noreturn]] void fail(const ColumnSink& sink, const char* value) const;
 
@@ -68,6 +76,7 @@ private:
   std::int64_t in_run_ = 0;           ///< its rows that were decoded
   std::unique_ptr<char[]> buffer_;
   std::size_t capacity_ = 0;
+  std::size_t filled_ = 0;
   std::int64_t offset_ = 0; ///< of buffer_ in the content
   std::int64_t rows_ = 0;
   std::int64_t decoded_ = 0;
