@@ -300,17 +300,21 @@ int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
     this->SetAbortOutput(false);
     this->Modified();
   }
-  bool changed = this->RefreshOnUpdate && this->Series->Valid;
-  try
+  if (this->RefreshOnUpdate)
   {
-    changed = changed && granular::is_changed(this->Series->Index, this->Series->GetRanks());
-  }
-  catch (const std::exception&)
-  {
-  }
-  if (changed)
-  {
-    this->Refresh();
+    bool changed = true;
+    try
+    {
+      changed =
+        !this->Series->Valid || granular::is_changed(this->Series->Index, this->Series->GetRanks());
+    }
+    catch (const std::exception&)
+    {
+    }
+    if (changed)
+    {
+      this->Refresh();
+    }
   }
   return this->Superclass::ComputePipelineMTime(
     request, inputVector, outputVector, requestFromOutputPort, mtime);
@@ -320,29 +324,40 @@ int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
 int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  std::vector<double> times;
+  const auto forEachPort = [&](const auto& tell)
+  {
+    for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+    {
+      tell(outputVector->GetInformationObject(port));
+    }
+  };
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
   const Outcome outcome = Guard(this, outputVector,
     [&]
     {
+      const auto prepare = [](vtkInformation* info)
+      {
+        info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+        info->Remove(Pipeline::TIME_STEPS());
+        info->Remove(Pipeline::TIME_RANGE());
+      };
+      granular::do_together(this->Series->GetRanks(), [&] { forEachPort(prepare); });
       this->Series->Update(this);
-      granular::do_together(
-        this->Series->GetRanks(), [&] { times = this->Series->Index.times(this->TimestepSize); });
+      const auto tell = [&]
+      {
+        const std::vector<double> times = this->Series->Index.times(this->TimestepSize);
+        const double range[] = { times.front(), times.back() };
+        const auto count = static_cast<int>(times.size());
+        forEachPort(
+          [&](vtkInformation* info)
+          {
+            info->Set(Pipeline::TIME_STEPS(), times.data(), count);
+            info->Set(Pipeline::TIME_RANGE(), range, 2);
+          });
+      };
+      granular::do_together(this->Series->GetRanks(), tell);
     });
   this->Series->End(this, outcome);
-  for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = outputVector->GetInformationObject(port);
-    info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
-    if (!times.empty())
-    {
-      const double range[] = { times.front(), times.back() };
-      info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(),
-        static_cast<int>(times.size()));
-      info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
-    }
-  }
   return outcome != Outcome::Failed;
 }
 

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pieces one after the other in one process, any number of threads, and frames decoded ahead of time: the
+// particles are always the same.
+#include "reader_helpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkErrorCode.h"
+
+#include <algorithm>
+#include <random>
+
+namespace
+{
+/// Particles as rows of words, in their order: points, every array, the cells.
+std::vector<std::string> RowsOf(vtkPolyData* particles)
+{
+  std::vector<std::string> rows;
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+  {
+    std::ostringstream row;
+    row.precision(17);
+    double point[3];
+    particles->GetPoint(i, point);
+    row << point[0] << " " << point[1] << " " << point[2];
+    for (int a = 0; a < particles->GetPointData()->GetNumberOfArrays(); ++a)
+    {
+      vtkAbstractArray* array = particles->GetPointData()->GetAbstractArray(a);
+      row << " " << array->GetName();
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+      {
+        row << " " << array->GetVariantValue(i * array->GetNumberOfComponents() + c).ToString();
+      }
+    }
+    rows.push_back(row.str());
+  }
+  return rows;
+}
+
+void ExpectVertices(vtkPolyData* particles)
+{
+  ASSERT_EQ(particles->GetNumberOfVerts(), particles->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* point = nullptr;
+    particles->GetVerts()->GetCellAtId(i, size, point);
+    ASSERT_TRUE(size == 1 && *point == i) << i;
+  }
+}
+
+struct Source
+{
+  std::vector<std::string> Files;
+  double Time;
+};
+
+std::vector<Source> Sources()
+{
+  return { { { Good("grains.dump") }, 1000 }, { { Good("ortho_custom.bin") }, 0 },
+    { { Good("ortho_000050.dump.gz") }, 50 },
+    { { Good("pieces_1000.0.dump"), Good("pieces_1000.1.dump"), Good("pieces_1000.2.dump"),
+        Good("pieces_1000.3.dump") },
+      1000 } };
+}
+
+/// Asks an algorithm to stop at its n-th report.
+class StopAt : public vtkCommand
+{
+public:
+  static StopAt* New() { return new StopAt; }
+
+  void Execute(vtkObject* caller, unsigned long, void*) override
+  {
+    if (--this->Left == 0)
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  }
+
+  int Left = 0;
+};
+
+/// A run of frames of different sizes, with ids that tell the frame.
+std::string RunOf(const std::vector<int>& sizes)
+{
+  std::string text;
+  for (std::size_t frame = 0; frame < sizes.size(); ++frame)
+  {
+    std::string rows;
+    for (int i = sizes[frame]; i > 0; --i)
+    {
+      rows += std::to_string(1000000 * frame + i) + " 0.5 0." + std::to_string(i) + " 0.25 7\n";
+    }
+    text += Frame(static_cast<long>(frame), sizes[frame], "id x y z radius", rows);
+  }
+  return text;
+}
+
+const std::vector<int> Sizes = { 10, 20000, 0, 5000, 1, 30000, 77 };
+}
+
+TEST(ReaderPieces, TogetherAreTheWhole)
+{
+  for (const Source& source : Sources())
+  {
+    for (const bool sorted : { false, true })
+    {
+      Reader whole(source.Files);
+      whole->SetSortById(sorted);
+      whole->UpdateTimeStep(source.Time);
+      const std::vector<std::string> expected = RowsOf(whole.Particles());
+      ASSERT_GT(expected.size(), 100u) << source.Files[0];
+      Reader reader(source.Files);
+      reader->SetSortById(sorted);
+      for (const int pieces : { 1, 2, 5, 1300 })
+      {
+        std::vector<std::string> rows;
+        for (int piece = 0; piece < pieces; ++piece)
+        {
+          reader->UpdateTimeStep(source.Time, piece, pieces);
+          ASSERT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+          const std::vector<std::string> part = RowsOf(reader.Particles());
+          rows.insert(rows.end(), part.begin(), part.end());
+          EXPECT_EQ(reader.Box()->GetNumberOfCells(), piece == 0 ? 1 : 0);
+          EXPECT_EQ(reader.Text("Coordinates"), "Absolute");
+          ExpectVertices(reader.Particles());
+        }
+        EXPECT_EQ(rows, expected) << source.Files[0] << " in " << pieces;
+      }
+      EXPECT_TRUE(reader.Said->Errors.empty());
+    }
+  }
+}
+
+TEST(ReaderPieces, OfSomeOfTheRows)
+{
+  const auto select = [](Reader& reader)
+  {
+    reader->SetStride(3);
+    reader->SetRegionOfInterest(-1, 1, -1, 1, 0, 0.05);
+  };
+  Reader whole({ Good("grains.dump") });
+  select(whole);
+  whole->UpdateTimeStep(2000);
+  const std::vector<std::string> expected = RowsOf(whole.Particles());
+  ASSERT_TRUE(10 < expected.size() && expected.size() <= 400) << expected.size();
+  Reader reader({ Good("grains.dump") });
+  select(reader);
+  std::vector<std::string> rows;
+  for (int piece = 0; piece < 4; ++piece)
+  {
+    reader->UpdateTimeStep(2000, piece, 4);
+    const std::vector<std::string> part = RowsOf(reader.Particles());
+    rows.insert(rows.end(), part.begin(), part.end());
+  }
+  EXPECT_EQ(rows, expected);
+}
+
+TEST(ReaderPieces, ThreadsChangeNothing)
+{
+  for (const Source& source : Sources())
+  {
+    Reader one(source.Files);
+    one->SetThreads(1);
+    one->UpdateTimeStep(source.Time);
+    const std::vector<std::string> expected = RowsOf(one.Particles());
+    for (const int threads : { 2, 3, 4, 0 })
+    {
+      Reader reader(source.Files);
+      reader->SetThreads(threads);
+      reader->UpdateTimeStep(source.Time);
+      EXPECT_EQ(RowsOf(reader.Particles()), expected) << source.Files[0] << " " << threads;
+      EXPECT_EQ(reader.Box()->GetNumberOfCells(), 1);
+    }
+  }
+}
+
+TEST(ReaderAhead, AnyWayThroughTheFrames)
+{
+  const std::string file = WriteFile("run.dump", RunOf(Sizes));
+  std::vector<std::vector<std::string>> expected;
+  for (std::size_t frame = 0; frame < Sizes.size(); ++frame)
+  {
+    Reader plain({ file });
+    plain->UpdateTimeStep(static_cast<double>(frame));
+    expected.push_back(RowsOf(plain.Particles()));
+    ASSERT_EQ(expected.back().size(), static_cast<std::size_t>(Sizes[frame]));
+  }
+  std::vector<int> way = { 0, 1, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, 0, 0, 3, 4, 6, 2, 1, 1 };
+  std::mt19937 random(5);
+  for (int i = 0; i < 30; ++i)
+  {
+    way.push_back(static_cast<int>(random() % Sizes.size()));
+  }
+  for (const int threads : { 1, 3 })
+  {
+    Reader reader({ file });
+    reader->PrefetchOn();
+    reader->SetThreads(threads);
+    for (const int frame : way)
+    {
+      reader->UpdateTimeStep(frame);
+      ASSERT_EQ(RowsOf(reader.Particles()), expected[frame]) << frame;
+      EXPECT_EQ(reader.Field("timestep")->GetTuple1(0), frame);
+    }
+    EXPECT_TRUE(reader.Said->Errors.empty());
+  }
+}
+
+TEST(ReaderAhead, WhatIsAskedForChanges)
+{
+  const std::string file = WriteFile("run.dump", RunOf(Sizes));
+  const auto read = [&](Reader& reader, int frame)
+  {
+    reader->UpdateTimeStep(frame, 0, 1);
+    Reader plain({ file });
+    plain->SetSortById(reader->GetSortById());
+    plain->SetStride(reader->GetStride());
+    plain->SetPointOrigin(reader->GetPointOrigin());
+    plain->UpdateInformation();
+    if (!reader->GetPointDataArraySelection()->ArrayIsEnabled("radius"))
+    {
+      plain->GetPointDataArraySelection()->DisableArray("radius");
+    }
+    plain->UpdateTimeStep(frame);
+    EXPECT_EQ(RowsOf(reader.Particles()), RowsOf(plain.Particles())) << frame;
+  };
+  Reader reader({ file });
+  reader->PrefetchOn();
+  read(reader, 0);
+  reader->SortByIdOn();
+  read(reader, 1);
+  reader->GetPointDataArraySelection()->DisableArray("radius");
+  read(reader, 2);
+  reader->SetPointOrigin(1, 2, 3);
+  read(reader, 3);
+  reader->SetStride(2);
+  read(reader, 4);
+  reader->PrefetchOff();
+  read(reader, 5);
+  reader->PrefetchOn();
+  read(reader, 4);
+  read(reader, 3);
+  reader->UpdateTimeStep(2, 1, 3); // another piece than the one begun
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
+  read(reader, 1);
+}
+
+TEST(ReaderAhead, FilesChange)
+{
+  const std::string file = WriteFile("run.dump", RunOf({ 10, 20, 30 }));
+  const std::string other = WriteFile("other.dump", RunOf({ 11, 21, 31 }));
+  Reader reader({ file });
+  reader->PrefetchOn();
+  reader->UpdateTimeStep(0);
+  reader.Open(other);
+  reader->UpdateTimeStep(1);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 21);
+
+  // replaced behind the reader's back while frame 2 waits: what is shown is not what was there before
+  std::filesystem::remove(other);
+  WriteFile("other.dump", RunOf({ 11, 21, 36 }));
+  reader->UpdateTimeStep(2);
+  ASSERT_EQ(reader.Said->Errors.size(), 1u);
+  EXPECT_NE(reader.Said->Errors[0].find("the file changed"), std::string::npos);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
+  reader->Refresh();
+  reader->UpdateTimeStep(2);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 36);
+
+  // grows while a frame is being decoded
+  reader->RefreshOnUpdateOn();
+  reader->UpdateTimeStep(1);
+  WriteFile("other.dump", RunOf({ 11, 21, 36, 40 }));
+  reader->UpdateTimeStep(2);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 36);
+  reader->UpdateTimeStep(3);
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 40);
+}
+
+TEST(ReaderAhead, TheReaderGoesWhileAFrameIsDecoded)
+{
+  const std::string file = WriteFile("run.dump", RunOf({ 10, 200000, 10 }));
+  for (int i = 0; i < 5; ++i)
+  {
+    Reader reader({ file });
+    reader->PrefetchOn();
+    reader->UpdateTimeStep(0);
+    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 10);
+  }
+  Reader reader({ file });
+  reader->PrefetchOn();
+  reader->UpdateTimeStep(0);
+  reader->UpdateTimeStep(2); // and here it is stopped for another
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 10);
+  vtkNew<vtkPolyData> kept;
+  kept->ShallowCopy(reader.Particles());
+  reader->SetController(nullptr);
+  EXPECT_EQ(RowsOf(kept).size(), 10u);
+}
+
+TEST(ReaderAhead, AStopWhileWaiting)
+{
+  const std::string file = WriteFile("run.dump", RunOf({ 10, 200000, 10 }));
+  for (int report = 1; report <= 3; ++report)
+  {
+    Reader reader({ file });
+    reader->PrefetchOn();
+    reader->UpdateTimeStep(0);
+    vtkNew<StopAt> stop;
+    stop->Left = report;
+    reader->AddObserver(vtkCommand::ProgressEvent, stop);
+    reader->UpdateTimeStep(1);
+    if (stop->Left > 0 || reader.Particles()->GetNumberOfPoints() > 0)
+    {
+      EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 200000); // it was there already
+      EXPECT_GT(report, 2);
+    }
+    else
+    {
+      EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+      EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 0);
+      reader->RemoveObservers(vtkCommand::ProgressEvent);
+      reader->UpdateTimeStep(1);
+      EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 200000);
+    }
+    EXPECT_TRUE(reader.Said->Errors.empty());
+  }
+}
+
+TEST(ReaderAhead, AnErrorIsSaidWhenItsFrameIsAskedFor)
+{
+  std::string text = RunOf({ 10, 20, 30 });
+  text.replace(text.find("1000007 0.5"), 11, "1000007 0,5");
+  const std::string file = WriteFile("run.dump", text);
+  std::string without;
+  for (const bool prefetch : { false, true })
+  {
+    Reader reader({ file });
+    reader->SetPrefetch(prefetch);
+    reader->UpdateTimeStep(0);
+    reader->Modified();
+    reader->UpdateTimeStep(0);
+    EXPECT_TRUE(reader.Said->Errors.empty());
+    reader->UpdateTimeStep(1);
+    ASSERT_EQ(reader.Said->Errors.size(), 1u);
+    EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::FileFormatError));
+    EXPECT_EQ(prefetch ? reader.Said->Errors[0] : without, without);
+    without = reader.Said->Errors[0];
+    EXPECT_NE(without.find("got '0,5'"), std::string::npos) << without;
+    reader->UpdateTimeStep(2);
+    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 30);
+    reader->UpdateTimeStep(0);
+    EXPECT_EQ(reader.Said->Errors.size(), 1u);
+  }
+}
