@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench.h"
 
+#include "granular/base/executor.h"
 #include "granular/base/row_text.h"
 
 #include <algorithm>
@@ -102,7 +103,13 @@ double spread_of_ratio(const Samples& a, const Samples& b)
 
 void Rounds::add(std::string name, std::function<bool()> contender)
 {
-  contenders_.push_back({ std::move(name), std::move(contender), {} });
+  contenders_.push_back(
+    { std::move(name), [run = std::move(contender)](double&) { return run(); }, false, {} });
+}
+
+void Rounds::add_timed(std::string name, std::function<bool(double& seconds)> contender)
+{
+  contenders_.push_back({ std::move(name), std::move(contender), true, {} });
 }
 
 bool Rounds::run(double work, int repeats)
@@ -112,13 +119,15 @@ bool Rounds::run(double work, int repeats)
   {
     Contender& contender = contenders_[(first_ + i) % contenders_.size()];
     const std::int64_t faults = page_faults();
+    double seconds = 0;
     const double start = clock_();
     for (int repeat = 0; repeat < repeats; ++repeat)
     {
-      right = contender.run() && right;
+      right = contender.run(seconds) && right;
       benchmark::ClobberMemory();
     }
-    contender.samples.push_back((clock_() - start) / (work * repeats));
+    seconds = contender.is_timed ? seconds : clock_() - start;
+    contender.samples.push_back(seconds / (work * repeats));
     faults_ += page_faults() - faults;
   }
   ++first_;
@@ -166,6 +175,7 @@ try
   benchmark::AddCustomContext("compiler", "GCC " __VERSION__);
 #endif
   benchmark::AddCustomContext("instruction set", to_string(granular::best_simd()));
+  benchmark::AddCustomContext("cores", std::to_string(granular::available_cores()));
   bench::add_benchmarks(size);
   benchmark::RunSpecifiedBenchmarks();
   return bench::failed ? 1 : 0;

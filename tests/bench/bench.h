@@ -76,6 +76,9 @@ public:
   /// One contender. Does the same work as the others; gives false when the result is wrong.
   void add(std::string name, std::function<bool()> contender);
 
+  /// One that takes its time itself: it adds the seconds of a pass to what it is given.
+  void add_timed(std::string name, std::function<bool(double& seconds)> contender);
+
   /// Runs everyone once, beginning with another one each time, and notes the time divided by work.
   /// Each runs in repeats passes. False if anyone's result is wrong.
   bool run(double work, int repeats = 1);
@@ -90,7 +93,8 @@ private:
   struct Contender
   {
     std::string name;
-    std::function<bool()> run;
+    std::function<bool(double& seconds)> run;
+    bool is_timed;
     Samples samples;
   };
 

@@ -16,107 +16,12 @@ namespace bench
 {
 namespace
 {
-template <typename T>
-void put(std::string& bytes, T value)
-{
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof raw);
-}
-
-void put_text(std::string& bytes, const std::string& text)
-{
-  put(bytes, static_cast<std::int32_t>(text.size()));
-  bytes += text;
-}
-
-/// What `dump custom` of LAMMPS writes before the chunks.
-std::string binary_header(const Rows& form, std::int32_t chunks)
-{
-  const std::string magic = "DUMPCUSTOM";
-  std::string bytes;
-  put(bytes, -static_cast<std::int64_t>(magic.size()));
-  bytes += magic;
-  put(bytes, std::int32_t{ 1 }); // the byte order
-  put(bytes, std::int32_t{ 2 }); // the revision
-  put(bytes, std::int64_t{ 0 }); // the timestep
-  put(bytes, form.count);
-  for (int i = 0; i < 7; ++i)
-  {
-    put(bytes, std::int32_t{ 0 }); // not triclinic, periodic
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    put(bytes, 0.0);
-    put(bytes, 1.0);
-  }
-  put(bytes, static_cast<std::int32_t>(form.words()));
-  put_text(bytes, ""); // units
-  bytes += '\0';       // no time
-  put_text(bytes, form.columns);
-  put(bytes, chunks);
-  return bytes;
-}
-
-/// A frame as it is in a file and as it comes out.
-struct Frame
-{
-  Frame(const Rows& rows, std::int64_t rows_a_chunk)
-    : form(rows)
-    , truth(rows, rows.count)
-  {
-    this->make_values();
-    const std::int64_t chunks = (form.count + rows_a_chunk - 1) / rows_a_chunk;
-    bytes = binary_header(form, static_cast<std::int32_t>(chunks));
-    for (std::int64_t row = 0; row < form.count; row += rows_a_chunk)
-    {
-      const auto n =
-        static_cast<std::size_t>(std::min(rows_a_chunk, form.count - row)) * form.words();
-      put(bytes, static_cast<std::int32_t>(n));
-      const double* const from = values.data() + static_cast<std::size_t>(row) * form.words();
-      bytes.append(reinterpret_cast<const char*>(from), n * sizeof(double));
-    }
-    file.append(bytes);
-    index = index_of({ file.path() });
-  }
-
-  void make_values();
-
-  Rows form;
-  Output truth;
-  std::vector<double> values; ///< row-major
-  std::string bytes;
-  TemporaryFile file;
-  granular::FrameIndex index;
-};
-
-void Frame::make_values()
-{
-  Random random(1);
-  std::vector<granular::ColumnSink> sinks = truth.sinks(0);
-  for (std::int64_t row = 0; row < form.count; ++row)
-  {
-    for (granular::ColumnSink& sink : sinks)
-    {
-      const auto number = static_cast<std::int32_t>(1 + random.bits() % 1'000'000);
-      const std::int64_t wide = number;
-      const double value = random.between(-1, 1);
-      const void* const sources[] = { &number, &wide, &value };
-      const auto kind = static_cast<std::size_t>(sink.kind);
-      std::memcpy(sink.data, sources[kind],
-        sink.kind == Kind::Int32 ? sizeof(std::int32_t) : sizeof(std::int64_t));
-      sink.data += sink.stride;
-      values.push_back(sink.kind == Kind::Float64 ? value : number);
-    }
-  }
-}
-
 /// The yardstick: row by row, and in it column by column, each double to an array of its column.
 /// Nothing is looked at.
 class PlainCopy
 {
 public:
-  explicit PlainCopy(const Frame& frame)
+  explicit PlainCopy(const BinaryFrame& frame)
     : values_(frame.values)
     , arrays_(frame.form.words(), std::vector<double>(static_cast<std::size_t>(frame.form.count)))
   {
@@ -179,7 +84,7 @@ void tell_speeds(benchmark::State& state, const Rounds& rounds)
 
 void measure(benchmark::State& state, const Rows& form, std::int64_t rows_a_chunk)
 {
-  const Frame frame(form, rows_a_chunk);
+  const BinaryFrame frame(form, rows_a_chunk);
   const granular::FrameEntry& entry = frame.index.first_piece(0).entry;
   const auto memory = granular::open_memory(frame.bytes);
   const auto file = granular::open_file(frame.file.path());

@@ -19,17 +19,54 @@ namespace bench
 granular::FrameIndex index_of(
   const std::vector<std::string>& files, const granular::IndexOptions& options = {});
 
-/// A frame of it: double points and all arrays. Throws where there is anything to notice.
-granular::DumpFrame read_frame(const granular::FrameIndex& index, std::size_t frame);
+/// A frame of it: double points and all arrays unless the request is for others. Throws where there is
+/// anything to notice.
+granular::DumpFrame read_frame(
+  const granular::FrameIndex& index, std::size_t frame, const granular::DumpRequest& request = {});
 
 /// The same of a file that is open.
 granular::DumpFrame read_frame(
   const granular::ByteSource& source, const granular::FrameEntry& entry);
+
+/// A text file of one frame with its index, and what must come out.
+struct TextFrame
+{
+  /// The file repeats the rows where there are more than most_distinct_rows.
+  TextFrame(Form form, std::int64_t row_count);
+
+  static constexpr std::int64_t most_distinct_rows = 1'000'000;
+
+  Rows rows;
+  Output truth; ///< of rows
+  TemporaryFile file;
+  std::int64_t count; ///< of the rows in the file
+  granular::FrameIndex index;
+};
+
+/// The same as LAMMPS' binary dump.
+struct BinaryFrame
+{
+  /// rows: their form and number.
+  BinaryFrame(const Rows& rows, std::int64_t rows_a_chunk);
+
+  Rows form;
+  Output truth;
+  std::vector<double> values; ///< row-major
+  std::string bytes;          ///< of the file
+  TemporaryFile file;
+  granular::FrameIndex index;
+
+private:
+  void make_values();
+};
 
 /// Whether a frame holds the values of the first truth_rows rows of truth, over and over. The box is
 /// that of 0 and 1, so that scaled coordinates are absolute ones; points_at is which of the arrays of
 /// the truth has the coordinates.
 bool holds(const granular::DumpFrame& frame, const Output& truth, std::int64_t truth_rows,
   std::size_t points_at = 2);
+
+/// Whether a part of a frame holds the values of truth from a row on. Points are its third array.
+bool holds_from(const granular::DumpFrame& frame, const Output& truth, std::int64_t first_row);
 }
 #endif

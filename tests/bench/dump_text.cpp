@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -323,11 +324,37 @@ bool parse_slowly(const char* first, std::span<ColumnSink> sinks, std::int64_t r
   return true;
 }
 
-TemporaryFile::TemporaryFile()
+TextInMemory::TextInMemory(const Rows& rows, std::int64_t repeats)
+  : text_(rows.text.size() * static_cast<std::size_t>(repeats))
+  , output_(rows, rows.count * repeats)
+  , words_(rows.words())
+  , count_(rows.count * repeats)
+{
+  for (std::size_t at = 0; at < text_.size(); at += rows.text.size())
+  {
+    std::memcpy(text_.data() + at, rows.text.data(), rows.text.size());
+  }
+}
+
+bool TextInMemory::decode()
+{
+  std::vector<ColumnSink> sinks = output_.sinks(0);
+  const granular::RowResult result = granular::decode_rows(text_.data(),
+    text_.data() + text_.size(), words_, sinks, std::numeric_limits<std::int64_t>::max());
+  return result.status == granular::RowStatus::Done && result.rows == count_;
+}
+
+bool TextInMemory::parse()
+{
+  std::vector<Output::Place> places = output_.places(0);
+  return parse_plainly(text_.data(), text_.data() + text_.size(), places, count_) != nullptr;
+}
+
+TemporaryFile::TemporaryFile(const char* extension)
 {
   static int number = 0;
   path_ = std::string(GRANULAR_OUTPUT) + "/" + std::to_string(::getpid()) + "_" +
-    std::to_string(number++) + ".dump";
+    std::to_string(number++) + extension;
   std::filesystem::create_directories(GRANULAR_OUTPUT);
   std::filesystem::remove(path_);
 }

@@ -152,12 +152,29 @@ const char* parse_plainly(
 /// The truth: the same with strtod and strtoll.
 bool parse_slowly(const char* first, std::span<granular::ColumnSink> sinks, std::int64_t rows);
 
+/// The rows of a text in memory, again and again into memory that has been touched: what has to be done
+/// at least.
+class TextInMemory
+{
+public:
+  explicit TextInMemory(const Rows& rows, std::int64_t repeats = 1);
+
+  bool decode(); ///< with decode_rows
+  bool parse();  ///< with the yardstick; false where not all rows are good, as above
+
+private:
+  granular::PaddedBuffer text_;
+  Output output_;
+  std::uint32_t words_;
+  std::int64_t count_;
+};
+
 /// A file that is gone when this is.
 class TemporaryFile
 {
 public:
   /// In the folder of the benchmark, under a name of its own.
-  TemporaryFile();
+  explicit TemporaryFile(const char* extension = ".dump");
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile();

@@ -8,74 +8,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <stdexcept>
 
 namespace bench
 {
 namespace
 {
-/// Rows of the text; a file of more repeats them.
-constexpr std::int64_t most_distinct_rows = 1'000'000;
-
-/// A file of one frame with its index, and what must come out.
-struct Dump
+bool is_right(const TextFrame& dump, const granular::DumpFrame& frame)
 {
-  Dump(Form form, std::int64_t row_count)
-    : rows(make_rows(form, std::min(row_count, most_distinct_rows)))
-    , truth(rows, rows.count)
-    , count(row_count)
-  {
-    write_frame(file, rows, count);
-    index = index_of({ file.path() });
-    std::vector<granular::ColumnSink> sinks = truth.sinks(0);
-    if (!parse_slowly(rows.text.c_str(), sinks, rows.count))
-    {
-      throw std::logic_error("the benchmark's own text is wrong");
-    }
-  }
-
-  granular::DumpFrame read() const { return read_frame(index, 0); }
-
-  bool check(const granular::DumpFrame& frame) const
-  {
-    return frame.rows == count && holds(frame, truth, rows.count);
-  }
-
-  Rows rows;
-  Output truth;
-  TemporaryFile file;
-  std::int64_t count;
-  granular::FrameIndex index;
-};
-
-/// decode_rows alone: the same rows in memory, into memory that has been touched.
-class DecodeAlone
-{
-public:
-  explicit DecodeAlone(const Rows& rows)
-    : text_(padded(rows.text))
-    , output_(rows, rows.count)
-    , words_(rows.words())
-    , count_(rows.count)
-  {
-  }
-
-  bool run()
-  {
-    std::vector<granular::ColumnSink> sinks = output_.sinks(0);
-    const granular::RowResult result = granular::decode_rows(text_.data(),
-      text_.data() + text_.size(), words_, sinks, std::numeric_limits<std::int64_t>::max());
-    return result.status == granular::RowStatus::Done && result.rows == count_;
-  }
-
-private:
-  granular::PaddedBuffer text_;
-  Output output_;
-  std::uint32_t words_;
-  std::int64_t count_;
-};
+  return frame.rows == dump.count && holds(frame, dump.truth, dump.rows.count);
+}
 
 std::string name_of(std::int64_t rows)
 {
@@ -104,18 +46,18 @@ struct Growing
     {
       frame = {}; // given back before the next one is made, and not timed
       const double start = now();
-      frame = dump.read();
+      frame = read_frame(dump.index, 0);
       seconds += now() - start;
     }
     const double rows = static_cast<double>(dump.count) * repeats;
     samples.push_back(seconds / rows);
     faults = static_cast<double>(page_faults() - faults_before) / rows;
-    const bool right = dump.check(frame);
+    const bool right = is_right(dump, frame);
     frame = {};
     return right;
   }
 
-  Dump dump;
+  TextFrame dump;
   int repeats;
   granular::DumpFrame frame;
   Samples samples;   ///< seconds a row
@@ -157,21 +99,21 @@ void growth(benchmark::State& state, const std::vector<std::int64_t>& counts)
 
 void against_decode(benchmark::State& state, Form form, std::int64_t count)
 {
-  const Dump dump(form, count);
-  DecodeAlone decoder(dump.rows);
+  const TextFrame dump(form, count);
+  TextInMemory text(dump.rows);
   granular::DumpFrame frame;
   Rounds rounds;
-  rounds.add("decode alone", [&decoder] { return decoder.run(); });
+  rounds.add("decode alone", [&text] { return text.decode(); });
   rounds.add("read",
     [&dump, &frame]
     {
-      frame = dump.read();
+      frame = read_frame(dump.index, 0);
       return frame.rows == dump.count;
     });
   for (auto _ : state)
   {
     frame = {};
-    if (!rounds.run(static_cast<double>(count)) || !dump.check(frame))
+    if (!rounds.run(static_cast<double>(count)) || !is_right(dump, frame))
     {
       fail(state, "values differ from strtod's");
       return;
@@ -187,7 +129,7 @@ void against_decode(benchmark::State& state, Form form, std::int64_t count)
 /// What bench_peak_memory, a fresh process, says of a file.
 void peak_memory(benchmark::State& state, Form form, std::int64_t count)
 {
-  const Dump dump(form, count);
+  const TextFrame dump(form, count);
   const std::string program =
     std::filesystem::read_symlink("/proc/self/exe").replace_filename("bench_peak_memory").string();
   const std::string command = "'" + program + "' '" + dump.file.path() + "'";
@@ -240,7 +182,7 @@ void add_benchmarks(const Size& size)
 
   for (const std::int64_t count : counts)
   {
-    if (count >= most_distinct_rows || !size.full)
+    if (count >= TextFrame::most_distinct_rows || !size.full)
     {
       add("read/memory, 12 columns, " + name_of(count), 1,
         [count](benchmark::State& state) { peak_memory(state, Form::Custom, count); });
