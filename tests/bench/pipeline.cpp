@@ -123,7 +123,7 @@ void measure(benchmark::State& state, std::int64_t rows)
   for (const Contender& each : contenders)
   {
     const std::string name = each.name;
-    for (int frame = 0; frame < frames; ++frame)
+    for (int frame = 0; frame < frames; frame += 3)
     {
       const std::string told = helper.ask("check|" + name + "|" + std::to_string(frame));
       if (told != checksums(run.truth, rows, run.first_rows[static_cast<std::size_t>(frame)]))
@@ -151,7 +151,7 @@ void measure(benchmark::State& state, std::int64_t rows)
 
 void add_benchmarks(const Size& size)
 {
-  add("pipeline/12 columns", size.pick(15, 1),
+  add("pipeline/12 columns", size.pick(9, 1),
     [rows = size.pick(1'000'000, 1'000)](benchmark::State& state) { measure(state, rows); });
 }
 }
