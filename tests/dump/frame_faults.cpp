@@ -15,6 +15,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -200,6 +201,41 @@ private:
   mutable std::atomic<int> inside_ = 0;
 };
 
+/// Bytes of which one read fails, and those after it do not.
+class FailsOnce final : public ByteSource
+{
+public:
+  FailsOnce(std::string bytes, int at)
+    : bytes_(std::move(bytes))
+    , left_(at)
+  {
+  }
+
+  const std::string& path() const override { return path_; }
+  granular::FileStamp stamp() const override { return {}; }
+  bool concurrent() const override { return true; }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    if (left_.fetch_sub(1) == 0)
+    {
+      for (int patience = 1000; patience > 0 && left_ > -3; --patience)
+      {
+        std::this_thread::yield(); // others are to be at work then
+      }
+      throw granular::IoError("a read that fails", { path_ });
+    }
+    return bytes_.copy(buffer, bytes, std::min(static_cast<std::size_t>(offset), bytes_.size()));
+  }
+
+  bool failed() const { return left_ < 0; }
+
+private:
+  std::string bytes_;
+  std::string path_ = "once";
+  mutable std::atomic<int> left_;
+};
+
 /// Others of the same length, and of other lengths.
 std::vector<std::string> changed(const std::string& bytes)
 {
@@ -287,6 +323,35 @@ TEST(FrameFaults, OneReadAtATime)
     Progress progress;
     read_dump(honest, dump.entry(), request, notices, progress);
     EXPECT_GT(honest.reads(), 10);
+  }
+}
+
+/// Those who wait for the chunk that failed are not left waiting.
+TEST(FrameFaults, AReadThatFailsAmongOthers)
+{
+  const std::string text = with_rows(3, "9 1 0 0 0 1", 50, "");
+  const Dump dump(text);
+  for (const DumpRequest& request : all_requests())
+  {
+    for (const int threads : { 1, 2, 4 })
+    {
+      bool failed = true;
+      int at = 0;
+      for (; failed; ++at)
+      {
+        const FailsOnce source(text, at);
+        const Outcome outcome = outcome_of(
+          [&](const DumpRequest& own, Notices& notices)
+          {
+            Progress progress;
+            return read_dump(source, dump.entry(), own, notices, progress);
+          },
+          in_chunks(request, threads, 60));
+        failed = source.failed();
+        EXPECT_EQ(outcome.error, failed ? "once: a read that fails" : "");
+      }
+      EXPECT_GT(at, 15);
+    }
   }
 }
 

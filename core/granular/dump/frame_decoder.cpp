@@ -205,6 +205,11 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
 {
   const RowRange& range = chunks_[chunk];
   DecodedChunk& decoded = decoded_[chunk];
+  std::optional<Turn> keep; // from the start, so that it passes whatever fails
+  if (filtered_ && !alone_)
+  {
+    keep.emplace(kept_, chunk);
+  }
   Turn place(places_, chunk);
   Turn read(reads_, chunk);
   this->go_to(worker, range.piece);
@@ -222,9 +227,9 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
     const std::int64_t number = next_number_;
     next_number_ += rows;
     place.pass();
-    if (filtered_)
+    if (keep)
     {
-      this->decode_aside(chunk, number, rows, worker);
+      this->decode_aside(chunk, number, rows, worker, *keep);
       return;
     }
     decoded.row = number;
@@ -260,10 +265,9 @@ void FrameDecoder::decode_rows(
 /// The same where filters leave few rows: they go to memory of the thread's own first, and from there
 /// behind those of the chunk before. Else all rows would be in memory at once.
 void FrameDecoder::decode_aside(
-  std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker)
+  std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker, Turn& turn)
 {
   DecodedChunk& decoded = decoded_[chunk];
-  Turn turn(kept_, chunk);
   if (!worker.aside || worker.aside->rows < rows)
   {
     Notices known;
@@ -276,6 +280,10 @@ void FrameDecoder::decode_aside(
   decoded.row = next_row_;
   next_row_ += decoded.kept;
   turn.pass();
+  if (decoded.kept == 0)
+  {
+    return; // a layout without rows may have fewer blocks
+  }
   std::vector<const char*> from;
   worker.aside->for_each_block(
     [&](Block& block, std::size_t) { from.push_back(static_cast<const char*>(block.data())); });

@@ -64,7 +64,8 @@ private:
   void decode_chunk(std::size_t chunk, Worker& worker);
   void decode_rows(std::size_t piece, std::int64_t number, std::int64_t most, Worker& worker,
     DecodedChunk& decoded);
-  void decode_aside(std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker);
+  void decode_aside(
+    std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker, Turn& turn);
   void count_rows();
   void check_counts(std::size_t pieces) const;
   void note_surplus();
