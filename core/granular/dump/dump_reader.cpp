@@ -37,18 +37,17 @@ std::string text_of(const Misfit& misfit)
 }
 
 /// Throws if a column must be what it is taken for. Ids of a text must be integers: those of a binary file
-/// are where the user says that they are. Columns that nobody named are none.
+/// are where the user says that they are. Columns that nobody named must, too. The same on all ranks.
 void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
 {
   const bool binary = kind.layout != FrameKind::text;
-  const std::string text = text_of(misfit);
   if (schema.columns()[static_cast<std::size_t>(misfit.column)].role == ColumnRole::Id && !binary)
   {
-    throw FormatError(text, misfit.where);
+    throw FormatError(text_of(misfit), misfit.where);
   }
   if (kind.guessed)
   {
-    throw FormatError(text +
+    throw FormatError(text_of(misfit) +
         "; the columns, which the file does not name, are not those of dump atom: set ColumnNames",
       misfit.where);
   }

@@ -86,7 +86,10 @@ Outcome ReportException(
   }
   catch (const granular::Error& error)
   {
-    ReportError(self, vtkErrorCode::FileFormatError, error.what());
+    // without a file it is memory that ran out on some rank, or a property: no fault of a format
+    ReportError(self,
+      error.where().path.empty() ? vtkErrorCode::UnknownError : vtkErrorCode::FileFormatError,
+      error.what());
   }
   catch (const std::bad_alloc&)
   {
