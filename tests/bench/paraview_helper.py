@@ -51,8 +51,8 @@ def open_run(path):
     poolless = OpenDataFile(path)
     poolless.UpdatePipeline()
     granular.set_pool_limit(None)
-    reader = OpenDataFile(path)
-    half = Threshold(Input=reader, Scalars=["POINTS", "radius"], LowerThreshold=0.0015,
+    reader, filtered = OpenDataFile(path), OpenDataFile(path)
+    half = Threshold(Input=filtered, Scalars=["POINTS", "radius"], LowerThreshold=0.0015,
                      UpperThreshold=0.002)
     one = {"Threads": 1, "Prefetch": 0}
     ahead = {"Threads": 1, "Prefetch": 1}
@@ -60,8 +60,8 @@ def open_run(path):
         "1 thread": Stepper(reader, **one),
         "1 thread, no pool": Stepper(poolless, **one),
         "1 thread, prefetch": Stepper(reader, **ahead),
-        "1 thread, and a filter": Stepper(reader, half, **one),
-        "1 thread, prefetch, and a filter": Stepper(reader, half, **ahead),
+        "1 thread, and a filter": Stepper(filtered, half, **one),
+        "1 thread, prefetch, and a filter": Stepper(filtered, half, **ahead),
         "all threads": Stepper(reader, Threads=0, Prefetch=0)})
     return "open"
 

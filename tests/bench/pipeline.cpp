@@ -151,7 +151,7 @@ void measure(benchmark::State& state, std::int64_t rows)
 
 void add_benchmarks(const Size& size)
 {
-  add("pipeline/12 columns", size.pick(9, 1),
+  add("pipeline/12 columns", size.pick(7, 1),
     [rows = size.pick(1'000'000, 1'000)](benchmark::State& state) { measure(state, rows); });
 }
 }
