@@ -78,6 +78,11 @@ double wall()
   return read_clock(CLOCK_MONOTONIC);
 }
 
+double processor()
+{
+  return read_clock(CLOCK_PROCESS_CPUTIME_ID);
+}
+
 std::int64_t page_faults()
 {
   struct rusage usage = {};

@@ -51,6 +51,9 @@ double now();
 /// Time on the wall [s].
 double wall();
 
+/// Processor time of all threads of this program [s].
+double processor();
+
 /// Page faults of this thread so far that needed no disk.
 std::int64_t page_faults();
 

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -63,11 +64,16 @@ public:
 
   bool run(int threads)
   {
+    const double start = processor();
     request_.pool->next_frame();
     request_.threads = threads;
     frame_ = read_frame(subject_.index, 0, request_);
+    processor_[threads].push_back(processor() - start);
     return frame_.rows == subject_.rows;
   }
+
+  /// Processor time of each run, also of those that only checked.
+  const Samples& processor_times(int threads) { return processor_[threads]; }
 
   bool check(int threads)
   {
@@ -78,6 +84,7 @@ private:
   Subject subject_;
   granular::DumpRequest request_;
   granular::DumpFrame frame_;
+  std::map<int, Samples> processor_;
 };
 
 /// What the frame is held against: loops over the same text, as far as they make sense.
@@ -87,8 +94,8 @@ struct Yardsticks
   TextInMemory* decode = nullptr;
 };
 
-void tell_times(benchmark::State& state, const Rounds& rounds, const std::vector<int>& counts,
-  const Yardsticks& yardsticks)
+void tell_times(
+  benchmark::State& state, const Rounds& rounds, Reading& reading, const Yardsticks& yardsticks)
 {
   for (const std::string yardstick : { "from_chars", "decode alone" })
   {
@@ -98,13 +105,15 @@ void tell_times(benchmark::State& state, const Rounds& rounds, const std::vector
     }
   }
   const Samples& one = rounds.of(name_of(1));
-  for (const int threads : counts)
+  for (const int threads : thread_counts())
   {
     const std::string name = name_of(threads);
     const Samples& ours = rounds.of(name);
     tell(state, name, 1e9 * median(ours), "ns/row");
     tell(state, name + ", speed against 1 thread", median_ratio(one, ours), "1");
     tell(state, name + ", spread", spread_of_ratio(one, ours), "1");
+    tell(state, name + ", processor time against 1 thread",
+      median_ratio(reading.processor_times(threads), reading.processor_times(1)), "1");
     if (yardsticks.parse)
     {
       const Samples& plain = rounds.of("from_chars");
@@ -135,8 +144,7 @@ void measure(benchmark::State& state, const Subject& subject, const Yardsticks& 
   Reading reading(subject);
   Rounds rounds(wall);
   add_yardsticks(rounds, yardsticks);
-  const std::vector<int> counts = thread_counts();
-  for (const int threads : counts)
+  for (const int threads : thread_counts())
   {
     if (!reading.check(threads))
     {
@@ -154,7 +162,7 @@ void measure(benchmark::State& state, const Subject& subject, const Yardsticks& 
     }
     state.SetIterationTime(rounds.of(name_of(1)).back() * static_cast<double>(subject.rows));
   }
-  tell_times(state, rounds, counts, yardsticks);
+  tell_times(state, rounds, reading, yardsticks);
 }
 
 void text(benchmark::State& state, std::int64_t rows)
