@@ -168,16 +168,3 @@ TEST(ReaderFiles, AFileThatGrewIsStillReadBeforeARefresh)
   EXPECT_TRUE(reader.Said->Errors.empty());
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1);
 }
-
-TEST(ReaderPieces, TheFirstHoldsEverythingAndTheOthersNothing)
-{
-  Reader first({ Good("grains_1000.dump") });
-  first->UpdatePiece(0, 2, 0);
-  EXPECT_EQ(first.Particles()->GetNumberOfPoints(), 1200);
-  EXPECT_EQ(first.Box()->GetNumberOfCells(), 1);
-  Reader second({ Good("grains_1000.dump") });
-  second->UpdatePiece(1, 2, 0);
-  EXPECT_EQ(second.Particles()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(second.Box()->GetNumberOfCells(), 0);
-  EXPECT_TRUE(second.Said->Errors.empty());
-}
