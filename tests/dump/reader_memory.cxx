@@ -44,7 +44,7 @@ struct Pooled : testing::Test
     granular::Block block(Rows * 3 * sizeof(double), this->Pool);
     auto* first = static_cast<double*>(block.data());
     std::iota(first, first + Rows * 3, 0.0);
-    return TakePoints(block, Rows, false);
+    return TakePoints(block, Rows, false, {});
   }
 
   /// An array of its own of a pooled block.

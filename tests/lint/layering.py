@@ -35,7 +35,7 @@ SYSTEM_HEADERS = (
      r"core/granular/base/byte_(source|sink)(_\w+)?\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/base/executor\.cpp"),
     (r"sys/mman\.h", r"core/granular/base/mapping\.cpp"),
-    (r"immintrin\.h", r"core/granular/base/(line_scan|row_text)\w*\.(cpp|h|inc)"),
+    (r"immintrin\.h", r"core/granular/base/(line_scan|row_text|value_range)\w*\.(cpp|h|inc)"),
     (r"mpi\.h", r"core/mpi/.*"),
 )
 

@@ -55,7 +55,7 @@ ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
 }
 
 void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t room,
-  const Where& where, DecodedChunk& chunk)
+  const Where& where, DecodedChunk& chunk, std::vector<ValueRange>& ranges)
 {
   row_ = chunk.row;
   std::vector<TextDictionary> words(layout_.texts.size());
@@ -77,7 +77,9 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
         { reinterpret_cast<const std::string_view*>(wire.texts.at(0, scratch_.get())), count },
         to + row_, where);
     }
-    row_ += static_cast<std::int64_t>(this->finish_batch(count, number + chunk.rows));
+    const std::size_t kept = this->finish_batch(count, number + chunk.rows);
+    this->measure(kept, ranges);
+    row_ += static_cast<std::int64_t>(kept);
     chunk.rows += got;
   }
   chunk.kept = row_ - chunk.row;
@@ -85,6 +87,43 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
   for (TextDictionary& dictionary : words)
   {
     chunk.words.push_back(dictionary.take());
+  }
+}
+
+/// Takes rows into account while they are in the cache: whoever shows them asks for their range.
+void ChunkDecoder::measure(std::size_t count, std::vector<ValueRange>& ranges) const
+{
+  const auto row = static_cast<std::size_t>(row_);
+  const auto add = [&](ValueRange& range, const auto* values, std::size_t components)
+  { range.add(values + row * components, count); };
+  const DumpFrame& frame = layout_.frame;
+  if (request_.single_precision)
+  {
+    add(ranges[0], static_cast<const float*>(frame.points.data()), 3);
+  }
+  else
+  {
+    add(ranges[0], static_cast<const double*>(frame.points.data()), 3);
+  }
+  for (std::size_t i = 0; i < frame.arrays.size(); ++i)
+  {
+    const DumpArray& array = frame.arrays[i];
+    const std::size_t components = array.info.columns.size();
+    const void* const data = array.block.data();
+    switch (array.info.type)
+    {
+      case ValueType::Int32:
+        add(ranges[i + 1], static_cast<const std::int32_t*>(data), components);
+        break;
+      case ValueType::Int64:
+        add(ranges[i + 1], static_cast<const std::int64_t*>(data), components);
+        break;
+      case ValueType::Float64:
+        add(ranges[i + 1], static_cast<const double*>(data), components);
+        break;
+      case ValueType::Text:
+        break;
+    }
   }
 }
 

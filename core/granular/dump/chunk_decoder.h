@@ -30,12 +30,14 @@ public:
   ChunkDecoder(FrameLayout& layout, const DumpRequest& request);
 
   /// Decodes the rows that a reader has opened, at most room of them, to chunk.row on. number is that
-  /// of the first of them in the frame. Throws RowFault; LimitError at where.
+  /// of the first of them in the frame. ranges, as FrameLayout::ranges makes them, take the rows that stay
+  /// into account. Throws RowFault; LimitError at where.
   void decode(RowReader& reader, std::int64_t number, std::int64_t room, const Where& where,
-    DecodedChunk& chunk);
+    DecodedChunk& chunk, std::vector<ValueRange>& ranges);
 
 private:
   void aim();
+  void measure(std::size_t count, std::vector<ValueRange>& ranges) const;
   std::size_t finish_batch(std::size_t count, std::int64_t number);
   void copy_batch(std::size_t count);
   void convert(const PointsWire& wire, std::size_t count);

@@ -195,6 +195,15 @@ void check_counts(Communicator& ranks, const PieceList& pieces, DumpPart& part)
   }
 }
 
+void forget_ranges(DumpFrame& frame)
+{
+  frame.points_range = ValueRange();
+  for (DumpArray& array : frame.arrays)
+  {
+    array.range = ValueRange();
+  }
+}
+
 /// Sorts the rows if that is asked for. Collective.
 void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const Where& where)
 {
@@ -203,6 +212,10 @@ void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const
     return;
   }
   const Executor executor(request.threads);
+  if (ranks.size() > 1 || request.pieces > 1)
+  {
+    forget_ranges(part.frame); // the rows will be others
+  }
   if (ranks.size() > 1)
   {
     sort_by_id(part.frame, part.ids, ranks, part.notices, where, executor);

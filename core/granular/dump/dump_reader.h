@@ -7,6 +7,7 @@
 #include "granular/base/communicator.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
+#include "granular/base/value_range.h"
 #include "granular/dump/frame.h"
 #include "granular/dump/frame_index.h"
 #include "granular/dump/frame_rows.h"
@@ -47,6 +48,7 @@ struct DumpArray
   ArrayInfo info;
   Block block;                    ///< values; of a Text the std::int32_t indices of its words
   std::vector<std::string> words; ///< of a Text: those that occur, each once
+  ValueRange range;               ///< of the values, if it is known
 };
 
 /// A decoded frame. The blocks may be given away.
@@ -56,6 +58,7 @@ struct DumpFrame
   Coordinates coordinates = Coordinates::Absolute; ///< what the points are; differs from the
                                                    ///< request only where a notice says so
   Block points;                                    ///< rows x 3, double or float
+  ValueRange points_range;
   std::vector<DumpArray> arrays;
   FrameHeader header;  ///< of the first piece; rows are those of all
   ColumnSchema schema; ///< of all pieces, types as they came to be

@@ -177,6 +177,7 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   for (Worker& worker : workers)
   {
     worker.decoder = std::make_unique<ChunkDecoder>(*layout_, request_);
+    worker.ranges = layout_->ranges();
   }
   try
   {
@@ -197,6 +198,7 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
     this->check_counts(found.piece + 1);
   }
   this->count_rows();
+  this->join_ranges(workers);
   notices_.insert(notices_.end(), notices.begin(), notices.end());
   return true;
 }
@@ -250,7 +252,7 @@ void FrameDecoder::decode_rows(
   try
   {
     worker.decoder->decode(*worker.reader, first_number_ + number,
-      std::min(layout_->rows - number, most), where_, decoded);
+      std::min(layout_->rows - number, most), where_, decoded, worker.ranges);
   }
   catch (RowFault& fault)
   {
@@ -295,6 +297,23 @@ void FrameDecoder::decode_aside(
         static_cast<char*>(block.data()) + static_cast<std::size_t>(decoded.row) * bytes_a_row,
         *next++, static_cast<std::size_t>(decoded.kept) * bytes_a_row);
     });
+}
+
+void FrameDecoder::join_ranges(const std::vector<Worker>& workers)
+{
+  std::vector<ValueRange> all = layout_->ranges();
+  for (const Worker& worker : workers)
+  {
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      all[i].add(worker.ranges[i]);
+    }
+  }
+  layout_->frame.points_range = std::move(all[0]);
+  for (std::size_t i = 1; i < all.size(); ++i)
+  {
+    layout_->frame.arrays[i - 1].range = std::move(all[i]);
+  }
 }
 
 void FrameDecoder::count_rows()

@@ -53,6 +53,7 @@ private:
     std::unique_ptr<RowReader> reader;
     std::unique_ptr<FrameLayout> aside; ///< memory of its own, where filters leave few rows
     std::unique_ptr<ChunkDecoder> decoder;
+    std::vector<ValueRange> ranges; ///< of the rows it has decoded
   };
 
   std::shared_ptr<const Source> open(std::size_t piece);
@@ -66,6 +67,7 @@ private:
     DecodedChunk& decoded);
   void decode_aside(
     std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker, Turn& turn);
+  void join_ranges(const std::vector<Worker>& workers);
   void count_rows();
   void check_counts(std::size_t pieces) const;
   void note_surplus();

@@ -72,7 +72,7 @@ void FrameLayout::lay_arrays()
     {
       continue;
     }
-    DumpArray array{ info, {}, {} };
+    DumpArray array{ info, {}, {}, {} };
     const std::size_t width = size_of(info.type);
     const std::size_t stride = width * info.columns.size();
     array.block = Block(stride * static_cast<std::size_t>(rows), request_.pool);
@@ -159,6 +159,17 @@ void FrameLayout::lay_filters(const Where& where, Notices& notices)
     this->want(id_column, ValueType::Int64,
       { static_cast<char*>(ids.data()), 0, sizeof(std::int64_t), false });
   }
+}
+
+std::vector<ValueRange> FrameLayout::ranges() const
+{
+  std::vector<ValueRange> ranges = { ValueRange(3) };
+  for (const DumpArray& array : frame.arrays)
+  {
+    const bool text = array.info.type == ValueType::Text;
+    ranges.emplace_back(text ? 0 : array.info.columns.size());
+  }
+  return ranges;
 }
 
 DumpFrame FrameLayout::take(std::int64_t kept, Block& to)

@@ -74,6 +74,9 @@ public:
   /// and no array of the frame.
   DumpFrame take(std::int64_t rows, Block& ids);
 
+  /// For the range of the points, and of each array; texts have none.
+  std::vector<ValueRange> ranges() const;
+
   /// Calls visit(block, bytes a row) for every block that has rows.
   template <typename Visit>
   void for_each_block(Visit&& visit)

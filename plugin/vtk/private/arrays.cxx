@@ -4,12 +4,18 @@
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
+#include "vtkInformationInformationVectorKey.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkStringArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace vtkGranularPrivate
@@ -84,6 +90,37 @@ vtkSmartPointer<vtkCellArray> MakeVerticesOf(
 }
 
 /**
+ * Tells an array what VTK would find out by looking at all its values, one component after the other and
+ * more than once, each time that its range is asked for first. Modified() makes it forget.
+ */
+void SetRange(vtkDataArray* array, const granular::ValueRange& range)
+{
+  if (!range.known())
+  {
+    return;
+  }
+  vtkInformation* info = array->GetInformation();
+  for (vtkInformationInformationVectorKey* key :
+    { vtkAbstractArray::PER_COMPONENT(), vtkAbstractArray::PER_FINITE_COMPONENT() })
+  {
+    vtkNew<vtkInformationVector> components;
+    for (const granular::ValueRange::Bounds& bounds : range.components())
+    {
+      vtkNew<vtkInformation> component;
+      component->Set(vtkDataArray::COMPONENT_RANGE(), bounds.data(), 2);
+      components->Append(component);
+    }
+    info->Set(key, components);
+  }
+  if (range.components().size() > 1)
+  {
+    const double lengths[] = { std::sqrt(range.squares()[0]), std::sqrt(range.squares()[1]) };
+    info->Set(vtkDataArray::L2_NORM_RANGE(), lengths, 2);
+    info->Set(vtkDataArray::L2_NORM_FINITE_RANGE(), lengths, 2);
+  }
+}
+
+/**
  * Changes of cells or of the arrays behind them that were announced.
  */
 vtkMTimeType TimeOf(vtkCellArray* cells)
@@ -115,10 +152,15 @@ vtkSmartPointer<vtkAbstractArray> TakeArray(
   }
   taken->SetName(info.name.c_str());
   NameComponents(taken, info, columns);
+  if (auto* numbers = vtkDataArray::SafeDownCast(taken))
+  {
+    SetRange(numbers, array.range);
+  }
   return taken;
 }
 
-vtkSmartPointer<vtkPoints> TakePoints(granular::Block& block, vtkIdType rows, bool single)
+vtkSmartPointer<vtkPoints> TakePoints(
+  granular::Block& block, vtkIdType rows, bool single, const granular::ValueRange& range)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   vtkSmartPointer<vtkDataArray> values;
@@ -132,6 +174,7 @@ vtkSmartPointer<vtkPoints> TakePoints(granular::Block& block, vtkIdType rows, bo
   }
   values->SetName("Points");
   points->SetData(values);
+  SetRange(values, range);
   return points;
 }
 

@@ -30,7 +30,8 @@ vtkSmartPointer<vtkAbstractArray> TakeArray(
 /**
  * Points that take the memory of rows x 3 doubles or floats.
  */
-vtkSmartPointer<vtkPoints> TakePoints(granular::Block& block, vtkIdType rows, bool single);
+vtkSmartPointer<vtkPoints> TakePoints(
+  granular::Block& block, vtkIdType rows, bool single, const granular::ValueRange& range);
 
 /**
  * Arrays for field data: one tuple, or one value a string.

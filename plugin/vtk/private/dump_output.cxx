@@ -41,7 +41,7 @@ void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singleP
   VertexCells cells, VertexCache& cache, const std::shared_ptr<granular::BlockPool>& pool)
 {
   const auto rows = static_cast<vtkIdType>(frame.rows);
-  output->SetPoints(TakePoints(frame.points, rows, singlePrecision));
+  output->SetPoints(TakePoints(frame.points, rows, singlePrecision, frame.points_range));
   if (cells != VertexCells::None && rows > 0)
   {
     output->SetVerts(cache.Get(rows, cells == VertexCells::OnePerPoint, pool));

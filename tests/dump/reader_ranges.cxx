@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ranges that arrays come with are those that VTK finds by looking.
+#include "reader_helpers.h"
+
+#include "vtkPoints.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace
+{
+using Ranges = std::vector<double>;
+
+/// All that can be asked for; Python and ParaView ask for all of it.
+Ranges RangesOf(vtkDataArray* array)
+{
+  Ranges ranges;
+  for (int component = -1; component < array->GetNumberOfComponents(); ++component)
+  {
+    double range[2];
+    array->GetRange(range, component);
+    ranges.insert(ranges.end(), range, range + 2);
+    array->GetFiniteRange(range, component);
+    ranges.insert(ranges.end(), range, range + 2);
+  }
+  return ranges;
+}
+
+bool Knows(vtkDataArray* array)
+{
+  return array->HasInformation() && array->GetInformation()->Has(vtkAbstractArray::PER_COMPONENT());
+}
+
+/// Of every array of points: what it came with is what VTK finds when it has forgotten that.
+void ExpectRanges(Reader& reader, const std::string& unknown = "")
+{
+  std::vector<vtkDataArray*> arrays = { reader.Particles()->GetPoints()->GetData() };
+  for (int i = 0; i < reader.Particles()->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    arrays.push_back(reader.Particles()->GetPointData()->GetArray(i));
+  }
+  for (vtkDataArray* array : arrays)
+  {
+    if (array) // texts are none
+    {
+      const std::string name = array->GetName();
+      EXPECT_EQ(Knows(array), unknown != "all" && name != unknown) << name;
+      const Ranges given = RangesOf(array);
+      array->Modified();
+      EXPECT_FALSE(Knows(array)) << name;
+      EXPECT_EQ(given, RangesOf(array)) << name;
+    }
+  }
+}
+
+std::string Frame(const std::string& columns, const std::vector<std::string>& rows)
+{
+  std::string text = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + std::to_string(rows.size()) +
+    "\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS " + columns + "\n";
+  for (const std::string& row : rows)
+  {
+    text += row + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> ManyRows(int count)
+{
+  std::vector<std::string> rows;
+  for (int row = 0; row < count; ++row)
+  {
+    const double value = std::sin(1.7 * row) * std::exp(0.01 * (row % 900));
+    std::ostringstream line;
+    line.precision(17);
+    line << row % 7919 - 100 << ' ' << row % 5 << ' ' << value << ' ' << -value / 3 << ' '
+         << value * value << ' ' << row % 3 - 1 << " 0 7 " << 1 / (1.0 + row) << ' ' << value << ' '
+         << 2 * value << " Si";
+    rows.push_back(line.str());
+  }
+  return rows;
+}
+
+const std::string Columns = "id type x y z ix iy iz radius c_a[1] c_a[2] element";
+}
+
+TEST(ReaderRanges, OfRealFiles)
+{
+  for (const std::string name :
+    { "grains_1000.dump", "ortho_image.dump", "tri_scaled.dump", "ortho_scaled.bin" })
+  {
+    SCOPED_TRACE(name);
+    Reader reader({ Good(name) });
+    reader->Update();
+    ExpectRanges(reader);
+  }
+}
+
+TEST(ReaderRanges, WhateverIsRead)
+{
+  const std::string file = WriteFile("many.dump", Frame(Columns, ManyRows(20'001)));
+  for (int threads = 1; threads <= 3; threads += 2)
+  {
+    for (int way = 0; way < 6; ++way)
+    {
+      SCOPED_TRACE("threads " + std::to_string(threads) + ", way " + std::to_string(way));
+      Reader reader({ file });
+      reader->SetThreads(threads);
+      reader->SetPointPrecision(
+        way == 1 ? vtkAlgorithm::SINGLE_PRECISION : vtkAlgorithm::DOUBLE_PRECISION);
+      reader->SetSortById(way == 2);
+      reader->SetStride(way == 3 ? 7 : 1);
+      const double region[] = { -1, 1, 1, -1, 1, -1 };
+      reader->SetRegionOfInterest(way == 4 ? region : reader->GetRegionOfInterest());
+      reader->SetCoordinates(
+        way == 5 ? vtkGranularDumpReader::UNWRAPPED : vtkGranularDumpReader::ABSOLUTE);
+      reader->Update();
+      ASSERT_GT(reader.Particles()->GetNumberOfPoints(), 100);
+      ExpectRanges(reader);
+    }
+  }
+}
+
+TEST(ReaderRanges, OfPieces)
+{
+  const std::string file = WriteFile("many.dump", Frame(Columns, ManyRows(5'001)));
+  for (const bool sorted : { false, true })
+  {
+    Reader reader({ file });
+    reader->SetSortById(sorted);
+    reader->UpdatePiece(1, 3, 0);
+    ASSERT_GT(reader.Particles()->GetNumberOfPoints(), 1000);
+    ExpectRanges(reader, sorted ? "all" : "");
+  }
+}
+
+TEST(ReaderRanges, ValuesThatAreNotFiniteAreLeftToVtk)
+{
+  for (const std::string value : { "nan", "inf", "-inf", "1e200" }) // whose square is not
+  {
+    SCOPED_TRACE(value);
+    Reader reader({ WriteFile("odd.dump",
+      Frame("id x y z vx vy vz q",
+        { "1 0 0 0 1 2 3 1", "2 1 1 1 0 " + value + " 0 -2", "3 1 0 2 -7 0 0 5" })) });
+    reader->Update();
+    ExpectRanges(reader, "v");
+  }
+}
+
+TEST(ReaderRanges, OfOneRowAndOfNone)
+{
+  Reader one({ WriteFile("one.dump", Frame("id x y z vx vy vz", { "1 -1 2 3 0.1 0.2 -0.3" })) });
+  one->Update();
+  ExpectRanges(one);
+  Reader none({ WriteFile("none.dump", Frame("id x y z vx vy vz", {})) });
+  none->Update();
+  ExpectRanges(none, "all");
+}
