@@ -86,7 +86,7 @@ void FrameLayout::lay_arrays()
     for (const int column : info.columns)
     {
       this->want(column, info.type, to, info.scale);
-      to.base += width;
+      to.base += to.scratch ? 0 : width; // a text has one component
     }
     frame.arrays.push_back(std::move(array));
   }
