@@ -55,7 +55,7 @@ TEST(ValueRange, OfAllTypesAndSizes)
 {
   for (std::size_t components = 1; components <= 5; ++components)
   {
-    for (const std::size_t rows : { 1, 2, 3, 4, 7, 100, 1001 })
+    for (const std::size_t rows : { 1u, 2u, 3u, 4u, 7u, 100u, 1001u })
     {
       expect_range<double>(rows, components);
       expect_range<float>(rows, components);
@@ -70,7 +70,7 @@ TEST(ValueRange, IsNotKnownWhereAValueIsNotFinite)
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double odd : { infinity, -infinity, std::nan(""), 1e200 })
   {
-    for (const std::size_t components : { 1, 2, 3 })
+    for (const std::size_t components : { 1u, 2u, 3u })
     {
       for (std::size_t at = 0; at < 8 * components; ++at)
       {
