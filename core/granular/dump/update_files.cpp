@@ -82,7 +82,7 @@ public:
   bool stopped() const { return stop_; }
 
 private:
-  Progress& progress_;
+  PartialProgress progress_; // which never goes back, as the fraction of a file may
   double files_;
   std::atomic<std::size_t> finished_ = 0;
   std::atomic<bool> stop_ = false;
