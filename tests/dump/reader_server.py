@@ -31,7 +31,7 @@ def wait_for(pattern):
 
 
 try:
-    Connect("localhost", int(wait_for(r"Accepting connection\(s\): \S+:(\d+)\n").group(1)))
+    Connect("127.0.0.1", int(wait_for(r"Accepting connection\(s\): \S+:(\d+)\n").group(1)))
     good = os.path.join(os.environ["GRANULAR_DATA"], "good")
     series = [os.path.join(good, f"grains_{step}.dump") for step in (0, 1000, 2000)]
     for prefetch in (0, 1):
