@@ -144,6 +144,7 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
     request.piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
     request.pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
   }
+  request.ranges = true; // whoever shows an array asks for it
   request.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
   request.pool = self->Series->Pool;
   return request;

@@ -78,7 +78,10 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
         to + row_, where);
     }
     const std::size_t kept = this->finish_batch(count, number + chunk.rows);
-    this->measure(kept, ranges);
+    if (request_.ranges)
+    {
+      this->measure(kept, ranges);
+    }
     row_ += static_cast<std::int64_t>(kept);
     chunk.rows += got;
   }

@@ -35,7 +35,8 @@ struct DumpRequest
   std::array<double, 6> region = { 1, -1, 1, -1, 1, -1 }; ///< xlo xhi ylo yhi zlo zhi, closed, in
     ///< absolute coordinates; an axis with lo > hi is not restricted
   std::function<bool(const ArrayInfo&)> wanted; ///< which arrays; empty: all but position forms
-  int piece = 0; ///< the part of the rows that is wanted, of `pieces` in all: see read_dump
+  bool ranges = false; ///< whether to find the ranges of points and arrays on the way
+  int piece = 0;       ///< the part of the rows that is wanted, of `pieces` in all: see read_dump
   int pieces = 1;
   int threads = 1;                                  ///< >= 1; changes no result
   std::shared_ptr<BlockPool> pool;                  ///< where the memory comes from; may be null
