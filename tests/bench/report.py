@@ -537,7 +537,7 @@ def write_markdown(path, results, context, drawn, left_out, quick):
         misses = list(missed(results))
         lines += ["Targets not met:" if misses else "All targets are met.", ""]
         lines += [f"* {miss}" for miss in misses] + ([""] if misses else [])
-    lines += [f"Left out, because this build is without {part.needs}: {part.name}." for part in left_out]
+    lines += [f"* Left out, because this build is without {part.needs}: {part.name}" for part in left_out]
     lines += [""] if left_out else []
     for part, figures in results:
         lines += [f"## {part.title}", "", part.about, ""]
@@ -563,6 +563,10 @@ def main():
     os.makedirs(options.report, exist_ok=True)
     wanted = [part for part in PARTS if not options.parts or part.name in options.parts]
     left_out = [part for part in wanted if part.needs and not has_program(part, options.programs)]
+    for part in left_out:
+        print(f"-- this build is without {part.needs}: {part.name} is left out", file=sys.stderr)
+    if wanted == left_out:
+        sys.exit("nothing is left to measure")
     results, context = [], None
     with tempfile.TemporaryDirectory() as folder:
         for part in wanted:
