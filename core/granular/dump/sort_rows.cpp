@@ -3,14 +3,13 @@
 
 #include "granular/dump/exchange_rows.h"
 #include "granular/dump/row_order.h"
+#include "granular/dump/text_dictionary.h"
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -117,7 +116,7 @@ Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
 }
 
 /// Gives a column of texts the words of all ranks, in the order in which they first occur.
-void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows)
+void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows, const Where& where)
 {
   std::string joined;
   do_together(ranks,
@@ -132,31 +131,21 @@ void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows)
   do_together(ranks,
     [&]
     {
-      std::unordered_map<std::string_view, std::int32_t> found;
-      std::vector<std::string> words;
+      TextDictionary words;
       std::vector<std::int32_t> renumbered; // by the index of a word here
       for (std::size_t rank = 0; rank < all.size(); ++rank)
       {
         std::string_view rest = all[rank];
         for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1))
         {
-          if (words.size() == std::numeric_limits<std::int32_t>::max())
-          {
-            throw LimitError("expected at most 2147483647 different words in a column");
-          }
-          const auto [place, is_new] =
-            found.emplace(rest.substr(0, end), static_cast<std::int32_t>(words.size()));
-          if (is_new)
-          {
-            words.emplace_back(place->first);
-          }
+          const std::int32_t index = words.index(rest.substr(0, end), where);
           if (static_cast<int>(rank) == ranks.rank())
           {
-            renumbered.push_back(place->second);
+            renumbered.push_back(index);
           }
         }
       }
-      array.words = std::move(words);
+      array.words = words.take();
       auto* const indices = static_cast<std::int32_t*>(array.block.data());
       std::transform(indices, indices + rows, indices,
         [&](std::int32_t index) { return renumbered[static_cast<std::size_t>(index)]; });
@@ -201,7 +190,7 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices
   {
     if (array.info.type == ValueType::Text)
     {
-      join_words(array, ranks, frame.rows);
+      join_words(array, ranks, frame.rows, where);
     }
   }
 

@@ -40,16 +40,16 @@ struct FrameAhead::Work : granular::Progress
     }
   }
 
-  bool IsStale() const
+  /**
+   * Throws IoError where reading the files now would: a file may have grown, and on another machine it is
+   * another inode.
+   */
+  void CheckFiles() const
   {
     for (const granular::FramePiece& piece : this->Pieces)
     {
-      if (!(granular::stamp_of(piece.file.path) == piece.file.stamp))
-      {
-        return true;
-      }
+      granular::open_indexed(piece.file);
     }
-    return false;
   }
 };
 
@@ -87,9 +87,9 @@ std::optional<granular::DumpPart> FrameAhead::Take(const Key& key, granular::Pro
       progress.step(this->Running->Fraction);
     }
     granular::DumpPart part = this->Running->Part.get();
-    const bool stale = this->Running->IsStale();
+    this->Running->CheckFiles();
     this->Drop();
-    return stale ? std::nullopt : std::optional(std::move(part));
+    return part;
   }
   catch (const granular::Cancelled&)
   {
