@@ -18,14 +18,6 @@ constexpr std::size_t place(int q)
   return static_cast<std::size_t>(q - smallest_power);
 }
 
-/// 5^q, scaled by a power of two so that the highest of 128 bits is set: below the true value by
-/// less than one unit for q >= 0, above it by at most one unit for q < 0.
-struct PowerOfFive
-{
-  std::uint64_t high;
-  std::uint64_t low;
-};
-
 /// A natural number of 1024 bits, lowest limb first; only for the table.
 using Natural = std::array<std::uint32_t, 32>;
 
@@ -65,28 +57,6 @@ constexpr Wide leading_bits(const Natural& n)
   return bits << zeros | limb(4) >> (32 - zeros);
 }
 
-constexpr auto powers_of_five = []
-{
-  std::array<PowerOfFive, place(largest_power) + 1> table{};
-  const auto set = [&](int q, Wide bits) {
-    table[place(q)] = { static_cast<std::uint64_t>(bits >> 64), static_cast<std::uint64_t>(bits) };
-  };
-  Natural power{ 1 };
-  for (int q = 0; q <= largest_power; ++q)
-  {
-    set(q, leading_bits(power));
-    multiply_by_five(power);
-  }
-  Natural inverse{};
-  inverse.back() = 0x80000000u; // 2^1023 leaves more than 128 bits after 342 divisions
-  for (int q = -1; q >= smallest_power; --q)
-  {
-    divide_by_five(inverse); // the floor of floors is the floor of all
-    set(q, leading_bits(inverse) + 1);
-  }
-  return table;
-}();
-
 constexpr std::uint64_t fraction_bits = (std::uint64_t{ 1 } << 52) - 1;
 
 /// mantissa * 2^(exponent - 1023 - 53), rounded up where the last bit of the mantissa is set.
@@ -112,6 +82,28 @@ double round_last_bit(std::uint64_t mantissa, int exponent) noexcept
     static_cast<std::uint64_t>(exponent) << 52 | (mantissa & fraction_bits));
 }
 }
+
+constexpr std::array<PowerOfFive, place(largest_power) + 1> powers_of_five = []
+{
+  std::array<PowerOfFive, place(largest_power) + 1> table{};
+  const auto set = [&](int q, Wide bits) {
+    table[place(q)] = { static_cast<std::uint64_t>(bits >> 64), static_cast<std::uint64_t>(bits) };
+  };
+  Natural power{ 1 };
+  for (int q = 0; q <= largest_power; ++q)
+  {
+    set(q, leading_bits(power));
+    multiply_by_five(power);
+  }
+  Natural inverse{};
+  inverse.back() = 0x80000000u; // 2^1023 leaves more than 128 bits after 342 divisions
+  for (int q = -1; q >= smallest_power; --q)
+  {
+    divide_by_five(inverse); // the floor of floors is the floor of all
+    set(q, leading_bits(inverse) + 1);
+  }
+  return table;
+}();
 
 constinit const std::array<PowerPair, place(largest_power) + 1> power_pairs = []
 {

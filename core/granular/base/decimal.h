@@ -18,6 +18,18 @@ constexpr int binary_exponent(int q) noexcept
   return (217706 * q) >> 16;
 }
 
+/// 5^q, scaled by a power of two so that the highest of 128 bits is set: below the true value by
+/// less than one unit for q >= 0, above it by at most one unit for q < 0. high alone is exact to
+/// q = 27, both are to q = 55.
+struct PowerOfFive
+{
+  std::uint64_t high;
+  std::uint64_t low;
+};
+
+/// q = smallest_power to largest_power.
+extern const std::array<PowerOfFive, largest_power - smallest_power + 1> powers_of_five;
+
 /// 10^q / 2^binary_exponent(q) in [1, 2), to 2^-104 of itself, as a sum of two doubles.
 struct PowerPair
 {

@@ -1,20 +1,279 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/number_print.h"
 
+#include "granular/base/decimal.h"
 #include "granular/base/error.h"
 
+#include <array>
+#include <bit>
 #include <charconv>
+#include <cstring>
 #include <string>
 
 namespace granular
 {
 namespace
 {
+__extension__ using Wide = unsigned __int128;
+
+// ---- digits to characters ----------------------------------------------------------------------
+
+constexpr auto whole_powers_of_ten = []
+{
+  std::array<std::uint64_t, 18> powers{};
+  std::uint64_t power = 1;
+  for (std::uint64_t& entry : powers)
+  {
+    entry = power;
+    power *= 10;
+  }
+  return powers;
+}();
+
+constexpr std::uint64_t eight_zeros = 0x3030303030303030;
+
+/// The digits of x < 10^8, one a byte, the first one lowest: halves, then quarters, then eighths at
+/// once. Reciprocals are exact in their range: x < 10^4 by 100, x < 100 by 10.
+inline std::uint64_t eight_digits(std::uint64_t x)
+{
+  const std::uint64_t halves = (x << 32) - x / 10000 * ((std::uint64_t{ 10000 } << 32) - 1);
+  const std::uint64_t hundreds = ((halves * 10486) >> 20) & 0x7f0000007f;
+  const std::uint64_t pairs = (halves << 16) - hundreds * ((100 << 16) - 1);
+  const std::uint64_t tens = ((pairs * 103) >> 10) & 0x000f000f000f000f;
+  return (pairs << 8) - tens * ((10 << 8) - 1);
+}
+
+/// How many of eight digits there are up to the last that is not 0; at least one.
+inline unsigned significant(std::uint64_t digits)
+{
+  return (static_cast<unsigned>(63 - std::countl_zero(digits | 1)) >> 3) + 1;
+}
+
+inline void store(char* to, std::uint64_t eight_chars)
+{
+  static_assert(std::endian::native == std::endian::little);
+  std::memcpy(to, &eight_chars, sizeof eight_chars);
+}
+
+// ---- where digits, point and exponent stand ----------------------------------------------------
+
+/// Offsets are in characters, from the first after the sign.
+struct Layout
+{
+  std::uint8_t start;    ///< of the digits, after "0.000"
+  std::uint8_t shift;    ///< 8 * digits between the first and the point
+  std::uint8_t point;    ///< where a point goes, seen or not
+  std::uint8_t tail;     ///< where the digits after the point go
+  std::uint8_t tail_end; ///< where the last eight of sixteen of them go
+  std::uint8_t before;   ///< digits before the point; many: the point is in front of them all
+  std::uint8_t least;    ///< digits that are printed even if they are 0
+};
+
+constexpr int least_fixed = -4; // %g prints smaller numbers with an exponent
+
+/// By the decimal exponent of a number that is printed without it.
+constexpr auto layouts = []
+{
+  std::array<Layout, 17 - least_fixed> table{};
+  for (int k = least_fixed; k <= 16; ++k)
+  {
+    const auto byte = [](int n) { return static_cast<std::uint8_t>(n); };
+    Layout& layout = table[static_cast<std::size_t>(k - least_fixed)];
+    if (k < 0) // the tail is printed to where it is anyway
+    {
+      layout = { byte(1 - k), 0, 1, byte(2 - k), byte(10 - k), 255, 0 };
+    }
+    else if (k < 16)
+    {
+      // of the last eight digits none is seen where there is no room for them
+      layout = { 0, byte(8 * k), byte(k + 1), byte(k + 2), byte(k < 8 ? k + 10 : 17), byte(k + 1),
+        byte(k + 1) };
+    }
+    else // 17 digits and no point
+    {
+      layout = { 0, 0, 17, 1, 9, 17, 17 };
+    }
+  }
+  return table;
+}();
+
+constexpr int smallest_exponent = -324;
+
+/// "e-05" in the lower bytes, its length in the highest one. First that of no exponent: nothing.
+constexpr auto exponents = []
+{
+  std::array<std::uint64_t, 2 + largest_power - smallest_exponent> table{};
+  for (int k = smallest_exponent; k <= largest_power; ++k)
+  {
+    const auto size = static_cast<unsigned>(k < 0 ? -k : k);
+    std::uint64_t text = 'e' | (k < 0 ? '-' : '+') << 8;
+    int length = 2;
+    for (unsigned unit = size >= 100 ? 100 : 10; unit > 0; unit /= 10, ++length)
+    {
+      text |= std::uint64_t{ '0' + size / unit % 10 } << (8 * length);
+    }
+    table[static_cast<std::size_t>(k - smallest_exponent + 1)] =
+      text | static_cast<std::uint64_t>(length) << 56;
+  }
+  return table;
+}();
+
+/// digits of them, the first not 0 unless the number is, times 10^k of the first.
+inline char* lay_out(char* to, std::uint64_t decimal, int k, int digits)
+{
+  const bool fixed = k >= least_fixed && k < digits;
+  const Layout layout = layouts[static_cast<std::size_t>((fixed ? k : 0) - least_fixed)];
+  const std::uint64_t exponent =
+    exponents[fixed ? 0 : static_cast<std::size_t>(k - smallest_exponent + 1)];
+  store(to, std::uint64_t{ '0' } | std::uint64_t{ '.' } << 8 | eight_zeros << 16);
+  char* const start = to + layout.start;
+  unsigned length = 0;
+  if (digits <= 8)
+  {
+    const std::uint64_t raw =
+      eight_digits(decimal * whole_powers_of_ten[static_cast<std::size_t>(8 - digits)]);
+    const std::uint64_t chars = raw | eight_zeros;
+    length = significant(raw);
+    store(start, chars);
+    store(to + layout.tail, chars >> 8 >> layout.shift);
+  }
+  else
+  {
+    decimal *= whole_powers_of_ten[static_cast<std::size_t>(17 - digits)];
+    const std::uint64_t after = decimal % 10'000'000'000'000'000;
+    const std::uint64_t high = eight_digits(after / 100'000'000);
+    const std::uint64_t low = eight_digits(after % 100'000'000);
+    length = low != 0 ? 9 + significant(low) : high != 0 ? 1 + significant(high) : 1;
+    *start = static_cast<char>('0' + decimal / 10'000'000'000'000'000);
+    store(start + 1, high | eight_zeros);
+    store(start + 9, low | eight_zeros);
+    const Wide tail = (Wide{ low | eight_zeros } << 64 | high | eight_zeros) >> layout.shift;
+    store(to + layout.tail_end, static_cast<std::uint64_t>(tail >> 64));
+    store(to + layout.tail, static_cast<std::uint64_t>(tail));
+  }
+  to[layout.point] = '.';
+  length += length > layout.before ? 1 : 0;
+  length = length > layout.least ? length : layout.least;
+  char* const end = start + length;
+  store(end, exponent);
+  return end + (exponent >> 56);
+}
+
+// ---- values to digits --------------------------------------------------------------------------
+
+/// Left to the library, which is exact and slow.
 char* print_exactly(char* to, double value, int digits) noexcept
 {
   char* const last = to + most_number_chars;
   return digits == 0 ? std::to_chars(to, last, value).ptr
                      : std::to_chars(to, last, value, std::chars_format::general, digits).ptr;
+}
+
+inline const PowerOfFive& power_of_five(int q)
+{
+  return powers_of_five[static_cast<std::size_t>(q - smallest_power)];
+}
+
+inline std::uint64_t odd_part(std::uint64_t n)
+{
+  return n >> std::countr_zero(n);
+}
+
+enum class Rounding : std::uint8_t
+{
+  Down,
+  Up,
+  Unknown
+};
+
+/// Whether mantissa * 10^q, of which 64 bits are too near to a half, is rounded up. floor is the
+/// number before the point, shift the bits after it in the high half of the product.
+[[gnu::noinline]] Rounding round_half(
+  std::uint64_t mantissa, int q, int shift, std::uint64_t floor) noexcept
+{
+  const PowerOfFive& five = power_of_five(q);
+  const Wide first = Wide{ mantissa } * five.high;
+  const Wide product = first + (Wide{ mantissa } * five.low >> 64);
+  const Wide half = Wide{ 1 } << (63 + shift);
+  const Wide rest = product & ((half << 1) - 1);
+  bool is_half = false;
+  if (q >= 0 && q <= 27)
+  {
+    is_half = rest == half; // the product is exact
+  }
+  else if (rest + 2 - half <= 4)
+  {
+    // It is a half only if 5^-q divides the mantissa. And if it does, it is one: the quotient is a
+    // multiple of a power of two far above this distance.
+    if (q > 0 || q < -27 || mantissa % odd_part(power_of_five(-q).high) != 0)
+    {
+      return Rounding::Unknown;
+    }
+    is_half = true;
+  }
+  return is_half  ? (floor & 1) != 0 ? Rounding::Up : Rounding::Down
+    : rest > half ? Rounding::Up
+                  : Rounding::Down;
+}
+
+/// digits * 10^exponent of the first of them.
+struct Decimal
+{
+  std::uint64_t digits;
+  int exponent;
+};
+
+/// value / 2^52 has the magnitude's bits; false: not decided.
+///
+/// With 10^q = g * 2^(binary_exponent(q) - 63), high of the table is in (g - 1, g + 2^-64]. So the
+/// high half of mantissa * high, mantissa < 2^64, is less than 2 below the high half of the exact
+/// product and not above it by 2^-63: a fraction of half - 1 or half in its last `shift` bits may
+/// be on either side of a half, or on it; all others are on their own.
+inline bool round_decimal(
+  std::uint64_t mantissa, int exponent, int digits, Decimal& decimal) noexcept
+{
+  int k =
+    static_cast<int>((std::int64_t{ exponent } * 1292913986) >> 32); // floor(log10(2^exponent))
+  k += static_cast<int>(binary_exponent(k + 1) == exponent) &
+    static_cast<int>(mantissa >= power_of_five(k + 1).high);
+  const int q = digits - 1 - k;
+  const auto product = static_cast<std::uint64_t>(Wide{ mantissa } * power_of_five(q).high >> 64);
+  const int shift = 62 - exponent - binary_exponent(q); // 7 to 63
+  const std::uint64_t half = std::uint64_t{ 1 } << (shift - 1);
+  std::uint64_t whole = ((product >> (shift - 1)) + 1) >> 1;
+  if (((product + 1 - half) & (2 * half - 1)) <= 1) [[unlikely]]
+  {
+    const Rounding rounding = round_half(mantissa, q, shift, product >> shift);
+    if (rounding == Rounding::Unknown)
+    {
+      return false;
+    }
+    whole = (product >> shift) + (rounding == Rounding::Up ? 1 : 0);
+  }
+  const bool carries = whole == whole_powers_of_ten[static_cast<std::size_t>(digits)];
+  decimal.digits = carries ? whole_powers_of_ten[static_cast<std::size_t>(digits - 1)] : whole;
+  decimal.exponent = k + static_cast<int>(carries);
+  return true;
+}
+
+/// x < 10^8 does it in one go.
+inline char* print_natural(char* to, std::uint64_t x) noexcept
+{
+  if (x < 10)
+  {
+    *to = static_cast<char>('0' + x);
+    return to + 1;
+  }
+  if (x < 100'000'000)
+  {
+    const std::uint64_t digits = eight_digits(x);
+    const int zeros = std::countr_zero(digits) & ~7;
+    store(to, (digits | eight_zeros) >> zeros);
+    return to + 8 - (zeros >> 3);
+  }
+  to = print_natural(to, x / 100'000'000);
+  store(to, eight_digits(x % 100'000'000) | eight_zeros);
+  return to + 8;
 }
 }
 
@@ -45,11 +304,25 @@ NumberFormat parse_number_format(std::string_view text)
 
 char* print_number(char* to, double value, NumberFormat format) noexcept
 {
-  return print_exactly(to, value, format.digits);
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const bool is_zero = bits << 1 == 0; // done like the others, as 0 * 2^0
+  const unsigned biased = is_zero ? 1023 : static_cast<unsigned>(bits >> 52) & 2047;
+  constexpr unsigned least = 60; // below 10^-289 the table of powers ends
+  Decimal decimal;
+  if (biased - least >= 2047 - least || format.digits == 0 ||
+    !round_decimal(bits << 11 | std::uint64_t{ !is_zero } << 63, static_cast<int>(biased) - 1023,
+      format.digits, decimal)) [[unlikely]]
+  {
+    return print_exactly(to, value, format.digits);
+  }
+  *to = '-';
+  return lay_out(to + (bits >> 63), decimal.digits, decimal.exponent, format.digits);
 }
 
 char* print_integer(char* to, std::int64_t value) noexcept
 {
-  return std::to_chars(to, to + most_number_chars, value).ptr;
+  const auto bits = static_cast<std::uint64_t>(value);
+  *to = '-';
+  return value < 0 ? print_natural(to + 1, 0 - bits) : print_natural(to, bits);
 }
 }
