@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <new>
 #include <numeric>
+#include <stdexcept>
 
 namespace granular
 {
@@ -12,6 +13,7 @@ namespace
 {
 constexpr int data_tag = 0;
 constexpr int call_tag = 1;
+constexpr int pair_tag = 2;
 
 void check(int status)
 {
@@ -256,5 +258,42 @@ void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> f
       });
     wait(messages, states);
   }
+}
+
+void MpiCommunicator::expect_other(int rank) const
+{
+  if (rank == rank_)
+  {
+    throw std::logic_error("expected another rank, got this one");
+  }
+}
+
+void MpiCommunicator::send(std::string_view bytes, int to)
+{
+  this->expect_other(to);
+  const auto count = static_cast<std::int64_t>(bytes.size());
+  check(MPI_Send(&count, 1, MPI_INT64_T, to, pair_tag, ranks_));
+  in_parts(count, most_bytes_,
+    [&](std::int64_t offset, int part)
+    { check(MPI_Send(bytes.data() + offset, part, MPI_BYTE, to, pair_tag, ranks_)); });
+}
+
+void MpiCommunicator::receive(std::string& bytes, int from)
+{
+  this->expect_other(from);
+  std::int64_t count = 0;
+  check(MPI_Recv(&count, 1, MPI_INT64_T, from, pair_tag, ranks_, MPI_STATUS_IGNORE));
+  bytes.resize(static_cast<std::size_t>(count));
+  in_parts(count, most_bytes_,
+    [&](std::int64_t offset, int part)
+    {
+      check(
+        MPI_Recv(bytes.data() + offset, part, MPI_BYTE, from, pair_tag, ranks_, MPI_STATUS_IGNORE));
+    });
+}
+
+std::unique_ptr<OutputFile> MpiCommunicator::open_together(const std::string&)
+{
+  return nullptr;
 }
 }

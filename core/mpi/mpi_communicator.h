@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace granular
@@ -35,8 +36,12 @@ public:
   void sum(std::span<std::int64_t> values) override;
   void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
     std::span<const std::int64_t> to_bytes) override;
+  void send(std::string_view bytes, int to) override;
+  void receive(std::string& bytes, int from) override;
+  std::unique_ptr<OutputFile> open_together(const std::string& path) override;
 
 private:
+  void expect_other(int rank) const;
   void broadcast(char* bytes, std::int64_t count, int root);
 
   MPI_Comm ranks_ = MPI_COMM_NULL;

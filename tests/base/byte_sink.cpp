@@ -4,6 +4,7 @@
 #include "granular/base/error.h"
 
 #include "own_folder.h"
+#include "small_disk.h"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +18,16 @@
 #include <vector>
 
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace
 {
 namespace fs = std::filesystem;
+using granular::NewFile;
 using granular::write_file;
 
 class WriteFile : public OwnFolder
@@ -184,4 +189,185 @@ TEST_F(WriteFile, ManyAtATimeEachOneWhole)
   ASSERT_EQ(last.size(), bytes);
   EXPECT_EQ(std::count(last.begin(), last.end(), last[0]), static_cast<std::ptrdiff_t>(bytes));
   EXPECT_EQ(this->names(), Names{ "file" });
+}
+
+TEST_F(WriteFile, WhatIsNoFileIsNeverReplaced)
+{
+  ASSERT_EQ(::mkfifo(this->path("pipe").c_str(), 0644), 0);
+  fs::create_symlink("pipe", this->path("link"));
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  const fs::path before = fs::current_path();
+  fs::current_path(this->folder()); // the name of a socket is short
+  const sockaddr_un name = { AF_UNIX, "socket" };
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&name), sizeof(name)), 0);
+  fs::current_path(before);
+  for (const std::string& path : { this->path("pipe"), this->path("link"), this->path("socket"),
+         std::string("/dev/null"), std::string("/dev/full") })
+  {
+    const fs::file_type type = fs::status(path).type();
+    try
+    {
+      write_file(path, "bytes");
+      ADD_FAILURE() << "wrote " << path;
+    }
+    catch (const granular::IoError& error)
+    {
+      EXPECT_EQ(error.what(), path + ": cannot write: expected a file, got a device or a pipe");
+      EXPECT_EQ(error.code(), std::errc::not_supported);
+    }
+    EXPECT_EQ(fs::status(path).type(), type) << path;
+  }
+  ::close(socket);
+  EXPECT_EQ(this->names(), (Names{ "link", "pipe", "socket" }));
+}
+
+TEST_F(WriteFile, LinksStayAndTheFileBehindThemIsReplaced)
+{
+  fs::create_directories(this->path("far/deep"));
+  write_file(this->path("far/file"), "old");
+  fs::create_symlink("far/deep", this->path("folder"));
+  fs::create_symlink("../file", this->path("far/deep/second")); // from far/deep, not from folder
+  fs::create_symlink("folder/second", this->path("first"));
+  write_file(this->path("first"), "new");
+  EXPECT_EQ(this->content("far/file"), "new");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(this->path("far/file"))));
+  EXPECT_EQ(fs::read_symlink(this->path("first")), "folder/second");
+  EXPECT_EQ(fs::read_symlink(this->path("far/deep/second")), "../file");
+
+  fs::create_symlink(this->path("far/none"), this->path("dangling"));
+  write_file(this->path("dangling"), "bytes");
+  EXPECT_EQ(this->content("far/none"), "bytes");
+  EXPECT_TRUE(fs::is_symlink(this->path("dangling")));
+
+  fs::create_symlink("round", this->path("about"));
+  fs::create_symlink("about", this->path("round"));
+  expect_fails(this->path("round"), "x", std::errc::too_many_symbolic_link_levels);
+  fs::create_symlink("missing/file", this->path("nowhere"));
+  expect_fails(this->path("nowhere"), "x", std::errc::no_such_file_or_directory);
+  expect_fails(this->path("folder"), "x", std::errc::is_a_directory);
+  EXPECT_EQ(
+    this->names(), (Names{ "about", "dangling", "far", "first", "folder", "nowhere", "round" }));
+}
+
+TEST_F(WriteFile, PermissionsStay)
+{
+  for (const mode_t mode : { 0600u, 0640u, 0444u, 0755u, 0666u })
+  {
+    write_file(this->path("a"), "old");
+    ASSERT_EQ(::chmod(this->path("a").c_str(), mode), 0);
+    {
+      NewFile file(this->path("a"));
+      EXPECT_EQ(fs::status(file.temporary_name()).permissions(), fs::perms(0600));
+      file.finish();
+    }
+    EXPECT_EQ(fs::status(this->path("a")).permissions(), fs::perms(mode));
+    EXPECT_EQ(this->content("a"), "");
+  }
+}
+
+TEST_F(WriteFile, PartsInAnyOrderAndFromAnyThread)
+{
+  constexpr std::size_t parts = 64;
+  constexpr std::size_t bytes = 10'007;
+  std::string expected;
+  for (std::size_t part = 0; part < parts; ++part)
+  {
+    expected += std::string(bytes, static_cast<char>('!' + part));
+  }
+  {
+    NewFile file(this->path("a"));
+    std::vector<std::jthread> writers;
+    for (std::size_t first = 0; first < 4; ++first)
+    {
+      writers.emplace_back(
+        [&, first]
+        {
+          for (std::size_t part = parts - 4 + first; part < parts; part -= 4)
+          {
+            file.write_at(static_cast<std::int64_t>(part * bytes),
+              std::string_view(expected).substr(part * bytes, bytes));
+          }
+        });
+    }
+    writers.clear();
+    file.write_at(3, {});
+    EXPECT_FALSE(fs::exists(this->path("a")));
+    file.finish();
+  }
+  EXPECT_TRUE(this->content("a") == expected);
+  EXPECT_EQ(this->names(), Names{ "a" });
+}
+
+TEST_F(WriteFile, BeyondTheEndIsZeroUpToThere)
+{
+  constexpr std::int64_t far = (std::int64_t{ 5 } << 30) + 1;
+  NewFile file(this->path("a"));
+  file.write_at(far, "end");
+  file.write_at(0, "begin");
+  file.finish();
+  EXPECT_EQ(fs::file_size(this->path("a")), static_cast<std::uintmax_t>(far) + 3);
+  std::ifstream stream(this->path("a"), std::ios::binary);
+  std::string begin(7, 'x');
+  stream.read(begin.data(), 7);
+  EXPECT_EQ(begin, std::string("begin\0\0", 7));
+  std::string end(5, 'x');
+  stream.seekg(far - 1);
+  stream.read(end.data(), 4);
+  EXPECT_EQ(end, std::string("\0endx", 5));
+}
+
+TEST_F(WriteFile, WithoutFinishNothingIsLeft)
+{
+  write_file(this->path("a"), "old");
+  {
+    NewFile file(this->path("a"));
+    file.write_at(0, "new bytes");
+    EXPECT_EQ(this->names().size(), 2u);
+  }
+  EXPECT_EQ(this->content("a"), "old");
+  EXPECT_EQ(this->names(), Names{ "a" });
+}
+
+TEST_F(WriteFile, AKilledProgramLeavesTheOldFile)
+{
+  write_file(this->path("a"), "old");
+  int ready[2] = {};
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0)
+  {
+    NewFile file(this->path("a"));
+    file.write_at(0, "new bytes");
+    static_cast<void>(!::write(ready[1], "x", 1));
+    for (;;)
+    {
+      ::pause();
+    }
+  }
+  char got = 0;
+  ASSERT_EQ(::read(ready[0], &got, 1), 1);
+  ASSERT_EQ(::kill(child, SIGKILL), 0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  ::close(ready[0]);
+  ::close(ready[1]);
+  EXPECT_EQ(this->content("a"), "old");
+  write_file(this->path("a"), "newer");
+  EXPECT_EQ(this->content("a"), "newer");
+  EXPECT_EQ(this->names(), (Names{ ".granular-" + std::to_string(child) + "-0.tmp", "a" }));
+}
+
+TEST_F(WriteFile, AFullFileSystem)
+{
+  const SmallDisk disk(this->path("disk"));
+  if (!disk.there())
+  {
+    GTEST_SKIP() << SmallDisk::not_there;
+  }
+  write_file(disk.path("a"), "old");
+  expect_fails(disk.path("a"), std::string(300'000, 'x'), std::errc::no_space_on_device);
+  EXPECT_EQ(this->content("disk/a"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(this->path("disk")), {}), 1);
+  write_file(disk.path("a"), std::string(200'000, 'x')); // the room is there again
+  EXPECT_EQ(this->content("disk/a").size(), 200'000u);
 }

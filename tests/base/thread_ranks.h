@@ -3,23 +3,55 @@
 #ifndef granular_tests_base_thread_ranks_h
 #define granular_tests_base_thread_ranks_h
 
+#include "granular/base/byte_sink.h"
 #include "granular/base/communicator.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <barrier>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
-/// What the ranks show to each other between two barriers.
+/// From one rank to another, who takes it from hand to hand: a sender always waits.
+class Handover
+{
+public:
+  void give(std::string_view bytes)
+  {
+    std::unique_lock lock(mutex_);
+    offered_ = &bytes;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return !offered_; });
+  }
+
+  std::string take()
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return offered_ != nullptr; });
+    std::string bytes(*std::exchange(offered_, nullptr));
+    changed_.notify_all();
+    return bytes;
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  const std::string_view* offered_ = nullptr;
+};
+
+/// What the ranks show to each other between two barriers, and what they give to each other.
 struct Meeting
 {
   struct Shown
@@ -31,12 +63,59 @@ struct Meeting
 
   explicit Meeting(int size)
     : shown(static_cast<std::size_t>(size))
+    , handovers(shown.size() * shown.size())
     , barrier(size)
   {
   }
 
+  Handover& handover(int from, int to)
+  {
+    return handovers[static_cast<std::size_t>(from) * shown.size() + static_cast<std::size_t>(to)];
+  }
+
   std::vector<Shown> shown;
+  std::vector<Handover> handovers;
+  std::shared_ptr<granular::NewFile> file; ///< being opened
   std::barrier<> barrier;
+};
+
+/// One file that all ranks have.
+class ThreadFile final : public granular::OutputFile
+{
+public:
+  ThreadFile(granular::Communicator& ranks, std::shared_ptr<granular::NewFile> file)
+    : ranks_(ranks)
+    , file_(std::move(file))
+  {
+  }
+
+  ~ThreadFile() override
+  {
+    file_.reset();
+    granular::agree(ranks_, nullptr); // nothing is left of it when the first rank goes on
+  }
+
+  void write_at(std::int64_t offset, std::string_view bytes) override
+  {
+    file_->write_at(offset, bytes);
+  }
+
+  void finish() override
+  {
+    granular::agree(ranks_, nullptr); // all have written
+    granular::do_together(ranks_,
+      [&]
+      {
+        if (ranks_.rank() == 0)
+        {
+          file_->finish();
+        }
+      });
+  }
+
+private:
+  granular::Communicator& ranks_;
+  std::shared_ptr<granular::NewFile> file_;
 };
 
 class ThreadCommunicator final : public granular::Communicator
@@ -90,10 +169,49 @@ public:
       });
   }
 
+  void send(std::string_view bytes, int to) override
+  {
+    this->expect_other(to);
+    meeting_.handover(rank_, to).give(bytes);
+  }
+
+  void receive(std::string& bytes, int from) override
+  {
+    this->expect_other(from);
+    bytes = meeting_.handover(from, rank_).take();
+  }
+
+  std::unique_ptr<granular::OutputFile> open_together(const std::string& path) override
+  {
+    granular::do_together(*this,
+      [&]
+      {
+        if (rank_ == 0)
+        {
+          meeting_.file = std::make_shared<granular::NewFile>(path);
+        }
+      });
+    auto file = std::make_unique<ThreadFile>(*this, meeting_.file);
+    meeting_.barrier.arrive_and_wait();
+    if (rank_ == 0)
+    {
+      meeting_.file.reset();
+    }
+    return file;
+  }
+
   /// Whether all exchanges said what was sent.
   bool matched() const noexcept { return matched_; }
 
 private:
+  void expect_other(int rank) const
+  {
+    if (rank == rank_)
+    {
+      throw std::logic_error("expected another rank, got this one");
+    }
+  }
+
   void meet(Meeting::Shown own, std::function<void(const Meeting::Shown&)> look)
   {
     meeting_.shown[static_cast<std::size_t>(rank_)] = std::move(own);

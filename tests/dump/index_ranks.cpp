@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,12 @@ public:
     std::span<const std::int64_t> to_bytes) override
   {
     ranks_.exchange(from, from_bytes, to, to_bytes);
+  }
+  void send(std::string_view bytes, int to) override { ranks_.send(bytes, to); }
+  void receive(std::string& bytes, int from) override { ranks_.receive(bytes, from); }
+  std::unique_ptr<granular::OutputFile> open_together(const std::string& path) override
+  {
+    return ranks_.open_together(path);
   }
 
   std::size_t sent = 0;

@@ -31,8 +31,8 @@ STANDARD = set("""
 # Headers that are neither ours nor of the C++ standard library, and the files that may have them.
 _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
-    (_OPERATING_SYSTEM + r"|(zlib|zstd|zstd_errors)\.h",
-     r"core/granular/base/byte_(source|sink)(_\w+)?\.cpp"),
+    (_OPERATING_SYSTEM, r"core/granular/base/byte_(source(_\w+)?|sink)\.cpp"),
+    (r"(zlib|zstd|zstd_errors)\.h", r"core/granular/base/(byte_source(_\w+)?|compression)\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/base/executor\.cpp"),
     (r"sys/mman\.h", r"core/granular/base/mapping\.cpp"),
     (r"immintrin\.h", r"core/granular/base/(line_scan|row_text|value_range)\w*\.(cpp|h|inc)"),

@@ -51,6 +51,8 @@ class Layering(unittest.TestCase):
             core__granular__base__byte_source_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
             core__granular__base__byte_source_x_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
             core__granular__base__byte_source_x_dot_h="#include <zstd.h>\n",
+            core__granular__base__byte_sink_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
+            core__granular__base__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
             core__granular__base__mapping_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
             core__granular__base__executor_dot_cpp="#include <sched.h>\n",
             core__granular__dump__d_dot_cpp='#include "granular/euler/e.h"\n#include "d.h"\n',
@@ -59,7 +61,8 @@ class Layering(unittest.TestCase):
             core__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/base/b.h"\n'
             '#include "granular/dump/d.h"\n'), [
                 "core/granular/base/a.h:3", "core/granular/base/a.h:5", "core/granular/base/a.h:6",
-                "core/granular/base/byte_source_x.h:1", "core/granular/base/mapping.cpp:2",
+                "core/granular/base/byte_sink.cpp:2", "core/granular/base/byte_source_x.h:1",
+                "core/granular/base/compression.cpp:2", "core/granular/base/mapping.cpp:2",
                 "core/granular/dump/d.cpp:1", "core/granular/dump/d.cpp:2",
                 "core/granular/euler/e.cpp:2", "core/mpi/m.cpp:3"])
 

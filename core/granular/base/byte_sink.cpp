@@ -3,97 +3,161 @@
 
 #include "granular/base/error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace granular
 {
 namespace
 {
-/// A file that is there under its name once it is complete, and until then under another.
-class NewFile
+constexpr mode_t permission_bits = 0777;
+
+/// The path behind all symbolic links, there or not, where the folders before it are left as they are.
+std::string follow(const std::string& path, std::error_code& error)
 {
-public:
-  explicit NewFile(const std::string& target)
-    : target_(target)
+  namespace fs = std::filesystem;
+  constexpr int most_links = 40; // as Linux has it
+  fs::path behind = path;
+  for (int links = 0; links <= most_links; ++links)
   {
-    // what crashed programs left behind, and what other threads are writing, is passed over
-    constexpr int most_tries = 1000;
-    const std::string begin =
-      target.substr(0, target.rfind('/') + 1) + ".granular-" + std::to_string(::getpid()) + "-";
-    for (int number = 0; file_ < 0; ++number)
+    std::error_code ignored; // what it is is asked again
+    if (!fs::is_symlink(fs::symlink_status(behind, ignored)))
     {
-      name_ = begin + std::to_string(number) + ".tmp";
-      file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (file_ < 0 && ((errno != EEXIST && errno != EINTR) || number == most_tries))
-      {
-        this->fail();
-      }
+      return behind.string();
+    }
+    behind = behind.parent_path() / fs::read_symlink(behind, error);
+    if (error)
+    {
+      return {};
     }
   }
+  error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+  return {};
+}
+}
 
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
-
-  ~NewFile()
+NewFile::NewFile(const std::string& path)
+  : path_(path)
+{
+  std::error_code error;
+  target_ = follow(path, error);
+  if (error)
   {
+    this->fail(error.value());
+  }
+  struct stat old = {};
+  if (::lstat(target_.c_str(), &old) == 0)
+  {
+    if (S_ISDIR(old.st_mode))
+    {
+      this->fail(EISDIR);
+    }
+    if (!S_ISREG(old.st_mode))
+    {
+      throw IoError("cannot write: expected a file, got a device or a pipe", { path_ },
+        std::errc::not_supported);
+    }
+    permissions_ = static_cast<int>(old.st_mode & permission_bits);
+  }
+  else if (errno != ENOENT || path.empty())
+  {
+    this->fail(errno);
+  }
+  this->create();
+}
+
+void NewFile::create()
+{
+  // what crashed programs left behind, and what other threads are writing, is passed over
+  constexpr int most_tries = 1000;
+  const std::string begin =
+    target_.substr(0, target_.rfind('/') + 1) + ".granular-" + std::to_string(::getpid()) + "-";
+  // who may not read the old file may not read along either
+  const mode_t mode = permissions_ < 0 ? 0666 : 0600;
+  for (int number = 0; file_ < 0; ++number)
+  {
+    std::string name = begin + std::to_string(number) + ".tmp";
+    file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (file_ >= 0)
     {
-      ::close(file_);
+      name_ = std::move(name);
     }
-    if (!name_.empty())
+    else if ((errno != EEXIST && errno != EINTR) || number == most_tries)
     {
-      ::unlink(name_.c_str());
+      this->fail(errno);
     }
   }
+}
 
-  void write(std::string_view bytes)
+NewFile::~NewFile()
+{
+  if (file_ >= 0)
   {
-    while (!bytes.empty())
+    ::close(file_);
+  }
+  if (!name_.empty())
+  {
+    ::unlink(name_.c_str());
+  }
+}
+
+void NewFile::write_at(std::int64_t offset, std::string_view bytes)
+{
+  constexpr std::size_t most_bytes = std::size_t{ 1 } << 30; // systems refuse 2 GiB at once
+  while (!bytes.empty())
+  {
+    const ssize_t done =
+      ::pwrite(file_, bytes.data(), std::min(bytes.size(), most_bytes), static_cast<off_t>(offset));
+    if (done < 0 && errno != EINTR)
     {
-      const ssize_t done = ::write(file_, bytes.data(), bytes.size());
-      if (done < 0 && errno != EINTR)
-      {
-        this->fail();
-      }
-      bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
+      this->fail(errno);
     }
+    bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
+    offset += std::max(done, ssize_t{ 0 });
   }
+}
 
-  void finish()
+void NewFile::finish()
+{
+  if (permissions_ >= 0)
   {
-    const int file = file_;
-    file_ = -1;
-    // a full disk behind a network may show here first
-    if ((::close(file) != 0 && errno != EINTR) || std::rename(name_.c_str(), target_.c_str()) != 0)
+    // a file system without permissions gives all files the same, and may refuse to set them
+    const auto wanted = static_cast<mode_t>(permissions_);
+    struct stat now = {};
+    if (::fstat(file_, &now) != 0 ||
+      ((now.st_mode & permission_bits) != wanted && ::fchmod(file_, wanted) != 0))
     {
-      this->fail();
+      this->fail(errno);
     }
-    name_.clear();
   }
-
-private:
-  [[noreturn]] void fail() const
+  const int file = file_;
+  file_ = -1;
+  // a full disk behind a network may show here first
+  if ((::close(file) != 0 && errno != EINTR) || std::rename(name_.c_str(), target_.c_str()) != 0)
   {
-    const int error = errno;
-    throw IoError("cannot write: " + std::generic_category().message(error), { target_ },
-      static_cast<std::errc>(error));
+    this->fail(errno);
   }
+  name_.clear();
+}
 
-  std::string target_;
-  std::string name_; ///< until it has that of the target
-  int file_ = -1;
-};
+void NewFile::fail(int error) const
+{
+  throw IoError("cannot write: " + std::generic_category().message(error), { path_ },
+    static_cast<std::errc>(error));
 }
 
 void write_file(const std::string& path, std::string_view bytes)
 {
   NewFile file(path);
-  file.write(bytes);
+  file.write_at(0, bytes);
   file.finish();
 }
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -149,6 +150,21 @@ void SerialCommunicator::exchange(const char* from, std::span<const std::int64_t
   char* to, std::span<const std::int64_t>)
 {
   std::copy_n(from, from_bytes[0], to);
+}
+
+void SerialCommunicator::send(std::string_view, int)
+{
+  throw std::logic_error("expected another rank, got the only one");
+}
+
+void SerialCommunicator::receive(std::string&, int)
+{
+  throw std::logic_error("expected another rank, got the only one");
+}
+
+std::unique_ptr<OutputFile> SerialCommunicator::open_together(const std::string& path)
+{
+  return std::make_unique<NewFile>(path);
 }
 
 void agree(Communicator& ranks, const std::exception_ptr& failure)

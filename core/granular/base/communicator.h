@@ -2,12 +2,14 @@
 #ifndef granular_base_communicator_h
 #define granular_base_communicator_h
 
+#include "granular/base/byte_sink.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,8 +17,8 @@
 
 namespace granular
 {
-/// The processes that work on one thing. All but rank, size and node_size are collective: every rank
-/// calls them, in the same order. Sizes are 64-bit throughout.
+/// The processes that work on one thing. All but rank, size, node_size, send and receive are collective:
+/// every rank calls them, in the same order. Sizes are 64-bit throughout.
 class Communicator
 {
 public:
@@ -51,6 +53,16 @@ public:
   /// and to_bytes hold one count of bytes a rank; what to_bytes says must be what is sent.
   virtual void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
     std::span<const std::int64_t> to_bytes) = 0;
+
+  /// Sends bytes to one other rank, who must receive them; messages between two ranks keep their order.
+  /// May wait until they are received. std::logic_error, like receive, if the other is this rank.
+  virtual void send(std::string_view bytes, int to) = 0;
+  virtual void receive(std::string& bytes, int from) = 0;
+
+  /// A file that all ranks write to at offsets of their own, each from its main thread, or null where
+  /// these ranks cannot. Collective, as are its finish, before which all know that all wrote what they
+  /// had to (do_together), and its destructor. What fails on one rank fails on all, but for write_at.
+  virtual std::unique_ptr<OutputFile> open_together(const std::string& path) = 0;
 };
 
 /// The only process.
@@ -65,6 +77,9 @@ public:
   void sum(std::span<std::int64_t>) override {}
   void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
     std::span<const std::int64_t> to_bytes) override;
+  void send(std::string_view bytes, int to) override;
+  void receive(std::string& bytes, int from) override;
+  std::unique_ptr<OutputFile> open_together(const std::string& path) override;
 };
 
 /// Ends a step of work in which any rank may have failed: returns on all ranks if none did, else throws
