@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_base_file_appender_h
+#define granular_base_file_appender_h
+
+#include "granular/base/byte_sink.h"
+#include "granular/base/compression.h"
+#include "granular/base/executor.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Writes bytes one behind the other, compressed or not, on several threads. What comes out depends on the
+/// bytes and on where parts end, and on nothing else.
+class FileAppender
+{
+public:
+  /// member_bytes: of what is compressed, that a member of a gzip file or a frame of a Zstandard file holds.
+  FileAppender(OutputFile& file, Compression compression, const Executor& executor,
+    std::size_t member_bytes = std::size_t{ 1 } << 20);
+
+  void append(std::string_view bytes) { this->append(std::span(&bytes, 1)); }
+  void append(std::span<const std::string_view> pieces);
+
+  /// Ends a part of the file, so that a reader may begin behind it: a new member begins there.
+  void end_part();
+
+  std::int64_t size() const noexcept
+  {
+    return size_;
+  } ///< of the file, without what waits to be compressed
+
+private:
+  void write(std::span<const std::string_view> pieces);
+  void compress_pending(bool all);
+
+  OutputFile& file_;
+  Compression compression_;
+  const Executor& executor_;
+  std::size_t member_bytes_;
+  std::string pending_; ///< not compressed yet: less than a member for each thread
+  std::int64_t size_ = 0;
+};
+}
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_dump_format_h
+#define granular_dump_dump_format_h
+
+#include "granular/base/compression.h"
+#include "granular/base/number_print.h"
+#include "granular/dump/atom_rows.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Which command of the simulation code would have written the file.
+enum class DumpStyle : std::uint8_t
+{
+  Atom,  ///< dump atom: the columns of an AtomForm
+  Custom ///< dump custom: any columns
+};
+
+/// Whose bytes a file has.
+enum class Dialect : std::uint8_t
+{
+  Liggghts, ///< box with six digits, binary without names, dump custom with trailing blanks
+  Lammps    ///< box with 17 digits, binary of revision 2 with names
+};
+
+/// How a dump is written.
+struct DumpFormat
+{
+  DumpStyle style = DumpStyle::Custom;
+  Dialect dialect = Dialect::Lammps;
+  bool binary = false;
+  Compression compression = Compression::None; ///< of text only: no program reads compressed binary
+  AtomForm atom;                               ///< of DumpStyle::Atom
+  std::vector<std::string> columns;            ///< of DumpStyle::Custom; empty: see default_columns
+  NumberFormat numbers;                        ///< of real numbers in text
+  bool units = false; ///< ITEM: UNITS in the first frame of the file; Lammps only
+  bool time = false;  ///< ITEM: TIME; Lammps only
+  bool sort_by_id = false;
+
+  /// Values of a chunk of a binary file, which counts them with 32 bits: less than 2^31 - 1.
+  std::int64_t chunk_values = (std::int64_t{ 1 } << 31) - 2;
+};
+
+/// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it.
+bool is_binary_name(std::string_view path) noexcept;
+
+/// What the end of a name says: .gz, .zst.
+Compression compression_of_name(std::string_view path) noexcept;
+}
+#endif

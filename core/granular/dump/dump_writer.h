@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_dump_writer_h
+#define granular_dump_dump_writer_h
+
+#include "granular/base/communicator.h"
+#include "granular/base/progress.h"
+#include "granular/dump/dump_format.h"
+#include "granular/dump/frame_view.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace granular
+{
+/// How ranks write a file together.
+enum class ParallelMode : std::uint8_t
+{
+  Gather, ///< the first rank writes; the others send it their rows, one after the other, chunk by chunk
+  MpiIo ///< each rank writes its rows where they belong; where ranks cannot, and compressed files: as Gather
+};
+
+/// What changes how a dump is written, and no byte of it.
+struct WriteOptions
+{
+  ParallelMode mode = ParallelMode::Gather;
+  int threads = 1; ///< >= 1, of each rank
+};
+
+/// The name with '*' replaced by the timestep, as the dump command has it; the first '*' only, and none in
+/// folders.
+std::string name_of_step(const std::string& path, std::int64_t timestep);
+
+/// Whether ranks write files of their own: the name of the file holds '%'.
+bool is_name_of_ranks(const std::string& path) noexcept;
+
+/// Writes a dump of one or more frames, from the rows of all ranks in the order of the ranks: the bytes do not
+/// depend on their number, nor on that of threads. The file is there when finish() is done, and until then the
+/// old one is as it was; so it stays where a writer ends without. A name with '%' gives each rank a
+/// file of its own with its number for the '%', and its own number of atoms, as the dump command has it.
+///
+/// All functions, the destructor too, are collective. Errors of one rank are thrown on all (see agree);
+/// after one the writer is of no use. Memory beside the rows: some 64 MiB; sorting copies the rows.
+class DumpWriter
+{
+public:
+  /// Opens the file under another name. Throws IoError, UnsupportedError for compressed binary.
+  DumpWriter(std::string path, DumpFormat format, const WriteOptions& options, Communicator& ranks);
+  DumpWriter(const DumpWriter&) = delete;
+  DumpWriter& operator=(const DumpWriter&) = delete;
+  ~DumpWriter();
+
+  /// Adds a frame: see FrameView for what it is made of, and plan_columns for how. Throws Error, Cancelled.
+  void write(const FrameView& frame, Notices& notices, Progress& progress);
+
+  /// Gives the file its name. Nothing more can be written then.
+  void finish();
+
+private:
+  struct File;
+
+  std::string path_;
+  DumpFormat format_;
+  WriteOptions options_;
+  Communicator& ranks_;
+  std::unique_ptr<File> file_;
+};
+}
+#endif

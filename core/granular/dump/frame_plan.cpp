@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/frame_plan.h"
+
+#include "granular/base/archive.h"
+#include "granular/base/number.h"
+#include "granular/base/words.h"
+#include "granular/dump/row_batches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+using Kind = ColumnSource::Kind;
+using namespace std::string_literals;
+
+/// What each rank tells the others first.
+struct Survey
+{
+  std::int64_t kept = 0;
+  std::int64_t arrays = 0; ///< a rank without rows and arrays knows nothing
+  bool has_box = false;
+  Vector3 lo = { HUGE_VAL, HUGE_VAL, HUGE_VAL }; ///< of the grains, where there is no box
+  Vector3 hi = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+};
+
+template <class Archive>
+void pass(Archive& archive, Survey& survey)
+{
+  archive.number(survey.kept);
+  archive.number(survey.arrays);
+  archive.number(survey.has_box);
+  archive.number(survey.lo);
+  archive.number(survey.hi);
+}
+
+/// What the rank that leads tells the others: the header, and the columns without their values.
+struct Lead
+{
+  FrameHeader header;
+  ColumnPlan columns;
+  Notices notices;
+};
+
+/// A vector: how many, and then each.
+template <class Archive, class Item, class Each>
+void pass_list(Archive& archive, std::vector<Item>& items, const Each& each)
+{
+  std::size_t count = items.size();
+  archive.number(count);
+  items.resize(count);
+  std::for_each(items.begin(), items.end(), each);
+}
+
+template <class Archive>
+void pass(Archive& archive, ColumnSource& column)
+{
+  archive.text(column.name);
+  archive.number(column.kind);
+  archive.number(column.role);
+  archive.number(column.axis);
+  archive.number(column.whole);
+  archive.number(column.values.type);
+  archive.number(column.own);
+}
+
+template <class Archive>
+void pass(Archive& archive, std::optional<ValueSource>& values)
+{
+  bool there = values.has_value();
+  archive.number(there);
+  values = there ? values.value_or(ValueSource{}) : std::optional<ValueSource>();
+}
+
+template <class Archive>
+void pass(Archive& archive, Lead& lead)
+{
+  FrameHeader& header = lead.header;
+  archive.number(header.timestep);
+  archive.number(header.time);
+  archive.text(header.label);
+  archive.text(header.units);
+  archive.number(header.box.origin);
+  archive.number(header.box.vectors);
+  archive.text(header.box.boundary);
+  archive.number(header.box.tilted);
+  archive.number(header.box.general);
+  pass_list(archive, lead.columns.columns, [&](ColumnSource& column) { pass(archive, column); });
+  for (std::optional<ValueSource>& image : lead.columns.images)
+  {
+    pass(archive, image);
+  }
+  pass(archive, lead.columns.ids);
+  archive.number(lead.columns.wraps);
+  pass_list(archive, lead.notices,
+    [&](Notice& notice)
+    {
+      pass(archive, notice.where);
+      archive.text(notice.text);
+    });
+}
+
+template <class Item>
+std::string pack(Item item)
+{
+  Packer packer;
+  pass(packer, item);
+  return std::move(packer.bytes);
+}
+
+template <class Item>
+Item unpack(std::string_view bytes)
+{
+  Item item;
+  Unpacker unpacker{ bytes };
+  pass(unpacker, item);
+  return item;
+}
+
+/// The bounds of the spheres where there are radii, else of the points.
+void add_bounds(const FrameView& frame, Survey& survey)
+{
+  const ArrayView* radius = frame.find("radius");
+  ColumnPlan plan;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    plan.columns.push_back(
+      { .name = "x", .kind = Kind::Coordinate, .role = ColumnRole::Position, .axis = axis });
+  }
+  if (radius && radius->size() == 1)
+  {
+    plan.columns.push_back(
+      { .name = "radius", .values = { radius->type, radius->components[0], radius->step } });
+  }
+  RowValues values;
+  constexpr auto most = static_cast<std::int64_t>(RowValues::most_rows);
+  for (std::int64_t first = 0; first < frame.rows; first += most)
+  {
+    values.load(frame, plan, {}, first, std::min(most, frame.rows - first), 0);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      for (std::size_t row = 0; row < values.rows(); ++row)
+      {
+        const double x = values.columns()[axis].reals[row];
+        const double r = plan.columns.size() > 3 ? values.columns()[3].reals[row] : 0;
+        survey.lo[axis] = std::isfinite(x - r) ? std::min(survey.lo[axis], x - r) : survey.lo[axis];
+        survey.hi[axis] = std::isfinite(x + r) ? std::max(survey.hi[axis], x + r) : survey.hi[axis];
+      }
+    }
+  }
+}
+
+Box box_around(const std::vector<Survey>& surveys)
+{
+  Survey all;
+  for (const Survey& survey : surveys)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      all.lo[axis] = std::min(all.lo[axis], survey.lo[axis]);
+      all.hi[axis] = std::max(all.hi[axis], survey.hi[axis]);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (all.lo[axis] > all.hi[axis])
+    {
+      all.lo[axis] = all.hi[axis] = 0; // there are no grains
+    }
+  }
+  Box box = Box::from_bounds(all.lo, all.hi);
+  box.boundary = "ff ff ff";
+  return box;
+}
+
+std::vector<std::string> choose_names(
+  const FrameView& frame, const DumpFormat& format, Notices& notices)
+{
+  return format.style == DumpStyle::Atom ? atom_columns(format.atom)
+    : format.columns.empty()             ? default_columns(frame, notices)
+                                         : expand_columns(format.columns, frame);
+}
+
+void check_names(const std::vector<std::string>& names)
+{
+  if (names.empty())
+  {
+    throw Error("expected at least one column, got none");
+  }
+  for (const std::string& name : names)
+  {
+    if (split_words(name).size() != 1 || split_words(name).front() != name)
+    {
+      throw Error("expected the name of a column as one word, got '" + name + "'");
+    }
+  }
+}
+
+bool is_scaled(const ColumnSource& column) noexcept
+{
+  return column.kind == Kind::Coordinate &&
+    (column.role == ColumnRole::ScaledPosition ||
+      column.role == ColumnRole::ScaledUnwrappedPosition);
+}
+
+bool prints_exactly(double value)
+{
+  char word[most_number_chars];
+  double read = 0;
+  parse_double(word, print_number(word, value, { 6 }), read);
+  return read == value;
+}
+
+/// A box whose numbers change when six digits of them are written: what is scaled by the one is read by the
+/// other.
+bool loses_digits(const Box& box)
+{
+  return std::any_of(box.vectors.begin(), box.vectors.end(),
+           [](const Twofold3& edge)
+           {
+             return std::any_of(edge.begin(), edge.end(),
+               [](const Twofold& x) { return !prints_exactly(x.value()); });
+           }) ||
+    std::any_of(box.origin.begin(), box.origin.end(),
+      [](const Twofold& x) { return !prints_exactly(x.value()); });
+}
+
+/// Whether the frame has what the format asks for.
+void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
+{
+  const Box& box = lead.header.box;
+  const auto& columns = lead.columns.columns;
+  const bool scaled = std::any_of(columns.begin(), columns.end(), is_scaled);
+  if (scaled || lead.columns.wraps)
+  {
+    check_volume(box);
+  }
+  if (format.units && lead.header.units.empty())
+  {
+    throw Error("expected the units of the frame for ITEM: UNITS, got none");
+  }
+  if (format.time && !lead.header.time)
+  {
+    throw Error("expected the time of the frame for ITEM: TIME, got none");
+  }
+  if (scaled && !format.binary && format.dialect == Dialect::Liggghts && loses_digits(box))
+  {
+    notices.push_back({ {},
+      "the box is written with six digits, as LIGGGHTS does: scaled coordinates are read back by "
+      "these" });
+  }
+  if (box.boundary.empty())
+  {
+    notices.push_back(
+      { {}, "the boundaries of the box are not known: they are written as ff ff ff" });
+  }
+}
+
+/// The columns of a rank without rows, or the check that those of a rank with rows are the same.
+ColumnPlan join_plan(const Lead& lead, const FrameView& frame, bool binary)
+{
+  if (frame.rows == 0)
+  {
+    return lead.columns;
+  }
+  Notices told; // by the rank that leads
+  std::vector<std::string> names;
+  for (const ColumnSource& column : lead.columns.columns)
+  {
+    names.push_back(column.name);
+  }
+  ColumnPlan plan = plan_columns(names, frame, binary, told);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const ColumnSource& own = plan.columns[i];
+    const ColumnSource& other = lead.columns.columns[i];
+    if (own.kind != other.kind || own.own != other.own ||
+      is_integer(own.values.type) != is_integer(other.values.type) ||
+      (own.values.type == ScalarType::Text) != (other.values.type == ScalarType::Text))
+    {
+      throw Error(
+        "expected an array of the same kind on all ranks, got others", { .column = names[i] });
+    }
+  }
+  return plan;
+}
+}
+
+void check_volume(const Box& box)
+{
+  for (std::size_t axis = 0; !box.general && axis < 3; ++axis)
+  {
+    if (!(std::abs(box.vectors[axis][axis].hi) > 0))
+    {
+      throw Error("expected a box with a length along "s + "xyz"[axis] +
+        " to scale coordinates by, got one of length 0");
+    }
+  }
+}
+
+std::vector<std::string> FramePlan::names() const
+{
+  std::vector<std::string> names;
+  for (const ColumnSource& column : columns.columns)
+  {
+    names.push_back(column.name);
+  }
+  return names;
+}
+
+FramePlan plan_frame(
+  const FrameView& frame, const DumpFormat& format, Communicator& ranks, Notices& notices)
+{
+  FramePlan plan;
+  std::string own;
+  do_together(ranks,
+    [&]
+    {
+      Survey survey;
+      survey.kept = count_kept(frame, 0, frame.rows);
+      survey.arrays = static_cast<std::int64_t>(frame.arrays.size());
+      survey.has_box = frame.has_box;
+      if (!frame.has_box)
+      {
+        add_bounds(frame, survey);
+      }
+      own = pack(survey);
+    });
+  const std::vector<std::string> answers = ranks.all_gather(own);
+
+  int leader = 0;
+  std::string told;
+  do_together(ranks,
+    [&]
+    {
+      std::vector<Survey> surveys;
+      for (const std::string& answer : answers)
+      {
+        surveys.push_back(unpack<Survey>(answer));
+        plan.kept_rows.push_back(surveys.back().kept);
+      }
+      const auto knows = [](const Survey& a, const Survey& b)
+      { return std::pair(a.kept > 0, a.arrays > 0) < std::pair(b.kept > 0, b.arrays > 0); };
+      const auto best = std::max_element(surveys.begin(), surveys.end(), knows);
+      leader = static_cast<int>(best - surveys.begin());
+      if (ranks.rank() != leader)
+      {
+        return;
+      }
+      Lead lead{ frame.header, {}, {} };
+      if (!frame.has_box)
+      {
+        lead.header.box = box_around(surveys);
+        lead.notices.push_back(
+          { {}, "the input has no box: it is made from the bounds of the grains" });
+      }
+      const std::vector<std::string> names = choose_names(frame, format, lead.notices);
+      check_names(names);
+      lead.columns = plan_columns(names, frame, format.binary, lead.notices);
+      check_frame(lead, format, lead.notices);
+      told = pack(std::move(lead));
+    });
+  ranks.broadcast(told, leader);
+
+  do_together(ranks,
+    [&]
+    {
+      const Lead lead = unpack<Lead>(told);
+      plan.header = lead.header;
+      plan.header.rows =
+        std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
+      plan.header.box.boundary =
+        lead.header.box.boundary.empty() ? "ff ff ff" : lead.header.box.boundary;
+      plan.columns = join_plan(lead, frame, format.binary);
+      notices.insert(notices.end(), lead.notices.begin(), lead.notices.end());
+    });
+  return plan;
+}
+}

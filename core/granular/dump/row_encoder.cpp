@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/row_encoder.h"
+
+#include "granular/base/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace granular
+{
+namespace
+{
+constexpr double most_exact = 9007199254740992.0; // 2^53
+
+using Column = RowValues::Column;
+
+/// Room that a row of text can need.
+std::size_t most_text_bytes(std::span<const Column> columns, std::size_t row)
+{
+  std::size_t bytes = 2;
+  for (const Column& column : columns)
+  {
+    bytes += 1 + (column.type == ScalarType::Text ? column.texts[row]->size() : most_number_chars);
+  }
+  return bytes;
+}
+
+/// A text that would not be one word when it is read again has no place in a dump.
+void check_texts(const Column& column, const std::string& name)
+{
+  for (const std::string* text : column.texts)
+  {
+    if (text->empty() || std::any_of(text->begin(), text->end(), is_blank))
+    {
+      throw FormatError("expected a word, got '" + *text + "'", { .column = name });
+    }
+  }
+}
+
+[[gnu::always_inline]] inline char* print_value(
+  char* to, const Column& column, std::size_t row, NumberFormat format)
+{
+  if (column.type == ScalarType::Int64)
+  {
+    return print_integer(to, column.integers[row]);
+  }
+  if (column.type == ScalarType::Text)
+  {
+    const std::string& text = *column.texts[row];
+    return std::copy(text.begin(), text.end(), to);
+  }
+  const double value = column.reals[row];
+  if (column.whole && std::abs(value) < most_exact && std::trunc(value) == value)
+  {
+    return print_integer(to, static_cast<std::int64_t>(value));
+  }
+  return print_number(to, value, format);
+}
+
+void pack_integers(const Column& column, const std::string& name, double* to, std::size_t step)
+{
+  for (std::size_t row = 0; row < column.integers.size(); ++row)
+  {
+    const std::int64_t value = column.integers[row];
+    const auto real = static_cast<double>(value);
+    if (std::abs(real) >= most_exact &&
+      (real >= 0x1p63 || static_cast<std::int64_t>(real) != value))
+    {
+      throw LimitError(
+        "expected integers that a double can hold, as all up to 2^53, for a binary dump, got " +
+          std::to_string(value),
+        { .column = name });
+    }
+    to[row * step] = real;
+  }
+}
+}
+
+void pack_rows(const RowValues& values, const ColumnPlan& plan, double* to)
+{
+  const std::span<const Column> columns = values.columns();
+  const std::size_t step = columns.size();
+  for (std::size_t i = 0; i < step; ++i)
+  {
+    const Column& column = columns[i];
+    if (column.type == ScalarType::Int64)
+    {
+      pack_integers(column, plan.columns[i].name, to + i, step);
+      continue;
+    }
+    for (std::size_t row = 0; row < column.reals.size(); ++row)
+    {
+      to[row * step + i] = column.reals[row];
+    }
+  }
+}
+
+RowEncoder::RowEncoder(const FrameView& frame, const ColumnPlan& plan, const Box& box,
+  const DumpFormat& format, const ChunkLengths& chunks, std::int64_t first_row,
+  std::int64_t first_in_file)
+  : frame_(frame)
+  , plan_(plan)
+  , box_(box)
+  , format_(format)
+  , chunks_(chunks)
+  , first_row_(first_row)
+  , first_in_file_(first_in_file)
+  , trailing_blank_(format.style == DumpStyle::Custom && format.dialect == Dialect::Liggghts)
+{
+}
+
+void RowEncoder::encode(std::int64_t first, std::int64_t count, std::int64_t kept_before,
+  RowValues& values, RowBuffer& to) const
+{
+  std::int64_t row = first_row_ + kept_before;
+  constexpr auto most = static_cast<std::int64_t>(RowValues::most_rows);
+  for (std::int64_t done = 0; done < count; done += most)
+  {
+    values.load(frame_, plan_, box_, first + done, std::min(most, count - done), row);
+    if (format_.binary)
+    {
+      this->encode_binary(values, row - first_row_ + first_in_file_, to);
+    }
+    else
+    {
+      this->encode_text(values, to);
+    }
+    row += static_cast<std::int64_t>(values.rows());
+  }
+}
+
+void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
+{
+  const std::span<const Column> columns = values.columns();
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    if (columns[i].type == ScalarType::Text)
+    {
+      check_texts(columns[i], plan_.columns[i].name);
+    }
+  }
+  for (std::size_t row = 0; row < values.rows(); ++row)
+  {
+    char* const begin = to.room(most_text_bytes(columns, row));
+    char* end = begin;
+    for (const Column& column : columns)
+    {
+      end = print_value(end, column, row, format_.numbers);
+      *end++ = ' ';
+    }
+    end -= trailing_blank_ ? 0 : 1;
+    *end++ = '\n';
+    to.add(static_cast<std::size_t>(end - begin));
+  }
+}
+
+/// Rows up to the next chunk at a time, whose length stands before it.
+void RowEncoder::encode_binary(const RowValues& values, std::int64_t first_row, RowBuffer& to) const
+{
+  const std::size_t step = values.columns().size();
+  std::vector<double> packed(values.rows() * step);
+  pack_rows(values, plan_, packed.data());
+  const auto rows = static_cast<std::int64_t>(values.rows());
+  for (std::int64_t done = 0; done < rows;)
+  {
+    const std::int64_t row = first_row + done;
+    if (chunks_.begins(row))
+    {
+      const std::int32_t length = chunks_.values(row);
+      std::memcpy(to.room(sizeof length), &length, sizeof length);
+      to.add(sizeof length);
+    }
+    const std::int64_t left = chunks_.rows_per_chunk() - row % chunks_.rows_per_chunk();
+    const std::int64_t part = std::min(left, rows - done);
+    const auto bytes = static_cast<std::size_t>(part) * step * sizeof(double);
+    std::memcpy(to.room(bytes), packed.data() + static_cast<std::size_t>(done) * step, bytes);
+    to.add(bytes);
+    done += part;
+  }
+}
+}

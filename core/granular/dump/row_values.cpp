@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/row_values.h"
+
+#include "granular/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace granular
+{
+namespace
+{
+using Kind = ColumnSource::Kind;
+using Rows = std::span<const std::int64_t>;
+
+template <class From, class To>
+void copy_values(const ValueSource& source, Rows rows, To* to)
+{
+  const auto* from = static_cast<const From*>(source.data);
+  const std::int64_t step = source.step;
+  const auto count = static_cast<std::int64_t>(rows.size());
+  if (count > 0 && rows.back() - rows.front() == count - 1)
+  {
+    from += rows.front() * step;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      to[i] = static_cast<To>(from[i * step]);
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    to[i] = static_cast<To>(from[rows[i] * step]);
+  }
+}
+
+/// As numbers of one type, from any but texts.
+template <class To>
+void load_numbers(const ValueSource& source, Rows rows, To* to)
+{
+  using Copy = void (*)(const ValueSource&, Rows, To*);
+  constexpr Copy copies[] = { copy_values<std::int8_t, To>, copy_values<std::uint8_t, To>,
+    copy_values<std::int16_t, To>, copy_values<std::uint16_t, To>, copy_values<std::int32_t, To>,
+    copy_values<std::uint32_t, To>, copy_values<std::int64_t, To>, copy_values<std::uint64_t, To>,
+    copy_values<float, To>, copy_values<double, To> };
+  copies[static_cast<std::size_t>(source.type)](source, rows, to);
+}
+
+void check_unsigned(const ColumnSource& source, Rows rows)
+{
+  const auto* values = static_cast<const std::uint64_t*>(source.values.data);
+  for (const std::int64_t row : rows)
+  {
+    if (values[row * source.values.step] > std::numeric_limits<std::int64_t>::max())
+    {
+      throw LimitError(
+        "expected integers below 2^63, got " + std::to_string(values[row * source.values.step]),
+        { .column = source.name });
+    }
+  }
+}
+
+void load_array(const ColumnSource& source, Rows rows, RowValues::Column& column)
+{
+  const ValueSource& values = source.values;
+  if (values.type == ScalarType::Text)
+  {
+    const auto* texts = static_cast<const std::string*>(values.data);
+    column.type = ScalarType::Text;
+    column.texts.resize(rows.size());
+    std::transform(rows.begin(), rows.end(), column.texts.begin(),
+      [&](std::int64_t row) { return texts + row * values.step; });
+  }
+  else if (is_integer(values.type) && values.factor == 1)
+  {
+    if (values.type == ScalarType::UInt64)
+    {
+      check_unsigned(source, rows);
+    }
+    column.type = ScalarType::Int64;
+    column.integers.resize(rows.size());
+    load_numbers(values, rows, column.integers.data());
+  }
+  else
+  {
+    column.type = ScalarType::Float64;
+    column.reals.resize(rows.size());
+    load_numbers(values, rows, column.reals.data());
+    for (double& value : column.reals)
+    {
+      value *= values.factor;
+    }
+  }
+}
+
+std::size_t form_of(ColumnRole role) noexcept
+{
+  return static_cast<std::size_t>(role) - static_cast<std::size_t>(ColumnRole::Position);
+}
+
+bool is_scaled(ColumnRole role) noexcept
+{
+  return role == ColumnRole::ScaledPosition || role == ColumnRole::ScaledUnwrappedPosition;
+}
+
+bool is_unwrapped(ColumnRole role) noexcept
+{
+  return role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
+}
+
+/// From what the points are to what a column holds.
+PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
+{
+  PositionPlan plan;
+  plan.coordinates = is_scaled(to) ? Coordinates::Scaled : Coordinates::Absolute;
+  for (int k = 0; k < 3; ++k)
+  {
+    PositionPlan::Axis& axis = plan.axes[static_cast<std::size_t>(k)];
+    axis.column = k;
+    axis.scaled = from == Coordinates::Scaled;
+    axis.shift = (is_unwrapped(to) ? 1 : 0) - (from == Coordinates::Unwrapped ? 1 : 0);
+  }
+  return plan;
+}
+
+/// How far a coordinate of the form may be from what another program or an earlier rounding made of the same
+/// point, for a coordinate of 0 and no crossing, along each axis: the sum of the magnitudes of all terms.
+Vector3 magnitudes(const Box& box, ColumnRole role) noexcept
+{
+  Vector3 sums;
+  for (std::size_t k = 3; k-- > 0;)
+  {
+    sums[k] = std::abs(box.origin[k].hi);
+    for (const Twofold3& edge : box.vectors)
+    {
+      sums[k] += std::abs(edge[k].hi);
+    }
+    for (std::size_t j = k + 1; is_scaled(role) && j < 3; ++j)
+    {
+      sums[k] += std::abs(box.vectors[j][k].hi) * sums[j];
+    }
+    if (is_scaled(role))
+    {
+      sums[k] = box.general ? 0 : sums[k] / std::abs(box.vectors[k][k].hi);
+    }
+  }
+  return sums;
+}
+
+/// Wraps unwrapped points into the box along periodic axes: how often was it crossed?
+void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images)
+{
+  images.assign(points.begin(), points.end());
+  convert_positions(
+    plan_form(Coordinates::Absolute, ColumnRole::ScaledPosition), box, {}, {}, images);
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    const std::size_t flag = 3 * (i % 3);
+    const bool periodic = flag < box.boundary.size() && box.boundary[flag] == 'p';
+    images[i] = periodic && std::isfinite(images[i]) ? std::floor(images[i]) : 0;
+  }
+}
+}
+
+void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan, const Box& box)
+{
+  const Rows rows = std::span(kept_).first(rows_);
+  own_.resize(rows_);
+  points_.resize(frame.points ? 3 * rows_ : 0);
+  images_.assign(3 * rows_, 0);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (frame.points)
+    {
+      load_numbers({ frame.points->type, frame.points->components[axis], frame.points->step }, rows,
+        own_.data());
+      for (std::size_t i = 0; i < rows_; ++i)
+      {
+        points_[3 * i + axis] = own_[i] + frame.point_origin[axis];
+      }
+    }
+    if (plan.images[axis])
+    {
+      load_numbers(*plan.images[axis], rows, own_.data());
+      for (std::size_t i = 0; i < rows_; ++i)
+      {
+        images_[3 * i + axis] = own_[i];
+      }
+    }
+  }
+  if (plan.wraps)
+  {
+    count_crossings(box, points_, images_);
+  }
+  for (std::vector<double>& form : forms_)
+  {
+    form.clear();
+  }
+}
+
+std::span<const double> RowValues::coordinates(
+  const FrameView& frame, const Box& box, ColumnRole role)
+{
+  std::vector<double>& form = forms_[form_of(role)];
+  if (form.empty())
+  {
+    form = points_;
+    convert_positions(plan_form(frame.coordinates, role), box, {}, images_, form);
+  }
+  return form;
+}
+
+void RowValues::load_coordinate(
+  const FrameView& frame, const Box& box, const ColumnSource& source, std::vector<double>& to)
+{
+  const std::span<const double> all = this->coordinates(frame, box, source.role);
+  const auto axis = static_cast<std::size_t>(source.axis);
+  to.resize(rows_);
+  for (std::size_t i = 0; i < rows_; ++i)
+  {
+    to[i] = all[3 * i + axis];
+  }
+  if (!source.own)
+  {
+    return;
+  }
+  // the file's own number, where it is that of the point within rounding: its last digits are its own
+  load_numbers(source.values, std::span(kept_).first(rows_), own_.data());
+  const double unit = frame.points->type == ScalarType::Float32 ? 0x1p-22 : 0x1p-50;
+  const double magnitude = magnitudes(box, source.role)[axis];
+  for (std::size_t i = 0; i < rows_; ++i)
+  {
+    const double* image = images_.data() + 3 * i;
+    const double crossed = std::max({ std::abs(image[0]), std::abs(image[1]), std::abs(image[2]) });
+    const double allowed = unit * (magnitude * (1 + crossed) + std::abs(to[i]));
+    to[i] = std::abs(own_[i] - to[i]) <= allowed ? own_[i] : to[i];
+  }
+}
+
+void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& box,
+  std::int64_t first, std::int64_t count, std::int64_t row_number)
+{
+  kept_.resize(most_rows);
+  rows_ = 0;
+  for (std::int64_t row = first; row < first + count; ++row)
+  {
+    kept_[rows_] = row;
+    rows_ += frame.ghosts && (frame.ghosts[row] & FrameView::duplicate_row) != 0 ? 0 : 1;
+  }
+  const Rows rows = std::span(kept_).first(rows_);
+  columns_.resize(plan.columns.size());
+  this->load_points(frame, plan, box);
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+  {
+    const ColumnSource& source = plan.columns[i];
+    Column& column = columns_[i];
+    column.type = ScalarType::Float64;
+    column.whole = source.whole;
+    switch (source.kind)
+    {
+      case Kind::Array:
+        load_array(source, rows, column);
+        break;
+      case Kind::Coordinate:
+        this->load_coordinate(frame, box, source, column.reals);
+        break;
+      case Kind::Image:
+        column.type = ScalarType::Int64;
+        column.integers.resize(rows_);
+        for (std::size_t row = 0; row < rows_; ++row)
+        {
+          column.integers[row] =
+            static_cast<std::int64_t>(images_[3 * row + static_cast<std::size_t>(source.axis)]);
+        }
+        break;
+      case Kind::RowNumber:
+        column.type = ScalarType::Int64;
+        column.integers.resize(rows_);
+        std::iota(column.integers.begin(), column.integers.end(), row_number + 1);
+        break;
+      case Kind::One:
+        column.type = ScalarType::Int64;
+        column.integers.assign(rows_, 1);
+        break;
+    }
+  }
+}
+}
