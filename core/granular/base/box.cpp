@@ -42,6 +42,14 @@ Twofold largest(std::initializer_list<Twofold> values)
   return best;
 }
 
+Twofold add(Twofold a, Twofold b)
+{
+  CompensatedSum total;
+  total.add(a);
+  total.add(b);
+  return total.twofold();
+}
+
 /// bound - shift
 Twofold corner_of_bound(double bound, Twofold shift)
 {
@@ -105,6 +113,29 @@ Box Box::from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vecto
     }
   }
   return box;
+}
+
+BoxBounds Box::bounds() const
+{
+  const auto& [a, b, c] = vectors;
+  BoxBounds bounds;
+  bounds.xy = b[0].value();
+  bounds.xz = c[0].value();
+  bounds.yz = c[1].value();
+  const Twofold zero;
+  const std::array<std::array<Twofold, 4>, 3> shifts = { {
+    { zero, b[0], c[0], add(b[0], c[0]) },
+    { zero, c[1], zero, zero },
+    { zero, zero, zero, zero },
+  } };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto& [s0, s1, s2, s3] = shifts[axis];
+    const Twofold end = add(origin[axis], vectors[axis][axis]);
+    bounds.lo[axis] = add(origin[axis], smallest({ s0, s1, s2, s3 })).value();
+    bounds.hi[axis] = add(end, largest({ s0, s1, s2, s3 })).value();
+  }
+  return bounds;
 }
 
 Vector3 Box::corner(int i, int j, int k, const Vector3& less) const

@@ -12,6 +12,16 @@ namespace granular
 using Vector3 = std::array<double, 3>;
 using Twofold3 = std::array<Twofold, 3>;
 
+/// The smallest box along the axes around a box, and its tilts: what the headers of dumps hold.
+struct BoxBounds
+{
+  Vector3 lo = {};
+  Vector3 hi = {};
+  double xy = 0;
+  double xz = 0;
+  double yz = 0;
+};
+
 /// The simulation box: a corner and three edge vectors, any units of length.
 /// Edge vectors are differences of the file's numbers and so need more bits than a double has:
 /// far from the origin, or where sums cancel, a rounded length would show in the coordinates.
@@ -34,6 +44,10 @@ struct Box
 
   /// From a corner and three edges (LAMMPS' general triclinic boxes).
   static Box from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vectors);
+
+  /// Of a box that is not general, each number rounded once: those that it was made from come back as they
+  /// were.
+  BoxBounds bounds() const;
 
   /// The corner (i, j, k), each 0 or 1, less a point, correctly rounded.
   Vector3 corner(int i, int j, int k, const Vector3& less = {}) const;

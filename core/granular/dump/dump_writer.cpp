@@ -43,6 +43,11 @@ std::size_t total_size(std::span<const std::string_view> parts) noexcept
 }
 }
 
+bool is_name_of_steps(const std::string& path) noexcept
+{
+  return path.find('*', begin_of_name(path)) != path.npos;
+}
+
 std::string name_of_step(const std::string& path, std::int64_t timestep)
 {
   return replace_first(path, '*', std::to_string(timestep));
@@ -288,7 +293,10 @@ DumpWriter::DumpWriter(
     throw UnsupportedError(
       "expected text to compress, got a binary dump: no program reads that", { path_ });
   }
-  file_ = std::make_unique<File>(path_, format_, options_, ranks_);
+  if (!is_name_of_steps(path_))
+  {
+    file_ = std::make_unique<File>(path_, format_, options_, ranks_);
+  }
 }
 
 DumpWriter::~DumpWriter() = default;
@@ -296,6 +304,21 @@ DumpWriter::~DumpWriter() = default;
 void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progress)
 {
   FramePlan plan = plan_frame(frame, format_, ranks_, notices);
+  if (is_name_of_steps(path_))
+  {
+    file_ =
+      std::make_unique<File>(name_of_step(path_, plan.header.timestep), format_, options_, ranks_);
+  }
+  this->write_rows(frame, plan, progress);
+  if (is_name_of_steps(path_))
+  {
+    this->finish();
+    file_.reset();
+  }
+}
+
+void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& progress)
+{
   std::optional<SortedRows> sorted;
   if (format_.sort_by_id && plan.columns.ids)
   {
@@ -350,6 +373,10 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
 
 void DumpWriter::finish()
 {
+  if (!file_)
+  {
+    return;
+  }
   if (file_->way == File::Way::Shared)
   {
     file_->shared->finish();

@@ -20,6 +20,8 @@ enum class ParallelMode : std::uint8_t
   MpiIo ///< each rank writes its rows where they belong; where ranks cannot, and compressed files: as Gather
 };
 
+struct FramePlan;
+
 /// What changes how a dump is written, and no byte of it.
 struct WriteOptions
 {
@@ -31,13 +33,17 @@ struct WriteOptions
 /// folders.
 std::string name_of_step(const std::string& path, std::int64_t timestep);
 
+/// Whether each frame is a file of its own: the name of the file holds '*'.
+bool is_name_of_steps(const std::string& path) noexcept;
+
 /// Whether ranks write files of their own: the name of the file holds '%'.
 bool is_name_of_ranks(const std::string& path) noexcept;
 
 /// Writes a dump of one or more frames, from the rows of all ranks in the order of the ranks: the bytes do not
 /// depend on their number, nor on that of threads. The file is there when finish() is done, and until then the
 /// old one is as it was; so it stays where a writer ends without. A name with '%' gives each rank a
-/// file of its own with its number for the '%', and its own number of atoms, as the dump command has it.
+/// file of its own with its number for the '%', and its own number of atoms, and one with '*' each frame one
+/// with its timestep for the '*', which is there when write() is done, as the dump command has it.
 ///
 /// All functions, the destructor too, are collective. Errors of one rank are thrown on all (see agree);
 /// after one the writer is of no use. Memory beside the rows: some 64 MiB; sorting copies the rows.
@@ -58,6 +64,8 @@ public:
 
 private:
   struct File;
+
+  void write_rows(const FrameView& frame, FramePlan& plan, Progress& progress);
 
   std::string path_;
   DumpFormat format_;

@@ -15,60 +15,6 @@ namespace
 {
 constexpr std::int64_t most_int32 = std::numeric_limits<std::int32_t>::max();
 
-/// A box as headers show it: the smallest one along the axes around it, and its tilts.
-struct HeaderBox
-{
-  Vector3 lo;
-  Vector3 hi;
-  double xy;
-  double xz;
-  double yz;
-};
-
-Twofold add(Twofold a, Twofold b) noexcept
-{
-  CompensatedSum sum;
-  sum.add(a);
-  sum.add(b);
-  return sum.twofold();
-}
-
-double hull(std::initializer_list<Twofold> corners, bool high) noexcept
-{
-  const auto value = [](Twofold corner) { return corner.value(); };
-  double best = value(*corners.begin());
-  for (const Twofold corner : corners)
-  {
-    best = high ? std::max(best, value(corner)) : std::min(best, value(corner));
-  }
-  return best;
-}
-
-/// Rounds once each: the numbers of a header that a box was read from come back as they were.
-HeaderBox bounds_of(const Box& box) noexcept
-{
-  HeaderBox bounds{};
-  const auto& [a, b, c] = box.vectors;
-  const Twofold both = add(b[0], c[0]);
-  const Twofold zero;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    for (const bool high : { false, true })
-    {
-      const Twofold face = high ? add(box.origin[axis], box.vectors[axis][axis]) : box.origin[axis];
-      const auto beside = [&](Twofold shift) { return add(face, shift); };
-      (high ? bounds.hi : bounds.lo)[axis] = axis == 0
-        ? hull({ face, beside(b[0]), beside(c[0]), beside(both) }, high)
-        : axis == 1 ? hull({ face, beside(c[1]) }, high)
-                    : face.value();
-    }
-  }
-  bounds.xy = b[0].value();
-  bounds.xz = c[0].value();
-  bounds.yz = c[1].value();
-  return bounds;
-}
-
 class TextHeaderWriter
 {
 public:
@@ -120,7 +66,7 @@ std::string print_time(double time)
 
 void add_box(TextHeaderWriter& writer, const Box& box)
 {
-  const HeaderBox b = bounds_of(box);
+  const BoxBounds b = box.bounds();
   if (box.general)
   {
     writer.line("ITEM: BOX BOUNDS abc origin " + box.boundary);
@@ -238,7 +184,7 @@ void add_box(BinaryHeaderWriter& writer, const Box& box)
     writer.numbers({ box.origin[0].value(), box.origin[1].value(), box.origin[2].value() });
     return;
   }
-  const HeaderBox b = bounds_of(box);
+  const BoxBounds b = box.bounds();
   writer.numbers({ b.lo[0], b.hi[0], b.lo[1], b.hi[1], b.lo[2], b.hi[2] });
   if (box.tilted)
   {
