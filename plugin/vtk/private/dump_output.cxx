@@ -35,6 +35,20 @@ std::vector<double> Values(const granular::Twofold3& vector)
   }
   return values;
 }
+
+/**
+ * The numbers of the header: six, and the tilts of a tilted box. The vectors are rounded, these are not.
+ */
+std::vector<double> Bounds(const granular::Box& box)
+{
+  const granular::BoxBounds b = box.bounds();
+  std::vector<double> values = { b.lo[0], b.hi[0], b.lo[1], b.hi[1], b.lo[2], b.hi[2] };
+  if (box.tilted)
+  {
+    values.insert(values.end(), { b.xy, b.xz, b.yz });
+  }
+  return values;
+}
 }
 
 void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision,
@@ -116,6 +130,10 @@ void FillFieldData(
     MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
   data->AddArray(MakeDoubles("BoxOrigin", Values(header.box.origin)));
   data->AddArray(MakeDoubles("BoxVectors", vectors));
+  if (!header.box.general)
+  {
+    data->AddArray(MakeDoubles("BoxBounds", Bounds(header.box)));
+  }
   data->AddArray(MakeStrings("Boundary", { header.box.boundary }));
   data->AddArray(MakeStrings("Columns", names));
   data->AddArray(MakeInteger("timestep", header.timestep));

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dump_input.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace vtkGranularPrivate
+{
+namespace
+{
+using granular::ScalarType;
+
+static_assert(sizeof(vtkStdString) == sizeof(std::string), "texts are viewed as std::string");
+
+/**
+ * The type of the core for a type of VTK, by kind and size.
+ */
+std::optional<ScalarType> TypeOf(int type)
+{
+  if (type == VTK_FLOAT || type == VTK_DOUBLE)
+  {
+    return type == VTK_FLOAT ? ScalarType::Float32 : ScalarType::Float64;
+  }
+  struct Integer
+  {
+    int Bytes;
+    ScalarType Signed;
+    ScalarType Unsigned;
+  };
+  constexpr Integer integers[] = { { 1, ScalarType::Int8, ScalarType::UInt8 },
+    { 2, ScalarType::Int16, ScalarType::UInt16 }, { 4, ScalarType::Int32, ScalarType::UInt32 },
+    { 8, ScalarType::Int64, ScalarType::UInt64 } };
+  for (const Integer& integer : integers)
+  {
+    if (type != VTK_BIT && vtkDataArray::GetDataTypeSize(type) == integer.Bytes)
+    {
+      return vtkDataArray::GetDataTypeMin(type) < 0 ? integer.Signed : integer.Unsigned;
+    }
+  }
+  return {};
+}
+
+/**
+ * The values of a field array, if it has just so many.
+ */
+std::optional<std::vector<double>> FindDoubles(vtkFieldData* data, const char* name, int count)
+{
+  vtkDataArray* array = data->GetArray(name);
+  if (!array || array->GetNumberOfValues() != count)
+  {
+    return {};
+  }
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    values.push_back(array->GetComponent(
+      i / array->GetNumberOfComponents(), static_cast<int>(i % array->GetNumberOfComponents())));
+  }
+  return values;
+}
+
+std::vector<std::string> FindTexts(vtkFieldData* data, const char* name)
+{
+  std::vector<std::string> texts;
+  auto* array = vtkStringArray::SafeDownCast(data->GetAbstractArray(name));
+  for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
+  {
+    texts.push_back(array->GetValue(i));
+  }
+  return texts;
+}
+
+std::string FindText(vtkFieldData* data, const char* name)
+{
+  const std::vector<std::string> texts = FindTexts(data, name);
+  return texts.empty() ? std::string() : texts.front();
+}
+
+/**
+ * Whether a box has these numbers, once they are rounded.
+ */
+bool Matches(
+  const granular::Box& box, const std::vector<double>& origin, const std::vector<double>& vectors)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      if (box.vectors[i][j].value() != vectors[3 * i + j])
+      {
+        return false;
+      }
+    }
+    if (box.origin[i].value() != origin[i])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}
+
+granular::Box MakeBox(const double origin[3], const double vectors[9])
+{
+  std::array<granular::Vector3, 3> edges;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    edges[i] = { vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2] };
+  }
+  granular::Box box = granular::Box::from_vectors({ origin[0], origin[1], origin[2] }, edges);
+  box.general = edges[0][1] != 0 || edges[0][2] != 0 || edges[1][2] != 0;
+  box.tilted = box.general || edges[1][0] != 0 || edges[2][0] != 0 || edges[2][1] != 0;
+  return box;
+}
+
+std::optional<granular::Box> FindBox(vtkFieldData* data)
+{
+  const auto origin = FindDoubles(data, "BoxOrigin", 3);
+  const auto vectors = FindDoubles(data, "BoxVectors", 9);
+  if (!origin || !vectors)
+  {
+    return {};
+  }
+  const bool tilted = FindDoubles(data, "BoxBounds", 9).has_value();
+  granular::Box box = MakeBox(origin->data(), vectors->data());
+  if (const auto bounds = FindDoubles(data, "BoxBounds", tilted ? 9 : 6))
+  {
+    const std::vector<double>& b = *bounds;
+    const granular::Vector3 lo = { b[0], b[2], b[4] };
+    const granular::Vector3 hi = { b[1], b[3], b[5] };
+    const granular::Box exact = tilted ? granular::Box::from_tilted_bounds(lo, hi, b[6], b[7], b[8])
+                                       : granular::Box::from_bounds(lo, hi);
+    box = Matches(exact, *origin, *vectors) ? exact : box;
+  }
+  box.boundary = FindText(data, "Boundary");
+  return box;
+}
+
+DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
+{
+  if (!input)
+  {
+    this->View.has_box = false;
+    return;
+  }
+  this->ReadFieldData(input->GetFieldData());
+  this->View.rows = input->GetNumberOfPoints();
+  if (vtkPoints* points = input->GetPoints())
+  {
+    this->View.points = this->MakeView(points->GetData());
+  }
+  vtkPointData* data = input->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const char* name = array->GetName();
+    if (!name || !*name || std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0)
+    {
+      continue;
+    }
+    if (auto view = this->MakeView(array))
+    {
+      view->name = name;
+      this->View.arrays.push_back(std::move(*view));
+    }
+    else
+    {
+      notices.push_back({ {},
+        "the array '" + std::string(name) + "' of the type " + array->GetDataTypeAsString() +
+          " is left out" });
+    }
+  }
+  static_assert(granular::FrameView::duplicate_row == vtkDataSetAttributes::DUPLICATEPOINT);
+  if (vtkUnsignedCharArray* ghosts = input->GetPointGhostArray())
+  {
+    this->View.ghosts = ghosts->GetPointer(0);
+  }
+}
+
+std::optional<granular::ArrayView> DumpInput::MakeView(vtkAbstractArray* array)
+{
+  granular::ArrayView view;
+  const int size = array->GetNumberOfComponents();
+  if (auto* texts = vtkStringArray::SafeDownCast(array))
+  {
+    const std::string* first = array->GetNumberOfValues() > 0 ? texts->GetPointer(0) : nullptr;
+    view = granular::view_rows("", ScalarType::Text, first, size);
+    return view;
+  }
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  const auto type = numbers ? TypeOf(numbers->GetDataType()) : std::nullopt;
+  if (!type)
+  {
+    return {};
+  }
+  if (!numbers->HasStandardMemoryLayout())
+  {
+    auto copy =
+      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(numbers->GetDataType()));
+    copy->DeepCopy(numbers);
+    this->Copies.push_back(copy);
+    numbers = copy;
+  }
+  view.type = *type;
+  view.step = size;
+  const char* first = static_cast<const char*>(numbers->GetVoidPointer(0));
+  for (int i = 0; i < size; ++i)
+  {
+    view.components.push_back(first + i * numbers->GetDataTypeSize());
+  }
+  return view;
+}
+
+void DumpInput::ReadFieldData(vtkFieldData* data)
+{
+  granular::FrameHeader& header = this->View.header;
+  const auto box = FindBox(data);
+  this->View.has_box = box.has_value();
+  header.box = box.value_or(granular::Box{});
+  header.label = FindText(data, "label");
+  header.units = FindText(data, "units");
+  this->View.columns = FindTexts(data, "Columns");
+  if (vtkDataArray* timestep = data->GetArray("timestep");
+      timestep && timestep->GetNumberOfValues() == 1)
+  {
+    header.timestep = timestep->GetVariantValue(0).ToTypeInt64();
+    this->HasTimestep = true;
+  }
+  if (const auto time = FindDoubles(data, "time", 1))
+  {
+    header.time = time->front();
+    this->HasTime = true;
+  }
+  const std::string coordinates = FindText(data, "Coordinates");
+  for (const auto kind : { granular::Coordinates::Absolute, granular::Coordinates::Unwrapped,
+         granular::Coordinates::Scaled })
+  {
+    this->View.coordinates =
+      coordinates == granular::to_string(kind) ? kind : this->View.coordinates;
+  }
+  if (const auto origin = FindDoubles(data, "PointOrigin", 3))
+  {
+    std::copy(origin->begin(), origin->end(), this->View.point_origin.begin());
+  }
+}
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularDumpInput_h
+#define vtkGranularDumpInput_h
+
+#include "granular/base/box.h"
+#include "granular/base/error.h"
+#include "granular/dump/frame_view.h"
+
+#include "vtkSmartPointer.h"
+
+#include <optional>
+#include <vector>
+
+class vtkAbstractArray;
+class vtkFieldData;
+class vtkPointSet;
+
+namespace vtkGranularPrivate
+{
+/**
+ * The box that field data speak of: BoxOrigin and BoxVectors, to the last bit where BoxBounds are those of the
+ * same box. Nothing where there is none.
+ */
+std::optional<granular::Box> FindBox(vtkFieldData* data);
+
+/**
+ * A box from a corner and nine numbers of its edges.
+ */
+granular::Box MakeBox(const double origin[3], const double vectors[9]);
+
+/**
+ * What the core sees of a data set: its points, point arrays and field data, where they are. Arrays whose
+ * memory is not laid out as VTK's own are copied, and kept until this is gone.
+ */
+class DumpInput
+{
+public:
+  /**
+   * Null is an input without points. Arrays that are no columns, of variants for one, are left out with a notice.
+   */
+  DumpInput(vtkPointSet* input, granular::Notices& notices);
+
+  granular::FrameView View;
+  bool HasTimestep = false; ///< the field data give the timestep
+  bool HasTime = false;     ///< and the time
+
+private:
+  std::optional<granular::ArrayView> MakeView(vtkAbstractArray* array);
+  void ReadFieldData(vtkFieldData* data);
+
+  std::vector<vtkSmartPointer<vtkAbstractArray>> Copies;
+};
+}
+
+#endif

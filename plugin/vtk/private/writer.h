@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularWriterInternals_h
+#define vtkGranularWriterInternals_h
+
+#include "vtkGranularWriter.h"
+
+#include "ranks.h"
+
+#include "granular/base/communicator.h"
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkMultiProcessController;
+
+namespace vtkGranularPrivate
+{
+/**
+ * When in a run a frame is, as far as the pipeline knows.
+ */
+struct FrameTime
+{
+  std::optional<double> Time; ///< that the input shows
+  vtkTypeInt64 Frame = 0;     ///< number of the frame among those that are written, from 0
+};
+
+/**
+ * A file that is being written, frame by frame. All functions are collective, and throw what the core does.
+ */
+class FrameWriter
+{
+public:
+  virtual ~FrameWriter() = default;
+
+  virtual void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
+    granular::Progress& progress) = 0;
+  virtual void Finish() = 0;
+};
+}
+
+/**
+ * What a writer knows while it writes.
+ */
+struct vtkGranularWriter::Internals
+{
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  std::unique_ptr<granular::Communicator> Ranks; ///< of the controller; null: not made yet
+  std::unique_ptr<vtkGranularPrivate::FrameWriter> File;
+  std::vector<double> Times;  ///< that are to be written; empty: the one that the input shows
+  std::size_t Frame = 0;      ///< the one at hand
+  bool Done = false;          ///< all is written
+  std::set<std::string> Told; ///< notices that the user has had of this file
+
+  /**
+   * The processes that write together. Collective when it is called first.
+   */
+  granular::Communicator& GetRanks();
+
+  /**
+   * Warns of each thing once a file.
+   */
+  void Tell(vtkGranularWriter* self, const granular::Notices& notices);
+};
+
+#endif

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularDumpWriter.h"
+
+#include "private/dump_input.h"
+#include "private/writer.h"
+
+#include "granular/base/words.h"
+#include "granular/dump/dump_writer.h"
+
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularDumpWriter);
+
+namespace
+{
+const char* TextOf(const char* text)
+{
+  return text ? text : "";
+}
+}
+
+//------------------------------------------------------------------------------
+/**
+ * A dump that is being written.
+ */
+class vtkGranularDumpWriter::File : public FrameWriter
+{
+public:
+  File(vtkGranularDumpWriter* self, granular::DumpFormat format,
+    const granular::WriteOptions& options, granular::Communicator& ranks)
+    : Self(self)
+    , Ranks(ranks)
+    , Writer(self->FileName, std::move(format), options, ranks)
+  {
+  }
+
+  void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
+    granular::Progress& progress) override
+  {
+    std::optional<DumpInput> data;
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        data.emplace(vtkPointSet::SafeDownCast(input), notices);
+        this->Complete(*data, time, notices);
+      });
+    this->Writer.write(data->View, notices, progress);
+  }
+
+  void Finish() override { this->Writer.finish(); }
+
+private:
+  /**
+   * What the properties, or the pipeline, say beyond the field data.
+   */
+  void Complete(DumpInput& data, const FrameTime& time, granular::Notices& notices)
+  {
+    granular::FrameHeader& header = data.View.header;
+    if (!data.HasTimestep)
+    {
+      const double step = time.Time.value_or(0.5);
+      const bool whole = std::trunc(step) == step && std::abs(step) < 0x1p53;
+      header.timestep = whole ? static_cast<vtkTypeInt64>(step) : time.Frame;
+      notices.push_back({ {},
+        whole ? "the input has no field data 'timestep': its time is taken for it"
+              : "the input has no field data 'timestep': frames are counted from 0" });
+    }
+    if (!data.HasTime)
+    {
+      header.time = time.Time;
+    }
+    if (*TextOf(this->Self->Units))
+    {
+      header.units = this->Self->Units;
+    }
+    const double* vectors = this->Self->BoxVectors;
+    const std::string boundary = header.box.boundary;
+    if (std::any_of(vectors, vectors + 9, [](double value) { return value != 0; }))
+    {
+      header.box = MakeBox(this->Self->BoxOrigin, vectors);
+      header.box.boundary = boundary;
+      data.View.has_box = true;
+    }
+    if (*TextOf(this->Self->Boundary))
+    {
+      header.box.boundary = this->Self->Boundary;
+    }
+  }
+
+  vtkGranularDumpWriter* Self;
+  granular::Communicator& Ranks;
+  granular::DumpWriter Writer;
+};
+
+//------------------------------------------------------------------------------
+vtkGranularDumpWriter::vtkGranularDumpWriter()
+{
+  this->SetNumberFormat("%g");
+}
+
+//------------------------------------------------------------------------------
+vtkGranularDumpWriter::~vtkGranularDumpWriter()
+{
+  this->SetColumns(nullptr);
+  this->SetNumberFormat(nullptr);
+  this->SetUnits(nullptr);
+  this->SetBoundary(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDumpWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Style: " << this->Style << "\n";
+  os << indent << "Dialect: " << this->Dialect << "\n";
+  os << indent << "Scaled: " << this->Scaled << "\n";
+  os << indent << "Image: " << this->Image << "\n";
+  os << indent << "Columns: " << TextOf(this->Columns) << "\n";
+  os << indent << "NumberFormat: " << TextOf(this->NumberFormat) << "\n";
+  os << indent << "SortById: " << this->SortById << "\n";
+  os << indent << "WriteUnits: " << this->WriteUnits << "\n";
+  os << indent << "Units: " << TextOf(this->Units) << "\n";
+  os << indent << "WriteTime: " << this->WriteTime << "\n";
+  os << indent << "Boundary: " << TextOf(this->Boundary) << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDumpWriter::SetStyle(int style)
+{
+  if (style != ATOM && style != CUSTOM)
+  {
+    vtkErrorMacro("expected Style 0 (Atom) or 1 (Custom), got " << style);
+    return;
+  }
+  if (this->Style != style)
+  {
+    this->Style = style;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDumpWriter::SetDialect(int dialect)
+{
+  if (dialect != LIGGGHTS && dialect != LAMMPS)
+  {
+    vtkErrorMacro("expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS), got " << dialect);
+    return;
+  }
+  if (this->Dialect != dialect)
+  {
+    this->Dialect = dialect;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDumpWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internals)
+{
+  const std::string path = this->FileName;
+  granular::DumpFormat format;
+  format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;
+  format.dialect =
+    this->Dialect == LIGGGHTS ? granular::Dialect::Liggghts : granular::Dialect::Lammps;
+  format.binary = granular::is_binary_name(path);
+  format.compression = granular::compression_of_name(path);
+  format.atom = { this->Scaled, this->Image };
+  format.numbers = granular::parse_number_format(TextOf(this->NumberFormat));
+  format.units = this->WriteUnits;
+  format.time = this->WriteTime;
+  format.sort_by_id = this->SortById;
+  for (const std::string_view name : granular::split_words(TextOf(this->Columns)))
+  {
+    format.columns.emplace_back(name);
+  }
+  granular::Communicator& ranks = internals.GetRanks();
+  granular::WriteOptions options;
+  options.mode =
+    this->ParallelMode == MPI_IO ? granular::ParallelMode::MpiIo : granular::ParallelMode::Gather;
+  options.threads = ChooseThreads(this->Threads, ranks);
+  return std::make_unique<File>(this, std::move(format), options, ranks);
+}

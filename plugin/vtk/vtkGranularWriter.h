@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularWriter
+ * @brief   What writers have in common: the file, the frames and the processes.
+ *
+ * Write() writes what the input shows now, or with WriteTimeSteps all its time steps, one after the other.
+ * A `*` in the name of the file stands for the timestep, and gives each its file; a `%` stands for the
+ * process, and gives each its file; both as in the `dump` command.
+ *
+ * A file is there when it is complete: until then, and after an error, the old one is as it was. Write()
+ * returns 0 after an error, and GetErrorCode() is not vtkErrorCode::NoError then.
+ */
+
+#ifndef vtkGranularWriter_h
+#define vtkGranularWriter_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkWriter.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkMultiProcessController;
+
+namespace vtkGranularPrivate
+{
+class FrameWriter;
+}
+
+class VTKGRANULAR_EXPORT vtkGranularWriter : public vtkWriter
+{
+public:
+  vtkTypeMacro(vtkGranularWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum ParallelModeType
+  {
+    GATHER = 0,
+    MPI_IO = 1
+  };
+
+  ///@{
+  /**
+   * The file to write. None by default.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * On: all time steps of the input are written. Off, the default: the one that it shows.
+   */
+  vtkSetMacro(WriteTimeSteps, bool);
+  vtkGetMacro(WriteTimeSteps, bool);
+  vtkBooleanMacro(WriteTimeSteps, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How the processes write one file. GATHER, the default: the first one writes, and the others send it
+   * their rows, one after the other and a few at a time. MPI_IO: each writes its own where they belong;
+   * needs a file system that all of them see. The bytes are the same.
+   */
+  void SetParallelMode(int mode);
+  vtkGetMacro(ParallelMode, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many threads make the bytes. 0, the default: the cores of the machine, divided by the processes of
+   * the Controller that run on it. Changes how fast it goes and nothing else. Below 0 is an error and
+   * changes nothing.
+   */
+  void SetThreads(int threads);
+  vtkGetMacro(Threads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The processes that write together: all of them must set it, set the same properties, and call Write().
+   * What goes wrong on one of them is an error of all. The global controller by default; null: this process is
+   * alone, whatever others do.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
+  /**
+   * Writes. Returns 1, or 0 after an error, or if it was aborted.
+   */
+  int Write() override;
+
+protected:
+  vtkGranularWriter();
+  ~vtkGranularWriter() override;
+
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  void WriteData() override {}
+
+  struct Internals;
+
+  /**
+   * Opens the file. Called by all processes together; may throw what the core does.
+   */
+  virtual std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) = 0;
+
+  char* FileName = nullptr;
+  bool WriteTimeSteps = false;
+  int ParallelMode = GATHER;
+  int Threads = 0;
+
+private:
+  vtkGranularWriter(const vtkGranularWriter&) = delete;
+  void operator=(const vtkGranularWriter&) = delete;
+
+  std::unique_ptr<Internals> Shared;
+};
+
+#endif
