@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mpi/mpi_communicator.h"
 
+#include "mpi/mpi_file.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <new>
@@ -292,8 +294,11 @@ void MpiCommunicator::receive(std::string& bytes, int from)
     });
 }
 
-std::unique_ptr<OutputFile> MpiCommunicator::open_together(const std::string&)
+std::unique_ptr<OutputFile> MpiCommunicator::open_together(const std::string& path)
 {
-  return nullptr;
+  std::unique_ptr<MpiFile> file;
+  do_together(*this, [&] { file = std::make_unique<MpiFile>(*this, path, most_bytes_); });
+  file->open();
+  return file;
 }
 }

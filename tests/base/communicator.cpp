@@ -2,10 +2,12 @@
 #include "granular/base/communicator.h"
 
 #include "communicator_checks.h"
+#include "small_disk.h"
 #include "thread_ranks.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +21,7 @@ TEST(Communicator, one_process)
   check_all_gather(alone);
   check_sum(alone);
   check_exchange(alone);
+  check_send(alone);
 }
 
 TEST(Communicator, one_process_throws_what_it_has)
@@ -49,7 +52,40 @@ TEST(Communicator, threads)
         check_all_gather(ranks);
         check_sum(ranks);
         check_exchange(ranks);
+        check_send(ranks);
       });
+  }
+}
+
+TEST(Communicator, one_process_opens_a_file)
+{
+  granular::SerialCommunicator alone;
+  const std::string folder = std::string(GRANULAR_OUTPUT) + "/serial";
+  check_open_together(alone, folder);
+  check_open_together_fails(alone, folder);
+  if (!check_full_disk(alone, folder))
+  {
+    GTEST_SKIP() << SmallDisk::not_there;
+  }
+}
+
+TEST(Communicator, threads_open_a_file)
+{
+  std::atomic<bool> full_disk = true;
+  for (const int size : { 1, 2, 3 })
+  {
+    run_ranks(size,
+      [&](granular::Communicator& ranks)
+      {
+        const std::string folder = std::string(GRANULAR_OUTPUT) + "/threads";
+        check_open_together(ranks, folder);
+        check_open_together_fails(ranks, folder);
+        full_disk = check_full_disk(ranks, folder);
+      });
+  }
+  if (!full_disk)
+  {
+    GTEST_SKIP() << SmallDisk::not_there;
   }
 }
 

@@ -206,3 +206,36 @@ void check_agree(Communicator& ranks)
       told(all[lowest], rank, size));
   }
 }
+
+void check_send(Communicator& ranks)
+{
+  std::string bytes;
+  EXPECT_THROW(ranks.send("x", ranks.rank()), std::logic_error);
+  EXPECT_THROW(ranks.receive(bytes, ranks.rank()), std::logic_error);
+  for (int from = 0; from < ranks.size(); ++from)
+  {
+    for (int to = 0; to < ranks.size(); ++to)
+    {
+      for (const std::size_t size : std::vector<std::size_t>{ 0, 1, 8, 9, 1000, 100'000 })
+      {
+        if (from == to)
+        {
+          continue;
+        }
+        if (ranks.rank() == from)
+        {
+          ranks.send(pattern(size, from, to), to);
+          ranks.send("next", to); // the order stays
+        }
+        else if (ranks.rank() == to)
+        {
+          bytes = std::string(77, 'x');
+          ranks.receive(bytes, from);
+          EXPECT_TRUE(bytes == pattern(size, from, to)) << from << ' ' << to << ' ' << size;
+          ranks.receive(bytes, from);
+          EXPECT_EQ(bytes, "next");
+        }
+      }
+    }
+  }
+}

@@ -3,12 +3,16 @@
 #include "mpi/mpi_communicator.h"
 
 #include "communicator_checks.h"
+#include "small_disk.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include <unistd.h>
 
 using granular::MpiCommunicator;
 
@@ -16,6 +20,48 @@ namespace
 {
 /// The limits: the smallest there may be, one that cuts parts unevenly, and the usual one.
 constexpr std::int64_t limits[] = { 8, 100, std::int64_t{ 1 } << 30 };
+
+/// Tests with other numbers of ranks may run at the same time. The colon: some MPI take what is before
+/// it for the kind of the file system.
+std::string folder(const granular::Communicator& ranks)
+{
+  return std::string(GRANULAR_OUTPUT) + "/ranks:" + std::to_string(ranks.size());
+}
+
+/// While it lives, this process is no longer root, if it is to be so and was.
+class Nobody
+{
+public:
+  explicit Nobody(bool wanted)
+    : is_it_(!wanted || ::geteuid() != 0 || ::seteuid(65534) == 0)
+    , changed_(wanted && is_it_ && ::getuid() == 0)
+  {
+  }
+
+  Nobody(const Nobody&) = delete;
+  Nobody& operator=(const Nobody&) = delete;
+
+  ~Nobody()
+  {
+    if (changed_)
+    {
+      EXPECT_EQ(::seteuid(0), 0);
+    }
+  }
+
+  bool is_it() const noexcept { return is_it_; }
+
+private:
+  bool is_it_;
+  bool changed_;
+};
+
+bool all_of(granular::Communicator& ranks, bool value)
+{
+  std::int64_t without = value ? 0 : 1;
+  ranks.sum({ &without, 1 });
+  return without == 0;
+}
 }
 
 TEST(MpiCommunicator, knows_its_ranks)
@@ -39,7 +85,68 @@ TEST(MpiCommunicator, moves_bytes)
     check_all_gather(ranks);
     check_sum(ranks);
     check_exchange(ranks);
+    check_send(ranks);
   }
+}
+
+TEST(MpiCommunicator, opens_a_file)
+{
+  for (const std::int64_t limit : limits)
+  {
+    MpiCommunicator ranks(MPI_COMM_WORLD, limit);
+    check_open_together(ranks, folder(ranks));
+    check_open_together_fails(ranks, folder(ranks));
+  }
+}
+
+TEST(MpiCommunicator, a_full_disk)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  if (!check_full_disk(ranks, folder(ranks)))
+  {
+    GTEST_SKIP() << SmallDisk::not_there;
+  }
+}
+
+/// The last rank alone may not open what rank 0 made.
+TEST(MpiCommunicator, a_file_that_one_rank_cannot_open)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const std::string path = folder(ranks) + "/file";
+  empty_folder(ranks, folder(ranks));
+  const Nobody nobody(ranks.size() > 1 && ranks.rank() == ranks.size() - 1);
+  if (ranks.size() == 1 || !all_of(ranks, nobody.is_it() && ::getuid() == 0))
+  {
+    GTEST_SKIP() << "needs root, and a second rank to be someone else";
+  }
+  const std::string last = std::to_string(ranks.size() - 1);
+  EXPECT_EQ(open_together_error(ranks, path),
+    path + ": cannot write: Permission denied (on rank " + last + " of " +
+      std::to_string(ranks.size()) + ")");
+  EXPECT_EQ(names_in(folder(ranks)), std::vector<std::string>{});
+}
+
+TEST(MpiCommunicator, a_folder_that_may_not_be_written)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const std::string path = folder(ranks) + "/file";
+  empty_folder(ranks, folder(ranks));
+  std::filesystem::permissions(folder(ranks), std::filesystem::perms(0555));
+  granular::agree(ranks, nullptr);
+  const bool root = ::geteuid() == 0;
+  std::string error;
+  {
+    const Nobody nobody(root);
+    if (!all_of(ranks, nobody.is_it()))
+    {
+      GTEST_SKIP() << "root may write everywhere here";
+    }
+    error = open_together_error(ranks, path);
+  }
+  const std::string rank = " (on rank 0 of " + std::to_string(ranks.size()) + ")";
+  EXPECT_EQ(error, path + ": cannot write: Permission denied" + (ranks.size() > 1 ? rank : ""));
+  EXPECT_EQ(names_in(folder(ranks)), std::vector<std::string>{});
+  std::filesystem::permissions(folder(ranks), std::filesystem::perms(0755));
 }
 
 TEST(MpiCommunicator, agree)

@@ -20,6 +20,28 @@ namespace
 {
 constexpr mode_t permission_bits = 0777;
 
+[[noreturn]] void fail(const std::string& path, int error)
+{
+  throw IoError("cannot write: " + std::generic_category().message(error), { path },
+    static_cast<std::errc>(error));
+}
+
+void pwrite_all(int file, std::int64_t offset, std::string_view bytes, const std::string& path)
+{
+  constexpr std::size_t most_bytes = std::size_t{ 1 } << 30; // systems refuse 2 GiB at once
+  while (!bytes.empty())
+  {
+    const ssize_t done =
+      ::pwrite(file, bytes.data(), std::min(bytes.size(), most_bytes), static_cast<off_t>(offset));
+    if (done < 0 && errno != EINTR)
+    {
+      fail(path, errno);
+    }
+    bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
+    offset += std::max(done, ssize_t{ 0 });
+  }
+}
+
 /// The path behind all symbolic links, there or not, where the folders before it are left as they are.
 std::string follow(const std::string& path, std::error_code& error)
 {
@@ -51,14 +73,14 @@ NewFile::NewFile(const std::string& path)
   target_ = follow(path, error);
   if (error)
   {
-    this->fail(error.value());
+    fail(path_, error.value());
   }
   struct stat old = {};
   if (::lstat(target_.c_str(), &old) == 0)
   {
     if (S_ISDIR(old.st_mode))
     {
-      this->fail(EISDIR);
+      fail(path_, EISDIR);
     }
     if (!S_ISREG(old.st_mode))
     {
@@ -69,7 +91,7 @@ NewFile::NewFile(const std::string& path)
   }
   else if (errno != ENOENT || path.empty())
   {
-    this->fail(errno);
+    fail(path_, errno);
   }
   this->create();
 }
@@ -92,7 +114,7 @@ void NewFile::create()
     }
     else if ((errno != EEXIST && errno != EINTR) || number == most_tries)
     {
-      this->fail(errno);
+      fail(path_, errno);
     }
   }
 }
@@ -111,18 +133,7 @@ NewFile::~NewFile()
 
 void NewFile::write_at(std::int64_t offset, std::string_view bytes)
 {
-  constexpr std::size_t most_bytes = std::size_t{ 1 } << 30; // systems refuse 2 GiB at once
-  while (!bytes.empty())
-  {
-    const ssize_t done =
-      ::pwrite(file_, bytes.data(), std::min(bytes.size(), most_bytes), static_cast<off_t>(offset));
-    if (done < 0 && errno != EINTR)
-    {
-      this->fail(errno);
-    }
-    bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
-    offset += std::max(done, ssize_t{ 0 });
-  }
+  pwrite_all(file_, offset, bytes, path_);
 }
 
 void NewFile::finish()
@@ -135,7 +146,7 @@ void NewFile::finish()
     if (::fstat(file_, &now) != 0 ||
       ((now.st_mode & permission_bits) != wanted && ::fchmod(file_, wanted) != 0))
     {
-      this->fail(errno);
+      fail(path_, errno);
     }
   }
   const int file = file_;
@@ -143,15 +154,36 @@ void NewFile::finish()
   // a full disk behind a network may show here first
   if ((::close(file) != 0 && errno != EINTR) || std::rename(name_.c_str(), target_.c_str()) != 0)
   {
-    this->fail(errno);
+    fail(path_, errno);
   }
   name_.clear();
 }
 
-void NewFile::fail(int error) const
+void write_into(
+  const std::string& name, std::int64_t offset, std::string_view bytes, const std::string& path)
 {
-  throw IoError("cannot write: " + std::generic_category().message(error), { path_ },
-    static_cast<std::errc>(error));
+  int file = -1;
+  do
+  {
+    file = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
+  } while (file < 0 && errno == EINTR);
+  if (file < 0)
+  {
+    fail(path, errno);
+  }
+  try
+  {
+    pwrite_all(file, offset, bytes, path);
+  }
+  catch (...)
+  {
+    ::close(file);
+    throw;
+  }
+  if (::close(file) != 0 && errno != EINTR)
+  {
+    fail(path, errno);
+  }
 }
 
 void write_file(const std::string& path, std::string_view bytes)

@@ -43,7 +43,6 @@ public:
 
 private:
   void create();
-  [[noreturn]] void fail(int error) const;
 
   std::string path_;   ///< as it was given
   std::string target_; ///< behind all links
@@ -51,6 +50,10 @@ private:
   int file_ = -1;
   int permissions_ = -1; ///< of the old file; -1: there is none
 };
+
+/// Writes into the file of that name, which is there; beyond its end, too. Throws IoError that names path.
+void write_into(
+  const std::string& name, std::int64_t offset, std::string_view bytes, const std::string& path);
 
 /// Writes a file whole or not at all: a reader sees the old content or the new one; if this fails, the
 /// old file is as it was. Like NewFile. Throws IoError.

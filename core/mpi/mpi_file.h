@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef mpi_mpi_file_h
+#define mpi_mpi_file_h
+
+#include "granular/base/byte_sink.h"
+#include "granular/base/communicator.h"
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace granular
+{
+/// A file that all ranks write by MPI-IO. Rank 0 makes it and gives it its name, as NewFile does.
+class MpiFile final : public OutputFile
+{
+public:
+  /// Neither collective nor open yet. MPI counts in int: what is larger than most_bytes goes in several
+  /// writes. The ranks must outlive the file.
+  MpiFile(Communicator& ranks, const std::string& path, std::int64_t most_bytes);
+  ~MpiFile() override;
+
+  /// Collective. Throws IoError on all ranks if one cannot open the file.
+  void open();
+
+  void write_at(std::int64_t offset, std::string_view bytes) override;
+  void finish() override;
+
+private:
+  void open_own();
+  void check(int status) const;
+  int write_some(std::int64_t offset, std::string_view bytes, int& status);
+  void leave() noexcept;
+
+  Communicator& ranks_;
+  std::string path_;
+  std::string name_; ///< of the file while it is written; empty: there is none
+  std::int64_t most_bytes_;
+  std::unique_ptr<NewFile> made_; ///< of rank 0
+  MPI_File file_ = MPI_FILE_NULL;
+};
+}
+#endif
