@@ -8,6 +8,7 @@
 #include <new>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace granular
 {
@@ -298,7 +299,6 @@ std::unique_ptr<OutputFile> MpiCommunicator::open_together(const std::string& pa
 {
   std::unique_ptr<MpiFile> file;
   do_together(*this, [&] { file = std::make_unique<MpiFile>(*this, path, most_bytes_); });
-  file->open();
-  return file;
+  return file->open() ? std::move(file) : nullptr;
 }
 }

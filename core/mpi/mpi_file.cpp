@@ -53,7 +53,7 @@ MpiFile::~MpiFile()
   }
 }
 
-void MpiFile::open()
+bool MpiFile::open()
 {
   std::string name;
   do_together(ranks_,
@@ -67,7 +67,12 @@ void MpiFile::open()
     });
   ranks_.broadcast(name, 0);
   name_ = std::move(name);
+  if (name_.find(':') != std::string::npos)
+  {
+    return false; // ROMIO, and what is made from it, cuts off all up to there
+  }
   do_together(ranks_, [&] { this->open_own(); });
+  return true;
 }
 
 /// Each for itself: where all open it as one and one of them fails, others may wait for ever.

@@ -23,8 +23,9 @@ public:
   MpiFile(Communicator& ranks, const std::string& path, std::int64_t most_bytes);
   ~MpiFile() override;
 
-  /// Collective. Throws IoError on all ranks if one cannot open the file.
-  void open();
+  /// Collective. Throws IoError on all ranks if one cannot open the file. False, and of no use, where
+  /// the path has a colon in it: to MPI that may be the end of the name of a file system.
+  bool open();
 
   void write_at(std::int64_t offset, std::string_view bytes) override;
   void finish() override;

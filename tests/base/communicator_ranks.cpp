@@ -21,11 +21,10 @@ namespace
 /// The limits: the smallest there may be, one that cuts parts unevenly, and the usual one.
 constexpr std::int64_t limits[] = { 8, 100, std::int64_t{ 1 } << 30 };
 
-/// Tests with other numbers of ranks may run at the same time. The colon: some MPI take what is before
-/// it for the kind of the file system.
+/// Tests with other numbers of ranks may run at the same time.
 std::string folder(const granular::Communicator& ranks)
 {
-  return std::string(GRANULAR_OUTPUT) + "/ranks:" + std::to_string(ranks.size());
+  return std::string(GRANULAR_OUTPUT) + "/ranks_" + std::to_string(ranks.size());
 }
 
 /// While it lives, this process is no longer root, if it is to be so and was.
@@ -106,6 +105,24 @@ TEST(MpiCommunicator, a_full_disk)
   {
     GTEST_SKIP() << SmallDisk::not_there;
   }
+}
+
+/// Some MPI take what is before a colon for the kind of the file system, and the rest for the path.
+TEST(MpiCommunicator, opens_no_file_with_a_colon_in_its_path)
+{
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const std::string noon = folder(ranks) + "/run_12:00";
+  empty_folder(ranks, noon);
+  const std::string link = folder(ranks) + "/link";
+  if (ranks.rank() == 0)
+  {
+    std::filesystem::create_symlink("run_12:00/file", link);
+  }
+  EXPECT_FALSE(ranks.open_together(noon + "/file"));
+  EXPECT_FALSE(ranks.open_together(link));
+  EXPECT_EQ(names_in(noon), std::vector<std::string>{});
+  granular::agree(ranks, nullptr);
+  empty_folder(ranks, folder(ranks));
 }
 
 /// The last rank alone may not open what rank 0 made.
