@@ -70,9 +70,10 @@ private:
       const double step = time.Time.value_or(0.5);
       const bool whole = std::trunc(step) == step && std::abs(step) < 0x1p53;
       header.timestep = whole ? static_cast<vtkTypeInt64>(step) : time.Frame;
-      notices.push_back({ {},
-        whole ? "the input has no field data 'timestep': its time is taken for it"
-              : "the input has no field data 'timestep': frames are counted from 0" });
+      granular::Notice notice;
+      notice.text = whole ? "the input has no field data 'timestep': its time is taken for it"
+                          : "the input has no field data 'timestep': frames are counted from 0";
+      notices.push_back(notice);
     }
     if (!data.HasTime)
     {

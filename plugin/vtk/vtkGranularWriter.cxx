@@ -66,6 +66,7 @@ void vtkGranularWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WriteTimeSteps: " << this->WriteTimeSteps << "\n";
   os << indent << "ParallelMode: " << this->ParallelMode << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "GhostLevel: " << this->GhostLevel << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -121,18 +122,18 @@ int vtkGranularWriter::Write()
   Internals& shared = *this->Shared;
   shared.File.reset();
   shared.Frame = 0;
-  shared.Done = false;
+  this->Written = false;
   shared.Told.clear();
   this->SetErrorCode(vtkErrorCode::NoError);
   this->Superclass::Write();
   shared.File.reset(); // what is not finished leaves nothing
-  if (!shared.Done && this->GetErrorCode() == vtkErrorCode::NoError && !this->GetAbortOutput())
+  if (!this->Written && this->GetErrorCode() == vtkErrorCode::NoError && !this->GetAbortOutput())
   {
     vtkErrorMacro("nothing is written to '" << (this->FileName ? this->FileName : "")
                                             << "': the input could not be made");
     this->SetErrorCode(vtkErrorCode::UnknownError);
   }
-  return shared.Done ? 1 : 0;
+  return this->Written ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -157,9 +158,13 @@ vtkTypeBool vtkGranularWriter::ProcessRequest(
     input->Set(Pipeline::UPDATE_PIECE_NUMBER(), controller ? controller->GetLocalProcessId() : 0);
     input->Set(
       Pipeline::UPDATE_NUMBER_OF_PIECES(), controller ? controller->GetNumberOfProcesses() : 1);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), this->GhostLevel);
     if (shared.Frame < shared.Times.size())
     {
+      if (shared.Frame == 0 && input->Has(Pipeline::UPDATE_TIME_STEP()))
+      {
+        shared.TimeBefore = input->Get(Pipeline::UPDATE_TIME_STEP());
+      }
       input->Set(Pipeline::UPDATE_TIME_STEP(), shared.Times[shared.Frame]);
     }
     return 1;
@@ -177,7 +182,6 @@ int vtkGranularWriter::RequestData(
   const Outcome outcome = Guard(this, outputVector,
     [&]
     {
-      granular::Communicator& ranks = shared.GetRanks();
       if (shared.Frame == 0)
       {
         if (!this->FileName || !*this->FileName)
@@ -202,16 +206,22 @@ int vtkGranularWriter::RequestData(
       if (++shared.Frame == frames)
       {
         shared.File->Finish();
-        shared.Done = true;
+        this->Written = true;
       }
     });
   shared.Tell(this, notices);
-  if (outcome == Outcome::Done && !shared.Done)
+  if (outcome == Outcome::Done && !this->Written)
   {
     request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
     return 1;
   }
   request->Remove(Pipeline::CONTINUE_EXECUTING());
   shared.File.reset();
+  if (shared.TimeBefore)
+  {
+    // who writes next means the time that is shown, not the last that was written
+    inputVector[0]->GetInformationObject(0)->Set(Pipeline::UPDATE_TIME_STEP(), *shared.TimeBefore);
+    shared.TimeBefore.reset();
+  }
   return outcome == Outcome::Done ? 1 : 0;
 }

@@ -85,10 +85,24 @@ public:
   vtkMultiProcessController* GetController();
   ///@}
 
+  ///@{
+  /**
+   * How many layers of other processes' cells to ask the input for, as ParaView's writers may. 0 by default. It
+   * changes nothing in the file: points that are duplicates are left out.
+   */
+  vtkSetClampMacro(GhostLevel, int, 0, VTK_INT_MAX);
+  vtkGetMacro(GhostLevel, int);
+  ///@}
+
   /**
    * Writes. Returns 1, or 0 after an error, or if it was aborted.
    */
   int Write() override;
+
+  /**
+   * Whether the last Write() wrote all that it should.
+   */
+  vtkGetMacro(Written, bool);
 
 protected:
   vtkGranularWriter();
@@ -111,6 +125,8 @@ protected:
   bool WriteTimeSteps = false;
   int ParallelMode = GATHER;
   int Threads = 0;
+  int GhostLevel = 0;
+  bool Written = false;
 
 private:
   vtkGranularWriter(const vtkGranularWriter&) = delete;

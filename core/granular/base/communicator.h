@@ -40,7 +40,8 @@ public:
   virtual void sum(std::span<std::int64_t> values) = 0;
 
   /// Tells the other ranks at once that this one has failed, so that they need not go on with what they
-  /// do: called_off. Not collective, like called_off; agree sees to both. Throws nothing for lack of memory.
+  /// do: called_off. Not collective, like called_off; agree sees to both, and who cannot come to agree yet may
+  /// call it before. Throws nothing for lack of memory.
   virtual void call_off() {}
 
   /// Whether another rank has called off what this one is doing.

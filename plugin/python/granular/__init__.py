@@ -5,14 +5,16 @@
     granular.files("dump_*.%.gz")      the files of a run, for FileNames of a reader
     granular.load_plugin()             the proxies for paraview.simple: GranularDumpReader, ...
     granular.show(reader)              particles as spheres of their radius
+    granular.save(filter, "run.dump")  what a filter shows as a particle dump
     granular.set_pool_limit(mib)       how much memory readers keep for the next frame
     granular.write_series(files, dt)   a .series file: one clock for STL, VTK and dump files
 
-Importing this package does not import paraview; show and load_plugin do.
+Importing this package does not import paraview; show, save and load_plugin do.
 """
 from ._files import files
 from ._plugin import load_plugin
 from ._pool import pool_limit, set_pool_limit
+from ._save import save
 from ._series import write_series
 from ._show import show
 from .vtkGranular import *  # noqa: F401,F403 (the compiled classes)

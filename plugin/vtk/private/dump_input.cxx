@@ -176,9 +176,10 @@ DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
     }
     else
     {
-      notices.push_back({ {},
-        "the array '" + std::string(name) + "' of the type " + array->GetDataTypeAsString() +
-          " is left out" });
+      granular::Notice notice;
+      notice.text = "the array '" + std::string(name) + "' of the type " +
+        array->GetDataTypeAsString() + " is left out";
+      notices.push_back(notice);
     }
   }
   static_assert(granular::FrameView::duplicate_row == vtkDataSetAttributes::DUPLICATEPOINT);

@@ -56,7 +56,6 @@ struct vtkGranularWriter::Internals
   std::unique_ptr<vtkGranularPrivate::FrameWriter> File;
   std::vector<double> Times;  ///< that are to be written; empty: the one that the input shows
   std::size_t Frame = 0;      ///< the one at hand
-  bool Done = false;          ///< all is written
   std::set<std::string> Told; ///< notices that the user has had of this file
 
   /**
