@@ -36,7 +36,8 @@ constexpr std::uint64_t eight_zeros = 0x3030303030303030;
 /// once. Reciprocals are exact in their range: x < 10^4 by 100, x < 100 by 10.
 inline std::uint64_t eight_digits(std::uint64_t x)
 {
-  const std::uint64_t halves = (x << 32) - x / 10000 * ((std::uint64_t{ 10000 } << 32) - 1);
+  const std::uint64_t high = x * 3518437209 >> 45; // x / 10^4
+  const std::uint64_t halves = (x << 32) - high * ((std::uint64_t{ 10000 } << 32) - 1);
   const std::uint64_t hundreds = ((halves * 10486) >> 20) & 0x7f0000007f;
   const std::uint64_t pairs = (halves << 16) - hundreds * ((100 << 16) - 1);
   const std::uint64_t tens = ((pairs * 103) >> 10) & 0x000f000f000f000f;
@@ -46,7 +47,8 @@ inline std::uint64_t eight_digits(std::uint64_t x)
 /// How many of eight digits there are up to the last that is not 0; at least one.
 inline unsigned significant(std::uint64_t digits)
 {
-  return (static_cast<unsigned>(63 - std::countl_zero(digits | 1)) >> 3) + 1;
+  const std::uint64_t reversed = __builtin_bswap64(digits) | std::uint64_t{ 1 } << 63;
+  return 8 - (static_cast<unsigned>(std::countr_zero(reversed)) >> 3);
 }
 
 inline void store(char* to, std::uint64_t eight_chars)
@@ -118,51 +120,67 @@ constexpr auto exponents = []
   return table;
 }();
 
-/// digits of them, the first not 0 unless the number is, times 10^k of the first.
-inline char* lay_out(char* to, std::uint64_t decimal, int k, int digits)
+struct Place
+{
+  const Layout& layout;
+  std::uint64_t exponent;
+};
+
+/// Where a number of so many digits stands, whose first is times 10^k.
+inline Place place_of(int k, int digits)
 {
   const bool fixed = k >= least_fixed && k < digits;
-  const Layout layout = layouts[static_cast<std::size_t>((fixed ? k : 0) - least_fixed)];
-  const std::uint64_t exponent =
-    exponents[fixed ? 0 : static_cast<std::size_t>(k - smallest_exponent + 1)];
-  store(to, std::uint64_t{ '0' } | std::uint64_t{ '.' } << 8 | eight_zeros << 16);
-  char* const start = to + layout.start;
-  unsigned length = 0;
-  if (digits <= 8)
-  {
-    const std::uint64_t raw =
-      eight_digits(decimal * whole_powers_of_ten[static_cast<std::size_t>(8 - digits)]);
-    const std::uint64_t chars = raw | eight_zeros;
-    length = significant(raw);
-    store(start, chars);
-    store(to + layout.tail, chars >> 8 >> layout.shift);
-  }
-  else
-  {
-    decimal *= whole_powers_of_ten[static_cast<std::size_t>(17 - digits)];
-    const std::uint64_t after = decimal % 10'000'000'000'000'000;
-    const std::uint64_t high = eight_digits(after / 100'000'000);
-    const std::uint64_t low = eight_digits(after % 100'000'000);
-    length = low != 0 ? 9 + significant(low) : high != 0 ? 1 + significant(high) : 1;
-    *start = static_cast<char>('0' + decimal / 10'000'000'000'000'000);
-    store(start + 1, high | eight_zeros);
-    store(start + 9, low | eight_zeros);
-    const Wide tail = (Wide{ low | eight_zeros } << 64 | high | eight_zeros) >> layout.shift;
-    store(to + layout.tail_end, static_cast<std::uint64_t>(tail >> 64));
-    store(to + layout.tail, static_cast<std::uint64_t>(tail));
-  }
-  to[layout.point] = '.';
-  length += length > layout.before ? 1 : 0;
-  length = length > layout.least ? length : layout.least;
-  char* const end = start + length;
-  store(end, exponent);
-  return end + (exponent >> 56);
+  return { layouts[static_cast<std::size_t>((fixed ? k : 0) - least_fixed)],
+    exponents[fixed ? 0 : static_cast<std::size_t>(k - smallest_exponent + 1)] };
+}
+
+/// What is around the digits, of which so many are not zeros at the end.
+inline char* finish(char* to, const Place& place, unsigned length)
+{
+  to[place.layout.point] = '.';
+  length += length > place.layout.before ? 1 : 0;
+  length = length > place.layout.least ? length : place.layout.least;
+  char* const end = to + place.layout.start + length;
+  store(end, place.exponent);
+  return end + (place.exponent >> 56);
+}
+
+constexpr std::uint64_t zeros_and_point = '0' | '.' << 8 | eight_zeros << 16;
+
+/// Eight digits, zeros at the end as there are.
+inline char* lay_out_eight(char* to, std::uint64_t digits, const Place& place)
+{
+  const std::uint64_t raw = eight_digits(digits);
+  store(to, zeros_and_point);
+  store(to + place.layout.start, raw | eight_zeros);
+  store(to + place.layout.tail, (raw | eight_zeros) >> 8 >> place.layout.shift);
+  return finish(to, place, significant(raw));
+}
+
+/// The same for seventeen: one, and twice eight.
+inline char* lay_out_seventeen(char* to, std::uint64_t digits, const Place& place)
+{
+  const std::uint64_t first = digits / 10'000'000'000'000'000;
+  const std::uint64_t after = digits - first * 10'000'000'000'000'000;
+  const std::uint64_t half = after / 100'000'000;
+  const std::uint64_t high = eight_digits(half);
+  const std::uint64_t low = eight_digits(after - half * 100'000'000);
+  store(to, zeros_and_point);
+  char* const start = to + place.layout.start;
+  *start = static_cast<char>('0' + first);
+  store(start + 1, high | eight_zeros);
+  store(start + 9, low | eight_zeros);
+  const Wide tail = (Wide{ low | eight_zeros } << 64 | high | eight_zeros) >> place.layout.shift;
+  store(to + place.layout.tail_end, static_cast<std::uint64_t>(tail >> 64));
+  store(to + place.layout.tail, static_cast<std::uint64_t>(tail));
+  const unsigned upper = high != 0 ? 1 + significant(high) : 1;
+  return finish(to, place, low != 0 ? 9 + significant(low) : upper);
 }
 
 // ---- values to digits --------------------------------------------------------------------------
 
 /// Left to the library, which is exact and slow.
-char* print_exactly(char* to, double value, int digits) noexcept
+[[gnu::noinline]] char* print_exactly(char* to, double value, int digits) noexcept
 {
   char* const last = to + most_number_chars;
   return digits == 0 ? std::to_chars(to, last, value).ptr
@@ -188,8 +206,7 @@ enum class Rounding : std::uint8_t
 
 /// Whether mantissa * 10^q, of which 64 bits are too near to a half, is rounded up. floor is the
 /// number before the point, shift the bits after it in the high half of the product.
-[[gnu::noinline]] Rounding round_half(
-  std::uint64_t mantissa, int q, int shift, std::uint64_t floor) noexcept
+Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floor) noexcept
 {
   const PowerOfFive& five = power_of_five(q);
   const Wide first = Wide{ mantissa } * five.high;
@@ -216,44 +233,89 @@ enum class Rounding : std::uint8_t
                   : Rounding::Down;
 }
 
-/// digits * 10^exponent of the first of them.
-struct Decimal
+/// mantissa * 2^exponent * 10^q as a product of which 64 bits are known.
+struct Scaled
 {
-  std::uint64_t digits;
-  int exponent;
+  std::uint64_t mantissa;
+  std::uint64_t product; ///< the bits; the last `shift` of them, 7 to 63, are after the point
+  int shift;
+  int q;
 };
 
-/// value / 2^52 has the magnitude's bits; false: not decided.
+/// A double, not 0 and not small, made to have so many digits before the point.
 ///
 /// With 10^q = g * 2^(binary_exponent(q) - 63), high of the table is in (g - 1, g + 2^-64]. So the
-/// high half of mantissa * high, mantissa < 2^64, is less than 2 below the high half of the exact
-/// product and not above it by 2^-63: a fraction of half - 1 or half in its last `shift` bits may
-/// be on either side of a half, or on it; all others are on their own.
-inline bool round_decimal(
-  std::uint64_t mantissa, int exponent, int digits, Decimal& decimal) noexcept
+/// product is less than 2 below that of g, and not above it by 2^-63: a fraction of half - 1 or
+/// half may be on either side of a half, or on it; all others are on their own.
+/// (Next to a power of ten, closer than the table tells, either q gives the same digits.)
+inline Scaled scale(std::uint64_t bits, int digits)
 {
-  int k =
-    static_cast<int>((std::int64_t{ exponent } * 1292913986) >> 32); // floor(log10(2^exponent))
-  k += static_cast<int>(binary_exponent(k + 1) == exponent) &
-    static_cast<int>(mantissa >= power_of_five(k + 1).high);
-  const int q = digits - 1 - k;
-  const auto product = static_cast<std::uint64_t>(Wide{ mantissa } * power_of_five(q).high >> 64);
-  const int shift = 62 - exponent - binary_exponent(q); // 7 to 63
-  const std::uint64_t half = std::uint64_t{ 1 } << (shift - 1);
-  std::uint64_t whole = ((product >> (shift - 1)) + 1) >> 1;
-  if (((product + 1 - half) & (2 * half - 1)) <= 1) [[unlikely]]
+  const std::uint64_t mantissa = bits << 11 | std::uint64_t{ 1 } << 63;
+  const int exponent = static_cast<int>(bits >> 52 & 2047) - 1023;
+  const int least = static_cast<int>((std::int64_t{ exponent } * 1292913986) >> 32); // floor(log10)
+  const bool is_more = static_cast<int>(binary_exponent(least + 1) == exponent) &
+    static_cast<int>(mantissa >= power_of_five(least + 1).high);
+  const int q = digits - 1 - least - static_cast<int>(is_more);
+  const Wide product = Wide{ mantissa } * power_of_five(q).high;
+  return { mantissa, static_cast<std::uint64_t>(product >> 64), 62 - exponent - binary_exponent(q),
+    q };
+}
+
+inline std::uint64_t whole_power_of_ten(int q)
+{
+  return whole_powers_of_ten[static_cast<std::size_t>(q)];
+}
+
+/// Any digits from 1 to 17.
+[[gnu::noinline]] char* print_many(char* to, double value, int digits) noexcept
+{
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Scaled scaled = scale(bits, digits);
+  const std::uint64_t floor = scaled.product >> scaled.shift;
+  const std::uint64_t half = std::uint64_t{ 1 } << (scaled.shift - 1);
+  const std::uint64_t rest = scaled.product & (2 * half - 1);
+  std::uint64_t whole = floor + (rest >= half ? 1 : 0);
+  if (rest + 1 - half <= 1) [[unlikely]]
   {
-    const Rounding rounding = round_half(mantissa, q, shift, product >> shift);
+    const Rounding rounding = round_half(scaled.mantissa, scaled.q, scaled.shift, floor);
     if (rounding == Rounding::Unknown)
     {
-      return false;
+      return print_exactly(to, value, digits);
     }
-    whole = (product >> shift) + (rounding == Rounding::Up ? 1 : 0);
+    whole = floor + (rounding == Rounding::Up ? 1 : 0);
   }
-  const bool carries = whole == whole_powers_of_ten[static_cast<std::size_t>(digits)];
-  decimal.digits = carries ? whole_powers_of_ten[static_cast<std::size_t>(digits - 1)] : whole;
-  decimal.exponent = k + static_cast<int>(carries);
-  return true;
+  int k = digits - 1 - scaled.q;
+  if (whole == whole_power_of_ten(digits)) [[unlikely]]
+  {
+    whole = whole_power_of_ten(digits - 1);
+    ++k;
+  }
+  *to = '-';
+  return lay_out_seventeen(
+    to + (bits >> 63), whole * whole_power_of_ten(17 - digits), place_of(k, digits));
+}
+
+/// At most eight digits, so that there are at least 36 bits after the point.
+inline char* print_few(char* to, double value, int digits) noexcept
+{
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Scaled scaled = scale(bits, digits);
+  const std::uint64_t fraction = scaled.product << (64 - scaled.shift);
+  constexpr std::uint64_t doubt = std::uint64_t{ 1 } << 29; // more than 2 units of the product
+  if (fraction + doubt - (std::uint64_t{ 1 } << 63) < 2 * doubt) [[unlikely]]
+  {
+    return print_many(to, value, digits);
+  }
+  std::uint64_t whole = (scaled.product >> scaled.shift) + (fraction >> 63);
+  whole *= whole_power_of_ten(8 - digits);
+  int k = digits - 1 - scaled.q;
+  if (whole == 100'000'000) [[unlikely]]
+  {
+    whole = 10'000'000;
+    ++k;
+  }
+  *to = '-';
+  return lay_out_eight(to + (bits >> 63), whole, place_of(k, digits));
 }
 
 /// x < 10^8 does it in one go.
@@ -305,18 +367,20 @@ NumberFormat parse_number_format(std::string_view text)
 char* print_number(char* to, double value, NumberFormat format) noexcept
 {
   const auto bits = std::bit_cast<std::uint64_t>(value);
-  const bool is_zero = bits << 1 == 0; // done like the others, as 0 * 2^0
-  const unsigned biased = is_zero ? 1023 : static_cast<unsigned>(bits >> 52) & 2047;
-  constexpr unsigned least = 60; // below 10^-289 the table of powers ends
-  Decimal decimal;
-  if (biased - least >= 2047 - least || format.digits == 0 ||
-    !round_decimal(bits << 11 | std::uint64_t{ !is_zero } << 63, static_cast<int>(biased) - 1023,
-      format.digits, decimal)) [[unlikely]]
+  if (bits << 1 == 0)
+  {
+    to[0] = '-';
+    to += bits >> 63;
+    to[0] = '0';
+    return to + 1;
+  }
+  constexpr std::uint64_t least = 60; // powers of ten end below 10^-289
+  if ((bits >> 52 & 2047) - least >= 2047 - least || format.digits == 0) [[unlikely]]
   {
     return print_exactly(to, value, format.digits);
   }
-  *to = '-';
-  return lay_out(to + (bits >> 63), decimal.digits, decimal.exponent, format.digits);
+  return format.digits <= 8 ? print_few(to, value, format.digits)
+                            : print_many(to, value, format.digits);
 }
 
 char* print_integer(char* to, std::int64_t value) noexcept
