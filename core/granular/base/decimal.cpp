@@ -105,6 +105,21 @@ constexpr std::array<PowerOfFive, place(largest_power) + 1> powers_of_five = []
   return table;
 }();
 
+constinit const std::array<std::uint64_t, largest_power - smallest_normal_power + 1> least_doubles =
+  []
+{
+  std::array<std::uint64_t, largest_power - smallest_normal_power + 1> table{};
+  for (int q = smallest_normal_power; q <= largest_power; ++q)
+  {
+    const std::uint64_t bits = powers_of_five[place(q)].high;
+    const bool is_exact = q >= 0 && q <= 27 && bits % 2048 == 0;
+    table[static_cast<std::size_t>(q - smallest_normal_power)] =
+      (static_cast<std::uint64_t>(binary_exponent(q) + 1022) << 52) + (bits >> 11) +
+      (is_exact ? 0 : 1);
+  }
+  return table;
+}();
+
 constinit const std::array<PowerPair, place(largest_power) + 1> power_pairs = []
 {
   std::array<PowerPair, place(largest_power) + 1> table{};

@@ -30,6 +30,10 @@ struct PowerOfFive
 /// q = smallest_power to largest_power.
 extern const std::array<PowerOfFive, largest_power - smallest_power + 1> powers_of_five;
 
+/// The bits of the least double that is not below 10^q, for those that are normal.
+constexpr int smallest_normal_power = -307;
+extern const std::array<std::uint64_t, largest_power - smallest_normal_power + 1> least_doubles;
+
 /// 10^q / 2^binary_exponent(q) in [1, 2), to 2^-104 of itself, as a sum of two doubles.
 struct PowerPair
 {

@@ -51,6 +51,24 @@ inline unsigned significant(std::uint64_t digits)
   return 8 - (static_cast<unsigned>(std::countr_zero(reversed)) >> 3);
 }
 
+/// The digits of numbers below 1000.
+constexpr auto three_digits = []
+{
+  std::array<std::uint32_t, 1000> table{};
+  for (std::uint32_t i = 0; i < table.size(); ++i)
+  {
+    table[i] = i / 100 | i / 10 % 10 << 8 | i % 10 << 16;
+  }
+  return table;
+}();
+
+/// The same for x < 10^6, and two zeros.
+inline std::uint64_t six_digits(std::uint64_t x)
+{
+  const std::uint64_t high = x * 1073742 >> 30; // x / 1000
+  return three_digits[high] | std::uint64_t{ three_digits[x - high * 1000] } << 24;
+}
+
 inline void store(char* to, std::uint64_t eight_chars)
 {
   static_assert(std::endian::native == std::endian::little);
@@ -147,10 +165,9 @@ inline char* finish(char* to, const Place& place, unsigned length)
 
 constexpr std::uint64_t zeros_and_point = '0' | '.' << 8 | eight_zeros << 16;
 
-/// Eight digits, zeros at the end as there are.
-inline char* lay_out_eight(char* to, std::uint64_t digits, const Place& place)
+/// Eight digits.
+inline char* lay_out_eight(char* to, std::uint64_t raw, const Place& place)
 {
-  const std::uint64_t raw = eight_digits(digits);
   store(to, zeros_and_point);
   store(to + place.layout.start, raw | eight_zeros);
   store(to + place.layout.tail, (raw | eight_zeros) >> 8 >> place.layout.shift);
@@ -186,6 +203,8 @@ inline char* lay_out_seventeen(char* to, std::uint64_t digits, const Place& plac
   return digits == 0 ? std::to_chars(to, last, value).ptr
                      : std::to_chars(to, last, value, std::chars_format::general, digits).ptr;
 }
+
+constexpr std::uint64_t sign_bit = std::uint64_t{ 1 } << 63;
 
 inline const PowerOfFive& power_of_five(int q)
 {
@@ -233,32 +252,34 @@ Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floo
                   : Rounding::Down;
 }
 
-/// mantissa * 2^exponent * 10^q as a product of which 64 bits are known.
+/// A double times 10^q, as a product of which 64 bits are known.
 struct Scaled
 {
   std::uint64_t mantissa;
   std::uint64_t product; ///< the bits; the last `shift` of them, 7 to 63, are after the point
-  int shift;
+  int shift;             ///< modulo 64
   int q;
 };
 
-/// A double, not 0 and not small, made to have so many digits before the point.
+/// A magnitude, not 0 and not small, made to have so many digits before the point.
 ///
 /// With 10^q = g * 2^(binary_exponent(q) - 63), high of the table is in (g - 1, g + 2^-64]. So the
 /// product is less than 2 below that of g, and not above it by 2^-63: a fraction of half - 1 or
 /// half may be on either side of a half, or on it; all others are on their own.
-/// (Next to a power of ten, closer than the table tells, either q gives the same digits.)
-inline Scaled scale(std::uint64_t bits, int digits)
+inline Scaled scale(std::uint64_t magnitude, int digits)
 {
-  const std::uint64_t mantissa = bits << 11 | std::uint64_t{ 1 } << 63;
-  const int exponent = static_cast<int>(bits >> 52 & 2047) - 1023;
-  const int least = static_cast<int>((std::int64_t{ exponent } * 1292913986) >> 32); // floor(log10)
-  const bool is_more = static_cast<int>(binary_exponent(least + 1) == exponent) &
-    static_cast<int>(mantissa >= power_of_five(least + 1).high);
-  const int q = digits - 1 - least - static_cast<int>(is_more);
-  const Wide product = Wide{ mantissa } * power_of_five(q).high;
-  return { mantissa, static_cast<std::uint64_t>(product >> 64), 62 - exponent - binary_exponent(q),
-    q };
+  const std::uint64_t mantissa = magnitude << 11 | std::uint64_t{ 1 } << 63;
+  const auto biased = static_cast<std::int64_t>(magnitude >> 52);
+  constexpr std::int64_t log = 1292913986; // of 2, times 2^32
+  const auto least = static_cast<std::int64_t>((biased * log - 1023 * log) >> 32);
+  const std::int64_t q = digits - 1 - least -
+    static_cast<std::int64_t>(
+      magnitude >= least_doubles[static_cast<std::size_t>(least + 1 - smallest_normal_power)]);
+  const Wide product =
+    Wide{ mantissa } * powers_of_five[static_cast<std::size_t>(q - smallest_power)].high;
+  return { mantissa, static_cast<std::uint64_t>(product >> 64),
+    62 + 1023 - static_cast<int>(biased) - binary_exponent(static_cast<int>(q)),
+    static_cast<int>(q) };
 }
 
 inline std::uint64_t whole_power_of_ten(int q)
@@ -270,7 +291,7 @@ inline std::uint64_t whole_power_of_ten(int q)
 [[gnu::noinline]] char* print_many(char* to, double value, int digits) noexcept
 {
   const auto bits = std::bit_cast<std::uint64_t>(value);
-  const Scaled scaled = scale(bits, digits);
+  const Scaled scaled = scale(bits & ~sign_bit, digits);
   const std::uint64_t floor = scaled.product >> scaled.shift;
   const std::uint64_t half = std::uint64_t{ 1 } << (scaled.shift - 1);
   const std::uint64_t rest = scaled.product & (2 * half - 1);
@@ -295,27 +316,27 @@ inline std::uint64_t whole_power_of_ten(int q)
     to + (bits >> 63), whole * whole_power_of_ten(17 - digits), place_of(k, digits));
 }
 
-/// At most eight digits, so that there are at least 36 bits after the point.
+/// At most six digits, so that there are at least 44 bits after the point.
 inline char* print_few(char* to, double value, int digits) noexcept
 {
   const auto bits = std::bit_cast<std::uint64_t>(value);
-  const Scaled scaled = scale(bits, digits);
-  const std::uint64_t fraction = scaled.product << (64 - scaled.shift);
-  constexpr std::uint64_t doubt = std::uint64_t{ 1 } << 29; // more than 2 units of the product
+  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  const std::uint64_t fraction = scaled.product << (-scaled.shift & 63);
+  constexpr std::uint64_t doubt = std::uint64_t{ 1 } << 30; // much more than 2 units of the product
   if (fraction + doubt - (std::uint64_t{ 1 } << 63) < 2 * doubt) [[unlikely]]
   {
     return print_many(to, value, digits);
   }
-  std::uint64_t whole = (scaled.product >> scaled.shift) + (fraction >> 63);
-  whole *= whole_power_of_ten(8 - digits);
+  std::uint64_t whole = (scaled.product >> (scaled.shift & 63)) + (fraction >> 63);
+  whole *= whole_power_of_ten(6 - digits);
   int k = digits - 1 - scaled.q;
-  if (whole == 100'000'000) [[unlikely]]
+  if (whole == 1'000'000) [[unlikely]]
   {
-    whole = 10'000'000;
+    whole = 100'000;
     ++k;
   }
   *to = '-';
-  return lay_out_eight(to + (bits >> 63), whole, place_of(k, digits));
+  return lay_out_eight(to + (bits >> 63), six_digits(whole), place_of(k, digits));
 }
 
 /// x < 10^8 does it in one go.
@@ -374,12 +395,17 @@ char* print_number(char* to, double value, NumberFormat format) noexcept
     to[0] = '0';
     return to + 1;
   }
-  constexpr std::uint64_t least = 60; // powers of ten end below 10^-289
-  if ((bits >> 52 & 2047) - least >= 2047 - least || format.digits == 0) [[unlikely]]
+  constexpr std::uint64_t least = 60; // 2^-963: 10^q is in the table
+  if ((bits >> 52 & 2047) - least >= 2047 - least) [[unlikely]]
   {
     return print_exactly(to, value, format.digits);
   }
-  return format.digits <= 8 ? print_few(to, value, format.digits)
+  if (format.digits == 6) [[likely]] // known to the compiler
+  {
+    return print_few(to, value, 6);
+  }
+  return format.digits == 0 ? print_exactly(to, value, 0)
+    : format.digits < 6     ? print_few(to, value, format.digits)
                             : print_many(to, value, format.digits);
 }
 
