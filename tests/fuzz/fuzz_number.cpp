@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A word: parse_double against strtod, and every path of decode_rows against parse_double and
-// parse_int64.
+// A word: parse_double against strtod, every path of decode_rows against parse_double and
+// parse_int64, and the number printed again against snprintf.
 #include "granular/base/number.h"
+#include "granular/base/number_print.h"
 #include "granular/base/row_text.h"
 
 #include <algorithm>
@@ -109,6 +110,23 @@ void check_rows(
     require(!is_integer || i == integer, "row: value of an integer", word);
   }
 }
+
+void check_print(const std::string& word, double number, std::int64_t integer)
+{
+  char text[granular::most_number_chars];
+  char expected[granular::most_number_chars];
+  for (int digits = 1; digits <= 17; ++digits)
+  {
+    const char* const end = granular::print_number(text, number, { digits });
+    std::snprintf(expected, sizeof expected, "%.*g", digits, number);
+    require(std::string_view(text, end) == expected, "print: not what snprintf gives", word);
+  }
+  const char* end = granular::print_number(text, number, { 0 });
+  const std::string shortest(static_cast<const char*>(text), end);
+  require(same(std::strtod(shortest.c_str(), nullptr), number), "print: another number", word);
+  end = granular::print_integer(text, integer);
+  require(std::to_string(integer) == std::string_view(text, end), "print: another integer", word);
+}
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -124,6 +142,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_double(word, is_number, number);
   }
   check_integer(word, is_integer, integer, is_number, number);
+  if (is_number)
+  {
+    check_print(word, number, integer);
+  }
   const bool one_word =
     size > 0 && std::all_of(data, data + size, [](std::uint8_t byte) { return byte > ' '; });
   if (one_word)
