@@ -248,6 +248,24 @@ PARTS = (
          [Target(r"columns", "ratio:1", ">=", 2),
           Target(r"^first three", "time against all:1", "<=", 0.6)],
          plot_decode),
+    Part("print", "Print: numbers to text",
+         """ns a value, or a row `id type x y z ix iy iz` ("%d %d %g %g %g %d %d %d\\n"), one thread, into
+         memory that was touched before; fprintf writes to a stream in memory. All print the same bytes.
+         Positions are in [-1, 1] and velocities about 1e-3, both of six digits as a text had them; full
+         doubles have 53 random bits, in [-1, 1]. Ratios are their times by ours.""",
+         [cases_by_metrics(r"^(%|shortest)",
+                           Column("ours ns", "ours:ns", ".1f"),
+                           Column("to_chars ns", "to_chars:ns", ".1f"),
+                           Column("snprintf ns", "snprintf:ns", ".1f"),
+                           Column("to_chars ratio", "to_chars ratio:1", ".1f"),
+                           Column("snprintf ratio", "snprintf ratio:1", ".1f"),
+                           Column("spread", "spread:1", ".0%")),
+          cases_by_metrics(r"^row",
+                           Column("ours ns", "ours:ns", ".0f"),
+                           Column("fprintf ns", "fprintf:ns", ".0f"),
+                           Column("fprintf ratio", "fprintf ratio:1", ".1f"),
+                           Column("spread", "spread:1", ".0%"))],
+         [Target(r"^row", "fprintf ratio:1", ">=", 5)]),
     Part("index", "Index: where the frames of a file are",
          """file: FrameIndex::update, against reading the file (in the page cache) the same way and
          counting line feeds with memchr. memory: scan_lines against memchr in a window of 256 KiB
