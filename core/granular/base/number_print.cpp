@@ -4,9 +4,11 @@
 #include "granular/base/decimal.h"
 #include "granular/base/error.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -144,10 +146,9 @@ struct Place
   std::uint64_t exponent;
 };
 
-/// Where a number of so many digits stands, whose first is times 10^k.
-inline Place place_of(int k, int digits)
+/// Where a number stands whose first digit is times 10^k.
+inline Place place_of(int k, bool fixed)
 {
-  const bool fixed = k >= least_fixed && k < digits;
   return { layouts[static_cast<std::size_t>((fixed ? k : 0) - least_fixed)],
     exponents[fixed ? 0 : static_cast<std::size_t>(k - smallest_exponent + 1)] };
 }
@@ -174,24 +175,41 @@ inline char* lay_out_eight(char* to, std::uint64_t raw, const Place& place)
   return finish(to, place, significant(raw));
 }
 
-/// The same for seventeen: one, and twice eight.
-inline char* lay_out_seventeen(char* to, std::uint64_t digits, const Place& place)
+/// Seventeen digits: one, and twice eight.
+struct Seventeen
 {
-  const std::uint64_t first = digits / 10'000'000'000'000'000;
-  const std::uint64_t after = digits - first * 10'000'000'000'000'000;
+  std::uint64_t first;
+  std::uint64_t high;
+  std::uint64_t low;
+
+  unsigned length() const
+  {
+    const unsigned upper = high != 0 ? 1 + significant(high) : 1;
+    return low != 0 ? 9 + significant(low) : upper;
+  }
+};
+
+inline Seventeen seventeen_digits(std::uint64_t x)
+{
+  const std::uint64_t first = x / 10'000'000'000'000'000;
+  const std::uint64_t after = x - first * 10'000'000'000'000'000;
   const std::uint64_t half = after / 100'000'000;
-  const std::uint64_t high = eight_digits(half);
-  const std::uint64_t low = eight_digits(after - half * 100'000'000);
+  return { first, eight_digits(half), eight_digits(after - half * 100'000'000) };
+}
+
+inline char* lay_out_seventeen(char* to, const Seventeen& raw, const Place& place)
+{
+  const std::uint64_t high = raw.high | eight_zeros;
+  const std::uint64_t low = raw.low | eight_zeros;
   store(to, zeros_and_point);
   char* const start = to + place.layout.start;
-  *start = static_cast<char>('0' + first);
-  store(start + 1, high | eight_zeros);
-  store(start + 9, low | eight_zeros);
-  const Wide tail = (Wide{ low | eight_zeros } << 64 | high | eight_zeros) >> place.layout.shift;
+  *start = static_cast<char>('0' + raw.first);
+  store(start + 1, high);
+  store(start + 9, low);
+  const Wide tail = (Wide{ low } << 64 | high) >> place.layout.shift;
   store(to + place.layout.tail_end, static_cast<std::uint64_t>(tail >> 64));
   store(to + place.layout.tail, static_cast<std::uint64_t>(tail));
-  const unsigned upper = high != 0 ? 1 + significant(high) : 1;
-  return finish(to, place, low != 0 ? 9 + significant(low) : upper);
+  return finish(to, place, raw.length());
 }
 
 // ---- values to digits --------------------------------------------------------------------------
@@ -287,6 +305,12 @@ inline std::uint64_t whole_power_of_ten(int q)
   return whole_powers_of_ten[static_cast<std::size_t>(q)];
 }
 
+/// %g's choice.
+inline Place place_of_digits(int k, int digits)
+{
+  return place_of(k, k >= least_fixed && k < digits);
+}
+
 /// Any digits from 1 to 17.
 [[gnu::noinline]] char* print_many(char* to, double value, int digits) noexcept
 {
@@ -312,8 +336,37 @@ inline std::uint64_t whole_power_of_ten(int q)
     ++k;
   }
   *to = '-';
-  return lay_out_seventeen(
-    to + (bits >> 63), whole * whole_power_of_ten(17 - digits), place_of(k, digits));
+  return lay_out_seventeen(to + (bits >> 63),
+    seventeen_digits(whole * whole_power_of_ten(17 - digits)), place_of_digits(k, digits));
+}
+
+/// The shortest number that reads back.
+///
+/// A decimal of at most 15 digits is what its nearest double gives rounded to 15 digits. So one
+/// that reads back as the value is found by that rounding, and with the zeros at its end taken
+/// off it is the shortest. It is at most half a unit of the mantissa away, 1/8 of the last digit.
+[[gnu::noinline]] char* print_shortest(char* to, double value) noexcept
+{
+  constexpr int digits = 15;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  const std::uint64_t eighth = std::uint64_t{ 1 } << (scaled.shift - 3);
+  const std::uint64_t whole = (scaled.product + eighth) >> scaled.shift;
+  const int k = digits - 1 - scaled.q;
+  double back = 0;
+  if (((scaled.product + eighth) & (8 * eighth - 1)) > 2 * eighth || k >= digits ||
+    whole >= whole_power_of_ten(digits) || !to_double(whole, -scaled.q, back) ||
+    back != std::abs(value))
+  {
+    return print_exactly(to, value, 0);
+  }
+  const Seventeen raw = seventeen_digits(whole * 100);
+  const int length = static_cast<int>(raw.length());
+  const int point = length > 1 ? 1 : 0;
+  const int scientific = length + point + (k <= -100 ? 5 : 4);
+  const int fixed = k < 0 ? length + 1 - k : std::max(length + (length > k + 1 ? 1 : 0), k + 1);
+  *to = '-';
+  return lay_out_seventeen(to + (bits >> 63), raw, place_of(k, fixed <= scientific));
 }
 
 /// At most six digits, so that there are at least 44 bits after the point.
@@ -336,7 +389,7 @@ inline char* print_few(char* to, double value, int digits) noexcept
     ++k;
   }
   *to = '-';
-  return lay_out_eight(to + (bits >> 63), six_digits(whole), place_of(k, digits));
+  return lay_out_eight(to + (bits >> 63), six_digits(whole), place_of_digits(k, digits));
 }
 
 /// x < 10^8 does it in one go.
@@ -404,9 +457,12 @@ char* print_number(char* to, double value, NumberFormat format) noexcept
   {
     return print_few(to, value, 6);
   }
-  return format.digits == 0 ? print_exactly(to, value, 0)
-    : format.digits < 6     ? print_few(to, value, format.digits)
-                            : print_many(to, value, format.digits);
+  if (format.digits == 0)
+  {
+    return print_shortest(to, value);
+  }
+  return format.digits < 6 ? print_few(to, value, format.digits)
+                           : print_many(to, value, format.digits);
 }
 
 char* print_integer(char* to, std::int64_t value) noexcept
