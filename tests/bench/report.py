@@ -266,6 +266,21 @@ PARTS = (
                            Column("fprintf ratio", "fprintf ratio:1", ".1f"),
                            Column("spread", "spread:1", ".0%"))],
          [Target(r"^row", "fprintf ratio:1", ">=", 5)]),
+    Part("write", "Write: a frame to a file",
+         """ns a row `id type c ix iy iz` of dump atom, 10^6 rows into a file in memory (/dev/shm), time on
+         the wall: text with %g, against a loop of fprintf; binary, against one write() of all bytes. All
+         write the same bytes. With xs ys zs our rows are scaled on the way; the others are given what
+         comes out. speed against other is their time by ours with one thread.""",
+         [cases_by_metrics(r"",
+                           Column("other ns/row", "other:ns/row", ".1f"),
+                           Column("1 thread ns/row", "1 thread:ns/row", ".1f"),
+                           Column("2 threads ns/row", "2 threads:ns/row", ".1f"),
+                           Column("speed against other", "speed against other:1", ".2f"),
+                           Column("speed of 2 threads", "speed of 2 threads:1", ".2f"),
+                           Column("spread", "spread:1", ".0%"))],
+         [Target(r"^text", "speed against other:1", ">=", 5),
+          Target(r"^binary", "speed against other:1", ">=", 0.7),
+          Target(r"", "speed of 2 threads:1", ">=", 1.4)]),
     Part("index", "Index: where the frames of a file are",
          """file: FrameIndex::update, against reading the file (in the page cache) the same way and
          counting line feeds with memchr. memory: scan_lines against memchr in a window of 256 KiB

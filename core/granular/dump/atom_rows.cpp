@@ -55,8 +55,8 @@ void pack_atom_rows(const AtomRows& atoms, const Box& box, const AtomForm& form,
   for (std::int64_t done = 0; done < count; done += most)
   {
     values.load(frame, plan, box, first + done, std::min(most, count - done), first + done);
-    pack_rows(values, plan,
-      to.data() + static_cast<std::size_t>(done) * static_cast<std::size_t>(atom_row_values(form)));
+    pack_rows(values, plan, 0, values.rows(),
+      reinterpret_cast<char*>(to.data() + static_cast<std::size_t>(done * atom_row_values(form))));
   }
 }
 }

@@ -226,6 +226,30 @@ void plan_images(ColumnPlan& plan, const FrameView& frame, Notices& notices)
   }
 }
 
+/// Coordinates that the points are, and image counts that are there as integers, are columns like others.
+void take_as_they_are(ColumnPlan& plan, const FrameView& frame)
+{
+  const bool moved = frame.point_origin != Vector3{};
+  const ColumnRole stored = frame.coordinates == Coordinates::Absolute ? ColumnRole::Position
+    : frame.coordinates == Coordinates::Unwrapped ? ColumnRole::UnwrappedPosition
+                                                  : ColumnRole::ScaledPosition;
+  for (ColumnSource& column : plan.columns)
+  {
+    const auto axis = static_cast<std::size_t>(column.axis);
+    const std::optional<ValueSource>& image = plan.images[axis];
+    if (column.kind == Kind::Coordinate && !moved && !column.own && column.role == stored)
+    {
+      column.kind = Kind::Array;
+      column.values = frame.points ? component_of(*frame.points, column.axis) : ValueSource{};
+    }
+    if (column.kind == Kind::Image && image && is_integer(image->type) && image->factor == 1)
+    {
+      column.kind = Kind::Array;
+      column.values = *image;
+    }
+  }
+}
+
 /// A text has no place in a binary file; the element is the type there.
 void replace_text(ColumnSource& column, const FrameView& frame)
 {
@@ -338,6 +362,7 @@ ColumnPlan plan_columns(
     }
   }
   plan_images(plan, frame, notices);
+  take_as_they_are(plan, frame);
   plan.ids = find_values(frame, "id");
   if (plan.ids && !is_integer(plan.ids->type))
   {

@@ -58,41 +58,52 @@ void check_texts(const Column& column, const std::string& name)
   return print_number(to, value, format);
 }
 
-void pack_integers(const Column& column, const std::string& name, double* to, std::size_t step)
+[[noreturn]] void fail_integer(std::int64_t value, const std::string& name)
 {
-  for (std::size_t row = 0; row < column.integers.size(); ++row)
+  throw LimitError(
+    "expected integers that a double can hold, as all up to 2^53, for a binary dump, got " +
+      std::to_string(value),
+    { .column = name });
+}
+
+bool is_double(std::int64_t value) noexcept
+{
+  const auto real = static_cast<double>(value);
+  return real < 0x1p63 && static_cast<std::int64_t>(real) == value;
+}
+
+/// One column of the rows, a double every `step` bytes.
+template <class Value>
+void scatter(const Value* from, std::size_t count, char* to, std::size_t step) noexcept
+{
+  for (std::size_t row = 0; row < count; ++row)
   {
-    const std::int64_t value = column.integers[row];
-    const auto real = static_cast<double>(value);
-    if (std::abs(real) >= most_exact &&
-      (real >= 0x1p63 || static_cast<std::int64_t>(real) != value))
-    {
-      throw LimitError(
-        "expected integers that a double can hold, as all up to 2^53, for a binary dump, got " +
-          std::to_string(value),
-        { .column = name });
-    }
-    to[row * step] = real;
+    const auto value = static_cast<double>(from[row]);
+    std::memcpy(to + row * step, &value, sizeof value);
   }
 }
 }
 
-void pack_rows(const RowValues& values, const ColumnPlan& plan, double* to)
+void pack_rows(
+  const RowValues& values, const ColumnPlan& plan, std::size_t first, std::size_t count, char* to)
 {
   const std::span<const Column> columns = values.columns();
-  const std::size_t step = columns.size();
-  for (std::size_t i = 0; i < step; ++i)
+  const std::size_t step = columns.size() * sizeof(double);
+  for (std::size_t i = 0; i < columns.size(); ++i)
   {
     const Column& column = columns[i];
-    if (column.type == ScalarType::Int64)
+    if (column.type != ScalarType::Int64)
     {
-      pack_integers(column, plan.columns[i].name, to + i, step);
+      scatter(column.reals.data() + first, count, to + i * sizeof(double), step);
       continue;
     }
-    for (std::size_t row = 0; row < column.reals.size(); ++row)
+    const std::int64_t* integers = column.integers.data() + first;
+    const auto* const bad = std::find_if_not(integers, integers + count, is_double);
+    if (bad != integers + count)
     {
-      to[row * step + i] = column.reals[row];
+      fail_integer(*bad, plan.columns[i].name);
     }
+    scatter(integers, count, to + i * sizeof(double), step);
   }
 }
 
@@ -158,9 +169,7 @@ void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
 /// Rows up to the next chunk at a time, whose length stands before it.
 void RowEncoder::encode_binary(const RowValues& values, std::int64_t first_row, RowBuffer& to) const
 {
-  const std::size_t step = values.columns().size();
-  std::vector<double> packed(values.rows() * step);
-  pack_rows(values, plan_, packed.data());
+  const std::size_t row_bytes = values.columns().size() * sizeof(double);
   const auto rows = static_cast<std::int64_t>(values.rows());
   for (std::int64_t done = 0; done < rows;)
   {
@@ -173,8 +182,9 @@ void RowEncoder::encode_binary(const RowValues& values, std::int64_t first_row, 
     }
     const std::int64_t left = chunks_.rows_per_chunk() - row % chunks_.rows_per_chunk();
     const std::int64_t part = std::min(left, rows - done);
-    const auto bytes = static_cast<std::size_t>(part) * step * sizeof(double);
-    std::memcpy(to.room(bytes), packed.data() + static_cast<std::size_t>(done) * step, bytes);
+    const std::size_t bytes = static_cast<std::size_t>(part) * row_bytes;
+    pack_rows(values, plan_, static_cast<std::size_t>(done), static_cast<std::size_t>(part),
+      to.room(bytes));
     to.add(bytes);
     done += part;
   }

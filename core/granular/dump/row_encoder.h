@@ -12,9 +12,10 @@
 
 namespace granular
 {
-/// The values of rows as the doubles of a binary dump, row by row; `to` has room for all. Throws LimitError for
-/// integers that are no doubles.
-void pack_rows(const RowValues& values, const ColumnPlan& plan, double* to);
+/// The values of rows [first, first + count) as the doubles of a binary dump, row by row; `to` has room for all,
+/// and need not be aligned. Throws LimitError for integers that are no doubles.
+void pack_rows(
+  const RowValues& values, const ColumnPlan& plan, std::size_t first, std::size_t count, char* to);
 
 /// Packs rows of a frame as the bytes of a dump. Several threads may use one at the same time.
 class RowEncoder

@@ -243,15 +243,23 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
   std::int64_t first, std::int64_t count, std::int64_t row_number)
 {
   kept_.resize(most_rows);
-  rows_ = 0;
-  for (std::int64_t row = first; row < first + count; ++row)
+  rows_ = static_cast<std::size_t>(count);
+  std::iota(kept_.begin(), kept_.begin() + count, first);
+  if (frame.ghosts)
   {
-    kept_[rows_] = row;
-    rows_ += frame.ghosts && (frame.ghosts[row] & FrameView::duplicate_row) != 0 ? 0 : 1;
+    const auto end = std::remove_if(kept_.begin(), kept_.begin() + count,
+      [&](std::int64_t row) { return (frame.ghosts[row] & FrameView::duplicate_row) != 0; });
+    rows_ = static_cast<std::size_t>(end - kept_.begin());
   }
   const Rows rows = std::span(kept_).first(rows_);
   columns_.resize(plan.columns.size());
-  this->load_points(frame, plan, box);
+  const bool derives = std::any_of(plan.columns.begin(), plan.columns.end(),
+    [](const ColumnSource& source)
+    { return source.kind == Kind::Coordinate || source.kind == Kind::Image; });
+  if (derives)
+  {
+    this->load_points(frame, plan, box);
+  }
   for (std::size_t i = 0; i < columns_.size(); ++i)
   {
     const ColumnSource& source = plan.columns[i];
