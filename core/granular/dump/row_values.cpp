@@ -15,6 +15,9 @@ namespace
 using Kind = ColumnSource::Kind;
 using Rows = std::span<const std::int64_t>;
 
+/// LAMMPS and LIGGGHTS add the image count and 512 to a scaled coordinate, and then take 512 off.
+constexpr double image_rounding = 0x1p-44;
+
 template <class From, class To>
 void copy_values(const ValueSource& source, Rows rows, To* to)
 {
@@ -125,14 +128,36 @@ PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
   return plan;
 }
 
+/// The box in the coordinates of points that an origin was subtracted from, so that no digit is lost by adding
+/// it to them.
+Box box_of_points(const FrameView& frame, const Box& box)
+{
+  Box moved = box;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    CompensatedSum sum;
+    sum.add(box.origin[k]);
+    if (frame.coordinates != Coordinates::Scaled)
+    {
+      sum.add(-frame.point_origin[k]);
+    }
+    for (std::size_t j = 0; frame.coordinates == Coordinates::Scaled && j < 3; ++j)
+    {
+      sum.add_product(frame.point_origin[j], box.vectors[j][k]);
+    }
+    moved.origin[k] = sum.twofold();
+  }
+  return moved;
+}
+
 /// How far a coordinate of the form may be from what another program or an earlier rounding made of the same
 /// point, for a coordinate of 0 and no crossing, along each axis: the sum of the magnitudes of all terms.
-Vector3 magnitudes(const Box& box, ColumnRole role) noexcept
+Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
 {
   Vector3 sums;
   for (std::size_t k = 3; k-- > 0;)
   {
-    sums[k] = std::abs(box.origin[k].hi);
+    sums[k] = std::abs(box.origin[k].hi) + std::abs(moved.origin[k].hi - box.origin[k].hi);
     for (const Twofold3& edge : box.vectors)
     {
       sums[k] += std::abs(edge[k].hi);
@@ -164,7 +189,7 @@ void count_crossings(const Box& box, std::span<const double> points, std::vector
 }
 }
 
-void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan, const Box& box)
+void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)
 {
   const Rows rows = std::span(kept_).first(rows_);
   own_.resize(rows_);
@@ -178,7 +203,7 @@ void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan, cons
         own_.data());
       for (std::size_t i = 0; i < rows_; ++i)
       {
-        points_[3 * i + axis] = own_[i] + frame.point_origin[axis];
+        points_[3 * i + axis] = own_[i];
       }
     }
     if (plan.images[axis])
@@ -192,7 +217,7 @@ void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan, cons
   }
   if (plan.wraps)
   {
-    count_crossings(box, points_, images_);
+    count_crossings(box_, points_, images_);
   }
   for (std::vector<double>& form : forms_)
   {
@@ -200,14 +225,16 @@ void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan, cons
   }
 }
 
-std::span<const double> RowValues::coordinates(
-  const FrameView& frame, const Box& box, ColumnRole role)
+std::span<const double> RowValues::coordinates(const FrameView& frame, ColumnRole role)
 {
   std::vector<double>& form = forms_[form_of(role)];
   if (form.empty())
   {
+    const bool same_units = is_scaled(role) == (frame.coordinates == Coordinates::Scaled);
+    const auto& [x, y, z] = frame.point_origin;
     form = points_;
-    convert_positions(plan_form(frame.coordinates, role), box, {}, images_, form);
+    convert_positions(plan_form(frame.coordinates, role), box_,
+      same_units ? Vector3{ -x, -y, -z } : Vector3{}, images_, form);
   }
   return form;
 }
@@ -215,7 +242,7 @@ std::span<const double> RowValues::coordinates(
 void RowValues::load_coordinate(
   const FrameView& frame, const Box& box, const ColumnSource& source, std::vector<double>& to)
 {
-  const std::span<const double> all = this->coordinates(frame, box, source.role);
+  const std::span<const double> all = this->coordinates(frame, source.role);
   const auto axis = static_cast<std::size_t>(source.axis);
   to.resize(rows_);
   for (std::size_t i = 0; i < rows_; ++i)
@@ -229,12 +256,13 @@ void RowValues::load_coordinate(
   // the file's own number, where it is that of the point within rounding: its last digits are its own
   load_numbers(source.values, std::span(kept_).first(rows_), own_.data());
   const double unit = frame.points->type == ScalarType::Float32 ? 0x1p-22 : 0x1p-50;
-  const double magnitude = magnitudes(box, source.role)[axis];
+  const double magnitude = magnitudes(box, box_, source.role)[axis];
+  const double biased = source.role == ColumnRole::ScaledUnwrappedPosition ? image_rounding : 0;
   for (std::size_t i = 0; i < rows_; ++i)
   {
     const double* image = images_.data() + 3 * i;
     const double crossed = std::max({ std::abs(image[0]), std::abs(image[1]), std::abs(image[2]) });
-    const double allowed = unit * (magnitude * (1 + crossed) + std::abs(to[i]));
+    const double allowed = unit * (magnitude * (1 + crossed) + std::abs(to[i])) + biased;
     to[i] = std::abs(own_[i] - to[i]) <= allowed ? own_[i] : to[i];
   }
 }
@@ -258,7 +286,8 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
     { return source.kind == Kind::Coordinate || source.kind == Kind::Image; });
   if (derives)
   {
-    this->load_points(frame, plan, box);
+    box_ = frame.point_origin == Vector3{} ? box : box_of_points(frame, box);
+    this->load_points(frame, plan);
   }
   for (std::size_t i = 0; i < columns_.size(); ++i)
   {

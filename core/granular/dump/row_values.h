@@ -38,15 +38,16 @@ public:
   std::span<const Column> columns() const noexcept { return columns_; }
 
 private:
-  void load_points(const FrameView& frame, const ColumnPlan& plan, const Box& box);
-  std::span<const double> coordinates(const FrameView& frame, const Box& box, ColumnRole role);
+  void load_points(const FrameView& frame, const ColumnPlan& plan);
+  std::span<const double> coordinates(const FrameView& frame, ColumnRole role);
   void load_coordinate(
     const FrameView& frame, const Box& box, const ColumnSource& source, std::vector<double>& to);
 
   std::vector<std::int64_t> kept_; ///< rows of the view
   std::size_t rows_ = 0;
   std::vector<Column> columns_;
-  std::vector<double> points_; ///< three of each row, PointOrigin added
+  Box box_;                    ///< in the coordinates of the points, see point_origin
+  std::vector<double> points_; ///< three of each row
   std::vector<double> images_; ///< three of each row
   std::array<std::vector<double>, 4>
     forms_; ///< of the points, as far as they are needed, see form_of

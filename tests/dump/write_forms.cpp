@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The 16 forms of dump atom, compared with what fprintf and fwrite make of the same numbers.
+#include "dump_writing.h"
+#include "dumps.h"
+#include "reference_dump.h"
+
+#include "granular/dump/atom_rows.h"
+#include "granular/dump/row_buffer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace granular;
+
+/// The boxes as the header has them: small_box, and some with all digits.
+std::vector<ReferenceBox> boxes(bool tilted)
+{
+  if (!tilted)
+  {
+    return { { { -1.5, 0, 2 }, { 8.5, 7.75, 10.5 }, 0, 0, 0, false, "pp fs mm" },
+      { { -0.1, 1.0 / 3, 1e5 }, { 0.1, 2.0 / 3, 1e5 + 1e-3 }, 0, 0, 0, false, "ff pp sm" } };
+  }
+  return { { { -1.5, 0, 2 }, { 12.25, 9, 10.5 }, 2.5, -1.5, 1.25, true, "pp fs mm" },
+    { { -0.1, 1.0 / 3, 1e5 }, { 0.3, 0.7, 1e5 + 1e-3 }, -0.01, -0.02, 1.0 / 30, true, "pp pp pp" },
+    { { -0.1, 1.0 / 3, 7 }, { 0.3, 0.7, 8 }, 0.03, -0.01, -1.0 / 70, true, "mm mm ss" } };
+}
+
+Box box_of(const ReferenceBox& box)
+{
+  const Vector3 lo = { box.lo[0], box.lo[1], box.lo[2] };
+  const Vector3 hi = { box.hi[0], box.hi[1], box.hi[2] };
+  Box made =
+    box.tilted ? Box::from_tilted_bounds(lo, hi, box.xy, box.xz, box.yz) : Box::from_bounds(lo, hi);
+  made.boundary = box.boundary;
+  return made;
+}
+
+ReferenceAtoms atoms_of(const MadeRows& rows, bool image)
+{
+  return { rows.ids, rows.types, rows.points, image ? rows.images : std::vector<std::int32_t>() };
+}
+
+std::string written_atoms(
+  const MadeRows& rows, bool image, const DumpFormat& format, std::string* said = nullptr)
+{
+  const Folder folder;
+  FrameHeader header;
+  header.timestep = 12345678901;
+  header.box = rows.box;
+  const Written written =
+    write_dump(folder.path("atoms"), Frames{ view_atoms(rows.atoms(image), header) }, format);
+  EXPECT_EQ(written.error, "");
+  if (said)
+  {
+    *said = written.said;
+  }
+  return written.bytes;
+}
+}
+
+TEST(WriteForms, all)
+{
+  for (const Form& form : all_forms())
+  {
+    for (const ReferenceBox& box : boxes(form.tilted))
+    {
+      const MadeRows rows(3000, box_of(box));
+      for (const Dialect dialect : { Dialect::Liggghts, Dialect::Lammps })
+      {
+        const ReferenceForm reference = { form.atom.scaled, form.atom.image, form.binary,
+          dialect == Dialect::Lammps };
+        const std::string expected =
+          reference_dump(box, atoms_of(rows, true), reference, 12345678901);
+        EXPECT_EQ(difference(written_atoms(rows, true, atom_format(form, dialect)), expected), "")
+          << form.name() << ", dialect " << static_cast<int>(dialect) << ", x " << box.lo[0];
+      }
+    }
+  }
+}
+
+/// Atoms without counts of images have crossed no face.
+TEST(WriteForms, without_images)
+{
+  for (const Form& form : all_forms())
+  {
+    const ReferenceBox box = boxes(form.tilted).front();
+    const MadeRows rows(100, box_of(box));
+    std::string said;
+    const std::string written =
+      written_atoms(rows, false, atom_format(form, Dialect::Lammps), &said);
+    const ReferenceForm reference = { form.atom.scaled, form.atom.image, form.binary, true };
+    EXPECT_EQ(
+      difference(written, reference_dump(box, atoms_of(rows, false), reference, 12345678901)), "");
+    EXPECT_EQ(said.empty(), !form.atom.image) << said;
+  }
+}
+
+TEST(WriteForms, no_atoms)
+{
+  for (const Form& form : all_forms())
+  {
+    const ReferenceBox box = boxes(form.tilted).front();
+    const MadeRows rows(0, box_of(box));
+    for (const Dialect dialect : { Dialect::Liggghts, Dialect::Lammps })
+    {
+      const ReferenceForm reference = { form.atom.scaled, form.atom.image, form.binary,
+        dialect == Dialect::Lammps };
+      EXPECT_EQ(difference(written_atoms(rows, true, atom_format(form, dialect)),
+                  reference_dump(box, {}, reference, 12345678901)),
+        "")
+        << form.name();
+    }
+  }
+}
+
+/// By hand: a corner at (1, 2, 3), vectors (10, 0, 0), (-3, 8, 0) and (2, 4, 5).
+TEST(WriteForms, bounding_box_of_a_tilted_box)
+{
+  Box box;
+  box.tilted = true;
+  box.origin = { Twofold{ 1, 0 }, Twofold{ 2, 0 }, Twofold{ 3, 0 } };
+  box.vectors[0] = { Twofold{ 10, 0 }, Twofold{}, Twofold{} };
+  box.vectors[1] = { Twofold{ -3, 0 }, Twofold{ 8, 0 }, Twofold{} };
+  box.vectors[2] = { Twofold{ 2, 0 }, Twofold{ 4, 0 }, Twofold{ 5, 0 } };
+  box.boundary = "pp pp pp";
+  const std::vector<double> points = { 1, 2, 3, 10, 14, 8, 5.5, 8, 5.5 };
+  const std::vector<std::int64_t> ids = { 1, 2, 3 };
+  const std::vector<std::int32_t> types = { 1, 1, 2 };
+  const AtomRows atoms = { 3, ids.data(), types.data(), points.data(), nullptr };
+  FrameHeader header;
+  header.box = box;
+  const Folder folder;
+  const Form form{ { true, false }, true, false };
+  const Written written = write_dump(folder.path("atoms"), Frames{ view_atoms(atoms, header) },
+    atom_format(form, Dialect::Liggghts));
+  EXPECT_EQ(written.error, "");
+  EXPECT_EQ(written.bytes,
+    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz yz pp pp pp\n"
+    "-2 13 -3\n2 14 2\n3 8 4\nITEM: ATOMS id type xs ys zs\n"
+    "1 1 0 0 0\n2 1 1 1 1\n3 2 0.5 0.5 0.5\n");
+}
+
+TEST(WriteForms, packed_rows)
+{
+  for (const Form& form : all_forms())
+  {
+    for (const ReferenceBox& box : boxes(form.tilted))
+    {
+      if (!form.binary)
+      {
+        continue;
+      }
+      constexpr std::int64_t count = 2500;
+      const MadeRows rows(count, box_of(box));
+      const int size = form.atom.image ? 8 : 5;
+      ASSERT_EQ(atom_row_values(form.atom), size);
+      const std::string reference = reference_dump(
+        box, atoms_of(rows, true), { form.atom.scaled, form.atom.image, true, false }, 0);
+      constexpr std::int64_t first = 17;
+      std::vector<double> packed(static_cast<std::size_t>((count - first) * size + 1), -7);
+      pack_atom_rows(rows.atoms(true), rows.box, form.atom, first, count - first, packed);
+      const std::size_t bytes = sizeof(double) * (packed.size() - 1);
+      EXPECT_EQ(std::memcmp(packed.data(), reference.data() + reference.size() - bytes, bytes), 0)
+        << form.name();
+      EXPECT_EQ(packed.back(), -7) << "nothing is written behind the rows";
+      pack_atom_rows(rows.atoms(true), rows.box, form.atom, 5, 0, {});
+    }
+  }
+}
+
+TEST(WriteForms, packed_rows_that_cannot_be)
+{
+  const Box flat = Box::from_bounds({ 0, 0, 1 }, { 1, 1, 1 });
+  const MadeRows rows(3, flat);
+  std::vector<double> packed(24);
+  EXPECT_EQ(error_of(
+              [&] {
+                pack_atom_rows(rows.atoms(false), flat, { true, false }, 0, 3, packed);
+              }),
+    "expected a box with a length along z to scale coordinates by, got one of length 0");
+  EXPECT_EQ(error_of(
+              [&] {
+                pack_atom_rows(rows.atoms(false), flat, { false, true }, 0, 3, packed);
+              }),
+    "");
+  const std::vector<std::int64_t> big = { 1, (std::int64_t{ 1 } << 53) + 1, 3 };
+  AtomRows atoms = rows.atoms(false);
+  atoms.ids = big.data();
+  EXPECT_EQ(error_of(
+              [&] {
+                pack_atom_rows(atoms, flat, { false, false }, 0, 3, packed);
+              }),
+    "column 'id': expected integers that a double can hold, as all up to 2^53, for a binary dump, "
+    "got 9007199254740993");
+}
+
+/// The buffer of dump atom grows in steps of 2^20.
+TEST(WriteForms, row_buffer)
+{
+  RowBuffer buffer;
+  std::string expected;
+  std::size_t capacity = 0;
+  for (int i = 0; i < 3000; ++i)
+  {
+    const std::string row(static_cast<std::size_t>(1 + i % 2000), static_cast<char>('a' + i % 26));
+    std::memcpy(buffer.room(row.size()), row.data(), row.size());
+    buffer.add(row.size());
+    expected += row;
+    if (buffer.capacity() != capacity)
+    {
+      EXPECT_GE(buffer.capacity() - capacity, std::size_t{ 1 } << 20);
+      EXPECT_EQ(buffer.capacity() % (std::size_t{ 1 } << 20), 0U);
+      capacity = buffer.capacity();
+    }
+  }
+  EXPECT_GT(capacity, std::size_t{ 1 } << 21);
+  EXPECT_TRUE(buffer.bytes() == expected);
+  buffer.clear();
+  EXPECT_EQ(buffer.size(), 0U);
+  EXPECT_EQ(buffer.capacity(), capacity);
+  EXPECT_THROW(buffer.room(std::numeric_limits<std::size_t>::max()), std::bad_alloc);
+  EXPECT_THROW(buffer.room(std::numeric_limits<std::size_t>::max() / 4), std::bad_alloc);
+  EXPECT_EQ(buffer.capacity(), capacity);
+}
