@@ -1,1 +1,359 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Which columns a dump gets, and what they are made from.
+#include "dump_writing.h"
+#include "dumps.h"
+
+#include "granular/dump/column_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace granular;
+
+using Names = std::vector<std::string>;
+
+/// Two grains in a box from 0 to 10, and no arrays.
+struct TwoGrains
+{
+  TwoGrains()
+  {
+    frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 10, 10, 10 });
+    frame.header.box.boundary = "pp pp pp";
+    frame.rows = 2;
+    frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+  }
+
+  template <class Value>
+  void add(const std::string& name, ScalarType type, const std::vector<Value>& values)
+  {
+    frame.arrays.push_back(
+      view_rows(name, type, values.data(), static_cast<int>(values.size() / 2)));
+  }
+
+  std::vector<double> points = { 1, 2, 3, 4, 5, 6 };
+  FrameView frame;
+};
+
+struct Text
+{
+  std::string body; ///< behind "ITEM: ATOMS "
+  std::string said;
+  std::string error;
+};
+
+Text write(const FrameView& frame, const Names& columns, DumpFormat format = {})
+{
+  const Folder folder;
+  format.columns = columns;
+  const Written written = write_dump(folder.path("a"), Frames{ frame }, format);
+  const std::string mark = "ITEM: ATOMS ";
+  const std::size_t at = written.bytes.find(mark);
+  EXPECT_EQ(names_in(folder.path("")), written.error.empty() ? "a" : "");
+  return { at == std::string::npos ? "" : written.bytes.substr(at + mark.size()), written.said,
+    written.error };
+}
+
+/// The values of a binary dump, row by row.
+std::vector<double> write_binary(const FrameView& frame, const Names& columns, std::string* error = nullptr)
+{
+  const Folder folder;
+  DumpFormat format;
+  format.binary = true;
+  format.columns = columns;
+  const Written written = write_dump(folder.path("a"), Frames{ frame }, format);
+  EXPECT_EQ(error ? "" : written.error, "");
+  if (error)
+  {
+    *error = written.error;
+  }
+  std::vector<double> values(static_cast<std::size_t>(frame.rows) * columns.size());
+  const std::size_t bytes = values.size() * sizeof(double);
+  if (written.bytes.size() > bytes)
+  {
+    std::copy_n(written.bytes.end() - static_cast<std::ptrdiff_t>(bytes), bytes,
+      reinterpret_cast<char*>(values.data()));
+  }
+  return values;
+}
+
+const std::vector<std::int64_t> ids = { 7, 3 };
+const std::vector<std::int32_t> types = { 2, 1 };
+}
+
+TEST(WriteColumns, vectors)
+{
+  TwoGrains grains;
+  const std::vector<double> v = { 0.5, -1, 2, 3, 4e-7, 5 };
+  const std::vector<float> quat = { 1, 0, 0, 0, 0.5F, 0.5F, 0.5F, 0.5F };
+  const std::vector<double> stress = { 1, 2, 3, 4, 5, 6, 11, 12, 13, 14, 15, 16 };
+  grains.add("v", ScalarType::Float64, v);
+  grains.add("quat", ScalarType::Float32, quat);
+  grains.add("c_stress", ScalarType::Float64, stress);
+  EXPECT_EQ(write(grains.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
+  EXPECT_EQ(write(grains.frame, { "v" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
+  EXPECT_EQ(write(grains.frame, { "vz", "vx" }).body, "vz vx\n2 0.5\n5 3\n");
+  EXPECT_EQ(write(grains.frame, { "quat4", "quat1" }).body, "quat4 quat1\n0 1\n0.5 0.5\n");
+  EXPECT_EQ(write(grains.frame, { "c_stress[6]", "c_stress[1]" }).body,
+    "c_stress[6] c_stress[1]\n6 1\n16 11\n");
+  EXPECT_EQ(write(grains.frame, { "c_stress" }).body,
+    "c_stress[1] c_stress[2] c_stress[3] c_stress[4] c_stress[5] c_stress[6]\n1 2 3 4 5 6\n"
+    "11 12 13 14 15 16\n");
+  EXPECT_EQ(write(grains.frame, { "v[2]" }).body, "v[2]\n-1\n4e-07\n");
+  for (const char* const name : { "c_stress[7]", "c_stress[0]", "c_stress[-1]", "c_stress[]",
+         "c_stress[1", "c_stress[1]x", "c_stress[x]", "vw", "c_stress[99999999999]" })
+  {
+    EXPECT_EQ(write(grains.frame, { name }).error,
+      std::string("column '") + name +
+        "': expected an array to make it from, got none: there are v, quat, c_stress");
+  }
+}
+
+TEST(WriteColumns, missing)
+{
+  TwoGrains grains;
+  const Text made = write(grains.frame, { "type", "id", "x" });
+  EXPECT_EQ(made.body, "type id x\n1 1 1\n1 2 4\n");
+  EXPECT_EQ(made.said,
+    "no array 'type': the type of all is 1\nno array 'id': ids are the numbers of the rows, from 1\n");
+  EXPECT_EQ(write(grains.frame, { "radius" }).error,
+    "column 'radius': expected an array to make it from, got none: there are no arrays");
+  grains.frame.points.reset();
+  EXPECT_EQ(write(grains.frame, { "id", "x" }).error,
+    "column 'x': expected an array to make it from, got none: there are no arrays");
+  EXPECT_EQ(write(grains.frame, { "id" }).body, "id\n1\n2\n");
+  EXPECT_EQ(write(grains.frame, { "ix" }).body, "ix\n0\n0\n");
+  grains.frame.coordinates = Coordinates::Unwrapped;
+  EXPECT_EQ(write(grains.frame, { "ix" }).body, "ix\n0\n0\n");
+}
+
+TEST(WriteColumns, names)
+{
+  TwoGrains grains;
+  const std::vector<double> heat = { 1.5, 2.5 };
+  const std::vector<double> two = { 1, 2, 3, 4 };
+  grains.add("heat flux", ScalarType::Float64, heat);
+  grains.add("my\tpair of numbers", ScalarType::Float64, two);
+  EXPECT_EQ(write(grains.frame, { "heat_flux" }).body, "heat_flux\n1.5\n2.5\n");
+  EXPECT_EQ(write(grains.frame, { "my_pair_of_numbers" }).body,
+    "my_pair_of_numbers[1] my_pair_of_numbers[2]\n1 2\n3 4\n");
+  EXPECT_EQ(write(grains.frame, {}).body,
+    "id type x y z heat_flux my_pair_of_numbers[1] my_pair_of_numbers[2]\n1 1 1 2 3 1.5 1 2\n"
+    "2 1 4 5 6 2.5 3 4\n");
+  for (const char* const name : { "heat flux", "", " id", "id\n" })
+  {
+    EXPECT_EQ(write(grains.frame, { "id", name }).error,
+      std::string("expected the name of a column as one word, got '") + name + "'");
+  }
+}
+
+TEST(WriteColumns, every_type)
+{
+  TwoGrains grains;
+  const auto check = [&]<class Value>(ScalarType type, Value low, Value high)
+  {
+    TwoGrains own;
+    const std::vector<Value> values = { low, high };
+    own.add("a", type, values);
+    own.add("type", type, values);
+    const std::string rows =
+      std::to_string(low) + " " + std::to_string(low) + "\n" + std::to_string(high) + " " + std::to_string(high) + "\n";
+    EXPECT_EQ(write(own.frame, { "a", "type" }).body, "a type\n" + rows);
+    DumpFormat sorted;
+    sorted.sort_by_id = true;
+    own.add("id", ScalarType::Int64, ids);
+    EXPECT_EQ(write(own.frame, { "type" }, sorted).body,
+      "type\n" + std::to_string(high) + "\n" + std::to_string(low) + "\n");
+  };
+  const auto of_limits = [&]<class Value>(ScalarType type, Value)
+  { check(type, std::numeric_limits<Value>::min(), std::numeric_limits<Value>::max()); };
+  of_limits(ScalarType::Int8, std::int8_t{});
+  of_limits(ScalarType::UInt8, std::uint8_t{});
+  of_limits(ScalarType::Int16, std::int16_t{});
+  of_limits(ScalarType::UInt16, std::uint16_t{});
+  of_limits(ScalarType::Int32, std::int32_t{});
+  of_limits(ScalarType::UInt32, std::uint32_t{});
+  of_limits(ScalarType::Int64, std::int64_t{});
+  check(ScalarType::UInt64, std::uint64_t{ 0 }, std::uint64_t{ (1ULL << 63) - 1 });
+
+  const std::vector<std::uint64_t> huge = { 1, 1ULL << 63 };
+  grains.add("a", ScalarType::UInt64, huge);
+  EXPECT_EQ(write(grains.frame, { "a" }).error,
+    "column 'a': expected integers below 2^63, got 9223372036854775808");
+}
+
+/// Arrays of one value a row that lie in another array, as of VTK's arrays by component.
+TEST(WriteColumns, steps)
+{
+  TwoGrains grains;
+  const std::vector<std::int16_t> mixed = { 1, 2, 3, 4, 5, 6, 7, 8 };
+  ArrayView view = view_rows("a", ScalarType::Int16, mixed.data() + 1, 2);
+  view.step = 4;
+  std::swap(view.components[0], view.components[1]);
+  grains.frame.arrays.push_back(view);
+  EXPECT_EQ(write(grains.frame, { "a" }).body, "a[1] a[2]\n3 2\n7 6\n");
+}
+
+TEST(WriteColumns, big_ids)
+{
+  TwoGrains grains;
+  const std::vector<std::int64_t> big = { (std::int64_t{ 1 } << 31) + 5, (std::int64_t{ 1 } << 53) + 1 };
+  grains.add("id", ScalarType::Int64, big);
+  grains.add("mol", ScalarType::Int64, big);
+  EXPECT_EQ(write(grains.frame, { "id", "mol" }).body,
+    "id mol\n2147483653 2147483653\n9007199254740993 9007199254740993\n");
+  std::string error;
+  write_binary(grains.frame, { "type", "mol" }, &error);
+  EXPECT_EQ(error,
+    "column 'mol': expected integers that a double can hold, as all up to 2^53, for a binary dump, "
+    "got 9007199254740993");
+  const std::vector<std::int64_t> exact = { -(std::int64_t{ 1 } << 53), std::int64_t{ 1 } << 60 };
+  const std::vector<std::int64_t> last = { 1, std::numeric_limits<std::int64_t>::max() };
+  grains.frame.arrays = {};
+  grains.add("id", ScalarType::Int64, exact);
+  grains.add("mol", ScalarType::Int64, last);
+  EXPECT_EQ(write_binary(grains.frame, { "id" }), (std::vector<double>{ -0x1p53, 0x1p60 }));
+  write_binary(grains.frame, { "mol" }, &error);
+  EXPECT_NE(error.find("got 9223372036854775807"), error.npos);
+}
+
+/// Tools that know no integers hold ids as real numbers: they are whole numbers all the same.
+TEST(WriteColumns, whole_numbers_in_real_arrays)
+{
+  TwoGrains grains;
+  const std::vector<double> real_ids = { 12345678, -0.0 };
+  const std::vector<float> real_types = { 16777216, 2 };
+  const std::vector<double> odd = { 1.5, 1e300 };
+  const std::vector<double> none = { std::numeric_limits<double>::quiet_NaN(),
+    -std::numeric_limits<double>::infinity() };
+  grains.add("id", ScalarType::Float64, real_ids);
+  grains.add("type", ScalarType::Float32, real_types);
+  grains.add("mol", ScalarType::Float64, odd);
+  grains.add("proc", ScalarType::Float64, none);
+  grains.add("mass", ScalarType::Float64, real_ids);
+  EXPECT_EQ(write(grains.frame, { "id", "type", "mol", "proc", "mass" }).body,
+    "id type mol proc mass\n12345678 16777216 1.5 nan 1.23457e+07\n0 2 1e+300 -inf -0\n");
+  DumpFormat sorted;
+  sorted.sort_by_id = true;
+  const Text text = write(grains.frame, { "id" }, sorted);
+  EXPECT_EQ(text.body, "id\n12345678\n0\n");
+  EXPECT_EQ(text.said, "no integer array 'id': the rows are not sorted\n");
+}
+
+TEST(WriteColumns, radius_and_diameter)
+{
+  TwoGrains grains;
+  const std::vector<float> radius = { 0.25F, 0.1F };
+  grains.add("radius", ScalarType::Float32, radius);
+  EXPECT_EQ(write(grains.frame, { "diameter", "radius" }).body, "diameter radius\n0.5 0.25\n0.2 0.1\n");
+  EXPECT_EQ(write_binary(grains.frame, { "diameter" }),
+    (std::vector<double>{ 0.5, 2 * static_cast<double>(0.1F) }));
+  const std::vector<std::int32_t> diameter = { 3, 4 };
+  grains.frame.arrays = {};
+  grains.add("diameter", ScalarType::Int32, diameter);
+  EXPECT_EQ(write(grains.frame, { "radius" }).body, "radius\n1.5\n2\n");
+  DumpFormat sorted;
+  sorted.sort_by_id = true;
+  grains.add("id", ScalarType::Int64, ids);
+  EXPECT_EQ(write(grains.frame, { "radius" }, sorted).body, "radius\n2\n1.5\n");
+
+  // a file with diameters is read as radii, and gets its diameters back, and no radii
+  const std::string text = one_frame("id diameter x y z", "1 0.3 0 0 0\n2 1e-05 1 1 1\n");
+  const ReadFrameView read(Dump(text).read().frame);
+  EXPECT_EQ(write(read.view, {}).body, "id diameter x y z\n1 0.3 0 0 0\n2 1e-05 1 1 1\n");
+}
+
+TEST(WriteColumns, images)
+{
+  TwoGrains grains;
+  const std::vector<std::int32_t> image = { 1, -2, 0, 1048576, 0, -1048576 };
+  grains.add("image", ScalarType::Int32, image);
+  EXPECT_EQ(write(grains.frame, { "ix", "iy", "iz", "xu" }).body,
+    "ix iy iz xu\n1 -2 0 11\n1048576 0 -1048576 1.04858e+07\n");
+  EXPECT_EQ(write(grains.frame, { "image" }).body, "ix iy iz\n1 -2 0\n1048576 0 -1048576\n");
+  const std::vector<std::int64_t> one = { 5, 6 };
+  grains.frame.arrays = {};
+  grains.add("iy", ScalarType::Int64, one);
+  const Text text = write(grains.frame, { "ix", "iy", "iz" });
+  EXPECT_EQ(text.body, "ix iy iz\n0 5 0\n0 6 0\n");
+  EXPECT_EQ(text.said, "");
+}
+
+TEST(WriteColumns, elements)
+{
+  TwoGrains grains;
+  const std::vector<std::string> elements = { "Fe", "C" };
+  grains.add("element", ScalarType::Text, elements);
+  EXPECT_EQ(write(grains.frame, { "element" }).body, "element\nFe\nC\n");
+  EXPECT_EQ(write_binary(grains.frame, { "element" }), (std::vector<double>{ 1, 1 }));
+  grains.add("type", ScalarType::Int32, types);
+  EXPECT_EQ(write_binary(grains.frame, { "element" }), (std::vector<double>{ 2, 1 }));
+  const std::vector<std::string> words = { "a", "b" };
+  grains.add("state", ScalarType::Text, words);
+  std::string error;
+  write_binary(grains.frame, { "state" }, &error);
+  EXPECT_EQ(error, "column 'state': expected numbers for a binary dump, got texts");
+  for (const char* const bad : { "two words", "", " x", "line\n", "tab\t" })
+  {
+    const std::vector<std::string> texts = { "good", bad };
+    grains.frame.arrays = {};
+    grains.add("state", ScalarType::Text, texts);
+    EXPECT_EQ(write(grains.frame, { "state" }).error,
+      std::string("column 'state': expected a word, got '") + bad + "'");
+  }
+}
+
+/// A column that is there twice, with other values each time, as LIGGGHTS writes it where it is asked for twice.
+TEST(WriteColumns, duplicates)
+{
+  const std::string rows = "1 0.5 0.5 2 2.5 0.5\n2 0.25 0.25 3 3.5 0.25\n";
+  const std::string text = one_frame("id c_a x c_b c_b x", rows);
+  for (const DumpRequest& request : { DumpRequest(), everything() })
+  {
+    const ReadFrameView read(Dump(text).read(request).frame);
+    EXPECT_EQ(write(read.view, {}).body, "id c_a x c_b c_b x\n" + rows);
+  }
+  const std::string thrice = "id c_b[1] x c_b[1] c_b[2] c_b[1]\n1 2 3 2 4 2\n2 12 3 12 14 12\n";
+  const ReadFrameView read(
+    Dump(one_frame("id c_b[1] x c_b[1] c_b[2] c_b[1]", "1 2 3 2 4 2\n2 12 3 12 14 12\n")).read().frame);
+  EXPECT_EQ(write(read.view, {}).body, thrice);
+}
+
+/// The columns of the input stay as they are; what is new comes behind them; what is gone is said.
+TEST(WriteColumns, default_columns)
+{
+  const std::string text = one_frame("vx id xs ys zs vy vz q", "1 1 0.5 0.5 0.5 2 3 9\n");
+  ReadFrameView read(Dump(text).read().frame);
+  EXPECT_EQ(write(read.view, {}).body, "vx id xs ys zs vy vz q\n1 1 0.5 0.5 0.5 2 3 9\n");
+  const std::vector<double> speed = { 3.75 };
+  const std::vector<double> force = { 7, 8, 9 };
+  read.view.arrays.push_back(view_rows("speed", ScalarType::Float64, speed.data()));
+  read.view.arrays.push_back(view_rows("f", ScalarType::Float64, force.data(), 3));
+  EXPECT_EQ(write(read.view, {}).body,
+    "vx id xs ys zs vy vz q speed fx fy fz\n1 1 0.5 0.5 0.5 2 3 9 3.75 7 8 9\n");
+  std::erase_if(read.view.arrays, [](const ArrayView& array) { return array.name == "q"; });
+  const Text less = write(read.view, {});
+  EXPECT_EQ(less.body, "vx id xs ys zs vy vz speed fx fy fz\n1 1 0.5 0.5 0.5 2 3 3.75 7 8 9\n");
+  EXPECT_EQ(less.said, "columns of the input without an array are left out: q\n");
+
+  TwoGrains grains;
+  grains.add("type", ScalarType::Int32, types);
+  grains.add("id", ScalarType::Int64, ids);
+  EXPECT_EQ(write(grains.frame, {}).body, "id type x y z\n7 2 1 2 3\n3 1 4 5 6\n");
+}
+
+/// Arrays that say the same in their name as another column are not mixed up with it.
+TEST(WriteColumns, first_of_two_arrays)
+{
+  TwoGrains grains;
+  const std::vector<double> one = { 1, 2 };
+  const std::vector<double> three = { 3, 4, 5, 6, 7, 8 };
+  grains.add("v", ScalarType::Float64, one);
+  grains.add("v", ScalarType::Float64, three);
+  EXPECT_EQ(write(grains.frame, { "v", "vy" }).body, "v vy\n1 4\n2 7\n");
+}

@@ -216,7 +216,7 @@ void plan_images(ColumnPlan& plan, const FrameView& frame, Notices& notices)
     plan.images[axis] = find_values(frame, names[axis]);
     found = found || plan.images[axis];
   }
-  plan.wraps = !found && unwrapped;
+  plan.wraps = !found && unwrapped && frame.points;
   if (!found && (frame.rows > 0 || !frame.arrays.empty()))
   {
     notices.push_back({ {},
@@ -300,17 +300,20 @@ std::vector<std::string> default_columns(const FrameView& frame, Notices& notice
   }
   const auto add = [&](const std::string& name)
   {
-    const bool made =
-      name == "radius" && std::find(names.begin(), names.end(), "diameter") != names.end();
-    if (!made && std::find(names.begin(), names.end(), name) == names.end())
+    if (std::find(names.begin(), names.end(), name) == names.end())
     {
       names.push_back(name);
     }
   };
+  const ColumnSchema input(frame.columns);
   for (const ArrayView& array : frame.arrays)
   {
-    const std::vector<std::string> columns = columns_of(array);
-    std::for_each(columns.begin(), columns.end(), add);
+    const int known = input.find_array(array.name); // also c_a_2, and the radius of a diameter
+    if (known < 0 || input.arrays()[static_cast<std::size_t>(known)].components() != array.size())
+    {
+      const std::vector<std::string> columns = columns_of(array);
+      std::for_each(columns.begin(), columns.end(), add);
+    }
   }
   return names;
 }

@@ -229,6 +229,15 @@ bool loses_digits(const Box& box)
       [](const Twofold& x) { return !prints_exactly(x.value()); });
 }
 
+/// What stands in a line of the header of its own must not look like another section of it.
+void check_line(const std::string& text, const char* what)
+{
+  if (text.find_first_of("\n\r") != text.npos)
+  {
+    throw FormatError(std::string("expected ") + what + " in one line, got a line break in it");
+  }
+}
+
 /// Whether the frame has what the format asks for.
 void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
 {
@@ -239,6 +248,9 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
   {
     check_volume(box);
   }
+  check_line(lead.header.label, "the label");
+  check_line(lead.header.units, "the units");
+  check_line(box.boundary, "the boundaries of the box");
   if (format.units && lead.header.units.empty())
   {
     throw Error("expected the units of the frame for ITEM: UNITS, got none");
@@ -258,6 +270,11 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
     notices.push_back(
       { {}, "the boundaries of the box are not known: they are written as ff ff ff" });
   }
+}
+
+[[noreturn]] void fail_others(const std::string& column)
+{
+  throw Error("expected an array of the same kind on all ranks, got others", { .column = column });
 }
 
 /// The columns of a rank without rows, or the check that those of a rank with rows are the same.
@@ -282,8 +299,18 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, bool binary)
       is_integer(own.values.type) != is_integer(other.values.type) ||
       (own.values.type == ScalarType::Text) != (other.values.type == ScalarType::Text))
     {
-      throw Error(
-        "expected an array of the same kind on all ranks, got others", { .column = names[i] });
+      fail_others(names[i]);
+    }
+  }
+  if (plan.ids.has_value() != lead.columns.ids.has_value())
+  {
+    fail_others("id");
+  }
+  for (std::size_t axis = 0; axis < plan.images.size(); ++axis)
+  {
+    if (plan.images[axis].has_value() != lead.columns.images[axis].has_value())
+    {
+      fail_others(std::string("i") + "xyz"[axis]);
     }
   }
   return plan;
