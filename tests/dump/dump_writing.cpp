@@ -254,6 +254,10 @@ Written write_dump(const std::string& path, const std::vector<Frames>& ranks,
 
 std::string bytes_of_file(const std::string& path)
 {
+  if (!std::filesystem::is_regular_file(path))
+  {
+    return "";
+  }
   std::ifstream stream(path, std::ios::binary);
   return { std::istreambuf_iterator<char>(stream), {} };
 }

@@ -60,7 +60,8 @@ Text write(const FrameView& frame, const Names& columns, DumpFormat format = {})
 }
 
 /// The values of a binary dump, row by row.
-std::vector<double> write_binary(const FrameView& frame, const Names& columns, std::string* error = nullptr)
+std::vector<double> write_binary(
+  const FrameView& frame, const Names& columns, std::string* error = nullptr)
 {
   const Folder folder;
   DumpFormat format;
@@ -120,7 +121,8 @@ TEST(WriteColumns, missing)
   const Text made = write(grains.frame, { "type", "id", "x" });
   EXPECT_EQ(made.body, "type id x\n1 1 1\n1 2 4\n");
   EXPECT_EQ(made.said,
-    "no array 'type': the type of all is 1\nno array 'id': ids are the numbers of the rows, from 1\n");
+    "no array 'type': the type of all is 1\nno array 'id': ids are the numbers of the rows, from "
+    "1\n");
   EXPECT_EQ(write(grains.frame, { "radius" }).error,
     "column 'radius': expected an array to make it from, got none: there are no arrays");
   grains.frame.points.reset();
@@ -161,8 +163,8 @@ TEST(WriteColumns, every_type)
     const std::vector<Value> values = { low, high };
     own.add("a", type, values);
     own.add("type", type, values);
-    const std::string rows =
-      std::to_string(low) + " " + std::to_string(low) + "\n" + std::to_string(high) + " " + std::to_string(high) + "\n";
+    const std::string rows = std::to_string(low) + " " + std::to_string(low) + "\n" +
+      std::to_string(high) + " " + std::to_string(high) + "\n";
     EXPECT_EQ(write(own.frame, { "a", "type" }).body, "a type\n" + rows);
     DumpFormat sorted;
     sorted.sort_by_id = true;
@@ -202,7 +204,8 @@ TEST(WriteColumns, steps)
 TEST(WriteColumns, big_ids)
 {
   TwoGrains grains;
-  const std::vector<std::int64_t> big = { (std::int64_t{ 1 } << 31) + 5, (std::int64_t{ 1 } << 53) + 1 };
+  const std::vector<std::int64_t> big = { (std::int64_t{ 1 } << 31) + 5,
+    (std::int64_t{ 1 } << 53) + 1 };
   grains.add("id", ScalarType::Int64, big);
   grains.add("mol", ScalarType::Int64, big);
   EXPECT_EQ(write(grains.frame, { "id", "mol" }).body,
@@ -250,7 +253,8 @@ TEST(WriteColumns, radius_and_diameter)
   TwoGrains grains;
   const std::vector<float> radius = { 0.25F, 0.1F };
   grains.add("radius", ScalarType::Float32, radius);
-  EXPECT_EQ(write(grains.frame, { "diameter", "radius" }).body, "diameter radius\n0.5 0.25\n0.2 0.1\n");
+  EXPECT_EQ(
+    write(grains.frame, { "diameter", "radius" }).body, "diameter radius\n0.5 0.25\n0.2 0.1\n");
   EXPECT_EQ(write_binary(grains.frame, { "diameter" }),
     (std::vector<double>{ 0.5, 2 * static_cast<double>(0.1F) }));
   const std::vector<std::int32_t> diameter = { 3, 4 };
@@ -320,7 +324,9 @@ TEST(WriteColumns, duplicates)
   }
   const std::string thrice = "id c_b[1] x c_b[1] c_b[2] c_b[1]\n1 2 3 2 4 2\n2 12 3 12 14 12\n";
   const ReadFrameView read(
-    Dump(one_frame("id c_b[1] x c_b[1] c_b[2] c_b[1]", "1 2 3 2 4 2\n2 12 3 12 14 12\n")).read().frame);
+    Dump(one_frame("id c_b[1] x c_b[1] c_b[2] c_b[1]", "1 2 3 2 4 2\n2 12 3 12 14 12\n"))
+      .read()
+      .frame);
   EXPECT_EQ(write(read.view, {}).body, thrice);
 }
 

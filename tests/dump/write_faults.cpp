@@ -1,1 +1,452 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What goes wrong on one rank goes wrong on all, with the same words; the old file stays, and nothing else is left.
+#include "../base/small_disk.h"
+#include "../base/thread_ranks.h"
+#include "dump_writing.h"
+#include "dumps.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+using namespace granular;
+
+constexpr ParallelMode modes[] = { ParallelMode::Gather, ParallelMode::MpiIo };
+constexpr const char* old_content = "what was there before";
+
+/// Three ranks with rows of several batches each.
+struct ThreeRanks
+{
+  explicit ThreeRanks(std::int64_t rows = 30000)
+    : made(rows, small_box(false))
+  {
+    frames = { made.view(), made.view() };
+    frames[1].header.timestep = 101;
+  }
+
+  std::vector<Frames> ranks() const { return cut(frames, { made_rows() / 3, made_rows() / 3, 1 }); }
+  std::int64_t made_rows() const { return static_cast<std::int64_t>(made.ids.size()); }
+
+  MadeRows made;
+  Frames frames;
+};
+
+/// Writes to a file that is there, which must stay.
+void expect_error(const std::vector<Frames>& ranks, const DumpFormat& format,
+  const std::string& error, const std::string& what)
+{
+  for (const ParallelMode mode : modes)
+  {
+    for (const int threads : { 1, 3 })
+    {
+      const Folder folder;
+      folder.write("old", old_content);
+      const Written written = write_dump(folder.path("old"), ranks, format, { mode, threads });
+      EXPECT_EQ(written.error, error) << what << ", mode " << static_cast<int>(mode);
+      EXPECT_EQ(written.bytes, old_content);
+      EXPECT_EQ(names_in(folder.path("")), "old");
+    }
+  }
+}
+
+/// Stops at a report.
+class StopAt final : public Progress
+{
+public:
+  explicit StopAt(int report)
+    : left_(report)
+  {
+  }
+  bool report(double fraction) override
+  {
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
+    EXPECT_GE(fraction, last_) << "progress does not go back";
+    last_ = fraction;
+    return left_-- != 0;
+  }
+
+private:
+  int left_;
+  double last_ = 0;
+};
+
+class CountReports final : public Progress
+{
+public:
+  explicit CountReports(std::atomic<int>& reports)
+    : reports_(reports)
+  {
+  }
+  bool report(double) override
+  {
+    ++reports_;
+    return true;
+  }
+
+private:
+  std::atomic<int>& reports_;
+};
+}
+
+TEST(WriteFaults, missing_array)
+{
+  const ThreeRanks three;
+  std::vector<Frames> ranks = three.ranks();
+  for (FrameView& frame : ranks[1])
+  {
+    std::erase_if(frame.arrays, [](const ArrayView& array) { return array.name == "radius"; });
+  }
+  expect_error(ranks, {},
+    "column 'radius': expected an array to make it from, got none: there are id, type, v, image, "
+    "element (on rank 1 of 3)",
+    "missing array");
+  for (Frames& frames : ranks)
+  {
+    std::erase_if(frames[0].arrays, [](const ArrayView& array) { return array.name == "radius"; });
+  }
+  DumpFormat format;
+  format.columns = { "id", "radius" };
+  expect_error(ranks, format,
+    "column 'radius': expected an array to make it from, got none: there are id, type, v, image, "
+    "element (on rank 0 of 3)",
+    "missing on all");
+}
+
+/// Each would go its own way: one would sort with the others and the other would not.
+TEST(WriteFaults, other_arrays)
+{
+  const ThreeRanks three;
+  const std::vector<double> real(30000);
+  const auto with = [&](const std::string& name, const ArrayView* other)
+  {
+    std::vector<Frames> ranks = three.ranks();
+    for (FrameView& frame : ranks[2])
+    {
+      std::erase_if(frame.arrays, [&](const ArrayView& array) { return array.name == name; });
+      if (other)
+      {
+        frame.arrays.push_back(*other);
+      }
+    }
+    return ranks;
+  };
+  const auto others = [](const std::string& column)
+  {
+    return "column '" + column +
+      "': expected an array of the same kind on all ranks, got others (on rank 2 of 3)";
+  };
+  DumpFormat format;
+  format.sort_by_id = true;
+  format.columns = { "type", "x" };
+  const ArrayView real_ids = view_rows("id", ScalarType::Float64, real.data());
+  expect_error(with("id", &real_ids), format, others("id"), "real ids");
+  expect_error(with("id", nullptr), format, others("id"), "no ids");
+  format.columns = { "type", "ix" };
+  expect_error(with("image", nullptr), format, others("ix"), "no images");
+  format.columns = { "id" };
+  expect_error(with("id", &real_ids), format, others("id"), "real ids that are written");
+  format.columns = { "element" };
+  const ArrayView numbers = view_rows("element", ScalarType::Float64, real.data());
+  expect_error(with("element", &numbers), format, others("element"), "numbers for texts");
+}
+
+TEST(WriteFaults, encoding)
+{
+  DumpFormat binary;
+  binary.binary = true;
+  binary.columns = { "id", "x" };
+  for (const bool sorted : { false, true })
+  {
+    for (const int rank : { 0, 1, 2 })
+    {
+      ThreeRanks three;
+      const auto row = static_cast<std::size_t>(rank) * 10000 + 9999;
+      three.made.ids[row] = (std::int64_t{ 1 } << 53) + 1;
+      three.made.words[row] = "two words";
+      binary.sort_by_id = sorted;
+      // the biggest id is the last one of all
+      const std::string at = " (on rank " + std::to_string(sorted ? 2 : rank) + " of 3)";
+      expect_error(three.ranks(), binary,
+        "column 'id': expected integers that a double can hold, as all up to 2^53, for a binary "
+        "dump, got 9007199254740993" +
+          at,
+        "big id");
+      DumpFormat text;
+      text.sort_by_id = sorted;
+      expect_error(three.ranks(), text, "column 'element': expected a word, got 'two words'" + at,
+        "two words");
+    }
+  }
+}
+
+/// Several ranks fail: it is the lowest that is heard.
+TEST(WriteFaults, everywhere)
+{
+  ThreeRanks three;
+  std::fill(three.made.words.begin(), three.made.words.end(), "");
+  expect_error(
+    three.ranks(), {}, "column 'element': expected a word, got '' (on rank 0 of 3)", "all");
+}
+
+TEST(WriteFaults, no_folder)
+{
+  const ThreeRanks three(300);
+  const Folder folder;
+  for (const ParallelMode mode : modes)
+  {
+    const std::string path = folder.path("missing/file");
+    EXPECT_EQ(write_dump(path, three.ranks(), {}, { mode, 1 }).error,
+      path + ": cannot write: No such file or directory (on rank 0 of 3)");
+    std::filesystem::create_directories(folder.path("folder"));
+    EXPECT_EQ(write_dump(folder.path("folder"), three.ranks(), {}, { mode, 1 }).error,
+      folder.path("folder") + ": cannot write: Is a directory (on rank 0 of 3)");
+  }
+  // the files of two ranks can be opened, that of the third cannot
+  std::filesystem::create_directories(folder.path("own.2"));
+  EXPECT_EQ(write_dump(folder.path("own.%"), three.ranks(), {}).error,
+    folder.path("own.2") + ": cannot write: Is a directory (on rank 2 of 3)");
+  EXPECT_EQ(names_in(folder.path("")), "folder own.2");
+}
+
+TEST(WriteFaults, full_disk)
+{
+  const Folder folder;
+  const SmallDisk disk(folder.path("disk"));
+  if (!disk.there())
+  {
+    GTEST_SKIP() << SmallDisk::not_there;
+  }
+  const ThreeRanks three;
+  const std::string path = disk.path("old");
+  for (const ParallelMode mode : modes)
+  {
+    for (const bool binary : { false, true })
+    {
+      folder.write("disk/old", old_content);
+      DumpFormat format;
+      format.binary = binary;
+      format.columns = { "id", "x", "v" };
+      const Written written = write_dump(path, three.ranks(), format, { mode, 2 });
+      EXPECT_EQ(written.error.substr(0, written.error.find(" (on rank")),
+        path + ": cannot write: No space left on device");
+      EXPECT_EQ(written.bytes, old_content);
+      EXPECT_EQ(names_in(disk.path("")), "old");
+    }
+  }
+  DumpFormat own;
+  EXPECT_NE(
+    write_dump(disk.path("%"), three.ranks(), own).error.find("No space left"), std::string::npos);
+  EXPECT_EQ(names_in(disk.path("")), "old");
+}
+
+TEST(WriteFaults, cancelled)
+{
+  const ThreeRanks three(3000);
+  for (const bool sorted : { false, true })
+  {
+    for (const ParallelMode mode : modes)
+    {
+      DumpFormat format;
+      format.sort_by_id = sorted;
+      for (const int stopped : { 0, 1, 2 })
+      {
+        const Folder folder;
+        folder.write("old", old_content);
+        std::atomic<int> reports = 0;
+        const Written whole = write_dump(folder.path("new"), three.ranks(), format, { mode, 2 },
+          [&](int rank)
+          {
+            return rank == stopped ? std::unique_ptr<Progress>(new CountReports(reports))
+                                   : std::make_unique<Progress>();
+          });
+        ASSERT_EQ(whole.error, "");
+        ASSERT_GE(reports, 2);
+        for (int report = 0; report < 2; ++report)
+        {
+          const Written written = write_dump(folder.path("old"), three.ranks(), format, { mode, 2 },
+            [&](int rank) { return std::make_unique<StopAt>(rank == stopped ? report : -1); });
+          EXPECT_EQ(written.error, "cancelled") << report << " on " << stopped;
+          EXPECT_EQ(written.bytes, old_content);
+          EXPECT_EQ(names_in(folder.path("")), "new old");
+        }
+      }
+    }
+  }
+}
+
+/// At each report of a single process, whose number does not depend on time.
+TEST(WriteFaults, cancelled_at_each_report)
+{
+  const MadeRows rows(30000, small_box(false));
+  for (const bool sorted : { false, true })
+  {
+    DumpFormat format;
+    format.sort_by_id = sorted;
+    std::atomic<int> reports = 0;
+    const Folder folder;
+    const auto write = [&](Progress& progress)
+    {
+      SerialCommunicator alone;
+      Notices notices;
+      DumpWriter writer(folder.path("old"), format, {}, alone);
+      writer.write(rows.view(), notices, progress);
+      writer.finish();
+    };
+    CountReports count(reports);
+    write(count);
+    folder.write("old", old_content);
+    ASSERT_GT(reports, 10);
+    for (int report = 0; report < reports; ++report)
+    {
+      StopAt stop(report);
+      EXPECT_THROW(write(stop), Cancelled) << report;
+      EXPECT_EQ(bytes_of_file(folder.path("old")), old_content);
+      EXPECT_EQ(names_in(folder.path("")), "old");
+    }
+    StopAt late(reports);
+    write(late);
+  }
+}
+
+/// A writer that ends without finish, before and behind a frame.
+TEST(WriteFaults, not_finished)
+{
+  const ThreeRanks three(3000);
+  for (const ParallelMode mode : modes)
+  {
+    for (const char* const name : { "old", "own.%" })
+    {
+      for (const bool after_a_frame : { false, true })
+      {
+        const Folder folder;
+        folder.write("old", old_content);
+        run_ranks(3,
+          [&](Communicator& ranks)
+          {
+            Notices notices;
+            Progress progress;
+            DumpWriter writer(folder.path(name), {}, { mode, 2 }, ranks);
+            if (after_a_frame)
+            {
+              writer.write(
+                three.ranks()[static_cast<std::size_t>(ranks.rank())][0], notices, progress);
+            }
+          });
+        EXPECT_EQ(bytes_of_file(folder.path("old")), old_content);
+        EXPECT_EQ(names_in(folder.path("")), "old");
+      }
+    }
+  }
+}
+
+/// After an error the communicator is as good as new.
+TEST(WriteFaults, another_try)
+{
+  ThreeRanks three;
+  const std::string word = three.made.words[25000];
+  const Folder folder;
+  for (const ParallelMode mode : modes)
+  {
+    three.made.words[25000] = "";
+    std::vector<std::string> errors(3);
+    run_ranks(3,
+      [&](Communicator& ranks)
+      {
+        const auto rank = static_cast<std::size_t>(ranks.rank());
+        for (int i = 0; i < 3; ++i)
+        {
+          Notices notices;
+          Progress progress;
+          errors[rank] += error_of(
+                            [&]
+                            {
+                              DumpWriter writer(folder.path("a"), {}, { mode, 1 }, ranks);
+                              writer.write(three.ranks()[rank][0], notices, progress);
+                              writer.finish();
+                            }) +
+            "\n";
+          do_together(ranks,
+            [&]
+            {
+              if (ranks.rank() == 0)
+              {
+                three.made.words[25000] = i == 1 ? "" : word;
+              }
+            });
+        }
+      });
+    const std::string error = "column 'element': expected a word, got '' (on rank 2 of 3)\n";
+    EXPECT_EQ(errors[0], error + "\n" + error);
+    EXPECT_EQ(errors[0], errors[1]);
+    EXPECT_EQ(errors[0], errors[2]);
+    EXPECT_EQ(names_in(folder.path("")), "a");
+  }
+}
+
+/// A process that is killed while it writes leaves the old file as it was.
+TEST(WriteFaults, killed)
+{
+  const MadeRows rows(20000, small_box(false));
+  const Folder folder;
+  folder.write("old", old_content);
+  int said[2];
+  ASSERT_EQ(::pipe(said), 0);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0)
+  {
+    class Tell final : public Progress
+    {
+    public:
+      explicit Tell(int to)
+        : to_(to)
+      {
+      }
+      bool report(double fraction) override
+      {
+        if (fraction > 0.4)
+        {
+          static_cast<void>(!::write(to_, "x", 1));
+          ::pause(); // in the middle of a frame
+        }
+        return true;
+      }
+
+    private:
+      int to_;
+    };
+    SerialCommunicator alone;
+    Notices notices;
+    Tell tell(said[1]);
+    Progress silent;
+    DumpWriter writer(folder.path("old"), {}, {}, alone);
+    writer.write(rows.view(), notices, silent);
+    writer.write(rows.view(), notices, tell);
+    ::_exit(1);
+  }
+  char word = 0;
+  ASSERT_EQ(::read(said[0], &word, 1), 1);
+  ASSERT_EQ(::kill(child, SIGKILL), 0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  ::close(said[0]);
+  ::close(said[1]);
+  EXPECT_EQ(bytes_of_file(folder.path("old")), old_content);
+  const std::string left = names_in(folder.path(""));
+  EXPECT_EQ(left.find(".granular-" + std::to_string(child) + "-"), 0U) << left;
+  // the next writer passes over what was left
+  EXPECT_EQ(write_dump(folder.path("old"), Frames{ rows.view() }, {}).error, "");
+  EXPECT_NE(bytes_of_file(folder.path("old")), old_content);
+}

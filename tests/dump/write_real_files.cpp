@@ -237,6 +237,14 @@ TEST(WriteRealFiles, what_changes)
   EXPECT_NE(changed.find("-3.99125e-18 0.839798 2.51939"), changed.npos) << changed;
   EXPECT_NE(changed.find("\n102 1 0 0.839798 2.51939"), changed.npos) << changed;
 
+  // two forms in six digits each: the points are made from one, and give the other but for its last digit
+  const Dump dump(
+    one_frame("x y z xs", "1.03679 2 3 0.123456\n", " pp pp pp\n0 8.39798\n0 9\n0 9\n"));
+  const ReadFrameView both(dump.read(everything()).frame);
+  EXPECT_NE(write_dump(folder.path("two"), Frames{ both.view }, {})
+              .bytes.find("x y z xs\n1.03679 2 3 0.123457\n"),
+    std::string::npos);
+
   // xsu with 17 digits, made anew
   EXPECT_NE(change("ortho_unwrapped.dump", {}, text_of(Dialect::Lammps, 17, true)), "");
 

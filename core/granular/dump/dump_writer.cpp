@@ -224,6 +224,7 @@ void DumpWriter::File::share_binary(std::string_view header, RowBatches& rows,
 /// Counts the bytes of all rows, keeps the first, and leaves rows where those begin that are not kept.
 std::size_t DumpWriter::File::count_text(RowBatches& rows, std::string& kept, Progress& progress)
 {
+  kept.reserve(most_kept); // growing would take thrice as much; what is not used is not touched
   std::size_t bytes = 0;
   std::size_t not_kept = rows.place();
   bool keeps = true;
@@ -319,10 +320,14 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
 
 void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& progress)
 {
+  constexpr double share_of_sorting = 0.3;
+  PartialProgress part(progress);
   std::optional<SortedRows> sorted;
   if (format_.sort_by_id && plan.columns.ids)
   {
-    sorted.emplace(frame, plan, ranks_, file_->executor, progress);
+    part.set_part(0, share_of_sorting);
+    sorted.emplace(frame, plan, ranks_, file_->executor, part);
+    part.set_part(share_of_sorting, 1);
   }
   const FrameView& view = sorted ? sorted->view() : frame;
   const auto rank = static_cast<std::size_t>(ranks_.rank());
@@ -355,17 +360,17 @@ void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& p
       do_together(ranks_,
         [&]
         {
-          SharedProgress shared(progress, ranks_);
+          SharedProgress shared(part, ranks_);
           file_->append_rows(header, *rows, shared);
           file_->appender->end_part();
         });
       break;
     case File::Way::Gather:
-      file_->gather_rows(header, *rows, progress);
+      file_->gather_rows(header, *rows, part);
       break;
     case File::Way::Shared:
-      format_.binary ? file_->share_binary(header, *rows, chunks, plan.kept_rows, progress)
-                     : file_->share_text(header, *rows, progress);
+      format_.binary ? file_->share_binary(header, *rows, chunks, plan.kept_rows, part)
+                     : file_->share_text(header, *rows, part);
       break;
   }
   file_->first = false;

@@ -4,6 +4,7 @@
 #include "granular/base/archive.h"
 #include "granular/base/number.h"
 #include "granular/base/words.h"
+#include "granular/dump/grain_bounds.h"
 #include "granular/dump/row_batches.h"
 
 #include <algorithm>
@@ -24,8 +25,7 @@ struct Survey
   std::int64_t kept = 0;
   std::int64_t arrays = 0; ///< a rank without rows and arrays knows nothing
   bool has_box = false;
-  Vector3 lo = { HUGE_VAL, HUGE_VAL, HUGE_VAL }; ///< of the grains, where there is no box
-  Vector3 hi = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  GrainBounds bounds = {}; ///< where there is no box
 };
 
 template <class Archive>
@@ -34,8 +34,7 @@ void pass(Archive& archive, Survey& survey)
   archive.number(survey.kept);
   archive.number(survey.arrays);
   archive.number(survey.has_box);
-  archive.number(survey.lo);
-  archive.number(survey.hi);
+  archive.number(survey.bounds);
 }
 
 /// What the rank that leads tells the others: the header, and the columns without their values.
@@ -121,60 +120,26 @@ Item unpack(std::string_view bytes)
   return item;
 }
 
-/// The bounds of the spheres where there are radii, else of the points.
-void add_bounds(const FrameView& frame, Survey& survey)
+/// Makes one where there is none.
+void choose_box(Lead& lead, const FrameView& frame, const std::vector<Survey>& surveys)
 {
-  const ArrayView* radius = frame.find("radius");
-  ColumnPlan plan;
-  for (int axis = 0; axis < 3; ++axis)
+  if (std::any_of(surveys.begin(), surveys.end(),
+        [&](const Survey& rank) { return rank.kept > 0 && rank.has_box != frame.has_box; }))
   {
-    plan.columns.push_back(
-      { .name = "x", .kind = Kind::Coordinate, .role = ColumnRole::Position, .axis = axis });
+    throw Error("expected a box on all ranks or on none, got one on some");
   }
-  if (radius && radius->size() == 1)
+  if (frame.has_box)
   {
-    plan.columns.push_back(
-      { .name = "radius", .values = { radius->type, radius->components[0], radius->step } });
+    return;
   }
-  RowValues values;
-  constexpr auto most = static_cast<std::int64_t>(RowValues::most_rows);
-  for (std::int64_t first = 0; first < frame.rows; first += most)
+  if (frame.rows > 0 && frame.coordinates != Coordinates::Absolute)
   {
-    values.load(frame, plan, {}, first, std::min(most, frame.rows - first), 0);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      for (std::size_t row = 0; row < values.rows(); ++row)
-      {
-        const double x = values.columns()[axis].reals[row];
-        const double r = plan.columns.size() > 3 ? values.columns()[3].reals[row] : 0;
-        survey.lo[axis] = std::isfinite(x - r) ? std::min(survey.lo[axis], x - r) : survey.lo[axis];
-        survey.hi[axis] = std::isfinite(x + r) ? std::max(survey.hi[axis], x + r) : survey.hi[axis];
-      }
-    }
+    throw Error("expected a box for "s + to_string(frame.coordinates) + " points, got none");
   }
-}
-
-Box box_around(const std::vector<Survey>& surveys)
-{
-  Survey all;
-  for (const Survey& survey : surveys)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      all.lo[axis] = std::min(all.lo[axis], survey.lo[axis]);
-      all.hi[axis] = std::max(all.hi[axis], survey.hi[axis]);
-    }
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    if (all.lo[axis] > all.hi[axis])
-    {
-      all.lo[axis] = all.hi[axis] = 0; // there are no grains
-    }
-  }
-  Box box = Box::from_bounds(all.lo, all.hi);
-  box.boundary = "ff ff ff";
-  return box;
+  GrainBounds all;
+  std::for_each(surveys.begin(), surveys.end(), [&](const Survey& rank) { all.add(rank.bounds); });
+  lead.header.box = all.box();
+  lead.notices.push_back({ {}, "the input has no box: it is made from the bounds of the grains" });
 }
 
 std::vector<std::string> choose_names(
@@ -219,14 +184,11 @@ bool prints_exactly(double value)
 /// other.
 bool loses_digits(const Box& box)
 {
-  return std::any_of(box.vectors.begin(), box.vectors.end(),
-           [](const Twofold3& edge)
-           {
-             return std::any_of(edge.begin(), edge.end(),
-               [](const Twofold& x) { return !prints_exactly(x.value()); });
-           }) ||
-    std::any_of(box.origin.begin(), box.origin.end(),
-      [](const Twofold& x) { return !prints_exactly(x.value()); });
+  const BoxBounds bounds = box.bounds();
+  const Vector3 tilts = { bounds.xy, bounds.xz, bounds.yz };
+  const auto all_exact = [](const Vector3& numbers)
+  { return std::all_of(numbers.begin(), numbers.end(), prints_exactly); };
+  return !all_exact(bounds.lo) || !all_exact(bounds.hi) || !all_exact(tilts);
 }
 
 /// What stands in a line of the header of its own must not look like another section of it.
@@ -264,6 +226,10 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
     notices.push_back({ {},
       "the box is written with six digits, as LIGGGHTS does: scaled coordinates are read back by "
       "these" });
+  }
+  if (format.sort_by_id && !lead.columns.ids)
+  {
+    notices.push_back({ {}, "no integer array 'id': the rows are not sorted" });
   }
   if (box.boundary.empty())
   {
@@ -321,10 +287,11 @@ void check_volume(const Box& box)
 {
   for (std::size_t axis = 0; !box.general && axis < 3; ++axis)
   {
-    if (!(std::abs(box.vectors[axis][axis].hi) > 0))
+    const double length = box.vectors[axis][axis].hi;
+    if (!(std::abs(length) > 0))
     {
       throw Error("expected a box with a length along "s + "xyz"[axis] +
-        " to scale coordinates by, got one of length 0");
+        " to scale coordinates by, got one of length " + (length == 0 ? "0" : "nan"));
     }
   }
 }
@@ -353,7 +320,7 @@ FramePlan plan_frame(
       survey.has_box = frame.has_box;
       if (!frame.has_box)
       {
-        add_bounds(frame, survey);
+        survey.bounds = bounds_of_grains(frame);
       }
       own = pack(survey);
     });
@@ -379,12 +346,7 @@ FramePlan plan_frame(
         return;
       }
       Lead lead{ frame.header, {}, {} };
-      if (!frame.has_box)
-      {
-        lead.header.box = box_around(surveys);
-        lead.notices.push_back(
-          { {}, "the input has no box: it is made from the bounds of the grains" });
-      }
+      choose_box(lead, frame, surveys);
       const std::vector<std::string> names = choose_names(frame, format, lead.notices);
       check_names(names);
       lead.columns = plan_columns(names, frame, format.binary, lead.notices);
