@@ -15,13 +15,16 @@ constexpr double most_exact = 9007199254740992.0; // 2^53
 
 using Column = RowValues::Column;
 
-/// Room that a row of text can need.
-std::size_t most_text_bytes(std::span<const Column> columns, std::size_t row)
+/// Room that rows of text can need.
+std::size_t most_text_bytes(std::span<const Column> columns, std::size_t rows)
 {
-  std::size_t bytes = 2;
+  std::size_t bytes = rows * (columns.size() * (most_number_chars + 1) + 2);
   for (const Column& column : columns)
   {
-    bytes += 1 + (column.type == ScalarType::Text ? column.texts[row]->size() : most_number_chars);
+    for (std::size_t row = 0; column.type == ScalarType::Text && row < rows; ++row)
+    {
+      bytes += column.texts[row]->size();
+    }
   }
   return bytes;
 }
@@ -151,10 +154,10 @@ void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
       check_texts(columns[i], plan_.columns[i].name);
     }
   }
+  char* const begin = to.room(most_text_bytes(columns, values.rows()));
+  char* end = begin;
   for (std::size_t row = 0; row < values.rows(); ++row)
   {
-    char* const begin = to.room(most_text_bytes(columns, row));
-    char* end = begin;
     for (const Column& column : columns)
     {
       end = print_value(end, column, row, format_.numbers);
@@ -162,8 +165,8 @@ void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
     }
     end -= trailing_blank_ ? 0 : 1;
     *end++ = '\n';
-    to.add(static_cast<std::size_t>(end - begin));
   }
+  to.add(static_cast<std::size_t>(end - begin));
 }
 
 /// Rows up to the next chunk at a time, whose length stands before it.
