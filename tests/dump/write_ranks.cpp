@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 #include <random>
 #include <string>
@@ -183,6 +184,41 @@ TEST(WriteRanks, file_of_each_rank)
     }
   }
   EXPECT_EQ(names_in(folder.path("")), "alone p.0.dump p.1.dump p.2.dump");
+}
+
+/// '*' stands for the step, '%' for the rank; only the first of each, and none in folders.
+TEST(WriteRanks, names)
+{
+  const MadeRows rows(300, small_box(false));
+  Frames frames = { rows.view(), rows.view() };
+  frames[1].header.timestep = 2500;
+  DumpFormat format;
+  format.columns = { "id", "x" };
+  const Folder folder;
+  std::filesystem::create_directories(folder.path("a*b%c"));
+  const std::string inside = folder.path("a*b%c/");
+  for (const Way& way : ways)
+  {
+    const WriteOptions options = { way.mode, way.threads };
+    const std::vector<Frames> ranks = cut(frames, { 100, 0, 1 });
+    EXPECT_EQ(write_dump(inside + "plain", ranks, format, options).error, "");
+    EXPECT_EQ(write_dump(inside + "steps_*_*.dump", ranks, format, options).error, "");
+    EXPECT_EQ(write_dump(inside + "all%-%.*", ranks, format, options).error, "");
+    EXPECT_EQ(names_in(inside),
+      "all0-%.100 all0-%.2500 all1-%.100 all1-%.2500 all2-%.100 all2-%.2500 plain "
+      "steps_100_*.dump steps_2500_*.dump");
+    EXPECT_EQ(
+      bytes_of_file(inside + "steps_100_*.dump") + bytes_of_file(inside + "steps_2500_*.dump"),
+      bytes_of_file(inside + "plain"));
+  }
+  // what is done is done, and what is not leaves the old file
+  frames[1].arrays = {};
+  format.columns = { "id", "radius" };
+  const std::string old = bytes_of_file(inside + "steps_2500_*.dump");
+  EXPECT_NE(write_dump(inside + "steps_*_*.dump", cut(frames, { 1, 1 }), format).error, "");
+  EXPECT_NE(
+    bytes_of_file(inside + "steps_100_*.dump").find("ATOMS id radius\n"), std::string::npos);
+  EXPECT_EQ(bytes_of_file(inside + "steps_2500_*.dump"), old);
 }
 
 /// Ids that are made count on over the ranks, also in files of their own.
