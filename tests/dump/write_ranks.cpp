@@ -117,7 +117,7 @@ TEST(WriteRanks, much_text)
 
 TEST(WriteRanks, compressed)
 {
-  const MadeRows rows(14000, small_box(false));
+  const MadeRows rows(27000, small_box(false));
   const Frames frames = { rows.view(), rows.view() };
   const Folder folder;
   DumpFormat format;
