@@ -245,6 +245,13 @@ TEST(WriteRealFiles, what_changes)
               .bytes.find("x y z xs\n1.03679 2 3 0.123457\n"),
     std::string::npos);
 
+  // a bound of -0 is 0 in the box
+  const Dump minus(one_frame("x y z", "1 2 3\n", " pp pp pp\n-0 9\n0 9\n0 9\n"));
+  const ReadFrameView zero(minus.read().frame);
+  EXPECT_NE(write_dump(folder.path("zero"), Frames{ zero.view }, text_of(Dialect::Liggghts))
+              .bytes.find("pp pp pp\n0 9\n"),
+    std::string::npos);
+
   // xsu with 17 digits, made anew
   EXPECT_NE(change("ortho_unwrapped.dump", {}, text_of(Dialect::Lammps, 17, true)), "");
 
