@@ -268,6 +268,21 @@ TEST(WriteRanks, sorted)
   EXPECT_EQ(difference(written.substr(written.find(head) + head.size()), expected), "");
 }
 
+/// A rank without rows gets some, in columns that are made from others.
+TEST(WriteRanks, sorted_columns_that_are_made)
+{
+  MadeRows rows(20000, small_box(false));
+  FrameView frame = rows.view();
+  std::erase_if(frame.arrays, [](const ArrayView& array) { return array.name == "radius"; });
+  frame.arrays.push_back(view_rows("diameter", ScalarType::Int32, rows.types.data()));
+  DumpFormat format;
+  format.sort_by_id = true;
+  format.columns = { "id", "radius", "diameter", "x", "xu", "element" };
+  expect_same({ frame }, format, some_shares, "made columns");
+  format.binary = true;
+  expect_same({ frame }, format, { { 0, 1 }, { knows_nothing, 1, 0 } }, "made columns");
+}
+
 /// Rows that another rank has, too, are left out, and counted nowhere.
 TEST(WriteRanks, ghosts)
 {

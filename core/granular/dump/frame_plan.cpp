@@ -64,6 +64,7 @@ void pass(Archive& archive, ColumnSource& column)
   archive.number(column.axis);
   archive.number(column.whole);
   archive.number(column.values.type);
+  archive.number(column.values.factor);
   archive.number(column.own);
 }
 
