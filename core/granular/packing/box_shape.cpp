@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/packing/box_shape.h"
+
+#include "granular/base/error.h"
+#include "granular/base/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+Vector3 rounded(const Twofold3& vector)
+{
+  return { vector[0].value(), vector[1].value(), vector[2].value() };
+}
+
+Vector3 cross(const Vector3& a, const Vector3& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+double dot(const Vector3& a, const Vector3& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+bool is_side(std::string_view word)
+{
+  const bool known = word.find_first_not_of("pfsm") == word.npos;
+  return known && (word.size() == 1 || (word.size() == 2 && (word[0] == 'p') == (word[1] == 'p')));
+}
+}
+
+BoxShape::BoxShape(const Box& box)
+  : origin(rounded(box.origin))
+  , vectors{ rounded(box.vectors[0]), rounded(box.vectors[1]), rounded(box.vectors[2]) }
+  , periodic{ box.boundary[0] == 'p', box.boundary[3] == 'p', box.boundary[6] == 'p' }
+{
+  volume = std::abs(dot(vectors[0], cross(vectors[1], vectors[2])));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const Vector3 face = cross(vectors[(axis + 1) % 3], vectors[(axis + 2) % 3]);
+    heights[axis] = volume / std::sqrt(dot(face, face));
+    double least = origin[axis];
+    double most = origin[axis];
+    for (const Vector3& vector : vectors)
+    {
+      least += std::min(vector[axis], 0.0);
+      most += std::max(vector[axis], 0.0);
+    }
+    reach = std::max({ reach, -least, most });
+    // nan fails as well
+    if (!(heights[axis] > 0) || !std::isfinite(heights[axis]) || !std::isfinite(origin[axis]))
+    {
+      throw LimitError("expected a box of three finite lengths greater than 0, got one that is flat "
+                       "or not finite");
+    }
+  }
+}
+
+double BoxShape::rounding() const noexcept
+{
+  return 8 * std::numeric_limits<double>::epsilon() * reach;
+}
+
+std::string checked_boundary(const std::string& boundary)
+{
+  const std::vector<std::string_view> words = split_words(boundary);
+  if (words.size() != 3 || !std::all_of(words.begin(), words.end(), is_side))
+  {
+    throw LimitError("expected a boundary such as 'pp pp ff', of the letters p, f, s and m and p "
+                     "never with another, got '" +
+      boundary + "'");
+  }
+  std::string text;
+  for (const std::string_view word : words)
+  {
+    text += text.empty() ? "" : " ";
+    text += word.front();
+    text += word.back();
+  }
+  return text;
+}
+}

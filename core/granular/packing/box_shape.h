@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_box_shape_h
+#define granular_packing_box_shape_h
+
+#include "granular/base/box.h"
+
+#include <array>
+
+namespace granular
+{
+/// A box in plain doubles, and what follows from it. Scaled coordinates are in units of the box vectors.
+struct BoxShape
+{
+  /// The box has a boundary as checked_boundary gives it. Throws LimitError if it is no box.
+  explicit BoxShape(const Box& box);
+
+  Vector3 origin;
+  std::array<Vector3, 3> vectors;
+  std::array<bool, 3> periodic;
+  Vector3 heights;   ///< distance of the two faces that a vector leads between
+  double volume = 0;
+  double reach = 0; ///< the largest magnitude of a coordinate of a corner
+
+  /// How much nearer than in exact arithmetic two points may come, because they were rounded.
+  double rounding() const noexcept;
+
+  /// From the origin of the box.
+  Vector3 edge(const Vector3& scaled) const noexcept
+  {
+    Vector3 sum;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sum[axis] = scaled[0] * vectors[0][axis] + scaled[1] * vectors[1][axis] +
+        scaled[2] * vectors[2][axis];
+    }
+    return sum;
+  }
+};
+
+/// "pp ff fs" from that or from "p f fs": three words of one or two of the letters p (periodic), f, s and
+/// m, p never with another. Throws LimitError.
+std::string checked_boundary(const std::string& boundary);
+}
+#endif

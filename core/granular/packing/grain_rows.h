@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_grain_rows_h
+#define granular_packing_grain_rows_h
+
+#include "granular/base/executor.h"
+#include "granular/packing/packing.h"
+#include "granular/packing/random_grains.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace granular
+{
+/// Calls work(begin, end, worker) for chunks of the rows.
+template <class Work>
+void for_row_chunks(std::int64_t rows, int threads, Progress& progress, const Work& work)
+{
+  constexpr std::int64_t chunk_rows = 8192;
+  const auto chunks = static_cast<std::size_t>((rows + chunk_rows - 1) / chunk_rows);
+  Executor(threads).parallel_for(
+    chunks,
+    [&](std::size_t chunk, std::size_t worker)
+    {
+      const std::int64_t begin = static_cast<std::int64_t>(chunk) * chunk_rows;
+      work(begin, std::min(rows, begin + chunk_rows), worker);
+    },
+    progress);
+}
+
+/// The values of an array that the frame has.
+template <typename T>
+T* array_of(DumpFrame& frame, std::string_view name)
+{
+  const auto found = std::find_if(frame.arrays.begin(), frame.arrays.end(),
+    [name](const DumpArray& array) { return array.info.name == name; });
+  return static_cast<T*>(found->block.data());
+}
+
+/// Makes points of the scaled coordinates in their place, fills all arrays but the radius, and finds the
+/// ranges if they are wanted.
+void fill_arrays(DumpFrame& frame, const BoxShape& box, const Radii& radii, const GrainRows& rows,
+  const PackingRequest& request, Progress& progress);
+}
+#endif

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/packing/lattice.h"
+
+#include "granular/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+constexpr Vector3 simple_grains[] = { { 0, 0, 0 } };
+
+constexpr Vector3 face_centred_grains[] = { { 0, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5, 0, 0.5 },
+  { 0, 0.5, 0.5 } };
+
+constexpr Vector3 hexagonal_grains[] = { { 0, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5, 5.0 / 6, 0.5 },
+  { 0, 1.0 / 3, 0.5 } };
+
+constexpr double root_2 = 1.4142135623730951;
+constexpr double root_3 = 1.7320508075688772;
+constexpr double root_8_thirds = 1.6329931618554521;
+
+constexpr LatticeCell cell_table[] = {
+  { "simple cubic", { 1, 1, 1 }, simple_grains },
+  { "face-centred cubic", { root_2, root_2, root_2 }, face_centred_grains },
+  { "hexagonal", { 1, root_3, root_8_thirds }, hexagonal_grains },
+};
+
+const LatticeCell& cell_of(LatticeKind kind)
+{
+  return cell_table[static_cast<std::size_t>(kind)];
+}
+
+/// What a length may lack, relative to it, to hold a whole number of cells all the same: a box that was
+/// made for them may have been rounded.
+constexpr double tolerance = 1e-12;
+
+/// Of all grains of a cell the largest coordinate.
+double last_place(const LatticeCell& cell, std::size_t axis)
+{
+  double last = 0;
+  for (const Vector3& grain : cell.grains)
+  {
+    last = std::max(last, grain[axis]);
+  }
+  return last;
+}
+
+/// How many cells of a length fit into a height; limited, so that the numbers of three axes multiply.
+std::int64_t count_cells(const LatticeCell& cell, std::size_t axis, double height, bool periodic,
+  double length, double radius)
+{
+  constexpr double most = 1 << 20;
+  const double fit = periodic
+    ? height / length
+    : (height - 2 * radius - last_place(cell, axis) * length) / length + 1;
+  const double cells = std::floor(fit + tolerance * (1 + height / length));
+  return static_cast<std::int64_t>(std::clamp(cells, 0.0, most));
+}
+}
+
+Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double radius)
+  : cell_(cell_of(kind))
+{
+  double stretch = 1;
+  for (;;)
+  {
+    this->lay(box, distance * stretch, radius);
+    const double lacking = distance / this->nearest(box, distance);
+    if (lacking <= 1 + 4 * tolerance)
+    {
+      return;
+    }
+    stretch *= lacking; // cells are sheared, and their grains too near
+  }
+}
+
+void Lattice::lay(const BoxShape& box, double length, double radius)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double height = box.heights[axis];
+    const double cell = cell_.lengths[axis] * length;
+    cells_[axis] = count_cells(cell_, axis, height, box.periodic[axis], cell, radius);
+    if (cells_[axis] == 0)
+    {
+      throw LimitError(std::string("expected a box that holds a cell of the ") + cell_.name +
+        " lattice, got one of height " + std::to_string(height) + " along vector " +
+        std::to_string(axis + 1) + ", where a cell needs " +
+        std::to_string(box.periodic[axis] ? cell : last_place(cell_, axis) * cell + 2 * radius));
+    }
+    const auto count = static_cast<double>(cells_[axis]);
+    step_[axis] = box.periodic[axis] ? 1 / count : cell / height;
+    first_[axis] = (1 - (count - 1 + last_place(cell_, axis)) * step_[axis]) / 2;
+  }
+}
+
+/// The distance of the nearest two grains of the lattice without end, or one that is large enough. Along
+/// no axis is a cell lower than the distance, so that nearer grains are in neighbouring cells.
+double Lattice::nearest(const BoxShape& box, double distance) const noexcept
+{
+  double least = distance * distance;
+  for (const Vector3& from : cell_.grains)
+  {
+    for (const Vector3& to : cell_.grains)
+    {
+      for (int neighbour = 0; neighbour < 125; ++neighbour)
+      {
+        const Vector3 cells = { to[0] - from[0] + neighbour % 5 - 2,
+          to[1] - from[1] + neighbour / 5 % 5 - 2, to[2] - from[2] + neighbour / 25 - 2.0 };
+        const Vector3 edge =
+          box.edge({ cells[0] * step_[0], cells[1] * step_[1], cells[2] * step_[2] });
+        const double square = edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2];
+        least = cells == Vector3{} ? least : std::min(least, square);
+      }
+    }
+  }
+  return std::sqrt(least);
+}
+
+std::int64_t Lattice::capacity() const noexcept
+{
+  return cells_[0] * cells_[1] * cells_[2] * static_cast<std::int64_t>(cell_.grains.size());
+}
+
+Vector3 Lattice::scaled(std::int64_t row) const noexcept
+{
+  const auto grains = static_cast<std::int64_t>(cell_.grains.size());
+  const Vector3& grain = cell_.grains[static_cast<std::size_t>(row % grains)];
+  const std::int64_t cell = row / grains;
+  const std::int64_t line = cell / cells_[0];
+  const std::int64_t index[] = { cell % cells_[0], line % cells_[1], line / cells_[1] };
+  Vector3 place;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = first_[axis] + (static_cast<double>(index[axis]) + grain[axis]) * step_[axis];
+  }
+  return place;
+}
+
+Vector3 Lattice::lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,
+  double radius, std::int64_t grains)
+{
+  const LatticeCell& cell = cell_of(kind);
+  const double cells = std::ceil(static_cast<double>(grains) / static_cast<double>(cell.grains.size()));
+  const double edge = std::cbrt(cells * cell.lengths[0] * cell.lengths[1] * cell.lengths[2]);
+  Vector3 counts;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    counts[axis] = std::max(1.0, std::floor(edge / cell.lengths[axis]));
+  }
+  while (counts[0] * counts[1] * counts[2] < cells)
+  {
+    std::size_t shortest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+    {
+      const double length = counts[axis] * cell.lengths[axis];
+      shortest = length < counts[shortest] * cell.lengths[shortest] ? axis : shortest;
+    }
+    ++counts[shortest];
+  }
+  Vector3 lengths;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = cell.lengths[axis] * distance;
+    lengths[axis] = periodic[axis]
+      ? counts[axis] * length
+      : (counts[axis] - 1 + last_place(cell, axis)) * length + 2 * radius;
+  }
+  return lengths;
+}
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_lattice_h
+#define granular_packing_lattice_h
+
+#include "granular/packing/box_shape.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace granular
+{
+/// A cell of a lattice: its lengths in units of the distance of nearest neighbours, and its grains in
+/// units of the cell.
+struct LatticeCell
+{
+  const char* name;
+  Vector3 lengths;
+  std::span<const Vector3> grains;
+};
+
+enum class LatticeKind : std::uint8_t
+{
+  SimpleCubic,
+  FaceCentredCubic,
+  Hexagonal ///< closest packing in layers ABAB across z
+};
+
+/// Whole cells of a lattice along the vectors of a box, in its middle, sheared with the box. Neighbours are
+/// nowhere nearer than the distance asked for: across a periodic axis cells are stretched, and in a
+/// sheared box all are, as much as needed. Across other axes grains lie wholly inside.
+class Lattice
+{
+public:
+  /// Throws LimitError where no cell fits.
+  Lattice(LatticeKind kind, const BoxShape& box, double distance, double radius);
+
+  /// How many grains there are: the cells times the grains of each.
+  std::int64_t capacity() const noexcept;
+
+  /// The place of a grain in units of the box vectors, x fastest, then y, then z.
+  Vector3 scaled(std::int64_t row) const noexcept;
+
+  /// The lengths of a box that has room for a number of grains, as much like a cube as whole cells
+  /// allow.
+  static Vector3 lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,
+    double radius, std::int64_t grains);
+
+private:
+  void lay(const BoxShape& box, double length, double radius);
+  double nearest(const BoxShape& box, double distance) const noexcept;
+
+  const LatticeCell& cell_;
+  std::array<std::int64_t, 3> cells_ = {};
+  Vector3 first_ = {}; ///< scaled coordinate of a grain at 0 of the first cell
+  Vector3 step_ = {};  ///< from cell to cell
+};
+}
+#endif

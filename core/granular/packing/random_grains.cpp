@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/packing/random_grains.h"
+
+#include "granular/base/error.h"
+#include "granular/base/executor.h"
+#include "granular/packing/neighbours.h"
+#include "granular/packing/random_numbers.h"
+#include "granular/packing/region_store.h"
+#include "granular/packing/regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+/// What a grain may take to find a place: for one that can be had, this is never in vain.
+constexpr int most_tries = 100'000;
+
+/// Regions that a thread fills at a time.
+constexpr std::size_t chunk_regions = 16;
+
+/// Puts the grains of one region after the other to their places.
+class Filler
+{
+public:
+  Filler(const RandomGrains& all, const Regions& regions, RegionStore& store)
+    : all_(all)
+    , regions_(regions)
+    , store_(store)
+    , gap_(all.box.rounding())
+  {
+  }
+
+  void fill(std::int64_t index);
+
+private:
+  void start(const Regions::Region& region, const GrainRows& grains);
+  void sort_by_size(const GrainRows& grains);
+  bool find_place(const Regions::Region& region, RandomNumbers& numbers, double radius,
+    Vector3& place) const;
+  void add_images(const Vector3& place, double radius);
+  [[noreturn]] void give_up(const GrainRows& grains, std::size_t placed) const;
+
+  const RandomGrains& all_;
+  const Regions& regions_;
+  RegionStore& store_;
+  double gap_;
+  Regions::Bounds bounds_ = {};
+  Neighbours neighbours_;
+  std::vector<std::int64_t> order_;
+};
+
+void Filler::fill(std::int64_t index)
+{
+  const GrainRows grains = store_.grains(index);
+  if (grains.count() == 0)
+  {
+    return;
+  }
+  const Regions::Region region = regions_.region(index);
+  this->start(region, grains);
+  regions_.visit_rim(region,
+    [this](std::int64_t rim, const Vector3& shift)
+    {
+      const GrainRows others = store_.grains(rim);
+      for (std::int64_t i = 0; i < others.count(); ++i)
+      {
+        const double* const at = others.scaled + 3 * i;
+        const Vector3 place = { at[0] + shift[0], at[1] + shift[1], at[2] + shift[2] };
+        if (neighbours_.holds(place))
+        {
+          neighbours_.add(place, others.radius[i]);
+        }
+      }
+    });
+  this->sort_by_size(grains);
+  RandomNumbers numbers(all_.seed, Stream::Places, index);
+  for (std::size_t placed = 0; placed < order_.size(); ++placed)
+  {
+    const std::int64_t i = order_[placed];
+    Vector3 place = {};
+    if (!this->find_place(region, numbers, grains.radius[i], place))
+    {
+      this->give_up(grains, placed);
+    }
+    std::copy(place.begin(), place.end(), grains.scaled + 3 * i);
+    this->add_images(place, grains.radius[i]);
+  }
+}
+
+/// Readies the neighbours: those within two radii of the region.
+void Filler::start(const Regions::Region& region, const GrainRows& grains)
+{
+  const RadiusChoice& choice = all_.radii.choice();
+  bounds_ = regions_.bounds(region);
+  Regions::Bounds around = bounds_;
+  double inner = 1;
+  double outer = 1;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double reach = (2 * choice.largest() + gap_) / all_.box.heights[k];
+    around.low[k] -= reach;
+    around.high[k] += reach;
+    inner *= bounds_.high[k] - bounds_.low[k];
+    outer *= around.high[k] - around.low[k];
+  }
+  neighbours_.start(all_.box, around.low, around.high, choice.smallest(), choice.largest(), gap_,
+    static_cast<double>(grains.count()) * (outer / inner));
+}
+
+/// Large ones first: small ones still find a place between them.
+void Filler::sort_by_size(const GrainRows& grains)
+{
+  order_.resize(static_cast<std::size_t>(grains.count()));
+  std::iota(order_.begin(), order_.end(), 0);
+  for (const std::int64_t i : order_)
+  {
+    grains.radius[i] = all_.radii.radius(grains.first + i);
+  }
+  if (all_.radii.choice().kind != RadiusChoice::Kind::One)
+  {
+    std::stable_sort(order_.begin(), order_.end(),
+      [&grains](std::int64_t a, std::int64_t b) { return grains.radius[a] > grains.radius[b]; });
+  }
+}
+
+bool Filler::find_place(const Regions::Region& region, RandomNumbers& numbers, double radius,
+  Vector3& place) const
+{
+  Regions::Bounds bounds = bounds_;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    if (!all_.box.periodic[k])
+    {
+      const double least = std::min((radius + gap_) / all_.box.heights[k], 0.5);
+      bounds.low[k] = std::max(bounds.low[k], least);
+      bounds.high[k] = std::min(bounds.high[k], 1 - least);
+    }
+  }
+  for (int tries = 0; tries < most_tries; ++tries)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      place[k] = bounds.low[k] + numbers.unit() * (bounds.high[k] - bounds.low[k]);
+    }
+    if (regions_.contains(region, place) && neighbours_.has_room(place, radius))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A grain, and its periodic images along the axes that are one block.
+void Filler::add_images(const Vector3& place, double radius)
+{
+  const auto along = [this](std::size_t axis) { return regions_.wraps(axis) ? 1 : 0; };
+  for (int z = -along(2); z <= along(2); ++z)
+  {
+    for (int y = -along(1); y <= along(1); ++y)
+    {
+      for (int x = -along(0); x <= along(0); ++x)
+      {
+        const Vector3 image = { place[0] + x, place[1] + y, place[2] + z };
+        if (neighbours_.holds(image))
+        {
+          neighbours_.add(image, radius);
+        }
+      }
+    }
+  }
+}
+
+void Filler::give_up(const GrainRows& grains, std::size_t placed) const
+{
+  throw LimitError("no place was found for a random grain of radius " +
+    std::to_string(grains.radius[order_[placed]]) + " in " + std::to_string(most_tries) +
+    " tries, when " + std::to_string(placed) + " of " + std::to_string(grains.count()) +
+    " grains of its part of the box had theirs");
+}
+
+/// Regions of one kind, several at a time.
+void fill_all(std::vector<Filler>& fillers, const std::vector<std::int64_t>& regions,
+  const Executor& executor, Progress& progress)
+{
+  const std::size_t chunks = (regions.size() + chunk_regions - 1) / chunk_regions;
+  executor.parallel_for(
+    chunks,
+    [&](std::size_t chunk, std::size_t worker)
+    {
+      const std::size_t end = std::min(regions.size(), (chunk + 1) * chunk_regions);
+      for (std::size_t i = chunk * chunk_regions; i < end; ++i)
+      {
+        fillers[worker].fill(regions[i]);
+      }
+    },
+    progress);
+}
+
+/// Back into the box, what lies beyond a periodic face.
+void wrap(const BoxShape& box, const GrainRows& rows)
+{
+  for (std::int64_t i = 0; i < 3 * rows.count(); ++i)
+  {
+    double& place = rows.scaled[i];
+    if (box.periodic[static_cast<std::size_t>(i % 3)])
+    {
+      place -= std::floor(place);
+      place = place < 1 ? place : 0;
+    }
+  }
+}
+}
+
+void place(const RandomGrains& all, const GrainRows& rows, int threads, Progress& progress)
+{
+  constexpr double slack = 1 + 1e-9; // for the rounding of scaled coordinates
+  const RadiusChoice& choice = all.radii.choice();
+  const double radius = (choice.largest() + all.box.rounding()) * slack;
+  const double inset = (choice.smallest() + choice.largest()) / 2;
+  const Regions regions(all.box, radius, inset, all.grains);
+  RegionStore store(regions, rows);
+  const Executor executor(threads);
+  std::vector<Filler> fillers(
+    static_cast<std::size_t>(executor.threads()), Filler(all, regions, store));
+  PartialProgress part(progress);
+  const double ends[] = { 0.95, 0.4, 0.2, 0.1 };
+  double done = 0;
+  for (const int planes : { 3, 2, 1, 0 })
+  {
+    part.set_part(done, ends[planes]);
+    fill_all(fillers, store.with_planes(planes), executor, part);
+    done = ends[planes];
+  }
+  store.finish();
+  wrap(all.box, rows);
+  progress.step(1);
+}
+}
