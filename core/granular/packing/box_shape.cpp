@@ -57,8 +57,9 @@ BoxShape::BoxShape(const Box& box)
     // nan fails as well
     if (!(heights[axis] > 0) || !std::isfinite(heights[axis]) || !std::isfinite(origin[axis]))
     {
-      throw LimitError("expected a box of three finite lengths greater than 0, got one that is flat "
-                       "or not finite");
+      throw LimitError(
+        "expected a box of three finite lengths greater than 0, got one that is flat "
+        "or not finite");
     }
   }
 }

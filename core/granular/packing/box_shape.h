@@ -17,7 +17,7 @@ struct BoxShape
   Vector3 origin;
   std::array<Vector3, 3> vectors;
   std::array<bool, 3> periodic;
-  Vector3 heights;   ///< distance of the two faces that a vector leads between
+  Vector3 heights; ///< distance of the two faces that a vector leads between
   double volume = 0;
   double reach = 0; ///< the largest magnitude of a coordinate of a corner
 
@@ -30,8 +30,8 @@ struct BoxShape
     Vector3 sum;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      sum[axis] = scaled[0] * vectors[0][axis] + scaled[1] * vectors[1][axis] +
-        scaled[2] * vectors[2][axis];
+      sum[axis] =
+        scaled[0] * vectors[0][axis] + scaled[1] * vectors[1][axis] + scaled[2] * vectors[2][axis];
     }
     return sum;
   }

@@ -146,7 +146,8 @@ Vector3 Lattice::lengths_for(LatticeKind kind, const std::array<bool, 3>& period
   double radius, std::int64_t grains)
 {
   const LatticeCell& cell = cell_of(kind);
-  const double cells = std::ceil(static_cast<double>(grains) / static_cast<double>(cell.grains.size()));
+  const double cells =
+    std::ceil(static_cast<double>(grains) / static_cast<double>(cell.grains.size()));
   const double edge = std::cbrt(cells * cell.lengths[0] * cell.lengths[1] * cell.lengths[2]);
   Vector3 counts;
   for (std::size_t axis = 0; axis < 3; ++axis)

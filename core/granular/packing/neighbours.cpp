@@ -81,8 +81,7 @@ void Neighbours::add(const Vector3& scaled, double radius)
   level.first[cell] = grain;
 }
 
-bool Neighbours::is_clear(
-  std::int32_t first, const Vector3& centre, double radius) const noexcept
+bool Neighbours::is_clear(std::int32_t first, const Vector3& centre, double radius) const noexcept
 {
   for (std::int32_t i = first; i != none;)
   {

@@ -35,8 +35,8 @@ void expect(bool right, const std::string& what, double got)
 void check_numbers(const PackingRequest& request)
 {
   check(request.radii);
-  expect(request.grains >= 0 && request.grains <= most_grains,
-    "a number of grains from 0 to 10^12", static_cast<double>(request.grains));
+  expect(request.grains >= 0 && request.grains <= most_grains, "a number of grains from 0 to 10^12",
+    static_cast<double>(request.grains));
   expect(request.solid_fraction > 0 && request.solid_fraction <= most_solid,
     "a solid fraction greater than 0 and at most 0.74", request.solid_fraction);
   expect(request.spacing >= 1 && std::isfinite(request.spacing), "a finite spacing of at least 1",
@@ -107,10 +107,11 @@ std::int64_t random_count(const PackingRequest& request, const BoxShape& box)
   const double room = box.volume / mean;
   const double count = request.grains > 0 ? static_cast<double>(request.grains)
                                           : std::floor(request.solid_fraction * room + 1e-9);
+  expect(count >= 1, "a box that holds a grain at the solid fraction asked for", count);
   expect(count <= static_cast<double>(most_grains),
     "a box that holds at most 10^12 grains at this solid fraction", count);
-  expect(count <= most_solid * room * (1 + 1e-9) || count == 1,
-    "a solid fraction of at most 0.74", count / room);
+  expect(count <= most_solid * room * (1 + 1e-9) || count == 1, "a solid fraction of at most 0.74",
+    count / room);
   return static_cast<std::int64_t>(count);
 }
 

@@ -25,14 +25,14 @@ enum class Arrangement : std::uint8_t
 struct PackingRequest
 {
   Arrangement arrangement = Arrangement::Random;
-  std::int64_t grains = 0;             ///< 0: as many as the box holds
-  std::optional<Box> box;              ///< none: one is made for the grains, its corner at 0 0 0
-  std::string boundary = "ff ff ff";   ///< of the box: see checked_boundary
+  std::int64_t grains = 0;           ///< 0: as many as the box holds
+  std::optional<Box> box;            ///< none: one is made for the grains, its corner at 0 0 0
+  std::string boundary = "ff ff ff"; ///< of the box: see checked_boundary
   RadiusChoice radii;
   double solid_fraction = 0.2; ///< random grains, where grains or box are not given: volume of
                                ///< grains by that of the box
   double spacing = 1; ///< lattices: distance of nearest neighbours by the largest diameter, >= 1
-  double speed = 0; ///< standard deviation of each component of the velocities, >= 0
+  double speed = 0;   ///< standard deviation of each component of the velocities, >= 0
   std::uint64_t seed = 1;
   int piece = 0; ///< the part of the grains that is wanted, of `pieces` in all: see make_packing
   int pieces = 1;

@@ -19,7 +19,7 @@ namespace granular
 namespace
 {
 /// What a grain may take to find a place: for one that can be had, this is never in vain.
-constexpr int most_tries = 100'000;
+constexpr int most_tries = 1'000'000;
 
 /// Regions that a thread fills at a time.
 constexpr std::size_t chunk_regions = 16;
@@ -41,8 +41,8 @@ public:
 private:
   void start(const Regions::Region& region, const GrainRows& grains);
   void sort_by_size(const GrainRows& grains);
-  bool find_place(const Regions::Region& region, RandomNumbers& numbers, double radius,
-    Vector3& place) const;
+  bool find_place(
+    const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place) const;
   void add_images(const Vector3& place, double radius);
   [[noreturn]] void give_up(const GrainRows& grains, std::size_t placed) const;
 
@@ -129,8 +129,8 @@ void Filler::sort_by_size(const GrainRows& grains)
   }
 }
 
-bool Filler::find_place(const Regions::Region& region, RandomNumbers& numbers, double radius,
-  Vector3& place) const
+bool Filler::find_place(
+  const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place) const
 {
   Regions::Bounds bounds = bounds_;
   for (std::size_t k = 0; k < 3; ++k)

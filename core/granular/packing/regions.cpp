@@ -13,7 +13,7 @@ namespace
 // how near to planes a region is, in radii, by the number of their axes
 constexpr double reach[] = { 0, 1, 3, 5 };
 
-constexpr double least_block = 20; ///< radii: 12 would do, but much of it would be vertices
+constexpr double least_block = 30;   ///< radii: 12 would do, but the thinner, the more is rim
 constexpr double least_grains = 256; ///< in a block
 
 // kinds of blocks along an axis
@@ -236,8 +236,9 @@ bool Regions::contains(const Region& region, const Vector3& scaled) const noexce
     away[k] =
       there ? std::abs(place - plane) * axis.thickness : std::numeric_limits<double>::infinity();
   }
-  const auto near = [&away](double width)
-  { return (away[0] < width ? 1U : 0U) | (away[1] < width ? 2U : 0U) | (away[2] < width ? 4U : 0U); };
+  const auto near = [&away](double width) {
+    return (away[0] < width ? 1U : 0U) | (away[1] < width ? 2U : 0U) | (away[2] < width ? 4U : 0U);
+  };
   unsigned planes = near(reach[3] * radius_);
   if (planes != vertex)
   {

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularPackingSource.h"
+
+#include "private/arrays.h"
+#include "private/dump_output.h"
+#include "private/guard.h"
+#include "private/ranks.h"
+
+#include "granular/packing/packing.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularPackingSource);
+
+//------------------------------------------------------------------------------
+struct vtkGranularPackingSource::Internals
+{
+  using Self = vtkGranularPackingSource;
+
+  std::string Boundary = "ff ff ff";
+  bool Cancelled = false; ///< the last request was
+  VertexCache Vertices;   ///< of the request before
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  std::unique_ptr<granular::Communicator> Ranks; ///< of the controller; null: not made yet
+
+  granular::Communicator& GetRanks();
+  granular::Box MakeBox(Self* self);
+  granular::PackingRequest MakeRequest(Self* self, vtkInformation* output);
+  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+};
+
+//------------------------------------------------------------------------------
+// Collective when it is called first.
+granular::Communicator& vtkGranularPackingSource::Internals::GetRanks()
+{
+  if (!this->Ranks)
+  {
+    this->Ranks = MakeRanks(this->Controller);
+  }
+  return *this->Ranks;
+}
+
+//------------------------------------------------------------------------------
+granular::Box vtkGranularPackingSource::Internals::MakeBox(Self* self)
+{
+  const auto vector = [](double x, double y, double z) -> granular::Twofold3 {
+    return { granular::Twofold{ x, 0 }, granular::Twofold{ y, 0 }, granular::Twofold{ z, 0 } };
+  };
+  const double* origin = self->BoxOrigin;
+  const double* lengths = self->BoxLengths;
+  const double* tilts = self->BoxTilts;
+  granular::Box box;
+  box.origin = vector(origin[0], origin[1], origin[2]);
+  box.vectors = { vector(lengths[0], 0, 0), vector(tilts[0], lengths[1], 0),
+    vector(tilts[1], tilts[2], lengths[2]) };
+  box.tilted = tilts[0] != 0 || tilts[1] != 0 || tilts[2] != 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(lengths[axis] > 0))
+    {
+      throw granular::LimitError(
+        "expected BoxLengths greater than 0, got " + std::to_string(lengths[axis]));
+    }
+  }
+  return box;
+}
+
+//------------------------------------------------------------------------------
+granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
+  Self* self, vtkInformation* output)
+{
+  granular::PackingRequest request;
+  request.arrangement = static_cast<granular::Arrangement>(self->Arrangement);
+  request.grains = self->NumberOfGrains;
+  if (self->BoxGiven)
+  {
+    request.box = this->MakeBox(self);
+  }
+  request.boundary = this->Boundary;
+  request.radii.kind = static_cast<granular::RadiusChoice::Kind>(self->Radii);
+  request.radii.first = self->Radius;
+  request.radii.second = self->SecondRadius;
+  request.radii.share = self->SecondShare;
+  request.solid_fraction = self->SolidFraction;
+  request.spacing = self->Spacing;
+  request.speed = self->Speed;
+  request.seed = static_cast<std::uint64_t>(self->Seed);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (output->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
+  {
+    request.piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
+    request.pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+  }
+  request.ranges = true; // whoever shows an array asks for it
+  request.threads = ChooseThreads(self->Threads, this->GetRanks());
+  return request;
+}
+
+//------------------------------------------------------------------------------
+// Collective: an error of one rank is one of all. The ranks need nothing else of each other.
+void vtkGranularPackingSource::Internals::Run(
+  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+{
+  granular::Communicator& ranks = this->GetRanks();
+  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
+    ? std::max(request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()), 0)
+    : 0;
+  AlgorithmProgress own(self);
+  granular::SharedProgress progress(own, ranks);
+  const auto work = [&]
+  {
+    const granular::PackingRequest wanted =
+      this->MakeRequest(self, outputs->GetInformationObject(port));
+    granular::DumpFrame frame = granular::make_packing(wanted, progress);
+    FillParticles(vtkPolyData::GetData(outputs, 0), frame, false, VertexCells::OnePerPoint,
+      this->Vertices, nullptr);
+    if (wanted.piece == 0)
+    {
+      FillBox(vtkUnstructuredGrid::GetData(outputs, 1), frame.header.box, frame.coordinates, {});
+    }
+    for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+    {
+      FillFieldData(vtkDataObject::GetData(outputs, i)->GetFieldData(), frame, {});
+    }
+  };
+  granular::do_together(ranks,
+    [&]
+    {
+      try
+      {
+        work();
+      }
+      catch (const std::bad_alloc&)
+      {
+        throw granular::LimitError(
+          "not enough memory for so many grains: ask for fewer, or use more "
+          "processes on more machines");
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+vtkGranularPackingSource::vtkGranularPackingSource()
+  : Internal(std::make_unique<Internals>())
+{
+  this->SetNumberOfInputPorts(0);
+  this->SetNumberOfOutputPorts(2);
+  this->Internal->Controller = vtkMultiProcessController::GetGlobalController();
+}
+
+//------------------------------------------------------------------------------
+vtkGranularPackingSource::~vtkGranularPackingSource() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularPackingSource::SetBoundary(const char* boundary)
+{
+  const std::string wanted = boundary ? boundary : "";
+  if (this->Internal->Boundary != wanted)
+  {
+    this->Internal->Boundary = wanted;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGranularPackingSource::GetBoundary()
+{
+  return this->Internal->Boundary.c_str();
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPackingSource::SetThreads(int threads)
+{
+  if (threads < 0)
+  {
+    vtkErrorMacro("Threads must be at least 0, got " << threads);
+    return;
+  }
+  this->Threads = threads; // changes no result: nothing is to be made again
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPackingSource::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Internal->Controller != controller)
+  {
+    this->Internal->Controller = controller;
+    this->Internal->Ranks.reset();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkMultiProcessController* vtkGranularPackingSource::GetController()
+{
+  return this->Internal->Controller;
+}
+
+//------------------------------------------------------------------------------
+// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
+void vtkGranularPackingSource::SetAbortExecute(vtkTypeBool abort)
+{
+  this->AbortExecute = abort;
+}
+
+//------------------------------------------------------------------------------
+// The first call of every update. A request to abort holds for one update: see vtkGranularSeriesReader.
+int vtkGranularPackingSource::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
+  vtkMTimeType* mtime)
+{
+  if (this->Internal->Cancelled)
+  {
+    this->Internal->Cancelled = false;
+    this->SetAbortExecute(0);
+    this->SetAbortOutput(false);
+    this->Modified();
+  }
+  return this->Superclass::ComputePipelineMTime(
+    request, inputVector, outputVector, requestFromOutputPort, mtime);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularPackingSource::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkUnstructuredGrid");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularPackingSource::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+  {
+    outputVector->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularPackingSource::RequestData(vtkInformation* request,
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  const Outcome outcome =
+    Guard(this, outputVector, [&] { this->Internal->Run(this, request, outputVector); });
+  this->Internal->Cancelled = outcome == Outcome::Cancelled;
+  if (outcome == Outcome::Failed)
+  {
+    this->SetAbortExecute(0);
+    this->SetAbortOutput(false);
+  }
+  return outcome != Outcome::Failed;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto numbers = [&](const char* name, const double* values)
+  { os << indent << name << ": " << values[0] << " " << values[1] << " " << values[2] << "\n"; };
+  os << indent << "Arrangement: " << this->Arrangement << "\n";
+  os << indent << "NumberOfGrains: " << this->NumberOfGrains << "\n";
+  os << indent << "BoxGiven: " << (this->BoxGiven ? "On" : "Off") << "\n";
+  numbers("BoxOrigin", this->BoxOrigin);
+  numbers("BoxLengths", this->BoxLengths);
+  numbers("BoxTilts", this->BoxTilts);
+  os << indent << "Boundary: " << this->Internal->Boundary << "\n";
+  os << indent << "Radii: " << this->Radii << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "SecondRadius: " << this->SecondRadius << "\n";
+  os << indent << "SecondShare: " << this->SecondShare << "\n";
+  os << indent << "SolidFraction: " << this->SolidFraction << "\n";
+  os << indent << "Spacing: " << this->Spacing << "\n";
+  os << indent << "Speed: " << this->Speed << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "Controller: " << this->Internal->Controller.Get() << "\n";
+}

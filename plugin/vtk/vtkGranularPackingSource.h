@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularPackingSource
+ * @brief   Makes grains that do not overlap, on a lattice or at random places, without a file.
+ *
+ * Output port 0 holds the grains (vtkPolyData, one vertex a grain), output port 1 the box as one
+ * hexahedron (vtkUnstructuredGrid). Both have the arrays and field data that vtkGranularDumpReader gives for
+ * a dump of timestep 0 with the columns id type x y z radius vx vy vz: `id` (vtkTypeInt64Array from 1 on,
+ * and the pedigree ids), `type` (vtkTypeInt32Array), `radius`, `v` (3).
+ *
+ * Grains are wholly inside the box; along periodic axes their centres are, and their periodic images do not
+ * overlap grains either. Random grains do not touch one another, those of a lattice of spacing 1 do.
+ *
+ * Each grain follows from the properties and its number: any pieces, threads and ranks give the same.
+ * Pieces hold equal numbers of grains, in the order of their ids; the box is in piece 0 alone.
+ *
+ * After an error both outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
+ * abort holds for one update: the outputs are empty then, and the next update starts afresh.
+ */
+
+#ifndef vtkGranularPackingSource_h
+#define vtkGranularPackingSource_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkMultiProcessController;
+
+class VTKGRANULAR_EXPORT vtkGranularPackingSource : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkGranularPackingSource* New();
+  vtkTypeMacro(vtkGranularPackingSource, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum ArrangementType
+  {
+    RANDOM = 0,
+    SIMPLE_CUBIC = 1,
+    FACE_CENTRED_CUBIC = 2,
+    HEXAGONAL = 3
+  };
+
+  enum RadiiType
+  {
+    ONE = 0,
+    TWO = 1,
+    RANGE = 2
+  };
+
+  ///@{
+  /**
+   * RANDOM, the default, or whole cells of a lattice along the box vectors, in the middle of the box.
+   */
+  vtkSetClampMacro(Arrangement, int, RANDOM, HEXAGONAL);
+  vtkGetMacro(Arrangement, int);
+  ///@}
+
+  ///@{
+  /**
+   * 0: as many as the box holds, on a lattice or at the solid fraction. 1000 by default.
+   */
+  vtkSetMacro(NumberOfGrains, vtkTypeInt64);
+  vtkGetMacro(NumberOfGrains, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * Off: the box is made for the grains, with its corner at 0 0 0 and not tilted, and BoxOrigin,
+   * BoxLengths and BoxTilts are not used. On by default.
+   */
+  vtkSetMacro(BoxGiven, bool);
+  vtkGetMacro(BoxGiven, bool);
+  vtkBooleanMacro(BoxGiven, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The box: its low corner, (0, 0, 0) by default; its lengths lx ly lz, greater than 0, (0.1, 0.1, 0.1)
+   * by default; its tilts xy xz yz, (0, 0, 0) by default. The box vectors are (lx, 0, 0), (xy, ly, 0)
+   * and (xz, yz, lz). In the unit of the radii.
+   */
+  vtkSetVector3Macro(BoxOrigin, double);
+  vtkGetVector3Macro(BoxOrigin, double);
+  vtkSetVector3Macro(BoxLengths, double);
+  vtkGetVector3Macro(BoxLengths, double);
+  vtkSetVector3Macro(BoxTilts, double);
+  vtkGetVector3Macro(BoxTilts, double);
+  ///@}
+
+  ///@{
+  /**
+   * What the faces along the three box vectors are: one or two of the letters p (periodic), f, s, m
+   * (grains stay inside) each. "ff ff ff" by default.
+   */
+  void SetBoundary(const char* boundary);
+  const char* GetBoundary();
+  ///@}
+
+  ///@{
+  /**
+   * ONE: all grains have Radius. TWO, the default: a share of them, SecondShare, 0 to 1 and 0.3 by default,
+   * has SecondRadius, and type 2. RANGE: evenly from Radius to SecondRadius. Radii are greater than 0,
+   * the larger at most 20 times the smaller; 0.003 and 0.005 by default.
+   */
+  vtkSetClampMacro(Radii, int, ONE, RANGE);
+  vtkGetMacro(Radii, int);
+  vtkSetMacro(Radius, double);
+  vtkGetMacro(Radius, double);
+  vtkSetMacro(SecondRadius, double);
+  vtkGetMacro(SecondRadius, double);
+  vtkSetMacro(SecondShare, double);
+  vtkGetMacro(SecondShare, double);
+  ///@}
+
+  ///@{
+  /**
+   * SolidFraction: volume of random grains by that of the box, where not both their number and the box are
+   * given; greater than 0, 0.2 by default, and up to about 0.3 grains find their places. Spacing: distance
+   * of nearest neighbours of a lattice by the largest diameter; at least 1, the default, where they touch.
+   */
+  vtkSetMacro(SolidFraction, double);
+  vtkGetMacro(SolidFraction, double);
+  vtkSetMacro(Spacing, double);
+  vtkGetMacro(Spacing, double);
+  ///@}
+
+  ///@{
+  /**
+   * Speed: standard deviation of each component of the velocities, which are normally distributed around
+   * 0; at least 0, the default: grains at rest. Seed: another one gives other places, sizes and
+   * velocities; 1 by default.
+   */
+  vtkSetMacro(Speed, double);
+  vtkGetMacro(Speed, double);
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many threads make grains. 0, the default: the cores of the machine, divided by the processes of
+   * the Controller that run on it. Changes no result. Below 0 is an error and changes nothing.
+   */
+  void SetThreads(int threads);
+  vtkGetMacro(Threads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The processes that make grains together, each of them its piece: all of them must set it, set the
+   * same properties, and update the source. What goes wrong on one of them is an error of all. The
+   * global controller by default; null: this process is alone, whatever others do.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
+  /// Has the update that makes grains next, or is making them, stop.
+  void SetAbortExecute(vtkTypeBool abort) override;
+
+protected:
+  vtkGranularPackingSource();
+  ~vtkGranularPackingSource() override;
+
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkGranularPackingSource(const vtkGranularPackingSource&) = delete;
+  void operator=(const vtkGranularPackingSource&) = delete;
+
+  int Arrangement = RANDOM;
+  vtkTypeInt64 NumberOfGrains = 1000;
+  bool BoxGiven = true;
+  double BoxOrigin[3] = { 0, 0, 0 };
+  double BoxLengths[3] = { 0.1, 0.1, 0.1 };
+  double BoxTilts[3] = { 0, 0, 0 };
+  int Radii = TWO;
+  double Radius = 0.003;
+  double SecondRadius = 0.005;
+  double SecondShare = 0.3;
+  double SolidFraction = 0.2;
+  double Spacing = 1;
+  double Speed = 0;
+  int Seed = 1;
+  int Threads = 0;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
