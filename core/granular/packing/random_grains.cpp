@@ -21,6 +21,9 @@ namespace
 /// What a grain may take to find a place: for one that can be had, this is never in vain.
 constexpr int most_tries = 1'000'000;
 
+/// And what it may take in the layer it was dealt, before it looks in all of its region.
+constexpr int layer_tries = 20'000;
+
 /// Regions that a thread fills at a time.
 constexpr std::size_t chunk_regions = 16;
 
@@ -142,13 +145,17 @@ bool Filler::find_place(
       bounds.high[k] = std::min(bounds.high[k], 1 - least);
     }
   }
+  int layer = Regions::outside;
   for (int tries = 0; tries < most_tries; ++tries)
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
       place[k] = bounds.low[k] + numbers.unit() * (bounds.high[k] - bounds.low[k]);
     }
-    if (regions_.contains(region, place) && neighbours_.has_room(place, radius))
+    const int depth = regions_.depth(region, place);
+    layer = layer == Regions::outside ? depth : layer;
+    const bool here = tries < layer_tries ? depth == layer : depth != Regions::outside;
+    if (here && depth != Regions::outside && neighbours_.has_room(place, radius))
     {
       return true;
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace granular
 {
@@ -24,6 +23,21 @@ constexpr std::size_t last_block = 2;
 bool is_on(unsigned planes, std::size_t axis)
 {
   return (planes >> axis & 1U) != 0;
+}
+
+constexpr double far = 1e9; ///< radii: farther than any plane
+
+/// Layers of half a radius; what is deeper is one.
+constexpr int layers = 7;
+
+int layer(double depth)
+{
+  return std::min(static_cast<int>(2 * std::min(depth, far)), layers - 1);
+}
+
+std::int64_t share(std::int64_t grains, double part)
+{
+  return static_cast<std::int64_t>(std::floor(static_cast<double>(grains) * part));
 }
 }
 
@@ -56,6 +70,7 @@ void Regions::cut(const BoxShape& box, std::int64_t grains)
     axis.planes = axis.blocks > 1;
     axis.periodic = box.periodic[k];
     axis.wraps = axis.periodic && !axis.planes;
+    axis.count = blocks[k];
     axis.thickness = box.heights[k] / blocks[k];
   }
 }
@@ -170,13 +185,14 @@ Regions::Region Regions::region(std::int64_t index) const noexcept
     static_cast<unsigned>(index % 8) };
 }
 
-std::int64_t Regions::first(std::int64_t index) const noexcept
+/// The number of the first grain in a block.
+std::int64_t Regions::first_of_block(std::int64_t block) const noexcept
 {
-  if (index >= this->size())
+  if (8 * block >= this->size())
   {
     return grains_;
   }
-  const Region at = this->region(index);
+  const Region at = this->region(8 * block);
   const std::size_t y = this->kind(1, at.block[1]);
   const std::size_t z = this->kind(2, at.block[2]);
   double volume = 0;
@@ -186,12 +202,28 @@ std::int64_t Regions::first(std::int64_t index) const noexcept
     volume += this->below(1, k, at.block[1]) * row_[z][k];
     volume += this->below(0, k, at.block[0]) * block_[z][y][k];
   }
-  const Volumes& regions = volumes_[z][y][this->kind(0, at.block[0])];
+  return share(grains_, volume / total_);
+}
+
+/// Within its block a region without volume has no grains, however sums of volumes are rounded.
+std::int64_t Regions::first(std::int64_t index) const noexcept
+{
+  const std::int64_t block = index / 8;
+  const std::int64_t start = this->first_of_block(block);
+  const Region at = this->region(index);
+  if (at.planes == interior)
+  {
+    return start;
+  }
+  const std::size_t y = this->kind(1, at.block[1]);
+  const std::size_t z = this->kind(2, at.block[2]);
+  const std::size_t x = this->kind(0, at.block[0]);
+  double volume = 0;
   for (unsigned planes = 0; planes < at.planes; ++planes)
   {
-    volume += regions[planes];
+    volume += volumes_[z][y][x][planes];
   }
-  return static_cast<std::int64_t>(std::floor(static_cast<double>(grains_) * (volume / total_)));
+  return start + share(this->first_of_block(block + 1) - start, volume / block_[z][y][x]);
 }
 
 std::int64_t Regions::find(std::int64_t grain) const noexcept
@@ -223,29 +255,44 @@ Regions::Bounds Regions::bounds(const Region& region) const noexcept
   return bounds;
 }
 
-bool Regions::contains(const Region& region, const Vector3& scaled) const noexcept
+/// With the distances to planes in order a place is in a vertex if the largest is less than 5 R, else on an
+/// edge if the second is less than 3 R, else on a face if the least is less than R. So from the inside
+/// of a region it is as far to those that come later as the limit it is below of, and to those before
+/// as the nearest of the limits it is above of.
+int Regions::depth(const Region& region, const Vector3& scaled) const noexcept
 {
   std::array<double, 3> away = {};
+  unsigned planes = 0;
   for (std::size_t k = 0; k < 3; ++k)
   {
     const Axis& axis = axes_[k];
-    const auto count = static_cast<double>(axis.blocks);
-    const double place = scaled[k] * count;
-    const double plane = std::floor(place + 0.5);
-    const bool there = axis.planes && (axis.periodic || (plane > 0 && plane < count));
-    away[k] =
-      there ? std::abs(place - plane) * axis.thickness : std::numeric_limits<double>::infinity();
+    const double place = scaled[k] * axis.count;
+    const double plane = static_cast<double>(static_cast<std::int64_t>(place + 1.5) - 1);
+    const bool there = axis.planes && (axis.periodic || (plane > 0 && plane < axis.count));
+    away[k] = there ? std::abs(place - plane) * axis.thickness / radius_ : far;
   }
-  const auto near = [&away](double width) {
-    return (away[0] < width ? 1U : 0U) | (away[1] < width ? 2U : 0U) | (away[2] < width ? 4U : 0U);
-  };
-  unsigned planes = near(reach[3] * radius_);
-  if (planes != vertex)
+  std::array<double, 3> sorted = away;
+  std::sort(sorted.begin(), sorted.end());
+  std::size_t limit = 3;
+  while (limit > 0 && sorted[limit - 1] >= reach[limit])
   {
-    planes = near(reach[2] * radius_);
-    planes = std::popcount(planes) == 2 ? planes : near(reach[1] * radius_);
+    --limit;
   }
-  return planes == region.planes;
+  for (std::size_t k = 0; limit > 0 && k < 3; ++k)
+  {
+    planes |= away[k] < reach[limit] ? 1U << k : 0U;
+  }
+  if (planes != region.planes)
+  {
+    return outside;
+  }
+  double before = far;
+  for (std::size_t above = limit + 1; above < 4; ++above)
+  {
+    before = std::min(before, sorted[above - 1] - reach[above]);
+  }
+  const double after = limit > 0 ? reach[limit] - sorted[limit - 1] : far;
+  return layer(before) * layers + layer(after);
 }
 
 Regions::Choices Regions::choices(std::size_t axis, const Region& region) const noexcept

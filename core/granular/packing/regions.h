@@ -28,6 +28,10 @@ namespace granular
 /// interiors, regions of a kind do not see each other, and an interior needs 6 faces, 12 edges and 8
 /// vertices alone. That holds in tilted boxes too, distances being those to planes.
 ///
+/// Regions that come first are filled as if nothing were around them: grains would be rare just outside of
+/// them, and planes would show. So each grain is dealt a layer of its region in the beginning, by
+/// depth, and finds its place there.
+///
 /// An axis that is too short for two blocks has no planes, and all of it is in each region.
 class Regions
 {
@@ -66,8 +70,11 @@ public:
 
   Bounds bounds(const Region& region) const noexcept;
 
-  /// Whether a place within its bounds belongs to a region.
-  bool contains(const Region& region, const Vector3& scaled) const noexcept;
+  static constexpr int outside = -1;
+
+  /// How deep in a region a place within its bounds is, seen from the regions before and after it: the
+  /// number of a layer, or outside.
+  int depth(const Region& region, const Vector3& scaled) const noexcept;
 
   /// Whether the axis is periodic and has no planes: then grains meet their own images.
   bool wraps(std::size_t axis) const noexcept { return axes_[axis].wraps; }
@@ -84,6 +91,7 @@ private:
     bool planes = false;
     bool periodic = false;
     bool wraps = false;
+    double count = 1;             ///< of blocks
     double thickness = 0;         ///< of a block
     std::array<int, 3> rims = {}; ///< planes around a block that is the first, inside, the last
     std::array<double, 3> lengths = { 1, 1, 1 }; ///< of these, less the inset
@@ -108,6 +116,7 @@ private:
   using Volumes = std::array<double, 8>; ///< of the regions of a block, by planes
 
   std::int64_t blocks(std::size_t axis) const noexcept { return axes_[axis].blocks; }
+  std::int64_t first_of_block(std::int64_t block) const noexcept;
   void cut(const BoxShape& box, std::int64_t grains);
   void measure(double inset);
   Volumes volumes_of(const std::array<std::size_t, 3>& kinds) const noexcept;

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grains on lattices: counts and places from arithmetic, distances from a look at all pairs.
+#include "packings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace
+{
+using granular::Arrangement;
+using granular::PackingRequest;
+using granular::Vector3;
+
+constexpr Arrangement lattices[] = { Arrangement::SimpleCubic, Arrangement::FaceCentredCubic,
+  Arrangement::Hexagonal };
+
+PackingRequest on(Arrangement arrangement, const granular::Box& box, const std::string& boundary)
+{
+  PackingRequest request;
+  request.arrangement = arrangement;
+  request.box = box;
+  request.boundary = boundary;
+  request.radii = one_radius(0.5);
+  return request;
+}
+
+/// Grains that touch any other, by how many they touch.
+std::multiset<int> contacts(const Grains& grains)
+{
+  std::multiset<int> counts;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+  {
+    int count = 0;
+    for (std::size_t j = 0; j < grains.size(); ++j)
+    {
+      double square = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        // orthogonal boxes: the nearest image
+        const double length = grains.vectors[k][k];
+        const double away = grains.points[i][k] - grains.points[j][k];
+        square += std::pow(away - length * std::round(away / length), 2);
+      }
+      count += i != j && std::abs(std::sqrt(square) - 1) < 1e-9 ? 1 : 0;
+    }
+    counts.insert(count);
+  }
+  return counts;
+}
+}
+
+TEST(PackingLattice, SimpleCubicFillsABoxFromWallToWall)
+{
+  const Grains grains(on(Arrangement::SimpleCubic, tilted_box({ 1, 2, 3 }, { 4, 5, 6 }), "f f f"));
+  ASSERT_EQ(grains.size(), 4u * 5 * 6);
+  EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
+  EXPECT_NEAR(grains.least_inside(), 0, 1e-12);
+  std::set<std::array<long, 3>> places;
+  for (const Vector3& point : grains.points)
+  {
+    std::array<long, 3> place = {};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double from_corner = point[k] - static_cast<double>(k + 1) - 0.5;
+      EXPECT_NEAR(from_corner, std::round(from_corner), 1e-12);
+      place[k] = std::lround(from_corner);
+    }
+    places.insert(place);
+  }
+  EXPECT_EQ(places.size(), grains.size());
+  EXPECT_EQ(*places.begin(), (std::array<long, 3>{ 0, 0, 0 }));
+  EXPECT_EQ(*places.rbegin(), (std::array<long, 3>{ 3, 4, 5 }));
+  EXPECT_EQ(grains.frame.header.box.boundary, "ff ff ff");
+}
+
+// cells of FCC are sqrt(2) wide, of HCP 1 x sqrt(3) x sqrt(8/3); four grains each
+TEST(PackingLattice, ClosestPackingsHaveTwelveNeighboursAndTheirDensity)
+{
+  const double fcc = std::sqrt(2.0);
+  const struct
+  {
+    Arrangement arrangement;
+    Vector3 lengths;
+    std::size_t grains;
+  } cases[] = { { Arrangement::FaceCentredCubic, { 3 * fcc, 4 * fcc, 5 * fcc }, 240 },
+    { Arrangement::Hexagonal, { 4, 3 * std::sqrt(3.0), 3 * std::sqrt(8.0 / 3) }, 144 } };
+  for (const auto& each : cases)
+  {
+    const Grains grains(on(each.arrangement, tilted_box({}, each.lengths), "p p p"));
+    ASSERT_EQ(grains.size(), each.grains);
+    EXPECT_NEAR(grains.solid_fraction(), std::acos(-1.0) / std::sqrt(18.0), 1e-12);
+    EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
+    const std::multiset<int> neighbours = contacts(grains);
+    EXPECT_EQ(neighbours.count(12), grains.size());
+  }
+}
+
+TEST(PackingLattice, PeriodicCellsAreStretchedToTheBox)
+{
+  const Grains grains(on(Arrangement::SimpleCubic, tilted_box({}, { 4.9, 5, 6.1 }), "p p f"));
+  ASSERT_EQ(grains.size(), 4u * 5 * 6);
+  EXPECT_NEAR(grains.points[1][0] - grains.points[0][0], 4.9 / 4, 1e-12);
+  EXPECT_NEAR(grains.points[20][2] - grains.points[0][2], 1, 1e-12); // across z as asked for
+  EXPECT_NEAR(grains.points[0][2], 0.55, 1e-12);                     // and in the middle
+  EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
+}
+
+TEST(PackingLattice, SpacingIsTheDistanceOfNeighbours)
+{
+  for (const Arrangement arrangement : lattices)
+  {
+    PackingRequest request = on(arrangement, tilted_box({}, { 9, 9, 9 }), "f f f");
+    request.spacing = 1.25;
+    EXPECT_NEAR(Grains(request).least_gap(), 0.25, 1e-12);
+  }
+}
+
+TEST(PackingLattice, NoneOverlapInTiltedBoxes)
+{
+  const Vector3 tilts[] = { { 2, 0, 0 }, { 0, -3, 1 }, { 4, 4, 4 }, { -11, 7, 13 } };
+  for (const Vector3& tilt : tilts)
+  {
+    for (const Arrangement arrangement : lattices)
+    {
+      for (const char* const boundary : { "p p p", "f f f", "p f p", "m s p" })
+      {
+        PackingRequest request =
+          on(arrangement, tilted_box({ -3, 0, 9 }, { 9, 11, 8 }, tilt), boundary);
+        request.spacing = 1.01;
+        const Grains grains(request);
+        EXPECT_GT(grains.size(), 30u);
+        EXPECT_GT(grains.least_gap(), 0.01 - 1e-11) << boundary << " " << tilt[0];
+        EXPECT_GT(grains.least_inside(), -1e-12) << boundary << " " << tilt[0];
+      }
+    }
+  }
+}
+
+TEST(PackingLattice, ABoxIsMadeForANumber)
+{
+  for (const Arrangement arrangement : lattices)
+  {
+    for (const std::int64_t number : { 1, 2, 7, 100, 1000, 1001 })
+    {
+      for (const char* const boundary : { "p p p", "f f f", "p f p" })
+      {
+        PackingRequest request;
+        request.arrangement = arrangement;
+        request.grains = number;
+        request.radii = one_radius(0.3);
+        request.boundary = boundary;
+        const Grains grains(request);
+        ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
+        EXPECT_EQ(grains.frame.header.rows, number);
+        EXPECT_GT(grains.least_gap(), -1e-12);
+        EXPECT_GT(grains.least_inside(), -1e-12);
+        const auto [least, most] =
+          std::minmax_element(grains.heights.begin(), grains.heights.end());
+        EXPECT_LT(*most / *least, 3);
+      }
+    }
+  }
+}
+
+TEST(PackingLattice, TheLargestOfSeveralRadiiSetsTheDistance)
+{
+  PackingRequest request;
+  request.arrangement = Arrangement::FaceCentredCubic;
+  request.grains = 500;
+  request.radii = two_radii(0.2, 0.5, 0.25);
+  const Grains two(request);
+  EXPECT_EQ(std::count(two.radius.begin(), two.radius.end(), 0.5), 125);
+  for (std::size_t i = 0; i < two.size(); ++i)
+  {
+    EXPECT_EQ(two.type[i], two.radius[i] == 0.5 ? 2 : 1);
+  }
+  EXPECT_NEAR(two.least_gap(), 0, 1e-12);
+  request.radii = radii_between(0.5, 0.1);
+  const Grains range(request);
+  const auto [least, most] = std::minmax_element(range.radius.begin(), range.radius.end());
+  EXPECT_NEAR(*least, 0.1 + 0.4 / 1000, 1e-12); // the middles of 500 equal parts
+  EXPECT_NEAR(*most, 0.5 - 0.4 / 1000, 1e-12);
+  EXPECT_GT(range.least_gap(), -1e-12);
+}
+
+TEST(PackingLattice, FewerThanTheBoxHoldsFillItFromBelow)
+{
+  PackingRequest request = on(Arrangement::SimpleCubic, tilted_box({}, { 4, 4, 4 }), "f f f");
+  request.grains = 18;
+  const Grains grains(request);
+  ASSERT_EQ(grains.size(), 18u);
+  EXPECT_EQ(grains.points[15][2], 0.5);
+  EXPECT_EQ(grains.points[17], (Vector3{ 1.5, 0.5, 1.5 }));
+}

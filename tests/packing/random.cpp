@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grains at random places: none overlap, all are there, and nothing shows where the box was cut.
+#include "packings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <ostream>
+
+namespace
+{
+using granular::PackingRequest;
+using granular::RadiusChoice;
+using granular::Vector3;
+
+struct Case
+{
+  const char* name;
+  granular::Box box;
+  const char* boundary;
+  RadiusChoice radii;
+  double solid_fraction;
+
+  friend void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
+};
+
+PackingRequest request_of(const Case& each)
+{
+  PackingRequest request;
+  request.box = each.box;
+  request.boundary = each.boundary;
+  request.radii = each.radii;
+  request.solid_fraction = each.solid_fraction;
+  return request;
+}
+
+const Case cases[] = {
+  { "walls", tilted_box({}, { 50, 40, 60 }), "f f f", one_radius(0.5), 0.2 },
+  { "periodic", tilted_box({ -7, 3, 0 }, { 50, 40, 60 }), "p p p", one_radius(0.5), 0.2 },
+  { "dense", tilted_box({}, { 40, 40, 40 }), "p p p", one_radius(0.5), 0.3 },
+  { "mixed faces", tilted_box({}, { 40, 50, 45 }), "p f p", one_radius(0.5), 0.25 },
+  { "tilted", tilted_box({}, { 40, 50, 45 }, { 15, -20, 12 }), "p p p", one_radius(0.5), 0.2 },
+  { "strongly tilted", tilted_box({ 1, 1, 1 }, { 40, 50, 45 }, { 100, -80, 120 }), "p s p",
+    one_radius(0.5), 0.15 },
+  { "two sizes", tilted_box({}, { 60, 70, 65 }), "p p f", two_radii(0.4, 1, 0.3), 0.3 },
+  { "a range", tilted_box({}, { 60, 70, 65 }, { 20, 0, 0 }), "p m p", radii_between(0.3, 1), 0.3 },
+  { "large and tiny", tilted_box({}, { 62, 62, 30 }), "p p p", two_radii(0.05, 1, 0.01), 0.05 },
+  { "a needle", tilted_box({}, { 500, 1.5, 1.2 }), "p f p", one_radius(0.5), 0.1 },
+  { "a layer", tilted_box({}, { 90, 80, 1 }), "p p f", one_radius(0.5), 0.2 },
+  { "a periodic layer", tilted_box({}, { 90, 80, 1.5 }, { 0, 30, 20 }), "f p p", one_radius(0.5),
+    0.2 },
+  { "thin, periodic", tilted_box({}, { 5, 5, 60 }), "p p p", one_radius(0.5), 0.25 },
+  { "two blocks across", tilted_box({}, { 31, 31, 31 }), "p p p", one_radius(0.5), 0.25 },
+  { "sparse", tilted_box({}, { 1e3, 1e3, 1e3 }), "p p f", one_radius(0.5), 1e-6 },
+  { "far away", tilted_box({ 1e6, -1e6, 1e6 }, { 0.05, 0.05, 0.05 }), "p p p", one_radius(5e-4),
+    0.25 },
+};
+
+class PackingRandom : public testing::TestWithParam<Case>
+{
+};
+
+double volume_of(double radius)
+{
+  return 4 * std::acos(-1.0) / 3 * radius * radius * radius;
+}
+}
+
+TEST_P(PackingRandom, NoneOverlapAndAllAreInside)
+{
+  const Grains grains(request_of(GetParam()));
+  ASSERT_GT(grains.size(), 10u);
+  EXPECT_GT(grains.least_gap(), 0);
+  EXPECT_GE(grains.least_inside(), GetParam().boundary == std::string("f f f") ? 0 : -1e-9);
+  const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
+  const double missing = GetParam().solid_fraction - grains.solid_fraction();
+  EXPECT_LE(std::abs(missing), 1.01 * volume_of(largest) / grains.volume);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PackingRandom, testing::ValuesIn(cases));
+
+TEST(PackingRandomCounts, IdsCountFromOneAndSharesAreExact)
+{
+  PackingRequest request;
+  request.grains = 12345;
+  request.radii = two_radii(0.3, 0.5, 0.4);
+  request.speed = 2;
+  const Grains grains(request);
+  ASSERT_EQ(grains.size(), 12345u);
+  for (std::size_t i = 0; i < grains.size(); ++i)
+  {
+    ASSERT_EQ(grains.id[i], static_cast<std::int64_t>(i) + 1);
+    ASSERT_EQ(grains.type[i], grains.radius[i] == 0.5 ? 2 : 1);
+  }
+  EXPECT_EQ(std::count(grains.type.begin(), grains.type.end(), 2), 4938);
+  EXPECT_NEAR(grains.solid_fraction(), 0.2, 1e-9);
+  EXPECT_EQ(grains.frame.schema.text(), "id type x y z radius vx vy vz");
+}
+
+TEST(PackingRandomCounts, SmallNumbers)
+{
+  for (const std::int64_t number : { 1, 2, 10, 100 })
+  {
+    for (const char* const boundary : { "p p p", "f f f" })
+    {
+      PackingRequest request;
+      request.grains = number;
+      request.boundary = boundary;
+      request.radii = one_radius(0.01);
+      request.solid_fraction = 0.1;
+      const Grains grains(request);
+      ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
+      EXPECT_GT(grains.least_gap(), 0);
+      EXPECT_NEAR(grains.solid_fraction(), 0.1, 1e-9);
+      request.box = tilted_box({}, { 1e4, 1e4, 1e4 });
+      EXPECT_EQ(Grains(request).size(), static_cast<std::size_t>(number));
+    }
+  }
+  PackingRequest snug; // a grain that touches all faces
+  snug.grains = 1;
+  snug.box = tilted_box({}, { 1, 1, 1 });
+  snug.radii = one_radius(0.5);
+  EXPECT_EQ(Grains(snug).points[0], (Vector3{ 0.5, 0.5, 0.5 }));
+}
+
+TEST(PackingRandomCounts, VelocitiesAreNormal)
+{
+  PackingRequest request;
+  request.grains = 100000;
+  request.arrangement = granular::Arrangement::SimpleCubic;
+  request.speed = 3;
+  const Grains grains(request);
+  double sum = 0;
+  double squares = 0;
+  double fourths = 0;
+  double products = 0;
+  int beyond = 0;
+  for (const Vector3& v : grains.v)
+  {
+    for (const double component : v)
+    {
+      sum += component / 3;
+      squares += std::pow(component / 3, 2);
+      fourths += std::pow(component / 3, 4);
+      beyond += std::abs(component) > 6 ? 1 : 0;
+    }
+    products += v[0] * v[1] / 9;
+  }
+  // within five standard deviations of what 300000 numbers of the normal distribution give
+  EXPECT_NEAR(sum / 3e5, 0, 5 * std::sqrt(1 / 3e5));
+  EXPECT_NEAR(squares / 3e5, 1, 5 * std::sqrt(2 / 3e5));
+  EXPECT_NEAR(fourths / 3e5, 3, 5 * std::sqrt(96 / 3e5));
+  EXPECT_NEAR(beyond / 3e5, std::erfc(std::sqrt(2.0)), 5 * std::sqrt(0.0455 / 3e5));
+  EXPECT_NEAR(products / 1e5, 0, 5 * std::sqrt(1 / 1e5));
+  request.speed = 0;
+  EXPECT_EQ(Grains(request).v[17], (Vector3{ 0, 0, 0 }));
+}
+
+// The box is cut at whole parts of its length, here at fourths: fold
+// it by 1 to 5 of these, and count in thin slices. Of 1000 sets of places that have nothing to do
+// with planes 999 have a chi^2 below 72 for 39 degrees of freedom.
+TEST(PackingRandomPlaces, NothingShowsWhereTheBoxWasCut)
+{
+  PackingRequest request;
+  request.box = tilted_box({}, { 70, 70, 70 });
+  request.boundary = "p p p";
+  request.radii = one_radius(0.5);
+  request.solid_fraction = 0.25;
+  const Grains grains(request);
+  constexpr std::size_t slices = 40;
+  const double expected = static_cast<double>(grains.size()) / slices;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (const int blocks : { 1, 2, 3, 4, 5 })
+    {
+      std::vector<double> counts(slices);
+      for (const Vector3& point : grains.points)
+      {
+        const double place = point[axis] / 70 * blocks;
+        const double folded = (place - std::floor(place)) * static_cast<double>(slices);
+        ++counts[std::min(static_cast<std::size_t>(folded), slices - 1)];
+      }
+      double chi_square = 0;
+      for (const double count : counts)
+      {
+        chi_square += (count - expected) * (count - expected) / expected;
+      }
+      EXPECT_LT(chi_square, 72) << "axis " << axis << ", " << blocks << " blocks";
+    }
+  }
+}
+
+TEST(PackingRandomPlaces, AnotherSeedGivesOthers)
+{
+  PackingRequest request;
+  request.grains = 1000;
+  request.radii = radii_between(0.2, 0.4);
+  request.speed = 1;
+  const Grains one(request);
+  request.seed = 2;
+  const Grains two(request);
+  int same_places = 0;
+  int same_radii = 0;
+  for (std::size_t i = 0; i < 1000; ++i)
+  {
+    same_places += one.points[i] == two.points[i] ? 1 : 0;
+    same_radii += one.radius[i] == two.radius[i] ? 1 : 0;
+  }
+  EXPECT_EQ(same_places, 0);
+  EXPECT_LT(same_radii, 10); // a permutation of the same ones
+  EXPECT_NE(one.v, two.v);
+}
