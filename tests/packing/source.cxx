@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkGranularPackingSource from C++: arrays, pieces, errors, stopping.
+#include "vtkGranularPackingSource.h"
+
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+/// Keeps what is said, and asks to stop at the n-th report of progress.
+class Observer : public vtkCommand
+{
+public:
+  static Observer* New() { return new Observer; }
+
+  void Execute(vtkObject* caller, unsigned long event, void* data) override
+  {
+    if (event == vtkCommand::ErrorEvent)
+    {
+      this->Errors.push_back(static_cast<const char*>(data));
+      return;
+    }
+    this->Reported.push_back(*static_cast<double*>(data));
+    if (this->Reported.size() == this->StopAt)
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  }
+
+  std::vector<std::string> Errors;
+  std::vector<double> Reported;
+  std::size_t StopAt = 0;
+};
+
+struct Source
+{
+  vtkNew<vtkGranularPackingSource> Get;
+  vtkNew<Observer> Said;
+  vtkNew<Observer> PipelineSaid;
+
+  Source()
+  {
+    this->Get->AddObserver(vtkCommand::ErrorEvent, this->Said);
+    this->Get->AddObserver(vtkCommand::ProgressEvent, this->Said);
+    this->Get->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->PipelineSaid);
+  }
+
+  vtkGranularPackingSource* operator->() { return this->Get; }
+  vtkPolyData* Grains() { return this->Get->GetOutput(); }
+  vtkUnstructuredGrid* Box()
+  {
+    return vtkUnstructuredGrid::SafeDownCast(this->Get->GetOutputDataObject(1));
+  }
+  vtkDataArray* Array(const char* name) { return this->Grains()->GetPointData()->GetArray(name); }
+};
+
+void ExpectEmpty(Source& source)
+{
+  EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(source.Grains()->GetPointData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(source.Box()->GetNumberOfCells(), 0);
+}
+}
+
+TEST(PackingSource, GivesWhatADumpWould)
+{
+  Source source;
+  source->Update();
+  EXPECT_EQ(source->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  ASSERT_EQ(source.Grains()->GetNumberOfPoints(), 1000);
+  EXPECT_EQ(source.Grains()->GetNumberOfVerts(), 1000);
+  EXPECT_NE(vtkTypeInt64Array::SafeDownCast(source.Array("id")), nullptr);
+  EXPECT_EQ(source.Grains()->GetPointData()->GetPedigreeIds(), source.Array("id"));
+  EXPECT_NE(vtkTypeInt32Array::SafeDownCast(source.Array("type")), nullptr);
+  EXPECT_EQ(source.Array("v")->GetNumberOfComponents(), 3);
+  double range[2];
+  source.Array("radius")->GetRange(range);
+  EXPECT_EQ(range[0], 0.003);
+  EXPECT_EQ(range[1], 0.005);
+  EXPECT_EQ(source.Box()->GetNumberOfCells(), 1);
+  for (vtkDataObject* output :
+    { static_cast<vtkDataObject*>(source.Grains()), static_cast<vtkDataObject*>(source.Box()) })
+  {
+    vtkFieldData* data = output->GetFieldData();
+    for (const char* name : { "Coordinates", "PointOrigin", "BoxOrigin", "BoxVectors", "Boundary",
+           "Columns", "timestep" })
+    {
+      EXPECT_NE(data->GetAbstractArray(name), nullptr) << name;
+    }
+  }
+}
+
+TEST(PackingSource, PiecesAreTheWholeAndTheBoxIsInTheFirst)
+{
+  Source whole;
+  whole->SetSpeed(1);
+  whole->Update();
+  vtkIdType row = 0;
+  for (int piece = 0; piece < 7; ++piece)
+  {
+    Source part;
+    part->SetSpeed(1);
+    part->UpdatePiece(piece, 7, 0);
+    EXPECT_EQ(part.Box()->GetNumberOfCells(), piece == 0 ? 1 : 0);
+    for (vtkIdType i = 0; i < part.Grains()->GetNumberOfPoints(); ++i, ++row)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        ASSERT_EQ(part.Grains()->GetPoint(i)[k], whole.Grains()->GetPoint(row)[k]);
+        ASSERT_EQ(part.Array("v")->GetComponent(i, k), whole.Array("v")->GetComponent(row, k));
+      }
+      ASSERT_EQ(part.Array("id")->GetComponent(i, 0), static_cast<double>(row + 1));
+      ASSERT_EQ(
+        part.Array("radius")->GetComponent(i, 0), whole.Array("radius")->GetComponent(row, 0));
+    }
+  }
+  EXPECT_EQ(row, 1000);
+}
+
+TEST(PackingSource, TiltedBox)
+{
+  Source source;
+  source->SetArrangement(vtkGranularPackingSource::HEXAGONAL);
+  source->SetNumberOfGrains(0);
+  source->SetBoxOrigin(1, 2, 3);
+  source->SetBoxTilts(0.01, 0.02, -0.03);
+  source->SetBoundary("p p p");
+  source->Update();
+  EXPECT_GT(source.Grains()->GetNumberOfPoints(), 100);
+  double bounds[6];
+  source.Box()->GetBounds(bounds);
+  const double expected[] = { 1, 1.13, 1.97, 2.1, 3, 3.1 };
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_NEAR(bounds[i], expected[i], 1e-12);
+  }
+}
+
+TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
+{
+  const struct
+  {
+    void (*Spoil)(vtkGranularPackingSource*);
+    const char* Text;
+  } cases[] = {
+    { [](vtkGranularPackingSource* s) { s->SetRadius(0); },
+      "expected a finite radius greater than 0, got 0.000000" },
+    { [](vtkGranularPackingSource* s) { s->SetBoxLengths(0.1, -0.1, 0.1); },
+      "expected BoxLengths greater than 0, got -0.100000" },
+    { [](vtkGranularPackingSource* s) { s->SetBoundary("x"); }, "got 'x'" },
+    { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(3000); }, "at most 0.74" },
+    { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(2300); }, "no place was found" },
+    { [](vtkGranularPackingSource* s)
+      {
+        s->SetNumberOfGrains(0);
+        s->SetBoxGiven(false);
+      },
+      "expected a number of grains or a box, got neither" },
+  };
+  for (const auto& each : cases)
+  {
+    Source source;
+    each.Spoil(source.Get);
+    source->Update();
+    ASSERT_EQ(source.Said->Errors.size(), 1u) << each.Text;
+    EXPECT_NE(source.Said->Errors[0].find(each.Text), std::string::npos) << source.Said->Errors[0];
+    EXPECT_NE(source->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+    ExpectEmpty(source);
+    source->SetRadius(0.003);
+    source->SetBoxLengths(0.1, 0.1, 0.1);
+    source->SetBoundary("f f f");
+    source->SetNumberOfGrains(10);
+    source->Update();
+    EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 10);
+    EXPECT_EQ(source->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  }
+  Source threads;
+  threads->SetThreads(-1);
+  EXPECT_EQ(threads.Said->Errors.size(), 1u);
+  EXPECT_EQ(threads->GetThreads(), 0);
+}
+
+TEST(PackingSource, StopsAtAnyReportAndStartsAfresh)
+{
+  for (const bool lattice : { false, true })
+  {
+    const auto prepare = [lattice](Source& source)
+    {
+      source->SetArrangement(
+        lattice ? vtkGranularPackingSource::SIMPLE_CUBIC : vtkGranularPackingSource::RANDOM);
+      source->SetBoxGiven(false);
+      source->SetNumberOfGrains(20000);
+      source->SetThreads(1);
+    };
+    Source counted;
+    prepare(counted);
+    counted->Update();
+    const std::vector<double> reported = counted.Said->Reported;
+    ASSERT_GE(reported.size(), 5u);
+    EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+    // the last report comes from the pipeline when all is done, too late for anything
+    for (std::size_t at = 1; at + 1 < reported.size(); ++at)
+    {
+      Source source;
+      prepare(source);
+      source.Said->StopAt = at;
+      source->Update();
+      EXPECT_TRUE(source.Said->Errors.empty());
+      ExpectEmpty(source);
+      source->Update();
+      EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 20000);
+      EXPECT_EQ(source.Box()->GetNumberOfCells(), 1);
+    }
+  }
+}
+
+TEST(PackingSource, PrintsAllProperties)
+{
+  Source source;
+  source->SetNumberOfGrains(77);
+  std::ostringstream out;
+  source->Print(out);
+  for (const char* line :
+    { "NumberOfGrains: 77\n", "BoxLengths: 0.1 0.1 0.1\n", "Boundary: ff ff ff\n" })
+  {
+    EXPECT_NE(out.str().find(line), std::string::npos) << line;
+  }
+}

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The source as ParaView's users meet it: defaults that show something, names, units, a picture."""
+import math
+
+import granular
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+source = GranularPackingSource()
+
+# names and defaults
+expected = {"Arrangement": "Random", "NumberOfGrains": 1000, "BoxGiven": 1, "BoxOrigin": [0, 0, 0],
+            "BoxLengths": [0.1, 0.1, 0.1], "BoxTilts": [0, 0, 0], "Boundary": "ff ff ff", "Radii": "Two",
+            "Radius": 0.003, "SecondRadius": 0.005, "SecondShare": 0.3, "SolidFraction": 0.2,
+            "Spacing": 1, "Speed": 0, "Seed": 1, "Threads": 0}
+for name, default in expected.items():
+    value = getattr(source, name)
+    assert (list(value) if isinstance(default, list) else value) == default, (name, value)
+    text = source.SMProxy.GetProperty(name).GetDocumentation()
+    assert text and len(text.GetDescription().strip()) > 60, name
+hints = source.SMProxy.GetHints()
+assert hints.FindNestedElementByName("ShowInMenu").GetAttribute("category") == "Granular"
+
+
+def grains():
+    data = servermanager.Fetch(source)
+    arrays = {name: vtk_to_numpy(data.GetPointData().GetArray(name))
+              for name in ("id", "type", "radius", "v")}
+    assert data.GetNumberOfVerts() == data.GetNumberOfPoints()
+    return vtk_to_numpy(data.GetPoints().GetData()), arrays
+
+
+def least_gap(points, radius):
+    """By all pairs."""
+    square = ((points[:, None] - points[None]) ** 2).sum(axis=2)
+    numpy.fill_diagonal(square, numpy.inf)
+    return (numpy.sqrt(square) / (radius[:, None] + radius[None])).min() - 1
+
+
+points, arrays = grains()
+assert len(points) == 1000
+assert (arrays["id"] == numpy.arange(1, 1001)).all() and arrays["id"].dtype == numpy.int64
+assert (arrays["type"] == numpy.where(arrays["radius"] == 0.005, 2, 1)).all()
+assert arrays["type"].dtype == numpy.int32 and (arrays["type"] == 2).sum() == 300
+assert arrays["v"].shape == (1000, 3) and not arrays["v"].any()
+assert least_gap(points, arrays["radius"]) > 0
+radius = arrays["radius"][:, None]
+assert (points >= radius).all() and (points <= 0.1 - radius).all()
+
+# the box, and what readers say of theirs
+box = OutputPort(source, "Box")
+assert box.GetDataInformation().GetNumberOfCells() == 1
+assert list(box.GetDataInformation().GetBounds()) == [0, 0.1, 0, 0.1, 0, 0.1]
+field = servermanager.Fetch(source).GetFieldData()
+assert field.GetAbstractArray("Coordinates").GetValue(0) == "Absolute"
+assert field.GetAbstractArray("Boundary").GetValue(0) == "ff ff ff"
+assert [field.GetAbstractArray("Columns").GetValue(i) for i in range(9)] == \
+    "id type x y z radius vx vy vz".split()
+assert field.GetArray("timestep").GetValue(0) == 0
+assert list(field.GetArray("BoxVectors").GetTuple(0)) == [0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.1]
+
+# a picture without another word
+view = CreateRenderView(ViewSize=[500, 500], OrientationAxesVisibility=0)
+display = Show(source, view)
+assert display.Representation == "Grains", display.Representation
+assert Show(box, view).Representation == "Wireframe"
+ColorBy(display, ("POINTS", "radius"))
+display.RescaleTransferFunctionToDataRange(False)
+view.ResetActiveCameraToPositiveY()
+camera = GetActiveCamera()
+camera.Azimuth(30)
+camera.Elevation(25)
+ResetCamera(view)
+SaveScreenshot("random.png", view)
+
+
+def picture(name):
+    png = vtkPNGReader()
+    png.SetFileName(name)
+    png.Update()
+    return vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
+
+
+pixels = picture("random.png")
+colored = (pixels.max(axis=1) - pixels.min(axis=1)) > 60
+assert 0.1 < colored.mean() < 0.9, colored.mean()
+
+# a lattice in a tilted, periodic box
+SetProperties(source, Arrangement="FaceCentredCubic", NumberOfGrains=0, Radii="One", Radius=0.005,
+              BoxTilts=[0.03, 0, 0], Boundary="p p f", Spacing=1.05, Speed=0.5, Seed=-3)
+SaveScreenshot("lattice.png", view)
+points, arrays = grains()
+assert len(points) > 300
+assert least_gap(points, arrays["radius"]) > 0.05 - 1e-9
+assert 0.4 < arrays["v"].std() < 0.6
+assert (picture("lattice.png") != pixels).any()
+
+# a box that is made for the grains
+SetProperties(source, Arrangement="Random", BoxGiven=0, NumberOfGrains=5000, SolidFraction=0.25)
+source.UpdatePipeline()
+assert source.GetDataInformation().GetNumberOfPoints() == 5000
+bounds = box.GetDataInformation().GetBounds()
+edge = (5000 * 4 / 3 * math.pi * 0.005 ** 3 / 0.25) ** (1 / 3)
+assert numpy.allclose(bounds, [0, edge, 0, edge, 0, edge]), bounds
+
+# more than 2^31 can be asked for, and are refused here for want of room
+source.NumberOfGrains = 3_000_000_000
+assert source.NumberOfGrains == 3_000_000_000
+
+# filters, and the package's own way to look
+source.NumberOfGrains = 500
+granular.show(source, view, color="v")
+clip = Threshold(source, Scalars=["POINTS", "id"], ThresholdMethod="Below Lower Threshold",
+                 LowerThreshold=100)
+clip.UpdatePipeline()
+assert clip.GetDataInformation().GetNumberOfPoints() == 100

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Any number of ranks make the same grains, each its own part of them."""
+import hashlib
+import os
+
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+import granular
+
+ranks = vtkMultiProcessController.GetGlobalController()
+symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
+
+
+def whole(source):
+    """What all ranks have, by way of a file that ParaView writes and reads."""
+    source.UpdatePipeline()
+    name = os.path.abspath("grains.pvtp")
+    SaveData(name, source, DataMode="Binary")
+    if symmetric:
+        ranks.Barrier()
+    file = vtkXMLPPolyDataReader()
+    file.SetFileName(name)
+    file.Update()
+    if symmetric:
+        ranks.Barrier()
+    return file.GetOutput()
+
+
+def alone(**properties):
+    """The same by the class, in this process without the others."""
+    source = granular.vtkGranularPackingSource()
+    source.SetController(None)
+    for name, value in properties.items():
+        getattr(source, f"Set{name}")(value)
+    source.Update()
+    return source.GetOutput()
+
+
+def digest(data):
+    arrays = [data.GetPoints().GetData()] + [data.GetPointData().GetArray(name)
+                                             for name in ("id", "type", "radius", "v")]
+    return [hashlib.sha256(vtk_to_numpy(array).tobytes()).hexdigest() for array in arrays]
+
+
+for properties in ({"NumberOfGrains": 1000, "Speed": 1.0},
+                   {"NumberOfGrains": 20000, "BoxGiven": 0, "Boundary": "p p p", "Radii": 2},
+                   {"NumberOfGrains": 5000, "BoxGiven": 0, "Arrangement": 3, "Seed": 7},
+                   {"NumberOfGrains": 2, "BoxGiven": 0}):
+    source = GranularPackingSource(**properties)
+    data = whole(source)
+    number = properties["NumberOfGrains"]
+    assert data.GetNumberOfPoints() == data.GetNumberOfVerts() == number
+    assert (vtk_to_numpy(data.GetPointData().GetArray("id")) == numpy.arange(1, number + 1)).all()
+    assert digest(data) == digest(alone(**properties)), properties
+    if not symmetric:
+        assert OutputPort(source, 1).GetDataInformation().GetNumberOfCells() == 1
+        assert source.GetDataInformation().GetNumberOfPoints() == number
+    Delete(source)
+print("all there")
