@@ -61,6 +61,18 @@ Vector3 Neighbours::from_low(const Vector3& scaled) const noexcept
   return box_->edge({ scaled[0] - low_[0], scaled[1] - low_[1], scaled[2] - low_[2] });
 }
 
+std::size_t Neighbours::cell_of(const Level& level, const Vector3& scaled) const noexcept
+{
+  std::size_t cell = 0;
+  for (std::size_t k = 3; k-- > 0;)
+  {
+    const int place = static_cast<int>((scaled[k] - low_[k]) * level.scale[k]);
+    cell = cell * static_cast<std::size_t>(level.cells[k]) +
+      static_cast<std::size_t>(std::clamp(place, 0, level.cells[k] - 1));
+  }
+  return cell;
+}
+
 void Neighbours::add(const Vector3& scaled, double radius)
 {
   std::size_t at = 0;
@@ -69,13 +81,7 @@ void Neighbours::add(const Vector3& scaled, double radius)
     ++at;
   }
   Level& level = levels_[at];
-  std::size_t cell = 0;
-  for (std::size_t k = 3; k-- > 0;)
-  {
-    const int place = static_cast<int>((scaled[k] - low_[k]) * level.scale[k]);
-    cell = cell * static_cast<std::size_t>(level.cells[k]) +
-      static_cast<std::size_t>(std::clamp(place, 0, level.cells[k] - 1));
-  }
+  const std::size_t cell = this->cell_of(level, scaled);
   const auto grain = static_cast<std::int32_t>(grains_.size());
   grains_.push_back({ this->from_low(scaled), radius, level.first[cell] });
   level.first[cell] = grain;
@@ -105,6 +111,11 @@ bool Neighbours::has_room(const Vector3& scaled, double radius) const noexcept
   for (std::size_t at = 0; at < levels_used_; ++at)
   {
     const Level& level = levels_[at];
+    const std::size_t own = this->cell_of(level, scaled);
+    if (!this->is_clear(level.first[own], centre, radius)) // most of what is in the way is here
+    {
+      return false;
+    }
     std::array<int, 3> from = {};
     std::array<int, 3> to = {};
     for (std::size_t k = 0; k < 3; ++k)
@@ -122,7 +133,7 @@ bool Neighbours::has_room(const Vector3& scaled, double radius) const noexcept
         for (int x = from[0]; x <= to[0]; ++x)
         {
           const std::int32_t first = level.first[row + static_cast<std::size_t>(x)];
-          if (!this->is_clear(first, centre, radius))
+          if (first != none && !this->is_clear(first, centre, radius))
           {
             return false;
           }

@@ -48,6 +48,7 @@ private:
   static constexpr std::int32_t none = -1;
 
   void lay(Level& level, double grains) const;
+  std::size_t cell_of(const Level& level, const Vector3& scaled) const noexcept;
   Vector3 from_low(const Vector3& scaled) const noexcept;
   bool is_clear(std::int32_t first, const Vector3& centre, double radius) const noexcept;
 

@@ -22,7 +22,7 @@ namespace
 constexpr int most_tries = 1'000'000;
 
 /// And what it may take in the layer it was dealt, before it looks in all of its region.
-constexpr int layer_tries = 20'000;
+constexpr int layer_tries = 100;
 
 /// Regions that a thread fills at a time.
 constexpr std::size_t chunk_regions = 16;
@@ -46,6 +46,7 @@ private:
   void sort_by_size(const GrainRows& grains);
   bool find_place(
     const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place) const;
+  Regions::Bounds inside(double radius) const noexcept;
   void add_images(const Vector3& place, double radius);
   [[noreturn]] void give_up(const GrainRows& grains, std::size_t placed) const;
 
@@ -135,6 +136,41 @@ void Filler::sort_by_size(const GrainRows& grains)
 bool Filler::find_place(
   const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place) const
 {
+  const Regions::Bounds whole = this->inside(radius);
+  Regions::Bounds bounds = whole;
+  int layer = Regions::outside;
+  for (int tries = 0; tries < most_tries; ++tries)
+  {
+    if (tries == layer_tries)
+    {
+      bounds = whole;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      place[k] = bounds.low[k] + numbers.unit() * (bounds.high[k] - bounds.low[k]);
+    }
+    const int here = regions_.layer(region, place);
+    if (here == Regions::outside ||
+      (layer != Regions::outside && here != layer && tries < layer_tries))
+    {
+      continue;
+    }
+    if (neighbours_.has_room(place, radius))
+    {
+      return true;
+    }
+    if (layer == Regions::outside)
+    {
+      layer = here;
+      regions_.narrow(region, place, bounds);
+    }
+  }
+  return false;
+}
+
+/// The bounds of the region, away from faces that are not periodic.
+Regions::Bounds Filler::inside(double radius) const noexcept
+{
   Regions::Bounds bounds = bounds_;
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -145,22 +181,7 @@ bool Filler::find_place(
       bounds.high[k] = std::min(bounds.high[k], 1 - least);
     }
   }
-  int layer = Regions::outside;
-  for (int tries = 0; tries < most_tries; ++tries)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      place[k] = bounds.low[k] + numbers.unit() * (bounds.high[k] - bounds.low[k]);
-    }
-    const int depth = regions_.depth(region, place);
-    layer = layer == Regions::outside ? depth : layer;
-    const bool here = tries < layer_tries ? depth == layer : depth != Regions::outside;
-    if (here && depth != Regions::outside && neighbours_.has_room(place, radius))
-    {
-      return true;
-    }
-  }
-  return false;
+  return bounds;
 }
 
 /// A grain, and its periodic images along the axes that are one block.

@@ -30,7 +30,7 @@ constexpr double far = 1e9; ///< radii: farther than any plane
 /// Layers of half a radius; what is deeper is one.
 constexpr int layers = 7;
 
-int layer(double depth)
+int layer_at(double depth)
 {
   return std::min(static_cast<int>(2 * std::min(depth, far)), layers - 1);
 }
@@ -72,6 +72,7 @@ void Regions::cut(const BoxShape& box, std::int64_t grains)
     axis.wraps = axis.periodic && !axis.planes;
     axis.count = blocks[k];
     axis.thickness = box.heights[k] / blocks[k];
+    axis.radii = axis.thickness / radius_;
   }
 }
 
@@ -255,44 +256,93 @@ Regions::Bounds Regions::bounds(const Region& region) const noexcept
   return bounds;
 }
 
-/// With the distances to planes in order a place is in a vertex if the largest is less than 5 R, else on an
-/// edge if the second is less than 3 R, else on a face if the least is less than R. So from the inside
-/// of a region it is as far to those that come later as the limit it is below of, and to those before
-/// as the nearest of the limits it is above of.
-int Regions::depth(const Region& region, const Vector3& scaled) const noexcept
+/// Distances to the nearest planes, in radii; and these planes, by their number.
+Vector3 Regions::away(const Vector3& scaled, Vector3& planes) const noexcept
 {
-  std::array<double, 3> away = {};
-  unsigned planes = 0;
+  Vector3 away;
   for (std::size_t k = 0; k < 3; ++k)
   {
     const Axis& axis = axes_[k];
     const double place = scaled[k] * axis.count;
-    const double plane = static_cast<double>(static_cast<std::int64_t>(place + 1.5) - 1);
-    const bool there = axis.planes && (axis.periodic || (plane > 0 && plane < axis.count));
-    away[k] = there ? std::abs(place - plane) * axis.thickness / radius_ : far;
+    planes[k] = static_cast<double>(static_cast<std::int64_t>(place + 1.5) - 1);
+    const bool there = axis.planes && (axis.periodic || (planes[k] > 0 && planes[k] < axis.count));
+    away[k] = there ? std::abs(place - planes[k]) * axis.radii : far;
   }
-  std::array<double, 3> sorted = away;
-  std::sort(sorted.begin(), sorted.end());
-  std::size_t limit = 3;
-  while (limit > 0 && sorted[limit - 1] >= reach[limit])
-  {
-    --limit;
-  }
-  for (std::size_t k = 0; limit > 0 && k < 3; ++k)
-  {
-    planes |= away[k] < reach[limit] ? 1U << k : 0U;
-  }
-  if (planes != region.planes)
+  return away;
+}
+
+/// With the distances to planes in order a place is in a vertex if the largest is less than 5 R, else on an
+/// edge if the second is less than 3 R, else on a face if the least is less than R. So from the inside
+/// of a region it is as far to those that come later as the limit it is below of, and to those before
+/// as the nearest of the limits it is above of.
+int Regions::layer(const Region& region, const Vector3& scaled) const noexcept
+{
+  Vector3 planes;
+  const Vector3 away = this->away(scaled, planes);
+  const double least = std::min(away[0], away[1]);
+  const double more = std::max(away[0], away[1]);
+  const Vector3 sorted = { std::min(least, away[2]), std::max(least, std::min(more, away[2])),
+    std::max(more, away[2]) };
+  const unsigned on = sorted[2] < reach[3] ? 3
+    : sorted[1] < reach[2]                 ? 2
+    : sorted[0] < reach[1]                 ? 1
+                                           : 0;
+  const unsigned found = (away[0] < reach[on] ? 1U : 0U) | (away[1] < reach[on] ? 2U : 0U) |
+    (away[2] < reach[on] ? 4U : 0U);
+  if (found != region.planes)
   {
     return outside;
   }
   double before = far;
-  for (std::size_t above = limit + 1; above < 4; ++above)
+  for (std::size_t i = on; i < 3; ++i)
   {
-    before = std::min(before, sorted[above - 1] - reach[above]);
+    before = std::min(before, sorted[i] - reach[i + 1]);
   }
-  const double after = limit > 0 ? reach[limit] - sorted[limit - 1] : far;
-  return layer(before) * layers + layer(after);
+  const double after = on > 0 ? reach[on] - sorted[on - 1] : far;
+  return layer_at(before) * layers + layer_at(after);
+}
+
+void Regions::narrow(const Region& region, const Vector3& scaled, Bounds& bounds) const noexcept
+{
+  Vector3 planes;
+  const Vector3 away = this->away(scaled, planes);
+  std::array<std::size_t, 3> near = { 0, 1, 2 }; // axes, the nearest plane first
+  std::sort(
+    near.begin(), near.end(), [&away](std::size_t a, std::size_t b) { return away[a] < away[b]; });
+  const auto on = static_cast<std::size_t>(std::popcount(region.planes));
+  std::size_t nearest = 3;
+  double before = far;
+  for (std::size_t i = on; i < 3; ++i)
+  {
+    const double depth = away[near[i]] - reach[i + 1];
+    nearest = depth < before ? i : nearest;
+    before = std::min(before, depth);
+  }
+  if (layer_at(before) < layers - 1)
+  {
+    const std::size_t k = near[nearest];
+    this->narrow(k, planes[k], scaled[k], reach[nearest + 1] + 0.5 * layer_at(before), bounds);
+  }
+  if (on > 0)
+  {
+    const std::size_t k = near[on - 1];
+    const int after = layer_at(reach[on] - away[k]);
+    if (after < layers - 1)
+    {
+      this->narrow(k, planes[k], scaled[k], reach[on] - 0.5 * (after + 1), bounds);
+    }
+  }
+}
+
+/// To half a radius, from so many radii on, on that side of a plane where the place is.
+void Regions::narrow(
+  std::size_t axis, double plane, double place, double first, Bounds& bounds) const noexcept
+{
+  const double sign = place * axes_[axis].count < plane ? -1 : 1;
+  const double ends[] = { (plane + sign * first / axes_[axis].radii) / axes_[axis].count,
+    (plane + sign * (first + 0.5) / axes_[axis].radii) / axes_[axis].count };
+  bounds.low[axis] = std::max(bounds.low[axis], std::min(ends[0], ends[1]));
+  bounds.high[axis] = std::min(bounds.high[axis], std::max(ends[0], ends[1]));
 }
 
 Regions::Choices Regions::choices(std::size_t axis, const Region& region) const noexcept

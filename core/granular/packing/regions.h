@@ -74,7 +74,11 @@ public:
 
   /// How deep in a region a place within its bounds is, seen from the regions before and after it: the
   /// number of a layer, or outside.
-  int depth(const Region& region, const Vector3& scaled) const noexcept;
+  int layer(const Region& region, const Vector3& scaled) const noexcept;
+
+  /// Cuts the bounds of a region to what is about as far from the nearest planes as a place in it: its
+  /// layer fills most of that.
+  void narrow(const Region& region, const Vector3& scaled, Bounds& bounds) const noexcept;
 
   /// Whether the axis is periodic and has no planes: then grains meet their own images.
   bool wraps(std::size_t axis) const noexcept { return axes_[axis].wraps; }
@@ -93,6 +97,7 @@ private:
     bool wraps = false;
     double count = 1;             ///< of blocks
     double thickness = 0;         ///< of a block
+    double radii = 0;             ///< the same in radii
     std::array<int, 3> rims = {}; ///< planes around a block that is the first, inside, the last
     std::array<double, 3> lengths = { 1, 1, 1 }; ///< of these, less the inset
   };
@@ -116,6 +121,9 @@ private:
   using Volumes = std::array<double, 8>; ///< of the regions of a block, by planes
 
   std::int64_t blocks(std::size_t axis) const noexcept { return axes_[axis].blocks; }
+  Vector3 away(const Vector3& scaled, Vector3& planes) const noexcept;
+  void narrow(
+    std::size_t axis, double plane, double place, double first, Bounds& bounds) const noexcept;
   std::int64_t first_of_block(std::int64_t block) const noexcept;
   void cut(const BoxShape& box, std::int64_t grains);
   void measure(double inset);
