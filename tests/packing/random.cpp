@@ -109,11 +109,11 @@ TEST(PackingRandomCounts, SmallNumbers)
       request.grains = number;
       request.boundary = boundary;
       request.radii = one_radius(0.01);
-      request.solid_fraction = 0.1;
+      request.solid_fraction = 0.05;
       const Grains grains(request);
       ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
       EXPECT_GT(grains.least_gap(), 0);
-      EXPECT_NEAR(grains.solid_fraction(), 0.1, 1e-9);
+      EXPECT_NEAR(grains.solid_fraction(), 0.05, 1e-9);
       request.box = tilted_box({}, { 1e4, 1e4, 1e4 });
       EXPECT_EQ(Grains(request).size(), static_cast<std::size_t>(number));
     }
@@ -123,6 +123,33 @@ TEST(PackingRandomCounts, SmallNumbers)
   snug.box = tilted_box({}, { 1, 1, 1 });
   snug.radii = one_radius(0.5);
   EXPECT_EQ(Grains(snug).points[0], (Vector3{ 0.5, 0.5, 0.5 }));
+}
+
+// few grains between walls have little of the room that the solid fraction says
+TEST(PackingRandomCounts, ABoxThatIsMadeHasRoom)
+{
+  const double grain = volume_of(0.5);
+  for (const RadiusChoice& radii :
+    { one_radius(0.5), two_radii(0.3, 0.5, 0.3), radii_between(0.1, 0.5) })
+  {
+    for (std::int64_t number = 1; number < 100; number += number < 20 ? 1 : 17)
+    {
+      for (const char* const boundary : { "p p p", "f f f" })
+      {
+        PackingRequest request;
+        request.grains = number;
+        request.boundary = boundary;
+        request.radii = radii;
+        request.solid_fraction = 0.3;
+        request.seed = static_cast<std::uint64_t>(number);
+        const Grains grains(request);
+        ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
+        EXPECT_GT(grains.least_gap(), 0);
+        EXPECT_GE(grains.least_inside(), 0);
+        EXPECT_LT(grains.solid_fraction(), 0.3 + 2 * grain / grains.volume);
+      }
+    }
+  }
 }
 
 TEST(PackingRandomCounts, VelocitiesAreNormal)

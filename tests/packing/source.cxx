@@ -164,7 +164,7 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     { [](vtkGranularPackingSource* s) { s->SetBoxLengths(0.1, -0.1, 0.1); },
       "expected BoxLengths greater than 0, got -0.100000" },
     { [](vtkGranularPackingSource* s) { s->SetBoundary("x"); }, "got 'x'" },
-    { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(3000); }, "at most 0.74" },
+    { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(4000); }, "at most 0.74" },
     { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(2300); }, "no place was found" },
     { [](vtkGranularPackingSource* s)
       {

@@ -90,6 +90,8 @@ assert 0.1 < colored.mean() < 0.9, colored.mean()
 # a lattice in a tilted, periodic box
 SetProperties(source, Arrangement="FaceCentredCubic", NumberOfGrains=0, Radii="One", Radius=0.005,
               BoxTilts=[0.03, 0, 0], Boundary="p p f", Spacing=1.05, Speed=0.5, Seed=-3)
+source.UpdatePipeline()
+ResetCamera(view)
 SaveScreenshot("lattice.png", view)
 points, arrays = grains()
 assert len(points) > 300

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -57,15 +58,24 @@ LatticeKind lattice_of(Arrangement arrangement)
   return static_cast<LatticeKind>(static_cast<int>(arrangement) - 1);
 }
 
-/// The least box at 0 0 0 for the grains.
+/// The edge of a cube for random grains. Between walls few of them have less room than the solid fraction
+/// says: then at least the cube of a diameter is left to each.
+double made_edge(const PackingRequest& request, bool walls)
+{
+  const double volume = static_cast<double>(request.grains) * request.radii.mean_volume();
+  const double diameter = 2 * request.radii.largest();
+  const double room = walls && request.grains > 1 ? std::cbrt(volume * 6 / std::numbers::pi) : 0;
+  return std::max(std::cbrt(volume / request.solid_fraction), diameter + room);
+}
+
+/// The box at 0 0 0 for the grains.
 Box made_box(const PackingRequest& request, const std::string& boundary)
 {
   const double radius = request.radii.largest();
   Vector3 lengths;
   if (request.arrangement == Arrangement::Random)
   {
-    const double volume = static_cast<double>(request.grains) * request.radii.mean_volume();
-    lengths.fill(std::max(std::cbrt(volume / request.solid_fraction), 2 * radius));
+    lengths.fill(made_edge(request, boundary != "pp pp pp"));
   }
   else
   {

@@ -18,8 +18,9 @@ namespace granular
 {
 namespace
 {
-/// What a grain may take to find a place: for one that can be had, this is never in vain.
-constexpr int most_tries = 1'000'000;
+/// What a grain may take to find a place; then the region is begun again, with other numbers.
+constexpr int most_tries = 100'000;
+constexpr int most_begins = 10;
 
 /// And what it may take in the layer it was dealt, before it looks in all of its region.
 constexpr int layer_tries = 100;
@@ -42,6 +43,7 @@ public:
   void fill(std::int64_t index);
 
 private:
+  std::size_t fill(const Regions::Region& region, const GrainRows& grains, RandomNumbers& numbers);
   void start(const Regions::Region& region, const GrainRows& grains);
   void sort_by_size(const GrainRows& grains);
   bool find_place(
@@ -67,34 +69,38 @@ void Filler::fill(std::int64_t index)
     return;
   }
   const Regions::Region region = regions_.region(index);
-  this->start(region, grains);
-  regions_.visit_rim(region,
-    [this](std::int64_t rim, const Vector3& shift)
-    {
-      const GrainRows others = store_.grains(rim);
-      for (std::int64_t i = 0; i < others.count(); ++i)
-      {
-        const double* const at = others.scaled + 3 * i;
-        const Vector3 place = { at[0] + shift[0], at[1] + shift[1], at[2] + shift[2] };
-        if (neighbours_.holds(place))
-        {
-          neighbours_.add(place, others.radius[i]);
-        }
-      }
-    });
   this->sort_by_size(grains);
   RandomNumbers numbers(all_.seed, Stream::Places, index);
+  std::size_t most = 0;
+  for (int begin = 0; begin < most_begins; ++begin)
+  {
+    this->start(region, grains);
+    const std::size_t placed = this->fill(region, grains, numbers);
+    if (placed == order_.size())
+    {
+      return;
+    }
+    most = std::max(most, placed);
+  }
+  this->give_up(grains, most);
+}
+
+/// Gives how many found a place, before one that did not.
+std::size_t Filler::fill(
+  const Regions::Region& region, const GrainRows& grains, RandomNumbers& numbers)
+{
   for (std::size_t placed = 0; placed < order_.size(); ++placed)
   {
     const std::int64_t i = order_[placed];
     Vector3 place = {};
     if (!this->find_place(region, numbers, grains.radius[i], place))
     {
-      this->give_up(grains, placed);
+      return placed;
     }
     std::copy(place.begin(), place.end(), grains.scaled + 3 * i);
     this->add_images(place, grains.radius[i]);
   }
+  return order_.size();
 }
 
 /// Readies the neighbours: those within two radii of the region.
@@ -115,6 +121,20 @@ void Filler::start(const Regions::Region& region, const GrainRows& grains)
   }
   neighbours_.start(all_.box, around.low, around.high, choice.smallest(), choice.largest(), gap_,
     static_cast<double>(grains.count()) * (outer / inner));
+  regions_.visit_rim(region,
+    [this](std::int64_t rim, const Vector3& shift)
+    {
+      const GrainRows others = store_.grains(rim);
+      for (std::int64_t i = 0; i < others.count(); ++i)
+      {
+        const double* const at = others.scaled + 3 * i;
+        const Vector3 place = { at[0] + shift[0], at[1] + shift[1], at[2] + shift[2] };
+        if (neighbours_.holds(place))
+        {
+          neighbours_.add(place, others.radius[i]);
+        }
+      }
+    });
 }
 
 /// Large ones first: small ones still find a place between them.
@@ -206,10 +226,15 @@ void Filler::add_images(const Vector3& place, double radius)
 
 void Filler::give_up(const GrainRows& grains, std::size_t placed) const
 {
+  const double part = static_cast<double>(placed) / static_cast<double>(grains.count());
+  const double volume = all_.radii.choice().mean_volume();
+  const double asked = static_cast<double>(all_.grains) * volume / all_.box.volume;
   throw LimitError("no place was found for a random grain of radius " +
-    std::to_string(grains.radius[order_[placed]]) + " in " + std::to_string(most_tries) +
-    " tries, when " + std::to_string(placed) + " of " + std::to_string(grains.count()) +
-    " grains of its part of the box had theirs");
+    std::to_string(grains.radius[order_[placed]]) + " when " + std::to_string(placed) + " of " +
+    std::to_string(grains.count()) +
+    " of its part of the box had theirs: expected a solid fraction " +
+    "of at most about 0.3, and less where walls are near, got " + std::to_string(asked) +
+    ", of which " + std::to_string(part * asked) + " was reached");
 }
 
 /// Regions of one kind, several at a time.
