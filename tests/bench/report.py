@@ -415,6 +415,15 @@ PARTS = (
          into memory that came back from an earlier read; bytes are those of points, id, type and
          radius.""",
          [positions_table], (), plot_positions),
+    Part("packing", "Packing: grains without a file",
+         """make_packing, 10^6 grains with velocities and ranges, into new memory, periodic boxes, time on the
+         wall; speed of 2 threads is against 1, as the median of rounds. Numbers behind random
+         are solid fractions.""",
+         [cases_by_metrics(r"",
+                           Column("1 thread ns/grain", "1 thread:ns/grain", ".0f"),
+                           Column("2 threads ns/grain", "2 threads:ns/grain", ".0f"),
+                           Column("speed of 2 threads", "speed of 2 threads:1", ".2f"),
+                           Column("spread", "spread:1", ".0%"))]),
     Part("threads", "Threads: one frame, read by several",
          """read_dump of 12 columns (%g where they are text), 10^6 rows and three times as many, file in
          the page cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread. speed
