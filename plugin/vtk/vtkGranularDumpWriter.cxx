@@ -7,6 +7,7 @@
 #include "granular/base/words.h"
 #include "granular/dump/dump_writer.h"
 
+#include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -50,7 +51,16 @@ public:
     granular::do_together(this->Ranks,
       [&]
       {
-        data.emplace(vtkPointSet::SafeDownCast(input), notices);
+        auto* points = vtkPointSet::SafeDownCast(input);
+        if (!points)
+        {
+          throw granular::UnsupportedError("expected a vtkPointSet to write, got a " +
+              std::string(input->GetClassName()) +
+              (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
+                                                        : ""),
+            { this->Self->FileName });
+        }
+        data.emplace(points, notices);
         this->Complete(*data, time, notices);
       });
     this->Writer.write(data->View, notices, progress);
@@ -131,6 +141,14 @@ void vtkGranularDumpWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WriteUnits: " << this->WriteUnits << "\n";
   os << indent << "Units: " << TextOf(this->Units) << "\n";
   os << indent << "WriteTime: " << this->WriteTime << "\n";
+  const auto print = [&](const char* name, const double* first, int count)
+  {
+    os << indent << name << ":";
+    std::for_each(first, first + count, [&](double value) { os << " " << value; });
+    os << "\n";
+  };
+  print("BoxOrigin", this->BoxOrigin, 3);
+  print("BoxVectors", this->BoxVectors, 9);
   os << indent << "Boundary: " << TextOf(this->Boundary) << "\n";
 }
 
@@ -167,7 +185,7 @@ void vtkGranularDumpWriter::SetDialect(int dialect)
 //------------------------------------------------------------------------------
 int vtkGranularDumpWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see File::Write
   return 1;
 }
 

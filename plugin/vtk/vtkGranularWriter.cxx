@@ -4,22 +4,146 @@
 #include "private/guard.h"
 #include "private/writer.h"
 
+#include "vtkCommand.h"
 #include "vtkDataObject.h"
-#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 using namespace vtkGranularPrivate;
 
-namespace
-{
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-}
+
+/**
+ * What is written, as the pipeline makes it: frame by frame, and of each the piece of this process. The writer asks
+ * for it itself, not by its own executive: that one would go on for ever where a frame cannot be made, hand
+ * over the blocks of a composite one by one, and begin to count progress with each frame.
+ */
+class vtkGranularWriter::Input
+{
+public:
+  explicit Input(vtkGranularWriter& writer)
+    : Writer(writer)
+  {
+    this->Source = writer.GetInputAlgorithm(0, 0, this->Port);
+    this->Source->UpdateInformation();
+    this->Info = this->Source->GetOutputInformation(this->Port);
+  }
+  Input(const Input&) = delete;
+  void operator=(const Input&) = delete;
+
+  /**
+   * Who asks next means the time that was shown, not the last that was written.
+   */
+  ~Input()
+  {
+    auto* pipeline = Pipeline::SafeDownCast(this->Source->GetExecutive());
+    if (this->TimeBefore && pipeline)
+    {
+      this->Info->Set(Pipeline::UPDATE_TIME_STEP(), *this->TimeBefore);
+      pipeline->PropagateUpdateExtent(this->Port);
+    }
+  }
+
+  std::vector<double> GetTimes() const
+  {
+    const double* times = this->Info->Get(Pipeline::TIME_STEPS());
+    return times ? std::vector<double>(times, times + this->Info->Length(Pipeline::TIME_STEPS()))
+                 : std::vector<double>();
+  }
+
+  vtkDataObject* GetData() const { return this->Source->GetOutputDataObject(this->Port); }
+
+  /**
+   * The time of the data, as far as they know it.
+   */
+  std::optional<double> GetTime() const
+  {
+    vtkDataObject* data = this->GetData();
+    vtkInformation* info = data ? data->GetInformation() : nullptr;
+    return info && info->Has(vtkDataObject::DATA_TIME_STEP())
+      ? std::optional(info->Get(vtkDataObject::DATA_TIME_STEP()))
+      : std::nullopt;
+  }
+
+  /**
+   * Makes the data of a time, or of the one that is shown. False if that fails, on this process.
+   */
+  bool Update(double time)
+  {
+    if (!this->TimeBefore)
+    {
+      this->TimeBefore = this->GetShownTime().value_or(time);
+    }
+    this->Info->Set(Pipeline::UPDATE_TIME_STEP(), time);
+    return this->Update();
+  }
+
+  bool Update()
+  {
+    vtkMultiProcessController* controller = this->Writer.GetController();
+    vtkNew<vtkInformationVector> requests;
+    requests->SetNumberOfInformationObjects(this->Port + 1);
+    vtkInformation* request = requests->GetInformationObject(this->Port);
+    request->Set(Pipeline::UPDATE_PIECE_NUMBER(), controller ? controller->GetLocalProcessId() : 0);
+    request->Set(
+      Pipeline::UPDATE_NUMBER_OF_PIECES(), controller ? controller->GetNumberOfProcesses() : 1);
+    request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), this->Writer.GetGhostLevel());
+    return this->Source->Update(this->Port, requests) != 0;
+  }
+
+  /**
+   * Throws where there are no data to write.
+   */
+  void Check(bool made) const
+  {
+    if (this->Info->Get(vtkAlgorithm::ABORTED()))
+    {
+      throw granular::Cancelled{};
+    }
+    if (!made || !this->GetData())
+    {
+      throw granular::Error(
+        "the input could not be made, and nothing is written: see the messages before",
+        { this->Writer.GetFileName() });
+    }
+  }
+
+private:
+  /**
+   * The time that the nearest of those before was asked for: a filter that is new, as ParaView puts some before
+   * writers, has not been asked yet.
+   */
+  std::optional<double> GetShownTime() const
+  {
+    vtkAlgorithm* algorithm = this->Source;
+    for (int port = this->Port; algorithm;)
+    {
+      vtkInformation* info = algorithm->GetOutputInformation(port);
+      if (info->Has(Pipeline::UPDATE_TIME_STEP()))
+      {
+        return info->Get(Pipeline::UPDATE_TIME_STEP());
+      }
+      const bool more =
+        algorithm->GetNumberOfInputPorts() > 0 && algorithm->GetNumberOfInputConnections(0) > 0;
+      algorithm = more ? algorithm->GetInputAlgorithm(0, 0, port) : nullptr;
+    }
+    return {};
+  }
+
+  vtkGranularWriter& Writer;
+  vtkAlgorithm* Source = nullptr;
+  int Port = 0;
+  vtkInformation* Info = nullptr;
+  std::optional<double> TimeBefore;
+};
 
 //------------------------------------------------------------------------------
 granular::Communicator& vtkGranularWriter::Internals::GetRanks()
@@ -33,9 +157,9 @@ granular::Communicator& vtkGranularWriter::Internals::GetRanks()
 
 //------------------------------------------------------------------------------
 // Of the processes the first one speaks.
-void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self, const granular::Notices& notices)
+void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self)
 {
-  for (const granular::Notice& notice : notices)
+  for (const granular::Notice& notice : std::exchange(this->Notices, {}))
   {
     const std::string text = granular::to_string(notice);
     if (this->Told.insert(text).second && (!this->Ranks || this->Ranks->rank() == 0))
@@ -67,6 +191,8 @@ void vtkGranularWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ParallelMode: " << this->ParallelMode << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
   os << indent << "GhostLevel: " << this->GhostLevel << "\n";
+  os << indent << "Controller: " << this->Shared->Controller << "\n";
+  os << indent << "Written: " << this->Written << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -120,108 +246,55 @@ vtkMultiProcessController* vtkGranularWriter::GetController()
 int vtkGranularWriter::Write()
 {
   Internals& shared = *this->Shared;
-  shared.File.reset();
-  shared.Frame = 0;
   this->Written = false;
   shared.Told.clear();
-  this->SetErrorCode(vtkErrorCode::NoError);
-  this->Superclass::Write();
+  shared.Notices.clear();
+  this->SetAbortOutput(false);
+  this->InvokeEvent(vtkCommand::StartEvent);
+  this->UpdateProgress(0);
+  const Outcome outcome =
+    Guard(this, this->GetExecutive()->GetOutputInformation(), [&] { this->WriteFrames(); });
+  shared.Tell(this);
   shared.File.reset(); // what is not finished leaves nothing
-  if (!this->Written && this->GetErrorCode() == vtkErrorCode::NoError && !this->GetAbortOutput())
+  this->Written = outcome == Outcome::Done;
+  this->SetAbortExecute(0); // holds for one file
+  if (this->Written)
   {
-    vtkErrorMacro("nothing is written to '" << (this->FileName ? this->FileName : "")
-                                            << "': the input could not be made");
-    this->SetErrorCode(vtkErrorCode::UnknownError);
+    this->UpdateProgress(1);
   }
+  this->InvokeEvent(vtkCommand::EndEvent);
   return this->Written ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
-vtkTypeBool vtkGranularWriter::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkGranularWriter::WriteFrames()
 {
   Internals& shared = *this->Shared;
-  vtkInformation* input = inputVector[0]->GetInformationObject(0);
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  if (this->GetNumberOfInputConnections(0) == 0)
   {
-    shared.Times.clear();
-    if (this->WriteTimeSteps && input && input->Has(Pipeline::TIME_STEPS()))
-    {
-      const double* times = input->Get(Pipeline::TIME_STEPS());
-      shared.Times.assign(times, times + input->Length(Pipeline::TIME_STEPS()));
-    }
-    return 1;
+    throw granular::Error("no input: expected points to write");
   }
-  if (request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
+  if (!this->FileName || !*this->FileName)
   {
-    vtkMultiProcessController* controller = shared.Controller;
-    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), controller ? controller->GetLocalProcessId() : 0);
-    input->Set(
-      Pipeline::UPDATE_NUMBER_OF_PIECES(), controller ? controller->GetNumberOfProcesses() : 1);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), this->GhostLevel);
-    if (shared.Frame < shared.Times.size())
-    {
-      if (shared.Frame == 0 && input->Has(Pipeline::UPDATE_TIME_STEP()))
-      {
-        shared.TimeBefore = input->Get(Pipeline::UPDATE_TIME_STEP());
-      }
-      input->Set(Pipeline::UPDATE_TIME_STEP(), shared.Times[shared.Frame]);
-    }
-    return 1;
+    throw granular::IoError("no file to write: set FileName first");
   }
-  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularWriter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Internals& shared = *this->Shared;
-  granular::Notices notices;
-  const std::size_t frames = std::max<std::size_t>(1, shared.Times.size());
-  const Outcome outcome = Guard(this, outputVector,
-    [&]
-    {
-      if (shared.Frame == 0)
-      {
-        if (!this->FileName || !*this->FileName)
-        {
-          throw granular::IoError("no file to write: set FileName first");
-        }
-        shared.File = this->OpenFile(shared);
-      }
-      vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-      FrameTime time;
-      time.Frame = static_cast<vtkTypeInt64>(shared.Frame);
-      if (input && input->GetInformation()->Has(vtkDataObject::DATA_TIME_STEP()))
-      {
-        time.Time = input->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP());
-      }
-      AlgorithmProgress progress(this);
-      granular::PartialProgress part(progress);
-      const auto all = static_cast<double>(frames);
-      part.set_part(
-        static_cast<double>(shared.Frame) / all, static_cast<double>(shared.Frame + 1) / all);
-      shared.File->Write(input, time, notices, part);
-      if (++shared.Frame == frames)
-      {
-        shared.File->Finish();
-        this->Written = true;
-      }
-    });
-  shared.Tell(this, notices);
-  if (outcome == Outcome::Done && !this->Written)
+  granular::Communicator& ranks = shared.GetRanks();
+  Input input(*this);
+  const std::vector<double> times = this->WriteTimeSteps ? input.GetTimes() : std::vector<double>();
+  shared.File = this->OpenFile(shared);
+  AlgorithmProgress progress(this);
+  granular::PartialProgress part(progress);
+  const std::size_t frames = std::max<std::size_t>(1, times.size());
+  for (std::size_t frame = 0; frame < frames; ++frame)
   {
-    request->Set(Pipeline::CONTINUE_EXECUTING(), 1);
-    return 1;
+    const bool made = times.empty() ? input.Update() : input.Update(times[frame]);
+    granular::do_together(ranks, [&] { input.Check(made); });
+    const auto all = static_cast<double>(frames);
+    const auto first = static_cast<double>(frame);
+    part.set_part(first / all, (first + 1) / all);
+    const FrameTime time{ input.GetTime(), static_cast<vtkTypeInt64>(frame) };
+    shared.File->Write(input.GetData(), time, shared.Notices, part);
+    shared.Tell(this);
   }
-  request->Remove(Pipeline::CONTINUE_EXECUTING());
-  shared.File.reset();
-  if (shared.TimeBefore)
-  {
-    // who writes next means the time that is shown, not the last that was written
-    inputVector[0]->GetInformationObject(0)->Set(Pipeline::UPDATE_TIME_STEP(), *shared.TimeBefore);
-    shared.TimeBefore.reset();
-  }
-  return outcome == Outcome::Done ? 1 : 0;
+  shared.File->Finish();
 }

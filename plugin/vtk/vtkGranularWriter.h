@@ -108,11 +108,7 @@ protected:
   vtkGranularWriter();
   ~vtkGranularWriter() override;
 
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  void WriteData() override {}
+  void WriteData() override { this->Write(); } ///< Update() writes, too
 
   struct Internals;
 
@@ -131,6 +127,10 @@ protected:
 private:
   vtkGranularWriter(const vtkGranularWriter&) = delete;
   void operator=(const vtkGranularWriter&) = delete;
+
+  class Input;
+
+  void WriteFrames();
 
   std::unique_ptr<Internals> Shared;
 };

@@ -23,5 +23,5 @@ def save(proxy, path, **properties):
     writer.UpdateVTKObjects()
     writer.UpdatePipeline()
     writer.UpdatePropertyInformation()
-    if not writer.Written:
+    if not writer.GetPropertyValue("Written"):
         raise RuntimeError(f"{path} could not be written: see the messages above")

@@ -43,7 +43,7 @@ std::optional<ScalarType> TypeOf(int type)
     { 8, ScalarType::Int64, ScalarType::UInt64 } };
   for (const Integer& integer : integers)
   {
-    if (type != VTK_BIT && vtkDataArray::GetDataTypeSize(type) == integer.Bytes)
+    if (vtkDataArray::GetDataTypeSize(type) == integer.Bytes)
     {
       return vtkDataArray::GetDataTypeMin(type) < 0 ? integer.Signed : integer.Unsigned;
     }
@@ -85,6 +85,16 @@ std::string FindText(vtkFieldData* data, const char* name)
 {
   const std::vector<std::string> texts = FindTexts(data, name);
   return texts.empty() ? std::string() : texts.front();
+}
+
+void CheckTuples(vtkAbstractArray* array, vtkIdType points, const char* name)
+{
+  if (array->GetNumberOfTuples() != points)
+  {
+    throw granular::Error("expected a value for each of " + std::to_string(points) +
+        " points, got " + std::to_string(array->GetNumberOfTuples()),
+      { .column = name });
+  }
 }
 
 /**
@@ -149,70 +159,71 @@ std::optional<granular::Box> FindBox(vtkFieldData* data)
 
 DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
 {
-  if (!input)
-  {
-    this->View.has_box = false;
-    return;
-  }
   this->ReadFieldData(input->GetFieldData());
   this->View.rows = input->GetNumberOfPoints();
   if (vtkPoints* points = input->GetPoints())
   {
-    this->View.points = this->MakeView(points->GetData());
+    this->View.points = this->MakeView(points->GetData(), "points");
   }
   vtkPointData* data = input->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     const char* name = array->GetName();
-    if (!name || !*name || std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0)
+    if (name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0)
     {
       continue;
     }
-    if (auto view = this->MakeView(array))
+    auto view = name && *name ? this->MakeView(array, name) : std::nullopt;
+    if (view)
     {
-      view->name = name;
       this->View.arrays.push_back(std::move(*view));
     }
     else
     {
-      granular::Notice notice;
-      notice.text = "the array '" + std::string(name) + "' of the type " +
-        array->GetDataTypeAsString() + " is left out";
-      notices.push_back(notice);
+      notices.push_back({ {},
+        name && *name ? "the array '" + std::string(name) + "' of the type " +
+            array->GetDataTypeAsString() + " is left out"
+                      : "an array without a name is left out" });
     }
   }
   static_assert(granular::FrameView::duplicate_row == vtkDataSetAttributes::DUPLICATEPOINT);
   if (vtkUnsignedCharArray* ghosts = input->GetPointGhostArray())
   {
+    CheckTuples(ghosts, this->View.rows, vtkDataSetAttributes::GhostArrayName());
     this->View.ghosts = ghosts->GetPointer(0);
   }
 }
 
-std::optional<granular::ArrayView> DumpInput::MakeView(vtkAbstractArray* array)
+std::optional<granular::ArrayView> DumpInput::MakeView(vtkAbstractArray* array, const char* name)
 {
+  CheckTuples(array, this->View.rows, name);
   granular::ArrayView view;
   const int size = array->GetNumberOfComponents();
   if (auto* texts = vtkStringArray::SafeDownCast(array))
   {
     const std::string* first = array->GetNumberOfValues() > 0 ? texts->GetPointer(0) : nullptr;
-    view = granular::view_rows("", ScalarType::Text, first, size);
+    view = granular::view_rows(name, ScalarType::Text, first, size);
     return view;
   }
   auto* numbers = vtkDataArray::SafeDownCast(array);
-  const auto type = numbers ? TypeOf(numbers->GetDataType()) : std::nullopt;
-  if (!type)
+  const bool bits = numbers && numbers->GetDataType() == VTK_BIT;
+  const auto type = bits ? ScalarType::UInt8
+    : numbers            ? TypeOf(numbers->GetDataType())
+                         : std::nullopt;
+  if (!type || size == 0)
   {
     return {};
   }
-  if (!numbers->HasStandardMemoryLayout())
+  if (bits || !numbers->HasStandardMemoryLayout())
   {
-    auto copy =
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(numbers->GetDataType()));
+    auto copy = vtkSmartPointer<vtkDataArray>::Take(
+      vtkDataArray::CreateDataArray(bits ? VTK_UNSIGNED_CHAR : numbers->GetDataType()));
     copy->DeepCopy(numbers);
     this->Copies.push_back(copy);
     numbers = copy;
   }
+  view.name = name;
   view.type = *type;
   view.step = size;
   const char* first = static_cast<const char*>(numbers->GetVoidPointer(0));

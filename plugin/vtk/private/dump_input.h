@@ -36,7 +36,8 @@ class DumpInput
 {
 public:
   /**
-   * Null is an input without points. Arrays that are no columns, of variants for one, are left out with a notice.
+   * Arrays that are no columns, of variants for one, are left out with a notice. Throws Error where an array has
+   * not a value for each point.
    */
   DumpInput(vtkPointSet* input, granular::Notices& notices);
 
@@ -45,7 +46,7 @@ public:
   bool HasTime = false;     ///< and the time
 
 private:
-  std::optional<granular::ArrayView> MakeView(vtkAbstractArray* array);
+  std::optional<granular::ArrayView> MakeView(vtkAbstractArray* array, const char* name);
   void ReadFieldData(vtkFieldData* data);
 
   std::vector<vtkSmartPointer<vtkAbstractArray>> Copies;

@@ -28,7 +28,7 @@ struct ErrorCodeAccess : vtkAlgorithm
 };
 
 /**
- * Which of VTK's codes says best why a file could not be read.
+ * Which of VTK's codes says best why a file could not be read or written.
  */
 unsigned long FileErrorCode(const granular::IoError& error)
 {
@@ -41,6 +41,7 @@ unsigned long FileErrorCode(const granular::IoError& error)
     return vtkErrorCode::PrematureEndOfFileError; // it is there, but not what it had been
   }
   return error.code() == std::errc::no_such_file_or_directory ? vtkErrorCode::FileNotFoundError
+    : error.code() == std::errc::no_space_on_device           ? vtkErrorCode::OutOfDiskSpaceError
                                                               : vtkErrorCode::CannotOpenFileError;
 }
 

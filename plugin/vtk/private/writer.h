@@ -54,10 +54,8 @@ struct vtkGranularWriter::Internals
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<granular::Communicator> Ranks; ///< of the controller; null: not made yet
   std::unique_ptr<vtkGranularPrivate::FrameWriter> File;
-  std::vector<double> Times;        ///< that are to be written; empty: the one that the input shows
-  std::size_t Frame = 0;            ///< the one at hand
-  std::optional<double> TimeBefore; ///< that the input was asked for before all times were written
-  std::set<std::string> Told;       ///< notices that the user has had of this file
+  granular::Notices Notices;  ///< that the user has not had yet
+  std::set<std::string> Told; ///< those of this file that the user has had
 
   /**
    * The processes that write together. Collective when it is called first.
@@ -67,7 +65,7 @@ struct vtkGranularWriter::Internals
   /**
    * Warns of each thing once a file.
    */
-  void Tell(vtkGranularWriter* self, const granular::Notices& notices);
+  void Tell(vtkGranularWriter* self);
 };
 
 #endif
