@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
 using namespace vtkGranularPrivate;
@@ -26,6 +27,41 @@ namespace
 const char* TextOf(const char* text)
 {
   return text ? text : "";
+}
+
+bool HasBox(const double vectors[9])
+{
+  return std::any_of(vectors, vectors + 9, [](double value) { return value != 0; });
+}
+
+/**
+ * Three words of two flags each.
+ */
+void CheckBoundary(const std::string& text)
+{
+  constexpr std::string_view flags = "pfsm";
+  bool right = text.size() == 8;
+  for (std::size_t i = 0; right && i < 8; ++i)
+  {
+    right = i % 3 == 2 ? text[i] == ' ' : flags.find(text[i]) != flags.npos;
+  }
+  if (!right)
+  {
+    throw granular::Error(
+      "expected Boundary as in 'pp pp ff', of p, f, s and m, got '" + text + "'");
+  }
+}
+
+void CheckFinite(const double* first, int count)
+{
+  const double* const last = first + count;
+  const double* const bad =
+    std::find_if_not(first, last, [](double value) { return std::isfinite(value); });
+  if (bad != last)
+  {
+    throw granular::Error(
+      "expected BoxOrigin and BoxVectors of finite numbers, got " + std::to_string(*bad));
+  }
 }
 }
 
@@ -93,11 +129,10 @@ private:
     {
       header.units = this->Self->Units;
     }
-    const double* vectors = this->Self->BoxVectors;
     const std::string boundary = header.box.boundary;
-    if (std::any_of(vectors, vectors + 9, [](double value) { return value != 0; }))
+    if (HasBox(this->Self->BoxVectors))
     {
-      header.box = MakeBox(this->Self->BoxOrigin, vectors);
+      header.box = MakeBox(this->Self->BoxOrigin, this->Self->BoxVectors);
       header.box.boundary = boundary;
       data.View.has_box = true;
     }
@@ -193,6 +228,19 @@ int vtkGranularDumpWriter::FillInputPortInformation(int, vtkInformation* info)
 std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internals)
 {
   const std::string path = this->FileName;
+  if (*TextOf(this->Boundary))
+  {
+    CheckBoundary(this->Boundary);
+  }
+  if (HasBox(this->BoxVectors))
+  {
+    CheckFinite(this->BoxOrigin, 3);
+    CheckFinite(this->BoxVectors, 9);
+  }
+  if (granular::split_words(TextOf(this->Units)).size() > 1)
+  {
+    throw granular::Error("expected Units of one word, got '" + std::string(this->Units) + "'");
+  }
   granular::DumpFormat format;
   format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;
   format.dialect =

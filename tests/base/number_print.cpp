@@ -149,7 +149,8 @@ TEST(NumberFormat, RefusesOthers)
     catch (const granular::FormatError& error)
     {
       EXPECT_EQ(error.what(),
-        "expected %g, %.Ng with N from 1 to 17, or shortest, got '" + std::string(text) + "'");
+        "expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '" +
+          std::string(text) + "'");
     }
   }
 }

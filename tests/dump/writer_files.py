@@ -147,18 +147,6 @@ for source in (fresh, some):
     granular.save(source, "step_*.dump")
     assert steps("step_1000.dump") == [1000]
 
-# ---- extracts --------------------------------------------------------------------------------------
-
-extractor = CreateExtractor("GranularDump", grains)
-assert extractor.Writer.FileName.endswith("_{timestep:06d}.dump"), extractor.Writer.FileName
-extractor.Writer.FileName = "grains_{timestep:06d}.dump"
-extractor.Writer.Dialect = "LIGGGHTS"
-SaveExtracts(ExtractsOutputDirectory=os.path.abspath("counted"))
-assert [content(f"counted/grains_{i:06d}.dump") for i in range(3)] == frames
-extractor.Writer.FileName = "grains_*.dump.gz"
-SaveExtracts(ExtractsOutputDirectory=os.path.abspath("stepped"))
-assert [content(f"stepped/grains_{step}.dump.gz") for step in (0, 1000, 2000)] == frames
-
 # ---- properties ------------------------------------------------------------------------------------
 
 writer = servermanager.writers.GranularDumpWriter(Input=grains, FileName="never.dump")

@@ -249,8 +249,8 @@ NumberFormat parse_number_format(std::string_view text)
       return { digits };
     }
   }
-  throw FormatError(
-    "expected %g, %.Ng with N from 1 to 17, or shortest, got '" + std::string(text) + "'");
+  throw FormatError("expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '" +
+    std::string(text) + "'");
 }
 
 char* print_number(char* to, double value, NumberFormat format) noexcept

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What goes wrong: one error that says what, the old file as it was, and the next Write() is right.
+#include "writer_helpers.h"
+
+#include "../base/small_disk.h"
+
+#include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkTable.h"
+#include "vtkTrivialProducer.h"
+
+#include <cmath>
+
+namespace
+{
+using Lines = std::vector<std::string>;
+const std::string Old = "the old file";
+
+/// A name with an old file behind it.
+std::string OldName()
+{
+  return WriteFile("a.dump", Old);
+}
+
+void ExpectOld(Writer& writer)
+{
+  EXPECT_EQ(Content(writer->GetFileName()), Old);
+  EXPECT_EQ(Beside(writer->GetFileName()), Lines{ "a.dump" });
+}
+
+vtkSmartPointer<vtkPolyData> Large()
+{
+  auto data = MakeGrains(200000);
+  return data;
+}
+
+/// Three files of one frame each, of the test's own.
+Lines Files()
+{
+  Lines files;
+  for (const char* step : { "0", "1000", "2000" })
+  {
+    const std::string name = std::string("grains_") + step + ".dump";
+    files.push_back(WriteFile(name, Content(Good(name))));
+  }
+  return files;
+}
+}
+
+TEST(WriterErrors, NothingToWriteOrNowhere)
+{
+  Writer writer(NewName("a.dump"));
+  writer.ExpectError(vtkErrorCode::UnknownError, "no input: expected points to write");
+  vtkNew<vtkTrivialProducer> nothing;
+  writer->SetInputConnection(nothing->GetOutputPort());
+  writer.ExpectError(vtkErrorCode::FileFormatError,
+    std::string(writer->GetFileName()) + ": expected a vtkPointSet to write, got a vtkDataObject");
+  EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
+  writer->SetInputData(MakeGrains(1));
+  writer->SetFileName(nullptr);
+  writer.ExpectError(vtkErrorCode::NoFileNameError, "no file to write: set FileName first");
+  writer->SetFileName("");
+  writer.ExpectError(vtkErrorCode::NoFileNameError, "no file to write: set FileName first");
+}
+
+TEST(WriterErrors, OtherThanPoints)
+{
+  Writer writer(OldName());
+  const std::string path = writer->GetFileName();
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeGrains(2));
+  blocks->SetBlock(1, MakeGrains(2));
+  writer->SetInputData(blocks);
+  writer.ExpectError(vtkErrorCode::FileFormatError,
+    path +
+      ": expected a vtkPointSet to write, got a vtkMultiBlockDataSet: the filter MergeBlocks makes "
+      "one of it");
+  vtkNew<vtkTable> table;
+  writer->SetInputData(table);
+  writer.ExpectError(
+    vtkErrorCode::FileFormatError, path + ": expected a vtkPointSet to write, got a vtkTable");
+  ExpectOld(writer);
+}
+
+TEST(WriterErrors, PropertiesOutOfRangeChangeNothing)
+{
+  Writer writer;
+  writer->SetStyle(2);
+  writer->SetStyle(-1);
+  writer->SetDialect(2);
+  writer->SetParallelMode(-1);
+  writer->SetThreads(-1);
+  EXPECT_EQ(writer.Said->Errors,
+    (Lines{ "expected Style 0 (Atom) or 1 (Custom), got 2",
+      "expected Style 0 (Atom) or 1 (Custom), got -1",
+      "expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS), got 2",
+      "expected ParallelMode 0 (Gather) or 1 (MPI-IO), got -1",
+      "expected Threads of at least 0, got -1" }));
+  EXPECT_EQ(writer->GetStyle(), 1);
+  EXPECT_EQ(writer->GetDialect(), 1);
+  EXPECT_EQ(writer->GetParallelMode(), 0);
+  EXPECT_EQ(writer->GetThreads(), 0);
+}
+
+TEST(WriterErrors, PropertiesThatMakeNoSense)
+{
+  Writer writer(OldName());
+  writer->SetInputData(MakeGrains(2));
+  const auto expect = [&](const std::string& text)
+  { writer.ExpectError(vtkErrorCode::UnknownError, text); };
+  for (const char* format : { "", "%d", "%.18g", "%.0g", "%g %g", "hello" })
+  {
+    writer->SetNumberFormat(format);
+    expect(
+      std::string("expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '") +
+      format + "'");
+  }
+  writer->SetNumberFormat("%g");
+  writer->SetColumns("id colour");
+  expect("column 'colour': expected an array to make it from, got none: there are no arrays");
+  writer->SetColumns("");
+  for (const char* boundary :
+    { "pp pp", "pp pp pq", "p p p", "pp pp pp pp", "pppppp", "pp\npp pp" })
+  {
+    writer->SetBoundary(boundary);
+    expect(
+      std::string("expected Boundary as in 'pp pp ff', of p, f, s and m, got '") + boundary + "'");
+  }
+  writer->SetBoundary("");
+  writer->WriteUnitsOn();
+  writer->SetUnits("si units");
+  expect("expected Units of one word, got 'si units'");
+  writer->SetUnits("");
+  expect("expected the units of the frame for ITEM: UNITS, got none");
+  writer->WriteUnitsOff();
+  writer->WriteTimeOn();
+  expect("expected the time of the frame for ITEM: TIME, got none");
+  writer->WriteTimeOff();
+  writer->SetBoxOrigin(0, std::nan(""), 0);
+  const double flat[9] = { 1, 0, 0, 0, 0, 0, 0, 0, 1 };
+  writer->SetBoxVectors(flat);
+  expect("expected BoxOrigin and BoxVectors of finite numbers, got nan");
+  writer->SetBoxOrigin(0, 0, 0);
+  writer->SetColumns("xs ys zs");
+  expect("expected a box with a length along y to scale coordinates by, got one of length 0");
+  ExpectOld(writer);
+  writer->SetColumns("");
+  writer->SetBoxVectors(std::vector<double>(9, 0).data());
+  EXPECT_EQ(writer.Rows().size(), 2u);
+}
+
+TEST(WriterErrors, AFolderThatIsNotThereAndOneInTheWay)
+{
+  Writer writer(NewName("a.dump"));
+  const std::string folder = std::filesystem::path(writer->GetFileName()).parent_path().string();
+  writer->SetInputData(MakeGrains(2));
+  writer->SetFileName((folder + "/gone/a.dump").c_str());
+  EXPECT_EQ(writer->Write(), 0);
+  EXPECT_EQ(writer->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::FileNotFoundError));
+  ASSERT_EQ(writer.Said->Errors.size(), 1u);
+  EXPECT_EQ(writer.Said->Errors[0].find(folder + "/gone/a.dump: "), 0u) << writer.Said->Errors[0];
+  writer.Said->Errors.clear();
+  writer->SetFileName(folder.c_str());
+  EXPECT_EQ(writer->Write(), 0);
+  ASSERT_EQ(writer.Said->Errors.size(), 1u);
+  EXPECT_EQ(writer.Said->Errors[0].find(folder + ": "), 0u) << writer.Said->Errors[0];
+  EXPECT_EQ(Beside(folder + "/x"), Lines{});
+}
+
+TEST(WriterErrors, AFullDisk)
+{
+  const std::string name = NewName("a.dump");
+  const SmallDisk disk(std::filesystem::path(name).parent_path().string() + "/disk");
+  if (!disk.there())
+  {
+    GTEST_SKIP() << SmallDisk::not_there;
+  }
+  Writer writer(disk.path("a.dump"));
+  std::ofstream(disk.path("a.dump")) << Old;
+  writer->SetInputData(Large());
+  for (const char* end : { "a.dump" })
+  {
+    writer->SetFileName(disk.path(end).c_str());
+    writer.ExpectError(vtkErrorCode::OutOfDiskSpaceError,
+      disk.path(end) + ": cannot write: No space left on device");
+    ExpectOld(writer);
+  }
+  writer->SetInputData(MakeGrains(5));
+  EXPECT_EQ(writer.Rows().size(), 5u);
+}
+
+TEST(WriterErrors, AFileThatVanishesBetweenTwoFrames)
+{
+  const Lines files = Files();
+  Reader reader(files);
+  reader->Update();
+  std::filesystem::remove(files[2]);
+  Writer writer(OldName());
+  writer->SetInputConnection(reader->GetOutputPort());
+  writer->WriteTimeStepsOn();
+  writer.ExpectError(vtkErrorCode::FileFormatError,
+    std::string(writer->GetFileName()) +
+      ": the input could not be made, and nothing is written: see the messages before");
+  EXPECT_EQ(reader.Said->Errors, Lines{ files[2] + ": cannot open: No such file or directory" });
+  EXPECT_EQ(Content(writer->GetFileName()), Old);
+  EXPECT_EQ(
+    Beside(writer->GetFileName()), (Lines{ "a.dump", "grains_0.dump", "grains_1000.dump" }));
+  Files();
+  EXPECT_EQ(writer->Write(), 1);
+  EXPECT_EQ(ReadPlain(writer->GetFileName()).size(), 3u);
+}
+
+TEST(WriterErrors, ProgressGoesFrom0To1AndNeverBack)
+{
+  Reader reader({ Good("grains.dump") });
+  for (const bool all : { false, true })
+  {
+    for (const bool sorted : { false, true })
+    {
+      Writer writer(NewName("a.dump"));
+      writer->SetInputConnection(reader->GetOutputPort());
+      writer->SetWriteTimeSteps(all);
+      writer->SetSortById(sorted);
+      vtkNew<Stopper> progress;
+      writer->AddObserver(vtkCommand::ProgressEvent, progress);
+      EXPECT_EQ(writer->Write(), 1);
+      EXPECT_TRUE(std::is_sorted(progress->Reported.begin(), progress->Reported.end()));
+      EXPECT_EQ(progress->Reported.front(), 0);
+      EXPECT_EQ(progress->Reported.back(), 1);
+      EXPECT_GE(progress->Reported.size(), all ? 4u : 2u);
+    }
+  }
+}
+
+TEST(WriterErrors, AbortedAtAnyReportTheOldFileIsAsItWas)
+{
+  for (const char* end : { "a.dump", "a.dump.gz", "a.bin" })
+  {
+    vtkNew<Stopper> counter;
+    Writer counted(NewName(end));
+    counted->SetInputData(Large());
+    counted->SetThreads(1);
+    counted->AddObserver(vtkCommand::ProgressEvent, counter);
+    ASSERT_EQ(counted->Write(), 1);
+    const std::string whole = Content(counted->GetFileName());
+    const int reports = static_cast<int>(counter->Reported.size());
+    ASSERT_GE(reports, 4);
+    // the last one comes when all is done
+    for (int at = 1; at < reports; at += std::max(1, reports / 6))
+    {
+      Writer writer(WriteFile(end, Old));
+      writer->SetInputData(Large());
+      writer->SetThreads(1);
+      vtkNew<Stopper> stopper;
+      stopper->At = at;
+      writer->AddObserver(vtkCommand::ProgressEvent, stopper);
+      EXPECT_EQ(writer->Write(), 0) << at;
+      EXPECT_EQ(writer->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+      EXPECT_TRUE(writer.Said->Errors.empty());
+      EXPECT_EQ(Content(writer->GetFileName()), Old);
+      EXPECT_EQ(Beside(writer->GetFileName()).size(), 1u);
+      EXPECT_EQ(writer->Write(), 1) << at;
+      EXPECT_EQ(Content(writer->GetFileName()), whole);
+      std::filesystem::remove(writer->GetFileName());
+    }
+  }
+}
+
+TEST(WriterErrors, AReaderThatIsAbortedWritesNothing)
+{
+  Reader reader({ Good("grains.dump") });
+  vtkNew<Stopper> stopper;
+  stopper->At = 1;
+  reader->UpdateInformation();
+  reader->AddObserver(vtkCommand::ProgressEvent, stopper);
+  Writer writer(OldName());
+  writer->SetInputConnection(reader->GetOutputPort());
+  EXPECT_EQ(writer->Write(), 0);
+  EXPECT_TRUE(writer.Said->Errors.empty());
+  ExpectOld(writer);
+  EXPECT_EQ(writer->Write(), 1);
+}
+
+TEST(WriterErrors, TheTimeThatWasShownComesBack)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->UpdateTimeStep(1000);
+  Writer writer(NewName("a.dump"));
+  writer->SetInputConnection(reader->GetOutputPort());
+  writer->WriteTimeStepsOn();
+  EXPECT_EQ(writer->Write(), 1);
+  EXPECT_EQ(ReadPlain(writer->GetFileName()).size(), 3u);
+  writer->WriteTimeStepsOff();
+  EXPECT_EQ(writer->Write(), 1);
+  ASSERT_EQ(ReadPlain(writer->GetFileName()).size(), 1u);
+  EXPECT_EQ(ReadPlain(writer->GetFileName())[0].timestep, 1000);
+}
+
+TEST(WriterErrors, UpdateWritesToo)
+{
+  Writer writer(NewName("a.dump"));
+  writer->SetInputData(MakeGrains(2));
+  writer->Update();
+  EXPECT_TRUE(writer->GetWritten());
+  EXPECT_EQ(ReadPlain(writer->GetFileName()).at(0).rows, 2u);
+}
+
+TEST(WriterErrors, EachWarningOnceAFile)
+{
+  Reader reader({ Good("grains.dump") });
+  Writer writer(NewName("a.dump"));
+  reader->GetPointDataArraySelection()->DisableArray("id");
+  writer->SetInputConnection(reader->GetOutputPort());
+  writer->WriteTimeStepsOn();
+  for (int times = 1; times <= 2; ++times)
+  {
+    EXPECT_EQ(writer->Write(), 1);
+    EXPECT_EQ(writer.Said->Warnings,
+      Lines(times, "no array 'id': ids are the numbers of the rows, from 1"));
+  }
+}
+
+TEST(WriterErrors, PrintsAllProperties)
+{
+  Writer writer("a.dump");
+  std::ostringstream out;
+  writer->Print(out);
+  for (const char* name :
+    { "FileName: a.dump", "WriteTimeSteps: 0", "ParallelMode: 0", "Threads: 0", "GhostLevel: 0",
+      "Controller: ", "Written: 0", "Style: 1", "Dialect: 1", "Scaled: 1", "Image: 0",
+      "Columns: \n", "NumberFormat: %g", "SortById: 0", "WriteUnits: 0", "Units: \n",
+      "WriteTime: 0", "BoxOrigin: 0 0 0\n", "BoxVectors: 0 0 0 0 0 0 0 0 0\n", "Boundary: \n" })
+  {
+    EXPECT_NE(out.str().find(name), std::string::npos) << name;
+  }
+}
