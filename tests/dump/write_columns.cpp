@@ -115,6 +115,19 @@ TEST(WriteColumns, vectors)
   }
 }
 
+TEST(WriteColumns, frameWithoutGrains)
+{
+  TwoGrains grains;
+  grains.frame.rows = 0;
+  const Text any = write(grains.frame, { "id", "type", "x", "v", "radius", "speed", "c_stress" });
+  EXPECT_EQ(any.body, "id type x vx vy vz radius speed c_stress\n");
+  EXPECT_EQ(any.said + any.error, "");
+  const std::vector<double> speeds = { 1, 2 };
+  grains.add("speed", ScalarType::Float64, speeds);
+  EXPECT_EQ(write(grains.frame, { "id", "radius" }).error,
+    "column 'radius': expected an array to make it from, got none: there are speed");
+}
+
 TEST(WriteColumns, missing)
 {
   TwoGrains grains;

@@ -123,6 +123,27 @@ std::vector<std::string> columns_of(const ArrayView& array)
   return names;
 }
 
+/// Filters may give a frame without grains no arrays: such a one can have any columns.
+bool is_blank_frame(const FrameView& frame) noexcept
+{
+  return frame.rows == 0 && frame.arrays.empty();
+}
+
+/// Arrays with several columns, as far as the table has them; without values.
+std::vector<ArrayView> known_arrays()
+{
+  std::vector<ArrayView> arrays;
+  for (const KnownColumn& known : known_columns())
+  {
+    if (known.components > 1 && known.component == 0)
+    {
+      arrays.push_back({ std::string(known.array), ScalarType::Float64,
+        std::vector<const void*>(static_cast<std::size_t>(known.components)) });
+    }
+  }
+  return arrays;
+}
+
 /// Where a column comes from, if it comes from anywhere. Which of two columns of the same name the array of
 /// either is does not matter: they hold the same.
 std::optional<ColumnSource> find_source(
@@ -157,7 +178,7 @@ std::optional<ColumnSource> find_source(
     source.kind = role == ColumnRole::Id ? Kind::RowNumber : Kind::One;
     return source;
   }
-  return {};
+  return is_blank_frame(frame) ? std::optional(source) : std::nullopt;
 }
 
 [[noreturn]] void fail_missing(const FrameView& frame, const std::string& name)
@@ -322,12 +343,13 @@ std::vector<std::string> expand_columns(
   const std::vector<std::string>& names, const FrameView& frame)
 {
   std::vector<std::string> columns;
+  const std::vector<ArrayView> arrays = is_blank_frame(frame) ? known_arrays() : frame.arrays;
   for (const std::string& name : names)
   {
-    const auto array = std::find_if(frame.arrays.begin(), frame.arrays.end(),
+    const auto array = std::find_if(arrays.begin(), arrays.end(),
       [&](const ArrayView& candidate)
       { return candidate.size() > 1 && as_word(candidate.name) == name; });
-    if (array == frame.arrays.end() || find_array(frame, name, 1))
+    if (array == arrays.end() || find_array(frame, name, 1))
     {
       columns.push_back(name);
       continue;
@@ -351,11 +373,12 @@ ColumnPlan plan_columns(
       fail_missing(frame, names[i]);
     }
     plan.columns.push_back(*source);
-    if (source->kind == Kind::RowNumber)
+    const bool blank = is_blank_frame(frame);
+    if (source->kind == Kind::RowNumber && !blank)
     {
       notices.push_back({ {}, "no array 'id': ids are the numbers of the rows, from 1" });
     }
-    if (source->kind == Kind::One)
+    if (source->kind == Kind::One && !blank)
     {
       notices.push_back({ {}, "no array 'type': the type of all is 1" });
     }
