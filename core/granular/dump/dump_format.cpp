@@ -5,6 +5,10 @@ namespace granular
 {
 bool is_binary_name(std::string_view path) noexcept
 {
+  if (const Compression compression = compression_of_name(path); compression != Compression::None)
+  {
+    path.remove_suffix(compression == Compression::Gzip ? 3 : 4);
+  }
   return path.ends_with(".bin") || path.ends_with(".lammpsbin");
 }
 

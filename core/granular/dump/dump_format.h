@@ -45,7 +45,8 @@ struct DumpFormat
   std::int64_t chunk_values = (std::int64_t{ 1 } << 31) - 2;
 };
 
-/// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it.
+/// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it, but for the end that
+/// says that it is compressed.
 bool is_binary_name(std::string_view path) noexcept;
 
 /// What the end of a name says: .gz, .zst.
