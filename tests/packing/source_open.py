@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The source as ParaView's users meet it: defaults that show something, names, units, a picture."""
 import math
+import os
 
 import granular
 import numpy
@@ -118,3 +119,19 @@ clip = Threshold(source, Scalars=["POINTS", "id"], ThresholdMethod="Below Lower 
                  LowerThreshold=100)
 clip.UpdatePipeline()
 assert clip.GetDataInformation().GetNumberOfPoints() == 100
+
+# a dump of the grains is read back as the grains
+SetProperties(source, BoxGiven=1, BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
+path = os.path.abspath("grains.dump")
+SaveData(path, source)
+reader = OpenDataFile(path)
+written, read = servermanager.Fetch(source), servermanager.Fetch(reader)
+assert read.GetNumberOfPoints() == 300
+for name in ("id", "type", "radius", "v"):
+    a, b = (vtk_to_numpy(data.GetPointData().GetArray(name)) for data in (written, read))
+    assert a.dtype == b.dtype and numpy.allclose(a, b, rtol=1e-5, atol=0), name
+a, b = (vtk_to_numpy(data.GetPoints().GetData()) for data in (written, read))
+assert numpy.allclose(a, b, rtol=0, atol=1e-6)
+a, b = (data.GetFieldData() for data in (written, read))
+assert numpy.allclose(a.GetArray("BoxVectors").GetTuple(0), b.GetArray("BoxVectors").GetTuple(0))
+assert a.GetAbstractArray("Boundary").GetValue(0) == b.GetAbstractArray("Boundary").GetValue(0) == "pp pp pp"
