@@ -78,6 +78,7 @@ bool MpiFile::open()
 /// Each for itself: where all open it as one and one of them fails, others may wait for ever.
 void MpiFile::open_own()
 {
+  write_into(name_, 0, {}, path_); // Open MPI crashes where it cannot open a file
   MPI_File file = MPI_FILE_NULL;
   this->check(MPI_File_open(MPI_COMM_SELF, name_.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file));
   file_ = file;

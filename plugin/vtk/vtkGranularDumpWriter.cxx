@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -84,9 +85,11 @@ public:
     granular::Progress& progress) override
   {
     std::optional<DumpInput> data;
+    std::string told;
     granular::do_together(this->Ranks,
       [&]
       {
+        granular::Notices own;
         auto* points = vtkPointSet::SafeDownCast(input);
         if (!points)
         {
@@ -96,15 +99,42 @@ public:
                                                         : ""),
             { this->Self->FileName });
         }
-        data.emplace(points, notices);
-        this->Complete(*data, time, notices);
+        data.emplace(points, own);
+        this->Complete(*data, time, own);
+        told = data->View.rows > 0 ? "rows" : "none";
+        for (const granular::Notice& notice : own)
+        {
+          told += '\0' + notice.text;
+        }
       });
+    this->Gather(told, notices);
     this->Writer.write(data->View, notices, progress);
   }
 
   void Finish() override { this->Writer.finish(); }
 
 private:
+  /**
+   * What any of the processes has to say that has rows, or all of them where none has: who has no rows may have no
+   * field data either.
+   */
+  void Gather(const std::string& own, granular::Notices& notices)
+  {
+    const std::vector<std::string> all = this->Ranks.all_gather(own);
+    const bool any = std::any_of(
+      all.begin(), all.end(), [](const std::string& told) { return told.front() == 'r'; });
+    for (const std::string& told : all)
+    {
+      std::istringstream texts(told);
+      std::string text;
+      std::getline(texts, text, '\0');
+      while ((!any || told.front() == 'r') && std::getline(texts, text, '\0'))
+      {
+        notices.push_back({ {}, text });
+      }
+    }
+  }
+
   /**
    * What the properties, or the pipeline, say beyond the field data.
    */
