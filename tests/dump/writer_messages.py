@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What ParaView says of a writer: warnings of what is made up, one error of what cannot be written."""
+import os
+
+import granular
+import plain_dump
+from paraview.simple import *
+
+# ---- no ids, no box, no timestep: all are made, and said ---------------------------------------------
+
+sphere = Sphere(Radius=2)
+SaveData("sphere.dump", sphere, Dialect="LIGGGHTS")
+frame, = plain_dump.read("sphere.dump")
+bounds, count = sphere.GetDataInformation().GetBounds(), sphere.GetDataInformation().GetNumberOfPoints()
+assert frame.timestep == 0 and frame.rows == count
+assert [word for pair in frame.bounds for word in pair] == [float("%g" % bound) for bound in bounds]
+assert list(frame.columns)[:5] == ["id", "type", "x", "y", "z"], list(frame.columns)
+assert [int(word) for word in frame.columns["id"]] == list(range(1, count + 1))
+assert set(frame.columns["type"]) == {"1"}
+assert [name for name in frame.columns if name.startswith("Normals")] == [f"Normals[{i}]" for i in (1, 2, 3)]
+
+# a filter of ParaView that makes new points does not keep ids
+grains = GranularDumpReader(FileNames=[os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")])
+clip = Clip(Input=grains, ClipType="Plane", Scalars=["POINTS", "radius"])
+clip.ClipType.Origin, clip.ClipType.Normal = [0, 0, 0.05], [0, 0, 1]
+clip.UpdatePipeline(2000)
+SaveData("clip.dump", clip, NumberFormat="%.17g")
+frame, = plain_dump.read("clip.dump")
+all_of_them = plain_dump.read(grains.FileNames[0])[2]
+low = all_of_them.numbers("z") <= 0.05
+assert frame.rows == low.sum() > 0 and frame.timestep == 2000 and frame.bounds == all_of_them.bounds
+assert sorted(frame.numbers("x")) == sorted(all_of_them.numbers("x")[low])
+
+# ---- what cannot be written: the old file stays ----------------------------------------------------------
+
+with open("messages.dump", "w") as file:
+    file.write("the old file")
+before = sorted(os.listdir("."))
+group = GroupDatasets(Input=[grains, sphere])
+for source, path, properties in (
+        (group, "messages.dump", {}), (grains, "gone/messages.dump", {}),
+        (grains, "messages.dump", {"NumberFormat": "%d"}),
+        (grains, "messages.dump", {"Columns": "id colour"}),
+        (grains, "messages.dump", {"Boundary": "pp pp"}),
+        (grains, "messages.dump", {"WriteUnits": 1})):
+    SaveData(path, source, **properties)
+    try:
+        granular.save(source, path, **properties)
+    except RuntimeError as error:
+        assert str(error) == f"{path} could not be written: see the messages above", error
+    else:
+        raise AssertionError(f"{path} {properties}: nothing was raised")
+    with open("messages.dump") as file:
+        assert file.read() == "the old file"
+    assert sorted(os.listdir(".")) == before, os.listdir(".")
+SaveData("merged.dump", MergeBlocks(Input=GroupDatasets(Input=[grains])))
+assert plain_dump.read("merged.dump")[0].rows == 1200
+print("alive")
