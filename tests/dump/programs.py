@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Takes the name of another program - lammps, liggghts or ase -, writes dumps in every form, has the
-program read them, and compares all that it got with the numbers that were there before writing."""
+"""Takes the name of another program - lammps, liggghts or ase -, writes dumps in many forms, has the
+program read them, and compares all that it got with the numbers that there were before writing."""
 import importlib.util
-import itertools
 import os
 import random
 import shutil
@@ -17,141 +16,183 @@ import granular
 
 ATOMS, STEPS = 300, (7, 120000)
 LOW = numpy.array([-1.5, 0.25, 2.0])
-BOXES = {"straight": [[5.0, 0, 0], [0, 4.0, 0], [0, 0, 6.0]],
-         "tilted": [[5.0, 0, 0], [1.75, 4.0, 0], [-1.25, 0.625, 6.0]]}
+BOXES = {"straight": numpy.array([[5.0, 0, 0], [0, 4.0, 0], [0, 0, 6.0]]),
+         "tilted": numpy.array([[5.0, 0, 0], [1.75, 4.0, 0], [-1.25, 0.625, 6.0]])}
+CUSTOM = [{"Columns": f"id type {columns} vx vy vz radius"} for columns in
+          ("x y z", "xs ys zs", "x y z ix iy iz", "xs ys zs ix iy iz", "xu yu zu", "xsu ysu zsu")]
+ATOM = [{"Style": "Atom", "Scaled": scaled, "Image": image} for scaled in (0, 1) for image in (0, 1)]
+# Programs compute with numbers of up to 30; all else is the same bit by bit.
+TOLERANCES = {"x": 2e-14, "v": 1e-14}
+
+
+def columns_of(form):
+    if "Columns" in form:
+        return form["Columns"].split()
+    return ("id type " + ("xs ys zs" if form["Scaled"] else "x y z") +
+            (" ix iy iz" if form["Image"] else "")).split()
 
 
 def make_frames(box):
-    """For each step, by id: type, x, image, v; and the order in which the ids are in the file."""
+    """For each step the values of the atoms, by id."""
     chance, frames = random.Random(4711), {}
+
+    def three(number):
+        return numpy.array([[number() for _ in "xyz"] for _ in range(ATOMS)])
+
     for step in STEPS:
-        order = chance.sample(range(ATOMS), ATOMS)
-        inside = numpy.array([[chance.uniform(0.001, 0.999) for _ in "xyz"] for _ in range(ATOMS)])
         frames[step] = {
             "type": numpy.array([chance.randint(1, 2) for _ in range(ATOMS)]),
-            "x": LOW + inside @ box,
-            "image": numpy.array([[chance.randint(-3, 3) for _ in "xyz"] for _ in range(ATOMS)]),
-            "v": numpy.array([[chance.gauss(0, 1) for _ in "xyz"] for _ in range(ATOMS)])}, order
+            "x": LOW + three(lambda: chance.uniform(0.001, 0.999)) @ box,
+            "image": three(lambda: chance.randint(-3, 3)),
+            "v": three(lambda: chance.gauss(0, 1)),
+            "radius": numpy.array([chance.uniform(0.01, 0.02) for _ in range(ATOMS)])}
     return frames
 
 
 def write_plain(path, box, frames):
-    """As text with all digits: what the plugin reads before it writes."""
+    """As text with all digits, ids in no order: what the plugin reads before it writes."""
     (lx, _, _), (xy, ly, _), (xz, yz, lz) = box.tolist()
     tilts = (xy, xz, yz) if xy else ()
-    lows = LOW + [min(0, xy, xz, xy + xz), min(0, yz), 0]
-    highs = LOW + [lx + max(0, xy, xz, xy + xz), ly + max(0, yz), lz]
+    bounds = numpy.array([LOW + [min(0, xy, xz, xy + xz), min(0, yz), 0],
+                          LOW + [lx + max(0, xy, xz, xy + xz), ly + max(0, yz), lz]]).T.tolist()
     with open(path, "w", encoding="ascii") as file:
-        for step, (atoms, order) in frames.items():
+        for step, atoms in frames.items():
             file.write(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{ATOMS}\nITEM: BOX BOUNDS ")
             file.write("xy xz yz pp pp pp\n" if tilts else "pp pp pp\n")
             for axis in range(3):
-                file.write(" ".join(map(repr, [float(lows[axis]), float(highs[axis]),
-                                               *tilts[axis:axis + 1]])) + "\n")
-            file.write("ITEM: ATOMS id type x y z ix iy iz vx vy vz\n")
-            for i in order:
-                words = [i + 1, atoms["type"][i], *atoms["x"][i].tolist(), *atoms["image"][i],
-                         *atoms["v"][i].tolist()]
-                file.write(" ".join(map(str, words)) + "\n")
+                file.write(" ".join(map(repr, [*bounds[axis], *tilts[axis:axis + 1]])) + "\n")
+            file.write("ITEM: ATOMS id type x y z ix iy iz vx vy vz radius\n")
+            for i in random.Random(step).sample(range(ATOMS), ATOMS):
+                values = [atoms[name][i] for name in ("type", "x", "image", "v", "radius")]
+                words = [word for value in values for word in numpy.ravel(value).tolist()]
+                file.write(" ".join(map(str, [i + 1, *words])) + "\n")
 
 
-def run(program, script):
+def simulate(program, script):
+    """Runs LAMMPS or LIGGGHTS, and gives what they have at each step: got_STEP.txt, a dump."""
     with open("in.read", "w", encoding="ascii") as file:
         file.write(script)
-    done = subprocess.run([program, "-in", "in.read", "-log", "none"], capture_output=True,
+    done = subprocess.run([program, "-log", "none", "-in", "in.read"], capture_output=True,
                           text=True, timeout=60)
     assert done.returncode == 0, script + done.stdout[-2000:] + done.stderr[-2000:]
-
-
-def read_dump(program, head, last, path, columns, step):
-    """Has LAMMPS or LIGGGHTS read a frame and dump what it has then, with 17 digits."""
-    words = columns.split()
-    fields = [word for word in ("ix", "iy", "iz", "vx", "vy", "vz") if word in words]
-    run(program, head + f"read_dump {path} {step} x y z {' '.join(fields)} {last}\n")
-    frame, = plain_dump.read("got.txt")
-    got = frame.stack("id type x y z ix iy iz vx vy vz".split())
-    got = got[got[:, 0].argsort()]
-    assert got[:, 0].tolist() == list(range(1, ATOMS + 1)), f"{len(got)} atoms"
-    origin, box = frame.box()
-    return {"type": got[:, 1], "x": got[:, 2:5], "box": box, "origin": origin,
-            **({"image": got[:, 5:8]} if "ix" in fields else {}),
-            **({"v": got[:, 8:11]} if "vx" in fields else {})}
-
-
-def lammps(path, columns, step, tilted):
-    region = "prism 0 9 0 9 0 9 1 1 1" if tilted else "block 0 9 0 9 0 9"
-    head = f"atom_style atomic\nregion all {region}\ncreate_box 2 all\nmass * 1\n"
-    last = ("box yes purge yes replace no add keep\nwrite_dump all custom got.txt id type x y z ix iy iz "
-            "vx vy vz modify format float %.17g")
-    return read_dump("lmp", head, last, path, columns, step)
-
-
-def liggghts(path, columns, step, tilted):
-    region = "prism 0 9 0 9 0 9 1 1 1" if tilted else "block 0 9 0 9 0 9"
-    scaled = "yes" if "xs" in columns.split() else "no"
-    head = f"""atom_style sphere
-boundary p p p
-newton off
-communicate single vel yes
-region all {region}
-create_box 2 all
-neighbor 0.1 bin
-pair_style none
-"""
-    last = f"""box yes purge yes replace no add yes scaled {scaled}
-dump got all custom 1 got.txt id type x y z ix iy iz vx vy vz
-dump_modify got format "%d %d %.17g %.17g %.17g %d %d %d %.17g %.17g %.17g"
-run 0"""
-    return read_dump("liggghts", head, last, path, columns, step)
-
-
-def ase(path, columns, step, tilted):
-    """ASE comes with a Python that need not be ParaView's, but is Debian's as well."""
-    import ase.io
-    binary = path.endswith(".bin")
-    kind = {"format": "lammps-dump-binary", "colnames": columns.split()} if binary else \
-        {"format": "lammps-dump-text"}
-    images = ase.io.read(path, index=":", units="metal", **kind)
-    assert len(images) == len(STEPS)
-    atoms = images[STEPS.index(step)]
-    got = {"type": atoms.get_atomic_numbers(), "x": atoms.get_positions(),
-           "box": atoms.get_cell()[:], "origin": atoms.get_celldisp().ravel()}
-    if "vx" in columns.split():
-        got["v"] = atoms.get_velocities() / ase.units.Ang * (1e-12 * ase.units.second)
+    lists = {"type": ["type"], "x": ["x", "y", "z"], "image": ["ix", "iy", "iz"],
+             "v": ["vx", "vy", "vz"], "radius": ["radius"]}
+    got = {}
+    for step in STEPS:
+        frame, = plain_dump.read(f"got_{step}.txt")
+        os.remove(f"got_{step}.txt")
+        order = frame.numbers("id").argsort()
+        assert frame.numbers("id")[order].tolist() == list(range(1, ATOMS + 1)), f"{frame.rows} atoms"
+        origin, box = frame.box()
+        got[step] = {"origin": origin, "box": box, **{
+            name: numpy.squeeze(frame.stack(columns)[order]) for name, columns in lists.items()}}
     return got
 
 
-#          what it is called, what it reads, columns, and digits to which x is the same
-PROGRAMS = {"lammps": (lammps, "lmp"), "liggghts": (liggghts, "liggghts"), "ase": (ase, None)}
+# A box that is not that of the file, which takes its place.
+REGION = {"straight": "block 0 9 0 9 0 9", "tilted": "prism 0 9 0 9 0 9 1 1 1"}
+GOT = "id type x y z ix iy iz vx vy vz radius"
+
+
+def fields_of(columns, *more):
+    return " ".join(["x y z"] + [word for word in columns if word in (*GOT.split()[5:11], *more)])
+
+
+def read_lammps(path, columns, shape):
+    got = simulate("lmp", f"""
+atom_style sphere
+region all {REGION[shape]}
+create_box 2 all
+""" + "".join(f"""
+read_dump {path} {step} {fields_of(columns)} box yes replace no purge yes add keep
+write_dump all custom got_{step}.txt {GOT} modify format float %.17g
+""" for step in STEPS))
+    for values in got.values():
+        del values["radius"]  # is none of the fields that it reads
+    return got
+
+
+def read_liggghts(path, columns, shape):
+    return simulate("liggghts", f"""
+atom_style sphere
+atom_modify sort 0 0
+communicate single vel yes
+region all {REGION[shape]}
+create_box 2 all
+neighbor 0.1 bin
+""" + "".join(f"""
+read_dump {path} {step} {fields_of(columns, "radius")} box yes replace no purge yes add yes
+dump got all custom 1 got_{step}.txt {GOT}
+dump_modify got format "%d %d %.17g %.17g %.17g %d %d %d %.17g %.17g %.17g %.17g"
+run 0
+undump got
+""" for step in STEPS))
+
+
+def read_ase(path, columns, shape):
+    import ase.io
+    kind = {"format": "lammps-dump-binary", "colnames": columns} if path.endswith(".bin") else \
+        {"format": "lammps-dump-text"}
+    images, got = ase.io.read(path, index=":", units="metal", **kind), {}
+    assert len(images) == len(STEPS)
+    for step, atoms in zip(STEPS, images):
+        got[step] = {"origin": atoms.get_celldisp().ravel(), "box": atoms.get_cell()[:],
+                     "type": atoms.get_atomic_numbers(), "x": atoms.get_positions()}
+        if columns[2].startswith("xs"):
+            got[step]["x"] += LOW  # it places these in a cell whose corner is 0
+        if "vx" in columns:
+            got[step]["v"] = atoms.get_velocities() * (1e-12 * ase.units.second)
+    return got
+
+
+# How, the command, and what is tried. LIGGGHTS as Debian has it reads neither compressed nor binary
+# dumps, needs the radius, and numbers the atoms that it adds, for which files are sorted; LAMMPS of
+# 2021 reads no binary dumps, not even its own.
+BOTH = ("LIGGGHTS", "LAMMPS")
+PROGRAMS = {
+    "lammps": (read_lammps, "lmp", {"txt": BOTH, "gz": ("LAMMPS",)}, CUSTOM + ATOM),
+    "liggghts": (read_liggghts, "liggghts", {"txt": BOTH}, CUSTOM[:4]),
+    "ase": (read_ase, None, {"txt": BOTH, "gz": BOTH, "bin": BOTH}, CUSTOM + ATOM)}
+
+
+def compare(path, got, atoms, columns, box):
+    """What a program got, and what there was; returns the largest difference of a coordinate."""
+    atoms = {**atoms, "origin": LOW, "box": box}
+    unwrapped = columns[2].endswith("u")
+    if unwrapped and "image" not in got:  # else the program has wrapped and counted
+        atoms["x"] = atoms["x"] + atoms["image"] @ box
+    if not unwrapped and "ix" not in columns:
+        atoms["image"] = numpy.zeros_like(atoms["image"])
+    if "vx" not in columns:
+        got.pop("v", None)
+    for name, values in got.items():
+        assert values.shape == atoms[name].shape, (path, name)
+        apart = abs(values - atoms[name]).max()
+        assert apart <= TOLERANCES.get(name, 0), (path, name, apart)
+    return abs(got["x"] - atoms["x"]).max()
 
 
 def main(name):
-    read, command = PROGRAMS[name]
-    there = shutil.which(command) if command else importlib.util.find_spec(name)
-    if not there:
+    read, command, ends, forms = PROGRAMS[name]
+    if not (shutil.which(command) if command else importlib.util.find_spec(name)):
         print(f"skipped: {name} is not installed")
         return
+    count, largest = 0, 0
     for shape, box in BOXES.items():
-        box = numpy.array(box)
         frames = make_frames(box)
         write_plain(f"{shape}.dump", box, frames)
         source = OpenDataFile(os.path.abspath(f"{shape}.dump"))
-        for x, image, v in itertools.product(("x y z", "xs ys zs"), ("", " ix iy iz"), ("", " vx vy vz")):
-            columns = "id type " + x + image + v
-            for dialect, end in itertools.product(("LIGGGHTS", "LAMMPS"), ("txt", "bin", "gz")):
-                path = f"{shape}_{columns.replace(' ', '')}_{dialect}.{end}"
-                granular.save(source, path, Columns=columns, Dialect=dialect, WriteTimeSteps=1,
-                              NumberFormat="%.17g")
-                for step in STEPS:
-                    try:
-                        got = read(path, columns, step, shape == "tilted")
-                        want = frames[step][0]
-                        for key, value in got.items():
-                            w = box if key == "box" else LOW if key == "origin" else want[key]
-                            err = abs(value - w).max()
-                            print(path, step, key, err)
-                    except Exception as e:
-                        print("FAIL", path, step, type(e), str(e)[-600:])
+        for form in forms:
+            columns = columns_of(form)
+            for end, dialects in ends.items():
+                for dialect in dialects:
+                    path = f"{shape}_{len(form)}_{'_'.join(columns)}_{dialect}.{end}"
+                    granular.save(source, path, Dialect=dialect, WriteTimeSteps=1, **form,
+                                  NumberFormat="%.17g", SortById=name == "liggghts")
+                    for step, got in read(path, columns, shape).items():
+                        largest = max(largest, compare(path, got, frames[step], columns, box))
+                        count += 1
+    print(f"{name} read {count} frames, coordinates to within {largest:.1g}")
 
 
 main(sys.argv[1])
