@@ -4,6 +4,8 @@
 #include "reader_ranks.h"
 #include "writer_helpers.h"
 
+#include "../base/small_disk.h"
+
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkObjectFactory.h"
@@ -12,6 +14,7 @@
 #include "vtkVariantArray.h"
 
 #include <functional>
+#include <optional>
 
 namespace
 {
@@ -291,6 +294,41 @@ TEST_F(WriterRanks, OneDoesNotSeeTheFile)
     EXPECT_EQ(Beside("./x"), std::vector<std::string>{ "a.dump" });
     this->Ranks.all_gather("");
   }
+}
+
+TEST_F(WriterRanks, AFullDisk)
+{
+  std::optional<SmallDisk> disk;
+  if (this->Rank() == 0)
+  {
+    disk.emplace("disk");
+  }
+  if (!this->OnAny(disk && disk->there()))
+  {
+    GTEST_SKIP() << SmallDisk::not_there;
+  }
+  std::filesystem::current_path("disk");
+  for (const char* name : { "a.dump", "a.bin", "a.dump.gz", "own_%.dump" })
+  {
+    for (const int mode : { vtkGranularWriter::GATHER, vtkGranularWriter::MPI_IO })
+    {
+      vtkNew<Source> source;
+      Writer writer(name);
+      writer->SetInputConnection(source->GetOutputPort());
+      writer->SetParallelMode(mode);
+      writer->SetNumberFormat("%.17g");
+      writer->WriteTimeStepsOn();
+      this->ExpectFault(writer, "cannot write: No space left on device");
+      EXPECT_EQ(
+        writer->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::OutOfDiskSpaceError));
+      if (this->Rank() == 0)
+      {
+        std::filesystem::remove(name);
+      }
+    }
+  }
+  std::filesystem::current_path("..");
+  this->Ranks.all_gather("");
 }
 
 TEST_F(WriterRanks, AbortedOnOne)
