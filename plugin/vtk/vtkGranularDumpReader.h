@@ -21,7 +21,8 @@
  *   the points, and arrays only where the selection says so.
  *
  * Both outputs carry field data: `Coordinates` (Absolute, Unwrapped or Scaled: what the points
- * are), `PointOrigin` (3), `BoxOrigin` (3), `BoxVectors` (9: a, b, c), `Boundary` (such as
+ * are), `PointOrigin` (3), `BoxOrigin` (3), `BoxVectors` (9: a, b, c), `BoxBounds`
+ * (the header's own numbers: xlo xhi ylo yhi zlo zhi, and xy xz yz of a tilted box), `Boundary` (such as
  * "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and `label`, `units`
  * and `time` where the file has them.
  *

@@ -263,11 +263,17 @@ TEST(ReaderFieldData, SaysWhatThePointsAre)
   reader->Update();
   for (vtkFieldData* data : { reader.Particles()->GetFieldData(), reader.Box()->GetFieldData() })
   {
-    ASSERT_EQ(data->GetNumberOfArrays(), 7); // no label, units or time: the file has none
+    ASSERT_EQ(data->GetNumberOfArrays(), 8); // no label, units or time: the file has none
     const std::vector<double> box = { -0.05, -0.05, 0 };
     const std::vector<double> vectors = { 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.15 };
     ASSERT_EQ(data->GetArray("BoxOrigin")->GetNumberOfComponents(), 3);
     ASSERT_EQ(data->GetArray("BoxVectors")->GetNumberOfComponents(), 9);
+    const std::vector<double> bounds = { -0.05, 0.05, -0.05, 0.05, 0, 0.15 };
+    ASSERT_EQ(data->GetArray("BoxBounds")->GetNumberOfComponents(), 6);
+    for (int i = 0; i < 6; ++i)
+    {
+      EXPECT_EQ(data->GetArray("BoxBounds")->GetComponent(0, i), bounds[i]);
+    }
     ASSERT_EQ(data->GetArray("PointOrigin")->GetNumberOfComponents(), 3);
     for (int i = 0; i < 9; ++i)
     {
