@@ -124,7 +124,7 @@ TEST(PackingErrors, SayWhatCanBe)
 TEST(PackingErrors, TooDenseIsTheSameErrorForAnyThreads)
 {
   PackingRequest request;
-  request.grains = 20000;
+  request.grains = 5000;
   request.boundary = "p p p";
   request.solid_fraction = 0.45;
   const std::string text = error_of(request);

@@ -18,12 +18,14 @@ namespace granular
 {
 namespace
 {
-/// What a grain may take to find a place; then the region is begun again, with other numbers.
-constexpr int most_tries = 100'000;
-constexpr int most_begins = 10;
+/// What a grain may take to find a place; then the region is begun again, with other numbers, as long as it
+/// has not taken what a region may.
+constexpr std::int64_t most_tries = 100'000;
+constexpr std::int64_t region_tries = 500'000;
+constexpr std::int64_t region_tries_a_grain = 1'000;
 
 /// And what it may take in the layer it was dealt, before it looks in all of its region.
-constexpr int layer_tries = 100;
+constexpr std::int64_t layer_tries = 100;
 
 /// Regions that a thread fills at a time.
 constexpr std::size_t chunk_regions = 16;
@@ -47,7 +49,7 @@ private:
   void start(const Regions::Region& region, const GrainRows& grains);
   void sort_by_size(const GrainRows& grains);
   bool find_place(
-    const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place) const;
+    const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place);
   Regions::Bounds inside(double radius) const noexcept;
   void add_images(const Vector3& place, double radius);
   [[noreturn]] void give_up(const GrainRows& grains, std::size_t placed) const;
@@ -56,6 +58,7 @@ private:
   const Regions& regions_;
   RegionStore& store_;
   double gap_;
+  std::int64_t tries_left_ = 0; ///< of the region
   Regions::Bounds bounds_ = {};
   Neighbours neighbours_;
   std::vector<std::int64_t> order_;
@@ -72,7 +75,8 @@ void Filler::fill(std::int64_t index)
   this->sort_by_size(grains);
   RandomNumbers numbers(all_.seed, Stream::Places, index);
   std::size_t most = 0;
-  for (int begin = 0; begin < most_begins; ++begin)
+  tries_left_ = region_tries + region_tries_a_grain * grains.count();
+  while (tries_left_ > 0)
   {
     this->start(region, grains);
     const std::size_t placed = this->fill(region, grains, numbers);
@@ -154,12 +158,12 @@ void Filler::sort_by_size(const GrainRows& grains)
 }
 
 bool Filler::find_place(
-  const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place) const
+  const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place)
 {
   const Regions::Bounds whole = this->inside(radius);
   Regions::Bounds bounds = whole;
   int layer = Regions::outside;
-  for (int tries = 0; tries < most_tries; ++tries)
+  for (std::int64_t tries = 0; tries < most_tries && tries_left_ > 0; ++tries, --tries_left_)
   {
     if (tries == layer_tries)
     {
