@@ -56,6 +56,7 @@ void expect_same(const Frames& frames, const DumpFormat& format, const std::vect
 const std::vector<Shares> some_shares = { { 1 }, { 7000, 1 }, { 12345, 0, 1 }, { 0, 9001, 1 },
   { 1, 19998, 1 }, { 20000, 0, 0 }, { knows_nothing, 1, knows_nothing }, { 1, knows_nothing, 1 },
   { knows_nothing, knows_nothing, 1 } };
+const std::vector<Shares> few_shares = { { 1 }, { 0, 9001, 1 }, { 12345, 1, knows_nothing } };
 }
 
 TEST(WriteRanks, all_forms)
@@ -85,9 +86,9 @@ TEST(WriteRanks, frames)
     expect_same(frames, format, some_shares, "text");
     format.binary = true;
     format.columns = { "id", "type", "x", "y", "z", "v", "xsu", "image", "element" };
-    expect_same(frames, format, some_shares, "binary");
+    expect_same(frames, format, few_shares, "binary");
     format.chunk_values = 12345;
-    expect_same(frames, format, some_shares, "chunks");
+    expect_same(frames, format, few_shares, "chunks");
   }
 }
 
@@ -240,6 +241,10 @@ TEST(WriteRanks, sorted)
   const MadeRows rows(20000, small_box(true));
   for (const Form& form : all_forms())
   {
+    if (!form.tilted)
+    {
+      continue; // sorting knows nothing of the box
+    }
     DumpFormat format = atom_format(form, Dialect::Lammps);
     format.sort_by_id = true;
     expect_same({ rows.view() }, format,
