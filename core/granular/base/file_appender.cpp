@@ -4,6 +4,7 @@
 #include "granular/base/progress.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace granular
 {
@@ -39,6 +40,11 @@ void FileAppender::append(std::span<const std::string_view> pieces)
   }
 }
 
+std::int64_t FileAppender::take(std::size_t bytes) noexcept
+{
+  return std::exchange(size_, size_ + static_cast<std::int64_t>(bytes));
+}
+
 void FileAppender::end_part()
 {
   this->compress_pending(true);
@@ -49,8 +55,7 @@ void FileAppender::write(std::span<const std::string_view> pieces)
   std::vector<std::int64_t> offsets;
   for (const std::string_view piece : pieces)
   {
-    offsets.push_back(size_);
-    size_ += static_cast<std::int64_t>(piece.size());
+    offsets.push_back(this->take(piece.size()));
   }
   Progress silent;
   executor_.parallel_for(

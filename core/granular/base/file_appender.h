@@ -27,6 +27,12 @@ public:
   void append(std::string_view bytes) { this->append(std::span(&bytes, 1)); }
   void append(std::span<const std::string_view> pieces);
 
+  /// Whether bytes go into the file as they are: then they may also be written by whoever has taken the place at
+  /// the end, from any thread.
+  bool is_plain() const noexcept { return compression_ == Compression::None; }
+  std::int64_t take(std::size_t bytes) noexcept;
+  void write_at(std::int64_t offset, std::string_view bytes) { file_.write_at(offset, bytes); }
+
   /// Ends a part of the file, so that a reader may begin behind it: a new member begins there.
   void end_part();
 

@@ -118,6 +118,13 @@ struct DumpWriter::File
 void DumpWriter::File::append_rows(std::string_view header, RowBatches& rows, Progress& progress)
 {
   appender->append(header);
+  if (appender->is_plain())
+  {
+    rows.pass_on([&](std::size_t bytes) { return appender->take(bytes); },
+      [&](std::int64_t offset, std::string_view bytes) { appender->write_at(offset, bytes); },
+      progress);
+    return;
+  }
   while (rows.next(progress))
   {
     appender->append(rows.bytes());

@@ -43,6 +43,32 @@ RowBatches::RowBatches(
   }
 }
 
+void RowBatches::encode(std::size_t chunk, std::size_t worker, RowBuffer& to)
+{
+  const std::int64_t first = static_cast<std::int64_t>(chunk) * chunk_rows_;
+  to.clear();
+  encoder_.encode(first, std::min(chunk_rows_, frame_.rows - first),
+    kept_before_.empty() ? first : kept_before_[chunk], values_[worker], to);
+}
+
+void RowBatches::pass_on(const std::function<std::int64_t(std::size_t bytes)>& take,
+  const std::function<void(std::int64_t offset, std::string_view bytes)>& put, Progress& progress)
+{
+  Turns turns;
+  executor_.parallel_for(
+    chunks_,
+    [&](std::size_t chunk, std::size_t worker)
+    {
+      Turn turn(turns, chunk);
+      this->encode(chunk, worker, buffers_[worker]);
+      turn.wait();
+      const std::int64_t offset = take(buffers_[worker].size());
+      turn.pass();
+      put(offset, buffers_[worker].bytes());
+    },
+    progress);
+}
+
 bool RowBatches::next(Progress& progress)
 {
   filled_ = std::min(buffers_.size(), chunks_ - place_);
@@ -55,14 +81,7 @@ bool RowBatches::next(Progress& progress)
     static_cast<double>(place_ + filled_) / static_cast<double>(chunks_));
   executor_.parallel_for(
     filled_,
-    [&](std::size_t i, std::size_t worker)
-    {
-      const std::size_t chunk = place_ + i;
-      const std::int64_t first = static_cast<std::int64_t>(chunk) * chunk_rows_;
-      buffers_[i].clear();
-      encoder_.encode(first, std::min(chunk_rows_, frame_.rows - first),
-        kept_before_.empty() ? first : kept_before_[chunk], values_[worker], buffers_[i]);
-    },
+    [&](std::size_t i, std::size_t worker) { this->encode(place_ + i, worker, buffers_[i]); },
     part);
   place_ += filled_;
   return true;

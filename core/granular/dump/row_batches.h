@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,12 @@ public:
   RowBatches(const RowEncoder& encoder, const FrameView& frame, std::size_t columns,
     const Executor& executor);
 
+  /// Encodes all rows, and hands each chunk over as soon as that is done: take(bytes) is called for one chunk after
+  /// the other, in their order, and says where it goes, put(offset, bytes) as it comes, by any thread.
+  void pass_on(const std::function<std::int64_t(std::size_t bytes)>& take,
+    const std::function<void(std::int64_t offset, std::string_view bytes)>& put,
+    Progress& progress);
+
   /// Encodes the next batch. False behind the last. Reports how far the rows are.
   bool next(Progress& progress);
 
@@ -32,6 +39,8 @@ public:
   void go_to(std::size_t place) noexcept { place_ = place; }
 
 private:
+  void encode(std::size_t chunk, std::size_t worker, RowBuffer& to);
+
   const RowEncoder& encoder_;
   const FrameView& frame_;
   const Executor& executor_;
