@@ -364,6 +364,7 @@ ColumnPlan plan_columns(
   const std::vector<std::string>& names, const FrameView& frame, bool binary, Notices& notices)
 {
   ColumnPlan plan;
+  plan.binary = binary;
   const std::vector<std::optional<ValueSource>> values = find_all_values(frame, names);
   for (std::size_t i = 0; i < names.size(); ++i)
   {

@@ -50,7 +50,8 @@ struct ColumnPlan
   std::array<std::optional<ValueSource>, 3>
     images = {};                       ///< where there are any and they are needed
   std::optional<ValueSource> ids = {}; ///< integers to sort by, if there are any
-  bool wraps = false; ///< image counts are found by wrapping unwrapped points into the box
+  bool binary = false; ///< whole numbers may be loaded as doubles, where each is one
+  bool wraps = false;  ///< image counts are found by wrapping unwrapped points into the box
 
   bool has_coordinates() const noexcept;
 };

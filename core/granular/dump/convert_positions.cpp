@@ -188,66 +188,9 @@ inline Twofold3 solve_general(const Box& box, const Twofold3& offset) noexcept
   }
 }
 
-/// Scaled from absolute coordinates in an aligned box, nothing shifted: what to_scaled does, for four points at a
-/// time, so that compilers find vector instructions for it.
-[[gnu::always_inline]] inline void scale_aligned(const Box& box, std::span<double> points) noexcept
-{
-  constexpr std::size_t width = 12;
-  double low[width];
-  double low_rest[width];
-  double length[width];
-  double length_rest[width];
-  for (std::size_t i = 0; i < width; ++i)
-  {
-    const std::size_t k = i % 3;
-    low[i] = -box.origin[k].hi;
-    low_rest[i] = -box.origin[k].lo;
-    length[i] = box.vectors[k][k].hi;
-    length_rest[i] = box.vectors[k][k].lo;
-  }
-  constexpr double largest = std::numeric_limits<double>::max();
-  const auto scale = [&](double x, std::size_t i)
-  {
-    const double offset = x + low[i];
-    const double part = offset - x;
-    const double rest = (x - (offset - part)) + (low[i] - part) + low_rest[i];
-    const double quotient = offset / length[i];
-    const double left = std::fma(-quotient, length[i], offset) + rest - quotient * length_rest[i];
-    return std::abs(quotient) <= largest ? quotient + left / length[i] : quotient;
-  };
-  double* point = points.data();
-  double* const end = point + points.size();
-  for (; point + width <= end; point += width)
-  {
-    for (std::size_t i = 0; i < width; ++i)
-    {
-      point[i] = scale(point[i], i);
-    }
-  }
-  for (std::size_t i = 0; point != end; ++i, ++point)
-  {
-    *point = scale(*point, i);
-  }
-}
-
-bool scales_aligned(const Conversion& c) noexcept
-{
-  const auto& axes = c.plan.axes;
-  return c.plan.coordinates == Coordinates::Scaled && !c.box.tilted &&
-    c.point_origin == Vector3{} &&
-    std::all_of(axes.begin(), axes.end(),
-      [](const PositionPlan::Axis& axis)
-      { return axis.column >= 0 && !axis.scaled && axis.shift == 0; });
-}
-
 [[gnu::always_inline]] inline void convert_rows(
   const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
 {
-  if (scales_aligned(c))
-  {
-    scale_aligned(c.box, points);
-    return;
-  }
   const double none[3] = {};
   const std::size_t step = images.empty() ? 0 : 3;
   const double* image = images.empty() ? none : images.data();
@@ -270,6 +213,29 @@ bool scales_aligned(const Conversion& c) noexcept
   }
 }
 
+/// What to_scaled does in an aligned box. Without branches: compilers find vector instructions for it.
+[[gnu::always_inline]] inline void scale_rows(
+  const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+  constexpr double largest = std::numeric_limits<double>::max();
+  const Twofold low = negative(box.origin[axis]);
+  const Twofold length = box.vectors[axis][axis];
+  for (double& x : coordinates)
+  {
+    const double offset = x + low.hi;
+    const double part = offset - x;
+    const double rest = (x - (offset - part)) + (low.hi - part) + low.lo;
+    const double quotient = offset / length.hi;
+    const double left = std::fma(-quotient, length.hi, offset) + rest - quotient * length.lo;
+    x = std::abs(quotient) <= largest ? quotient + left / length.hi : quotient;
+  }
+}
+
+void scale_portable(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+  scale_rows(box, axis, coordinates);
+}
+
 void convert_portable(
   const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
 {
@@ -278,10 +244,18 @@ void convert_portable(
 
 #if GRANULAR_FMA
 /// The same operations; std::fma is an instruction here and a function call there.
-__attribute__((target("avx2,fma"))) void convert_fma(
+__attribute__((target("fma"))) void convert_fma(
   const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
 {
   convert_rows(c, images, points);
+}
+#endif
+
+#if GRANULAR_FMA
+__attribute__((target("avx2,fma"))) void scale_avx2(
+  const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+  scale_rows(box, axis, coordinates);
 }
 #endif
 
@@ -309,6 +283,19 @@ bool changes_nothing(const Conversion& c) noexcept
 }
 }
 
+void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+#if GRANULAR_FMA
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (has_avx2)
+  {
+    scale_avx2(box, axis, coordinates);
+    return;
+  }
+#endif
+  scale_portable(box, axis, coordinates);
+}
+
 void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
   std::span<const double> images, std::span<double> points) noexcept
 {
@@ -319,7 +306,7 @@ void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& 
     return;
   }
 #if GRANULAR_FMA
-  static const bool has_fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2");
+  static const bool has_fma = __builtin_cpu_supports("fma");
   if (has_fma)
   {
     convert_fma(conversion, images, points);

@@ -95,6 +95,7 @@ void pass(Archive& archive, Lead& lead)
     pass(archive, image);
   }
   pass(archive, lead.columns.ids);
+  archive.number(lead.columns.binary);
   archive.number(lead.columns.wraps);
   pass_list(archive, lead.notices,
     [&](Notice& notice)
@@ -214,11 +215,12 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
   check_line(lead.header.label, "the label");
   check_line(lead.header.units, "the units");
   check_line(box.boundary, "the boundaries of the box");
-  if (format.units && lead.header.units.empty())
+  const bool lammps = format.dialect == Dialect::Lammps; // the other has neither
+  if (lammps && format.units && lead.header.units.empty())
   {
     throw Error("expected the units of the frame for ITEM: UNITS, got none");
   }
-  if (format.time && !lead.header.time)
+  if (lammps && format.time && !lead.header.time)
   {
     throw Error("expected the time of the frame for ITEM: TIME, got none");
   }

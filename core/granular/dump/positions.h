@@ -53,5 +53,9 @@ PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordina
 /// strongly tilted boxes, and after any number of crossings.
 void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
   std::span<const double> images, std::span<double> points) noexcept;
+
+/// Turns absolute coordinates along one axis of a box that is not tilted into scaled ones, in place: as
+/// convert_positions does for rows.
+void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept;
 }
 #endif

@@ -65,7 +65,7 @@ void check_unsigned(const ColumnSource& source, Rows rows)
   }
 }
 
-void load_array(const ColumnSource& source, Rows rows, RowValues::Column& column)
+void load_array(const ColumnSource& source, Rows rows, bool as_doubles, RowValues::Column& column)
 {
   const ValueSource& values = source.values;
   if (values.type == ScalarType::Text)
@@ -76,7 +76,8 @@ void load_array(const ColumnSource& source, Rows rows, RowValues::Column& column
     std::transform(rows.begin(), rows.end(), column.texts.begin(),
       [&](std::int64_t row) { return texts + row * values.step; });
   }
-  else if (is_integer(values.type) && values.factor == 1)
+  else if (is_integer(values.type) && values.factor == 1 &&
+    !(as_doubles && values.type < ScalarType::Int64))
   {
     if (values.type == ScalarType::UInt64)
     {
@@ -174,6 +175,18 @@ Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
   return sums;
 }
 
+ValueSource point_values(const FrameView& frame, std::size_t axis)
+{
+  return { frame.points->type, frame.points->components[axis], frame.points->step };
+}
+
+/// Whether a coordinate depends on no other, nor on image counts.
+bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box& box) noexcept
+{
+  return source.role == ColumnRole::ScaledPosition && !source.own && !box.tilted &&
+    frame.coordinates == Coordinates::Absolute;
+}
+
 /// Wraps unwrapped points into the box along periodic axes: how often was it crossed?
 void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images)
 {
@@ -199,8 +212,7 @@ void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)
   {
     if (frame.points)
     {
-      load_numbers({ frame.points->type, frame.points->components[axis], frame.points->step }, rows,
-        own_.data());
+      load_numbers(point_values(frame, axis), rows, own_.data());
       for (std::size_t i = 0; i < rows_; ++i)
       {
         points_[3 * i + axis] = own_[i];
@@ -281,12 +293,14 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
   }
   const Rows rows = std::span(kept_).first(rows_);
   columns_.resize(plan.columns.size());
-  const bool derives = std::any_of(plan.columns.begin(), plan.columns.end(),
-    [](const ColumnSource& source)
-    { return source.kind == Kind::Coordinate || source.kind == Kind::Image; });
-  if (derives)
+  const auto is_derived = [&](const ColumnSource& source)
   {
-    box_ = frame.point_origin == Vector3{} ? box : box_of_points(frame, box);
+    return source.kind == Kind::Image ||
+      (source.kind == Kind::Coordinate && !scales_alone(source, frame, box));
+  };
+  box_ = frame.point_origin == Vector3{} ? box : box_of_points(frame, box);
+  if (std::any_of(plan.columns.begin(), plan.columns.end(), is_derived))
+  {
     this->load_points(frame, plan);
   }
   for (std::size_t i = 0; i < columns_.size(); ++i)
@@ -298,9 +312,17 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
     switch (source.kind)
     {
       case Kind::Array:
-        load_array(source, rows, column);
+        load_array(source, rows, plan.binary, column);
         break;
       case Kind::Coordinate:
+        if (scales_alone(source, frame, box))
+        {
+          const auto axis = static_cast<std::size_t>(source.axis);
+          column.reals.resize(rows_);
+          load_numbers(point_values(frame, axis), rows, column.reals.data());
+          scale_aligned(box_, axis, column.reals);
+          break;
+        }
         this->load_coordinate(frame, box, source, column.reals);
         break;
       case Kind::Image:

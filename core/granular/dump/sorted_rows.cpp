@@ -51,6 +51,7 @@ SortedRows::SortedRows(const FrameView& frame, FramePlan& plan, Communicator& ra
 void SortedRows::copy(const FrameView& frame, const FramePlan& plan, int rank, Progress& progress)
 {
   ColumnPlan wanted = plan.columns;
+  wanted.binary = false; // integers stay what they are until they are written
   wanted.columns.push_back({ .name = "id", .values = *plan.columns.ids });
   rows_.rows = plan.kept_rows[static_cast<std::size_t>(rank)];
   const auto rows = static_cast<std::size_t>(rows_.rows);
