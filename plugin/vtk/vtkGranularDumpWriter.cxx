@@ -35,24 +35,6 @@ bool HasBox(const double vectors[9])
   return std::any_of(vectors, vectors + 9, [](double value) { return value != 0; });
 }
 
-/**
- * Three words of two flags each.
- */
-void CheckBoundary(const std::string& text)
-{
-  constexpr std::string_view flags = "pfsm";
-  bool right = text.size() == 8;
-  for (std::size_t i = 0; right && i < 8; ++i)
-  {
-    right = i % 3 == 2 ? text[i] == ' ' : flags.find(text[i]) != flags.npos;
-  }
-  if (!right)
-  {
-    throw granular::Error(
-      "expected Boundary as in 'pp pp ff', of p, f, s and m, got '" + text + "'");
-  }
-}
-
 void CheckFinite(const double* first, int count)
 {
   const double* const last = first + count;
@@ -143,12 +125,10 @@ private:
     granular::FrameHeader& header = data.View.header;
     if (!data.HasTimestep)
     {
-      const double step = time.Time.value_or(0.5);
-      const bool whole = std::trunc(step) == step && std::abs(step) < 0x1p53;
-      header.timestep = whole ? static_cast<vtkTypeInt64>(step) : time.Frame;
+      header.timestep = time.Step.value_or(time.Frame);
       granular::Notice notice;
-      notice.text = whole ? "the input has no field data 'timestep': its time is taken for it"
-                          : "the input has no field data 'timestep': frames are counted from 0";
+      notice.text = time.Step ? "the input has no field data 'timestep': its time is taken for it"
+                              : "the input has no field data 'timestep': frames are counted from 0";
       notices.push_back(notice);
     }
     if (!data.HasTime)
@@ -260,7 +240,7 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
   const std::string path = this->FileName;
   if (*TextOf(this->Boundary))
   {
-    CheckBoundary(this->Boundary);
+    granular::parse_boundary(this->Boundary); // a wrong one is told before a file is opened
   }
   if (HasBox(this->BoxVectors))
   {
@@ -270,6 +250,14 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
   if (granular::split_words(TextOf(this->Units)).size() > 1)
   {
     throw granular::Error("expected Units of one word, got '" + std::string(this->Units) + "'");
+  }
+  if (this->Style == CUSTOM && (!this->Scaled || this->Image))
+  {
+    internals.Tell(this, "Scaled and Image are of the Style Atom: this is Custom, see Columns");
+  }
+  if (this->Style == ATOM && *TextOf(this->Columns))
+  {
+    internals.Tell(this, "Columns are of the Style Custom: this is Atom");
   }
   granular::DumpFormat format;
   format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;

@@ -14,12 +14,40 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
 using namespace vtkGranularPrivate;
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+bool IsWhole(double time)
+{
+  return std::trunc(time) == time && std::abs(time) < 0x1p53;
+}
+
+/**
+ * Processes that wrote other numbers of frames would wait for each other.
+ */
+void CheckTimes(granular::Communicator& ranks, const std::vector<double>& times)
+{
+  const std::string_view own(
+    reinterpret_cast<const char*>(times.data()), times.size() * sizeof(double));
+  const std::vector<std::string> all = ranks.all_gather(own);
+  granular::do_together(ranks,
+    [&]
+    {
+      if (all.front() != own)
+      {
+        throw granular::Error("expected the time steps of the first process, got others");
+      }
+    });
+}
+}
 
 /**
  * What is written, as the pipeline makes it: frame by frame, and of each the piece of this process. The writer asks
@@ -161,11 +189,16 @@ void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self)
 {
   for (const granular::Notice& notice : std::exchange(this->Notices, {}))
   {
-    const std::string text = granular::to_string(notice);
-    if (this->Told.insert(text).second && (!this->Ranks || this->Ranks->rank() == 0))
-    {
-      vtkWarningWithObjectMacro(self, << text);
-    }
+    this->Tell(self, granular::to_string(notice));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self, const std::string& text)
+{
+  if (this->Told.insert(text).second && (!this->Ranks || this->Ranks->rank() == 0))
+  {
+    vtkWarningWithObjectMacro(self, << text);
   }
 }
 
@@ -281,6 +314,7 @@ void vtkGranularWriter::WriteFrames()
   granular::Communicator& ranks = shared.GetRanks();
   Input input(*this);
   const std::vector<double> times = this->WriteTimeSteps ? input.GetTimes() : std::vector<double>();
+  CheckTimes(ranks, times);
   shared.File = this->OpenFile(shared);
   AlgorithmProgress progress(this);
   granular::PartialProgress part(progress);
@@ -292,7 +326,12 @@ void vtkGranularWriter::WriteFrames()
     const auto all = static_cast<double>(frames);
     const auto first = static_cast<double>(frame);
     part.set_part(first / all, (first + 1) / all);
-    const FrameTime time{ input.GetTime(), static_cast<vtkTypeInt64>(frame) };
+    FrameTime time{ input.GetTime(), static_cast<vtkTypeInt64>(frame), {} };
+    if (times.empty() ? time.Time && IsWhole(*time.Time)
+                      : std::all_of(times.begin(), times.end(), IsWhole))
+    {
+      time.Step = static_cast<vtkTypeInt64>(times.empty() ? *time.Time : times[frame]);
+    }
     shared.File->Write(input.GetData(), time, shared.Notices, part);
     shared.Tell(this);
   }

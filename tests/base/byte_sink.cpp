@@ -156,6 +156,27 @@ TEST_F(WriteFile, WhereNothingMayBeWritten)
   EXPECT_EQ(this->content("a"), "old");
 }
 
+/// Who may not write a file may not put another in its place, though the folder would let him.
+TEST_F(WriteFile, WhatIsWriteProtected)
+{
+  write_file(this->path("a"), "old");
+  ASSERT_EQ(::chmod(this->path("a").c_str(), 0444), 0);
+  ASSERT_EQ(::chmod(this->folder().c_str(), 0777), 0);
+  const bool root = ::geteuid() == 0;
+  constexpr uid_t nobody = 65534;
+  if (root && ::seteuid(nobody) != 0)
+  {
+    GTEST_SKIP() << "root may write everywhere here";
+  }
+  expect_fails(this->path("a"), "new", std::errc::permission_denied);
+  if (root)
+  {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
+  EXPECT_EQ(this->content("a"), "old");
+  EXPECT_EQ(this->names(), Names{ "a" });
+}
+
 TEST_F(WriteFile, WhatACrashLeftBehindIsPassedOver)
 {
   const std::string left = ".granular-" + std::to_string(::getpid()) + "-0.tmp";

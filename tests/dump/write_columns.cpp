@@ -376,3 +376,73 @@ TEST(WriteColumns, first_of_two_arrays)
   grains.add("v", ScalarType::Float64, three);
   EXPECT_EQ(write(grains.frame, { "v", "vy" }).body, "v vy\n1 4\n2 7\n");
 }
+
+/// An array with the very name of a column comes before the one that the column is a part of, whatever other columns
+/// there are.
+TEST(WriteColumns, arrays_named_like_parts)
+{
+  TwoGrains grains;
+  const std::vector<double> vx = { 70, 80 };
+  const std::vector<double> v = { 3, 4, 5, 6, 7, 8 };
+  grains.add("v", ScalarType::Float64, v);
+  grains.add("vx", ScalarType::Float64, vx);
+  EXPECT_EQ(write(grains.frame, { "vx" }).body, "vx\n70\n80\n");
+  EXPECT_EQ(write(grains.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n70 4 5\n80 7 8\n");
+}
+
+TEST(WriteColumns, two_names_that_are_one_word)
+{
+  TwoGrains grains;
+  const std::vector<double> one = { 1, 2 };
+  const std::vector<double> two = { 3, 4 };
+  grains.add("id", ScalarType::Int64, ids);
+  grains.add("type", ScalarType::Int32, types);
+  grains.add("my array", ScalarType::Float64, one);
+  grains.add("my_array", ScalarType::Float64, two);
+  const Text text = write(grains.frame, {});
+  EXPECT_EQ(text.body, "id type x y z my_array\n7 2 1 2 3 3\n3 1 4 5 6 4\n");
+  EXPECT_EQ(text.said, "arrays without a column of their own are left out: my array\n");
+}
+
+/// Nobody asked for the texts: they do not keep a binary dump from being written.
+TEST(WriteColumns, texts_that_nobody_asked_for)
+{
+  TwoGrains grains;
+  const std::vector<std::string> words = { "a", "b" };
+  grains.add("id", ScalarType::Int64, ids);
+  grains.add("type", ScalarType::Int32, types);
+  grains.add("word", ScalarType::Text, words);
+  const Folder folder;
+  DumpFormat format;
+  format.binary = true;
+  const Written written = write_dump(folder.path("a"), Frames{ grains.frame }, format);
+  EXPECT_EQ(written.error, "");
+  EXPECT_EQ(written.said, "arrays without a column of their own are left out: word\n");
+  format.columns = { "id", "type", "x", "y", "z" };
+  EXPECT_EQ(written.bytes, write_dump(folder.path("b"), Frames{ grains.frame }, format).bytes);
+}
+
+/// Points may be of any type, also where the box is made from them.
+TEST(WriteColumns, points_of_integers)
+{
+  const std::vector<std::int64_t> points = { 1, 2, 3, 4, 5, 6 };
+  TwoGrains grains;
+  grains.frame.points = view_rows("points", ScalarType::Int64, points.data(), 3);
+  grains.frame.has_box = false;
+  EXPECT_EQ(write(grains.frame, { "x", "ys" }).body, "x ys\n1 0\n4 1\n");
+  EXPECT_EQ(write_binary(grains.frame, { "x", "zs" }), (std::vector<double>{ 1, 0, 4, 1 }));
+}
+
+TEST(WriteColumns, image_counts_that_are_none)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [count, text] :
+    { std::pair(nan, "nan"), std::pair(2.5, "2.500000"), std::pair(-3e9, "-3000000000.000000") })
+  {
+    TwoGrains grains;
+    const std::vector<double> counts = { 1, count };
+    grains.add("ix", ScalarType::Float64, counts);
+    EXPECT_EQ(write(grains.frame, { "ix" }).error,
+      std::string("column 'ix': expected image counts of whole numbers below 2^31, got ") + text);
+  }
+}

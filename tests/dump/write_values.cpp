@@ -288,7 +288,8 @@ TEST(WriteValues, units_time_and_label)
   frame.header.label = "";
   frame.header.box.boundary = "pp\n";
   EXPECT_EQ(write({ frame }).error,
-    "expected the boundaries of the box in one line, got a line break in it");
+    "expected boundaries as in 'pp pp ff' or 'p p f', of p, f, s and m, got '" +
+      frame.header.box.boundary + "'");
 }
 
 TEST(WriteValues, unknown_boundaries)
@@ -322,4 +323,90 @@ TEST(WriteValues, timesteps)
   format.dialect = Dialect::Liggghts;
   EXPECT_EQ(write_dump(path, Frames{ frame }, format).error,
     "expected a timestep of at least 0 for a binary dump without names, got -7");
+}
+
+/// A step that is written again is told; where it would take the file of another frame it is an error.
+TEST(WriteValues, repeated_timesteps)
+{
+  FrameView frame = frame_in(small_box(false));
+  frame.header.timestep = 5;
+  DumpFormat format;
+  format.columns = { "id" };
+  const Folder folder;
+  EXPECT_EQ(write_dump(folder.path("a"), Frames{ frame, frame }, format).said,
+    "timestep 5 is written more than once: most programs show one of them\n");
+  const Folder other;
+  EXPECT_EQ(write_dump(other.path("a_*"), Frames{ frame, frame }, format).error,
+    other.path("a_5") +
+      ": expected a timestep of its own for each frame, got timestep 5 again: its file is written "
+      "already");
+}
+
+TEST(WriteValues, nothing_comes_after_the_end)
+{
+  const FrameView frame = frame_in(small_box(false));
+  const Folder folder;
+  granular::SerialCommunicator alone;
+  granular::Notices notices;
+  granular::Progress progress;
+  granular::DumpWriter writer(folder.path("a"), {}, {}, alone);
+  writer.write(frame, notices, progress);
+  writer.finish();
+  writer.finish();
+  EXPECT_THROW(writer.write(frame, notices, progress), std::logic_error);
+}
+
+TEST(WriteValues, boxes_that_are_none)
+{
+  const std::vector<double> points = { 1, 2, 3 };
+  const auto error_of = [&](const Box& box, const std::string& column)
+  {
+    FrameView frame = frame_in(box);
+    frame.header.box.boundary = "pp pp pp";
+    frame.rows = 1;
+    frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+    DumpFormat format;
+    format.columns = { column };
+    const Folder folder;
+    return write_dump(folder.path("a"), Frames{ frame }, format).error;
+  };
+  const Box flat = Box::from_vectors({ 0, 0, 0 }, { { { 1, 1, 0 }, { 2, 2, 0 }, { 0, 0, 1 } } });
+  EXPECT_EQ(error_of(flat, "x"), "");
+  EXPECT_EQ(
+    error_of(flat, "xs"), "expected a box with a volume to scale coordinates by, got a flat one");
+  EXPECT_EQ(error_of(Box::from_bounds({ 0, 1, 0 }, { 1, -1, 1 }), "x"),
+    "expected a box with its upper bound above the lower one along y, got a length of -2.000000");
+}
+
+/// One letter an axis does, too.
+TEST(WriteValues, short_boundaries)
+{
+  FrameView frame = frame_in(small_box(false));
+  frame.header.box.boundary = "p p f";
+  DumpFormat format;
+  format.columns = { "id" };
+  const Folder folder;
+  EXPECT_NE(
+    write_dump(folder.path("a"), Frames{ frame }, format).bytes.find("ITEM: BOX BOUNDS pp pp ff\n"),
+    std::string::npos);
+}
+
+TEST(WriteValues, names_of_files)
+{
+  using granular::Compression;
+  EXPECT_TRUE(granular::is_binary_name("a/b.bin"));
+  EXPECT_TRUE(granular::is_binary_name("B.LAMMPSBIN"));
+  EXPECT_TRUE(granular::is_binary_name("b.bin.gz")); // which nobody reads, and is refused
+  EXPECT_FALSE(granular::is_binary_name("b.bin.dump"));
+  EXPECT_FALSE(granular::is_binary_name("bin"));
+  EXPECT_EQ(granular::compression_of_name("a.dump.GZ"), Compression::Gzip);
+  EXPECT_EQ(granular::compression_of_name("a.zst"), Compression::Zstd);
+  EXPECT_EQ(granular::compression_of_name("gz"), Compression::None);
+  DumpFormat format;
+  format.binary = true;
+  format.compression = Compression::Gzip;
+  const Folder folder;
+  EXPECT_EQ(write_dump(folder.path("b.bin.gz"), Frames{ frame_in(small_box(false)) }, format).error,
+    folder.path("b.bin.gz") +
+      ": expected text to compress, got a binary dump: no program reads that");
 }

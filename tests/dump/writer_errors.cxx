@@ -120,11 +120,11 @@ TEST(WriterErrors, PropertiesThatMakeNoSense)
   expect("column 'colour': expected an array to make it from, got none: there are no arrays");
   writer->SetColumns("");
   for (const char* boundary :
-    { "pp pp", "pp pp pq", "p p p", "pp pp pp pp", "pppppp", "pp\npp pp" })
+    { "pp pp", "pp pp pq", "p p", "p p q", "pp pp pp pp", "pppppp", "pp\npp pp" })
   {
     writer->SetBoundary(boundary);
-    expect(
-      std::string("expected Boundary as in 'pp pp ff', of p, f, s and m, got '") + boundary + "'");
+    expect(std::string("expected boundaries as in 'pp pp ff' or 'p p f', of p, f, s and m, got '") +
+      boundary + "'");
   }
   writer->SetBoundary("");
   writer->WriteUnitsOn();

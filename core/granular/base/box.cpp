@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/box.h"
 
+#include "granular/base/error.h"
+
+#include <cmath>
 #include <initializer_list>
+#include <string>
+#include <string_view>
 
 namespace granular
 {
@@ -157,5 +162,60 @@ Vector3 Box::corner(int i, int j, int k, const Vector3& less) const
     point[axis] = total.value();
   }
   return point;
+}
+std::string parse_boundary(const std::string& text)
+{
+  constexpr std::string_view flags = "pfsm";
+  std::string long_form = text;
+  if (text.size() == 5)
+  {
+    long_form = { text[0], text[0], text[1], text[2], text[2], text[3], text[4], text[4] };
+  }
+  bool right = long_form.size() == 8;
+  for (std::size_t i = 0; right && i < long_form.size(); ++i)
+  {
+    right = i % 3 == 2 ? long_form[i] == ' ' : flags.find(long_form[i]) != flags.npos;
+  }
+  if (!right)
+  {
+    throw FormatError(
+      "expected boundaries as in 'pp pp ff' or 'p p f', of p, f, s and m, got '" + text + "'");
+  }
+  return long_form;
+}
+
+void check_bounds(const Box& box)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = box.vectors[axis][axis].value();
+    if (!box.general && !(length >= 0))
+    {
+      throw Error("expected a box with its upper bound above the lower one along " +
+        std::string(1, "xyz"[axis]) + ", got a length of " + std::to_string(length));
+    }
+  }
+}
+
+void check_volume(const Box& box)
+{
+  const auto& [a, b, c] = box.vectors;
+  for (std::size_t axis = 0; !box.general && axis < 3; ++axis)
+  {
+    const double length = box.vectors[axis][axis].hi;
+    if (!(std::abs(length) > 0))
+    {
+      throw Error("expected a box with a length along " + std::string(1, "xyz"[axis]) +
+        " to scale coordinates by, got one of length " + (length == 0 ? "0" : "nan"));
+    }
+  }
+  const auto minor = [&](std::size_t i, std::size_t j)
+  { return b[i].value() * c[j].value() - b[j].value() * c[i].value(); };
+  const double volume =
+    a[0].value() * minor(1, 2) + a[1].value() * minor(2, 0) + a[2].value() * minor(0, 1);
+  if (box.general && !(std::abs(volume) > 0))
+  {
+    throw Error("expected a box with a volume to scale coordinates by, got a flat one");
+  }
 }
 }

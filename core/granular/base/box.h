@@ -52,5 +52,15 @@ struct Box
   /// The corner (i, j, k), each 0 or 1, less a point, correctly rounded.
   Vector3 corner(int i, int j, int k, const Vector3& less = {}) const;
 };
+
+/// The boundary flags as dumps print them, "pp pp ff", from that or from one letter an axis, "p p f": p is
+/// periodic, f fixed, s and m shrinking. Throws FormatError.
+std::string parse_boundary(const std::string& text);
+
+/// Makes sure that a box can be written: throws Error where an upper bound is below its lower one, or is no number.
+void check_bounds(const Box& box);
+
+/// Makes sure that a box can scale coordinates: throws Error where it has no volume.
+void check_volume(const Box& box);
 }
 #endif

@@ -87,6 +87,10 @@ NewFile::NewFile(const std::string& path)
       throw IoError("cannot write: expected a file, got a device or a pipe", { path_ },
         std::errc::not_supported);
     }
+    if (::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
+    {
+      fail(path_, errno); // who may not write it may not replace it either
+    }
     permissions_ = static_cast<int>(old.st_mode & permission_bits);
   }
   else if (errno != ENOENT || path.empty())

@@ -26,7 +26,9 @@ void FileAppender::append(std::span<const std::string_view> pieces)
   }
   for (std::string_view piece : pieces)
   {
-    const std::size_t most = member_bytes_ * static_cast<std::size_t>(executor_.threads());
+    constexpr int most_members = 16; // at a time, for the memory that they take
+    const std::size_t most =
+      member_bytes_ * static_cast<std::size_t>(std::min(executor_.threads(), most_members));
     while (!piece.empty())
     {
       const std::size_t part = std::min(piece.size(), most - pending_.size());

@@ -43,6 +43,13 @@ FrameView view_atoms(const AtomRows& atoms, const FrameHeader& header)
 void pack_atom_rows(const AtomRows& atoms, const Box& box, const AtomForm& form, std::int64_t first,
   std::int64_t count, std::span<double> to)
 {
+  if (first < 0 || count < 0 || count > atoms.rows - first ||
+    static_cast<std::size_t>(count) > to.size() / static_cast<std::size_t>(atom_row_values(form)))
+  {
+    throw LimitError("expected rows among " + std::to_string(atoms.rows) + " and room for " +
+      std::to_string(to.size()) + " values, got " + std::to_string(count) + " rows from " +
+      std::to_string(first) + " on");
+  }
   if (form.scaled)
   {
     check_volume(box);

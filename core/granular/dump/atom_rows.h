@@ -41,8 +41,8 @@ FrameView view_atoms(const AtomRows& atoms, const FrameHeader& header);
 /// Packs rows [first, first + count) as dump atom does, atom_row_values doubles each: id, type, c, image, where c
 /// is x, or lambda with x = x_lo + H lambda, the columns of H being the vectors of the box: (Lx, 0, 0),
 /// (xy, Ly, 0), (xz, yz, Lz), by back substitution. Each lambda is the exact one rounded, as convert_positions
-/// has it. `to` has room for all. Throws FormatError for a scaled form of a box without volume, LimitError for ids
-/// that are no doubles.
+/// has it. Throws Error for a scaled form of a box without volume, LimitError for ids that are no doubles,
+/// rows that there are not, and too little room.
 void pack_atom_rows(const AtomRows& atoms, const Box& box, const AtomForm& form, std::int64_t first,
   std::int64_t count, std::span<double> to);
 }

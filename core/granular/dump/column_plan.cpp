@@ -1,94 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/column_plan.h"
 
-#include "granular/base/words.h"
-
 #include <algorithm>
-#include <charconv>
 
 namespace granular
 {
 namespace
 {
 using Kind = ColumnSource::Kind;
-
-/// A name as the header of a dump can hold it: one word.
-std::string as_word(std::string name)
-{
-  std::replace_if(name.begin(), name.end(), is_blank, '_');
-  return name;
-}
-
-const ArrayView* find_array(const FrameView& frame, std::string_view name, int components)
-{
-  const auto found = std::find_if(frame.arrays.begin(), frame.arrays.end(),
-    [&](const ArrayView& array)
-    { return array.size() == components && as_word(array.name) == name; });
-  return found == frame.arrays.end() ? nullptr : &*found;
-}
-
-ValueSource component_of(const ArrayView& array, int component, double factor = 1)
-{
-  return { array.type, array.components[static_cast<std::size_t>(component)], array.step, factor };
-}
-
-/// "A[3]": component 2 of the array A.
-std::optional<ValueSource> find_element(const FrameView& frame, std::string_view name)
-{
-  const std::size_t open = name.rfind('[');
-  int number = 0;
-  if (open == name.npos || !name.ends_with(']'))
-  {
-    return {};
-  }
-  const char* const last = name.data() + name.size() - 1;
-  const auto [end, error] = std::from_chars(name.data() + open + 1, last, number);
-  if (error != std::errc{} || end != last || number < 1)
-  {
-    return {};
-  }
-  for (const ArrayView& array : frame.arrays)
-  {
-    if (array.size() >= number && as_word(array.name) == name.substr(0, open))
-    {
-      return component_of(array, number - 1);
-    }
-  }
-  return {};
-}
-
-/// The array that columns of this name become, one of several or alone, or what it can be made from.
-std::optional<ValueSource> find_values(const FrameView& frame, std::string_view name)
-{
-  if (const ArrayView* array = find_array(frame, name, 1))
-  {
-    return component_of(*array, 0);
-  }
-  const KnownColumn* known = find_known_column(name);
-  if (known && known->components > 1)
-  {
-    if (const ArrayView* array = find_array(frame, known->array, known->components))
-    {
-      return component_of(*array, known->component);
-    }
-  }
-  struct Made
-  {
-    std::string_view name;
-    std::string_view from;
-    double factor;
-  };
-  constexpr Made made[] = { { "diameter", "radius", 2 }, { "radius", "diameter", 0.5 } };
-  for (const Made& way : made)
-  {
-    const ArrayView* array = name == way.name ? find_array(frame, way.from, 1) : nullptr;
-    if (array)
-    {
-      return component_of(*array, 0, way.factor);
-    }
-  }
-  return find_element(frame, name);
-}
 
 bool is_coordinate(ColumnRole role) noexcept
 {
@@ -99,28 +18,6 @@ bool is_coordinate(ColumnRole role) noexcept
 bool is_unwrapped(ColumnRole role) noexcept
 {
   return role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
-}
-
-/// The columns that an array becomes.
-std::vector<std::string> columns_of(const ArrayView& array)
-{
-  std::vector<std::string> names;
-  for (const KnownColumn& known : known_columns())
-  {
-    if (known.components > 1 && known.components == array.size() && known.array == array.name)
-    {
-      names.emplace_back(known.name);
-    }
-  }
-  if (names.empty() && array.size() == 1)
-  {
-    names.push_back(as_word(array.name));
-  }
-  for (int i = 1; static_cast<int>(names.size()) < array.size(); ++i)
-  {
-    names.push_back(as_word(array.name) + "[" + std::to_string(i) + "]");
-  }
-  return names;
 }
 
 /// Filters may give a frame without grains no arrays: such a one can have any columns.
@@ -193,29 +90,6 @@ std::optional<ColumnSource> find_source(
     { .column = name });
 }
 
-/// The arrays that columns become when they are read, and the values of each column in them.
-std::vector<std::optional<ValueSource>> find_all_values(
-  const FrameView& frame, const std::vector<std::string>& names)
-{
-  std::vector<std::optional<ValueSource>> values(names.size());
-  const ColumnSchema schema(names);
-  for (const ArrayInfo& info : schema.arrays())
-  {
-    const ArrayView* array =
-      info.scale == 1 ? find_array(frame, info.name, info.components()) : nullptr;
-    for (int i = 0; array && i < info.components(); ++i)
-    {
-      values[static_cast<std::size_t>(info.columns[static_cast<std::size_t>(i)])] =
-        component_of(*array, i);
-    }
-  }
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    values[i] = values[i] ? values[i] : find_values(frame, names[i]);
-  }
-  return values;
-}
-
 /// Image counts, where a column needs them.
 void plan_images(ColumnPlan& plan, const FrameView& frame, Notices& notices)
 {
@@ -250,7 +124,8 @@ void plan_images(ColumnPlan& plan, const FrameView& frame, Notices& notices)
 /// Coordinates that the points are, and image counts that are there as integers, are columns like others.
 void take_as_they_are(ColumnPlan& plan, const FrameView& frame)
 {
-  const bool moved = frame.point_origin != Vector3{};
+  const bool moved = frame.point_origin != Vector3{} ||
+    (frame.points && is_integer(frame.points->type)); // coordinates are real numbers
   const ColumnRole stored = frame.coordinates == Coordinates::Absolute ? ColumnRole::Position
     : frame.coordinates == Coordinates::Unwrapped ? ColumnRole::UnwrappedPosition
                                                   : ColumnRole::ScaledPosition;
@@ -271,6 +146,13 @@ void take_as_they_are(ColumnPlan& plan, const FrameView& frame)
   }
 }
 
+/// Texts that a binary dump cannot hold.
+bool is_lost(
+  const std::string& name, const std::optional<ValueSource>& values, bool binary) noexcept
+{
+  return binary && values && values->type == ScalarType::Text && name != "element";
+}
+
 /// A text has no place in a binary file; the element is the type there.
 void replace_text(ColumnSource& column, const FrameView& frame)
 {
@@ -289,26 +171,22 @@ void replace_text(ColumnSource& column, const FrameView& frame)
 }
 }
 
-bool ColumnPlan::has_coordinates() const noexcept
-{
-  return std::any_of(columns.begin(), columns.end(),
-    [](const ColumnSource& column) { return column.kind == Kind::Coordinate; });
-}
-
-std::vector<std::string> default_columns(const FrameView& frame, Notices& notices)
+std::vector<std::string> default_columns(const FrameView& frame, Notices& notices, bool binary)
 {
   std::vector<std::string> names;
   std::string left_out;
+  std::string without;
   const std::vector<std::optional<ValueSource>> values = find_all_values(frame, frame.columns);
   for (std::size_t i = 0; i < frame.columns.size(); ++i)
   {
-    if (find_source(frame, frame.columns[i], values[i]))
+    const std::string& name = frame.columns[i];
+    if (find_source(frame, name, values[i]) && !is_lost(name, values[i], binary))
     {
-      names.push_back(frame.columns[i]);
+      names.push_back(name);
     }
     else
     {
-      left_out += " " + frame.columns[i];
+      left_out += " " + name;
     }
   }
   if (!left_out.empty())
@@ -333,8 +211,19 @@ std::vector<std::string> default_columns(const FrameView& frame, Notices& notice
     if (known < 0 || input.arrays()[static_cast<std::size_t>(known)].components() != array.size())
     {
       const std::vector<std::string> columns = columns_of(array);
+      const ValueSource values_of_it = component_of(array, 0);
+      const bool other = find_array(frame, as_word(array.name), array.size()) != &array;
+      if (other || is_lost(array.name, values_of_it, binary))
+      {
+        without += " " + array.name;
+        continue;
+      }
       std::for_each(columns.begin(), columns.end(), add);
     }
+  }
+  if (!without.empty())
+  {
+    notices.push_back({ {}, "arrays without a column of their own are left out:" + without });
   }
   return names;
 }

@@ -3,6 +3,7 @@
 #define granular_dump_column_plan_h
 
 #include "granular/base/error.h"
+#include "granular/dump/column_arrays.h"
 #include "granular/dump/frame_view.h"
 
 #include <array>
@@ -13,15 +14,6 @@
 
 namespace granular
 {
-/// Values of one kind in someone else's memory, a row after the other.
-struct ValueSource
-{
-  ScalarType type = ScalarType::Float64;
-  const void* data = nullptr;
-  std::int64_t step = 1; ///< values from one row to the next
-  double factor = 1;     ///< 2: a diameter of radii; 0.5: a radius of diameters
-};
-
 /// What a column of a dump is made from.
 struct ColumnSource
 {
@@ -52,14 +44,14 @@ struct ColumnPlan
   std::optional<ValueSource> ids = {}; ///< integers to sort by, if there are any
   bool binary = false; ///< whole numbers may be loaded as doubles, where each is one
   bool wraps = false;  ///< image counts are found by wrapping unwrapped points into the box
-
-  bool has_coordinates() const noexcept;
 };
 
 /// The columns of a frame that are written where nobody says which: those of the file that it comes from, as
 /// far as there is something to make them from, with a notice of those that are left out, and then the
-/// arrays that are new; else id, type, x, y, z and all arrays.
-std::vector<std::string> default_columns(const FrameView& frame, Notices& notices);
+/// arrays that are new; else id, type, x, y, z and all arrays. Texts that a binary dump cannot hold, and an array
+/// whose column is that of another, are left out with a notice.
+std::vector<std::string> default_columns(
+  const FrameView& frame, Notices& notices, bool binary = false);
 
 /// A list of columns with the names of arrays replaced by those of their columns: v by vx vy vz, and an array A
 /// of n components that the table does not know by A[1] .. A[n].

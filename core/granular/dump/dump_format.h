@@ -51,5 +51,18 @@ bool is_binary_name(std::string_view path) noexcept;
 
 /// What the end of a name says: .gz, .zst.
 Compression compression_of_name(std::string_view path) noexcept;
+
+/// The name with '*' replaced by the timestep, as the dump command has it; the first '*' only, and none in
+/// folders.
+std::string name_of_step(const std::string& path, std::int64_t timestep);
+
+/// Whether each frame is a file of its own: the name of the file holds '*'.
+bool is_name_of_steps(const std::string& path) noexcept;
+
+/// Whether ranks write files of their own: the name of the file holds '%'.
+bool is_name_of_ranks(const std::string& path) noexcept;
+
+/// The name with '%' replaced by the rank.
+std::string name_of_rank(const std::string& path, int rank);
 }
 #endif

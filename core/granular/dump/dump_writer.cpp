@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace granular
@@ -23,39 +24,11 @@ std::int64_t sum_of(std::span<const std::int64_t> counts) noexcept
   return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
 
-/// Where the file name begins.
-std::size_t begin_of_name(const std::string& path) noexcept
-{
-  const std::size_t slash = path.rfind('/');
-  return slash == path.npos ? 0 : slash + 1;
-}
-
-std::string replace_first(const std::string& path, char mark, const std::string& text)
-{
-  const std::size_t place = path.find(mark, begin_of_name(path));
-  return place == path.npos ? path : path.substr(0, place) + text + path.substr(place + 1);
-}
-
 std::size_t total_size(std::span<const std::string_view> parts) noexcept
 {
   return std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 },
     [](std::size_t sum, std::string_view part) { return sum + part.size(); });
 }
-}
-
-bool is_name_of_steps(const std::string& path) noexcept
-{
-  return path.find('*', begin_of_name(path)) != path.npos;
-}
-
-std::string name_of_step(const std::string& path, std::int64_t timestep)
-{
-  return replace_first(path, '*', std::to_string(timestep));
-}
-
-bool is_name_of_ranks(const std::string& path) noexcept
-{
-  return path.find('%', begin_of_name(path)) != path.npos;
 }
 
 /// The file, as this rank knows it.
@@ -90,7 +63,7 @@ struct DumpWriter::File
         {
           if (way == Way::Own || all.rank() == 0)
           {
-            own = std::make_unique<NewFile>(replace_first(path, '%', std::to_string(all.rank())));
+            own = std::make_unique<NewFile>(name_of_rank(path, all.rank()));
             appender.emplace(*own, format.compression, executor);
           }
         });
@@ -311,7 +284,12 @@ DumpWriter::~DumpWriter() = default;
 
 void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progress)
 {
+  if (!file_ && !is_name_of_steps(path_))
+  {
+    throw std::logic_error("a dump is written to after it was finished");
+  }
   FramePlan plan = plan_frame(frame, format_, ranks_, notices);
+  do_together(ranks_, [&] { this->check_step(plan.header.timestep, notices); });
   if (is_name_of_steps(path_))
   {
     file_ =
@@ -321,8 +299,23 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
   if (is_name_of_steps(path_))
   {
     this->finish();
-    file_.reset();
   }
+}
+
+void DumpWriter::check_step(std::int64_t timestep, Notices& notices)
+{
+  if (steps_.insert(timestep).second)
+  {
+    return;
+  }
+  const std::string step = "timestep " + std::to_string(timestep);
+  if (is_name_of_steps(path_))
+  {
+    throw Error("expected a timestep of its own for each frame, got " + step +
+        " again: its file is written already",
+      { name_of_step(path_, timestep) });
+  }
+  notices.push_back({ {}, step + " is written more than once: most programs show one of them" });
 }
 
 void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& progress)
@@ -385,22 +378,21 @@ void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& p
 
 void DumpWriter::finish()
 {
-  if (!file_)
-  {
-    return;
-  }
-  if (file_->way == File::Way::Shared)
+  if (file_ && file_->way == File::Way::Shared)
   {
     file_->shared->finish();
-    return;
   }
-  do_together(ranks_,
-    [&]
-    {
-      if (file_->own)
+  else if (file_)
+  {
+    do_together(ranks_,
+      [&]
       {
-        file_->own->finish();
-      }
-    });
+        if (file_->own)
+        {
+          file_->own->finish();
+        }
+      });
+  }
+  file_.reset();
 }
 }

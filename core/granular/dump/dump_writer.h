@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace granular
@@ -29,16 +30,6 @@ struct WriteOptions
   int threads = 1; ///< >= 1, of each rank
 };
 
-/// The name with '*' replaced by the timestep, as the dump command has it; the first '*' only, and none in
-/// folders.
-std::string name_of_step(const std::string& path, std::int64_t timestep);
-
-/// Whether each frame is a file of its own: the name of the file holds '*'.
-bool is_name_of_steps(const std::string& path) noexcept;
-
-/// Whether ranks write files of their own: the name of the file holds '%'.
-bool is_name_of_ranks(const std::string& path) noexcept;
-
 /// Writes a dump of one or more frames, from the rows of all ranks in the order of the ranks: the bytes do not
 /// depend on their number, nor on that of threads. The file is there when finish() is done, and until then the
 /// old one is as it was; so it stays where a writer ends without. A name with '%' gives each rank a
@@ -56,7 +47,9 @@ public:
   DumpWriter& operator=(const DumpWriter&) = delete;
   ~DumpWriter();
 
-  /// Adds a frame: see FrameView for what it is made of, and plan_columns for how. Throws Error, Cancelled.
+  /// Adds a frame: see FrameView for what it is made of, and plan_columns for how. A timestep that was written before
+  /// gets a notice, and where each has a file of its own an Error. Throws Error, Cancelled; std::logic_error
+  /// after finish().
   void write(const FrameView& frame, Notices& notices, Progress& progress);
 
   /// Gives the file its name. Nothing more can be written then.
@@ -65,6 +58,7 @@ public:
 private:
   struct File;
 
+  void check_step(std::int64_t timestep, Notices& notices);
   void write_rows(const FrameView& frame, FramePlan& plan, Progress& progress);
 
   std::string path_;
@@ -72,6 +66,7 @@ private:
   WriteOptions options_;
   Communicator& ranks_;
   std::unique_ptr<File> file_;
+  std::set<std::int64_t> steps_; ///< that are written
 };
 }
 #endif

@@ -148,7 +148,7 @@ std::vector<std::string> choose_names(
   const FrameView& frame, const DumpFormat& format, Notices& notices)
 {
   return format.style == DumpStyle::Atom ? atom_columns(format.atom)
-    : format.columns.empty()             ? default_columns(frame, notices)
+    : format.columns.empty()             ? default_columns(frame, notices, format.binary)
                                          : expand_columns(format.columns, frame);
 }
 
@@ -214,7 +214,7 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
   }
   check_line(lead.header.label, "the label");
   check_line(lead.header.units, "the units");
-  check_line(box.boundary, "the boundaries of the box");
+  check_bounds(box);
   const bool lammps = format.dialect == Dialect::Lammps; // the other has neither
   if (lammps && format.units && lead.header.units.empty())
   {
@@ -286,19 +286,6 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, bool binary)
 }
 }
 
-void check_volume(const Box& box)
-{
-  for (std::size_t axis = 0; !box.general && axis < 3; ++axis)
-  {
-    const double length = box.vectors[axis][axis].hi;
-    if (!(std::abs(length) > 0))
-    {
-      throw Error("expected a box with a length along "s + "xyz"[axis] +
-        " to scale coordinates by, got one of length " + (length == 0 ? "0" : "nan"));
-    }
-  }
-}
-
 std::vector<std::string> FramePlan::names() const
 {
   std::vector<std::string> names;
@@ -366,7 +353,7 @@ FramePlan plan_frame(
       plan.header.rows =
         std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
       plan.header.box.boundary =
-        lead.header.box.boundary.empty() ? "ff ff ff" : lead.header.box.boundary;
+        lead.header.box.boundary.empty() ? "ff ff ff" : parse_boundary(lead.header.box.boundary);
       plan.columns = join_plan(lead, frame, format.binary);
       notices.insert(notices.end(), lead.notices.begin(), lead.notices.end());
     });

@@ -23,9 +23,6 @@ struct FramePlan
   std::vector<std::string> names() const;
 };
 
-/// Makes sure that a box can scale coordinates: throws Error where it has no length along an axis.
-void check_volume(const Box& box);
-
 /// Agrees on header and columns: they are those of the first rank that has rows, and a rank without rows need
 /// have nothing else. A frame without a box gets one from the bounds of all its grains, with a notice.
 /// Throws Error, on all ranks, if the ranks have other arrays, or the format wants what the frame does not

@@ -50,7 +50,7 @@ ArrayView view_rows(std::string name, ScalarType type, const Value* values, int 
   ArrayView view{ std::move(name), type, {}, size };
   for (int i = 0; i < size; ++i)
   {
-    view.components.push_back(values + i);
+    view.components.push_back(values ? values + i : nullptr);
   }
   return view;
 }

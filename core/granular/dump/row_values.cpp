@@ -99,6 +99,18 @@ void load_array(const ColumnSource& source, Rows rows, bool as_doubles, RowValue
   }
 }
 
+std::int64_t as_image(double count, const std::string& name)
+{
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  if (!(std::abs(count) <= most) || std::trunc(count) != count)
+  {
+    throw LimitError(
+      "expected image counts of whole numbers below 2^31, got " + std::to_string(count),
+      { .column = name });
+  }
+  return static_cast<std::int64_t>(count);
+}
+
 std::size_t form_of(ColumnRole role) noexcept
 {
   return static_cast<std::size_t>(role) - static_cast<std::size_t>(ColumnRole::Position);
@@ -331,7 +343,7 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
         for (std::size_t row = 0; row < rows_; ++row)
         {
           column.integers[row] =
-            static_cast<std::int64_t>(images_[3 * row + static_cast<std::size_t>(source.axis)]);
+            as_image(images_[3 * row + static_cast<std::size_t>(source.axis)], source.name);
         }
         break;
       case Kind::RowNumber:

@@ -246,8 +246,9 @@ void DumpInput::ReadFieldData(vtkFieldData* data)
   if (vtkDataArray* timestep = data->GetArray("timestep");
       timestep && timestep->GetNumberOfValues() == 1)
   {
-    header.timestep = timestep->GetVariantValue(0).ToTypeInt64();
-    this->HasTimestep = true;
+    const double step = timestep->GetComponent(0, 0);
+    this->HasTimestep = std::trunc(step) == step && std::abs(step) < 0x1p63;
+    header.timestep = this->HasTimestep ? timestep->GetVariantValue(0).ToTypeInt64() : 0;
   }
   if (const auto time = FindDoubles(data, "time", 1))
   {

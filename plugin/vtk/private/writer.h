@@ -28,8 +28,9 @@ namespace vtkGranularPrivate
  */
 struct FrameTime
 {
-  std::optional<double> Time; ///< that the input shows
-  vtkTypeInt64 Frame = 0;     ///< number of the frame among those that are written, from 0
+  std::optional<double> Time;       ///< that the input shows
+  vtkTypeInt64 Frame = 0;           ///< number of the frame among those that are written, from 0
+  std::optional<vtkTypeInt64> Step; ///< the time, where those of all frames are whole numbers
 };
 
 /**
@@ -66,6 +67,7 @@ struct vtkGranularWriter::Internals
    * Warns of each thing once a file.
    */
   void Tell(vtkGranularWriter* self);
+  void Tell(vtkGranularWriter* self, const std::string& text);
 };
 
 #endif

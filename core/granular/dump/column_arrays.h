@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_column_arrays_h
+#define granular_dump_column_arrays_h
+
+#include "granular/dump/frame_view.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Values of one kind in someone else's memory, a row after the other.
+struct ValueSource
+{
+  ScalarType type = ScalarType::Float64;
+  const void* data = nullptr;
+  std::int64_t step = 1; ///< values from one row to the next
+  double factor = 1;     ///< 2: a diameter of radii; 0.5: a radius of diameters
+};
+
+/// A name as the header of a dump can hold it: one word, with '_' for each blank.
+std::string as_word(std::string name);
+
+/// The first array with that name, or else with one that becomes it as a word, and so many components; or null.
+const ArrayView* find_array(const FrameView& frame, std::string_view name, int components);
+
+ValueSource component_of(const ArrayView& array, int component, double factor = 1);
+
+/// What a column of this name is made from: the array of this name, the array that columns of this name become,
+/// its radius or diameter, or for A[3] the third component of A.
+std::optional<ValueSource> find_values(const FrameView& frame, std::string_view name);
+
+/// The same for the columns of a dump, which together become arrays (see ColumnSchema). An array that has the very
+/// name of a column comes before one that the column is a part of.
+std::vector<std::optional<ValueSource>> find_all_values(
+  const FrameView& frame, const std::vector<std::string>& names);
+
+/// The columns that an array becomes.
+std::vector<std::string> columns_of(const ArrayView& array);
+}
+#endif
