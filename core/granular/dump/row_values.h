@@ -16,7 +16,7 @@ namespace granular
 class RowValues
 {
 public:
-  static constexpr std::size_t most_rows = 1024; ///< at a time: they stay in the cache
+  static constexpr std::size_t most_rows = 256; ///< at a time: they stay in the nearest cache
 
   /// One column: whole numbers, real numbers or texts.
   struct Column
