@@ -15,11 +15,6 @@ bool is_coordinate(ColumnRole role) noexcept
     role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
 }
 
-bool is_unwrapped(ColumnRole role) noexcept
-{
-  return role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
-}
-
 /// Filters may give a frame without grains no arrays: such a one can have any columns.
 bool is_blank_frame(const FrameView& frame) noexcept
 {

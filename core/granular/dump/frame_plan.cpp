@@ -169,9 +169,7 @@ void check_names(const std::vector<std::string>& names)
 
 bool is_scaled(const ColumnSource& column) noexcept
 {
-  return column.kind == Kind::Coordinate &&
-    (column.role == ColumnRole::ScaledPosition ||
-      column.role == ColumnRole::ScaledUnwrappedPosition);
+  return column.kind == Kind::Coordinate && is_scaled(column.role);
 }
 
 bool prints_exactly(double value)

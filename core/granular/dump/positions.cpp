@@ -49,16 +49,6 @@ constexpr Choice choices[3][choices_per_kind] = {
   },
 };
 
-bool is_scaled(ColumnRole role) noexcept
-{
-  return role == ScaledPosition || role == ScaledUnwrappedPosition;
-}
-
-bool is_unwrapped(ColumnRole role) noexcept
-{
-  return role == UnwrappedPosition || role == ScaledUnwrappedPosition;
-}
-
 /// The columns of a frame that choices are made from.
 struct Columns
 {
@@ -140,6 +130,16 @@ void note(const PositionPlan& plan, std::span<const Choice* const> chosen, Coord
         (uncounted ? "Scaled and unwrapped" : to_string(plan.coordinates)) });
   }
 }
+}
+
+bool is_scaled(ColumnRole role) noexcept
+{
+  return role == ScaledPosition || role == ScaledUnwrappedPosition;
+}
+
+bool is_unwrapped(ColumnRole role) noexcept
+{
+  return role == UnwrappedPosition || role == ScaledUnwrappedPosition;
 }
 
 const char* to_string(Coordinates coordinates) noexcept

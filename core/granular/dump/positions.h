@@ -23,6 +23,10 @@ enum class Coordinates : std::uint8_t
 /// "Absolute", "Unwrapped", "Scaled".
 const char* to_string(Coordinates coordinates) noexcept;
 
+/// Whether a coordinate column of this role is in units of the box vectors, and whether it is as if never wrapped.
+bool is_scaled(ColumnRole role) noexcept;
+bool is_unwrapped(ColumnRole role) noexcept;
+
 /// From which columns the points of a frame are made, and how.
 struct PositionPlan
 {

@@ -116,16 +116,6 @@ std::size_t form_of(ColumnRole role) noexcept
   return static_cast<std::size_t>(role) - static_cast<std::size_t>(ColumnRole::Position);
 }
 
-bool is_scaled(ColumnRole role) noexcept
-{
-  return role == ColumnRole::ScaledPosition || role == ColumnRole::ScaledUnwrappedPosition;
-}
-
-bool is_unwrapped(ColumnRole role) noexcept
-{
-  return role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
-}
-
 /// From what the points are to what a column holds.
 PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
 {
