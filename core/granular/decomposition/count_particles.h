@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_decomposition_count_particles_h
+#define granular_decomposition_count_particles_h
+
+#include "granular/base/communicator.h"
+#include "granular/base/executor.h"
+#include "granular/base/progress.h"
+#include "granular/decomposition/process_grid.h"
+#include "granular/decomposition/subdomains.h"
+#include "granular/dump/frame_view.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// How many particles are where.
+struct ParticleCounts
+{
+  std::vector<std::int64_t> particles; ///< of each subdomain
+  std::int64_t outside = 0;            ///< of all; also those without a place (nan)
+};
+
+/// Counts the particles of a frame in the subdomains of a grid: each in one, lo <= x < hi along each axis, and x <= hi
+/// in the last. Positions are absolute, wrapped into the frame's box along periodic axes (see AbsolutePositions);
+/// duplicates are left out. Time grows with the particles, not with the subdomains. Does not depend on threads.
+/// Throws Error, Cancelled.
+ParticleCounts count_in_grid(
+  const FrameView& frame, const ProcessGrid& grid, const Executor& executor, Progress& progress);
+
+/// The same for any subdomains that do not overlap: x <= hi holds at the upper faces of the smallest box around all,
+/// and where no neighbour begins there.
+ParticleCounts count_in_subdomains(const FrameView& frame, std::span<const Subdomain> subdomains,
+  const Executor& executor, Progress& progress);
+
+/// For each process that the array names for a particle of this rank: the bounds of its particles, and how many
+/// they are, by rank. process has one whole number from 0 to 2^31 - 1 a row; others throw an Error that names the
+/// array. Positions as above, not wrapped. Throws Error, Cancelled.
+std::vector<Subdomain> bounds_by_process(
+  const FrameView& frame, const ArrayView& process, const Executor& executor, Progress& progress);
+
+/// The bounds of all particles of this rank, and how many; nothing without any. rank is 0.
+std::vector<Subdomain> bounds_of_particles(
+  const FrameView& frame, const Executor& executor, Progress& progress);
+
+/// Joins what the ranks have: one subdomain for each process that any of them knows, by rank, on all. Collective.
+std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communicator& ranks);
+}
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_decomposition_decomposition_file_h
+#define granular_decomposition_decomposition_file_h
+
+#include "granular/base/byte_source.h"
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+#include "granular/decomposition/subdomains.h"
+#include "granular/dump/file_format.h"
+#include "granular/dump/frame.h"
+
+#include <string>
+#include <string_view>
+
+namespace granular
+{
+/// The files of dump decomposition/vtk, for a FrameIndex: legacy VTK files with a rectilinear grid
+/// (LIGGGHTS-PUBLIC, PFM), or with an unstructured one (LIGGGHTS-INL, this library; versions 2.0 to 5.1, ASCII and
+/// BINARY), and .vtu files, which are a frame each and which who has VTK reads.
+///
+/// Timesteps are those of the names (steps_in_names). A file may hold several rectilinear grids, one after the
+/// other. Left out with a notice: a header without a grid, as LIGGGHTS leaves it where a timestep is written twice.
+/// A last grid that is not complete is left out silently.
+const FileFormat& decomposition_format() noexcept;
+
+/// Whether a file is one of these, by content; all other .vtk and .vtu files are for others. Rectilinear: with the
+/// title that LIGGGHTS writes, and no data. Unstructured: eight points a cell and cell data `nlocal`. Never throws:
+/// what cannot be read is none.
+bool is_decomposition_file(const std::string& path) noexcept;
+
+/// Whether the first bytes of a file are those of XML files of VTK.
+bool is_vtu(std::string_view first_bytes) noexcept;
+
+/// Decodes a frame of a legacy file. Of a rectilinear grid the numbers of coordinates count, whatever DIMENSIONS
+/// say: PFM writes those of the whole grid into the files of single processes. Cells that are voxels in the order of
+/// LIGGGHTS-INL, x and z exchanged, are put right with a notice; hexahedra along the axes will do, too. Ranks are
+/// those of the cell array `proc` (or `procID`), counts those of `nlocal`. Throws Error with path and line or byte;
+/// Cancelled.
+Decomposition read_decomposition(
+  const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress);
+
+/// Says once that cells were put right.
+Notice note_reflected(const Where& where, std::int64_t cells);
+}
+#endif

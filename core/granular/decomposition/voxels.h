@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_decomposition_voxels_h
+#define granular_decomposition_voxels_h
+
+#include "granular/base/block.h"
+#include "granular/base/block_pool.h"
+#include "granular/base/executor.h"
+#include "granular/decomposition/subdomains.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace granular
+{
+/// Corners of a cell. The corner (i, j, k), each 0 (low) or 1 (high) along x, y, z, is number 4i + 2j + k of a
+/// subdomain, as dump decomposition/vtk numbers points.
+inline constexpr int corners_of_voxel = 8;
+
+/// A VTK_VOXEL names its corners with x fastest: its corner i + 2j + 4k is point 4i + 2j + k. With the points in
+/// the order of their numbers the cell would be a mirror image: of volume 0, and never found.
+inline constexpr std::array<std::int64_t, corners_of_voxel> voxel_corners = { 0, 4, 2, 6, 1, 5, 3,
+  7 };
+
+/// Subdomains as voxels.
+struct Voxels
+{
+  Block points; ///< number_of_points x 3 doubles
+  std::int64_t number_of_points = 0;
+  Block connectivity; ///< of each subdomain 8 std::int64_t, in the order of VTK_VOXEL
+};
+
+/// Point 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p less the origin, rounded once. shared_corners:
+/// corners of several subdomains whose coordinates are equal become one point, the one that comes first, and points
+/// are numbered in the order in which they come first. Does not depend on threads. Throws std::bad_alloc.
+Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
+  bool shared_corners, const Executor& executor, const std::shared_ptr<BlockPool>& pool = nullptr);
+
+/// In which order the points of a cell are.
+enum class CornerOrder : std::uint8_t
+{
+  Voxel,      ///< i + 2j + 4k
+  Reflected,  ///< 4i + 2j + k, as LIGGGHTS-INL writes voxels: x and z exchanged
+  Hexahedron, ///< VTK_HEXAHEDRON
+  None        ///< no box along the axes
+};
+
+/// Finds the order by geometry and sets the bounds. points: of the corners in the order of the cell. What is flat
+/// or a point (equal bounds) counts as Voxel where it could be. None leaves the bounds alone.
+CornerOrder bounds_of_cell(
+  std::span<const Vector3, corners_of_voxel> points, Subdomain& subdomain) noexcept;
+}
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_absolute_positions_h
+#define granular_dump_absolute_positions_h
+
+#include "granular/base/box.h"
+#include "granular/dump/frame_view.h"
+#include "granular/dump/positions.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace granular
+{
+/// Where the particles of a frame are, whatever its points are: absolute, with the origin added that was
+/// subtracted, each coordinate rounded once.
+class AbsolutePositions
+{
+public:
+  static constexpr std::size_t most_rows = 1024; ///< at a time
+
+  /// wrap: into the box along its periodic axes, where the frame has a box that is not tilted. Throws
+  /// Error where points are scaled or unwrapped and there is no box. The frame must outlive this.
+  AbsolutePositions(const FrameView& frame, bool wrap);
+
+  /// x y z of rows [first, first + count), count <= most_rows: in the array of the points itself where
+  /// nothing is to be done, else in buffer, which has room for most_rows * 3 numbers. From any thread.
+  const double* load(std::int64_t first, std::size_t count, double* buffer) const;
+
+  /// Whether load always gives the array's own memory.
+  bool direct() const noexcept { return direct_; }
+
+private:
+  const FrameView& frame_;
+  bool direct_ = false;
+  Box box_; ///< in the coordinates of the points
+  PositionPlan plan_;
+  Vector3 less_ = {};
+  std::array<const ArrayView*, 3> images_ = {}; ///< null: no such counts
+  std::array<int, 3> image_components_ = {};
+  std::array<bool, 3> wraps_ = {};
+};
+}
+#endif
