@@ -3,12 +3,14 @@
 #define granular_dump_absolute_positions_h
 
 #include "granular/base/box.h"
+#include "granular/dump/column_arrays.h"
 #include "granular/dump/frame_view.h"
 #include "granular/dump/positions.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace granular
 {
@@ -19,7 +21,8 @@ class AbsolutePositions
 public:
   static constexpr std::size_t most_rows = 1024; ///< at a time
 
-  /// wrap: into the box along its periodic axes, where the frame has a box that is not tilted. Throws
+  /// wrap: into the box along its periodic axes, lo <= x < hi, where the frame has a box that is not tilted.
+  /// Unwrapped points lose their image counts, or are wrapped where the frame has none. Throws
   /// Error where points are scaled or unwrapped and there is no box. The frame must outlive this.
   AbsolutePositions(const FrameView& frame, bool wrap);
 
@@ -31,14 +34,19 @@ public:
   bool direct() const noexcept { return direct_; }
 
 private:
+  void convert(std::int64_t first, std::size_t count, double* buffer) const;
+
   const FrameView& frame_;
   bool direct_ = false;
   Box box_; ///< in the coordinates of the points
   PositionPlan plan_;
   Vector3 less_ = {};
-  std::array<const ArrayView*, 3> images_ = {}; ///< null: no such counts
-  std::array<int, 3> image_components_ = {};
+  std::array<std::optional<ValueSource>, 3>
+    images_ = {};        ///< of unwrapped points, where they are known
+  bool crosses_ = false; ///< unwrapped points without counts: these are found
   std::array<bool, 3> wraps_ = {};
+  Vector3 lo_ = {}; ///< of the box
+  Vector3 hi_ = {};
 };
 }
 #endif

@@ -40,6 +40,7 @@ FileIndex blank(const FileIndex& index)
   FileIndex fresh;
   fresh.path = index.path;
   fresh.kinds = index.kinds;
+  fresh.format = index.format;
   return fresh;
 }
 
@@ -52,16 +53,17 @@ constexpr std::pair<std::string_view, const char*> other_packings[] = {
 };
 // clang-format on
 
-void refuse_other_packings(const std::string& path, std::string_view first_bytes)
+void refuse_other_packings(const FileFormat& format, const ByteSource& source)
 {
+  std::array<char, 8> first;
+  const std::string_view first_bytes(first.data(), source.read(0, first.data(), first.size()));
   for (const auto& [magic, name] : other_packings)
   {
     if (first_bytes.starts_with(magic))
     {
-      throw UnsupportedError(
-        std::string("expected a dump, plain or packed by gzip or Zstandard, got one packed by ") +
-          name + ": unpack it first",
-        { path });
+      throw UnsupportedError(std::string("expected ") + format.name +
+          ", plain or packed by gzip or Zstandard, got one packed by " + name + ": unpack it first",
+        { source.path() });
     }
   }
 }
@@ -111,7 +113,9 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   }
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();
-  index_dump(*source, index, progress, ahead);
+  const FileFormat& format = index.format ? *index.format : dump_format();
+  refuse_other_packings(format, *source);
+  format.index(*source, index, progress, ahead);
   drop_repeated(index.notices, known);
   index.unchecked = source->unchecked();
   if (index.defect && !index.unchecked.empty())
@@ -126,7 +130,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   index.frames.shrink_to_fit();
   set_defect(index,
     { { index.path },
-      std::string("expected a dump, got ") +
+      std::string("expected ") + format.name + ", got " +
         (stamp.size == 0 ? "an empty file" : "no complete frame") });
   return true;
 }
@@ -138,6 +142,12 @@ void set_defect(FileIndex& index, const Notice& defect)
   {
     index.defect = defect;
   }
+}
+
+const FileFormat& dump_format() noexcept
+{
+  static constexpr FileFormat format = { "a dump", index_dump };
+  return format;
 }
 
 bool is_dump(std::string_view first_bytes)
@@ -170,9 +180,7 @@ void index_dump(
     index.kinds = std::make_shared<FrameKinds>();
   }
   std::array<char, 4096> first;
-  const std::string_view bytes(first.data(), source.read(0, first.data(), first.size()));
-  refuse_other_packings(source.path(), bytes);
-  if (holds_binary(bytes))
+  if (holds_binary({ first.data(), source.read(0, first.data(), first.size()) }))
   {
     index_binary_dump(source, index, progress);
   }

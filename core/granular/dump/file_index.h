@@ -6,6 +6,7 @@
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
 #include "granular/base/text_scanner.h"
+#include "granular/dump/file_format.h"
 #include "granular/dump/frame.h"
 
 #include <cstdint>
@@ -39,6 +40,7 @@ struct FileIndex
   std::vector<std::string> column_names; ///< of the user, for such a file
   std::shared_ptr<RestartPoints> points; ///< of a compressed file
   std::shared_ptr<FrameKinds> kinds;     ///< may be shared by files; made where it is missing
+  const FileFormat* format = nullptr;    ///< null: dump_format()
 };
 
 /// True if the first bytes of a file, uncompressed, are those of a dump of particles that
@@ -49,15 +51,15 @@ bool is_dump(std::string_view first_bytes);
 /// what cannot be read is no dump.
 bool is_dump_file(const std::string& path) noexcept;
 
-/// Finds the frames from index.resume_offset to the end of the source, text or binary. A last frame
+/// FileFormat::index of dumps, text or binary: finds the frames from index.resume_offset on. A last frame
 /// that is not complete is left out, silently; a frame in the middle that is not what its header
-/// says with a notice. Throws IoError, LimitError; FormatError of compressed data; UnsupportedError of
-/// data packed in other ways; Cancelled. Large frames of a text are passed over by several threads.
+/// says with a notice. Throws IoError, LimitError; FormatError of compressed data; Cancelled. Large frames of a text are passed over by several threads.
 void index_dump(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
 
 /// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
-/// goes on if it only grew, and else starts anew. Errors end in index.error. Throws Cancelled.
+/// goes on if it only grew, and else starts anew. Errors end in index.error; data packed in other ways are one.
+/// Throws Cancelled.
 /// Returns whether anything was read.
 bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
   Progress& progress, const ScanAhead& ahead = {});

@@ -5,6 +5,7 @@
 #include "granular/dump/binary_dump.h"
 #include "granular/dump/index_archive.h"
 #include "granular/dump/index_bytes.h"
+#include "granular/dump/named_steps.h"
 #include "granular/dump/update_files.h"
 
 #include <algorithm>
@@ -18,6 +19,11 @@ namespace granular
 {
 namespace
 {
+const FileFormat& format_of(const FileIndex& file) noexcept
+{
+  return file.format ? *file.format : dump_format();
+}
+
 Notice left_out(const std::exception_ptr& error)
 {
   try
@@ -81,6 +87,10 @@ void FrameIndex::update(const std::vector<std::string>& files, const IndexOption
   series_ = {};
   this->update_files(dumps, options, notices, progress);
   Notices found;
+  if (!files_.empty() && format_of(files_.front()).steps_in_names)
+  {
+    name_steps(files_, found);
+  }
   series_ = FileSeries(files_, options.repeated_steps, found);
   if (series_.size() == 0)
   {
@@ -120,6 +130,7 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
     }
     updated[i].path = files[i];
     updated[i].kinds = kinds;
+    updated[i].format = options.format;
   }
   changed =
     granular::update_files(updated, options.column_names, options.threads, progress) || changed;
@@ -214,8 +225,8 @@ void FrameIndex::fail(const Notices& notices) const
   {
     throw FormatError(notices.front().text, notices.front().where); // pieces are missing
   }
-  const Notice defect = files_.front().defect.value_or(
-    Notice{ { files_.front().path }, "expected a dump, got no complete frame" });
+  const Notice defect = files_.front().defect.value_or(Notice{ { files_.front().path },
+    std::string("expected ") + format_of(files_.front()).name + ", got no complete frame" });
   throw FormatError(defect.text, defect.where);
 }
 

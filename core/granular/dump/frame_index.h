@@ -20,6 +20,7 @@ namespace granular
 /// What is the user's word.
 struct IndexOptions
 {
+  const FileFormat* format = nullptr;    ///< of the files; null: dump_format()
   std::vector<std::string> column_names; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
   IndexFile index_file = IndexFile::Never;
@@ -33,7 +34,7 @@ struct FramePiece
   const FrameEntry& entry;
 };
 
-/// All complete frames of a run, found at scan speed without decoding rows.
+/// All complete frames of a run, dumps or other files, found at scan speed without decoding rows.
 ///
 /// Frames are ordered by timestep. Where a timestep is repeated the frames are pieces of one, or the
 /// one that stands last is taken, in the order of the files and in its file: see FileSeries. A last

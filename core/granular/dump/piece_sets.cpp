@@ -3,6 +3,7 @@
 
 #include "granular/base/number.h"
 #include "granular/dump/frame_rows.h"
+#include "granular/dump/numbered_name.h"
 
 #include <algorithm>
 #include <map>
@@ -15,71 +16,6 @@ namespace granular
 {
 namespace
 {
-/// A number in a name: without leading zeros, so that 007 is 7.
-struct Digits
-{
-  std::string text;
-
-  bool operator==(const Digits&) const = default;
-  bool operator<(const Digits& other) const
-  {
-    return std::pair(text.size(), text) < std::pair(other.text.size(), other.text);
-  }
-};
-
-/// A name, its numbers taken out.
-struct NumberedName
-{
-  std::string rest; ///< with folder, without what compression adds
-  std::vector<Digits> numbers;
-};
-
-constexpr bool is_digit(char c) noexcept
-{
-  return c >= '0' && c <= '9';
-}
-
-NumberedName split_name(std::string_view path)
-{
-  for (const std::string_view suffix : { ".gz", ".zst" })
-  {
-    path = path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
-  }
-  const std::size_t slash = path.rfind('/');
-  const std::size_t start = slash == path.npos ? 0 : slash + 1;
-  NumberedName name = { std::string(path.substr(0, start)), {} };
-  for (const char *at = path.data() + start, *end = path.data() + path.size(); at < end;)
-  {
-    const char* const last = std::find_if_not(at, end, is_digit);
-    if (last == at)
-    {
-      name.rest += *at++;
-      continue;
-    }
-    at = std::find_if(at, last - 1, [](char c) { return c != '0'; });
-    name.rest += '*';
-    name.numbers.push_back({ std::string(at, last) });
-    at = last;
-  }
-  return name;
-}
-
-/// The files of a family - names that differ in numbers only - by what one of the numbers is for given
-/// others.
-using Siblings = std::map<std::vector<Digits>, std::map<Digits, std::uint32_t>>;
-
-Siblings group_by_others(const std::map<std::uint32_t, std::vector<Digits>>& family, std::size_t at)
-{
-  Siblings groups;
-  for (const auto& [file, numbers] : family)
-  {
-    std::vector<Digits> others = numbers;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
-    groups[others][numbers[at]] = file; // of equal numbers the last file
-  }
-  return groups;
-}
-
 std::vector<Digits> values_of(const Siblings& groups)
 {
   std::set<Digits> values;
@@ -330,14 +266,8 @@ std::vector<PieceSet> sets_of(const std::vector<FileIndex>& files, const Sibling
 
 std::vector<PieceSet> find_piece_sets(const std::vector<FileIndex>& files)
 {
-  std::map<std::string, std::map<std::uint32_t, std::vector<Digits>>> families;
-  for (std::uint32_t i = 0; i < files.size(); ++i)
-  {
-    NumberedName name = split_name(files[i].path);
-    families[name.rest][i] = std::move(name.numbers);
-  }
   std::vector<PieceSet> all;
-  for (const auto& [rest, family] : families)
+  for (const auto& [rest, family] : families_of(files))
   {
     const std::size_t places = family.size() > 1 ? family.begin()->second.size() : 0;
     std::vector<PieceSet> sets;

@@ -2,6 +2,7 @@
 #include "granular/dump/row_values.h"
 
 #include "granular/base/error.h"
+#include "granular/dump/point_forms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,39 +18,6 @@ using Rows = std::span<const std::int64_t>;
 
 /// LAMMPS and LIGGGHTS add the image count and 512 to a scaled coordinate, and then take 512 off.
 constexpr double image_rounding = 0x1p-44;
-
-template <class From, class To>
-void copy_values(const ValueSource& source, Rows rows, To* to)
-{
-  const auto* from = static_cast<const From*>(source.data);
-  const std::int64_t step = source.step;
-  const auto count = static_cast<std::int64_t>(rows.size());
-  if (count > 0 && rows.back() - rows.front() == count - 1)
-  {
-    from += rows.front() * step;
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      to[i] = static_cast<To>(from[i * step]);
-    }
-    return;
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    to[i] = static_cast<To>(from[rows[i] * step]);
-  }
-}
-
-/// As numbers of one type, from any but texts.
-template <class To>
-void load_numbers(const ValueSource& source, Rows rows, To* to)
-{
-  using Copy = void (*)(const ValueSource&, Rows, To*);
-  constexpr Copy copies[] = { copy_values<std::int8_t, To>, copy_values<std::uint8_t, To>,
-    copy_values<std::int16_t, To>, copy_values<std::uint16_t, To>, copy_values<std::int32_t, To>,
-    copy_values<std::uint32_t, To>, copy_values<std::int64_t, To>, copy_values<std::uint64_t, To>,
-    copy_values<float, To>, copy_values<double, To> };
-  copies[static_cast<std::size_t>(source.type)](source, rows, to);
-}
 
 void check_unsigned(const ColumnSource& source, Rows rows)
 {
@@ -116,43 +84,6 @@ std::size_t form_of(ColumnRole role) noexcept
   return static_cast<std::size_t>(role) - static_cast<std::size_t>(ColumnRole::Position);
 }
 
-/// From what the points are to what a column holds.
-PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
-{
-  PositionPlan plan;
-  plan.coordinates = is_scaled(to) ? Coordinates::Scaled : Coordinates::Absolute;
-  for (int k = 0; k < 3; ++k)
-  {
-    PositionPlan::Axis& axis = plan.axes[static_cast<std::size_t>(k)];
-    axis.column = k;
-    axis.scaled = from == Coordinates::Scaled;
-    axis.shift = (is_unwrapped(to) ? 1 : 0) - (from == Coordinates::Unwrapped ? 1 : 0);
-  }
-  return plan;
-}
-
-/// The box in the coordinates of points that an origin was subtracted from, so that no digit is lost by adding
-/// it to them.
-Box box_of_points(const FrameView& frame, const Box& box)
-{
-  Box moved = box;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    CompensatedSum sum;
-    sum.add(box.origin[k]);
-    if (frame.coordinates != Coordinates::Scaled)
-    {
-      sum.add(-frame.point_origin[k]);
-    }
-    for (std::size_t j = 0; frame.coordinates == Coordinates::Scaled && j < 3; ++j)
-    {
-      sum.add_product(frame.point_origin[j], box.vectors[j][k]);
-    }
-    moved.origin[k] = sum.twofold();
-  }
-  return moved;
-}
-
 /// How far a coordinate of the form may be from what another program or an earlier rounding made of the same
 /// point, for a coordinate of 0 and no crossing, along each axis: the sum of the magnitudes of all terms.
 Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
@@ -177,11 +108,6 @@ Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
   return sums;
 }
 
-ValueSource point_values(const FrameView& frame, std::size_t axis)
-{
-  return { frame.points->type, frame.points->components[axis], frame.points->step };
-}
-
 /// Whether a coordinate depends on no other, nor on image counts.
 bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box& box) noexcept
 {
@@ -189,19 +115,6 @@ bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box&
     frame.coordinates == Coordinates::Absolute;
 }
 
-/// Wraps unwrapped points into the box along periodic axes: how often was it crossed?
-void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images)
-{
-  images.assign(points.begin(), points.end());
-  convert_positions(
-    plan_form(Coordinates::Absolute, ColumnRole::ScaledPosition), box, {}, {}, images);
-  for (std::size_t i = 0; i < images.size(); ++i)
-  {
-    const std::size_t flag = 3 * (i % 3);
-    const bool periodic = flag < box.boundary.size() && box.boundary[flag] == 'p';
-    images[i] = periodic && std::isfinite(images[i]) ? std::floor(images[i]) : 0;
-  }
-}
 }
 
 void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/absolute_positions.h"
+
+#include "granular/base/error.h"
+#include "granular/dump/point_forms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+bool is_periodic(const Box& box, std::size_t axis) noexcept
+{
+  return 3 * axis < box.boundary.size() && box.boundary[3 * axis] == 'p';
+}
+
+/// x y z of each row, without anything between.
+bool is_plain(const ArrayView& points) noexcept
+{
+  const auto* first = static_cast<const double*>(points.components[0]);
+  return points.type == ScalarType::Float64 && points.step == 3 &&
+    points.components[1] == first + 1 && points.components[2] == first + 2;
+}
+
+/// The image in [lo, hi) of a coordinate outside of it; length is hi - lo.
+double wrap_one(double x, double lo, double hi, const Twofold& length) noexcept
+{
+  if (!std::isfinite(x))
+  {
+    return x;
+  }
+  CompensatedSum sum;
+  sum.add(x);
+  sum.add_product(-std::floor((x - lo) / length.value()), length);
+  // the quotient was rounded, and so may be the image of what lies just below the box
+  return std::clamp(sum.value(), lo, std::nextafter(hi, lo));
+}
+}
+
+AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
+  : frame_(frame)
+{
+  const Box& box = frame.header.box;
+  if (!frame.has_box && frame.coordinates != Coordinates::Absolute)
+  {
+    throw Error(std::string("expected the box of ") +
+      (frame.coordinates == Coordinates::Scaled ? "scaled" : "unwrapped") +
+      " points in the field data (BoxOrigin, BoxVectors), got none");
+  }
+  plan_ = plan_form(frame.coordinates, ColumnRole::Position);
+  box_ = frame.has_box ? box_of_points(frame, box) : Box{};
+  const auto& [x, y, z] = frame.point_origin;
+  less_ = frame.coordinates == Coordinates::Scaled ? Vector3{} : Vector3{ -x, -y, -z };
+  bool counted = false;
+  if (frame.coordinates == Coordinates::Unwrapped)
+  {
+    constexpr std::array<const char*, 3> names = { "ix", "iy", "iz" };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      images_[axis] = find_values(frame, names[axis]);
+      counted = counted || images_[axis];
+    }
+    crosses_ = !counted;
+  }
+  const BoxBounds bounds = frame.has_box && !box.tilted ? box.bounds() : BoxBounds{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    lo_[axis] = bounds.lo[axis];
+    hi_[axis] = bounds.hi[axis];
+    wraps_[axis] = wrap && is_periodic(box, axis) && lo_[axis] < hi_[axis];
+  }
+  direct_ = frame.points && is_plain(*frame.points) && frame.point_origin == Vector3{} &&
+    frame.coordinates == Coordinates::Absolute && std::ranges::count(wraps_, true) == 0;
+}
+
+const double* AbsolutePositions::load(std::int64_t first, std::size_t count, double* buffer) const
+{
+  if (direct_)
+  {
+    return static_cast<const double*>(frame_.points->components[0]) + 3 * first;
+  }
+  this->convert(first, count, buffer);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (std::size_t i = axis; wraps_[axis] && i < 3 * count; i += 3)
+    {
+      if (!(buffer[i] >= lo_[axis] && buffer[i] < hi_[axis]))
+      {
+        buffer[i] =
+          wrap_one(buffer[i], lo_[axis], hi_[axis], frame_.header.box.vectors[axis][axis]);
+      }
+    }
+  }
+  return buffer;
+}
+
+/// Absolute, but not wrapped.
+void AbsolutePositions::convert(std::int64_t first, std::size_t count, double* buffer) const
+{
+  std::array<std::int64_t, most_rows> numbers;
+  std::iota(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count), first);
+  const std::span rows = std::span<const std::int64_t>(numbers).first(count);
+  std::array<double, most_rows> values;
+  const auto load_axis = [&](const ValueSource& source, std::size_t axis, double* to)
+  {
+    load_numbers(source, rows, values.data());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      to[3 * i + axis] = values[i] * source.factor;
+    }
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    load_axis(point_values(frame_, axis), axis, buffer);
+  }
+  if (frame_.coordinates == Coordinates::Absolute && frame_.point_origin == Vector3{})
+  {
+    return;
+  }
+  std::vector<double> images;
+  if (frame_.coordinates == Coordinates::Unwrapped)
+  {
+    images.assign(3 * count, 0);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (images_[axis])
+      {
+        load_axis(*images_[axis], axis, images.data());
+      }
+    }
+    if (crosses_)
+    {
+      count_crossings(box_, { buffer, 3 * count }, images);
+    }
+  }
+  convert_positions(plan_, box_, less_, images, { buffer, 3 * count });
+}
+}

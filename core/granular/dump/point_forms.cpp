@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/point_forms.h"
+
+#include <cmath>
+
+namespace granular
+{
+namespace
+{
+using Rows = std::span<const std::int64_t>;
+
+template <class From, class To>
+void copy_values(const ValueSource& source, Rows rows, To* to)
+{
+  const auto* from = static_cast<const From*>(source.data);
+  const std::int64_t step = source.step;
+  const auto count = static_cast<std::int64_t>(rows.size());
+  if (count > 0 && rows.back() - rows.front() == count - 1)
+  {
+    from += rows.front() * step;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      to[i] = static_cast<To>(from[i * step]);
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    to[i] = static_cast<To>(from[rows[i] * step]);
+  }
+}
+
+template <class To>
+void load_as(const ValueSource& source, Rows rows, To* to)
+{
+  using Copy = void (*)(const ValueSource&, Rows, To*);
+  constexpr Copy copies[] = { copy_values<std::int8_t, To>, copy_values<std::uint8_t, To>,
+    copy_values<std::int16_t, To>, copy_values<std::uint16_t, To>, copy_values<std::int32_t, To>,
+    copy_values<std::uint32_t, To>, copy_values<std::int64_t, To>, copy_values<std::uint64_t, To>,
+    copy_values<float, To>, copy_values<double, To> };
+  copies[static_cast<std::size_t>(source.type)](source, rows, to);
+}
+}
+
+void load_numbers(const ValueSource& source, Rows rows, double* to)
+{
+  load_as(source, rows, to);
+}
+
+void load_numbers(const ValueSource& source, Rows rows, std::int64_t* to)
+{
+  load_as(source, rows, to);
+}
+
+ValueSource point_values(const FrameView& frame, std::size_t axis)
+{
+  return { frame.points->type, frame.points->components[axis], frame.points->step };
+}
+
+PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
+{
+  PositionPlan plan;
+  plan.coordinates = is_scaled(to) ? Coordinates::Scaled : Coordinates::Absolute;
+  for (int k = 0; k < 3; ++k)
+  {
+    PositionPlan::Axis& axis = plan.axes[static_cast<std::size_t>(k)];
+    axis.column = k;
+    axis.scaled = from == Coordinates::Scaled;
+    axis.shift = (is_unwrapped(to) ? 1 : 0) - (from == Coordinates::Unwrapped ? 1 : 0);
+  }
+  return plan;
+}
+
+Box box_of_points(const FrameView& frame, const Box& box)
+{
+  Box moved = box;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    CompensatedSum sum;
+    sum.add(box.origin[k]);
+    if (frame.coordinates != Coordinates::Scaled)
+    {
+      sum.add(-frame.point_origin[k]);
+    }
+    for (std::size_t j = 0; frame.coordinates == Coordinates::Scaled && j < 3; ++j)
+    {
+      sum.add_product(frame.point_origin[j], box.vectors[j][k]);
+    }
+    moved.origin[k] = sum.twofold();
+  }
+  return moved;
+}
+
+void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images)
+{
+  images.assign(points.begin(), points.end());
+  convert_positions(
+    plan_form(Coordinates::Absolute, ColumnRole::ScaledPosition), box, {}, {}, images);
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    const std::size_t flag = 3 * (i % 3);
+    const bool periodic = flag < box.boundary.size() && box.boundary[flag] == 'p';
+    images[i] = periodic && std::isfinite(images[i]) ? std::floor(images[i]) : 0;
+  }
+}
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_point_forms_h
+#define granular_dump_point_forms_h
+
+#include "granular/base/box.h"
+#include "granular/dump/column_arrays.h"
+#include "granular/dump/frame_view.h"
+#include "granular/dump/positions.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// The values of some rows as numbers of one type, from any type but texts, not multiplied by the factor.
+void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, double* to);
+void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, std::int64_t* to);
+
+/// Where a coordinate of the points lies; there must be points.
+ValueSource point_values(const FrameView& frame, std::size_t axis);
+
+/// From what the points are to what a column of this role holds.
+PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept;
+
+/// The box in the coordinates of points that an origin was subtracted from, so that no digit is lost by adding
+/// it to them.
+Box box_of_points(const FrameView& frame, const Box& box);
+
+/// How often unwrapped points have crossed the box along its periodic axes: three counts a point, 0 along others.
+void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images);
+}
+#endif
