@@ -333,7 +333,6 @@ void vtkGranularDumpReader::Internals::StartNext(
 vtkGranularDumpReader::vtkGranularDumpReader()
   : Internal(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(2);
   this->Internal->PointArrays->AddObserver(
     vtkCommand::ModifiedEvent, this, &vtkGranularDumpReader::Modified);
@@ -341,6 +340,12 @@ vtkGranularDumpReader::vtkGranularDumpReader()
 
 //------------------------------------------------------------------------------
 vtkGranularDumpReader::~vtkGranularDumpReader() = default;
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularDumpReader::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
 
 //------------------------------------------------------------------------------
 void vtkGranularDumpReader::ForgetFrames()
@@ -423,23 +428,8 @@ int vtkGranularDumpReader::FillOutputPortInformation(int port, vtkInformation* i
 int vtkGranularDumpReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  const Outcome outcome = Guard(this, outputVector,
-    [&]
-    {
-      if (this->Series->Cancelled)
-      {
-        throw granular::Cancelled();
-      }
-      // valid already, but for a pipeline that goes on after RequestInformation failed
-      this->Series->Update(this);
-      this->Internal->Run(this, request, outputVector);
-    });
-  this->Series->End(this, outcome);
-  if (outcome != Outcome::Done)
-  {
-    this->Internal->Ahead.Drop();
-  }
-  return outcome != Outcome::Failed;
+  return this->Series->Run(
+    this, outputVector, [&] { this->Internal->Run(this, request, outputVector); });
 }
 
 //------------------------------------------------------------------------------

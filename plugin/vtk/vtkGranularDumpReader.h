@@ -44,6 +44,7 @@
 #include <memory> // for std::unique_ptr
 
 class vtkDataArraySelection;
+class vtkPolyData;
 
 class VTKGRANULAR_EXPORT vtkGranularDumpReader : public vtkGranularSeriesReader
 {
@@ -51,6 +52,11 @@ public:
   static vtkGranularDumpReader* New();
   vtkTypeMacro(vtkGranularDumpReader, vtkGranularSeriesReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The particles.
+   */
+  vtkPolyData* GetOutput();
 
   enum CoordinatesType
   {

@@ -4,17 +4,15 @@
 #include "private/arrays.h"
 #include "private/dump_output.h"
 #include "private/guard.h"
-#include "private/ranks.h"
+#include "private/processes.h"
 
 #include "granular/packing/packing.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -32,27 +30,13 @@ struct vtkGranularPackingSource::Internals
   using Self = vtkGranularPackingSource;
 
   std::string Boundary = "ff ff ff";
-  bool Cancelled = false; ///< the last request was
-  VertexCache Vertices;   ///< of the request before
-  vtkSmartPointer<vtkMultiProcessController> Controller;
-  std::unique_ptr<granular::Communicator> Ranks; ///< of the controller; null: not made yet
+  VertexCache Vertices; ///< of the request before
+  Processes Ranks;
 
-  granular::Communicator& GetRanks();
   granular::Box MakeBox(Self* self);
   granular::PackingRequest MakeRequest(Self* self, vtkInformation* output);
   void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
 };
-
-//------------------------------------------------------------------------------
-// Collective when it is called first.
-granular::Communicator& vtkGranularPackingSource::Internals::GetRanks()
-{
-  if (!this->Ranks)
-  {
-    this->Ranks = MakeRanks(this->Controller);
-  }
-  return *this->Ranks;
-}
 
 //------------------------------------------------------------------------------
 granular::Box vtkGranularPackingSource::Internals::MakeBox(Self* self)
@@ -106,7 +90,7 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
     request.pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
   }
   request.ranges = true; // whoever shows an array asks for it
-  request.threads = ChooseThreads(self->Threads, this->GetRanks());
+  request.threads = ChooseThreads(self->Threads, this->Ranks.Get());
   return request;
 }
 
@@ -115,7 +99,7 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
 void vtkGranularPackingSource::Internals::Run(
   Self* self, vtkInformation* request, vtkInformationVector* outputs)
 {
-  granular::Communicator& ranks = this->GetRanks();
+  granular::Communicator& ranks = this->Ranks.Get();
   const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
     ? std::max(request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()), 0)
     : 0;
@@ -159,7 +143,6 @@ vtkGranularPackingSource::vtkGranularPackingSource()
 {
   this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(2);
-  this->Internal->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 //------------------------------------------------------------------------------
@@ -196,10 +179,8 @@ void vtkGranularPackingSource::SetThreads(int threads)
 //------------------------------------------------------------------------------
 void vtkGranularPackingSource::SetController(vtkMultiProcessController* controller)
 {
-  if (this->Internal->Controller != controller)
+  if (this->Internal->Ranks.SetController(controller))
   {
-    this->Internal->Controller = controller;
-    this->Internal->Ranks.reset();
     this->Modified();
   }
 }
@@ -207,7 +188,7 @@ void vtkGranularPackingSource::SetController(vtkMultiProcessController* controll
 //------------------------------------------------------------------------------
 vtkMultiProcessController* vtkGranularPackingSource::GetController()
 {
-  return this->Internal->Controller;
+  return this->Internal->Ranks.GetController();
 }
 
 //------------------------------------------------------------------------------
@@ -218,18 +199,11 @@ void vtkGranularPackingSource::SetAbortExecute(vtkTypeBool abort)
 }
 
 //------------------------------------------------------------------------------
-// The first call of every update. A request to abort holds for one update: see vtkGranularSeriesReader.
 int vtkGranularPackingSource::ComputePipelineMTime(vtkInformation* request,
   vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
   vtkMTimeType* mtime)
 {
-  if (this->Internal->Cancelled)
-  {
-    this->Internal->Cancelled = false;
-    this->SetAbortExecute(0);
-    this->SetAbortOutput(false);
-    this->Modified();
-  }
+  this->Internal->Ranks.BeginUpdate(this);
   return this->Superclass::ComputePipelineMTime(
     request, inputVector, outputVector, requestFromOutputPort, mtime);
 }
@@ -258,13 +232,7 @@ int vtkGranularPackingSource::RequestData(vtkInformation* request,
 {
   const Outcome outcome =
     Guard(this, outputVector, [&] { this->Internal->Run(this, request, outputVector); });
-  this->Internal->Cancelled = outcome == Outcome::Cancelled;
-  if (outcome == Outcome::Failed)
-  {
-    this->SetAbortExecute(0);
-    this->SetAbortOutput(false);
-  }
-  return outcome != Outcome::Failed;
+  return this->Internal->Ranks.EndRequest(this, outcome);
 }
 
 //------------------------------------------------------------------------------
@@ -289,5 +257,5 @@ void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Speed: " << this->Speed << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "Controller: " << this->Internal->Controller.Get() << "\n";
+  os << indent << "Controller: " << this->GetController() << "\n";
 }

@@ -3,12 +3,10 @@
 
 #include "private/guard.h"
 #include "private/pool.h"
-#include "private/ranks.h"
 #include "private/series_reader.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -26,16 +24,6 @@ int vtkGranularSeriesReader::Internals::PortOf(vtkInformation* request)
     ? request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
     : 0;
   return port > 0 ? port : 0;
-}
-
-//------------------------------------------------------------------------------
-granular::Communicator& vtkGranularSeriesReader::Internals::GetRanks()
-{
-  if (!this->Ranks)
-  {
-    this->Ranks = MakeRanks(this->Controller);
-  }
-  return *this->Ranks;
 }
 
 //------------------------------------------------------------------------------
@@ -61,6 +49,7 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
         this->Told.clear();
         this->IndexedNames = this->FileNames;
       }
+      options.format = this->Format;
       options.column_names = this->ColumnNames;
       options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
       options.index_file = static_cast<granular::IndexFile>(self->IndexFile);
@@ -118,15 +107,25 @@ void vtkGranularSeriesReader::Internals::Tell(
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularSeriesReader::Internals::End(Self* self, Outcome outcome)
+int vtkGranularSeriesReader::Internals::Run(
+  Self* self, vtkInformationVector* outputs, const std::function<void()>& work)
 {
-  this->Cancelled = outcome == Outcome::Cancelled;
-  if (outcome == Outcome::Failed)
+  const Outcome outcome = Guard(self, outputs,
+    [&]
+    {
+      if (this->Ranks.IsCancelled())
+      {
+        throw granular::Cancelled();
+      }
+      // valid already, but for a pipeline that goes on after RequestInformation failed
+      this->Update(self);
+      work();
+    });
+  if (outcome != Outcome::Done)
   {
-    // who asked to stop, while another rank failed, has had the answer
-    self->SetAbortExecute(0);
-    self->SetAbortOutput(false);
+    self->ForgetFrames();
   }
+  return this->Ranks.EndRequest(self, outcome);
 }
 
 //------------------------------------------------------------------------------
@@ -163,7 +162,7 @@ std::size_t vtkGranularSeriesReader::Internals::FindFrame(
 vtkGranularSeriesReader::vtkGranularSeriesReader()
   : Series(std::make_unique<Internals>())
 {
-  this->Series->Controller = vtkMultiProcessController::GetGlobalController();
+  this->SetNumberOfInputPorts(0);
 }
 
 //------------------------------------------------------------------------------
@@ -245,11 +244,9 @@ void vtkGranularSeriesReader::SetThreads(int threads)
 //------------------------------------------------------------------------------
 void vtkGranularSeriesReader::SetController(vtkMultiProcessController* controller)
 {
-  if (this->Series->Controller != controller)
+  if (this->Series->Ranks.SetController(controller))
   {
     this->ForgetFrames();
-    this->Series->Controller = controller;
-    this->Series->Ranks.reset();
     this->Series->Index = {}; // the new ranks have none, or others
     this->Series->Valid = false;
     this->Refresh();
@@ -259,7 +256,7 @@ void vtkGranularSeriesReader::SetController(vtkMultiProcessController* controlle
 //------------------------------------------------------------------------------
 vtkMultiProcessController* vtkGranularSeriesReader::GetController()
 {
-  return this->Series->Controller;
+  return this->Series->Ranks.GetController();
 }
 
 //------------------------------------------------------------------------------
@@ -285,21 +282,14 @@ void vtkGranularSeriesReader::SetTimestepSize(double size)
 }
 
 //------------------------------------------------------------------------------
-// The first call of every update. A request to abort holds for one update, and observers of progress
-// may make it again while the pipeline leaves the aborted one: it is forgotten here. What was
-// aborted may have been the look at the files, so all is done again. Exceptions must not pass the
-// pipeline: where it cannot be told whether files changed, the update that follows says why.
+// The first call of every update. What was aborted may have been the look at the files, so all is done again.
+// Exceptions must not pass the pipeline: where it cannot be told whether files changed, the update that
+// follows says why.
 int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
   vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
   vtkMTimeType* mtime)
 {
-  if (this->Series->Cancelled)
-  {
-    this->Series->Cancelled = false;
-    this->SetAbortExecute(0);
-    this->SetAbortOutput(false);
-    this->Modified();
-  }
+  this->Series->Ranks.BeginUpdate(this);
   if (this->RefreshOnUpdate)
   {
     bool changed = true;
@@ -357,8 +347,7 @@ int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(reque
       };
       granular::do_together(this->Series->GetRanks(), tell);
     });
-  this->Series->End(this, outcome);
-  return outcome != Outcome::Failed;
+  return this->Series->Ranks.EndRequest(this, outcome);
 }
 
 //------------------------------------------------------------------------------
@@ -375,5 +364,5 @@ void vtkGranularSeriesReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IndexFile: " << this->IndexFile << "\n";
   os << indent << "TimestepSize: " << this->TimestepSize << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "Controller: " << this->Series->Controller.Get() << "\n";
+  os << indent << "Controller: " << this->GetController() << "\n";
 }

@@ -25,17 +25,17 @@
 #ifndef vtkGranularSeriesReader_h
 #define vtkGranularSeriesReader_h
 
+#include "vtkDataObjectAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
-#include "vtkPolyDataAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
 class vtkMultiProcessController;
 
-class VTKGRANULAR_EXPORT vtkGranularSeriesReader : public vtkPolyDataAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularSeriesReader : public vtkDataObjectAlgorithm
 {
 public:
-  vtkTypeMacro(vtkGranularSeriesReader, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkGranularSeriesReader, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum RepeatedStepsType
@@ -144,7 +144,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /**
-   * Called when the files are going to be looked at: what is known of frames is about to go.
+   * Called when the files are going to be looked at, or a request failed: what is known of frames is to go.
    */
   virtual void ForgetFrames() {}
 

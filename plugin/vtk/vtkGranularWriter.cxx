@@ -174,16 +174,6 @@ private:
 };
 
 //------------------------------------------------------------------------------
-granular::Communicator& vtkGranularWriter::Internals::GetRanks()
-{
-  if (!this->Ranks)
-  {
-    this->Ranks = MakeRanks(this->Controller);
-  }
-  return *this->Ranks;
-}
-
-//------------------------------------------------------------------------------
 // Of the processes the first one speaks.
 void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self)
 {
@@ -196,7 +186,7 @@ void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self)
 //------------------------------------------------------------------------------
 void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self, const std::string& text)
 {
-  if (this->Told.insert(text).second && (!this->Ranks || this->Ranks->rank() == 0))
+  if (this->Told.insert(text).second && this->GetRanks().rank() == 0)
   {
     vtkWarningWithObjectMacro(self, << text);
   }
@@ -206,7 +196,6 @@ void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self, const std::stri
 vtkGranularWriter::vtkGranularWriter()
   : Shared(std::make_unique<Internals>())
 {
-  this->Shared->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 //------------------------------------------------------------------------------
@@ -224,7 +213,7 @@ void vtkGranularWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ParallelMode: " << this->ParallelMode << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
   os << indent << "GhostLevel: " << this->GhostLevel << "\n";
-  os << indent << "Controller: " << this->Shared->Controller << "\n";
+  os << indent << "Controller: " << this->GetController() << "\n";
   os << indent << "Written: " << this->Written << "\n";
 }
 
@@ -261,10 +250,8 @@ void vtkGranularWriter::SetThreads(int threads)
 //------------------------------------------------------------------------------
 void vtkGranularWriter::SetController(vtkMultiProcessController* controller)
 {
-  if (this->Shared->Controller != controller)
+  if (this->Shared->Ranks.SetController(controller))
   {
-    this->Shared->Controller = controller;
-    this->Shared->Ranks.reset();
     this->Modified();
   }
 }
@@ -272,7 +259,7 @@ void vtkGranularWriter::SetController(vtkMultiProcessController* controller)
 //------------------------------------------------------------------------------
 vtkMultiProcessController* vtkGranularWriter::GetController()
 {
-  return this->Shared->Controller;
+  return this->Shared->Ranks.GetController();
 }
 
 //------------------------------------------------------------------------------

@@ -5,20 +5,18 @@
 #include "vtkGranularSeriesReader.h"
 
 #include "guard.h"
-#include "ranks.h"
+#include "processes.h"
 
 #include "granular/base/block_pool.h"
 #include "granular/dump/frame_index.h"
 
-#include "vtkSmartPointer.h"
-
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 class vtkInformation;
-class vtkMultiProcessController;
 class vtkInformationVector;
 
 /**
@@ -29,22 +27,21 @@ struct vtkGranularSeriesReader::Internals
   using Self = vtkGranularSeriesReader;
 
   std::vector<std::string> FileNames;
-  std::vector<std::string> ColumnNames; ///< for files that do not name their columns
+  const granular::FileFormat* Format = nullptr; ///< null: dumps
+  std::vector<std::string> ColumnNames;         ///< for files that do not name their columns
   granular::FrameIndex Index;
   std::vector<std::string> IndexedNames; ///< what Index was made from
   bool Valid = false;                    ///< Index is what the last look at the files gave
   bool Stale = false;                    ///< the files are to be looked at again
-  bool Cancelled = false;                ///< the last request was
   std::set<std::string> Told;            ///< notices the user has had
-  vtkSmartPointer<vtkMultiProcessController> Controller;
-  std::unique_ptr<granular::Communicator> Ranks; ///< of the controller; null: not made yet
-  std::shared_ptr<granular::BlockPool> Pool;     ///< of output memory; null: none, or not made yet
+  vtkGranularPrivate::Processes Ranks;
+  std::shared_ptr<granular::BlockPool> Pool; ///< of output memory; null: none, or not made yet
   bool PoolMade = false;
 
   /**
    * The processes that read together. Collective when it is called first.
    */
-  granular::Communicator& GetRanks();
+  granular::Communicator& GetRanks() { return this->Ranks.Get(); }
 
   /**
    * Brings the index up to the files, if they are to be looked at at all: rank 0 looks, for all. Throws,
@@ -69,9 +66,9 @@ struct vtkGranularSeriesReader::Internals
     Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time);
 
   /**
-   * What is left to do when a request is done with.
+   * Does a request for data: work() where there are frames to show. Returns what the request returns.
    */
-  void End(Self* self, vtkGranularPrivate::Outcome outcome);
+  int Run(Self* self, vtkInformationVector* outputs, const std::function<void()>& work);
 
   /**
    * One warning a file, and each notice once, for whichever frame it came first; not too many.

@@ -4,13 +4,11 @@
 
 #include "vtkGranularWriter.h"
 
-#include "ranks.h"
+#include "processes.h"
 
 #include "granular/base/communicator.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
-
-#include "vtkSmartPointer.h"
 
 #include <memory>
 #include <optional>
@@ -19,7 +17,6 @@
 #include <vector>
 
 class vtkDataObject;
-class vtkMultiProcessController;
 
 namespace vtkGranularPrivate
 {
@@ -52,8 +49,7 @@ public:
  */
 struct vtkGranularWriter::Internals
 {
-  vtkSmartPointer<vtkMultiProcessController> Controller;
-  std::unique_ptr<granular::Communicator> Ranks; ///< of the controller; null: not made yet
+  vtkGranularPrivate::Processes Ranks;
   std::unique_ptr<vtkGranularPrivate::FrameWriter> File;
   granular::Notices Notices;  ///< that the user has not had yet
   std::set<std::string> Told; ///< those of this file that the user has had
@@ -61,7 +57,7 @@ struct vtkGranularWriter::Internals
   /**
    * The processes that write together. Collective when it is called first.
    */
-  granular::Communicator& GetRanks();
+  granular::Communicator& GetRanks() { return this->Ranks.Get(); }
 
   /**
    * Warns of each thing once a file.

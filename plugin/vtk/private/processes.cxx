@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "processes.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkMultiProcessController.h"
+
+namespace vtkGranularPrivate
+{
+Processes::Processes()
+  : Controller(vtkMultiProcessController::GetGlobalController())
+{
+}
+
+Processes::~Processes() = default;
+
+vtkMultiProcessController* Processes::GetController() const
+{
+  return this->Controller;
+}
+
+bool Processes::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Controller == controller)
+  {
+    return false;
+  }
+  this->Controller = controller;
+  this->Ranks.reset();
+  return true;
+}
+
+granular::Communicator& Processes::Get()
+{
+  if (!this->Ranks)
+  {
+    this->Ranks = MakeRanks(this->Controller);
+  }
+  return *this->Ranks;
+}
+
+void Processes::BeginUpdate(vtkAlgorithm* self)
+{
+  if (this->Cancelled)
+  {
+    this->Cancelled = false;
+    self->SetAbortExecute(0);
+    self->SetAbortOutput(false);
+    self->Modified();
+  }
+}
+
+int Processes::EndRequest(vtkAlgorithm* self, Outcome outcome)
+{
+  this->Cancelled = outcome == Outcome::Cancelled;
+  if (outcome == Outcome::Failed)
+  {
+    // who asked to stop, while another rank failed, has had the answer
+    self->SetAbortExecute(0);
+    self->SetAbortOutput(false);
+  }
+  return outcome != Outcome::Failed;
+}
+}
