@@ -5,6 +5,7 @@
 #include "granular/base/number.h"
 #include "granular/base/words.h"
 #include "granular/dump/grain_bounds.h"
+#include "granular/dump/header_archive.h"
 #include "granular/dump/row_batches.h"
 
 #include <algorithm>
@@ -79,16 +80,7 @@ void pass(Archive& archive, std::optional<ValueSource>& values)
 template <class Archive>
 void pass(Archive& archive, Lead& lead)
 {
-  FrameHeader& header = lead.header;
-  archive.number(header.timestep);
-  archive.number(header.time);
-  archive.text(header.label);
-  archive.text(header.units);
-  archive.number(header.box.origin);
-  archive.number(header.box.vectors);
-  archive.text(header.box.boundary);
-  archive.number(header.box.tilted);
-  archive.number(header.box.general);
+  pass(archive, lead.header);
   pass_list(archive, lead.columns.columns, [&](ColumnSource& column) { pass(archive, column); });
   for (std::optional<ValueSource>& image : lead.columns.images)
   {

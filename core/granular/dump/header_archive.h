@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_header_archive_h
+#define granular_dump_header_archive_h
+
+#include "granular/base/archive.h"
+#include "granular/dump/frame.h"
+
+namespace granular
+{
+/// All of a header but the rows.
+template <class Archive>
+void pass(Archive& archive, FrameHeader& header)
+{
+  archive.number(header.timestep);
+  archive.number(header.time);
+  archive.text(header.label);
+  archive.text(header.units);
+  archive.number(header.box.origin);
+  archive.number(header.box.vectors);
+  archive.text(header.box.boundary);
+  archive.number(header.box.tilted);
+  archive.number(header.box.general);
+}
+}
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularVoxels_h
+#define vtkGranularVoxels_h
+
+#include "granular/base/box.h"
+#include "granular/base/communicator.h"
+#include "granular/decomposition/subdomains.h"
+
+#include "vtkType.h"
+
+#include <optional>
+#include <span>
+
+class vtkFieldData;
+class vtkInformation;
+class vtkUnstructuredGrid;
+
+namespace vtkGranularPrivate
+{
+/**
+ * The part of a pipeline's piece that an output wants.
+ */
+struct PieceRequest
+{
+  int Piece = 0;
+  int Pieces = 1;
+
+  static PieceRequest Of(vtkInformation* output);
+
+  /**
+   * Those of so many things that belong to the piece: [first, last).
+   */
+  std::pair<vtkTypeInt64, vtkTypeInt64> RangeOf(vtkTypeInt64 count) const;
+};
+
+/**
+ * How voxels are to be.
+ */
+struct VoxelForm
+{
+  granular::Vector3 Origin = {}; ///< subtracted
+  bool SharedCorners = false;
+  int Threads = 1;
+};
+
+/**
+ * Subdomains as voxels with the cell arrays nlocal (int64) and proc (int32), as far as they are known.
+ */
+void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& decomposition,
+  const VoxelForm& form);
+
+/**
+ * What voxels say for themselves: what their points are, and the box, as dump readers say it; imbalance, where
+ * particles were counted.
+ */
+void FillVoxelFieldData(vtkFieldData* data, const granular::Box& box,
+  std::optional<vtkTypeInt64> timestep, std::optional<double> imbalance);
+
+/**
+ * The subdomains that cells are: voxels, in the right order or the mirrored one of LIGGGHTS-INL, or hexahedra,
+ * along the axes; with the arrays nlocal and proc or procID, as far as they are there. Absolute: what was subtracted
+ * from the points is added, scaled points are multiplied by the box. Duplicates of ghosts are left out. Throws
+ * Error; UnsupportedError of other cells.
+ */
+granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices& notices);
+
+/**
+ * The subdomains of all processes, in their order, on all. Collective.
+ */
+granular::Decomposition GatherVoxels(
+  const granular::Decomposition& own, granular::Communicator& ranks);
+}
+
+#endif
