@@ -2,6 +2,7 @@
 #include "arrays.h"
 
 #include "vtkCellArray.h"
+#include "vtkDataArrayRange.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
@@ -205,6 +206,22 @@ vtkSmartPointer<vtkAbstractArray> MakeStrings(
     array->InsertNextValue(value);
   }
   return array;
+}
+
+vtkSmartPointer<vtkCellArray> TakeCells(granular::Block& connectivity, vtkIdType cells, int size)
+{
+  auto taken = vtkSmartPointer<vtkCellArray>::New();
+  if (cells > 0)
+  {
+    auto offsets = CountUp<vtkTypeInt64Array>(cells + 1, connectivity.pool());
+    for (vtkTypeInt64& offset : vtk::DataArrayValueRange<1>(offsets.Get()))
+    {
+      offset *= size;
+    }
+    auto corners = TakeBlock<vtkTypeInt64Array>(connectivity, cells * size, 1);
+    taken->SetData(offsets.Get(), corners.Get());
+  }
+  return taken;
 }
 
 vtkSmartPointer<vtkCellArray> MakeVertices(

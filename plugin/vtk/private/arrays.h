@@ -42,6 +42,11 @@ vtkSmartPointer<vtkAbstractArray> MakeStrings(
   const char* name, const std::vector<std::string>& values);
 
 /**
+ * Cells of equal size that take the memory of cells x size std::int64_t, the points of each.
+ */
+vtkSmartPointer<vtkCellArray> TakeCells(granular::Block& connectivity, vtkIdType cells, int size);
+
+/**
  * One vertex a point, or one cell with all points; with 32-bit indices where they suffice. No
  * points give no cells.
  */

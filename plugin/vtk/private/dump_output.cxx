@@ -110,22 +110,16 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
   return true;
 }
 
-void FillFieldData(
-  vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin)
+void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
 {
-  const granular::FrameHeader& header = frame.header;
   std::vector<double> vectors;
   for (const granular::Twofold3& vector : header.box.vectors)
   {
     const std::vector<double> values = Values(vector);
     vectors.insert(vectors.end(), values.begin(), values.end());
   }
-  std::vector<std::string> names;
-  for (const granular::ColumnInfo& column : frame.schema.columns())
-  {
-    names.push_back(column.name);
-  }
-  data->AddArray(MakeStrings("Coordinates", { granular::to_string(frame.coordinates) }));
+  data->AddArray(MakeStrings("Coordinates", { granular::to_string(coordinates) }));
   data->AddArray(
     MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
   data->AddArray(MakeDoubles("BoxOrigin", Values(header.box.origin)));
@@ -135,7 +129,6 @@ void FillFieldData(
     data->AddArray(MakeDoubles("BoxBounds", Bounds(header.box)));
   }
   data->AddArray(MakeStrings("Boundary", { header.box.boundary }));
-  data->AddArray(MakeStrings("Columns", names));
   data->AddArray(MakeInteger("timestep", header.timestep));
   if (!header.label.empty())
   {
@@ -149,5 +142,17 @@ void FillFieldData(
   {
     data->AddArray(MakeDoubles("time", { *header.time }));
   }
+}
+
+void FillFieldData(
+  vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin)
+{
+  FillHeader(data, frame.header, frame.coordinates, pointOrigin);
+  std::vector<std::string> names;
+  for (const granular::ColumnInfo& column : frame.schema.columns())
+  {
+    names.push_back(column.name);
+  }
+  data->AddArray(MakeStrings("Columns", names));
 }
 }

@@ -39,7 +39,13 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
   granular::Coordinates coordinates, const granular::Vector3& pointOrigin);
 
 /**
- * What whoever comes after the reader needs to know about a frame.
+ * What whoever comes after needs to know about points: what they are, box and timestep.
+ */
+void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin);
+
+/**
+ * The same, and the columns.
  */
 void FillFieldData(
   vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin);

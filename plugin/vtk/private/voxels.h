@@ -4,14 +4,13 @@
 
 #include "granular/base/box.h"
 #include "granular/base/communicator.h"
+#include "granular/base/error.h"
 #include "granular/decomposition/subdomains.h"
 
 #include "vtkType.h"
 
-#include <optional>
-#include <span>
+#include <utility>
 
-class vtkFieldData;
 class vtkInformation;
 class vtkUnstructuredGrid;
 
@@ -46,15 +45,8 @@ struct VoxelForm
 /**
  * Subdomains as voxels with the cell arrays nlocal (int64) and proc (int32), as far as they are known.
  */
-void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& decomposition,
-  const VoxelForm& form);
-
-/**
- * What voxels say for themselves: what their points are, and the box, as dump readers say it; imbalance, where
- * particles were counted.
- */
-void FillVoxelFieldData(vtkFieldData* data, const granular::Box& box,
-  std::optional<vtkTypeInt64> timestep, std::optional<double> imbalance);
+void FillVoxels(
+  vtkUnstructuredGrid* output, const granular::Decomposition& decomposition, const VoxelForm& form);
 
 /**
  * The subdomains that cells are: voxels, in the right order or the mirrored one of LIGGGHTS-INL, or hexahedra,

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "voxels.h"
+
+#include "arrays.h"
+#include "dump_input.h"
+#include "dump_output.h"
+
+#include "granular/base/archive.h"
+#include "granular/base/executor.h"
+#include "granular/decomposition/decomposition_file.h"
+#include "granular/decomposition/voxels.h"
+#include "granular/dump/absolute_positions.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkInformation.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace vtkGranularPrivate
+{
+namespace
+{
+using granular::Subdomain;
+
+template <typename Array, typename Value>
+vtkSmartPointer<Array> MakeCellArray(
+  const char* name, const std::vector<Subdomain>& subdomains, Value Subdomain::*member)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(subdomains.size()));
+  for (std::size_t i = 0; i < subdomains.size(); ++i)
+  {
+    array->SetValue(static_cast<vtkIdType>(i), subdomains[i].*member);
+  }
+  return array;
+}
+
+/**
+ * A cell array of whole numbers, one a cell.
+ */
+class WholeNumbers
+{
+public:
+  WholeNumbers(vtkUnstructuredGrid* input, std::initializer_list<const char*> names)
+  {
+    for (const char* name : names)
+    {
+      vtkDataArray* array = input->GetCellData()->GetArray(name);
+      if (array && array->GetNumberOfComponents() == 1 && !this->Array)
+      {
+        this->Array = array;
+      }
+    }
+  }
+
+  explicit operator bool() const { return this->Array != nullptr; }
+
+  vtkTypeInt64 Get(vtkIdType cell, double most) const
+  {
+    const double value = this->Array->GetComponent(cell, 0);
+    if (!(std::trunc(value) == value && value >= 0 && value <= most))
+    {
+      throw granular::FormatError("expected whole numbers from 0 to " +
+          std::to_string(static_cast<vtkTypeInt64>(most)) + ", got " + std::to_string(value) +
+          " in cell " + std::to_string(cell),
+        { .column = this->Array->GetName() });
+    }
+    return this->Array->GetVariantValue(cell).ToTypeInt64();
+  }
+
+private:
+  vtkDataArray* Array = nullptr;
+};
+
+/**
+ * The points of voxels, absolute: x y z of each.
+ */
+std::vector<double> ReadPoints(vtkUnstructuredGrid* input)
+{
+  granular::Notices ofArrays; // that voxels have no use for
+  DumpInput data(input, ofArrays);
+  if (data.View.coordinates == granular::Coordinates::Unwrapped)
+  {
+    data.View.coordinates = granular::Coordinates::Absolute; // grains are, their voxels are not
+  }
+  const granular::AbsolutePositions positions(data.View, false);
+  constexpr auto most = static_cast<std::int64_t>(granular::AbsolutePositions::most_rows);
+  std::vector<double> buffer(3 * granular::AbsolutePositions::most_rows);
+  std::vector<double> points;
+  for (std::int64_t first = 0; first < data.View.rows; first += most)
+  {
+    const auto count = static_cast<std::size_t>(std::min(most, data.View.rows - first));
+    const double* loaded = positions.load(first, count, buffer.data());
+    points.insert(points.end(), loaded, loaded + 3 * count);
+  }
+  return points;
+}
+
+bool IsDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType cell)
+{
+  return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
+}
+
+template <class Archive>
+void pass(Archive& archive, granular::Decomposition& decomposition)
+{
+  archive.number(decomposition.has_particles);
+  archive.number(decomposition.has_ranks);
+  std::size_t count = decomposition.subdomains.size();
+  archive.number(count);
+  decomposition.subdomains.resize(count);
+  for (Subdomain& subdomain : decomposition.subdomains)
+  {
+    archive.number(subdomain);
+  }
+}
+}
+
+PieceRequest PieceRequest::Of(vtkInformation* output)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  PieceRequest request;
+  if (output->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
+  {
+    request.Piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
+    request.Pieces = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
+  }
+  return request;
+}
+
+std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) const
+{
+  const auto end = [&](vtkTypeInt64 piece) // without the product, which may be too large
+  { return count / this->Pieces * piece + count % this->Pieces * piece / this->Pieces; };
+  return this->Piece < this->Pieces ? std::pair(end(this->Piece), end(this->Piece + 1))
+                                    : std::pair<vtkTypeInt64, vtkTypeInt64>(count, count);
+}
+
+void FillVoxels(
+  vtkUnstructuredGrid* output, const granular::Decomposition& decomposition, const VoxelForm& form)
+{
+  const std::vector<Subdomain>& subdomains = decomposition.subdomains;
+  const granular::Executor executor(form.Threads);
+  granular::Voxels voxels =
+    granular::make_voxels(subdomains, form.Origin, form.SharedCorners, executor);
+  const auto cells = static_cast<vtkIdType>(subdomains.size());
+  output->SetPoints(TakePoints(voxels.points, voxels.number_of_points, false, {}));
+  output->SetCells(VTK_VOXEL, TakeCells(voxels.connectivity, cells, granular::corners_of_voxel));
+  vtkCellData* data = output->GetCellData();
+  if (decomposition.has_particles)
+  {
+    data->SetScalars(MakeCellArray<vtkTypeInt64Array>("nlocal", subdomains, &Subdomain::particles));
+  }
+  if (decomposition.has_ranks)
+  {
+    data->AddArray(MakeCellArray<vtkTypeInt32Array>("proc", subdomains, &Subdomain::rank));
+  }
+}
+
+granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices& notices)
+{
+  const WholeNumbers particles(input, { "nlocal" });
+  const WholeNumbers ranks(input, { "proc", "procID" });
+  const std::vector<double> points = ReadPoints(input);
+  granular::Decomposition decomposition;
+  decomposition.has_particles = static_cast<bool>(particles);
+  decomposition.has_ranks = static_cast<bool>(ranks);
+  vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
+  vtkIdType reflected = 0;
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    if (IsDuplicate(ghosts, cell))
+    {
+      continue;
+    }
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    input->GetCellPoints(cell, count, ids);
+    const int type = input->GetCellType(cell);
+    Subdomain subdomain;
+    auto order = granular::CornerOrder::None;
+    if ((type == VTK_VOXEL || type == VTK_HEXAHEDRON) && count == granular::corners_of_voxel)
+    {
+      std::array<granular::Vector3, granular::corners_of_voxel> corners;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+      {
+        std::copy_n(points.begin() + 3 * ids[i], 3, corners[i].begin());
+      }
+      order = granular::bounds_of_cell(corners, subdomain);
+    }
+    if (order == granular::CornerOrder::None)
+    {
+      throw granular::UnsupportedError(
+        "expected voxels, or hexahedra along the axes, got another cell: number " +
+        std::to_string(cell) + " of type " + std::to_string(type));
+    }
+    reflected += order == granular::CornerOrder::Reflected ? 1 : 0;
+    subdomain.particles =
+      particles ? particles.Get(cell, std::numeric_limits<std::int64_t>::max()) : 0;
+    subdomain.rank =
+      static_cast<int>(ranks ? ranks.Get(cell, std::numeric_limits<int>::max())
+                             : static_cast<vtkTypeInt64>(decomposition.subdomains.size()));
+    decomposition.subdomains.push_back(subdomain);
+  }
+  if (reflected > 0)
+  {
+    notices.push_back(granular::note_reflected({}, reflected));
+  }
+  return decomposition;
+}
+
+granular::Decomposition GatherVoxels(
+  const granular::Decomposition& own, granular::Communicator& ranks)
+{
+  granular::Packer packer;
+  granular::do_together(ranks,
+    [&]
+    {
+      granular::Decomposition copy = own;
+      pass(packer, copy);
+    });
+  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
+  granular::Decomposition joined;
+  granular::do_together(ranks,
+    [&]
+    {
+      for (const std::string& bytes : all)
+      {
+        granular::Decomposition part;
+        granular::Unpacker unpacker{ bytes };
+        pass(unpacker, part);
+        if (part.subdomains.empty())
+        {
+          continue; // nothing is known of arrays where there are no cells
+        }
+        joined.has_particles = joined.has_particles && part.has_particles;
+        joined.has_ranks = joined.has_ranks && part.has_ranks;
+        joined.subdomains.insert(
+          joined.subdomains.end(), part.subdomains.begin(), part.subdomains.end());
+      }
+      for (std::size_t i = 0; !joined.has_ranks && i < joined.subdomains.size(); ++i)
+      {
+        joined.subdomains[i].rank = static_cast<int>(i);
+      }
+    });
+  return joined;
+}
+}

@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularDecomposition.h"
+
+#include "private/arrays.h"
+#include "private/decomposition_algorithm.h"
+#include "private/dump_input.h"
+
+#include "granular/decomposition/count_particles.h"
+#include "granular/dump/shared_header.h"
+
+#include "vtkAlgorithmOutput.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularDecomposition);
+
+namespace
+{
+/**
+ * Whether a process asks for the part of the whole that is its own.
+ */
+bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks)
+{
+  return wanted.Pieces == ranks.size() && wanted.Piece == ranks.rank();
+}
+
+vtkPointSet* GetPoints(vtkInformationVector** inputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  auto* points = vtkPointSet::SafeDownCast(input);
+  if (!points)
+  {
+    throw granular::UnsupportedError("expected a vtkPointSet of particles, got " +
+      (input ? std::string("a ") + input->GetClassName() : "nothing") +
+      (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it" : ""));
+  }
+  return points;
+}
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Does one request. The functions are collective, but for those in the brackets of do_together.
+ */
+class vtkGranularDecomposition::Counter
+{
+public:
+  Counter(
+    vtkGranularDecomposition* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
+    : Self(self)
+    , Shared(*self->Shared)
+    , Inputs(inputs)
+    , Output(vtkUnstructuredGrid::GetData(outputs))
+    , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
+    , Ranks(Shared.Ranks.Get())
+    , Own(self)
+    , Progress(this->Own, this->Ranks)
+  {
+  }
+
+  void Run()
+  {
+    this->ReadParticles();
+    this->FindTogether();
+    switch (this->Self->Mode)
+    {
+      case PROCESSOR_GRID:
+        this->CountInGrid();
+        break;
+      case PROCESS_ARRAY:
+        this->FindByArray();
+        break;
+      case SUBDOMAINS:
+        this->CountInSubdomains();
+        break;
+      case RANKS:
+        this->FindByRank();
+        break;
+    }
+    granular::do_together(this->Ranks, [&] { this->Fill(); });
+  }
+
+private:
+  granular::Executor MakeExecutor() const
+  {
+    return granular::Executor(ChooseThreads(this->Self->Threads, this->Ranks));
+  }
+
+  void ReadParticles()
+  {
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        this->Progress.step(0);
+        granular::Notices ofArrays; // that have no use here
+        this->Particles.emplace(GetPoints(this->Inputs), ofArrays);
+      });
+    granular::share_header(this->Particles->View, this->Ranks);
+  }
+
+  /**
+   * Whether each process has its piece of the particles, or each has them all.
+   */
+  void FindTogether()
+  {
+    std::int64_t own = IsOwn(this->Wanted, this->Ranks) ? 1 : 0;
+    this->Ranks.sum({ &own, 1 });
+    this->Together = own == this->Ranks.size();
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        if (own != 0 && !this->Together && this->Self->Mode != RANKS)
+        {
+          throw granular::UnsupportedError(
+            "expected that all processes ask for their own piece, or "
+            "none, got " +
+            std::to_string(own) + " of " + std::to_string(this->Ranks.size()));
+        }
+      });
+  }
+
+  /**
+   * The box that is divided.
+   */
+  std::pair<granular::Vector3, granular::Vector3> FindBounds() const
+  {
+    const granular::FrameView& view = this->Particles->View;
+    const double* given = this->Self->Bounds;
+    const bool all = given[0] <= given[1] && given[2] <= given[3] && given[4] <= given[5];
+    if (!all && !view.has_box)
+    {
+      throw granular::Error(
+        "expected the box in the field data of the input (BoxOrigin, BoxVectors), "
+        "got none: give Bounds");
+    }
+    if (!all && view.header.box.tilted)
+    {
+      throw granular::UnsupportedError(
+        "expected a box along the axes, got a tilted one: the subdomains of its processes are "
+        "tilted, too, and no voxels");
+    }
+    const granular::BoxBounds box = all ? granular::BoxBounds{} : view.header.box.bounds();
+    granular::Vector3 lo = box.lo;
+    granular::Vector3 hi = box.hi;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      if (given[2 * k] <= given[2 * k + 1])
+      {
+        lo[k] = given[2 * k];
+        hi[k] = given[2 * k + 1];
+      }
+    }
+    return { lo, hi };
+  }
+
+  /**
+   * Adds up what all processes counted, and gives the subdomains their numbers.
+   */
+  void SetCounts(granular::ParticleCounts& counts)
+  {
+    if (this->Together)
+    {
+      this->Ranks.sum(counts.particles);
+      this->Ranks.sum({ &counts.outside, 1 });
+    }
+    this->Outside = counts.outside;
+    std::vector<granular::Subdomain>& all = this->Found.subdomains;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      all[i].particles = counts.particles[i];
+    }
+  }
+
+  void CountInGrid()
+  {
+    granular::ParticleCounts counts;
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        const auto [lo, hi] = this->FindBounds();
+        const granular::ProcessGrid grid = this->Shared.MakeGrid(this->Self, lo, hi);
+        counts = granular::count_in_grid(
+          this->Particles->View, grid, this->MakeExecutor(), this->Progress);
+        this->Found.subdomains = grid.subdomains(0, grid.size());
+      });
+    this->SetCounts(counts);
+    this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
+  }
+
+  void CountInSubdomains()
+  {
+    granular::Decomposition own;
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        vtkInformation* info = this->Inputs[1]->GetInformationObject(0);
+        auto* voxels = info ? vtkUnstructuredGrid::GetData(info) : nullptr;
+        if (!voxels)
+        {
+          throw granular::Error(
+            "expected the subdomains as voxels at the second input, got nothing");
+        }
+        own = ReadVoxels(voxels, this->Notices);
+      });
+    this->Found = this->Together ? GatherVoxels(own, this->Ranks) : std::move(own);
+    this->Found.has_particles = true;
+    granular::ParticleCounts counts;
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        granular::SubdomainChecks checks;
+        checks.gap = granular::Answer::None; // who is in one is outside, which is told
+        granular::check_subdomains(this->Found.subdomains, checks, {}, this->Notices);
+        counts = granular::count_in_subdomains(
+          this->Particles->View, this->Found.subdomains, this->MakeExecutor(), this->Progress);
+      });
+    this->SetCounts(counts);
+    this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
+  }
+
+  void FindByArray()
+  {
+    std::vector<granular::Subdomain> own;
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        const granular::FrameView& view = this->Particles->View;
+        const char* name = this->Self->ProcessArray ? this->Self->ProcessArray : "";
+        const granular::ArrayView* process = view.find(name);
+        if (view.rows > 0 && !process)
+        {
+          throw granular::Error(
+            "expected a point array '" + std::string(name) + "' with ranks of processes, got none");
+        }
+        if (view.rows > 0)
+        {
+          own = granular::bounds_by_process(view, *process, this->MakeExecutor(), this->Progress);
+        }
+      });
+    this->Found.subdomains =
+      this->Together ? granular::join_by_process(own, this->Ranks) : std::move(own);
+    for (const granular::Subdomain& subdomain : this->Found.subdomains)
+    {
+      this->Processes = std::max(this->Processes, std::int64_t{ subdomain.rank } + 1);
+    }
+    this->Processes = std::max<std::int64_t>(this->Processes, this->Self->NumberOfProcesses);
+  }
+
+  void FindByRank()
+  {
+    std::vector<granular::Subdomain> own;
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        own = granular::bounds_of_particles(
+          this->Particles->View, this->MakeExecutor(), this->Progress);
+        for (granular::Subdomain& subdomain : own)
+        {
+          subdomain.rank = this->Ranks.rank();
+        }
+      });
+    this->Found.subdomains = granular::join_by_process(own, this->Ranks);
+    this->Processes = this->Ranks.size();
+  }
+
+  /**
+   * The part of the subdomains that is wanted.
+   */
+  granular::Decomposition TakePart() const
+  {
+    const std::vector<granular::Subdomain>& all = this->Found.subdomains;
+    granular::Decomposition part{ {}, true, this->Found.has_ranks };
+    if (this->Self->Mode == RANKS)
+    {
+      std::copy_if(all.begin(), all.end(), std::back_inserter(part.subdomains),
+        [&](const granular::Subdomain& subdomain) { return subdomain.rank == this->Ranks.rank(); });
+      return part;
+    }
+    const auto [first, last] = this->Wanted.RangeOf(static_cast<vtkTypeInt64>(all.size()));
+    part.subdomains.assign(all.begin() + first, all.begin() + last);
+    return part;
+  }
+
+  /**
+   * To the coordinates of the points, but for the origin.
+   */
+  void Scale(std::vector<granular::Subdomain>& subdomains) const
+  {
+    const granular::FrameView& view = this->Particles->View;
+    if (view.coordinates != granular::Coordinates::Scaled)
+    {
+      return;
+    }
+    if (view.header.box.tilted)
+    {
+      throw granular::UnsupportedError("expected points that are not scaled, or a box along the "
+                                       "axes, got scaled points of a tilted box");
+    }
+    for (granular::Subdomain& subdomain : subdomains)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        granular::scale_aligned(view.header.box, k, { &subdomain.lo[k], 1 });
+        granular::scale_aligned(view.header.box, k, { &subdomain.hi[k], 1 });
+      }
+    }
+  }
+
+  void Fill()
+  {
+    granular::Decomposition part = this->TakePart();
+    this->Scale(part.subdomains);
+    VoxelForm form = this->Shared.MakeForm(this->Self);
+    form.Origin = this->Particles->View.point_origin;
+    FillVoxels(this->Output, part, form);
+    vtkFieldData* data = this->Output->GetFieldData();
+    data->PassData(vtkDataObject::GetData(this->Inputs[0])->GetFieldData());
+    data->AddArray(MakeDoubles(
+      "imbalance", { granular::imbalance_of(this->Found.subdomains, this->Processes) }));
+    data->AddArray(MakeInteger("outside", this->Outside));
+    if (this->Outside > 0)
+    {
+      this->Notices.push_back({ {},
+        std::to_string(this->Outside) + " particles are outside of all subdomains, and in none" });
+    }
+    for (const granular::Notice& notice : this->Notices)
+    {
+      if (this->Ranks.rank() == 0 || !this->Together)
+      {
+        vtkWarningWithObjectMacro(this->Self, << granular::to_string(notice));
+      }
+    }
+    this->Progress.step(1);
+  }
+
+  vtkGranularDecomposition* Self;
+  Internals& Shared;
+  vtkInformationVector** Inputs;
+  vtkUnstructuredGrid* Output;
+  PieceRequest Wanted;
+  granular::Communicator& Ranks;
+  AlgorithmProgress Own;
+  granular::SharedProgress Progress;
+  std::optional<DumpInput> Particles;
+  bool Together = false;
+  granular::Decomposition Found; ///< all subdomains
+  std::int64_t Processes = 0;    ///< of which some may have no particles, and no subdomain
+  std::int64_t Outside = 0;
+  granular::Notices Notices;
+};
+
+//------------------------------------------------------------------------------
+vtkGranularDecomposition::vtkGranularDecomposition()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetProcessArray("proc");
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Bounds[2 * axis] = 1; // the input's
+    this->Bounds[2 * axis + 1] = -1;
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkGranularDecomposition::~vtkGranularDecomposition()
+{
+  this->SetProcessArray(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecomposition::SetSubdomainsConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+//------------------------------------------------------------------------------
+// A composite is taken as a whole, and refused: handed over block by block, it would have processes with
+// different numbers of blocks wait for each other.
+int vtkGranularDecomposition::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  }
+  else
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Who asks for another piece than that of its process gets it from the whole.
+int vtkGranularDecomposition::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
+  const bool whole = this->Mode != RANKS && !IsOwn(wanted, this->Shared->Ranks.Get());
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputVector[port]->GetInformationObject(i);
+      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), whole ? 0 : wanted.Piece);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), whole ? 1 : wanted.Pieces);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecomposition::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  Counter(this, inputs, outputs).Run();
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecomposition::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mode: " << this->Mode << "\n";
+  os << indent << "ProcessArray: " << (this->ProcessArray ? this->ProcessArray : "(none)") << "\n";
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularDecompositionAlgorithm.h"
+
+#include "private/decomposition_algorithm.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+
+#include <algorithm>
+
+using namespace vtkGranularPrivate;
+
+//------------------------------------------------------------------------------
+granular::ProcessGrid vtkGranularDecompositionAlgorithm::Internals::MakeGrid(
+  vtkGranularDecompositionAlgorithm* self, const granular::Vector3& lo,
+  const granular::Vector3& hi) const
+{
+  granular::GridRequest request;
+  request.lo = lo;
+  request.hi = hi;
+  request.processes = self->NumberOfProcesses;
+  std::copy_n(self->ProcessorGrid, 3, request.grid.begin());
+  request.cuts = this->Cuts;
+  return granular::make_process_grid(request);
+}
+
+//------------------------------------------------------------------------------
+VoxelForm vtkGranularDecompositionAlgorithm::Internals::MakeForm(
+  vtkGranularDecompositionAlgorithm* self)
+{
+  VoxelForm form;
+  form.SharedCorners = self->SharedCorners;
+  form.Threads = ChooseThreads(self->Threads, this->Ranks.Get());
+  return form;
+}
+
+//------------------------------------------------------------------------------
+vtkGranularDecompositionAlgorithm::vtkGranularDecompositionAlgorithm()
+  : Bounds{ 0, 1, 0, 1, 0, 1 }
+  , Shared(std::make_unique<Internals>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkGranularDecompositionAlgorithm::~vtkGranularDecompositionAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::AddCut(int axis, double position)
+{
+  this->Shared->Cuts[axis].push_back(position);
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::ClearCuts(int axis)
+{
+  if (!this->Shared->Cuts[axis].empty())
+  {
+    this->Shared->Cuts[axis].clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::AddXCut(double position)
+{
+  this->AddCut(0, position);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::AddYCut(double position)
+{
+  this->AddCut(1, position);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::AddZCut(double position)
+{
+  this->AddCut(2, position);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::ClearXCuts()
+{
+  this->ClearCuts(0);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::ClearYCuts()
+{
+  this->ClearCuts(1);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::ClearZCuts()
+{
+  this->ClearCuts(2);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDecompositionAlgorithm::GetNumberOfCuts(int axis)
+{
+  return axis >= 0 && axis < 3 ? static_cast<int>(this->Shared->Cuts[axis].size()) : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::SetThreads(int threads)
+{
+  if (threads < 0)
+  {
+    vtkErrorMacro("Threads must be at least 0, got " << threads);
+    return;
+  }
+  this->Threads = threads; // changes no result: nothing is to be made again
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Shared->Ranks.SetController(controller))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkMultiProcessController* vtkGranularDecompositionAlgorithm::GetController()
+{
+  return this->Shared->Ranks.GetController();
+}
+
+//------------------------------------------------------------------------------
+// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
+void vtkGranularDecompositionAlgorithm::SetAbortExecute(vtkTypeBool abort)
+{
+  this->AbortExecute = abort;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDecompositionAlgorithm::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
+  vtkMTimeType* mtime)
+{
+  this->Shared->Ranks.BeginUpdate(this);
+  return this->Superclass::ComputePipelineMTime(
+    request, inputVector, outputVector, requestFromOutputPort, mtime);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDecompositionAlgorithm::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDecompositionAlgorithm::RequestData(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const Outcome outcome =
+    Guard(this, outputVector, [&] { this->Execute(inputVector, outputVector); });
+  return this->Shared->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const auto& values)
+  {
+    os << indent << name << ":";
+    for (const auto& value : values)
+    {
+      os << " " << value;
+    }
+    os << "\n";
+  };
+  print("Bounds", this->Bounds);
+  os << indent << "NumberOfProcesses: " << this->NumberOfProcesses << "\n";
+  print("ProcessorGrid", this->ProcessorGrid);
+  print("XCuts", this->Shared->Cuts[0]);
+  print("YCuts", this->Shared->Cuts[1]);
+  print("ZCuts", this->Shared->Cuts[2]);
+  os << indent << "SharedCorners: " << (this->SharedCorners ? "On" : "Off") << "\n";
+  os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "Controller: " << this->GetController() << "\n";
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularDecompositionAlgorithm
+ * @brief   What the source and the filter of decompositions have in common: a grid of processes, and voxels.
+ *
+ * The output holds a VTK_VOXEL for each subdomain, with the cell arrays `nlocal` (how many particles it has;
+ * vtkTypeInt64Array, and the scalars) and `proc` (the rank of its process; vtkTypeInt32Array). Points are double. Point
+ * 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p, each 0 (low) or 1 (high) along x, y, z; cell p has the points
+ * 8p + {0, 4, 2, 6, 1, 5, 3, 7}.
+ *
+ * A pipeline may ask for any piece of any number: pieces hold equal numbers of subdomains, in their order.
+ *
+ * After an error the output is empty and GetErrorCode() is not vtkErrorCode::NoError. A request to abort holds for
+ * one update: the output is empty then, and the next update starts afresh.
+ */
+
+#ifndef vtkGranularDecompositionAlgorithm_h
+#define vtkGranularDecompositionAlgorithm_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkUnstructuredGridAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkMultiProcessController;
+
+class VTKGRANULAR_EXPORT vtkGranularDecompositionAlgorithm : public vtkUnstructuredGridAlgorithm
+{
+public:
+  vtkTypeMacro(vtkGranularDecompositionAlgorithm, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The box that is divided, xlo xhi ylo yhi zlo zhi, in the unit of length of the simulation. Of the source: finite,
+   * lo <= hi, (0, 1, 0, 1, 0, 1) by default. Of the filter: an axis with lo > hi is that of the box in the field data of
+   * the input; (1, -1, 1, -1, 1, -1) by default.
+   */
+  vtkSetVector6Macro(Bounds, double);
+  vtkGetVector6Macro(Bounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many processes there are: px py pz of ProcessorGrid, or it is an error. 0, the default: as many as the grid has.
+   */
+  vtkSetMacro(NumberOfProcesses, int);
+  vtkGetMacro(NumberOfProcesses, int);
+  ///@}
+
+  ///@{
+  /**
+   * px py pz, how many processes there are along x, y and z; (1, 1, 1) by default. A 0 is chosen, as the `*` of the
+   * command `processors`: such that the areas between subdomains are least, or as the cuts say. Process
+   * i + px (j + py k) has the i-th subdomain along x, the j-th along y and the k-th along z.
+   */
+  vtkSetVector3Macro(ProcessorGrid, int);
+  vtkGetVector3Macro(ProcessorGrid, int);
+  ///@}
+
+  ///@{
+  /**
+   * Where the box is cut along an axis: p - 1 positions inside the bounds, increasing. None, the default: evenly.
+   */
+  void AddXCut(double position);
+  void AddYCut(double position);
+  void AddZCut(double position);
+  void ClearXCuts();
+  void ClearYCuts();
+  void ClearZCuts();
+  int GetNumberOfCuts(int axis);
+  ///@}
+
+  ///@{
+  /**
+   * On: corners of several subdomains of a piece that are the same become one point, so that filters know the
+   * subdomains for neighbours. Off, the default: 8 points each.
+   */
+  vtkSetMacro(SharedCorners, bool);
+  vtkGetMacro(SharedCorners, bool);
+  vtkBooleanMacro(SharedCorners, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How many threads work. 0, the default: the cores of the machine, divided by the processes of
+   * the Controller that run on it. Changes no result. Below 0 is an error and changes nothing.
+   */
+  void SetThreads(int threads);
+  vtkGetMacro(Threads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The processes that work together, each on its piece: all of them must set it, set the same properties, and update
+   * this. What goes wrong on one of them is an error of all. The global controller by default; null: this process is
+   * alone, whatever others do.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
+  /// Has the update that works next, or is working, stop.
+  void SetAbortExecute(vtkTypeBool abort) override;
+
+protected:
+  vtkGranularDecompositionAlgorithm();
+  ~vtkGranularDecompositionAlgorithm() override;
+
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  /**
+   * Fills the output. Called by all processes together; may throw what the core does.
+   */
+  virtual void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+
+  double Bounds[6];
+  int NumberOfProcesses = 0;
+  int ProcessorGrid[3] = { 1, 1, 1 };
+  bool SharedCorners = false;
+  int Threads = 0;
+
+  struct Internals;
+  std::unique_ptr<Internals> Shared;
+
+private:
+  vtkGranularDecompositionAlgorithm(const vtkGranularDecompositionAlgorithm&) = delete;
+  void operator=(const vtkGranularDecompositionAlgorithm&) = delete;
+
+  void AddCut(int axis, double position);
+  void ClearCuts(int axis);
+};
+
+#endif

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularDecompositionReader.h"
+
+#include "private/arrays.h"
+#include "private/dump_output.h"
+#include "private/series_reader.h"
+#include "private/voxels.h"
+#include "private/vtu_file.h"
+
+#include "granular/decomposition/decomposition_file.h"
+
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularDecompositionReader);
+
+namespace
+{
+granular::Decomposition ReadPiece(
+  const granular::FramePiece& piece, granular::Notices& notices, granular::Progress& progress)
+{
+  const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(piece.file);
+  std::string first(4096, '\0');
+  first.resize(source->read(0, first.data(), first.size()));
+  return granular::is_vtu(first)
+    ? ReadVtu(*source, piece.entry, notices)
+    : granular::read_decomposition(*source, piece.entry, notices, progress);
+}
+
+/**
+ * All pieces of a frame. Files of single processes are in the order of these.
+ */
+granular::Decomposition ReadPieces(const std::vector<granular::FramePiece>& pieces,
+  granular::Notices& notices, granular::Progress& progress)
+{
+  granular::Decomposition all = ReadPiece(pieces.front(), notices, progress);
+  const bool numbered = pieces.size() > 1 && !all.has_ranks && all.subdomains.size() == 1;
+  for (std::size_t i = 1; i < pieces.size(); ++i)
+  {
+    const granular::Decomposition next = ReadPiece(pieces[i], notices, progress);
+    all.has_particles = all.has_particles && next.has_particles;
+    all.has_ranks = all.has_ranks && next.has_ranks;
+    all.subdomains.insert(all.subdomains.end(), next.subdomains.begin(), next.subdomains.end());
+  }
+  if (numbered && all.subdomains.size() == pieces.size())
+  {
+    all.has_ranks = true;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      all.subdomains[i].rank = static_cast<int>(i);
+    }
+  }
+  return all;
+}
+}
+
+//------------------------------------------------------------------------------
+vtkGranularDecompositionReader::vtkGranularDecompositionReader()
+{
+  this->Series->Format = &granular::decomposition_format();
+}
+
+//------------------------------------------------------------------------------
+vtkGranularDecompositionReader::~vtkGranularDecompositionReader() = default;
+
+//------------------------------------------------------------------------------
+vtkUnstructuredGrid* vtkGranularDecompositionReader::GetOutput()
+{
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDecompositionReader::CanReadFile(const char* fileName)
+{
+  return granular::is_decomposition_file(fileName ? fileName : "") ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDecompositionReader::FillOutputPortInformation(
+  int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  return this->Series->Run(this, outputVector, [&] { this->Read(request, outputVector); });
+}
+
+//------------------------------------------------------------------------------
+// Collective: an error of one rank is one of all. Each reads the whole frame, and keeps its piece.
+void vtkGranularDecompositionReader::Read(vtkInformation* request, vtkInformationVector* outputs)
+{
+  granular::Communicator& ranks = this->Series->GetRanks();
+  AlgorithmProgress own(this);
+  granular::SharedProgress progress(own, ranks);
+  const auto read = [&]
+  {
+    progress.step(0);
+    double time = 0;
+    const std::size_t frame = this->Series->FindFrame(this, request, outputs, time);
+    const std::vector<granular::FramePiece> pieces = this->Series->Index.pieces(frame);
+    granular::Notices notices;
+    granular::Decomposition all = ReadPieces(pieces, notices, progress);
+    const granular::SubdomainChecks checks = { static_cast<granular::Answer>(this->CheckBounds),
+      static_cast<granular::Answer>(this->CheckOverlap),
+      static_cast<granular::Answer>(this->CheckGaps), this->Tolerance };
+    const granular::FramePiece& first = pieces.front();
+    granular::check_subdomains(
+      all.subdomains, checks, granular::where_of(first.file.path, first.entry), notices);
+
+    granular::FrameHeader header;
+    const granular::Subdomain bounds = granular::bounds_of(all.subdomains);
+    header.box = granular::Box::from_bounds(bounds.lo, bounds.hi);
+    header.box.boundary = "ff ff ff";
+    header.timestep = first.entry.timestep;
+    auto* output = vtkUnstructuredGrid::GetData(outputs);
+    FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+    if (all.has_particles)
+    {
+      output->GetFieldData()->AddArray(
+        MakeDoubles("imbalance", { granular::imbalance_of(all.subdomains) }));
+    }
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+
+    const auto [begin, end] = PieceRequest::Of(outputs->GetInformationObject(0))
+                                .RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
+    const granular::Decomposition part = { { all.subdomains.begin() + begin,
+                                             all.subdomains.begin() + end },
+      all.has_particles, all.has_ranks };
+    VoxelForm form;
+    form.SharedCorners = this->SharedCorners;
+    form.Threads = ChooseThreads(this->Threads, ranks);
+    FillVoxels(output, part, form);
+    if (ranks.rank() == 0)
+    {
+      this->Series->Tell(this, notices, false);
+    }
+    progress.step(1);
+  };
+  granular::do_together(ranks, read);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "CheckBounds: " << this->CheckBounds << "\n";
+  os << indent << "CheckOverlap: " << this->CheckOverlap << "\n";
+  os << indent << "CheckGaps: " << this->CheckGaps << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "SharedCorners: " << (this->SharedCorners ? "On" : "Off") << "\n";
+}

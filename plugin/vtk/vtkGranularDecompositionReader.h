@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularDecompositionReader
+ * @brief   Reads the subdomains of the processes of a simulation: the files of dump decomposition/vtk.
+ *
+ * - Rectilinear grids in legacy VTK text, of LIGGGHTS-PUBLIC and PFM: one cell a process. They hold no counts, and
+ *   do not say which process owns which cell. Several of them in one file are time steps; the files that PFM
+ *   writes for each process (`%`) are put together, and then it is known.
+ * - Voxels in unstructured .vtk (ASCII and BINARY) and .vtu files, of LIGGGHTS-INL and vtkGranularDecompositionWriter, with
+ *   the cell arrays `nlocal` and `proc`. LIGGGHTS-INL writes mirror images, which have no volume: they are put
+ *   right, with a warning.
+ *
+ * The timestep is the last number in the name of a file; where a file holds several frames, or has no number, they
+ * are counted from 0. Which frames there are, and their times: see vtkGranularSeriesReader.
+ *
+ * The output and its pieces are those of vtkGranularDecompositionAlgorithm: voxels, with `nlocal` and `proc` as far as the
+ * file has them. Field data: the smallest box around all as BoxOrigin, BoxVectors and BoxBounds, `timestep`, and where
+ * there are counts `imbalance`, the largest divided by the mean.
+ */
+
+#ifndef vtkGranularDecompositionReader_h
+#define vtkGranularDecompositionReader_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkGranularSeriesReader.h"
+
+class vtkUnstructuredGrid;
+
+class VTKGRANULAR_EXPORT vtkGranularDecompositionReader : public vtkGranularSeriesReader
+{
+public:
+  static vtkGranularDecompositionReader* New();
+  vtkTypeMacro(vtkGranularDecompositionReader, vtkGranularSeriesReader);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The voxels.
+   */
+  vtkUnstructuredGrid* GetOutput();
+
+  enum AnswerType
+  {
+    ANSWER_ERROR = 0,
+    ANSWER_WARNING = 1,
+    ANSWER_NOTHING = 2
+  };
+
+  ///@{
+  /**
+   * What becomes of subdomains that are not what they should be, an error (the default), a warning, or nothing: with
+   * CheckBounds where lower bounds are above upper ones, or are no numbers; with CheckOverlap where two share more than
+   * faces; with CheckGaps where together they do not fill the smallest box around all.
+   */
+  vtkSetClampMacro(CheckBounds, int, ANSWER_ERROR, ANSWER_NOTHING);
+  vtkGetMacro(CheckBounds, int);
+  vtkSetClampMacro(CheckOverlap, int, ANSWER_ERROR, ANSWER_NOTHING);
+  vtkGetMacro(CheckOverlap, int);
+  vtkSetClampMacro(CheckGaps, int, ANSWER_ERROR, ANSWER_NOTHING);
+  vtkGetMacro(CheckGaps, int);
+  ///@}
+
+  ///@{
+  /**
+   * What these checks let pass: an overlap of this part of the box's edge, and gaps of this part of its
+   * volume. 1e-9 by default.
+   */
+  vtkSetClampMacro(Tolerance, double, 0, 1);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * On: corners of several subdomains of a piece that are the same become one point. Off by default.
+   */
+  vtkSetMacro(SharedCorners, bool);
+  vtkGetMacro(SharedCorners, bool);
+  vtkBooleanMacro(SharedCorners, bool);
+  ///@}
+
+  /**
+   * Returns 1 if the file is of dump decomposition/vtk, by what is in it; other .vtk and .vtu files are for others.
+   * Never fails.
+   */
+  static int CanReadFile(VTK_FILEPATH const char* fileName);
+
+protected:
+  vtkGranularDecompositionReader();
+  ~vtkGranularDecompositionReader() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkGranularDecompositionReader(const vtkGranularDecompositionReader&) = delete;
+  void operator=(const vtkGranularDecompositionReader&) = delete;
+
+  void Read(vtkInformation* request, vtkInformationVector* outputs);
+
+  int CheckBounds = ANSWER_ERROR;
+  int CheckOverlap = ANSWER_ERROR;
+  int CheckGaps = ANSWER_ERROR;
+  double Tolerance = 1e-9;
+  bool SharedCorners = false;
+};
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularDecompositionSource.h"
+
+#include "private/decomposition_algorithm.h"
+#include "private/dump_output.h"
+
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkUnstructuredGrid.h"
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularDecompositionSource);
+
+//------------------------------------------------------------------------------
+vtkGranularDecompositionSource::vtkGranularDecompositionSource()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+//------------------------------------------------------------------------------
+vtkGranularDecompositionSource::~vtkGranularDecompositionSource() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionSource::Execute(
+  vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
+{
+  const auto work = [&]
+  {
+    const double* bounds = this->Bounds;
+    const granular::Vector3 lo = { bounds[0], bounds[2], bounds[4] };
+    const granular::Vector3 hi = { bounds[1], bounds[3], bounds[5] };
+    const granular::ProcessGrid grid = this->Shared->MakeGrid(this, lo, hi);
+    const auto [first, last] =
+      PieceRequest::Of(outputs->GetInformationObject(0)).RangeOf(grid.size());
+    auto* output = vtkUnstructuredGrid::GetData(outputs);
+    FillVoxels(output, { grid.subdomains(first, last) }, this->Shared->MakeForm(this));
+    granular::FrameHeader header;
+    header.box = granular::Box::from_bounds(lo, hi);
+    header.box.boundary = "ff ff ff";
+    FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+  };
+  granular::do_together(this->Shared->Ranks.Get(), work);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularDecompositionSource::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

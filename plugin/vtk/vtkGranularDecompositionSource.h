@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularDecompositionSource
+ * @brief   Makes the subdomains of a grid of processes in a box, as voxels, without a file.
+ *
+ * `nlocal` is 0: there are no particles; vtkGranularDecomposition counts some. The field data are those of a dump of
+ * timestep 0 in that box.
+ */
+
+#ifndef vtkGranularDecompositionSource_h
+#define vtkGranularDecompositionSource_h
+
+#include "vtkGranularDecompositionAlgorithm.h"
+#include "vtkGranularModule.h" // For export macro
+
+class VTKGRANULAR_EXPORT vtkGranularDecompositionSource : public vtkGranularDecompositionAlgorithm
+{
+public:
+  static vtkGranularDecompositionSource* New();
+  vtkTypeMacro(vtkGranularDecompositionSource, vtkGranularDecompositionAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkGranularDecompositionSource();
+  ~vtkGranularDecompositionSource() override;
+
+  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkGranularDecompositionSource(const vtkGranularDecompositionSource&) = delete;
+  void operator=(const vtkGranularDecompositionSource&) = delete;
+};
+
+#endif

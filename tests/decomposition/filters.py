@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""VTK's own filters find in the voxels what is there: volumes, cells, halves, faces, values."""
+import os
+
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import mutable, vtkIdList
+from vtkmodules.vtkCommonDataModel import vtkCellLocator, vtkGenericCell, vtkPlane, vtkPolyData
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkFiltersCore import vtkProbeFilter
+from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+
+import granular
+
+data = os.environ["GRANULAR_DATA"]
+random = numpy.random.default_rng(7)
+
+
+def output(algorithm):
+    algorithm.SetController(None)
+    algorithm.Update()
+    assert algorithm.GetErrorCode() == 0
+    return algorithm.GetOutput()
+
+
+def source(bounds, grid, cuts=((), (), ()), shared=False):
+    algorithm = granular.vtkGranularDecompositionSource()
+    algorithm.SetBounds(*bounds)
+    algorithm.SetProcessorGrid(*grid)
+    for axis, positions in zip("XYZ", cuts):
+        for position in positions:
+            getattr(algorithm, f"Add{axis}Cut")(position)
+    algorithm.SetSharedCorners(shared)
+    return output(algorithm)
+
+
+def reader(*names):
+    algorithm = granular.vtkGranularDecompositionReader()
+    for name in names:
+        algorithm.AddFileName(os.path.join(data, name))
+    return output(algorithm)
+
+
+def counted():
+    grains = granular.vtkGranularDumpReader()
+    grains.AddFileName(os.path.join(data, "grains_2000.dump"))
+    algorithm = granular.vtkGranularDecomposition()
+    algorithm.SetInputConnection(grains.GetOutputPort())
+    algorithm.SetProcessorGrid(3, 2, 4)
+    return output(algorithm)
+
+
+def sizes(dataset):
+    algorithm = vtkCellSizeFilter()
+    algorithm.SetInputData(dataset)
+    algorithm.Update()
+    cells = algorithm.GetOutput().GetCellData()
+    return [vtk_to_numpy(cells.GetArray(name)) for name in ("Area", "Volume")]
+
+
+def bounds_of_cells(grid):
+    return numpy.array([grid.GetCell(i).GetBounds() for i in range(grid.GetNumberOfCells())])
+
+
+def surface(grid):
+    algorithm = vtkDataSetSurfaceFilter()
+    algorithm.SetInputData(grid)
+    algorithm.PassThroughCellIdsOn()
+    algorithm.Update()
+    return algorithm.GetOutput()
+
+
+def check(name, grid, omega=None, clip=True):
+    omega = numpy.array(omega if omega else grid.GetBounds())
+    low, high = omega[::2], omega[1::2]
+    whole = (high - low).prod()
+    boxes = bounds_of_cells(grid)
+
+    _, volumes = sizes(grid)
+    assert (volumes > 0).all(), name
+    assert abs(volumes.sum() - whole) <= 1e-12 * whole, (name, volumes.sum(), whole)
+    # to what the rounding of the corners allows
+    exact = (boxes[:, 1::2] - boxes[:, ::2]).prod(axis=1)
+    assert numpy.allclose(volumes, exact, rtol=1e-12, atol=0), name
+
+    points = low + (high - low) * random.random((100_000, 3))
+    locator = vtkCellLocator()
+    locator.SetDataSet(grid)
+    locator.BuildLocator()
+    cell, pcoords, weights = vtkGenericCell(), [0.0] * 3, [0.0] * 8
+    found = numpy.array([locator.FindCell(point, 0, cell, mutable(0), pcoords, weights)
+                         for point in points])
+    assert (found >= 0).all(), name
+    inside = (boxes[found, ::2] <= points) & (points <= boxes[found, 1::2])
+    assert inside.all(), (name, (~inside).sum())
+
+    probe = vtkProbeFilter()
+    places = vtkPoints()
+    places.SetDataTypeToDouble()
+    for point in points[:2000]:
+        places.InsertNextPoint(point)
+    cloud = vtkPolyData()
+    cloud.SetPoints(places)
+    probe.SetInputData(cloud)
+    probe.SetSourceData(grid)
+    probe.Update()
+    probed = probe.GetOutput().GetPointData()
+    assert vtk_to_numpy(probed.GetArray("vtkValidPointMask")).all(), name
+    for array in ("nlocal", "proc"):
+        if grid.GetCellData().GetArray(array):
+            values = vtk_to_numpy(grid.GetCellData().GetArray(array))[found[:2000]]
+            assert (vtk_to_numpy(probed.GetArray(array)) == values).all(), (name, array)
+
+    if clip:
+        for axis in range(3):
+            plane = vtkPlane()
+            plane.SetOrigin((low + high) / 2)
+            plane.SetNormal(numpy.eye(3)[axis])
+            half = vtkTableBasedClipDataSet()
+            half.SetInputData(grid)
+            half.SetClipFunction(plane)
+            half.Update()
+            _, parts = sizes(half.GetOutput())
+            assert (parts >= 0).all(), name
+            assert abs(parts.sum() - whole / 2) <= 1e-6 * whole, (name, axis, parts.sum())
+
+    faces = surface(grid)
+    owners = vtk_to_numpy(faces.GetCellData().GetArray("vtkOriginalCellIds"))
+    ids = vtkIdList()
+    for face in range(faces.GetNumberOfCells()):
+        faces.GetCellPoints(face, ids)
+        corners = numpy.array([faces.GetPoint(ids.GetId(i)) for i in range(ids.GetNumberOfIds())])
+        normal = numpy.cross(corners[1] - corners[0], corners[2] - corners[1])
+        box = boxes[owners[face]]
+        outward = corners.mean(axis=0) - (box[::2] + box[1::2]) / 2
+        assert normal @ outward > 0, (name, face)
+
+
+def check_outside(name, grid):
+    """With corners that are shared the outside is that of the box."""
+    lengths = numpy.subtract(grid.GetBounds()[1::2], grid.GetBounds()[::2])
+    area = 2 * (lengths.prod() / lengths).sum()
+    areas, _ = sizes(surface(grid))
+    assert abs(areas.sum() - area) <= 1e-12 * area, (name, areas.sum(), area)
+
+
+unit = (0, 1, 0, 2, 0, 3)
+check("one", source(unit, (1, 1, 1)), unit)
+check("grid", source(unit, (3, 4, 5)), unit)
+check("shared", source(unit, (3, 4, 5), shared=True), unit)
+check("cuts", source((-0.05, 0.05, -0.05, 0.05, 0, 0.15), (3, 1, 4), ((-0.04, 0.049), (), (1e-3, 0.01, 0.1))))
+far = (1e9, 1e9 + 1, -1e9, -1e9 + 2, 5e8, 5e8 + 4)
+check("far", source(far, (4, 2, 3)), far, clip=False)
+check("counted", counted(), (-0.05, 0.05, -0.05, 0.05, 0, 0.15))
+check("public", reader("decomposition/all.vtk"), (-0.05, 0.05, -0.05, 0.05, 0, 0.15))
+check_outside("shared", source(unit, (3, 4, 5), shared=True))
+check_outside("shared cuts", source(unit, (2, 2, 1), ((0.9,), (0.1,), ()), shared=True))
+
+# a slab one ulp thick has a volume, too
+thin = (1.0, numpy.nextafter(1.0, 2.0), 0, 1, 0, 1)
+_, volumes = sizes(source(thin, (1, 2, 2)))
+assert abs(volumes.sum() - numpy.spacing(1.0)) <= 1e-12 * numpy.spacing(1.0), volumes

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Any number of ranks count the same, each shows a part of the subdomains, and all of them together the whole."""
+import hashlib
+import os
+
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+import granular
+
+data = os.environ["GRANULAR_DATA"]
+ranks = vtkMultiProcessController.GetGlobalController()
+symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
+
+
+def whole(proxy, time):
+    """What all ranks have, by way of a file that ParaView writes and reads."""
+    proxy.UpdatePipeline(time)
+    name = os.path.abspath("voxels.pvtu")
+    SaveData(name, proxy, DataMode="Binary")
+    if symmetric:
+        ranks.Barrier()
+    file = vtkXMLPUnstructuredGridReader()
+    file.SetFileName(name)
+    file.Update()
+    if symmetric:
+        ranks.Barrier()
+    return file.GetOutput()
+
+
+def digest(grid):
+    arrays = [grid.GetPoints().GetData(), grid.GetCells().GetConnectivityArray()]
+    arrays += [grid.GetCellData().GetArray(name) for name in ("nlocal", "proc")
+               if grid.GetCellData().HasArray(name)]
+    return [hashlib.sha256(vtk_to_numpy(array).astype(float).tobytes()).hexdigest() for array in arrays]
+
+
+def alone(algorithm, *inputs):
+    """The same by the classes, in this process without the others."""
+    for each in (algorithm, *inputs):
+        each.SetController(None)
+    for port, each in enumerate(inputs):
+        algorithm.SetInputConnection(port, each.GetOutputPort())
+    algorithm.Update()
+    return algorithm.GetOutput()
+
+
+def reader_of(kind, *names):
+    reader = kind()
+    for name in names:
+        reader.AddFileName(os.path.join(data, name))
+    return reader
+
+
+def filter_of(**properties):
+    algorithm = granular.vtkGranularDecomposition()
+    for name, value in properties.items():
+        getattr(algorithm, f"Set{name}")(*value if isinstance(value, tuple) else (value,))
+    return algorithm
+
+
+# the source
+source = GranularDecompositionSource(Bounds=[0, 1, 0, 2, 0, 3], ProcessorGrid=[3, 5, 7])
+same = granular.vtkGranularDecompositionSource()
+same.SetBounds(0, 1, 0, 2, 0, 3)
+same.SetProcessorGrid(3, 5, 7)
+assert digest(whole(source, 0)) == digest(alone(same))
+
+# the reader
+divided = GranularDecompositionReader(FileNames=[os.path.join(data, "decomposition/all.vtk")])
+read = reader_of(granular.vtkGranularDecompositionReader, "decomposition/all.vtk")
+assert digest(whole(divided, 0)) == digest(alone(read))
+
+# the filter: the results of three modes do not depend on the ranks
+file = os.path.join(data, "grains_2000.dump")
+grains = GranularDumpReader(FileNames=[file])
+atoms = GranularDumpReader(FileNames=[os.path.join(data, "process_50.dump")])
+dumps = granular.vtkGranularDumpReader
+for proxy, algorithm, inputs in (
+        (GranularDecomposition(Input=grains, ProcessorGrid=[3, 4, 5]),
+         filter_of(ProcessorGrid=(3, 4, 5)), [reader_of(dumps, "grains_2000.dump")]),
+        (GranularDecomposition(Input=atoms, Mode="ProcessArray"),
+         filter_of(Mode=1), [reader_of(dumps, "process_50.dump")]),
+        (GranularDecomposition(Input=grains, Mode="Subdomains", Subdomains=divided),
+         filter_of(Mode=2), [reader_of(dumps, "grains_2000.dump"),
+                             reader_of(granular.vtkGranularDecompositionReader, "decomposition/all.vtk")])):
+    together = whole(proxy, 0)
+    by_one = alone(algorithm, *inputs)
+    assert digest(together) == digest(by_one)
+    fields = [grid.GetFieldData().GetArray("imbalance").GetValue(0) for grid in (together, by_one)]
+    assert fields[0] == fields[1] >= 1, fields
+
+# the ranks of this program: a voxel each, with what it has
+here = GranularDecomposition(Input=grains, Mode="Ranks")
+grid = whole(here, 0)
+size = ranks.GetNumberOfProcesses()
+cells = {name: vtk_to_numpy(grid.GetCellData().GetArray(name)) for name in ("nlocal", "proc")}
+assert (cells["proc"] == numpy.arange(size)).all(), cells
+assert cells["nlocal"].sum() == 1200 and cells["nlocal"].max() < 1.2 * 1200 / size, cells
+imbalance = grid.GetFieldData().GetArray("imbalance").GetValue(0)
+assert imbalance == cells["nlocal"].max() / (1200 / size)
+
+# fewer particles than ranks, and none
+Delete(here)
+few = GranularPackingSource(NumberOfGrains=2, BoxGiven=0)
+grid = whole(GranularDecomposition(Input=few, Mode="Ranks"), 0)
+assert grid.GetNumberOfCells() == min(size, 2)
+assert vtk_to_numpy(grid.GetCellData().GetArray("nlocal")).sum() == 2
+none = GranularDumpReader(FileNames=[os.path.join(data, "grains_0.dump")])
+grid = whole(GranularDecomposition(Input=none, ProcessorGrid=[2, 2, 2]), 0)
+assert grid.GetNumberOfCells() == 8
+assert not vtk_to_numpy(grid.GetCellData().GetArray("nlocal")).any()
+print("all there")
