@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/decomposition/process_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <unordered_map>
+
+namespace granular
+{
+namespace
+{
+struct Slab
+{
+  double lo;
+  double hi;
+
+  auto operator<=>(const Slab&) const = default;
+};
+
+struct SlabHash
+{
+  std::size_t operator()(const Slab& slab) const noexcept
+  {
+    const std::hash<double> hash;
+    return hash(slab.lo) * 31 + hash(slab.hi);
+  }
+};
+
+/// The slabs of one axis that subdomains lie in, each once.
+class Slabs
+{
+public:
+  std::size_t size() const noexcept { return slabs_.size(); }
+
+  /// Its number, in the order in which they come.
+  std::size_t number(const Slab& slab)
+  {
+    if (slabs_.empty() || slabs_[last_] != slab)
+    {
+      last_ = numbers_.try_emplace(slab, slabs_.size()).first->second;
+      if (last_ == slabs_.size())
+      {
+        slabs_.push_back(slab);
+      }
+    }
+    return last_;
+  }
+
+  /// The cuts between them, or nothing where one does not begin where the one before ends; places gets which in
+  /// order of position each number is.
+  std::vector<double> cuts(std::vector<std::int64_t>& places) const
+  {
+    std::vector<std::size_t> order(slabs_.size());
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::ranges::sort(order, {}, [this](std::size_t number) { return slabs_[number]; });
+    places.resize(order.size());
+    std::vector<double> cuts = { slabs_[order.front()].lo };
+    for (std::size_t place = 0; place < order.size(); ++place)
+    {
+      const Slab& slab = slabs_[order[place]];
+      if (slab.lo != cuts.back())
+      {
+        return {};
+      }
+      cuts.push_back(slab.hi);
+      places[order[place]] = static_cast<std::int64_t>(place);
+    }
+    return cuts;
+  }
+
+private:
+  std::vector<Slab> slabs_;
+  std::unordered_map<Slab, std::size_t, SlabHash> numbers_;
+  std::size_t last_ = 0;
+};
+
+/// Of each subdomain its slabs; nothing where there are more slabs than a grid of so many has.
+std::vector<std::array<std::size_t, 3>> find_slabs(
+  std::span<const Subdomain> subdomains, std::array<Slabs, 3>& slabs)
+{
+  std::vector<std::array<std::size_t, 3>> found;
+  for (const Subdomain& subdomain : subdomains)
+  {
+    auto& numbers = found.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const Slab slab = { subdomain.lo[axis], subdomain.hi[axis] };
+      if (!(slab.lo <= slab.hi) || !std::isfinite(slab.lo) || !std::isfinite(slab.hi))
+      {
+        return {};
+      }
+      numbers[axis] = slabs[axis].number(slab);
+    }
+    if (slabs[0].size() * slabs[1].size() * slabs[2].size() > subdomains.size())
+    {
+      return {};
+    }
+  }
+  return found;
+}
+}
+
+std::optional<ProcessGrid> find_process_grid(
+  std::span<const Subdomain> subdomains, std::vector<std::int64_t>* order)
+{
+  std::array<Slabs, 3> slabs;
+  const auto found = find_slabs(subdomains, slabs);
+  if (found.empty() || slabs[0].size() * slabs[1].size() * slabs[2].size() != subdomains.size())
+  {
+    return std::nullopt;
+  }
+  ProcessGrid grid;
+  std::array<std::vector<std::int64_t>, 3> places;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    grid.cuts[axis] = slabs[axis].cuts(places[axis]);
+    if (grid.cuts[axis].empty())
+    {
+      return std::nullopt;
+    }
+  }
+  const auto [px, py, pz] = grid.counts();
+  std::vector<std::int64_t> own_order;
+  std::vector<std::int64_t>& taken = order ? *order : own_order;
+  taken.clear();
+  std::vector<bool> is_taken(subdomains.size());
+  for (const auto& [x, y, z] : found)
+  {
+    const std::int64_t place = places[0][x] + px * (places[1][y] + py * places[2][z]);
+    if (is_taken[static_cast<std::size_t>(place)])
+    {
+      return std::nullopt;
+    }
+    is_taken[static_cast<std::size_t>(place)] = true;
+    taken.push_back(place);
+  }
+  return grid;
+}
+}

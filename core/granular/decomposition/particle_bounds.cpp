@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/base/archive.h"
+#include "granular/base/error.h"
+#include "granular/base/number_print.h"
+#include "granular/decomposition/count_particles.h"
+#include "granular/dump/absolute_positions.h"
+#include "granular/dump/column_arrays.h"
+#include "granular/dump/point_forms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <unordered_map>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t rows_per_chunk = 65536;
+constexpr std::size_t most_rows = AbsolutePositions::most_rows;
+constexpr double largest_rank = 2147483647;
+
+/// The bounds of nothing.
+Subdomain nothing_of(int rank)
+{
+  return { { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, 0, rank };
+}
+
+/// Bounds by rank.
+class BoundsByRank
+{
+public:
+  Subdomain& of(int rank)
+  {
+    if (bounds_.empty() || bounds_[last_].rank != rank)
+    {
+      last_ = numbers_.try_emplace(rank, bounds_.size()).first->second;
+      if (last_ == bounds_.size())
+      {
+        bounds_.push_back(nothing_of(rank));
+      }
+    }
+    return bounds_[last_];
+  }
+
+  void add(const Subdomain& other)
+  {
+    Subdomain& bounds = this->of(other.rank);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      bounds.lo[axis] = std::min(bounds.lo[axis], other.lo[axis]);
+      bounds.hi[axis] = std::max(bounds.hi[axis], other.hi[axis]);
+    }
+    bounds.particles += other.particles;
+  }
+
+  void add(std::span<const Subdomain> others)
+  {
+    std::ranges::for_each(others, [this](const Subdomain& other) { this->add(other); });
+  }
+
+  std::span<const Subdomain> all() const noexcept { return bounds_; }
+
+  /// By rank. Which of -0 and 0 came first must not show: all are 0.
+  std::vector<Subdomain> sorted() &&
+  {
+    std::ranges::sort(bounds_, {}, &Subdomain::rank);
+    for (Subdomain& bounds : bounds_)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        bounds.lo[axis] += 0.0;
+        bounds.hi[axis] += 0.0;
+      }
+    }
+    return std::move(bounds_);
+  }
+
+private:
+  std::vector<Subdomain> bounds_;
+  std::unordered_map<int, std::size_t> numbers_;
+  std::size_t last_ = 0;
+};
+
+/// The processes of rows, as doubles: all that are right are exact.
+class Processes
+{
+public:
+  /// null: all rows are of process 0
+  explicit Processes(const ArrayView* array)
+    : array_(array)
+  {
+    if (array && (array->size() != 1 || array->type == ScalarType::Text))
+    {
+      throw Error("expected one whole number a row, got " +
+          (array->type == ScalarType::Text ? "texts" : std::to_string(array->size()) + " values"),
+        { .column = array->name });
+    }
+  }
+
+  void load(std::int64_t first, std::size_t count, double* to) const
+  {
+    if (!array_)
+    {
+      std::fill_n(to, count, 0.0);
+      return;
+    }
+    std::array<std::int64_t, most_rows> rows;
+    std::iota(rows.begin(), rows.end(), first);
+    load_numbers(component_of(*array_, 0), std::span(rows).first(count), to);
+  }
+
+  int rank_of(double process) const
+  {
+    if (!(process >= 0 && process <= largest_rank && process == std::floor(process)))
+    {
+      char word[most_number_chars];
+      throw Error("expected whole numbers of processes, from 0 to 2147483647, got " +
+          std::string(word, print_number(word, process, { 0 })),
+        { .column = array_->name });
+    }
+    return static_cast<int>(process);
+  }
+
+private:
+  const ArrayView* array_;
+};
+
+/// The bounds of rows of one process that follow each other.
+class Run
+{
+public:
+  void start(int rank) noexcept { bounds_ = nothing_of(rank); }
+
+  void add(const double* x) noexcept
+  {
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+    {
+      return;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      bounds_.lo[axis] = std::min(bounds_.lo[axis], x[axis]);
+      bounds_.hi[axis] = std::max(bounds_.hi[axis], x[axis]);
+    }
+    ++bounds_.particles;
+  }
+
+  void end(BoundsByRank& all) const
+  {
+    if (bounds_.particles > 0)
+    {
+      all.add(bounds_);
+    }
+  }
+
+private:
+  Subdomain bounds_ = nothing_of(0);
+};
+
+void add_rows(const FrameView& frame, const AbsolutePositions& positions,
+  const Processes& processes, std::int64_t first, std::int64_t last, BoundsByRank& bounds)
+{
+  constexpr auto most = static_cast<std::int64_t>(most_rows);
+  std::array<double, 3 * most_rows> buffer;
+  std::array<double, most_rows> numbers;
+  for (; first < last; first += most)
+  {
+    const auto count = static_cast<std::size_t>(std::min(most, last - first));
+    processes.load(first, count, numbers.data());
+    const double* x = positions.load(first, count, buffer.data());
+    const unsigned char* ghosts = frame.ghosts ? frame.ghosts + first : nullptr;
+    Run run;
+    double process = 0;
+    for (std::size_t i = 0; i < count; ++i, x += 3)
+    {
+      if (ghosts && (ghosts[i] & FrameView::duplicate_row) != 0)
+      {
+        continue;
+      }
+      if (numbers[i] != process)
+      {
+        const int rank = processes.rank_of(numbers[i]);
+        run.end(bounds);
+        run.start(rank);
+        process = numbers[i];
+      }
+      run.add(x);
+    }
+    run.end(bounds);
+  }
+}
+
+std::vector<Subdomain> find_bounds(
+  const FrameView& frame, const ArrayView* process, const Executor& executor, Progress& progress)
+{
+  if (frame.rows > 0 && !frame.points)
+  {
+    throw Error("expected points to find bounds of, got none");
+  }
+  const AbsolutePositions positions(frame, false);
+  const Processes processes(process);
+  const auto chunks = static_cast<std::size_t>((frame.rows + rows_per_chunk - 1) / rows_per_chunk);
+  std::vector<BoundsByRank> bounds(executor.workers(chunks));
+  executor.parallel_for(
+    chunks,
+    [&](std::size_t chunk, std::size_t worker)
+    {
+      const std::int64_t first = static_cast<std::int64_t>(chunk) * rows_per_chunk;
+      add_rows(frame, positions, processes, first, std::min(first + rows_per_chunk, frame.rows),
+        bounds[worker]);
+    },
+    progress);
+  for (std::size_t worker = 1; worker < bounds.size(); ++worker)
+  {
+    bounds[0].add(bounds[worker].all());
+  }
+  return std::move(bounds[0]).sorted();
+}
+
+/// Packer and Unpacker.
+template <class Archive>
+void pass_subdomain(Archive& archive, Subdomain& subdomain)
+{
+  archive.number(subdomain.lo);
+  archive.number(subdomain.hi);
+  archive.number(subdomain.particles);
+  archive.number(subdomain.rank);
+}
+}
+
+std::vector<Subdomain> bounds_by_process(
+  const FrameView& frame, const ArrayView& process, const Executor& executor, Progress& progress)
+{
+  return find_bounds(frame, &process, executor, progress);
+}
+
+std::vector<Subdomain> bounds_of_particles(
+  const FrameView& frame, const Executor& executor, Progress& progress)
+{
+  return find_bounds(frame, nullptr, executor, progress);
+}
+
+std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communicator& ranks)
+{
+  Packer packer;
+  do_together(ranks,
+    [&]
+    {
+      BoundsByRank joined; // one a process is sent
+      joined.add(own);
+      for (Subdomain subdomain : joined.all())
+      {
+        pass_subdomain(packer, subdomain);
+      }
+    });
+  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
+  std::vector<Subdomain> subdomains;
+  do_together(ranks,
+    [&]
+    {
+      BoundsByRank joined;
+      for (const std::string& bytes : all)
+      {
+        Unpacker unpacker{ bytes };
+        while (!unpacker.bytes.empty())
+        {
+          Subdomain subdomain;
+          pass_subdomain(unpacker, subdomain);
+          joined.add(subdomain);
+        }
+      }
+      subdomains = std::move(joined).sorted();
+    });
+  return subdomains;
+}
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/decomposition/process_grid.h"
+
+#include "granular/base/error.h"
+#include "granular/base/number_print.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+using Counts = std::array<std::int64_t, 3>;
+
+constexpr std::int64_t most_processes = 2147483647; ///< ranks are int
+
+std::string axis_name(std::size_t axis)
+{
+  return std::string(1, "xyz"[axis]);
+}
+
+std::string print(double value)
+{
+  char word[most_number_chars];
+  return { word, print_number(word, value, { 0 }) };
+}
+
+std::string print(const Counts& grid)
+{
+  return std::to_string(grid[0]) + " x " + std::to_string(grid[1]) + " x " +
+    std::to_string(grid[2]);
+}
+
+void check_box(const Vector3& lo, const Vector3& hi)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (!(lo[axis] <= hi[axis]) || !std::isfinite(hi[axis] - lo[axis]))
+    {
+      throw Error("expected finite bounds along " + axis_name(axis) +
+        ", the upper one not below the lower one, got " + print(lo[axis]) + " and " +
+        print(hi[axis]));
+    }
+  }
+}
+
+/// As many as the user says or the cuts make; 0 where nobody does.
+Counts told_counts(const GridRequest& request)
+{
+  Counts grid;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t told = request.grid[axis];
+    const auto cuts = static_cast<std::int64_t>(request.cuts[axis].size());
+    if (told < 0)
+    {
+      throw Error("expected a number of processes along " + axis_name(axis) +
+        ", or 0 to have it chosen, got " + std::to_string(told));
+    }
+    if (told > 0 && cuts > 0 && cuts != told - 1)
+    {
+      throw Error("expected " + std::to_string(told - 1) + " cuts along " + axis_name(axis) +
+        " for " + std::to_string(told) + " processes, got " + std::to_string(cuts));
+    }
+    grid[axis] = cuts > 0 ? cuts + 1 : told;
+  }
+  return grid;
+}
+
+/// The product of those that are not 0.
+std::int64_t product_of(const Counts& grid)
+{
+  std::int64_t product = 1;
+  for (const std::int64_t count : grid)
+  {
+    product *= std::max<std::int64_t>(count, 1);
+    if (product > most_processes)
+    {
+      throw LimitError("expected fewer than 2^31 processes, got a grid of " + print(grid));
+    }
+  }
+  return product;
+}
+
+std::vector<std::int64_t> divisors_of(std::int64_t number)
+{
+  std::vector<std::int64_t> divisors;
+  for (std::int64_t i = 1; i * i <= number; ++i)
+  {
+    if (number % i == 0)
+    {
+      divisors.push_back(i);
+      if (i * i != number)
+      {
+        divisors.push_back(number / i);
+      }
+    }
+  }
+  std::ranges::sort(divisors);
+  return divisors;
+}
+
+/// Replaces zeros so that the product grows by the factor of rest. LAMMPS and LIGGGHTS divide each face by one
+/// number after the other; done in the same order, sums that differ by rounding alone differ in the same way,
+/// and the same grid is chosen.
+Counts choose(const Vector3& lengths, const Counts& told, std::int64_t rest)
+{
+  const auto& [x, y, z] = lengths;
+  const auto options = [](std::int64_t known, std::int64_t number)
+  { return known > 0 ? std::vector<std::int64_t>{ 1 } : divisors_of(number); };
+  Counts best = {};
+  double best_area = 0;
+  for (const std::int64_t i : options(told[0], rest))
+  {
+    for (const std::int64_t j : options(told[1], rest / i))
+    {
+      const std::int64_t k = rest / i / j;
+      if (told[2] > 0 && k != 1)
+      {
+        continue;
+      }
+      const Counts grid = { told[0] > 0 ? told[0] : i, told[1] > 0 ? told[1] : j,
+        told[2] > 0 ? told[2] : k };
+      const auto px = static_cast<double>(grid[0]);
+      const auto py = static_cast<double>(grid[1]);
+      const auto pz = static_cast<double>(grid[2]);
+      const double area = x * y / px / py + x * z / px / pz + y * z / py / pz;
+      if (best[0] == 0 || area < best_area)
+      {
+        best = grid;
+        best_area = area;
+      }
+    }
+  }
+  return best;
+}
+
+Counts counts_of(const GridRequest& request)
+{
+  const std::int64_t processes = request.processes;
+  if (processes < 0)
+  {
+    throw Error("expected a number of processes, or 0 for as many as the grid has, got " +
+      std::to_string(processes));
+  }
+  if (processes > most_processes)
+  {
+    throw LimitError("expected fewer than 2^31 processes, got " + std::to_string(processes));
+  }
+  const Counts told = told_counts(request);
+  const std::int64_t product = product_of(told);
+  const bool open = std::ranges::count(told, 0) > 0;
+  if (open && processes == 0)
+  {
+    throw Error(
+      "expected how many processes there are, to choose a grid " + print(told) + " for, got 0");
+  }
+  if (open ? processes % product != 0 : processes != 0 && processes != product)
+  {
+    throw Error("expected a number of processes that a grid of " + print(told) +
+      (open ? " (0: chosen)" : "") + " can have, got " + std::to_string(processes));
+  }
+  if (!open)
+  {
+    return told;
+  }
+  const Vector3 lengths = { request.hi[0] - request.lo[0], request.hi[1] - request.lo[1],
+    request.hi[2] - request.lo[2] };
+  return choose(lengths, told, processes / product);
+}
+
+std::vector<double> even_cuts(double lo, double hi, std::int64_t count)
+{
+  std::vector<double> cuts(static_cast<std::size_t>(count) + 1, lo);
+  const double length = hi - lo;
+  for (std::int64_t i = 1; i < count; ++i)
+  {
+    // the quotient first, as LIGGGHTS does: the same bits as its subdomains
+    const double part = static_cast<double>(i) / static_cast<double>(count);
+    cuts[static_cast<std::size_t>(i)] = std::min(lo + length * part, hi);
+  }
+  cuts.back() = hi;
+  return cuts;
+}
+
+std::vector<double> told_cuts(
+  double lo, double hi, const std::vector<double>& inner, std::size_t axis)
+{
+  std::vector<double> cuts = { lo };
+  for (const double cut : inner)
+  {
+    if (!(cut > cuts.back() && cut < hi))
+    {
+      throw Error("expected increasing cuts along " + axis_name(axis) + " between " + print(lo) +
+        " and " + print(hi) + ", got " + print(cut) +
+        (cuts.size() > 1 ? " behind " + print(cuts.back()) : ""));
+    }
+    cuts.push_back(cut);
+  }
+  cuts.push_back(hi);
+  return cuts;
+}
+}
+
+std::array<std::int64_t, 3> ProcessGrid::counts() const noexcept
+{
+  Counts counts;
+  std::ranges::transform(cuts, counts.begin(),
+    [](const auto& of_axis)
+    { return std::max<std::int64_t>(static_cast<std::int64_t>(of_axis.size()) - 1, 0); });
+  return counts;
+}
+
+std::int64_t ProcessGrid::size() const noexcept
+{
+  const auto [x, y, z] = this->counts();
+  return x * y * z;
+}
+
+std::vector<Subdomain> ProcessGrid::subdomains(std::int64_t first, std::int64_t last) const
+{
+  const Counts grid = this->counts();
+  std::vector<Subdomain> subdomains(static_cast<std::size_t>(std::max(first, last) - first));
+  for (std::int64_t number = first; number < last; ++number)
+  {
+    Subdomain& subdomain = subdomains[static_cast<std::size_t>(number - first)];
+    subdomain.rank = static_cast<int>(number);
+    std::int64_t rest = number;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto slab = static_cast<std::size_t>(rest % grid[axis]);
+      subdomain.lo[axis] = cuts[axis][slab];
+      subdomain.hi[axis] = cuts[axis][slab + 1];
+      rest /= grid[axis];
+    }
+  }
+  return subdomains;
+}
+
+ProcessGrid make_process_grid(const GridRequest& request)
+{
+  check_box(request.lo, request.hi);
+  const Counts counts = counts_of(request);
+  ProcessGrid grid;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double lo = request.lo[axis];
+    const double hi = request.hi[axis];
+    grid.cuts[axis] = request.cuts[axis].empty() ? even_cuts(lo, hi, counts[axis])
+                                                 : told_cuts(lo, hi, request.cuts[axis], axis);
+  }
+  return grid;
+}
+}
