@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How evenly are the grains of a parallel run spread over its processes, and how would other grids do?"""
+from pathlib import Path
+
+import granular
+import numpy as np
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+data = Path(__file__).parent / "data"
+grains = OpenDataFile(str(data / "grains.dump"))
+
+# The run had four processes, `processors 2 1 2`: what each of them owns is a voxel.
+domains = GranularDecomposition(Input=grains, ProcessorGrid=[2, 1, 2])
+
+LoadPalette("WhiteBackground")
+strip = CreateLayout()
+for place in (0, 1, 2):
+    strip.SplitHorizontal(2 * place if place else 0, 1 / (4 - place))
+for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
+    view = CreateRenderView(OrientationAxesVisibility=0, ViewTime=step)  # each view has its own time
+    AssignViewToLayout(view, strip, place)
+    granular.show(grains, view)
+    voxels = Show(domains, view, Representation="Surface With Edges", Opacity=0.45)
+    ColorBy(voxels, ("CELLS", "nlocal"))
+    Show(Text(Text=f"step {step}"), view, WindowLocation="Upper Center", FontSize=18)
+    Render(view)  # the first picture moves the camera
+    SetProperties(view, CameraPosition=[0.24, -0.37, 0.20], CameraFocalPoint=[0, 0, 0.07],
+                  CameraViewUp=[0, 0, 1])
+colors = GetColorTransferFunction("nlocal")
+colors.RescaleTransferFunction(0, 600)
+SetProperties(GetScalarBar(colors, view), Title="grains of a process", ComponentTitle="",
+              WindowLocation="Lower Center", Orientation="Horizontal")
+voxels.SetScalarBarVisibility(view, True)
+strip.SetSize(1400, 520)
+SaveScreenshot("load_balance.png", strip, SeparatorWidth=0)
+
+
+def count(**properties):
+    """Grains of each process, and the largest number divided by the mean."""
+    SetProperties(domains, **properties)
+    domains.UpdatePipeline(4000)
+    voxels = servermanager.Fetch(domains)
+    return (vtk_to_numpy(voxels.GetCellData().GetArray("nlocal")),
+            voxels.GetFieldData().GetArray("imbalance").GetValue(0))
+
+
+# At the end the grains lie on the ground, and two of the four processes have nothing to do.
+own, imbalance = count()
+print(f"2 x 1 x 2: {own.tolist()} grains, imbalance {imbalance:.2f}")
+assert own.sum() == 1200 and imbalance > 1.9
+side_by_side, better = count(ProcessorGrid=[2, 2, 1])
+print(f"2 x 2 x 1: {side_by_side.tolist()} grains, imbalance {better:.2f}")
+assert better < 1.1
+# Or cut the box where half of the grains lie below.
+points = vtk_to_numpy(servermanager.Fetch(grains).GetPoints().GetData())
+cut, balanced = count(ProcessorGrid=[2, 1, 2], ZCuts=[float(np.median(points[:, 2]))])
+print(f"2 x 1 x 2, cut at half of them: {cut.tolist()} grains, imbalance {balanced:.2f}")
+assert balanced < 1.1
+
+# The same from the text: how many grains of the last frame are where?
+frame = (data / "grains.dump").read_text().split("ITEM: ATOMS ")[-1].splitlines()
+x, z = np.array([row.split() for row in frame[1:]], float)[:, [2, 4]].T
+owner = 2 * (x >= 0) + (z >= 0.075)
+assert np.bincount(owner.astype(int), minlength=4).tolist() == own.tolist()
