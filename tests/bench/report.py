@@ -424,6 +424,25 @@ PARTS = (
                            Column("2 threads ns/grain", "2 threads:ns/grain", ".0f"),
                            Column("speed of 2 threads", "speed of 2 threads:1", ".2f"),
                            Column("spread", "spread:1", ".0%"))]),
+    Part("voxels", "Voxels: subdomains as cells",
+         """make_voxels, 10^6 subdomains: of a grid, and as a random recursive bisection makes them; time on the
+         wall, against filling arrays of the same size with one value, in new memory and in that of a frame
+         before. Shared corners are found by hashing eight corners a subdomain, on one thread: arrays
+         become small, the search does not. check holds them against all checks, text is encode_voxels.""",
+         [cases_by_metrics(r"^(grid|bisection)(, shared corners)?$",
+                           Column("new memory ns", "new memory:ns/subdomain", ".0f"),
+                           Column("against writing", "new memory against writing:1", ".2f"),
+                           Column("2 threads", "new memory against writing, 2 threads:1", ".2f"),
+                           Column("spread", "new memory, spread:1", ".0%"),
+                           Column("pooled ns", "pooled memory:ns/subdomain", ".0f"),
+                           Column("against writing", "pooled memory against writing:1", ".2f"),
+                           Column("2 threads", "pooled memory against writing, 2 threads:1", ".2f"),
+                           Column("spread", "pooled memory, spread:1", ".0%")),
+          cases_by_metrics(r"checks and text$",
+                           Column("check ns/subdomain", "check:ns/subdomain", ".0f"),
+                           Column("text ns/subdomain", "text:ns/subdomain", ".0f"))],
+         [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
+          Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)]),
     Part("threads", "Threads: one frame, read by several",
          """read_dump of 12 columns (%g where they are text), 10^6 rows and three times as many, file in
          the page cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread. speed

@@ -49,7 +49,7 @@ GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks);
 /// The subdomains with these bounds, p = 0 .. P - 1. Throws Error where an array has not its size.
 Decomposition decomposition_of(const GatheredBounds& bounds);
 
-/// The smallest box around all; 0 0 0 0 0 0 without subdomains.
+/// The smallest box around all, without particles; 0 0 0 0 0 0 without subdomains. A nan counts for nothing.
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept;
 
 /// The largest number of particles divided by the mean; 1 without particles. processes: how many there are, at
@@ -70,13 +70,15 @@ struct SubdomainChecks
   Answer bounds = Answer::Error;  ///< lo <= hi, all finite
   Answer overlap = Answer::Error; ///< no two share more than faces
   Answer gap = Answer::Error;     ///< together they fill the smallest box around all
-  double tolerance =
-    1e-9; ///< two overlap by more than this part of the box's edge along each axis, a gap has
-          ///< more than this part of its volume
+  /// Two overlap by more than this part of the box's edge along each axis, gaps have more than this part of its
+  /// volume.
+  double tolerance = 1e-9;
 };
 
 /// Holds subdomains against the checks, each of which gives one Error or Notice, that names the first two at fault
-/// (a process by its rank) and counts them. Time grows as n log n for what simulations make. Throws FormatError.
+/// (a process by its rank) and counts them, up to 10^6 overlaps. Those without bounds are left out of the overlaps; gaps
+/// are looked for where all have bounds and no two overlap. In a box that is flat areas may not overlap, and there are
+/// no gaps. Takes n log n for a grid, n log^3 n at most. Throws FormatError.
 void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChecks& checks,
   const Where& where, Notices& notices);
 }

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/decomposition/decomposition_text.h"
+
+#include "granular/base/error.h"
+#include "granular/base/number_print.h"
+#include "granular/decomposition/process_grid.h"
+#include "granular/decomposition/voxels.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+constexpr std::size_t corners = corners_of_voxel;
+
+void add_integer(std::string& text, std::int64_t value)
+{
+  std::array<char, most_number_chars> digits;
+  text.append(digits.data(), print_integer(digits.data(), value));
+}
+
+/// A line of words, numbers among them.
+template <class... Words>
+void add_line(std::string& text, const Words&... words)
+{
+  const auto add = [&](const auto& word)
+  {
+    if constexpr (std::is_convertible_v<decltype(word), std::string_view>)
+    {
+      text += word;
+    }
+    else
+    {
+      add_integer(text, static_cast<std::int64_t>(word));
+    }
+  };
+  (add(words), ...);
+  text += '\n';
+}
+
+/// Adds text for each subdomain, some at a time, and reports after each lot that it is done.
+class Lots
+{
+public:
+  Lots(const Decomposition& decomposition, Progress& progress)
+    : subdomains_(decomposition.subdomains)
+    , progress_(progress)
+  {
+  }
+
+  /// The part of all work that is done when add has run for all.
+  template <class Add>
+  void run(double first, double last, const Add& add) const
+  {
+    constexpr std::size_t lot = 16384;
+    const std::size_t count = subdomains_.size();
+    for (std::size_t p = 0; p < count; ++p)
+    {
+      if (p % lot == 0)
+      {
+        progress_.step(
+          first + (last - first) * static_cast<double>(p) / static_cast<double>(count));
+      }
+      add(p, subdomains_[p]);
+    }
+  }
+
+private:
+  const std::vector<Subdomain>& subdomains_;
+  Progress& progress_;
+};
+
+/// A number as it is written, and a blank.
+struct Word
+{
+  explicit Word(double value)
+    : size(static_cast<std::size_t>(print_number(text.data(), value, { 0 }) - text.data() + 1))
+  {
+    text[size - 1] = ' ';
+  }
+
+  operator std::string_view() const noexcept { return { text.data(), size }; }
+
+  std::array<char, most_number_chars + 1> text;
+  std::size_t size;
+};
+
+/// Three points a line.
+void add_points(std::string& text, const Lots& lots, std::size_t count)
+{
+  add_line(text, "POINTS ", corners * count, " double");
+  lots.run(0, 0.7,
+    [&](std::size_t p, const Subdomain& subdomain)
+    {
+      // each bound is printed once, for four corners
+      const Word x[2] = { Word(subdomain.lo[0]), Word(subdomain.hi[0]) };
+      const Word y[2] = { Word(subdomain.lo[1]), Word(subdomain.hi[1]) };
+      const Word z[2] = { Word(subdomain.lo[2]), Word(subdomain.hi[2]) };
+      for (std::size_t i = 0; i < corners; ++i)
+      {
+        text.append(x[i >> 2]).append(y[i >> 1 & 1]).append(z[i & 1]);
+        if ((corners * p + i) % 3 == 2)
+        {
+          text += '\n';
+        }
+      }
+    });
+  text += '\n';
+}
+
+void add_cells(std::string& text, const Lots& lots, std::size_t count)
+{
+  add_line(text, "CELLS ", count, " ", (1 + corners) * count);
+  lots.run(0.7, 0.9,
+    [&](std::size_t p, const Subdomain&)
+    {
+      text += "8 ";
+      for (const std::int64_t corner : voxel_corners)
+      {
+        add_integer(text, static_cast<std::int64_t>(corners * p) + corner);
+        text += ' ';
+      }
+      text += '\n';
+    });
+  text += '\n';
+  add_line(text, "CELL_TYPES ", count);
+  for (std::size_t p = 0; p < count; ++p)
+  {
+    text += "11\n";
+  }
+  text += '\n';
+}
+
+/// One value a cell, nine a line.
+template <class ValueOf>
+void add_array(std::string& text, std::string_view name, const Decomposition& decomposition,
+  const ValueOf& value_of)
+{
+  constexpr std::int64_t most_int = std::numeric_limits<std::int32_t>::max();
+  const auto& subdomains = decomposition.subdomains;
+  const bool fits = std::all_of(subdomains.begin(), subdomains.end(),
+    [&](const Subdomain& each)
+    { return value_of(each) <= most_int && value_of(each) >= -most_int - 1; });
+  add_line(text, name, " 1 ", subdomains.size(), fits ? " int" : " vtktypeint64");
+  for (std::size_t p = 0; p < subdomains.size(); ++p)
+  {
+    add_integer(text, value_of(subdomains[p]));
+    text += p % 9 == 8 ? " \n" : " ";
+  }
+  text += '\n';
+}
+
+void add_arrays(std::string& text, const Decomposition& decomposition)
+{
+  const int arrays = (decomposition.has_particles ? 1 : 0) + (decomposition.has_ranks ? 1 : 0);
+  if (arrays == 0)
+  {
+    return;
+  }
+  add_line(text, "CELL_DATA ", decomposition.subdomains.size());
+  add_line(text, "FIELD FieldData ", arrays);
+  if (decomposition.has_particles)
+  {
+    add_array(text, "nlocal", decomposition, [](const Subdomain& each) { return each.particles; });
+  }
+  if (decomposition.has_ranks)
+  {
+    add_array(text, "proc", decomposition, [](const Subdomain& each) { return each.rank; });
+  }
+}
+
+/// printf's %f and a blank.
+void add_fixed(std::string& text, double value)
+{
+  constexpr int decimals = 6;
+  // sign, point and all digits of the largest number
+  std::array<char, std::numeric_limits<double>::max_exponent10 + decimals + 3> digits;
+  char* const first = digits.data();
+  text.append(first,
+    std::to_chars(first, first + digits.size(), value, std::chars_format::fixed, decimals).ptr);
+  text += ' ';
+}
+}
+
+std::string encode_voxels(const Decomposition& decomposition, Progress& progress)
+{
+  const std::size_t count = decomposition.subdomains.size();
+  const Lots lots(decomposition, progress);
+  std::string text = "# vtk DataFile Version 3.0\nGenerated by vtk-granular\nASCII\n"
+                     "DATASET UNSTRUCTURED_GRID\n";
+  add_points(text, lots, count);
+  add_cells(text, lots, count);
+  add_arrays(text, decomposition);
+  progress.step(1);
+  return text;
+}
+
+std::string encode_grid(const Decomposition& decomposition)
+{
+  const std::optional<ProcessGrid> grid = find_process_grid(decomposition.subdomains);
+  if (!grid)
+  {
+    throw UnsupportedError("expected subdomains that form a grid, which is all that a rectilinear "
+                           "grid can hold, got " +
+      std::to_string(decomposition.subdomains.size()) + " that do not");
+  }
+  const auto& cuts = grid->cuts;
+  std::string text = "# vtk DataFile Version 2.0\nLIGGGHTS mesh/gran/VTK export\nASCII\n"
+                     "DATASET RECTILINEAR_GRID\n";
+  add_line(text, "DIMENSIONS ", cuts[0].size(), " ", cuts[1].size(), " ", cuts[2].size());
+  constexpr char axes[] = { 'X', 'Y', 'Z' };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    text += axes[axis];
+    add_line(text, "_COORDINATES ", cuts[axis].size(), " float");
+    for (const double cut : cuts[axis])
+    {
+      add_fixed(text, cut);
+    }
+    text += '\n';
+  }
+  return text;
+}
+}

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is required of subdomains: that they have bounds, do not overlap and leave no gaps.
+#include "granular/decomposition/overlaps.h"
+#include "granular/decomposition/subdomains.h"
+
+#include "made_subdomains.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+using namespace granular;
+
+namespace
+{
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<double>::max();
+
+/// What is said, errors and notices alike, or "".
+std::string said_of(const Subdomains& subdomains, SubdomainChecks checks = {})
+{
+  const Where where = { "run.vtk", 7, -1, {} };
+  std::string error;
+  Notices notices;
+  try
+  {
+    check_subdomains(subdomains, checks, where, notices);
+  }
+  catch (const FormatError& thrown)
+  {
+    error = thrown.what();
+  }
+  EXPECT_TRUE(notices.empty());
+  return error;
+}
+
+/// Two cubes one behind the other.
+Subdomains pair_of_cubes()
+{
+  return { made_subdomain({ 0, 0, 0 }, { 1, 1, 1 }, 0, 0),
+    made_subdomain({ 1, 0, 0 }, { 2, 1, 1 }, 0, 1) };
+}
+
+/// Pairs that overlap, by comparing all.
+Overlaps compared_overlaps(const Subdomains& subdomains, const Vector3& allowed)
+{
+  Overlaps found;
+  for (std::size_t i = 0; i < subdomains.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < subdomains.size(); ++j)
+    {
+      bool overlap = true;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const Subdomain& a = subdomains[i];
+        const Subdomain& b = subdomains[j];
+        overlap = overlap &&
+          (allowed[axis] < 0 ||
+            std::min(a.hi[axis], b.hi[axis]) - std::max(a.lo[axis], b.lo[axis]) > allowed[axis]);
+      }
+      if (overlap && found.pairs++ == 0)
+      {
+        found.first = { i, j };
+      }
+    }
+  }
+  return found;
+}
+
+void expect_same(const Subdomains& subdomains, const Vector3& allowed, const std::string& what)
+{
+  const Overlaps expected = compared_overlaps(subdomains, allowed);
+  const Overlaps found = find_overlaps(subdomains, allowed, 1'000'000'000);
+  EXPECT_EQ(found.pairs, expected.pairs) << what;
+  EXPECT_EQ(found.first, expected.first) << what;
+  EXPECT_FALSE(found.more);
+}
+
+/// Boxes of whole numbers, so that many faces meet, some of them flat.
+Subdomains random_boxes(std::size_t count, int places, int longest, unsigned seed)
+{
+  std::mt19937 random(seed);
+  const auto below = [&](int end)
+  { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+  Subdomains subdomains(count);
+  for (Subdomain& each : subdomains)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      each.lo[axis] = below(places);
+      each.hi[axis] = each.lo[axis] + below(longest + 1);
+    }
+  }
+  return subdomains;
+}
+}
+
+TEST(FindOverlaps, as_by_comparing_all)
+{
+  for (unsigned seed = 0; seed < 40; ++seed)
+  {
+    for (const std::size_t count : { 0u, 1u, 2u, 70u, 1500u })
+    {
+      const int places = 3 << seed % 6;
+      const Subdomains boxes = random_boxes(count, places, 1 + static_cast<int>(seed % 5), seed);
+      const std::string what = std::to_string(count) + " boxes, seed " + std::to_string(seed);
+      expect_same(boxes, { 0, 0, 0 }, what);
+      expect_same(boxes, { 1, 0, 2 }, what + ", some allowed");
+      expect_same(boxes, { 0, -1, 0 }, what + ", without y");
+      expect_same(boxes, { -1, 0, -1 }, what + ", y alone");
+    }
+  }
+}
+
+TEST(FindOverlaps, divided_boxes)
+{
+  for (const int count : { 2, 3, 100, 2000 })
+  {
+    Subdomains subdomains = made_bisection(count, static_cast<unsigned>(count));
+    expect_same(subdomains, {}, "as divided");
+    std::shuffle(subdomains.begin(), subdomains.end(), std::mt19937(1));
+    subdomains.front().hi[1] += 0.1;
+    expect_same(subdomains, {}, "one larger");
+  }
+}
+
+/// Copies of one box: n (n - 1) / 2 pairs, which are not all counted.
+TEST(FindOverlaps, stops)
+{
+  const Subdomains same(1000, made_subdomain({}, { 1, 1, 1 }));
+  EXPECT_EQ(find_overlaps(same, {}, 499500).pairs, 499500);
+  EXPECT_FALSE(find_overlaps(same, {}, 499500).more);
+  EXPECT_EQ(find_overlaps(same, {}, 499499).pairs, 499499);
+  EXPECT_TRUE(find_overlaps(same, {}, 499499).more);
+  const Subdomains many(1'000'000, made_subdomain({}, { 1, 1, 1 }));
+  EXPECT_TRUE(find_overlaps(many, {}, 1000).more);
+}
+
+TEST(CheckSubdomains, grids)
+{
+  for (const std::array<int, 3>& counts : { std::array{ 1, 1, 1 }, std::array{ 2, 1, 2 },
+         std::array{ 3, 7, 11 }, std::array{ 1, 500, 1 } })
+  {
+    Subdomains subdomains = made_grid(counts);
+    EXPECT_EQ(said_of(subdomains), "");
+    SubdomainChecks exact;
+    exact.tolerance = 0;
+    EXPECT_EQ(said_of(subdomains, exact), "");
+    std::shuffle(subdomains.begin(), subdomains.end(), std::mt19937(2));
+    EXPECT_EQ(said_of(subdomains, exact), "");
+  }
+  EXPECT_EQ(said_of({}), "");
+}
+
+TEST(CheckSubdomains, a_million)
+{
+  SubdomainChecks exact;
+  exact.tolerance = 0;
+  Subdomains grid = made_grid({ 100, 100, 100 });
+  Subdomains divided = made_bisection(1'000'000, 5);
+  EXPECT_EQ(said_of(grid, exact), "");
+  EXPECT_EQ(said_of(divided, exact), "");
+  grid[123456].hi[0] += 1e-3;
+  EXPECT_EQ(said_of(grid).substr(0, 109),
+    "run.vtk:7: expected subdomains that share no more than faces, got 1 pair that overlaps: "
+    "processes 123456 and ");
+  divided.erase(divided.begin() + 654321);
+  EXPECT_NE(said_of(divided, exact).find("got gaps of "), std::string::npos);
+}
+
+TEST(CheckSubdomains, overlaps)
+{
+  Subdomains cubes = pair_of_cubes();
+  EXPECT_EQ(said_of(cubes), "");
+  cubes[0].hi[0] = std::nextafter(1, 2); // an ulp is within the tolerance
+  EXPECT_EQ(said_of(cubes), "");
+  SubdomainChecks exact;
+  exact.tolerance = 0;
+  EXPECT_EQ(said_of(cubes, exact),
+    "run.vtk:7: expected subdomains that share no more than faces, got 1 pair that overlaps: "
+    "processes 0 and 1 share 2.220446049250313e-16 1 1");
+  cubes[0].hi[0] = 1 + 1.9e-9; // of an edge of 2
+  EXPECT_EQ(said_of(cubes), "");
+  cubes[0].hi[0] = 1.25;
+  EXPECT_EQ(said_of(cubes),
+    "run.vtk:7: expected subdomains that share no more than faces, got 1 pair that overlaps: "
+    "processes 0 and 1 share 0.25 1 1");
+  cubes.push_back(made_subdomain({ 0.5, 0.5, 0.5 }, { 1.5, 0.75, 0.75 }, 0, 17));
+  EXPECT_EQ(said_of(cubes),
+    "run.vtk:7: expected subdomains that share no more than faces, got 3 pairs that overlap: "
+    "processes 0 and 1 share 0.25 1 1");
+}
+
+TEST(CheckSubdomains, duplicates)
+{
+  Subdomains cubes = pair_of_cubes();
+  cubes.push_back(cubes[1]);
+  cubes.back().rank = 5;
+  EXPECT_EQ(said_of(cubes),
+    "run.vtk:7: expected subdomains that share no more than faces, got 1 pair that overlaps: "
+    "processes 1 and 5 share 1 1 1");
+  const Subdomains many(1'000'000, cubes[0]);
+  EXPECT_EQ(said_of(many).substr(0, 106),
+    "run.vtk:7: expected subdomains that share no more than faces, got at least 1000000 pairs that "
+    "overlap: pro");
+}
+
+TEST(CheckSubdomains, gaps)
+{
+  Subdomains cubes = pair_of_cubes();
+  cubes[1].lo[0] = 1.5;
+  EXPECT_EQ(said_of(cubes),
+    "run.vtk:7: expected subdomains that fill the box from 0 0 0 to 2 1 1, got gaps of 0.25 of its "
+    "volume");
+  SubdomainChecks wide;
+  wide.tolerance = 0.25;
+  EXPECT_EQ(said_of(cubes, wide), "");
+  cubes[1].lo[0] = std::nextafter(1, 2);
+  EXPECT_EQ(said_of(cubes), "");
+  SubdomainChecks exact;
+  exact.tolerance = 0;
+  EXPECT_EQ(said_of(cubes, exact),
+    "run.vtk:7: expected subdomains that fill the box from 0 0 0 to 2 1 1, got gaps of "
+    "1.1102230246251565e-16 of its volume");
+  Subdomains grid = made_grid({ 3, 3, 3 });
+  grid.erase(grid.begin() + 13);
+  EXPECT_NE(said_of(grid).find("got gaps of 0.037037037"), std::string::npos) << said_of(grid);
+}
+
+/// An overlap and a gap of the same size do not make up for each other.
+TEST(CheckSubdomains, overlap_and_gap)
+{
+  Subdomains grid = made_grid({ 4, 1, 1 });
+  grid[3].lo[0] = grid[2].lo[0];
+  grid[3].hi[0] = grid[2].hi[0];
+  EXPECT_NE(said_of(grid).find("processes 2 and 3 share 0.5 3 4"), std::string::npos);
+  SubdomainChecks lenient;
+  lenient.overlap = Answer::None;
+  EXPECT_EQ(said_of(grid, lenient), ""); // gaps are looked for only where no two overlap
+}
+
+TEST(CheckSubdomains, bounds)
+{
+  Subdomains cubes = pair_of_cubes();
+  cubes[1].lo[2] = no_number;
+  EXPECT_EQ(said_of(cubes),
+    "run.vtk:7: expected finite bounds, lower ones not above upper ones, got 1 subdomain without: "
+    "process 1 from 1 0 nan to 2 1 1");
+  cubes[0].hi[0] = infinity;
+  cubes.push_back(made_subdomain({ 3, 0, 0 }, { 2, 1, 1 }, 0, 9));
+  EXPECT_EQ(said_of(cubes),
+    "run.vtk:7: expected finite bounds, lower ones not above upper ones, got 3 subdomains without: "
+    "process 0 from 0 0 0 to inf 1 1, process 1 from 1 0 nan to 2 1 1");
+  SubdomainChecks lenient;
+  lenient.bounds = Answer::None;
+  EXPECT_EQ(said_of(cubes, lenient), "");
+}
+
+TEST(CheckSubdomains, notices)
+{
+  Subdomains cubes = pair_of_cubes();
+  cubes.push_back(cubes[0]);
+  cubes.push_back(made_subdomain({ 3, 0, 0 }, { 2, 1, 1 }, 0, 9));
+  SubdomainChecks checks = { Answer::Notice, Answer::Notice, Answer::Notice };
+  Notices notices;
+  check_subdomains(cubes, checks, { "run.vtk" }, notices);
+  ASSERT_EQ(notices.size(), 2);
+  EXPECT_EQ(to_string(notices[0]),
+    "run.vtk: expected finite bounds, lower ones not above upper ones, got 1 subdomain without: "
+    "process 9 from 3 0 0 to 2 1 1");
+  EXPECT_EQ(to_string(notices[1]),
+    "run.vtk: expected subdomains that share no more than faces, got 1 pair that overlaps: "
+    "processes 0 and 0 share 1 1 1");
+  cubes.resize(1);
+  cubes.push_back(made_subdomain({ 3, 0, 0 }, { 4, 1, 1 }));
+  check_subdomains(cubes, checks, {}, notices);
+  ASSERT_EQ(notices.size(), 3);
+  EXPECT_EQ(to_string(notices[2]),
+    "expected subdomains that fill the box from 0 0 0 to 4 1 1, got gaps of 0.5 of its volume");
+}
+
+/// Where doubles are few: a slab of one ulp, a small box far away, the largest and the smallest numbers.
+TEST(CheckSubdomains, extremes)
+{
+  SubdomainChecks exact;
+  exact.tolerance = 0;
+  const double next = std::nextafter(1, 2);
+  const double after = std::nextafter(next, 2);
+  const Subdomains slab = { made_subdomain({ 0, 0, 0 }, { 1, 1, 1 }),
+    made_subdomain({ 1, 0, 0 }, { next, 1, 1 }), made_subdomain({ next, 0, 0 }, { after, 1, 1 }),
+    made_subdomain({ after, 0, 0 }, { 2, 1, 1 }) };
+  EXPECT_EQ(said_of(slab, exact), "");
+  Subdomains without = slab;
+  without.erase(without.begin() + 1);
+  EXPECT_NE(said_of(without, exact).find("got gaps of 1.11"), std::string::npos);
+
+  Subdomains far;
+  double cut = 1e9;
+  for (int i = 0; i < 100; ++i)
+  {
+    const double end = std::nextafter(cut, infinity);
+    far.push_back(made_subdomain({ cut, 1e9, -1e9 }, { end, 1e9 + 1e-6, -1e9 + 1 }, 0, i));
+    cut = end;
+  }
+  EXPECT_EQ(said_of(far, exact), "");
+  far[50].hi[0] = far[51].hi[0];
+  EXPECT_NE(said_of(far).find("processes 50 and 51 share"), std::string::npos);
+
+  const Subdomains all = { made_subdomain({ -largest, -largest, 0 }, { 0, largest, largest }),
+    made_subdomain({ 0, -largest, 0 }, { largest, largest, largest }) };
+  EXPECT_EQ(said_of(all, exact), "");
+  EXPECT_NE(said_of({ all[0], all[0] }).find("1 pair"), std::string::npos);
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const Subdomains least = { made_subdomain({ 0, 0, 0 }, { tiny, tiny, tiny }),
+    made_subdomain({ 0, 0, tiny }, { tiny, tiny, 2 * tiny }) };
+  EXPECT_EQ(said_of(least, exact), "");
+  EXPECT_NE(said_of({ least[0], least[0] }, exact).find("1 pair"), std::string::npos);
+}
+
+/// A flat box has no volume, but an area that two may share.
+TEST(CheckSubdomains, flat)
+{
+  Subdomains flat = { made_subdomain({ 0, 0, 5 }, { 1, 1, 5 }),
+    made_subdomain({ 3, 0, 5 }, { 4, 1, 5 }) };
+  EXPECT_EQ(said_of(flat), "");
+  flat[1].lo[0] = 0.5;
+  EXPECT_NE(said_of(flat).find("share 0.5 1 0"), std::string::npos);
+  const Subdomains points(3, made_subdomain({ 1, 2, 3 }, { 1, 2, 3 }));
+  EXPECT_EQ(said_of(points), "");
+  // within a box that is not flat an empty one is in nobody's way
+  Subdomains cubes = pair_of_cubes();
+  cubes.push_back(made_subdomain({ 0.5, 0, 0 }, { 0.5, 1, 1 }));
+  EXPECT_EQ(said_of(cubes), "");
+}
+
+/// Rods along all axes, each through the middle of the others' bounds: none overlaps, no plane divides them.
+TEST(CheckSubdomains, woven_rods)
+{
+  Subdomains rods;
+  constexpr int side = 150;
+  for (int i = 0; i < side; ++i)
+  {
+    for (int j = 0; j < side; ++j)
+    {
+      const double u = 4 * i;
+      const double v = 4 * j;
+      rods.push_back(made_subdomain({ 0, u, v }, { 4 * side, u + 1, v + 1 }));
+      rods.push_back(made_subdomain({ v + 2, 0, u + 2 }, { v + 3, 4 * side, u + 3 }));
+      rods.push_back(made_subdomain({ u, v + 2, 0 }, { u + 1, v + 3, 4 * side }));
+    }
+  }
+  for (std::size_t i = 0; i < rods.size(); ++i)
+  {
+    rods[i].rank = static_cast<int>(i);
+  }
+  EXPECT_EQ(find_overlaps(rods, {}, 10).pairs, 0);
+}

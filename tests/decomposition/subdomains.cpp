@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/decomposition/subdomains.h"
+
+#include "../base/thread_ranks.h"
+#include "gathered_bounds.h"
+#include "made_subdomains.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <mutex>
+#include <string>
+
+using namespace granular;
+
+namespace
+{
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string error_of(const GatheredBounds& bounds)
+{
+  try
+  {
+    decomposition_of(bounds);
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+}
+
+TEST(GatherBounds, one_process)
+{
+  SerialCommunicator alone;
+  check_gathered(alone);
+}
+
+TEST(GatherBounds, ranks)
+{
+  for (const int size : { 2, 3, 7 })
+  {
+    run_ranks(size, [](Communicator& ranks) { check_gathered(ranks); });
+  }
+}
+
+TEST(DecompositionOf, subdomains)
+{
+  const Decomposition made = decomposition_of(
+    { { 0, 1, 1, 3 }, { -1, 1, -2, 2 }, { 5, 6, 7, 8 }, { 12, 1'000'000'000'000 } });
+  EXPECT_TRUE(made.has_particles);
+  EXPECT_TRUE(made.has_ranks);
+  ASSERT_EQ(made.subdomains.size(), 2);
+  EXPECT_EQ(made.subdomains[0], made_subdomain({ 0, -1, 5 }, { 1, 1, 6 }, 12, 0));
+  EXPECT_EQ(made.subdomains[1], made_subdomain({ 1, -2, 7 }, { 3, 2, 8 }, 1'000'000'000'000, 1));
+  EXPECT_TRUE(decomposition_of({}).subdomains.empty());
+}
+
+TEST(DecompositionOf, sizes)
+{
+  const GatheredBounds right = { { 0, 1 }, { 0, 1 }, { 0, 1 }, { 3 } };
+  EXPECT_EQ(error_of(right), "");
+  GatheredBounds wrong = right;
+  wrong.x_data.pop_back();
+  EXPECT_EQ(error_of(wrong), "expected 2 values in x_data, got 1");
+  wrong = right;
+  wrong.y_data.push_back(0);
+  EXPECT_EQ(error_of(wrong), "expected 2 values in y_data, got 3");
+  wrong = right;
+  wrong.z_data.clear();
+  EXPECT_EQ(error_of(wrong), "expected 2 values in z_data, got 0");
+  wrong = right;
+  wrong.particles.push_back(1);
+  EXPECT_EQ(error_of(wrong), "expected 4 values in x_data, got 2");
+}
+
+TEST(BoundsOf, smallest_box)
+{
+  EXPECT_EQ(bounds_of({}), made_subdomain({}, {}));
+  const Subdomains one = { made_subdomain({ -1, 2, 3 }, { 4, 5, 6 }, 7, 8) };
+  EXPECT_EQ(bounds_of(one), made_subdomain({ -1, 2, 3 }, { 4, 5, 6 }));
+  const Subdomains some = { made_subdomain({ 0, 0, 0 }, { 1, 1, 1 }),
+    made_subdomain({ -3, 0.5, 2 }, { -2, 0.6, 9 }) };
+  EXPECT_EQ(bounds_of(some), made_subdomain({ -3, 0, 0 }, { 1, 1, 9 }));
+  const Subdomains odd = { made_subdomain({ no_number, 0, -infinity }, { no_number, 1, 1 }),
+    made_subdomain({ 2, no_number, 0 }, { 3, no_number, 4 }) };
+  EXPECT_EQ(bounds_of(odd), made_subdomain({ 2, 0, -infinity }, { 3, 1, 4 }));
+  EXPECT_EQ(bounds_of(made_grid({ 7, 5, 3 })), made_subdomain({ -1, 0, 1e3 }, { 1, 3, 1004 }));
+}
+
+TEST(ImbalanceOf, largest_by_mean)
+{
+  const auto of = [](const std::vector<std::int64_t>& particles, std::int64_t processes = 0)
+  {
+    Subdomains subdomains;
+    for (const std::int64_t count : particles)
+    {
+      subdomains.push_back(made_subdomain({}, {}, count));
+    }
+    return imbalance_of(subdomains, processes);
+  };
+  EXPECT_EQ(of({}), 1);
+  EXPECT_EQ(of({ 0, 0, 0 }), 1);
+  EXPECT_EQ(of({ 5 }), 1);
+  EXPECT_EQ(of({ 10, 10, 10 }), 1);
+  EXPECT_EQ(of({ 30, 0, 0 }), 3);
+  EXPECT_EQ(of({ 6, 2 }), 1.5);
+  EXPECT_EQ(of({ 6, 2 }, 4), 3); // two more without a subdomain
+  const std::int64_t many = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(of({ many, many, many, many }), 1);
+}
