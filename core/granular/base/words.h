@@ -3,6 +3,7 @@
 #define granular_base_words_h
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -43,6 +44,16 @@ inline std::vector<std::string_view> split_words(std::string_view line)
   std::vector<std::string_view> words;
   append_words(line, words);
   return words;
+}
+
+/// In quotes, shortened to what fits a message; other than printable bytes become '?'.
+inline std::string quoted(std::string_view text)
+{
+  constexpr std::size_t longest = 40;
+  std::string shown(text.substr(0, longest));
+  std::replace_if(
+    shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "'" + shown + (text.size() > longest ? "...'" : "'");
 }
 }
 #endif

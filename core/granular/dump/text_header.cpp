@@ -39,15 +39,6 @@ std::size_t find_glued_header(std::string_view line)
 }
 }
 
-std::string quoted(std::string_view text)
-{
-  constexpr std::size_t longest = 40;
-  std::string shown(text.substr(0, longest));
-  std::replace_if(
-    shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + shown + (text.size() > longest ? "...'" : "'");
-}
-
 std::vector<std::string_view> item_words(std::string_view line)
 {
   return take_item(line) ? split_words(line) : std::vector<std::string_view>();

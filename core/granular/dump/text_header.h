@@ -27,9 +27,6 @@ bool begins_with(
 /// which LAMMPS puts before it.
 bool opens_frame(std::span<const std::string_view> words) noexcept;
 
-/// In quotes, shortened to what fits a message; other than printable bytes become '?'.
-std::string quoted(std::string_view text);
-
 /// Reads the header of one frame of a text dump, in any of its dialects: sections in any order
 /// up to ITEM: ATOMS, unknown ones passed over.
 class TextHeader

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/decomposition/decomposition_file.h"
+
+#include "granular/base/hash.h"
+#include "granular/base/words.h"
+#include "granular/decomposition/decomposition_grid.h"
+#include "granular/decomposition/vtu_head.h"
+#include "granular/dump/file_index.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Line 2 of what LIGGGHTS-PUBLIC and PFM write.
+constexpr std::string_view liggghts_title = "LIGGGHTS mesh/gran/VTK export";
+
+std::string read_bytes(const ByteSource& source, std::int64_t offset, std::size_t most)
+{
+  std::string bytes(most, '\0');
+  bytes.resize(source.read(offset, bytes.data(), bytes.size()));
+  return bytes;
+}
+
+/// Where the bytes of a source end.
+std::int64_t end_of(const ByteSource& source)
+{
+  constexpr std::size_t step = std::size_t{ 1 } << 18;
+  std::int64_t end = 0;
+  if (!source.compressed())
+  {
+    return source.stamp().size;
+  }
+  for (std::string bytes = read_bytes(source, 0, step); !bytes.empty();
+       bytes = read_bytes(source, end, step))
+  {
+    end += static_cast<std::int64_t>(bytes.size());
+  }
+  return end;
+}
+
+/// Tells the pieces of one grid from whole grids: 0.
+std::uint64_t shape_of(const DecompositionGrid& grid)
+{
+  if (!grid.is_piece())
+  {
+    return 0;
+  }
+  Hash hash;
+  hash.add(grid.dimensions.data(), sizeof grid.dimensions);
+  return std::max(hash.value(), std::uint64_t{ 1 });
+}
+
+/// A file of XML is one frame, which who has VTK reads.
+void index_vtu(const ByteSource& source, FileIndex& index)
+{
+  constexpr std::int64_t tail_bytes = 4096;
+  index.frames.clear();
+  const std::int64_t end = end_of(source);
+  const std::string tail =
+    read_bytes(source, std::max(std::int64_t{ 0 }, end - tail_bytes), tail_bytes);
+  const auto last = std::find_if_not(tail.rbegin(), tail.rend(), is_blank);
+  if (!std::string_view(tail.begin(), last.base()).ends_with("</VTKFile>"))
+  {
+    set_defect(
+      index, { { source.path() }, "expected </VTKFile> at the end of the file, got none" });
+    return;
+  }
+  FrameEntry entry;
+  entry.rows = cells_in(read_bytes(source, 0, vtu_head_bytes));
+  entry.end = end;
+  entry.line = 1;
+  entry.kind = index.kinds->share(FrameKind{});
+  index.frames.push_back(std::move(entry));
+  index.resume_offset = end;
+}
+
+/// Finds the grids of a legacy file.
+class GridIndexer
+{
+public:
+  GridIndexer(const ByteSource& source, FileIndex& index, Progress& progress)
+    : index_(index)
+    , file_(source, first_place(index), LegacyVtk::no_end, progress)
+  {
+  }
+
+  void run()
+  {
+    while (this->next_grid())
+    {
+    }
+  }
+
+private:
+  static VtkPlace first_place(FileIndex& index);
+  bool next_grid();
+  void add(const DecompositionGrid& grid);
+  void leave_out(const Error& error);
+
+  FileIndex& index_;
+  LegacyVtk file_;
+};
+
+/// The last frame is indexed again: data of its cells may have come.
+VtkPlace GridIndexer::first_place(FileIndex& index)
+{
+  if (!index.frames.empty())
+  {
+    index.resume_offset = index.frames.back().offset;
+    index.resume_line = index.frames.back().line;
+    index.frames.pop_back();
+  }
+  return { index.resume_offset, index.resume_line };
+}
+
+/// False at the end.
+bool GridIndexer::next_grid()
+{
+  if (!file_.at_header() && file_.at_end())
+  {
+    return false;
+  }
+  const VtkPlace start = file_.place();
+  const auto missed = [&](const Error& error)
+  {
+    const bool ended = file_.ended();
+    const bool more = file_.find_header({ start.offset + 1, start.line });
+    if (ended && !more) // it may still be growing
+    {
+      set_defect(index_, { error.where(), error.text() });
+    }
+    else
+    {
+      this->leave_out(error);
+    }
+    return more;
+  };
+  try
+  {
+    const DecompositionGrid grid = read_grid(file_, false);
+    this->add(grid);
+    if (!grid.rectilinear && file_.at_header())
+    {
+      index_.notices.push_back({ file_.where(file_.place()),
+        "expected the end of the file behind an unstructured grid, got another header; what "
+        "follows is left out" });
+    }
+    return grid.rectilinear;
+  }
+  catch (const FormatError& error)
+  {
+    return missed(error);
+  }
+  catch (const LimitError& error)
+  {
+    return missed(error);
+  }
+}
+
+void GridIndexer::add(const DecompositionGrid& grid)
+{
+  FrameEntry entry;
+  entry.timestep = static_cast<std::int64_t>(index_.frames.size());
+  entry.rows = grid.cells;
+  entry.offset = grid.header.place.offset;
+  entry.end = file_.place().offset;
+  entry.line = grid.header.binary ? 0 : grid.header.place.line;
+  entry.shape = shape_of(grid);
+  entry.kind = index_.kinds->share(FrameKind{});
+  index_.frames.push_back(std::move(entry));
+  index_.resume_offset = file_.place().offset;
+  index_.resume_line = file_.place().line;
+}
+
+void GridIndexer::leave_out(const Error& error)
+{
+  set_defect(index_, { error.where(), error.text() });
+  index_.notices.push_back({ error.where(), error.text() + "; the frame is left out" });
+}
+
+void index_decomposition(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
+{
+  if (!index.kinds)
+  {
+    index.kinds = std::make_shared<FrameKinds>();
+  }
+  if (is_vtu(read_bytes(source, 0, vtu_head_bytes)))
+  {
+    index_vtu(source, index);
+  }
+  else
+  {
+    GridIndexer(source, index, progress).run();
+  }
+}
+
+bool is_legacy(const ByteSource& source)
+{
+  Progress progress;
+  LegacyVtk file(source, {}, LegacyVtk::no_end, progress);
+  if (!file.at_header())
+  {
+    return false;
+  }
+  const VtkPlace start = file.place();
+  const VtkHeader header = file.read_header();
+  const bool has_title = header.title == liggghts_title;
+  const bool rectilinear = header.dataset == "RECTILINEAR_GRID";
+  if (header.dataset.empty() || (rectilinear && !has_title))
+  {
+    return has_title;
+  }
+  file.go_to(start);
+  try
+  {
+    const DecompositionGrid grid = read_grid(file, false);
+    return rectilinear ? !grid.has_data : grid.has_particles;
+  }
+  catch (const FormatError&)
+  {
+    return rectilinear && file.ended(); // LIGGGHTS may be at work
+  }
+}
+}
+
+const FileFormat& decomposition_format() noexcept
+{
+  static const FileFormat format = { "a decomposition file", &index_decomposition, true };
+  return format;
+}
+
+bool is_vtu(std::string_view first_bytes) noexcept
+{
+  return is_unstructured(first_bytes);
+}
+
+bool is_decomposition_file(const std::string& path) noexcept
+{
+  try
+  {
+    const std::unique_ptr<ByteSource> source = unpack(open_file(path));
+    const std::string head = read_bytes(*source, 0, vtu_head_bytes);
+    return is_vtu(head) ? has_cell_array(head, "nlocal") : is_legacy(*source);
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_decomposition_decomposition_grid_h
+#define granular_decomposition_decomposition_grid_h
+
+#include "granular/base/legacy_vtk.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// More processes than any machine has: a few coordinates may claim as many as they like.
+inline constexpr std::int64_t most_processes = std::int64_t{ 1 } << 24;
+
+/// A dataset of a decomposition file as it stands there. What is in vectors is there only if it was to be kept.
+struct DecompositionGrid
+{
+  VtkHeader header;
+  bool rectilinear = false;
+  std::int64_t cells = 0;
+  bool has_data = false; ///< of points or cells
+  bool has_particles = false;
+  bool has_ranks = false;
+  std::vector<std::int64_t> particles;
+  std::vector<std::int64_t> ranks;
+
+  std::array<std::int64_t, 3> dimensions = {};        ///< as DIMENSIONS says
+  std::array<std::int64_t, 3> counts = {};            ///< of coordinates
+  std::array<std::vector<double>, 3> coordinates = {}; ///< none below the one before
+
+  std::int64_t number_of_points = 0;
+  std::vector<double> points;
+  VtkCells voxels; ///< of eight points each, all of them there
+
+  /// Whether DIMENSIONS say more cells than there are, as in the files of single processes that PFM writes.
+  bool is_piece() const noexcept;
+};
+
+/// Reads a dataset, from its header to the next one or the end; keep: with its numbers. Throws Error; see
+/// LegacyVtk::ended.
+DecompositionGrid read_grid(LegacyVtk& file, bool keep);
+}
+#endif
