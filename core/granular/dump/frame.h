@@ -62,6 +62,7 @@ private:
 struct FrameEntry
 {
   static constexpr double no_time = std::numeric_limits<double>::quiet_NaN();
+  static constexpr std::uint64_t whole = 0; ///< shape of what is no piece by what is in the file
 
   std::int64_t timestep = 0;
   std::int64_t rows = 0;
@@ -69,7 +70,7 @@ struct FrameEntry
   std::int64_t end = 0;
   std::int64_t line = 0;   ///< of the header, from 1; binary: 0
   double time = no_time;   ///< of the header
-  std::uint64_t shape = 0; ///< hash of the box and the names of the columns: see hash_shape
+  std::uint64_t shape = whole; ///< hash of the box and the names of the columns: see hash_shape
   std::shared_ptr<const FrameKind> kind;
 };
 

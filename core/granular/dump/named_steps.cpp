@@ -26,8 +26,8 @@ bool hold_pieces(const std::vector<FileIndex>& files, const std::map<Digits, std
   { return files[file].frames; };
   const auto is_piece = [&](const auto& entry)
   {
-    return std::ranges::any_of(
-      frames_of(entry.second), [](const FrameEntry& frame) { return frame.shape != 0; });
+    return std::ranges::any_of(frames_of(entry.second),
+      [](const FrameEntry& frame) { return frame.shape != FrameEntry::whole; });
   };
   const auto is_empty = [&](const auto& entry) { return frames_of(entry.second).empty(); };
   return std::ranges::any_of(group, is_piece) ||

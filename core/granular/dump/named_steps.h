@@ -14,7 +14,7 @@ namespace granular
 ///
 /// A number counts pieces if another one is left, if it counts from 0 without gaps, as far for each value of the
 /// others, and if there are several of these, or the files are pieces by what is in them: frames with a shape other
-/// than 0, or no frame in any but the first. With a notice for frames that are counted in several files.
+/// than FrameEntry::whole, or no frame in any but the first. With a notice for frames that are counted in several files.
 void name_steps(std::vector<FileIndex>& files, Notices& notices);
 }
 #endif

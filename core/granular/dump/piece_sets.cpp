@@ -96,8 +96,10 @@ bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
   constexpr std::size_t least = 3; // two may be a series as well
   const auto& group = groups.begin()->second;
   const auto has_frames = [&](const auto& entry) { return !files[entry.second].frames.empty(); };
+  const auto is_whole = [&](const auto& entry)
+  { return has_frames(entry) && files[entry.second].frames.front().shape == FrameEntry::whole; };
   return groups.size() == 1 && group.size() >= least &&
-    std::ranges::count_if(group, has_frames) == 1 &&
+    std::ranges::count_if(group, has_frames) == 1 && std::ranges::none_of(group, is_whole) &&
     std::ranges::none_of(
       group, [&](const auto& entry) { return files[entry.second].error != nullptr; });
 }
@@ -136,7 +138,7 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
     const auto end = std::find_if(first, frames.end(),
       [&](const GroupFrame& frame)
       { return frame.timestep() != first->timestep() || frame.group != first->group; });
-    const bool same = end - first > 1 &&
+    const bool same = end - first > 1 && first->entry->shape != FrameEntry::whole &&
       std::all_of(first, end,
         [&](const GroupFrame& frame) { return frame.entry->shape == first->entry->shape; });
     if (all == 0)
