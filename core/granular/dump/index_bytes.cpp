@@ -211,7 +211,7 @@ Kinds read_kinds(IndexReader& in, FrameKinds& store)
           in.number(column.type);
         });
       require(layout >= FrameKind::text && layout < layouts, "a layout of binary dumps");
-      require(!columns.empty(), "a column");
+      require(!columns.empty() || layout == FrameKind::text, "a column"); // other files have none
       kind.layout = layout;
       kind.schema = make_schema(columns, layout == FrameKind::text);
       shared = store.share(std::move(kind));
