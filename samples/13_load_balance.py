@@ -15,13 +15,14 @@ domains = GranularDecomposition(Input=grains, ProcessorGrid=[2, 1, 2])
 
 LoadPalette("WhiteBackground")
 strip = CreateLayout()
-for place in (0, 1, 2):
-    strip.SplitHorizontal(2 * place if place else 0, 1 / (4 - place))
+for place, part in ((0, 1 / 4), (2, 1 / 3), (6, 1 / 2)):
+    strip.SplitHorizontal(place, part)
 for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
-    view = CreateRenderView(OrientationAxesVisibility=0, ViewTime=step)  # each view has its own time
+    view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
+    view.ViewTime = step  # each view has its own
     granular.show(grains, view)
-    voxels = Show(domains, view, Representation="Surface With Edges", Opacity=0.45)
+    voxels = Show(domains, view, Representation="Surface With Edges", Opacity=0.5)
     ColorBy(voxels, ("CELLS", "nlocal"))
     Show(Text(Text=f"step {step}"), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)  # the first picture moves the camera
@@ -30,7 +31,9 @@ for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
 colors = GetColorTransferFunction("nlocal")
 colors.RescaleTransferFunction(0, 600)
 SetProperties(GetScalarBar(colors, view), Title="grains of a process", ComponentTitle="",
-              WindowLocation="Lower Center", Orientation="Horizontal")
+              WindowLocation="Any Location", Position=[0.2, 0.02], ScalarBarLength=0.6,
+              Orientation="Horizontal",
+              AutomaticLabelFormat=0, LabelFormat="%.0f", RangeLabelFormat="%.0f")
 voxels.SetScalarBarVisibility(view, True)
 strip.SetSize(1400, 520)
 SaveScreenshot("load_balance.png", strip, SeparatorWidth=0)

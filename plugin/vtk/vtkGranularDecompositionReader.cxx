@@ -35,9 +35,18 @@ granular::Decomposition ReadPiece(
   const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(piece.file);
   std::string first(4096, '\0');
   first.resize(source->read(0, first.data(), first.size()));
-  return granular::is_vtu(first)
-    ? ReadVtu(*source, piece.entry, notices)
-    : granular::read_decomposition(*source, piece.entry, notices, progress);
+  if (!granular::is_vtu(first))
+  {
+    return granular::read_decomposition(*source, piece.entry, notices, progress);
+  }
+  granular::Notices ofCells;
+  granular::Decomposition read = ReadVtu(*source, piece.entry, ofCells);
+  for (granular::Notice& notice : ofCells)
+  {
+    notice.where.path = piece.file.path;
+    notices.push_back(notice);
+  }
+  return read;
 }
 
 /**
