@@ -239,13 +239,12 @@ bool LegacyVtk::next()
 {
   for (;;)
   {
-    const bool header = this->at_header();
+    static_cast<void>(this->at_header());
     if (this->text().empty() && line_is_open_)
     {
       this->fail_end("a line feed");
     }
-    const bool unfinished = legacy_vtk_mark.starts_with(this->text()); // as far as it is there
-    if (header || unfinished)
+    if (this->text().empty() || this->text().front() == legacy_vtk_mark.front())
     {
       return false;
     }
@@ -311,7 +310,8 @@ void LegacyVtk::fail_end(const std::string& expected, const std::string& cause)
 
 void LegacyVtk::fail_missing(const std::string& expected, const std::string& cause)
 {
-  if (!this->at_header())
+  static_cast<void>(this->at_header());
+  if (legacy_vtk_mark.starts_with(this->text())) // as far as it is there
   {
     this->fail_end(expected, cause);
   }

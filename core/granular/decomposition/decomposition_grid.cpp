@@ -91,6 +91,7 @@ private:
   bool of_cells_ = false;
   std::int64_t tuples_ = 0; ///< of the arrays at hand
   std::int64_t types_ = 0;
+  VtkPlace types_place_;
 };
 
 const GridReader::Section GridReader::sections[] = {
@@ -186,7 +187,7 @@ void GridReader::end_sections()
   {
     throw FormatError("expected CELL_TYPES of " + std::to_string(grid_.cells) + " cells, got " +
         std::to_string(types_),
-      file_.where(file_.place()));
+      file_.where(types_place_));
   }
 }
 
@@ -277,6 +278,7 @@ void GridReader::read_types()
   constexpr std::int64_t hexahedron = 12;
   const VtkArray array = { {}, VtkType::Int32, 1, file_.count(1) };
   types_ = array.tuples;
+  types_place_ = file_.line_place();
   std::vector<std::int64_t> types;
   const VtkPlace first = file_.place();
   file_.take(array, keep_, types);

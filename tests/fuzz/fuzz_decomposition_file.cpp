@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A file of dump decomposition/vtk from memory, all the way: index, then every frame. Whatever the bytes are, there is
+// an Error, or as many subdomains as the index says; and a file that grew is indexed as one that was always as
+// long, but for what is said of it.
+#include "dump_checks.h"
+
+#include "granular/decomposition/decomposition_file.h"
+#include "granular/decomposition/vtu_head.h"
+#include "granular/dump/file_index.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+using namespace granular;
+
+namespace
+{
+void index(std::string_view text, FileIndex& index)
+{
+  const auto source = open_memory(text);
+  Progress progress;
+  decomposition_format().index(*source, index, progress, {});
+  const auto size = static_cast<std::int64_t>(text.size());
+  std::int64_t last = 0;
+  for (const FrameEntry& frame : index.frames)
+  {
+    require(frame.offset >= last && frame.offset < frame.end && frame.end <= size,
+      "the places of a frame");
+    require(frame.rows >= 0, "the cells of a frame");
+    last = frame.end;
+  }
+  require(index.resume_offset >= last && index.resume_offset <= size, "where to go on");
+}
+
+void read(const ByteSource& source, const FrameEntry& entry)
+{
+  Notices notices;
+  Progress progress;
+  try
+  {
+    const Decomposition all = read_decomposition(source, entry, notices, progress);
+    require(static_cast<std::int64_t>(all.subdomains.size()) == entry.rows, "cells");
+    require(notices.size() <= 1, "more than one notice a frame");
+    for (std::size_t i = 0; i < all.subdomains.size(); ++i)
+    {
+      const Subdomain& box = all.subdomains[i];
+      require(box.particles >= 0 && (all.has_particles || box.particles == 0), "particles");
+      require(box.rank >= 0 && (all.has_ranks || box.rank == static_cast<int>(i)), "rank");
+      require(
+        box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1] && box.lo[2] <= box.hi[2], "bounds");
+    }
+  }
+  catch (const Error& error)
+  {
+    require(error.where().line > 0 || error.where().byte >= 0, "an error without a place");
+  }
+}
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  FileIndex all;
+  index(text, all);
+  FileIndex grown; // as if the file had been half as long before
+  index(text.substr(0, size / 2), grown);
+  index(text, grown);
+  require(all.frames.size() == grown.frames.size(), "frames of a file that grew");
+  if (is_vtu(text))
+  {
+    static_cast<void>(has_cell_array(text, "nlocal"));
+    return 0;
+  }
+  const auto source = open_memory(text);
+  constexpr std::size_t most_frames = 8;
+  constexpr std::int64_t most_cells = 100'000; // three lists of a hundred numbers may say a million
+  for (std::size_t i = 0; i < std::min(all.frames.size(), most_frames); ++i)
+  {
+    require(all.frames[i].offset == grown.frames[i].offset, "frames of a file that grew");
+    if (all.frames[i].rows <= most_cells)
+    {
+      read(*source, all.frames[i]);
+    }
+  }
+  return 0;
+}
