@@ -13,7 +13,8 @@ using namespace granular;
 namespace
 {
 /// Numbers as VTK writes them into binary files: the most significant byte first.
-template <class U> std::string big_endian(U value)
+template <class U>
+std::string big_endian(U value)
 {
   std::string bytes;
   for (std::size_t i = sizeof(U); i-- > 0;)
@@ -43,7 +44,8 @@ std::string header(const std::string& form, const std::string& dataset)
   return "# vtk DataFile Version 4.2\na title\n" + form + "\nDATASET " + dataset + "\n";
 }
 
-template <class Call> std::string error_of(const Call& call)
+template <class Call>
+std::string error_of(const Call& call)
 {
   try
   {
@@ -57,7 +59,8 @@ template <class Call> std::string error_of(const Call& call)
 }
 
 /// The values of an array "a" of one component in a binary file.
-template <class T> std::vector<T> binary(const std::string& type, const std::string& bytes, int count)
+template <class T>
+std::vector<T> binary(const std::string& type, const std::string& bytes, int count)
 {
   Text text(header("BINARY", "POLYDATA") + "VALUES " + std::to_string(count) + " " + type + "\n" +
     bytes + "\n");
@@ -160,8 +163,8 @@ TEST(LegacyVtk, BinaryNumbersOfAllTypes)
   }
   const std::string floats = big_endian(std::bit_cast<std::uint32_t>(0.1f));
   EXPECT_EQ(binary<double>("float", floats, 1), (Doubles{ double{ 0.1f } }));
-  const std::string doubles =
-    big_endian(std::bit_cast<std::uint64_t>(-0.1)) + big_endian(std::bit_cast<std::uint64_t>(1e300));
+  const std::string doubles = big_endian(std::bit_cast<std::uint64_t>(-0.1)) +
+    big_endian(std::bit_cast<std::uint64_t>(1e300));
   EXPECT_EQ(binary<double>("DOUBLE", doubles, 2), (Doubles{ -0.1, 1e300 }));
   EXPECT_EQ(binary<std::int64_t>("float", big_endian(std::bit_cast<std::uint32_t>(-8.f)), 1),
     (Integers{ -8 }));
@@ -175,15 +178,17 @@ TEST(LegacyVtk, NumbersThatAreNotWhole)
   for (const double value : { 0.5, 9223372036854775808.0, -1e300,
          std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
-    EXPECT_EQ(error_of([&]
-                { binary<std::int64_t>("double", big_endian(std::bit_cast<std::uint64_t>(value)), 1); }),
+    EXPECT_EQ(
+      error_of([&]
+        { binary<std::int64_t>("double", big_endian(std::bit_cast<std::uint64_t>(value)), 1); }),
       at + end);
   }
   EXPECT_EQ(binary<std::int64_t>(
               "double", big_endian(std::bit_cast<std::uint64_t>(-9223372036854775808.0)), 1),
     (std::vector<std::int64_t>{ std::numeric_limits<std::int64_t>::min() }));
   EXPECT_NE(
-    error_of([] { binary<std::int64_t>("unsigned_long", big_endian(~std::uint64_t{ 0 }), 1); }), "");
+    error_of([] { binary<std::int64_t>("unsigned_long", big_endian(~std::uint64_t{ 0 }), 1); }),
+    "");
 }
 
 // Numbers of all lengths around the edges of what is read at a time.
@@ -246,9 +251,12 @@ TEST(LegacyVtk, WordsThatAreNoNumbers)
       text.file.read_header();
       std::vector<double> read;
       const auto count = static_cast<std::int64_t>(far) + 1;
-      EXPECT_EQ(error_of([&] { text.file.take({ "", VtkType::Int32, 1, count }, keep, read); }),
-        "memory:6: expected a number (" + std::to_string(far + 1) + " of " +
-          std::to_string(count) + "), got 'POINTS'");
+      EXPECT_EQ(error_of(
+                  [&] {
+                    text.file.take({ "", VtkType::Int32, 1, count }, keep, read);
+                  }),
+        "memory:6: expected a number (" + std::to_string(far + 1) + " of " + std::to_string(count) +
+          "), got 'POINTS'");
       EXPECT_FALSE(text.file.ended());
     }
   }
@@ -258,8 +266,8 @@ TEST(LegacyVtk, ClaimsAreHeldAgainstTheBytes)
 {
   for (const char* form : { "ASCII", "BINARY" })
   {
-    for (const std::int64_t claim : { std::int64_t{ 21 }, std::int64_t{ 1 } << 40,
-           std::numeric_limits<std::int64_t>::max() })
+    for (const std::int64_t claim :
+      { std::int64_t{ 21 }, std::int64_t{ 1 } << 40, std::numeric_limits<std::int64_t>::max() })
     {
       for (const bool keep : { true, false })
       {
@@ -325,7 +333,10 @@ TEST(LegacyVtk, Strings)
   EXPECT_TRUE(text.file.next() && text.file.is("END"));
   EXPECT_EQ(text.file.line_place().line, 11);
   std::vector<double> numbers;
-  EXPECT_EQ(error_of([&] { text.file.read({ "", VtkType::String, 1, 1 }, numbers); }),
+  EXPECT_EQ(error_of(
+              [&] {
+                text.file.read({ "", VtkType::String, 1, 1 }, numbers);
+              }),
     "memory:11: expected numbers, got 'END'");
 }
 

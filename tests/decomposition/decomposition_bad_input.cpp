@@ -17,28 +17,42 @@ struct Bad
 };
 
 constexpr Bad bad_grids[] = {
-  { "# vtk DataFile", "vtk DataFile", ":1: expected '# vtk DataFile', got 'vtk DataFile Version 2.0'" },
-  { "Version 2.0", "Version two", ":1: expected a version from 1.0 to 5.1, got '# vtk DataFile Version two'" },
-  { "Version 2.0", "Version 6.0", ":1: expected a version from 1.0 to 5.1, got '# vtk DataFile Version 6.0'" },
+  { "# vtk DataFile", "vtk DataFile",
+    ":1: expected '# vtk DataFile', got 'vtk DataFile Version 2.0'" },
+  { "Version 2.0", "Version two",
+    ":1: expected a version from 1.0 to 5.1, got '# vtk DataFile Version two'" },
+  { "Version 2.0", "Version 6.0",
+    ":1: expected a version from 1.0 to 5.1, got '# vtk DataFile Version 6.0'" },
   { "Version 2.0", "", ":1: expected a version from 1.0 to 5.1, got '# vtk DataFile '" },
   { "ASCII", "TEXT", ":3: expected ASCII or BINARY, got 'TEXT'" },
   { "DATASET ", "DATA ", ":4: expected DATASET, got 'DATA RECTILINEAR_GRID'" },
-  { "RECTILINEAR_GRID", "STRUCTURED_GRID", ":4: expected DATASET RECTILINEAR_GRID or UNSTRUCTURED_GRID, got 'STRUCTURED_GRID'" },
-  { "DIMENSIONS 3 2 2", "DIMENSIONS 3 2", ":5: expected a number of at least 0 as word 4, got 'DIMENSIONS 3 2'" },
-  { "DIMENSIONS 3 2 2", "DIMENSIONS 3 -2 2", ":5: expected a number of at least 0 as word 3, got 'DIMENSIONS 3 -2 2'" },
+  { "RECTILINEAR_GRID", "STRUCTURED_GRID",
+    ":4: expected DATASET RECTILINEAR_GRID or UNSTRUCTURED_GRID, got 'STRUCTURED_GRID'" },
+  { "DIMENSIONS 3 2 2", "DIMENSIONS 3 2",
+    ":5: expected a number of at least 0 as word 4, got 'DIMENSIONS 3 2'" },
+  { "DIMENSIONS 3 2 2", "DIMENSIONS 3 -2 2",
+    ":5: expected a number of at least 0 as word 3, got 'DIMENSIONS 3 -2 2'" },
   { "DIMENSIONS", "EXTENT", ":5: expected a section of the grid, got 'EXTENT'" },
-  { "X_COORDINATES 3", "X_COORDINATES", ":6: expected a type of values as word 3, got 'X_COORDINATES float'" },
-  { "X_COORDINATES 3 float", "X_COORDINATES 3 real", ":6: expected a type of values as word 3, got 'X_COORDINATES 3 real'" },
+  { "X_COORDINATES 3", "X_COORDINATES",
+    ":6: expected a type of values as word 3, got 'X_COORDINATES float'" },
+  { "X_COORDINATES 3 float", "X_COORDINATES 3 real",
+    ":6: expected a type of values as word 3, got 'X_COORDINATES 3 real'" },
   { "X_COORDINATES 3", "X_COORDINATES 4", ":8: expected a number (4 of 4), got 'Y_COORDINATES'" },
   { "X_COORDINATES 3", "X_COORDINATES 2", ":7: expected a section of the grid, got '1.000000'" },
   { "X_COORDINATES 3", "X_COORDINATES 1", ":6: expected at least 2 coordinates, got '1'" },
-  { "X_COORDINATES 3", "X_COORDINATES -3", ":6: expected a number of at least 0 as word 2, got 'X_COORDINATES -3 float'" },
-  { "X_COORDINATES 3", "X_COORDINATES 1000000000000000000", ":7: expected 1000000000000000000 numbers, got the end of the file" },
-  { "X_COORDINATES 3", "X_COORDINATES 99999999999999999999", ":6: expected a number of at least 0 as word 2, got 'X_COORDINATES 99999999999999999999 float'" },
+  { "X_COORDINATES 3", "X_COORDINATES -3",
+    ":6: expected a number of at least 0 as word 2, got 'X_COORDINATES -3 float'" },
+  { "X_COORDINATES 3", "X_COORDINATES 1000000000000000000",
+    ":7: expected 1000000000000000000 numbers, got the end of the file" },
+  { "X_COORDINATES 3", "X_COORDINATES 99999999999999999999",
+    ":6: expected a number of at least 0 as word 2, got 'X_COORDINATES 99999999999999999999 "
+    "float'" },
   { "Y_COORDINATES", "X_COORDINATES", ":8: expected one section of the name, got 'X_COORDINATES'" },
   { "0.250000", "quarter", ":7: expected a number (2 of 3), got 'quarter'" },
-  { "Y_COORDINATES 2 float\n0.000000 2.000000 \n", "", ":10: expected Y_COORDINATES, got the end of the file" },
-  { "-1.000000 0.000000 \n", "-1.000000 \n", ":12: expected 2 numbers, got 1 and the end of the file" },
+  { "Y_COORDINATES 2 float\n0.000000 2.000000 \n", "",
+    ":10: expected Y_COORDINATES, got the end of the file" },
+  { "-1.000000 0.000000 \n", "-1.000000 \n",
+    ":12: expected 2 numbers, got 1 and the end of the file" },
 };
 
 // Found when the grid is read.
@@ -52,7 +66,8 @@ constexpr Bad bad_coordinates[] = {
 };
 
 constexpr Bad bad_voxels[] = {
-  { "POINTS 16", "POINTS sixteen", ":5: expected a number of at least 0 as word 2, got 'POINTS sixteen float'" },
+  { "POINTS 16", "POINTS sixteen",
+    ":5: expected a number of at least 0 as word 2, got 'POINTS sixteen float'" },
   { "POINTS 16", "POINTS 17", ":13: expected a number (49 of 51), got 'CELLS'" },
   { "POINTS 16", "POINTS 134217736", ":5: expected at most 16777216 processes, got 16777217" },
   { "CELLS 2 18", "CELLS 2 12", ":13: expected eight points in each cell, got 'CELLS 2 12'" },
@@ -61,30 +76,44 @@ constexpr Bad bad_voxels[] = {
   { "CELL_TYPES 2", "CELL_TYPES 1", ":19: expected a section of the grid, got '11'" },
   { "CELL_TYPES 2\n11\n11\n", "CELL_TYPES 1\n11\n", ":17: expected CELL_TYPES of 2 cells, got 1" },
   { "CELL_DATA 2", "CELL_DATA 3", ":21: expected data of 2 cells, got '3'" },
-  { "nlocal 1 2 int\n7 30 ", "nlocal 2 2 int\n7 30 7 30", ":23: expected one value of 'nlocal' for each of 2 cells, got '2 x 2'" },
-  { "nlocal 1 2 int\n7 30 ", "nlocal 1 3 int\n7 30 7", ":23: expected one value of 'nlocal' for each of 2 cells, got '1 x 3'" },
-  { "FIELD FieldData 2", "FIELD FieldData 3", ":27: expected an array of the field (3 of 3), got the end of the file" },
+  { "nlocal 1 2 int\n7 30 ", "nlocal 2 2 int\n7 30 7 30",
+    ":23: expected one value of 'nlocal' for each of 2 cells, got '2 x 2'" },
+  { "nlocal 1 2 int\n7 30 ", "nlocal 1 3 int\n7 30 7",
+    ":23: expected one value of 'nlocal' for each of 2 cells, got '1 x 3'" },
+  { "FIELD FieldData 2", "FIELD FieldData 3",
+    ":27: expected an array of the field (3 of 3), got the end of the file" },
   { "FIELD FieldData 2", "FIELD FieldData 1", ":25: expected a section of the grid, got 'proc'" },
   { "FIELD FieldData 2", "SCALARS", ":22: expected a name as word 2, got 'SCALARS'" },
   { "FIELD FieldData 2", "ARRAYS", ":22: expected an array, got 'ARRAYS'" },
   { "FIELD FieldData 2", "SCALARS a int", ":23: expected LOOKUP_TABLE, got 'nlocal 1 2 int'" },
-  { "FIELD FieldData 2\nnlocal 1 2 int\n7 30 \nproc 1 2 int\n0 1 \n", "", ":22: expected arrays of CELL_DATA, got the end of the file" },
+  { "FIELD FieldData 2\nnlocal 1 2 int\n7 30 \nproc 1 2 int\n0 1 \n", "",
+    ":22: expected arrays of CELL_DATA, got the end of the file" },
 };
 
 constexpr Bad bad_cells[] = {
   { "7 30", "7.5 30", ":24: expected a whole number (1 of 2), got '7.5'" },
   { "7 30", "7\n-1", ":25: expected a number 'nlocal' from 0 to 9223372036854775807, got -1" },
   { "7 30", "1e99 30", ":24: expected a whole number (1 of 2), got '1e99'" },
-  { "0 1 \n", "0 2147483648 \n", ":26: expected a number 'proc' from 0 to 2147483647, got 2147483648" },
-  { "proc 1 2 int\n0 1 \n", "procID 1 2 int\n-1 0 \n", ":26: expected a number 'procID' from 0 to 2147483647, got -1" },
-  { "11\n11", "11\n10", ":19: expected the cell type of a voxel (11) or a hexahedron (12), got 10" },
+  { "0 1 \n", "0 2147483648 \n",
+    ":26: expected a number 'proc' from 0 to 2147483647, got 2147483648" },
+  { "proc 1 2 int\n0 1 \n", "procID 1 2 int\n-1 0 \n",
+    ":26: expected a number 'procID' from 0 to 2147483647, got -1" },
+  { "11\n11", "11\n10",
+    ":19: expected the cell type of a voxel (11) or a hexahedron (12), got 10" },
   { "14 15", "14 16", ":15: expected points from 0 to 15 in cell 1, got 16" },
   { "14 15", "14 -1", ":15: expected points from 0 to 15 in cell 1, got -1" },
   { "8 0 1", "7 0 1", ":15: expected a number of points, of which there are at most 1, got 14" },
-  { "8 0 1 2 3 4 5 6 7 \n8 8 9", "9 0 1 2 3 4 5 6 7 \n8 7 9", ":14: expected eight points in a cell, got 9" },
-  { "14 15", "15 14", ":15: expected the corners of a box along the axes, in the order of a voxel or a hexahedron, got cell 1 with others" },
-  { "-0.5 2 0 ", "-0.5 2 1 ", ":14: expected the corners of a box along the axes, in the order of a voxel or a hexahedron, got cell 0 with others" },
-  { "-0.5 2 0 ", "-0.5 2 nan ", ":14: expected the corners of a box along the axes, in the order of a voxel or a hexahedron, got cell 0 with others" },
+  { "8 0 1 2 3 4 5 6 7 \n8 8 9", "9 0 1 2 3 4 5 6 7 \n8 7 9",
+    ":14: expected eight points in a cell, got 9" },
+  { "14 15", "15 14",
+    ":15: expected the corners of a box along the axes, in the order of a voxel or a hexahedron, "
+    "got cell 1 with others" },
+  { "-0.5 2 0 ", "-0.5 2 1 ",
+    ":14: expected the corners of a box along the axes, in the order of a voxel or a hexahedron, "
+    "got cell 0 with others" },
+  { "-0.5 2 0 ", "-0.5 2 nan ",
+    ":14: expected the corners of a box along the axes, in the order of a voxel or a hexahedron, "
+    "got cell 0 with others" },
 };
 
 template <std::size_t N>
@@ -132,8 +161,10 @@ TEST(DecompositionBadInput, OffsetsOfCells)
 {
   const std::string good = data_file("good/decomposition/voxels_51.vtk");
   constexpr Bad opened[] = {
-    { "CONNECTIVITY vtktypeint64", "CONNECTED vtktypeint64", ":18: expected CONNECTIVITY, got 'CONNECTED vtktypeint64'" },
-    { "OFFSETS vtktypeint64", "OFFSETS", ":16: expected a type of values as word 2, got 'OFFSETS'" },
+    { "CONNECTIVITY vtktypeint64", "CONNECTED vtktypeint64",
+      ":18: expected CONNECTIVITY, got 'CONNECTED vtktypeint64'" },
+    { "OFFSETS vtktypeint64", "OFFSETS",
+      ":16: expected a type of values as word 2, got 'OFFSETS'" },
     { "CELLS 4 24", "CELLS 4 27", ":15: expected eight points in each cell, got 'CELLS 4 27'" },
   };
   expect_when_opened(good, opened);
@@ -160,8 +191,7 @@ TEST(DecompositionBadInput, BinaryFiles)
   text = good;
   text[cells + 4 * 9 + 7] = '\x30';
   EXPECT_EQ(GridFile(text).error(),
-    "memory@" + std::to_string(cells + 4 * 9) +
-      ": expected points from 0 to 23 in cell 1, got 48");
+    "memory@" + std::to_string(cells + 4 * 9) + ": expected points from 0 to 23 in cell 1, got 48");
   text = replaced(good, "CELL_TYPES 3", "CELL_TYPES 1000000000000000000");
   EXPECT_EQ(GridFile(text).defect(),
     "memory@" + std::to_string(good.find("CELL_TYPES 3") + 31) +
@@ -180,9 +210,9 @@ TEST(DecompositionBadInput, ABadGridDoesNotHideTheOthers)
       const bool header = std::string(bad.what) != "# vtk DataFile";
       ASSERT_EQ(file.frames(), header ? 2u : 1u) << bad.said;
       EXPECT_EQ(file.read(file.frames() - 1).subdomains, boxes_of_two());
-      EXPECT_NE(file.said(), "") << bad.said;
-      EXPECT_TRUE(file.said().ends_with("; the frame is left out\n")) << file.said();
-      EXPECT_EQ(std::count(file.said().begin(), file.said().end(), '\n'), 1) << file.said();
+      const std::string said = file.said();
+      EXPECT_TRUE(said.ends_with("; the frame is left out\n")) << said;
+      EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
     }
   }
 }
@@ -195,10 +225,11 @@ TEST(DecompositionBadInput, AHeaderWithinANumber)
   {
     GridFile file(two_boxes() + cut.substr(0, bytes) + two_boxes());
     SCOPED_TRACE(bytes);
-    // a last line feed is all that may be missing
-    ASSERT_EQ(file.frames(), bytes + 1 == cut.size() ? 3u : 2u);
+    ASSERT_EQ(file.frames(), 2u);
+    EXPECT_EQ(file.read(0).subdomains, boxes_of_two());
     EXPECT_EQ(file.read(1).subdomains, boxes_of_two());
-    EXPECT_EQ(file.said().empty(), bytes + 1 == cut.size());
+    const std::string said = file.said();
+    EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
   }
 }
 

@@ -185,10 +185,10 @@ TEST(DecompositionDamage, Compressed)
     }
   }
   // a claim of which nobody knows how many bytes are there
-  for (const std::string& text : { replaced(two_boxes(), "X_COORDINATES 3",
-                                     "X_COORDINATES 1000000000000000000"),
-         replaced(data_file("good/decomposition/inl_42_binary.vtk"), "POINTS 24",
-           "POINTS 100000000") })
+  for (const std::string& text :
+    { replaced(two_boxes(), "X_COORDINATES 3", "X_COORDINATES 1000000000000000000"),
+      replaced(
+        data_file("good/decomposition/inl_42_binary.vtk"), "POINTS 24", "POINTS 100000000") })
   {
     const std::string packed = packing::gzip(text);
     const auto source = granular::unpack(granular::open_memory(packed));

@@ -142,8 +142,9 @@ TEST(DecompositionFile, HeadersWithoutAGrid)
 // PFM, '%' in the name: DIMENSIONS of the whole grid, coordinates of one process.
 TEST(DecompositionFile, PiecesOfProcesses)
 {
-  const auto piece = [](const char* dimensions)
-  { return rectilinear(dimensions, { "0.000000", "1.000000" }, { "0", "1" }, { "2", "3" }); };
+  const auto piece = [](const char* dimensions) {
+    return rectilinear(dimensions, { "0.000000", "1.000000" }, { "0", "1" }, { "2", "3" });
+  };
   GridFile file(piece("3 2 2"));
   EXPECT_EQ(file.entry().rows, 1);
   EXPECT_EQ(file.read().subdomains, (std::vector<Subdomain>{ { { 0, 0, 2 }, { 1, 1, 3 } } }));
@@ -194,8 +195,9 @@ TEST(DecompositionFile, ArraysThatAreThere)
     GridFile both(two_voxels("FIELD a 2\n" + (first ? proc + other : other + proc)));
     EXPECT_EQ(both.read().subdomains[0].rank, 1);
   }
-  GridFile points(two_voxels("") + "POINT_DATA 16\nSCALARS nlocal int\nLOOKUP_TABLE d\n"
-                                   "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
+  GridFile points(two_voxels("") +
+    "POINT_DATA 16\nSCALARS nlocal int\nLOOKUP_TABLE d\n"
+    "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
   EXPECT_FALSE(points.read().has_particles);
 }
 
@@ -330,8 +332,9 @@ TEST(DecompositionFile, IsTold)
 
   EXPECT_FALSE(is_one(two_voxels("")));
   EXPECT_FALSE(is_one(two_voxels("SCALARS Nlocal int\nLOOKUP_TABLE default\n1 2\n")));
-  EXPECT_FALSE(is_one(two_voxels("") + "POINT_DATA 16\nSCALARS nlocal int\nLOOKUP_TABLE d\n"
-                                       "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"));
+  EXPECT_FALSE(is_one(two_voxels("") +
+    "POINT_DATA 16\nSCALARS nlocal int\nLOOKUP_TABLE d\n"
+    "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"));
   EXPECT_FALSE(is_one(replaced(two_boxes(), "mesh/gran/VTK", "mesh/VTK")));
   EXPECT_FALSE(is_one(two_boxes() + "CELL_DATA 2\nSCALARS p int\nLOOKUP_TABLE d\n1 2\n"));
   EXPECT_FALSE(is_one(replaced(two_boxes(), "X_COORDINATES 3", "X_COORDINATES x")));

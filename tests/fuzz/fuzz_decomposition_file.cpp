@@ -48,8 +48,7 @@ void read(const ByteSource& source, const FrameEntry& entry)
       const Subdomain& box = all.subdomains[i];
       require(box.particles >= 0 && (all.has_particles || box.particles == 0), "particles");
       require(box.rank >= 0 && (all.has_ranks || box.rank == static_cast<int>(i)), "rank");
-      require(
-        box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1] && box.lo[2] <= box.hi[2], "bounds");
+      require(box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1] && box.lo[2] <= box.hi[2], "bounds");
     }
   }
   catch (const Error& error)

@@ -240,12 +240,12 @@ bool LegacyVtk::next()
   for (;;)
   {
     static_cast<void>(this->at_header());
-    if (this->text().empty() && line_is_open_)
-    {
-      this->fail_end("a line feed");
-    }
     if (this->text().empty() || this->text().front() == legacy_vtk_mark.front())
     {
+      if (line_is_open_)
+      {
+        this->fail_missing("a line feed");
+      }
       return false;
     }
     this->take_words();
@@ -281,8 +281,7 @@ void LegacyVtk::skip_metadata()
 
 bool LegacyVtk::is(std::string_view keyword) const noexcept
 {
-  return !words_.empty() &&
-    std::ranges::equal(words_.front(), keyword, {}, to_capital, to_capital);
+  return !words_.empty() && std::ranges::equal(words_.front(), keyword, {}, to_capital, to_capital);
 }
 
 std::int64_t LegacyVtk::count(std::size_t word) const

@@ -5,6 +5,7 @@
 #include "granular/base/byte_source.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
+#include "granular/base/vtk_values.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,36 +19,6 @@ namespace granular
 {
 /// What the first line of a legacy VTK file begins with.
 inline constexpr std::string_view legacy_vtk_mark = "# vtk DataFile";
-
-/// Types of values that legacy VTK files name. Binary numbers have the most significant byte first, `long` has
-/// eight bytes, vtkIdType four.
-enum class VtkType : std::uint8_t
-{
-  Bit,
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Float,
-  Double,
-  String,
-  Variant
-};
-
-/// Values that stand together in a file.
-struct VtkArray
-{
-  std::string name = {}; ///< as the file spells it
-  VtkType type = VtkType::Double;
-  std::int64_t components = 1;
-  std::int64_t tuples = 0;
-
-  std::int64_t size() const noexcept; ///< values; the largest number there is, where it is larger
-};
 
 /// A place in a file. Lines are not counted in binary files.
 struct VtkPlace
@@ -72,9 +43,9 @@ struct VtkCells
   std::int64_t size = 0;
   std::vector<std::int64_t> offsets;      ///< size + 1: where the points of each cell begin
   std::vector<std::int64_t> connectivity; ///< numbers of points
-  VtkArray values;                        ///< what stands in the file: connectivity and, if counted, counts
-  VtkPlace place;                         ///< of the first of values
-  bool counted = false;                   ///< each cell begins with the number of its points
+  VtkArray values;      ///< what stands in the file: connectivity and, if counted, counts
+  VtkPlace place;       ///< of the first of values
+  bool counted = false; ///< each cell begins with the number of its points
 };
 
 /// Reads legacy VTK files (1.0 to 5.1, ASCII and BINARY) section by section: the caller knows which sections a dataset
@@ -136,7 +107,8 @@ public:
   void skip(const VtkArray& array);
 
   /// Reads them, or passes over them.
-  template <class T> void take(const VtkArray& array, bool keep, std::vector<T>& numbers)
+  template <class T>
+  void take(const VtkArray& array, bool keep, std::vector<T>& numbers)
   {
     keep ? this->read(array, numbers) : this->skip(array);
   }
@@ -179,7 +151,8 @@ private:
   [[noreturn]] void fail_count(std::int64_t done, std::int64_t count);
   [[noreturn]] void fail_number(std::int64_t done, std::int64_t count, const char* kind);
   void check_claim(const VtkArray& array);
-  template <class T> void read_numbers(const VtkArray& array, std::vector<T>& numbers);
+  template <class T>
+  void read_numbers(const VtkArray& array, std::vector<T>& numbers);
   template <class T>
   void read_text(T* numbers, std::int64_t first, std::int64_t last, std::int64_t count);
   template <class T>

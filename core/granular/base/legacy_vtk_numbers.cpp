@@ -7,22 +7,12 @@
 #include "granular/base/words.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <iterator>
-#include <limits>
+#include <type_traits>
 
 namespace granular
 {
 namespace
 {
-/// Bytes of a binary number; 0: bits, and what is no number.
-constexpr std::int64_t bytes_of(VtkType type) noexcept
-{
-  constexpr std::int64_t bytes[] = { 0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 0, 0 };
-  return bytes[static_cast<std::size_t>(type)];
-}
-
 /// What a text has beside digits, for messages.
 template <class T>
 constexpr const char* kind_of = std::is_integral_v<T> ? "a whole number" : "a number";
@@ -36,84 +26,6 @@ bool parse(std::string_view word, std::int64_t& number) noexcept
 {
   return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), number));
 }
-
-/// The first bytes as an unsigned number, the first the most significant.
-template <class U> U load_big(const char* bytes) noexcept
-{
-  U value = 0;
-  for (std::size_t i = 0; i < sizeof(U); ++i)
-  {
-    value = static_cast<U>(std::uint64_t{ value } << 8 | static_cast<unsigned char>(bytes[i]));
-  }
-  return value;
-}
-
-bool convert(double from, std::int64_t& to) noexcept
-{
-  constexpr double limit = 9223372036854775808.0; // 2^63
-  const bool whole = from >= -limit && from < limit && from == std::trunc(from);
-  to = whole ? static_cast<std::int64_t>(from) : 0;
-  return whole;
-}
-
-bool convert(std::uint64_t from, std::int64_t& to) noexcept
-{
-  to = static_cast<std::int64_t>(from);
-  return to >= 0;
-}
-
-template <class From> bool convert(From from, double& to) noexcept
-{
-  to = static_cast<double>(from);
-  return true;
-}
-
-template <class From> bool convert(From from, std::int64_t& to) noexcept
-{
-  to = from;
-  return true;
-}
-
-bool convert(float from, std::int64_t& to) noexcept
-{
-  return convert(double{ from }, to);
-}
-
-/// Returns how many could be converted.
-template <class Bits, class From, class To>
-std::int64_t load(const char* bytes, To* numbers, std::int64_t count) noexcept
-{
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const auto from =
-      std::bit_cast<From>(load_big<Bits>(bytes + i * static_cast<std::int64_t>(sizeof(Bits))));
-    if (!convert(from, numbers[i]))
-    {
-      return i;
-    }
-  }
-  return count;
-}
-
-template <class To> std::int64_t load_bits(const char* bytes, To* numbers, std::int64_t count)
-{
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    numbers[i] = static_cast<To>(static_cast<unsigned char>(bytes[i / 8]) >> (7 - i % 8) & 1);
-  }
-  return count;
-}
-
-template <class To> using Load = std::int64_t (*)(const char*, To*, std::int64_t);
-
-/// By VtkType.
-template <class To>
-constexpr Load<To> loads[] = { &load_bits<To>, &load<std::uint8_t, std::int8_t, To>,
-  &load<std::uint8_t, std::uint8_t, To>, &load<std::uint16_t, std::int16_t, To>,
-  &load<std::uint16_t, std::uint16_t, To>, &load<std::uint32_t, std::int32_t, To>,
-  &load<std::uint32_t, std::uint32_t, To>, &load<std::uint64_t, std::int64_t, To>,
-  &load<std::uint64_t, std::uint64_t, To>, &load<std::uint32_t, float, To>,
-  &load<std::uint64_t, double, To> };
 
 /// What a block of text holds.
 struct Words
@@ -147,12 +59,6 @@ Words count_words(const char* first, const char* last) noexcept
 }
 }
 
-std::int64_t VtkArray::size() const noexcept
-{
-  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  return components != 0 && tuples > most / components ? most : tuples * components;
-}
-
 void LegacyVtk::read(const VtkArray& array, std::vector<double>& numbers)
 {
   this->read_numbers(array, numbers);
@@ -163,7 +69,8 @@ void LegacyVtk::read(const VtkArray& array, std::vector<std::int64_t>& numbers)
   this->read_numbers(array, numbers);
 }
 
-template <class T> void LegacyVtk::read_numbers(const VtkArray& array, std::vector<T>& numbers)
+template <class T>
+void LegacyVtk::read_numbers(const VtkArray& array, std::vector<T>& numbers)
 {
   constexpr std::int64_t step = std::int64_t{ 1 } << 16; // a multiple of 8: whole bytes of bits
   if (array.type >= VtkType::String)
@@ -243,8 +150,8 @@ void LegacyVtk::fail_number(std::int64_t done, std::int64_t count, const char* k
 {
   std::string_view text = this->text();
   line_place_ = this->place();
-  this->fail(std::string(kind) + " (" + std::to_string(done + 1) + " of " + std::to_string(count) +
-      ")",
+  this->fail(
+    std::string(kind) + " (" + std::to_string(done + 1) + " of " + std::to_string(count) + ")",
     take_word(text));
 }
 
@@ -302,8 +209,7 @@ void LegacyVtk::read_binary(
     }
     const auto there = static_cast<std::int64_t>(this->text().size() / bytes) * (bits ? 8 : 1);
     const std::int64_t next = std::min(last, done + there);
-    const Load<T> convert_all = loads<T>[static_cast<std::size_t>(type)];
-    const std::int64_t good = convert_all(this->text().data(), numbers + done, next - done);
+    const std::int64_t good = load_numbers(type, this->text().data(), next - done, numbers + done);
     this->pass(static_cast<std::size_t>(bits ? (good + 7) / 8 : good * bytes_of(type)));
     done += good;
     if (done < next)

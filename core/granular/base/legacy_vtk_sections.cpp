@@ -128,8 +128,8 @@ void LegacyVtk::take_fields(const TakeArray& take)
   const std::int64_t arrays = this->count(2);
   for (std::int64_t i = 0; i < arrays; ++i)
   {
-    this->need("an array of the field (" + std::to_string(i + 1) + " of " + std::to_string(arrays) +
-      ")");
+    this->need(
+      "an array of the field (" + std::to_string(i + 1) + " of " + std::to_string(arrays) + ")");
     if (this->is("NULL_ARRAY"))
     {
       continue; // all that VTK writes of it
@@ -186,8 +186,8 @@ VtkCells LegacyVtk::cells(bool keep)
     this->skip_blanks();
   }
   constexpr std::string_view offsets = "OFFSETS";
-  const bool has_offsets =
-    this->have(offsets.size()) && equal_but_capitals(this->text().substr(0, offsets.size()), "offsets");
+  const bool has_offsets = this->have(offsets.size()) &&
+    equal_but_capitals(this->text().substr(0, offsets.size()), "offsets");
   cells.size = has_offsets ? std::max(std::int64_t{ 1 }, first) - 1 : first;
   cells.values = { {}, VtkType::Int32, 1, second };
   if (has_offsets)

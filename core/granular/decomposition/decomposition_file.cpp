@@ -41,12 +41,12 @@ std::int64_t end_of(const ByteSource& source)
   return end;
 }
 
-/// Tells the pieces of one grid from whole grids: 0.
+/// Pieces of one grid have the same.
 std::uint64_t shape_of(const DecompositionGrid& grid)
 {
   if (!grid.is_piece())
   {
-    return 0;
+    return FrameEntry::whole;
   }
   Hash hash;
   hash.add(grid.dimensions.data(), sizeof grid.dimensions);

@@ -19,8 +19,10 @@ namespace granular
 /// BINARY), and .vtu files, which are a frame each and which who has VTK reads.
 ///
 /// Timesteps are those of the names (steps_in_names). A file may hold several rectilinear grids, one after the
-/// other. Left out with a notice: a header without a grid, as LIGGGHTS leaves it where a timestep is written twice.
-/// A last grid that is not complete is left out silently.
+/// other. Left out with a notice: a header without a grid, as LIGGGHTS leaves it where a timestep is written twice;
+/// what is not as the format says, up to the next header. A last grid that is not complete is left out silently. In a
+/// file that has grown the last frame is looked at again: data of its cells may have come. More than 2^24 processes
+/// are not read.
 const FileFormat& decomposition_format() noexcept;
 
 /// Whether a file is one of these, by content; all other .vtk and .vtu files are for others. Rectilinear: with the

@@ -215,8 +215,7 @@ void GridReader::check(const VtkPlace& first, const VtkArray& array, const std::
   {
     if (!good(i))
     {
-      throw FormatError(
-        "expected " + expected + ", got " + shortest(numbers[i]),
+      throw FormatError("expected " + expected + ", got " + shortest(numbers[i]),
         file_.where_of(first, array, static_cast<std::int64_t>(i)));
     }
   }
@@ -234,8 +233,8 @@ void GridReader::read_coordinates()
   grid_.counts[axis] = array.tuples;
   const VtkPlace first = file_.place();
   file_.take(array, keep_, numbers);
-  this->check(first, array, numbers, "coordinates that do not decrease", [&](std::size_t i)
-    { return i == 0 ? !std::isnan(numbers[i]) : numbers[i] >= numbers[i - 1]; });
+  this->check(first, array, numbers, "coordinates that do not decrease",
+    [&](std::size_t i) { return i == 0 ? !std::isnan(numbers[i]) : numbers[i] >= numbers[i - 1]; });
 }
 
 void GridReader::read_points()
@@ -254,8 +253,8 @@ void GridReader::read_cells()
   const bool with_offsets = second % 8 == 0 && second / 8 == std::max(first, std::int64_t{ 1 }) - 1;
   if (!counted && !with_offsets)
   {
-    file_.fail("eight points in each cell",
-      "CELLS " + std::to_string(first) + " " + std::to_string(second));
+    file_.fail(
+      "eight points in each cell", "CELLS " + std::to_string(first) + " " + std::to_string(second));
   }
   this->limit(first);
   grid_.voxels = file_.cells(keep_);
@@ -265,8 +264,8 @@ void GridReader::read_cells()
   {
     if (offsets[i] - offsets[i - 1] != points_a_cell)
     {
-      throw FormatError("expected eight points in a cell, got " +
-          std::to_string(offsets[i] - offsets[i - 1]),
+      throw FormatError(
+        "expected eight points in a cell, got " + std::to_string(offsets[i] - offsets[i - 1]),
         file_.where_of(grid_.voxels, static_cast<std::int64_t>(i) - 1));
     }
   }
@@ -314,8 +313,8 @@ bool GridReader::take(const VtkArray& array)
   }
   if (array.components != 1 || array.tuples != grid_.cells)
   {
-    file_.fail("one value of '" + array.name + "' for each of " + std::to_string(grid_.cells) +
-        " cells",
+    file_.fail(
+      "one value of '" + array.name + "' for each of " + std::to_string(grid_.cells) + " cells",
       std::to_string(array.components) + " x " + std::to_string(array.tuples));
   }
   grid_.*known->there = true;

@@ -25,8 +25,8 @@ struct DecompositionGrid
   std::vector<std::int64_t> particles;
   std::vector<std::int64_t> ranks;
 
-  std::array<std::int64_t, 3> dimensions = {};        ///< as DIMENSIONS says
-  std::array<std::int64_t, 3> counts = {};            ///< of coordinates
+  std::array<std::int64_t, 3> dimensions = {};         ///< as DIMENSIONS says
+  std::array<std::int64_t, 3> counts = {};             ///< of coordinates
   std::array<std::vector<double>, 3> coordinates = {}; ///< none below the one before
 
   std::int64_t number_of_points = 0;

@@ -99,7 +99,8 @@ Decomposition read_decomposition(
   for (std::size_t i = 0; i < subdomains.size(); ++i)
   {
     subdomains[i].particles = grid.has_particles ? grid.particles[i] : 0;
-    subdomains[i].rank = static_cast<int>(grid.has_ranks ? grid.ranks[i] : static_cast<std::int64_t>(i));
+    subdomains[i].rank =
+      static_cast<int>(grid.has_ranks ? grid.ranks[i] : static_cast<std::int64_t>(i));
   }
   return decomposition;
 }
@@ -107,8 +108,7 @@ Decomposition read_decomposition(
 Notice note_reflected(const Where& where, std::int64_t cells)
 {
   return { where,
-    "corners of " + std::to_string(cells) +
-      (cells == 1 ? " voxel are" : " voxels are") +
+    "corners of " + std::to_string(cells) + (cells == 1 ? " voxel are" : " voxels are") +
       " in the order of LIGGGHTS-INL, x and z exchanged: they were put right" };
 }
 }
