@@ -2,31 +2,60 @@
 """Files of any name."""
 import os
 
+# The writer of data of this class that have these cell arrays, for names with these endings: the first that fits.
+_WRITERS = (
+    ("GranularDecompositionWriter", "vtkUnstructuredGrid", ("nlocal",), (".vtk", ".vtu")),
+    ("GranularDecompositionWriter", "vtkUnstructuredGrid", (), (".decomposition",)),
+)
+_OTHERWISE = "GranularDumpWriter"
 
-def save(proxy, path, time=None, **properties):
-    """Writes what a source or filter shows as a particle dump, whatever the name of the file.
+
+def _choose(proxy, path):
+    rows = [row for row in _WRITERS if path.endswith(row[3])]
+    if not rows:
+        return _OTHERWISE
+    if not proxy.GetDataInformation().GetDataSetTypeAsString():
+        getattr(proxy, "Proxy", proxy).UpdatePipeline()
+    data = proxy.GetDataInformation()
+    for name, kind, arrays, _ in rows:
+        cells = data.GetCellDataInformation()
+        if data.GetDataClassName() == kind and all(cells.GetArrayInformation(each) for each in arrays):
+            return name
+    return _OTHERWISE
+
+
+def save(proxy, path, time=None, writer=None, **properties):
+    """Writes what a source or filter shows as a particle dump, or as a decomposition, whatever the name of the file.
 
     proxy       a source or filter of paraview.simple, or one of its output ports
-    path        the file to write; `*` stands for the timestep, `%` for the process. Binary where it ends in
-                .bin or .lammpsbin, compressed where it ends in .gz or .zst, else text.
+    path        the file to write; `*` stands for the timestep. Of dumps `%` stands for the process, and they
+                are binary where the name ends in .bin or .lammpsbin, compressed where it ends in .gz or .zst.
     time        the time to write. None: the one that proxy was last updated or shown with, or, if it
                 never was, its first; the animation's time counts for what is shown only.
-    properties  of the proxy GranularDumpWriter: Style, Dialect, Columns, NumberFormat, WriteTimeSteps, ...
+    writer      GranularDumpWriter or GranularDecompositionWriter. None: by what there is to write:
 
-    SaveData does the same for names that end in .dump, .lammpstrj, .bin, .lammpsbin, .gz or .zst, but says
-    nothing when it fails. Raises AttributeError for a property that there is not, RuntimeError if the file
-    could not be written: what was wrong is in the messages of ParaView.
+                data                                              name ends in      writer
+                an unstructured grid with the cell array nlocal   .vtk .vtu         GranularDecompositionWriter
+                an unstructured grid                              .decomposition    GranularDecompositionWriter
+                all other                                                           GranularDumpWriter
+    properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Columns, NumberFormat, ...
+
+    SaveData does the same for names that end in .dump, .lammpstrj, .bin, .lammpsbin, .gz, .zst or .decomposition, but
+    says nothing when it fails. Raises AttributeError for a property, or a writer, that there is not, RuntimeError if the
+    file could not be written: what was wrong is in the messages of ParaView.
     """
     from paraview import servermanager
 
-    writer = servermanager.writers.GranularDumpWriter(Input=proxy, FileName=os.fspath(path))
-    for name, value in properties.items():
-        words = name == "Columns" and not isinstance(value, str)
-        setattr(writer, name, " ".join(value) if words else value)
+    path = os.fspath(path)
     if time is not None:
         getattr(proxy, "Proxy", proxy).UpdatePipeline(time)  # of an output port its proxy
-    writer.UpdateVTKObjects()
-    writer.UpdatePipeline()
-    writer.UpdatePropertyInformation()
-    if not writer.GetPropertyValue("Written"):
+    kind = getattr(servermanager.writers, writer or _choose(proxy, path))
+    written = kind(Input=proxy, FileName=path)
+    for name, value in properties.items():
+        words = name == "Columns" and not isinstance(value, str)
+        setattr(written, name, " ".join(value) if words else value)
+    written.UpdateVTKObjects()
+    written.UpdatePipeline()
+    written.UpdatePropertyInformation()
+    if not written.GetPropertyValue("Written"):
         raise RuntimeError(f"{path} could not be written: see the messages above")

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtu_file.h"
 
+#include "arrays.h"
 #include "voxels.h"
 
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLUnstructuredGridReader.h"
+#include "vtkXMLUnstructuredGridWriter.h"
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace vtkGranularPrivate
 {
@@ -45,6 +49,21 @@ std::string OneLine(std::string text)
   std::replace(text.begin(), text.end(), '\n', ' ');
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
+}
+
+/**
+ * Leaves out what VTK notes of its arrays' ranges: it prints these numbers as the program's locale has them.
+ */
+void LeaveOutKeys(std::string& text)
+{
+  const std::string_view end = "</InformationKey>\n";
+  for (auto at = text.find("<InformationKey"); at != text.npos;
+       at = text.find("<InformationKey", at))
+  {
+    const std::size_t line = text.rfind('\n', at) + 1;
+    text.erase(line, text.find(end, at) + end.size() - line);
+    at = line;
+  }
 }
 }
 
@@ -92,5 +111,31 @@ granular::Decomposition ReadVtu(
     throw granular::FormatError(
       error.text(), { where.path, where.line, where.byte, error.where().column });
   }
+}
+
+std::string EncodeVtu(
+  const granular::Decomposition& decomposition, std::optional<double> time, const std::string& path)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  FillVoxels(grid, decomposition, {});
+  if (time)
+  {
+    grid->GetFieldData()->AddArray(MakeDoubles("TimeValue", { *time }));
+  }
+  vtkNew<Complaints> complaints;
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->AddObserver(vtkCommand::ErrorEvent, complaints);
+  writer->SetInputData(grid);
+  writer->SetDataModeToAscii();
+  writer->SetCompressorTypeToNone();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0 || !complaints->First.empty())
+  {
+    throw granular::Error(
+      "expected VTK to write voxels, got: " + OneLine(complaints->First), { path });
+  }
+  std::string text = writer->GetOutputString();
+  LeaveOutKeys(text);
+  return text;
 }
 }
