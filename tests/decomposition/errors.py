@@ -4,7 +4,7 @@ import os
 
 from paraview.simple import *
 
-data = os.environ["GRANULAR_DATA"]
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 source = GranularDecompositionSource(ProcessorGrid=[2, 2, 2], NumberOfProcesses=9)
 source.UpdatePipeline()
 assert source.GetDataInformation().GetNumberOfCells() == 0

@@ -15,7 +15,7 @@ from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
 import granular
 
-data = os.environ["GRANULAR_DATA"]
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 random = numpy.random.default_rng(7)
 
 

@@ -9,7 +9,7 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 import granular
 
-data = os.environ["GRANULAR_DATA"]
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 
 
 def check_documentation(proxy, names):

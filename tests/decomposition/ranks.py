@@ -11,7 +11,7 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 import granular
 
-data = os.environ["GRANULAR_DATA"]
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 ranks = vtkMultiProcessController.GetGlobalController()
 symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
 
