@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -21,18 +22,23 @@ constexpr std::int64_t rows_per_chunk = 65536;
 /// Each worker has counts of its own, up to 1 GiB of them together: beyond that there are fewer workers.
 constexpr std::size_t most_counts = std::size_t{ 1 } << 27;
 
-/// Finds the place of a point in a grid, or -1.
+/// Finds the place of a point in a grid, or the one behind the last: outside.
 struct InGrid
 {
-  const std::array<SlabFinder, 3>& slabs;
-  std::int64_t px;
-  std::int64_t py;
+  InGrid(const std::array<SlabFinder, 3>& finders, const ProcessGrid& grid)
+    : slabs(finders)
+    , guesses{ finders[0].guess(), finders[1].guess(), finders[2].guess() }
+    , px(grid.counts()[0])
+    , py(grid.counts()[1])
+    , outside(grid.size())
+  {
+  }
 
   std::int64_t operator()(const double* x) const noexcept
   {
-    std::int32_t i = slabs[0].guess(x[0]);
-    std::int32_t j = slabs[1].guess(x[1]);
-    std::int32_t k = slabs[2].guess(x[2]);
+    std::int32_t i = guesses[0](x[0]);
+    std::int32_t j = guesses[1](x[1]);
+    std::int32_t k = guesses[2](x[2]);
     if ((i | j | k) < 0)
     {
       i = slabs[0].search(x[0]);
@@ -40,11 +46,17 @@ struct InGrid
       k = slabs[2].search(x[2]);
       if ((i | j | k) < 0)
       {
-        return -1;
+        return outside;
       }
     }
     return i + px * (j + py * k);
   }
+
+  const std::array<SlabFinder, 3>& slabs;
+  const std::array<SlabFinder::Guess, 3> guesses;
+  std::int64_t px;
+  std::int64_t py;
+  std::int64_t outside;
 };
 
 bool is_finite(const double* x) noexcept
@@ -52,10 +64,12 @@ bool is_finite(const double* x) noexcept
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
 }
 
-/// Finds the number of the subdomain of a point, or -1. Neighbours in a file are mostly in the same one.
+/// Finds the number of the subdomain of a point, or the one behind the last. Neighbours in a file are mostly in the
+/// same one.
 struct InTree
 {
   const SubdomainTree& tree;
+  std::int64_t outside;
   const SubdomainTree::Box* last = nullptr;
 
   std::int64_t operator()(const double* x) noexcept
@@ -64,45 +78,42 @@ struct InTree
     {
       last = is_finite(x) ? tree.find(x) : nullptr;
     }
-    return last ? last->number : -1;
+    return last ? last->number : outside;
   }
 };
 
 template <class Find>
 void count_rows(const FrameView& frame, const AbsolutePositions& positions, std::int64_t first,
-  std::int64_t last, Find find, ParticleCounts& counts)
+  std::int64_t last, Find find, std::int64_t* counts)
 {
   constexpr auto most = static_cast<std::int64_t>(AbsolutePositions::most_rows);
   std::array<double, 3 * AbsolutePositions::most_rows> buffer;
-  std::int64_t* const particles = counts.particles.data();
-  const unsigned char* const ghosts = frame.ghosts;
-  std::int64_t outside = 0;
   for (; first < last; first += most)
   {
-    const std::int64_t count = std::min(most, last - first);
-    const double* x = positions.load(first, static_cast<std::size_t>(count), buffer.data());
-    for (std::int64_t row = first; row < first + count; ++row, x += 3)
+    const std::int64_t rows = std::min(most, last - first);
+    const double* const x = positions.load(first, static_cast<std::size_t>(rows), buffer.data());
+    if (!frame.ghosts)
     {
-      if (ghosts && (ghosts[row] & FrameView::duplicate_row) != 0)
+      for (std::int64_t row = 0; row < rows; ++row)
       {
-        continue;
+        ++counts[find(x + 3 * row)];
       }
-      const std::int64_t place = find(x);
-      if (place >= 0)
+      continue;
+    }
+    const unsigned char* const ghosts = frame.ghosts + first;
+    for (std::int64_t row = 0; row < rows; ++row)
+    {
+      if ((ghosts[row] & FrameView::duplicate_row) == 0)
       {
-        ++particles[place];
-      }
-      else
-      {
-        ++outside;
+        ++counts[find(x + 3 * row)];
       }
     }
   }
-  counts.outside += outside;
 }
 
+/// Of each place, and of one more what is outside.
 template <class Find>
-ParticleCounts count_rows(const FrameView& frame, std::size_t places, const Find& find,
+ParticleCounts count_all(const FrameView& frame, std::size_t places, const Find& find,
   const Executor& executor, Progress& progress)
 {
   if (frame.rows > 0 && !frame.points)
@@ -114,26 +125,27 @@ ParticleCounts count_rows(const FrameView& frame, std::size_t places, const Find
   const std::size_t most_workers = std::max<std::size_t>(most_counts / (places + 1), 1);
   const Executor own(
     static_cast<int>(std::min(static_cast<std::size_t>(executor.threads()), most_workers)));
-  std::vector<ParticleCounts> counts(own.workers(chunks));
-  counts[0].particles.resize(places);
+  std::vector<std::vector<std::int64_t>> counts(own.workers(chunks));
+  counts[0].resize(places + 1);
   own.parallel_for(
     chunks,
     [&](std::size_t chunk, std::size_t worker)
     {
-      counts[worker].particles.resize(places);
+      counts[worker].resize(places + 1);
       const std::int64_t first = static_cast<std::int64_t>(chunk) * rows_per_chunk;
       count_rows(frame, positions, first, std::min(first + rows_per_chunk, frame.rows), find,
-        counts[worker]);
+        counts[worker].data());
     },
     progress);
+  ParticleCounts sum{ std::move(counts[0]), 0 };
   for (std::size_t worker = 1; worker < counts.size(); ++worker)
   {
-    const std::vector<std::int64_t>& particles = counts[worker].particles; // none without a chunk
-    std::transform(particles.begin(), particles.end(), counts[0].particles.begin(),
-      counts[0].particles.begin(), std::plus<>());
-    counts[0].outside += counts[worker].outside;
+    std::ranges::transform( // one that had no chunk has no counts
+      counts[worker], sum.particles, sum.particles.begin(), std::plus<>());
   }
-  return std::move(counts[0]);
+  sum.outside = sum.particles.back();
+  sum.particles.pop_back();
+  return sum;
 }
 
 void check_cuts(const ProcessGrid& grid)
@@ -160,9 +172,8 @@ ParticleCounts count_in_grid(
   check_cuts(grid);
   const std::array<SlabFinder, 3> slabs = { SlabFinder(grid.cuts[0]), SlabFinder(grid.cuts[1]),
     SlabFinder(grid.cuts[2]) };
-  const auto [px, py, pz] = grid.counts();
-  return count_rows(
-    frame, static_cast<std::size_t>(grid.size()), InGrid{ slabs, px, py }, executor, progress);
+  return count_all(
+    frame, static_cast<std::size_t>(grid.size()), InGrid{ slabs, grid }, executor, progress);
 }
 
 ParticleCounts count_in_subdomains(const FrameView& frame, std::span<const Subdomain> subdomains,
@@ -178,6 +189,7 @@ ParticleCounts count_in_subdomains(const FrameView& frame, std::span<const Subdo
     return counts;
   }
   const SubdomainTree tree(subdomains);
-  return count_rows(frame, subdomains.size(), InTree{ tree }, executor, progress);
+  return count_all(frame, subdomains.size(),
+    InTree{ tree, static_cast<std::int64_t>(subdomains.size()) }, executor, progress);
 }
 }

@@ -26,29 +26,30 @@ SlabFinder::SlabFinder(std::span<const double> cuts)
     return;
   }
   const std::size_t bins = std::clamp(bins_per_slab * (cuts.size() - 1), fewest_bins, most_bins);
-  const double scale = static_cast<double>(bins) / (cuts.back() - cuts.front());
+  // the highest cut just reaches into a bin of its own
+  const double scale = (static_cast<double>(bins) + 1e-6) / (cuts.back() - cuts.front());
   if (!std::isnormal(scale)) // the length is 0, or too small or too large to divide by
   {
     return;
   }
-  origin_ = cuts.front() - 1 / scale;
-  scale_ = scale;
-  last_ = static_cast<double>(bins + 1);
+  guess_.origin_ = cuts.front() - 1 / scale;
+  guess_.scale_ = scale;
+  guess_.last_ = static_cast<double>(bins + 1);
   bins_.assign(bins + 2, { infinity, look_closer });
-  // what is outside is in the bins of the ends or beyond them
-  const std::size_t end = this->bin_of(cuts.back());
-  std::size_t slab = 0;
-  for (std::size_t bin = this->bin_of(cuts.front()) + 1; bin < end; ++bin)
+  // what is outside is below the lowest cut, or in the bin of the highest one or beyond
+  const auto bin_of_cut = [&](std::size_t cut) { return guess_.bin_of(cuts[cut]); };
+  const std::size_t end = bin_of_cut(cuts.size() - 1);
+  std::size_t cut = 0; // the first one that is in no lower bin
+  for (std::size_t bin = bin_of_cut(0); bin < end; ++bin)
   {
-    const auto next = [&](std::size_t ahead) { return this->bin_of(cuts[slab + ahead]); };
-    while (next(1) < bin)
+    while (bin_of_cut(cut) < bin)
     {
-      ++slab;
+      ++cut;
     }
-    const bool has_cut = next(1) == bin;
-    if (!has_cut || next(2) != bin)
+    const bool is_here = bin_of_cut(cut) == bin;
+    if (!is_here || bin_of_cut(cut + 1) != bin)
     {
-      bins_[bin] = { has_cut ? cuts[slab + 1] : infinity, static_cast<std::int32_t>(slab) };
+      bins_[bin] = { is_here ? cuts[cut] : infinity, static_cast<std::int32_t>(cut) - 1 };
     }
   }
 }

@@ -2,6 +2,7 @@
 #ifndef granular_decomposition_slab_finder_h
 #define granular_decomposition_slab_finder_h
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,39 +16,56 @@ namespace granular
 /// below x, and all in higher ones above.
 class SlabFinder
 {
-public:
-  /// cuts: finite, none below the one before; fewer than two make no slab.
-  explicit SlabFinder(std::span<const double> cuts);
-
-  /// The number of the slab, or below 0: search must look.
-  std::int32_t guess(double x) const noexcept
-  {
-    const Bin& bin = bins_[this->bin_of(x)];
-    return bin.slab + static_cast<std::int32_t>(x >= bin.cut);
-  }
-
-  /// The number of the slab, or -1: none holds the coordinate.
-  std::int32_t search(double x) const noexcept;
-
-private:
   struct Bin
   {
     double cut;        ///< the only one in the bin, or infinity
     std::int32_t slab; ///< below it, or search
   };
 
-  /// Also of what is outside or no number.
-  std::size_t bin_of(double x) const noexcept
+public:
+  /// The bins: few enough numbers for a loop to keep them in registers.
+  class Guess
   {
-    double bin = (x - origin_) * scale_;
-    bin = bin > 0 ? bin : 0;
-    bin = bin < last_ ? bin : last_;
-    return static_cast<std::size_t>(static_cast<std::int64_t>(bin));
+  public:
+    /// The number of the slab, or below 0: search must look.
+    std::int32_t operator()(double x) const noexcept
+    {
+      const Bin& bin = bins_[this->bin_of(x)];
+      return bin.slab + static_cast<std::int32_t>(x >= bin.cut);
+    }
+
+  private:
+    friend SlabFinder;
+
+    /// Also of what is outside or no number.
+    std::size_t bin_of(double x) const noexcept
+    {
+      const double bin = std::min(last_, std::max(0.0, (x - origin_) * scale_)); // nan becomes 0
+      return static_cast<std::size_t>(static_cast<std::int64_t>(bin));
+    }
+
+    double origin_ = 0;
+    double scale_ = 0; ///< bins a unit of length
+    double last_ = 0;  ///< bin
+    const Bin* bins_ = nullptr;
+  };
+
+  /// cuts: finite, none below the one before; fewer than two make no slab.
+  explicit SlabFinder(std::span<const double> cuts);
+
+  /// Valid as long as this stays where it is.
+  Guess guess() const noexcept
+  {
+    Guess guess = guess_;
+    guess.bins_ = bins_.data();
+    return guess;
   }
 
-  double origin_ = 0;
-  double scale_ = 0; ///< bins a unit of length
-  double last_ = 0;  ///< bin
+  /// The number of the slab, or -1: none holds the coordinate.
+  std::int32_t search(double x) const noexcept;
+
+private:
+  Guess guess_;
   std::vector<Bin> bins_;
   std::vector<double> cuts_;
 };
