@@ -443,6 +443,23 @@ PARTS = (
                            Column("text ns/subdomain", "text:ns/subdomain", ".0f"))],
          [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
           Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)]),
+    Part("count", "Count: particles of the subdomains of processes",
+         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (10^7 where it says so) everywhere alike in
+         the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that
+         trusts the index it computes, (x - lo) p / (hi - lo) cut off to an integer and clamped: it needs an even
+         grid, and at faces it is wrong by rounding. With std::floor it takes longer. even and
+         uneven are grids with even cuts and with cuts at random; bisection: as many subdomains that form no grid,
+         from recursive bisection, in no order. All find their place by comparison with the faces, and set
+         up what they need for that each time.""",
+         [cases_by_metrics(r"",
+                           Column("plain ns/particle", "plain:ns/particle", ".1f"),
+                           Column("floor against plain", "plain, floor, time against plain:1", ".2f"),
+                           Column("even against plain", "even, time against plain:1", ".2f"),
+                           Column("uneven against plain", "uneven, time against plain:1", ".2f"),
+                           Column("bisection ns/particle", "bisection:ns/particle", ".0f"),
+                           Column("spread", "spread:1", ".0%"))],
+         [Target(r"", "even, time against plain:1", "<=", 2),
+          Target(r"", "uneven, time against plain:1", "<=", 4)]),
     Part("threads", "Threads: one frame, read by several",
          """read_dump of 12 columns (%g where they are text), 10^6 rows and three times as many, file in
          the page cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread. speed

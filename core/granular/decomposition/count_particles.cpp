@@ -2,6 +2,7 @@
 #include "granular/decomposition/count_particles.h"
 
 #include "granular/base/error.h"
+#include "granular/base/number_print.h"
 #include "granular/decomposition/slab_finder.h"
 #include "granular/decomposition/subdomain_tree.h"
 #include "granular/dump/absolute_positions.h"
@@ -148,6 +149,12 @@ ParticleCounts count_all(const FrameView& frame, std::size_t places, const Find&
   return sum;
 }
 
+std::string print(double value)
+{
+  char word[most_number_chars];
+  return { word, print_number(word, value, { 0 }) };
+}
+
 void check_cuts(const ProcessGrid& grid)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -158,8 +165,8 @@ void check_cuts(const ProcessGrid& grid)
       if (!std::isfinite(cuts[i]) || (i > 0 && cuts[i] < cuts[i - 1]))
       {
         throw Error(std::string("expected finite cuts along ") + "xyz"[axis] +
-          ", none below the one before, got " + std::to_string(cuts[i]) + " as number " +
-          std::to_string(i));
+          ", none below the one before, got " + print(cuts[i]) +
+          (i > 0 ? " behind " + print(cuts[i - 1]) : ""));
       }
     }
   }

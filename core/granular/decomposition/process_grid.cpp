@@ -102,39 +102,60 @@ std::vector<std::int64_t> divisors_of(std::int64_t number)
   return divisors;
 }
 
-/// Replaces zeros so that the product grows by the factor of rest. LAMMPS and LIGGGHTS divide each face by one
-/// number after the other; done in the same order, sums that differ by rounding alone differ in the same way,
-/// and the same grid is chosen.
-Counts choose(const Vector3& lengths, const Counts& told, std::int64_t rest)
+/// All grids of so many processes, x counted up, then y.
+std::vector<Counts> grids_of(std::int64_t processes)
 {
-  const auto& [x, y, z] = lengths;
-  const auto options = [](std::int64_t known, std::int64_t number)
-  { return known > 0 ? std::vector<std::int64_t>{ 1 } : divisors_of(number); };
-  Counts best = {};
-  double best_area = 0;
-  for (const std::int64_t i : options(told[0], rest))
+  const std::vector<std::int64_t> divisors = divisors_of(processes);
+  std::vector<Counts> grids;
+  for (const std::int64_t i : divisors)
   {
-    for (const std::int64_t j : options(told[1], rest / i))
+    for (const std::int64_t j : divisors)
     {
-      const std::int64_t k = rest / i / j;
-      if (told[2] > 0 && k != 1)
+      if (processes / i % j == 0)
       {
-        continue;
-      }
-      const Counts grid = { told[0] > 0 ? told[0] : i, told[1] > 0 ? told[1] : j,
-        told[2] > 0 ? told[2] : k };
-      const auto px = static_cast<double>(grid[0]);
-      const auto py = static_cast<double>(grid[1]);
-      const auto pz = static_cast<double>(grid[2]);
-      const double area = x * y / px / py + x * z / px / pz + y * z / py / pz;
-      if (best[0] == 0 || area < best_area)
-      {
-        best = grid;
-        best_area = area;
+        grids.push_back({ i, j, processes / i / j });
       }
     }
   }
-  return best;
+  return grids;
+}
+
+/// Takes out those that are not as told, the last taking the place of each: where areas are equal the order counts,
+/// and this is how LAMMPS and LIGGGHTS come by theirs.
+void keep_told(std::vector<Counts>& grids, const Counts& told)
+{
+  const auto fits = [&told](const Counts& grid)
+  {
+    return std::ranges::equal(told, grid,
+      [](std::int64_t wanted, std::int64_t count) { return wanted == 0 || wanted == count; });
+  };
+  for (std::size_t i = 0; i < grids.size();)
+  {
+    if (fits(grids[i]))
+    {
+      ++i;
+      continue;
+    }
+    grids[i] = grids.back();
+    grids.pop_back();
+  }
+}
+
+/// The first with the least area. Each face is divided by one number after the other, as both programs do: sums
+/// that differ by rounding alone differ in the same way.
+Counts choose(const Vector3& lengths, const Counts& told, std::int64_t processes)
+{
+  std::vector<Counts> grids = grids_of(processes);
+  keep_told(grids, told);
+  const auto area_of = [&](const Counts& grid)
+  {
+    const auto& [x, y, z] = lengths;
+    const auto px = static_cast<double>(grid[0]);
+    const auto py = static_cast<double>(grid[1]);
+    const auto pz = static_cast<double>(grid[2]);
+    return x * y / px / py + x * z / px / pz + y * z / py / pz;
+  };
+  return *std::ranges::min_element(grids, {}, area_of);
 }
 
 Counts counts_of(const GridRequest& request)
@@ -168,7 +189,7 @@ Counts counts_of(const GridRequest& request)
   }
   const Vector3 lengths = { request.hi[0] - request.lo[0], request.hi[1] - request.lo[1],
     request.hi[2] - request.lo[2] };
-  return choose(lengths, told, processes / product);
+  return choose(lengths, told, processes);
 }
 
 std::vector<double> even_cuts(double lo, double hi, std::int64_t count)

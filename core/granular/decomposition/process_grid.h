@@ -35,17 +35,19 @@ struct GridRequest
   std::array<int, 3> grid = { 1, 1, 1 }; ///< px py pz; 0: chosen, so that the product is processes
   std::array<std::vector<double>, 3>
     cuts = {}; ///< p - 1 positions between lo and hi, increasing; empty: evenly
-               ///< spaced, lo + (hi - lo) i / p
+               ///< spaced, lo + (hi - lo) (i / p), rounded in this order, as LIGGGHTS does
 };
 
-/// The grid. Zeros are chosen as `processors *` does: of all divisions with the least area between subdomains, of
-/// equal ones the first with x, then y, counted up. Throws Error: bounds that are not finite or inverted, a negative
-/// number, processes that are not px py pz or have no such division, 2^31 processes and more, cuts that are not
-/// increasing, not inside the bounds or not p - 1 (where grid has a zero there, p follows from the cuts).
+/// The grid. Zeros are chosen as `processors *` does: the least area between subdomains, xy/px/py + xz/px/pz +
+/// yz/py/pz rounded in this order. Where several have it LAMMPS and LIGGGHTS take the first with x, then y, counted up;
+/// where part of the grid is given the first of an order of their own, which is kept. Throws Error: bounds that are not
+/// finite or inverted, a negative number, processes that are not px py pz or have no such division, 2^31 processes and
+/// more, cuts that are not increasing, not inside the bounds or not p - 1 (where grid has a zero there, p follows from
+/// the cuts).
 ProcessGrid make_process_grid(const GridRequest& request);
 
-/// The grid that subdomains form, in whatever order, or nothing: each place is taken once. order, if wanted, gets the
-/// place of each subdomain in the grid.
+/// The grid that subdomains with finite bounds form, in whatever order, or nothing: each place is taken once, by one
+/// that differs from all others. order, if wanted, gets the place of each subdomain in the grid.
 std::optional<ProcessGrid> find_process_grid(
   std::span<const Subdomain> subdomains, std::vector<std::int64_t>* order = nullptr);
 }
