@@ -52,7 +52,7 @@ public:
   /**
    * px py pz, how many processes there are along x, y and z; (1, 1, 1) by default. A 0 is chosen, as the `*` of the
    * command `processors`: such that the areas between subdomains are least, or as the cuts say. Process
-   * i + px (j + py k) has the i-th subdomain along x, the j-th along y and the k-th along z.
+   * (i py + j) pz + k has the i-th subdomain along x, the j-th along y and the k-th along z, as in LIGGGHTS and LAMMPS.
    */
   vtkSetVector3Macro(ProcessorGrid, int);
   vtkGetVector3Macro(ProcessorGrid, int);

@@ -83,7 +83,8 @@ inline granular::ParticleCounts count_by_cuts(
 {
   granular::ParticleCounts counts;
   counts.particles.resize(static_cast<std::size_t>(grid.size()));
-  const auto [px, py, pz] = grid.counts();
+  const std::int64_t py = grid.counts()[1];
+  const std::int64_t pz = grid.counts()[2];
   for (const granular::Vector3& x : points)
   {
     std::array<std::int64_t, 3> at = {};
@@ -94,7 +95,7 @@ inline granular::ParticleCounts count_by_cuts(
     const auto [i, j, k] = at;
     ++(std::min({ i, j, k }) < 0
         ? counts.outside
-        : counts.particles[static_cast<std::size_t>(i + px * (j + py * k))]);
+        : counts.particles[static_cast<std::size_t>((i * py + j) * pz + k)]);
   }
   return counts;
 }

@@ -110,7 +110,7 @@ TEST(ProcessGrid, CutsAreThoseOfLiggghtsToTheLastBit)
   }
 }
 
-TEST(ProcessGrid, SubdomainsAreNumberedWithXFastest)
+TEST(ProcessGrid, SubdomainsAreNumberedWithZFastest)
 {
   GridRequest request = unit_cube({ 2, 3, 0 }, 12);
   request.cuts[0] = { 0.25 };
@@ -120,8 +120,9 @@ TEST(ProcessGrid, SubdomainsAreNumberedWithXFastest)
   const std::vector<Subdomain> all = grid.subdomains(0, 12);
   ASSERT_EQ(all.size(), 12u);
   EXPECT_EQ(all[0], made_subdomain({ 0, 0, 0 }, { 0.25, 1.0 / 3, 0.5 }));
-  EXPECT_EQ(all[1], made_subdomain({ 0.25, 0, 0 }, { 1, 1.0 / 3, 0.5 }, 0, 1));
+  EXPECT_EQ(all[1], made_subdomain({ 0, 0, 0.5 }, { 0.25, 1.0 / 3, 1 }, 0, 1));
   EXPECT_EQ(all[2], made_subdomain({ 0, 1.0 / 3, 0 }, { 0.25, 2.0 / 3, 0.5 }, 0, 2));
+  EXPECT_EQ(all[6], made_subdomain({ 0.25, 0, 0 }, { 1, 1.0 / 3, 0.5 }, 0, 6));
   EXPECT_EQ(all[11], made_subdomain({ 0.25, 2.0 / 3, 0.5 }, { 1, 1, 1 }, 0, 11));
   EXPECT_EQ(grid.subdomains(4, 9), (std::vector(all.begin() + 4, all.begin() + 9)));
   EXPECT_TRUE(grid.subdomains(3, 3).empty());

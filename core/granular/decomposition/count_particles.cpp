@@ -29,8 +29,8 @@ struct InGrid
   InGrid(const std::array<SlabFinder, 3>& finders, const ProcessGrid& grid)
     : slabs(finders)
     , guesses{ finders[0].guess(), finders[1].guess(), finders[2].guess() }
-    , px(grid.counts()[0])
     , py(grid.counts()[1])
+    , pz(grid.counts()[2])
     , outside(grid.size())
   {
   }
@@ -50,13 +50,13 @@ struct InGrid
         return outside;
       }
     }
-    return i + px * (j + py * k);
+    return (i * py + j) * pz + k;
   }
 
   const std::array<SlabFinder, 3>& slabs;
   const std::array<SlabFinder::Guess, 3> guesses;
-  std::int64_t px;
   std::int64_t py;
+  std::int64_t pz;
   std::int64_t outside;
 };
 

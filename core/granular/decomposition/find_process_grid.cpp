@@ -121,14 +121,15 @@ std::optional<ProcessGrid> find_process_grid(
       return std::nullopt;
     }
   }
-  const auto [px, py, pz] = grid.counts();
+  const std::int64_t py = grid.counts()[1];
+  const std::int64_t pz = grid.counts()[2];
   std::vector<std::int64_t> own_order;
   std::vector<std::int64_t>& taken = order ? *order : own_order;
   taken.clear();
   std::vector<bool> is_taken(subdomains.size());
   for (const auto& [x, y, z] : found)
   {
-    const std::int64_t place = places[0][x] + px * (places[1][y] + py * places[2][z]);
+    const std::int64_t place = (places[0][x] * py + places[1][y]) * pz + places[2][z];
     if (is_taken[static_cast<std::size_t>(place)])
     {
       return std::nullopt;

@@ -13,7 +13,8 @@
 namespace granular
 {
 /// Processes in a grid of px x py x pz (the command `processors`), each axis cut at its own positions. Subdomain
-/// i + px (j + py k) is the i-th along x, j-th along y, k-th along z, and of the process of that rank.
+/// (i py + j) pz + k is the i-th along x, j-th along y, k-th along z, and of the process of that rank: so
+/// MPI_Cart_create numbers them, and with it LAMMPS and LIGGGHTS where the input script does not say otherwise.
 struct ProcessGrid
 {
   std::array<std::vector<double>, 3>
