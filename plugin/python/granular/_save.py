@@ -14,14 +14,13 @@ def _choose(proxy, path):
     rows = [row for row in _WRITERS if path.endswith(row[3])]
     if not rows:
         return _OTHERWISE
-    if not proxy.GetDataInformation().GetDataSetTypeAsString():
-        getattr(proxy, "Proxy", proxy).UpdatePipeline()
+    if not proxy.GetDataInformation().GetCellDataInformation().GetNumberOfArrays():
+        getattr(proxy, "Proxy", proxy).UpdatePipeline()  # of what nobody has looked at yet no arrays are known
     data = proxy.GetDataInformation()
-    for name, kind, arrays, _ in rows:
-        cells = data.GetCellDataInformation()
-        if data.GetDataClassName() == kind and all(cells.GetArrayInformation(each) for each in arrays):
-            return name
-    return _OTHERWISE
+    cells = data.GetCellDataInformation()
+    return next((name for name, kind, arrays, _ in rows
+                 if data.GetDataClassName() == kind
+                 and all(cells.GetArrayInformation(each) for each in arrays)), _OTHERWISE)
 
 
 def save(proxy, path, time=None, writer=None, **properties):
