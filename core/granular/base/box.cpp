@@ -199,7 +199,9 @@ void check_bounds(const Box& box)
 
 void check_volume(const Box& box)
 {
-  const auto& [a, b, c] = box.vectors;
+  const Twofold3& a = box.vectors[0];
+  const Twofold3& b = box.vectors[1];
+  const Twofold3& c = box.vectors[2];
   for (std::size_t axis = 0; !box.general && axis < 3; ++axis)
   {
     const double length = box.vectors[axis][axis].hi;

@@ -50,10 +50,11 @@ Words count_words(const char* first, const char* last) noexcept
   std::uint16_t feeds = 0;
   for (; first != last; ++first)
   {
-    const int start = !is_blank(first[0]) & is_blank(first[-1]);
+    // no branches: several bytes at a time
+    const int start = int{ !is_blank(first[0]) } & int{ is_blank(first[-1]) };
     starts = static_cast<std::uint16_t>(starts + start);
-    odd = static_cast<std::uint16_t>(odd + (start & is_odd(first[0])));
-    feeds = static_cast<std::uint16_t>(feeds + (first[0] == '\n'));
+    odd = static_cast<std::uint16_t>(odd + (start & int{ is_odd(first[0]) }));
+    feeds = static_cast<std::uint16_t>(feeds + int{ first[0] == '\n' });
   }
   return { starts, odd, feeds };
 }
