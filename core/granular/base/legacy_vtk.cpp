@@ -11,7 +11,7 @@ namespace granular
 {
 namespace
 {
-constexpr std::size_t window_bytes = std::size_t{ 1 } << 18;
+constexpr std::int64_t window_bytes = std::int64_t{ 1 } << 18; // more than the longest line
 constexpr std::size_t longest_line = std::size_t{ 1 } << 16;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
@@ -35,7 +35,9 @@ LegacyVtk::LegacyVtk(
   , begin_(place.offset)
   , end_(end == no_end && !source.compressed() ? source.stamp().size : end)
   , reported_(place.offset)
-  , window_(window_bytes)
+  // never full of a short file
+  , window_(
+      static_cast<std::size_t>(std::clamp(end_ - begin_, std::int64_t{ 0 }, window_bytes - 1) + 1))
   , window_offset_(place.offset)
   , line_(place.line)
 {
