@@ -249,7 +249,7 @@ std::vector<Subdomain> ProcessGrid::subdomains(std::int64_t first, std::int64_t 
     Subdomain& subdomain = subdomains[static_cast<std::size_t>(number - first)];
     subdomain.rank = static_cast<int>(number);
     std::int64_t rest = number;
-    for (const std::size_t axis : { 2, 1, 0 })
+    for (const std::size_t axis : { 2u, 1u, 0u })
     {
       const auto slab = static_cast<std::size_t>(rest % grid[axis]);
       subdomain.lo[axis] = cuts[axis][slab];
