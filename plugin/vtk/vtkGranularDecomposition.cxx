@@ -19,6 +19,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -140,6 +141,10 @@ private:
   {
     const granular::FrameView& view = this->Particles->View;
     const double* given = this->Self->Bounds;
+    if (std::any_of(given, given + 6, [](double bound) { return std::isnan(bound); }))
+    {
+      throw granular::Error("expected Bounds of numbers, got nan");
+    }
     const bool all = given[0] <= given[1] && given[2] <= given[3] && given[4] <= given[5];
     if (!all && !view.has_box)
     {
@@ -167,6 +172,15 @@ private:
     return { lo, hi };
   }
 
+  void SetOutside(std::int64_t own)
+  {
+    if (this->Together)
+    {
+      this->Ranks.sum({ &own, 1 });
+    }
+    this->Outside = own;
+  }
+
   /**
    * Adds up what all processes counted, and gives the subdomains their numbers.
    */
@@ -175,9 +189,8 @@ private:
     if (this->Together)
     {
       this->Ranks.sum(counts.particles);
-      this->Ranks.sum({ &counts.outside, 1 });
     }
-    this->Outside = counts.outside;
+    this->SetOutside(counts.outside);
     std::vector<granular::Subdomain>& all = this->Found.subdomains;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
@@ -234,7 +247,7 @@ private:
 
   void FindByArray()
   {
-    std::vector<granular::Subdomain> own;
+    granular::ParticleBounds own;
     granular::do_together(this->Ranks,
       [&]
       {
@@ -251,8 +264,9 @@ private:
           own = granular::bounds_by_process(view, *process, this->MakeExecutor(), this->Progress);
         }
       });
-    this->Found.subdomains =
-      this->Together ? granular::join_by_process(own, this->Ranks) : std::move(own);
+    this->Found.subdomains = this->Together ? granular::join_by_process(own.subdomains, this->Ranks)
+                                            : std::move(own.subdomains);
+    this->SetOutside(own.outside);
     for (const granular::Subdomain& subdomain : this->Found.subdomains)
     {
       this->Processes = std::max(this->Processes, std::int64_t{ subdomain.rank } + 1);
@@ -262,19 +276,20 @@ private:
 
   void FindByRank()
   {
-    std::vector<granular::Subdomain> own;
+    granular::ParticleBounds own;
     granular::do_together(this->Ranks,
       [&]
       {
         own = granular::bounds_of_particles(
           this->Particles->View, this->MakeExecutor(), this->Progress);
-        for (granular::Subdomain& subdomain : own)
+        for (granular::Subdomain& subdomain : own.subdomains)
         {
           subdomain.rank = this->Ranks.rank();
         }
       });
-    this->Found.subdomains = granular::join_by_process(own, this->Ranks);
+    this->Found.subdomains = granular::join_by_process(own.subdomains, this->Ranks);
     this->Processes = this->Ranks.size();
+    this->SetOutside(own.outside);
   }
 
   /**

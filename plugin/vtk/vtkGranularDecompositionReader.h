@@ -10,7 +10,7 @@
  *   the cell arrays `nlocal` and `proc`. LIGGGHTS-INL writes mirror images, which have no volume: they are put
  *   right, with a warning.
  *
- * The timestep is the last number in the name of a file; where a file holds several frames, or has no number, they
+ * The timestep is the last number in the name of a file, of those that differ between the files; where a file holds several frames, or has no number, they
  * are counted from 0. Which frames there are, and their times: see vtkGranularSeriesReader.
  *
  * The output and its pieces are those of vtkGranularDecompositionAlgorithm: voxels, with `nlocal` and `proc` as far as the

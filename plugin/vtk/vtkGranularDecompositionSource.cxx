@@ -4,6 +4,7 @@
 #include "private/decomposition_algorithm.h"
 #include "private/dump_output.h"
 
+#include "vtkFieldData.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
@@ -39,6 +40,7 @@ void vtkGranularDecompositionSource::Execute(
     header.box = granular::Box::from_bounds(lo, hi);
     header.box.boundary = "ff ff ff";
     FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+    output->GetFieldData()->RemoveArray("timestep"); // it has none
   };
   granular::do_together(this->Shared->Ranks.Get(), work);
 }

@@ -3,8 +3,8 @@
  * @class   vtkGranularDecompositionSource
  * @brief   Makes the subdomains of a grid of processes in a box, as voxels, without a file.
  *
- * `nlocal` is 0: there are no particles; vtkGranularDecomposition counts some. The field data are those of a dump of
- * timestep 0 in that box.
+ * `nlocal` is 0: there are no particles; vtkGranularDecomposition counts some. The field data are those of a dump in
+ * that box, but for a timestep, which it does not have.
  */
 
 #ifndef vtkGranularDecompositionSource_h

@@ -26,13 +26,13 @@ constexpr int most = std::numeric_limits<std::int32_t>::max();
 Subdomains bounds(const FrameView& frame, const ArrayView& process, int threads = 1)
 {
   Progress progress;
-  return bounds_by_process(frame, process, Executor(threads), progress);
+  return bounds_by_process(frame, process, Executor(threads), progress).subdomains;
 }
 
 Subdomains bounds(const FrameView& frame, int threads = 1)
 {
   Progress progress;
-  return bounds_of_particles(frame, Executor(threads), progress);
+  return bounds_of_particles(frame, Executor(threads), progress).subdomains;
 }
 
 /// By the scalar type and one after the other.
@@ -87,6 +87,10 @@ TEST(ParticleBounds, WhatHasNoPlaceAndDuplicatesAreLeftOut)
   EXPECT_EQ(bounds(frame), (Subdomains{ made_subdomain(one.lo, one.hi, 2, 0) }));
   EXPECT_EQ(bounds(frame_of({})), Subdomains{});
   EXPECT_EQ(bounds(frame_of({}), processes(ScalarType::Int32, std::vector<int>{})), Subdomains{});
+  Progress progress;
+  EXPECT_EQ(bounds_of_particles(frame, Executor(2), progress).outside, 3);
+  EXPECT_EQ(
+    bounds_by_process(frame, processes(ScalarType::Int32, proc), Executor(1), progress).outside, 3);
 }
 
 TEST(ParticleBounds, PositionsAreAbsoluteAndNotWrapped)

@@ -30,10 +30,17 @@ assert content("port.vtk") == content("other.vtk")
 granular.save(divided, "no_counts.decomposition")
 assert voxels in content("no_counts.decomposition")
 grains.UpdatePipeline(1000 * 2e-5)
-for proxy, name in ((grains, "grains.vtk"), (grains, "grains.decomposition"), (divided, "divided.vtk"),
-                    (domains, "domains.dump"), (domains, "domains")):
+granular.save(divided, "divided.vtk", Dialect="PUBLIC")
+assert content("divided.vtk") == content(os.path.join(data, "decomposition/all.vtk"))[:248]
+for proxy, name in ((domains, "domains.dump"), (domains, "domains")):
     granular.save(proxy, name)
     assert content(name).startswith(b"ITEM: TIMESTEP"), name
+try:
+    granular.save(grains, "grains.vtk")  # dumps have no such name
+except RuntimeError:
+    assert not os.path.exists("grains.vtk")
+else:
+    raise AssertionError("grains became voxels")
 granular.save(domains, "domains.vtk", writer="GranularDumpWriter")
 assert content("domains.vtk").startswith(b"ITEM: TIMESTEP")
 SaveData("run.decomposition", domains)

@@ -51,6 +51,8 @@ TEST(NamedSteps, TheLastNumberOfTheName)
   EXPECT_EQ(
     steps_of({ { "run2_decomposition_0.vtk" }, { "run2_decomposition_1.vtk" } }), (Steps{ 0, 1 }));
   EXPECT_EQ(steps_of({ { "a_007.vtk.gz" } }), (Steps{ 7 }));
+  // what is the same in all names tells no steps apart
+  EXPECT_EQ(steps_of({ { "dec_1000.run2.vtk" }, { "dec_3000.run2.vtk" } }), (Steps{ 1000, 3000 }));
   EXPECT_EQ(steps_of({ { "2000/a_10_.vtu" } }), (Steps{ 10 }));
   EXPECT_EQ(steps_of({ { "decomposition.vtk" } }), (Steps{ 0 }));
   EXPECT_EQ(steps_of({ { "a_9223372036854775807.vtk" }, { "a_3.vtk" } }),
@@ -82,6 +84,9 @@ TEST(NamedSteps, ANumberThatCountsPiecesIsNone)
   EXPECT_EQ(steps_of({ { "a_1000.0.vtk" }, { "a_1000.1.vtk", 0 }, { "a_1000.2.vtk", 0 } }),
     (Steps{ 1000, -1, -1 }));
   EXPECT_EQ(steps_of({ { "a_1000.0.vtk" }, { "a_1000.1.vtk" } }), (Steps{ 0, 1 }));
+  // a single number, one frame
+  EXPECT_EQ(steps_of({ { "pfm_0.vtk", 1, 7 }, { "pfm_1.vtk", 1, 7 } }), (Steps{ 0, 0 }));
+  EXPECT_EQ(steps_of({ { "dec_0.vtk" }, { "dec_1.vtk" } }), (Steps{ 0, 1 }));
   // not from 0, or with a gap
   EXPECT_EQ(steps_of({ { "a_1000.1.vtk", 1, 7 }, { "a_1000.2.vtk", 1, 7 } }), (Steps{ 1, 2 }));
   EXPECT_EQ(steps_of({ { "a_1000.0.vtk", 1, 7 }, { "a_1000.2.vtk", 1, 7 } }), (Steps{ 0, 2 }));

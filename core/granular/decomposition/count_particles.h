@@ -40,14 +40,21 @@ ParticleCounts count_in_grid(
 ParticleCounts count_in_subdomains(const FrameView& frame, std::span<const Subdomain> subdomains,
   const Executor& executor, Progress& progress);
 
+/// What there is of particles, by rank of the process: their bounds, and how many they are.
+struct ParticleBounds
+{
+  std::vector<Subdomain> subdomains;
+  std::int64_t outside = 0; ///< particles without a place (nan, infinite): they are in none
+};
+
 /// For each process that the array names for a particle of this rank: the bounds of its particles, and how many
 /// they are, by rank. process has one whole number from 0 to 2^31 - 1 a row; others throw an Error that names the
 /// array. Positions as above, not wrapped; particles without a place are left out. Throws Error, Cancelled.
-std::vector<Subdomain> bounds_by_process(
+ParticleBounds bounds_by_process(
   const FrameView& frame, const ArrayView& process, const Executor& executor, Progress& progress);
 
 /// The bounds of all particles of this rank, and how many; nothing without any. rank is 0.
-std::vector<Subdomain> bounds_of_particles(
+ParticleBounds bounds_of_particles(
   const FrameView& frame, const Executor& executor, Progress& progress);
 
 /// Joins what the ranks have: one subdomain for each process that any of them knows, by rank, on all. Collective.

@@ -136,10 +136,6 @@ public:
 
   void add(const double* x) noexcept
   {
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-    {
-      return;
-    }
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       bounds_.lo[axis] = std::min(bounds_.lo[axis], x[axis]);
@@ -161,7 +157,8 @@ private:
 };
 
 void add_rows(const FrameView& frame, const AbsolutePositions& positions,
-  const Processes& processes, std::int64_t first, std::int64_t last, BoundsByRank& bounds)
+  const Processes& processes, std::int64_t first, std::int64_t last, BoundsByRank& bounds,
+  std::int64_t& outside)
 {
   constexpr auto most = static_cast<std::int64_t>(most_rows);
   std::array<double, 3 * most_rows> buffer;
@@ -187,13 +184,20 @@ void add_rows(const FrameView& frame, const AbsolutePositions& positions,
         run.start(rank);
         process = numbers[i];
       }
-      run.add(x);
+      if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+      {
+        run.add(x);
+      }
+      else
+      {
+        ++outside;
+      }
     }
     run.end(bounds);
   }
 }
 
-std::vector<Subdomain> find_bounds(
+ParticleBounds find_bounds(
   const FrameView& frame, const ArrayView* process, const Executor& executor, Progress& progress)
 {
   if (frame.rows > 0 && !frame.points)
@@ -204,20 +208,22 @@ std::vector<Subdomain> find_bounds(
   const Processes processes(process);
   const auto chunks = static_cast<std::size_t>((frame.rows + rows_per_chunk - 1) / rows_per_chunk);
   std::vector<BoundsByRank> bounds(executor.workers(chunks));
+  std::vector<std::int64_t> outside(bounds.size(), 0);
   executor.parallel_for(
     chunks,
     [&](std::size_t chunk, std::size_t worker)
     {
       const std::int64_t first = static_cast<std::int64_t>(chunk) * rows_per_chunk;
       add_rows(frame, positions, processes, first, std::min(first + rows_per_chunk, frame.rows),
-        bounds[worker]);
+        bounds[worker], outside[worker]);
     },
     progress);
   for (std::size_t worker = 1; worker < bounds.size(); ++worker)
   {
     bounds[0].add(bounds[worker].all());
   }
-  return std::move(bounds[0]).sorted();
+  return { std::move(bounds[0]).sorted(),
+    std::accumulate(outside.begin(), outside.end(), std::int64_t{ 0 }) };
 }
 
 /// Packer and Unpacker.
@@ -231,13 +237,13 @@ void pass_subdomain(Archive& archive, Subdomain& subdomain)
 }
 }
 
-std::vector<Subdomain> bounds_by_process(
+ParticleBounds bounds_by_process(
   const FrameView& frame, const ArrayView& process, const Executor& executor, Progress& progress)
 {
   return find_bounds(frame, &process, executor, progress);
 }
 
-std::vector<Subdomain> bounds_of_particles(
+ParticleBounds bounds_of_particles(
   const FrameView& frame, const Executor& executor, Progress& progress)
 {
   return find_bounds(frame, nullptr, executor, progress);

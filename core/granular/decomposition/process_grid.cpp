@@ -62,7 +62,8 @@ Counts told_counts(const GridRequest& request)
     if (told > 0 && cuts > 0 && cuts != told - 1)
     {
       throw Error("expected " + std::to_string(told - 1) + " cuts along " + axis_name(axis) +
-        " for " + std::to_string(told) + " processes, got " + std::to_string(cuts));
+        " for " + std::to_string(told) +
+        " processes, or 0 processes, which follow from the cuts, got " + std::to_string(cuts));
     }
     grid[axis] = cuts > 0 ? cuts + 1 : told;
   }

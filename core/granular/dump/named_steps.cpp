@@ -39,7 +39,7 @@ std::optional<std::size_t> place_of_pieces(
   const std::vector<FileIndex>& files, const Family& family)
 {
   const std::size_t places = family.begin()->second.size();
-  for (std::size_t at = 0; places > 1 && at < places; ++at)
+  for (std::size_t at = 0; at < places; ++at)
   {
     const Siblings groups = group_by_others(family, at);
     const std::size_t size = groups.begin()->second.size();
@@ -55,15 +55,36 @@ std::optional<std::size_t> place_of_pieces(
   return {};
 }
 
-/// The last number but that at a place.
-std::optional<std::int64_t> last_number(
-  const std::vector<Digits>& numbers, std::optional<std::size_t> without)
+/// Which numbers of a family may be the timestep, best first: the last that differs between files, but not that
+/// which counts pieces; then those that are the same for all.
+std::vector<std::size_t> places_of_step(const Family& family, std::optional<std::size_t> pieces)
 {
-  for (std::size_t at = numbers.size(); at-- > 0;)
+  std::vector<std::size_t> places;
+  const std::vector<Digits>& first = family.begin()->second;
+  for (const bool differ : { true, false })
+  {
+    for (std::size_t at = first.size(); at-- > 0;)
+    {
+      const bool differs = std::ranges::any_of(
+        family, [&](const auto& entry) { return entry.second[at] != first[at]; });
+      if (at != pieces && differs == differ)
+      {
+        places.push_back(at);
+      }
+    }
+  }
+  return places;
+}
+
+/// The first of these numbers that fits.
+std::optional<std::int64_t> number_at(
+  const std::vector<Digits>& numbers, const std::vector<std::size_t>& places)
+{
+  for (const std::size_t at : places)
   {
     const std::string& text = numbers[at].text;
     std::int64_t number = 0;
-    if (at != without && parse_int64(text.data(), text.data() + text.size(), number))
+    if (parse_int64(text.data(), text.data() + text.size(), number))
     {
       return number;
     }
@@ -79,12 +100,13 @@ void name_steps(std::vector<FileIndex>& files, Notices& notices)
   for (const auto& [rest, family] : families_of(files))
   {
     const std::optional<std::size_t> pieces = place_of_pieces(files, family);
+    const std::vector<std::size_t> places = places_of_step(family, pieces);
     for (const auto& [number, numbers] : family)
     {
       FileIndex& file = files[number];
-      const std::optional<std::int64_t> step = last_number(numbers, pieces);
+      const std::optional<std::int64_t> step = number_at(numbers, places);
       const bool counts = file.frames.size() > 1 || !step;
-      if (counts && !file.frames.empty() && ++counted == 1)
+      if (counts && !pieces && !file.frames.empty() && ++counted == 1)
       {
         first = file.path;
       }
