@@ -97,7 +97,7 @@ std::int64_t plain_pass(const std::vector<double>& points, int per_axis, bool wi
     const std::int64_t i = index(x, 0);
     const std::int64_t j = index(x, 1);
     const std::int64_t k = index(x, 2);
-    ++counts[static_cast<std::size_t>(i + per_axis * (j + per_axis * k))];
+    ++counts[static_cast<std::size_t>((i * per_axis + j) * per_axis + k)];
   }
   return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
@@ -108,7 +108,8 @@ std::vector<double> make_points(const Case& each, std::mt19937_64& random)
   for (std::int64_t i = 0; i < each.particles; ++i)
   {
     std::int64_t rest = i * each.per_axis * each.per_axis * each.per_axis / each.particles;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    granular::Vector3 point;
+    for (std::size_t axis = 3; axis-- > 0;)
     {
       double part = std::uniform_real_distribution<double>(0, 1)(random);
       if (each.by_process)
@@ -116,8 +117,9 @@ std::vector<double> make_points(const Case& each, std::mt19937_64& random)
         part = (static_cast<double>(rest % each.per_axis) + part) / each.per_axis;
         rest /= each.per_axis;
       }
-      points.push_back(box_lo[axis] + part * (box_hi[axis] - box_lo[axis]));
+      point[axis] = box_lo[axis] + part * (box_hi[axis] - box_lo[axis]);
     }
+    points.insert(points.end(), point.begin(), point.end());
   }
   return points;
 }

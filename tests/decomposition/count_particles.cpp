@@ -198,7 +198,7 @@ TEST(CountInGrid, AllInOneOfMillionAndNobodyInTheOthers)
   const ProcessGrid grid = grid_of({ 0, 0, 0 }, { 1, 1, 1 }, { 100, 100, 100 });
   const ParticleCounts counts = count(frame_of(Points(100'000, { 0.999, 0.005, 0.015 })), grid, 2);
   ASSERT_EQ(counts.particles.size(), 1'000'000u);
-  EXPECT_EQ(counts.particles[99 + 100 * (0 + 100 * 1)], 100'000);
+  EXPECT_EQ(counts.particles[(99 * 100 + 0) * 100 + 1], 100'000);
   EXPECT_EQ(sum_of(counts), 100'000);
 }
 
