@@ -5,7 +5,6 @@ from pathlib import Path
 import granular
 import numpy as np
 from paraview.simple import *
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 data = Path(__file__).parent / "data"
 grains = OpenDataFile(str(data / "grains.dump"))
@@ -44,7 +43,8 @@ def count(**properties):
     SetProperties(domains, **properties)
     domains.UpdatePipeline(4000)
     voxels = servermanager.Fetch(domains)
-    return (vtk_to_numpy(voxels.GetCellData().GetArray("nlocal")),
+    nlocal = voxels.GetCellData().GetArray("nlocal")
+    return (np.array([nlocal.GetValue(process) for process in range(nlocal.GetNumberOfValues())]),
             voxels.GetFieldData().GetArray("imbalance").GetValue(0))
 
 
@@ -56,8 +56,9 @@ side_by_side, better = count(ProcessorGrid=[2, 2, 1])
 print(f"2 x 2 x 1: {side_by_side.tolist()} grains, imbalance {better:.2f}")
 assert better < 1.1
 # Or cut the box where half of the grains lie below.
-points = vtk_to_numpy(servermanager.Fetch(grains).GetPoints().GetData())
-cut, balanced = count(ProcessorGrid=[2, 1, 2], ZCuts=[float(np.median(points[:, 2]))])
+points = servermanager.Fetch(grains).GetPoints()
+height = np.median([points.GetPoint(i)[2] for i in range(points.GetNumberOfPoints())])
+cut, balanced = count(ProcessorGrid=[2, 1, 2], ZCuts=[height])
 print(f"2 x 1 x 2, cut at half of them: {cut.tolist()} grains, imbalance {balanced:.2f}")
 assert balanced < 1.1
 

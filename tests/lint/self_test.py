@@ -274,6 +274,13 @@ class vtkGranularA : public vtkPolyDataAlgorithm
                                     xml__d_dot_xml="<a>\n<b></a>"),
                          ["xml/b.xml:4", "xml/c.xml:2", "xml/d.xml:2"])
 
+    def test_readers_that_look_into_files_share_extensions(self):
+        reader = self.xml("", '<ReaderFactory extensions="vtk"/>')
+        shared = {"xml__a_dot_xml": reader, "xml__b_dot_xml": reader.replace('name="A"', 'name="B"')}
+        self.assertEqual(self.check(**shared), ["xml/b.xml:4"])
+        looks = self.HEADER.replace("};", "  static int CanReadFile(const char* name);\n};")
+        self.assertEqual(found(server_manager.check, plugin__vtk__vtkGranularA_dot_h=looks, **shared), [])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -2,7 +2,7 @@
 """The XML of the server manager against the classes it speaks of: every command is a method of the
 class, an element of our own has its proxy class, every property says what it is, no property has a
 label (a label would become its name in Python), and no two proxies of a kind claim one file
-extension."""
+extension, but readers that look into files."""
 import os
 import re
 from xml.parsers import expat
@@ -115,12 +115,15 @@ def check_proxy(root, path, proxy):
             yield path, prop.line, f"{prop.get('name')}: there is no property {information}"
 
 
-def check_extensions(found):
-    """found: (kind, extension, path, line, proxy) of every claim."""
+def check_extensions(root, found):
+    """found: (kind, extension, path, line, proxy, class) of every claim. Readers that look into a file may share its
+    extension."""
     first = {}
-    for kind, extension, path, line, proxy in found:
-        other = first.setdefault((kind, extension.lower()), proxy)
-        if other != proxy:
+    for kind, extension, path, line, proxy, name in found:
+        header = f"plugin/vtk/{name}.h"
+        looks = os.path.exists(os.path.join(root, header)) and "CanReadFile" in tree.read(root, header)
+        other, other_looks = first.setdefault((kind, extension.lower()), (proxy, looks))
+        if other != proxy and not (looks and other_looks):
             yield path, line, f"{proxy}: the extension {extension} is claimed by {other} already"
 
 
@@ -141,9 +144,9 @@ def check(root):
                 yield from check_proxy(root, path, proxy)
                 for kind in ("ReaderFactory", "WriterFactory"):
                     for hint in proxy.all(kind):
-                        claims += [(kind, extension, path, hint.line, proxy.get("name"))
+                        claims += [(kind, extension, path, hint.line, proxy.get("name"), proxy.get("class"))
                                    for extension in hint.get("extensions").split()]
-    yield from check_extensions(claims)
+    yield from check_extensions(root, claims)
 
 
 if __name__ == "__main__":
