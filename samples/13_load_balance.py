@@ -25,13 +25,12 @@ for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
     ColorBy(voxels, ("CELLS", "nlocal"))
     Show(Text(Text=f"step {step}"), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)  # the first picture moves the camera
-    SetProperties(view, CameraPosition=[0.24, -0.37, 0.20], CameraFocalPoint=[0, 0, 0.07],
+    SetProperties(view, CameraPosition=[0.25, -0.39, 0.19], CameraFocalPoint=[0, 0, 0.06],
                   CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("nlocal")
 colors.RescaleTransferFunction(0, 600)
 SetProperties(GetScalarBar(colors, view), Title="grains of a process", ComponentTitle="",
-              WindowLocation="Any Location", Position=[0.2, 0.02], ScalarBarLength=0.6,
-              Orientation="Horizontal",
+              WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.6,
               AutomaticLabelFormat=0, LabelFormat="%.0f", RangeLabelFormat="%.0f")
 voxels.SetScalarBarVisibility(view, True)
 strip.SetSize(1400, 520)

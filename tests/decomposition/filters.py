@@ -37,19 +37,21 @@ def source(bounds, grid, cuts=((), (), ()), shared=False):
     return output(algorithm)
 
 
-def reader(*names):
+def reader(*names, shared=False):
     algorithm = granular.vtkGranularDecompositionReader()
+    algorithm.SetSharedCorners(shared)
     for name in names:
         algorithm.AddFileName(os.path.join(data, name))
     return output(algorithm)
 
 
-def counted():
+def counted(shared=False):
     grains = granular.vtkGranularDumpReader()
     grains.AddFileName(os.path.join(data, "grains_2000.dump"))
     algorithm = granular.vtkGranularDecomposition()
     algorithm.SetInputConnection(grains.GetOutputPort())
     algorithm.SetProcessorGrid(3, 2, 4)
+    algorithm.SetSharedCorners(shared)
     return output(algorithm)
 
 
@@ -158,6 +160,8 @@ check("counted", counted(), (-0.05, 0.05, -0.05, 0.05, 0, 0.15))
 check("public", reader("decomposition/all.vtk"), (-0.05, 0.05, -0.05, 0.05, 0, 0.15))
 check_outside("shared", source(unit, (3, 4, 5), shared=True))
 check_outside("shared cuts", source(unit, (2, 2, 1), ((0.9,), (0.1,), ()), shared=True))
+check_outside("counted", counted(shared=True))
+check_outside("public", reader("decomposition/all.vtk", shared=True))
 
 # a slab one ulp thick has a volume, too
 thin = (1.0, numpy.nextafter(1.0, 2.0), 0, 1, 0, 1)
