@@ -6,29 +6,15 @@ import os
 import numpy
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
+import all_ranks
 import granular
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
-ranks = vtkMultiProcessController.GetGlobalController()
-symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
 
 
 def whole(proxy, time):
-    """What all ranks have, by way of a file that ParaView writes and reads."""
-    proxy.UpdatePipeline(time)
-    name = os.path.abspath("voxels.pvtu")
-    SaveData(name, proxy, DataMode="Binary")
-    if symmetric:
-        ranks.Barrier()
-    file = vtkXMLPUnstructuredGridReader()
-    file.SetFileName(name)
-    file.Update()
-    if symmetric:
-        ranks.Barrier()
-    return file.GetOutput()
+    return all_ranks.whole(proxy, time, "vtkUnstructuredGrid")
 
 
 def digest(grid):
@@ -96,7 +82,7 @@ for proxy, algorithm, inputs in (
 # the ranks of this program: a voxel each, with what it has
 here = GranularDecomposition(Input=grains, Mode="Ranks")
 grid = whole(here, 0)
-size = ranks.GetNumberOfProcesses()
+size = all_ranks.ranks.GetNumberOfProcesses()
 cells = {name: vtk_to_numpy(grid.GetCellData().GetArray(name)) for name in ("nlocal", "proc")}
 assert (cells["proc"] == numpy.arange(size)).all(), cells
 assert cells["nlocal"].sum() == 1200 and cells["nlocal"].max() < 1.2 * 1200 / size, cells

@@ -5,13 +5,9 @@ import os
 import numpy
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 import plain_dump
-
-ranks = vtkMultiProcessController.GetGlobalController()
-symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
+from all_ranks import symmetric, whole
 
 
 def good(*names):
@@ -20,21 +16,6 @@ def good(*names):
 
 def open_files(*names, **properties):
     return GranularDumpReader(FileNames=good(*names), **properties)
-
-
-def whole(reader, time):
-    """What all ranks have, by way of a file that ParaView writes and reads."""
-    reader.UpdatePipeline(time)
-    name = os.path.abspath("particles.pvtp")
-    SaveData(name, reader, DataMode="Binary")
-    if symmetric:
-        ranks.Barrier()
-    file = vtkXMLPPolyDataReader()
-    file.SetFileName(name)
-    file.Update()
-    if symmetric:
-        ranks.Barrier()
-    return file.GetOutput()
 
 
 def check(reader, time, frames):
@@ -50,7 +31,6 @@ def check(reader, time, frames):
     assert numpy.array_equal(read, numpy.array(ids)[order]), (reader.FileNames, time)
     if "x" in frames[0].columns:
         points = numpy.concatenate([frame.stack(["x", "y", "z"]) for frame in frames])[order]
-        # a writer of ParaView keeps the doubles of points
         assert numpy.array_equal(vtk_to_numpy(data.GetPoints().GetData()), points)
 
 

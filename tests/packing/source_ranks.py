@@ -1,33 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Any number of ranks make the same grains, each its own part of them."""
 import hashlib
-import os
 
 import numpy
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 import granular
-
-ranks = vtkMultiProcessController.GetGlobalController()
-symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
-
-
-def whole(source):
-    """What all ranks have, by way of a file that ParaView writes and reads."""
-    source.UpdatePipeline()
-    name = os.path.abspath("grains.pvtp")
-    SaveData(name, source, DataMode="Binary")
-    if symmetric:
-        ranks.Barrier()
-    file = vtkXMLPPolyDataReader()
-    file.SetFileName(name)
-    file.Update()
-    if symmetric:
-        ranks.Barrier()
-    return file.GetOutput()
+from all_ranks import symmetric, whole
 
 
 def alone(**properties):

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the ranks of a script have together."""
+import os
+
+from paraview.simple import SaveData, servermanager
+from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+ranks = vtkMultiProcessController.GetGlobalController()
+symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
+_FILES = {"vtkPolyData": (".pvtp", vtkXMLPPolyDataReader),
+          "vtkUnstructuredGrid": (".pvtu", vtkXMLPUnstructuredGridReader)}
+
+
+def whole(proxy, time=None, kind="vtkPolyData"):
+    """The data of all ranks, by way of a file that ParaView writes and reads; it keeps the doubles of points."""
+    proxy.UpdatePipeline(*([] if time is None else [time]))
+    ending, reader = _FILES[kind]
+    name = os.path.abspath("whole" + ending)
+    SaveData(name, proxy, DataMode="Binary")
+    if symmetric:
+        ranks.Barrier()
+    file = reader()
+    file.SetFileName(name)
+    file.Update()
+    if symmetric:
+        ranks.Barrier()
+    return file.GetOutput()
