@@ -65,7 +65,8 @@ bool is_right(const Voxels& voxels, const Subdomains& subdomains)
 /// New memory as at first, and memory of a frame before as when time goes on.
 void measure_voxels(benchmark::State& state, const Case& each)
 {
-  const Voxels first = make_voxels(each.subdomains, {}, each.shared, Executor(1));
+  Progress progress;
+  const Voxels first = make_voxels(each.subdomains, {}, each.shared, Executor(1), progress);
   if (!is_right(first, each.subdomains))
   {
     fail(state, "a cell without the corners of its subdomain");
@@ -86,8 +87,9 @@ void measure_voxels(benchmark::State& state, const Case& each)
         [&, from, threads]
         {
           const Executor executor(threads);
-          return make_voxels(each.subdomains, {}, each.shared, executor, from).number_of_points ==
-            points;
+          Progress quiet;
+          return make_voxels(each.subdomains, {}, each.shared, executor, quiet, from)
+                   .number_of_points == points;
         });
     }
   }
@@ -120,7 +122,8 @@ void measure_checks(benchmark::State& state, const Subdomains& subdomains)
     [&]
     {
       Notices notices;
-      check_subdomains(subdomains, {}, {}, notices);
+      Progress progress;
+      check_subdomains(subdomains, {}, {}, notices, progress);
       return true;
     });
   const std::int64_t lines = static_cast<std::int64_t>(subdomains.size());

@@ -29,7 +29,8 @@ std::string said_of(const Subdomains& subdomains, SubdomainChecks checks = {})
   Notices notices;
   try
   {
-    check_subdomains(subdomains, checks, where, notices);
+    Progress progress;
+    check_subdomains(subdomains, checks, where, notices, progress);
   }
   catch (const FormatError& thrown)
   {
@@ -38,6 +39,33 @@ std::string said_of(const Subdomains& subdomains, SubdomainChecks checks = {})
   EXPECT_TRUE(notices.empty());
   return error;
 }
+
+Overlaps overlaps_of(const Subdomains& subdomains, const Vector3& allowed, std::int64_t most)
+{
+  Progress progress;
+  return find_overlaps(subdomains, allowed, most, progress);
+}
+
+/// Reports, and stops at one of them.
+struct Counting : Progress
+{
+  explicit Counting(int end = 1'000'000)
+    : stop(end)
+  {
+  }
+
+  bool report(double fraction) override
+  {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    return ++reports < stop;
+  }
+
+  double last = 0;
+  int reports = 0;
+  int stop;
+};
 
 /// Two cubes one behind the other.
 Subdomains pair_of_cubes()
@@ -75,7 +103,7 @@ Overlaps compared_overlaps(const Subdomains& subdomains, const Vector3& allowed)
 void expect_same(const Subdomains& subdomains, const Vector3& allowed, const std::string& what)
 {
   const Overlaps expected = compared_overlaps(subdomains, allowed);
-  const Overlaps found = find_overlaps(subdomains, allowed, 1'000'000'000);
+  const Overlaps found = overlaps_of(subdomains, allowed, 1'000'000'000);
   EXPECT_EQ(found.pairs, expected.pairs) << what;
   EXPECT_EQ(found.first, expected.first) << what;
   EXPECT_FALSE(found.more);
@@ -133,12 +161,12 @@ TEST(FindOverlaps, divided_boxes)
 TEST(FindOverlaps, stops)
 {
   const Subdomains same(1000, made_subdomain({}, { 1, 1, 1 }));
-  EXPECT_EQ(find_overlaps(same, {}, 499500).pairs, 499500);
-  EXPECT_FALSE(find_overlaps(same, {}, 499500).more);
-  EXPECT_EQ(find_overlaps(same, {}, 499499).pairs, 499499);
-  EXPECT_TRUE(find_overlaps(same, {}, 499499).more);
+  EXPECT_EQ(overlaps_of(same, {}, 499500).pairs, 499500);
+  EXPECT_FALSE(overlaps_of(same, {}, 499500).more);
+  EXPECT_EQ(overlaps_of(same, {}, 499499).pairs, 499499);
+  EXPECT_TRUE(overlaps_of(same, {}, 499499).more);
   const Subdomains many(1'000'000, made_subdomain({}, { 1, 1, 1 }));
-  EXPECT_TRUE(find_overlaps(many, {}, 1000).more);
+  EXPECT_TRUE(overlaps_of(many, {}, 1000).more);
 }
 
 TEST(CheckSubdomains, grids)
@@ -232,6 +260,51 @@ TEST(CheckSubdomains, gaps)
   EXPECT_NE(said_of(grid).find("got gaps of 0.037037037"), std::string::npos) << said_of(grid);
 }
 
+/// Whatever is found of a grid must be found of what is nearly one: with flat ones in it, one moved, one missing.
+TEST(CheckSubdomains, nearly_grids)
+{
+  SubdomainChecks exact;
+  exact.tolerance = 0;
+  Subdomains grid = made_grid({ 3, 4, 5 });
+  grid.push_back(made_subdomain({ 0, 0, 1e3 }, { 0, 3, 1004 }, 0, 60)); // empty, across many
+  grid.push_back(grid.back());
+  EXPECT_EQ(said_of(grid, exact), "");
+  grid.back() = made_subdomain({ 2, 0, 1e3 }, { 2, 3, 1004 }, 0, 61); // outside, behind a gap
+  EXPECT_NE(
+    said_of(grid, exact).find("to 2 3 1004, got gaps of 0.333333333333333"), std::string::npos);
+  grid.resize(60);
+  const Subdomains good = grid;
+  grid[7].lo[1] = std::nextafter(grid[7].lo[1], -1);
+  EXPECT_NE(said_of(grid, exact).find("1 pair"), std::string::npos);
+  grid = good;
+  grid[7] = grid[8];
+  EXPECT_NE(said_of(grid, exact).find("processes 8 and 8 share"), std::string::npos);
+  grid = good;
+  grid.erase(grid.begin() + 7);
+  EXPECT_NE(said_of(grid, exact).find("got gaps of 0.01666666666666"), std::string::npos);
+}
+
+/// A grid is soon seen to be one. What is none tells how far it is, and can be stopped.
+TEST(CheckSubdomains, progress)
+{
+  Notices notices;
+  const Subdomains grid = made_grid({ 60, 60, 60 });
+  Counting of_grid;
+  check_subdomains(grid, {}, {}, notices, of_grid);
+  const Subdomains divided = made_bisection(216'000, 3);
+  Counting all;
+  check_subdomains(divided, {}, {}, notices, all);
+  EXPECT_LT(of_grid.reports, 5);
+  EXPECT_GT(all.reports, 20);
+  EXPECT_GT(all.last, 0.9);
+  for (const int stop : { 1, all.reports / 2, all.reports })
+  {
+    Counting progress(stop);
+    EXPECT_THROW(check_subdomains(divided, {}, {}, notices, progress), Cancelled);
+    EXPECT_EQ(progress.reports, stop);
+  }
+}
+
 /// An overlap and a gap of the same size do not make up for each other.
 TEST(CheckSubdomains, overlap_and_gap)
 {
@@ -268,7 +341,8 @@ TEST(CheckSubdomains, notices)
   cubes.push_back(made_subdomain({ 3, 0, 0 }, { 2, 1, 1 }, 0, 9));
   SubdomainChecks checks = { Answer::Notice, Answer::Notice, Answer::Notice };
   Notices notices;
-  check_subdomains(cubes, checks, { "run.vtk" }, notices);
+  Progress progress;
+  check_subdomains(cubes, checks, { "run.vtk" }, notices, progress);
   ASSERT_EQ(notices.size(), 2);
   EXPECT_EQ(to_string(notices[0]),
     "run.vtk: expected finite bounds, lower ones not above upper ones, got 1 subdomain without: "
@@ -278,7 +352,7 @@ TEST(CheckSubdomains, notices)
     "processes 0 and 0 share 1 1 1");
   cubes.resize(1);
   cubes.push_back(made_subdomain({ 3, 0, 0 }, { 4, 1, 1 }));
-  check_subdomains(cubes, checks, {}, notices);
+  check_subdomains(cubes, checks, {}, notices, progress);
   ASSERT_EQ(notices.size(), 3);
   EXPECT_EQ(to_string(notices[2]),
     "expected subdomains that fill the box from 0 0 0 to 4 1 1, got gaps of 0.5 of its volume");
@@ -358,5 +432,5 @@ TEST(CheckSubdomains, woven_rods)
   {
     rods[i].rank = static_cast<int>(i);
   }
-  EXPECT_EQ(find_overlaps(rods, {}, 10).pairs, 0);
+  EXPECT_EQ(overlaps_of(rods, {}, 10).pairs, 0);
 }

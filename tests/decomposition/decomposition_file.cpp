@@ -220,6 +220,38 @@ TEST(DecompositionFile, FlatCellsAndEndlessOnes)
   EXPECT_EQ(voxels.read().subdomains, expected);
 }
 
+// Who reads says what becomes of them.
+TEST(DecompositionFile, OddBoundsAreHandedOn)
+{
+  using granular::Answer;
+  const std::string bounds =
+    "expected finite bounds, lower ones not above upper ones, got 1 subdomain without: process ";
+  const std::string inverted = bounds + "1 from 2.5 0 -1 to 1 2 0";
+  const std::pair<std::string, std::string> files[] = {
+    { two_boxes("2.5"), inverted },
+    { replaced(two_voxels(""), "0.25 ", "2.5 "), inverted },
+    { replaced(two_boxes(), "-0.500000", "nan"), bounds + "0 from nan 0 -1 to 0.25 2 0" },
+    { replaced(two_voxels(""), "-0.5 ", "nan "), bounds + "0 from nan 0 -1 to 0.25 2 0" },
+    { replaced(two_boxes(), " 1.000000", " inf"), bounds + "1 from 0.25 0 -1 to inf 2 0" },
+  };
+  for (const auto& [text, said] : files)
+  {
+    GridFile file(text);
+    ASSERT_EQ(file.frames(), 1u) << file.defect();
+    const std::vector<Subdomain> subdomains = file.read().subdomains;
+    ASSERT_EQ(subdomains.size(), 2u);
+    const granular::Where where = { "run.vtk", 7 };
+    granular::Progress progress;
+    granular::Notices notices;
+    EXPECT_EQ(error_of([&] { check_subdomains(subdomains, {}, where, notices, progress); }),
+      "run.vtk:7: " + said);
+    check_subdomains(subdomains, { .bounds = Answer::Notice }, where, notices, progress);
+    EXPECT_EQ(lines_of(notices), "run.vtk:7: " + said + "\n");
+    check_subdomains(subdomains, { .bounds = Answer::None }, where, notices, progress);
+    EXPECT_EQ(notices.size(), 1u);
+  }
+}
+
 TEST(DecompositionFile, TextInAnyForm)
 {
   const std::string good = two_voxels(counts_and_ranks);

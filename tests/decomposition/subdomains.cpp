@@ -87,6 +87,8 @@ TEST(BoundsOf, smallest_box)
   const Subdomains odd = { made_subdomain({ no_number, 0, -infinity }, { no_number, 1, 1 }),
     made_subdomain({ 2, no_number, 0 }, { 3, no_number, 4 }) };
   EXPECT_EQ(bounds_of(odd), made_subdomain({ 2, 0, -infinity }, { 3, 1, 4 }));
+  const Subdomains inverted = { made_subdomain({ 3, no_number, 0 }, { 1, no_number, 1 }) };
+  EXPECT_EQ(bounds_of(inverted), made_subdomain({ 1, 0, 0 }, { 3, 0, 1 }));
   EXPECT_EQ(bounds_of(made_grid({ 7, 5, 3 })), made_subdomain({ -1, 0, 1e3 }, { 1, 3, 1004 }));
 }
 

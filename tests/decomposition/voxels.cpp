@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 using namespace granular;
 
@@ -30,7 +31,9 @@ struct Made
   explicit Made(const Subdomains& subdomains, bool shared = false, const Vector3& origin = {},
     int threads = 1, const std::shared_ptr<BlockPool>& pool = nullptr)
   {
-    const Voxels voxels = make_voxels(subdomains, origin, shared, Executor(threads), pool);
+    Progress progress;
+    const Voxels voxels =
+      make_voxels(subdomains, origin, shared, Executor(threads), progress, pool);
     EXPECT_EQ(voxels.points.bytes(), 24 * static_cast<std::size_t>(voxels.number_of_points));
     EXPECT_EQ(voxels.connectivity.bytes(), 64 * subdomains.size());
     const auto* point = static_cast<const Vector3*>(voxels.points.data());
@@ -183,6 +186,8 @@ TEST(MakeVoxels, odd_bounds)
     made_subdomain({ no_number, 0, 0 }, { -1, 1, infinity }) };
   EXPECT_EQ(Made(odd).points.size(), 16);
   EXPECT_EQ(Made(odd, true).points.size(), 16);
+  // a table of corners would be full of them
+  EXPECT_EQ(Made(Subdomains(200'000, odd[0]), true).points.size(), 4 + 4 * 200'000);
   const Subdomains inverted = { made_subdomain({ 1, 1, 1 }, { 0, 0, 0 }) };
   expect_voxels(Made(inverted, true), inverted);
 }
@@ -218,10 +223,39 @@ TEST(MakeVoxels, threads)
   }
 }
 
+TEST(MakeVoxels, tells_and_stops)
+{
+  struct Stop : Progress
+  {
+    bool report(double fraction) override
+    {
+      EXPECT_GE(fraction, last);
+      EXPECT_LE(fraction, 1);
+      last = fraction;
+      return ++reports < most;
+    }
+    double last = 0;
+    int reports = 0;
+    int most = 1'000'000;
+  };
+  const Subdomains subdomains = made_bisection(200'000, 4);
+  for (const bool shared : { false, true })
+  {
+    Stop all;
+    make_voxels(subdomains, { 1, 0, 0 }, shared, Executor(1), all);
+    EXPECT_GT(all.reports, 10);
+    EXPECT_GT(all.last, 0.9);
+    Stop half;
+    half.most = all.reports / 2;
+    EXPECT_THROW(make_voxels(subdomains, { 1, 0, 0 }, shared, Executor(1), half), Cancelled);
+  }
+}
+
 TEST(MakeVoxels, a_million)
 {
   const Subdomains subdomains = made_grid({ 100, 100, 100 });
-  const Voxels voxels = make_voxels(subdomains, {}, true, Executor(1));
+  Progress progress;
+  const Voxels voxels = make_voxels(subdomains, {}, true, Executor(1), progress);
   EXPECT_EQ(voxels.number_of_points, 101 * 101 * 101);
   const auto* points = static_cast<const Vector3*>(voxels.points.data());
   const auto* cells = static_cast<const std::int64_t*>(voxels.connectivity.data());
@@ -249,7 +283,22 @@ TEST(BoundsOfCell, orders)
   EXPECT_EQ(found, made_subdomain(lo, hi));
 }
 
-/// All ways to turn and mirror a cell: axes in another order, directions reversed.
+/// Of all corners the farthest from the first.
+Vector3 opposite(const Corners& corners)
+{
+  return *std::max_element(corners.begin(), corners.end(),
+    [&](const Vector3& a, const Vector3& b)
+    {
+      const auto distance = [&](const Vector3& corner)
+      {
+        return std::abs(corner[0] - corners[0][0]) + std::abs(corner[1] - corners[0][1]) +
+          std::abs(corner[2] - corners[0][2]);
+      };
+      return distance(a) < distance(b);
+    });
+}
+
+/// All ways to turn and mirror a cell: axes in another order, and directions reversed, which gives inverted bounds.
 TEST(BoundsOfCell, symmetries)
 {
   const Vector3 lo = { 0, 10, 100 };
@@ -275,17 +324,18 @@ TEST(BoundsOfCell, symmetries)
         const Corners corners = in_order(sides, lo, hi);
         const CornerOrder is = bounds_of_cell(corners, found);
         ++seen[is];
-        const bool same = reversed == 0 && axes == std::array<std::size_t, 3>{ 0, 1, 2 };
-        const bool exchanged = reversed == 0 && axes == std::array<std::size_t, 3>{ 2, 1, 0 };
+        const bool same = axes == std::array<std::size_t, 3>{ 0, 1, 2 };
+        const bool exchanged = axes == std::array<std::size_t, 3>{ 2, 1, 0 };
         const bool voxel = order == voxel_order;
         EXPECT_EQ(is == CornerOrder::Voxel, same && voxel);
         EXPECT_EQ(is == CornerOrder::Hexahedron, same && !voxel);
         EXPECT_EQ(is == CornerOrder::Reflected, exchanged && voxel);
-        EXPECT_EQ(found.lo, is == CornerOrder::None ? Vector3({ 7, 7, 7 }) : lo);
+        EXPECT_EQ(found.lo, is == CornerOrder::None ? Vector3({ 7, 7, 7 }) : corners.front());
+        EXPECT_EQ(found.hi, is == CornerOrder::None ? Vector3({ 8, 8, 8 }) : opposite(corners));
       }
     } while (std::next_permutation(axes.begin(), axes.end()));
   }
-  EXPECT_EQ(seen[CornerOrder::None], 96 - 3);
+  EXPECT_EQ(seen[CornerOrder::None], 96 - 3 * 8);
 }
 
 TEST(BoundsOfCell, no_box)
@@ -305,8 +355,38 @@ TEST(BoundsOfCell, no_box)
     }
   }
   EXPECT_EQ(found, Subdomain());
-  EXPECT_EQ(
-    bounds_of_cell(in_order(voxel_order, { 0, 2, 0 }, { 1, 0, 3 }), found), CornerOrder::None);
+}
+
+bool is_same(double a, double b)
+{
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+/// Whether bounds are right is for others to say.
+TEST(BoundsOfCell, odd_bounds)
+{
+  const std::array<int, corners_of_voxel> mirrored = { 0, 4, 2, 6, 1, 5, 3, 7 };
+  const Vector3 odd[][2] = { { { 0, 2, 0 }, { 1, 0, 3 } }, { { 3, 2, 1 }, { 0, 0, 0 } },
+    { { 0, 0, no_number }, { 1, 2, 3 } }, { { 0, 0, 0 }, { 1, no_number, infinity } },
+    { { no_number, 1, -infinity }, { 2, no_number, infinity } } };
+  for (const auto& [lo, hi] : odd)
+  {
+    for (const auto& [order, known] :
+      { std::pair{ voxel_order, CornerOrder::Voxel }, std::pair{ mirrored, CornerOrder::Reflected },
+        std::pair{ hexahedron_order, CornerOrder::Hexahedron } })
+    {
+      Subdomain found;
+      EXPECT_EQ(bounds_of_cell(in_order(order, lo, hi), found), known);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_TRUE(is_same(found.lo[axis], lo[axis]) && is_same(found.hi[axis], hi[axis]));
+      }
+    }
+  }
+  // nan wherever one looks
+  const Vector3 nowhere = { no_number, no_number, no_number };
+  Subdomain found;
+  EXPECT_EQ(bounds_of_cell(in_order(voxel_order, nowhere, nowhere), found), CornerOrder::Voxel);
 }
 
 TEST(BoundsOfCell, flat)

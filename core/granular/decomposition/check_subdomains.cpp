@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/overlaps.h"
+#include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/subdomains.h"
 
 #include "granular/base/compensated.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -127,20 +129,25 @@ void add_volume(CompensatedSum& sum, const Subdomain& subdomain, const Vector3& 
 }
 
 /// The part of the box that is in no subdomain, if no two overlap; 0 where no more than rounding is left.
-double gap_of(std::span<const Subdomain> subdomains, const Subdomain& bounds)
+double gap_of(std::span<const Subdomain> subdomains, const Subdomain& bounds, Progress& progress)
 {
+  constexpr std::size_t lot = 65536;
   const Vector3 scales = scales_for(bounds);
   CompensatedSum volume;
   add_volume(volume, bounds, scales);
   CompensatedSum rest = volume;
   CompensatedSum taken;
-  for (const Subdomain& each : subdomains)
+  const auto n = static_cast<double>(subdomains.size());
+  for (std::size_t i = 0; i < subdomains.size(); ++i)
   {
-    add_volume(taken, each, scales);
+    if (i % lot == 0)
+    {
+      progress.step(static_cast<double>(i) / n);
+    }
+    add_volume(taken, subdomains[i], scales);
   }
   const Twofold sum = taken.twofold();
   rest.add(Twofold{ -sum.hi, -sum.lo });
-  const auto n = static_cast<double>(subdomains.size());
   const double gap = rest.value() / volume.value();
   return gap > std::ldexp(n * n, -100) ? gap : 0;
 }
@@ -150,11 +157,40 @@ bool is_flat(const Subdomain& bounds)
   return bounds.lo[0] == bounds.hi[0] || bounds.lo[1] == bounds.hi[1] ||
     bounds.lo[2] == bounds.hi[2];
 }
+
+/// Whether those that are not empty form a grid in the bounds: no two overlap then, and there are no gaps.
+bool is_grid(std::span<const Subdomain> subdomains, const Subdomain& bounds)
+{
+  const auto is_empty = [&](const Subdomain& each)
+  {
+    const auto is_empty_along = [&](std::size_t axis)
+    { return each.lo[axis] == each.hi[axis] && bounds.lo[axis] < bounds.hi[axis]; };
+    return is_empty_along(0) || is_empty_along(1) || is_empty_along(2);
+  };
+  std::vector<Subdomain> others;
+  if (std::ranges::any_of(subdomains, is_empty))
+  {
+    std::ranges::remove_copy_if(subdomains, std::back_inserter(others), is_empty);
+    subdomains = others;
+  }
+  const std::optional<ProcessGrid> grid = find_process_grid(subdomains);
+  if (!grid)
+  {
+    return false;
+  }
+  const auto reaches = [&](std::size_t axis)
+  {
+    return grid->cuts[axis].front() == bounds.lo[axis] &&
+      grid->cuts[axis].back() == bounds.hi[axis];
+  };
+  return reaches(0) && reaches(1) && reaches(2);
+}
 }
 
 void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChecks& checks,
-  const Where& where, Notices& notices)
+  const Where& where, Notices& notices, Progress& progress)
 {
+  progress.step(0);
   const auto without = static_cast<std::int64_t>(std::count_if(
     subdomains.begin(), subdomains.end(), [](const Subdomain& each) { return !has_bounds(each); }));
   std::vector<Subdomain> others;
@@ -169,17 +205,22 @@ void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChec
     return;
   }
   const Subdomain bounds = bounds_of(subdomains);
-  const bool point = bounds.lo == bounds.hi;
-  const Overlaps found = point
-    ? Overlaps{}
-    : find_overlaps(subdomains, allowed_overlap(bounds, checks.tolerance), most_overlaps);
+  if (bounds.lo == bounds.hi || is_grid(subdomains, bounds))
+  {
+    return;
+  }
+  PartialProgress part(progress);
+  part.set_part(0.1, 0.9);
+  const Overlaps found =
+    find_overlaps(subdomains, allowed_overlap(bounds, checks.tolerance), most_overlaps, part);
   if (found.pairs > 0)
   {
     tell(checks.overlap, overlap_text(subdomains, found), where, notices);
   }
   else if (without == 0 && checks.gap != Answer::None && !is_flat(bounds))
   {
-    const double gap = gap_of(subdomains, bounds);
+    part.set_part(0.9, 1);
+    const double gap = gap_of(subdomains, bounds, part);
     if (gap > checks.tolerance)
     {
       tell(checks.gap,

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/decomposition_grid.h"
 
-#include "granular/base/number_print.h"
-
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -24,17 +21,6 @@ std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcep
     cells = VtkArray{ {}, VtkType::Double, cells, std::max(along, std::int64_t{ 1 }) - 1 }.size();
   }
   return cells;
-}
-
-std::string shortest(std::int64_t number)
-{
-  return std::to_string(number);
-}
-
-std::string shortest(double number)
-{
-  std::array<char, most_number_chars> text;
-  return { text.data(), print_number(text.data(), number, { 0 }) };
 }
 
 /// Reads one dataset, section by section.
@@ -80,8 +66,8 @@ private:
   void read_data(bool of_cells);
   bool take(const VtkArray& array);
   void limit(std::int64_t cells) const;
-  template <class T, class Good>
-  void check(const VtkPlace& first, const VtkArray& array, const std::vector<T>& numbers,
+  template <class Good>
+  void check(const VtkPlace& first, const VtkArray& array, const std::vector<std::int64_t>& numbers,
     const std::string& expected, Good good);
 
   LegacyVtk& file_;
@@ -207,15 +193,15 @@ void GridReader::read_dimensions()
 }
 
 /// Calls good(i) for each number that was kept, and says where the first is that is not.
-template <class T, class Good>
-void GridReader::check(const VtkPlace& first, const VtkArray& array, const std::vector<T>& numbers,
-  const std::string& expected, Good good)
+template <class Good>
+void GridReader::check(const VtkPlace& first, const VtkArray& array,
+  const std::vector<std::int64_t>& numbers, const std::string& expected, Good good)
 {
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
     if (!good(i))
     {
-      throw FormatError("expected " + expected + ", got " + shortest(numbers[i]),
+      throw FormatError("expected " + expected + ", got " + std::to_string(numbers[i]),
         file_.where_of(first, array, static_cast<std::int64_t>(i)));
     }
   }
@@ -229,12 +215,8 @@ void GridReader::read_coordinates()
   {
     file_.fail("at least 2 coordinates", file_.words()[1]);
   }
-  std::vector<double>& numbers = grid_.coordinates[axis];
   grid_.counts[axis] = array.tuples;
-  const VtkPlace first = file_.place();
-  file_.take(array, keep_, numbers);
-  this->check(first, array, numbers, "coordinates that do not decrease",
-    [&](std::size_t i) { return i == 0 ? !std::isnan(numbers[i]) : numbers[i] >= numbers[i - 1]; });
+  file_.take(array, keep_, grid_.coordinates[axis]);
 }
 
 void GridReader::read_points()

@@ -27,7 +27,7 @@ struct DecompositionGrid
 
   std::array<std::int64_t, 3> dimensions = {};         ///< as DIMENSIONS says
   std::array<std::int64_t, 3> counts = {};             ///< of coordinates
-  std::array<std::vector<double>, 3> coordinates = {}; ///< none below the one before
+  std::array<std::vector<double>, 3> coordinates = {}; ///< in any order
 
   std::int64_t number_of_points = 0;
   std::vector<double> points;

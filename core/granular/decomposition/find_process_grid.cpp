@@ -2,7 +2,9 @@
 #include "granular/decomposition/process_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <unordered_map>
@@ -76,11 +78,15 @@ private:
   std::size_t last_ = 0;
 };
 
+/// The slabs of a subdomain along each axis, by number: there are fewer than subdomains.
+using SlabNumbers = std::array<std::uint32_t, 3>;
+
 /// Of each subdomain its slabs; nothing where there are more slabs than a grid of so many has.
-std::vector<std::array<std::size_t, 3>> find_slabs(
+std::vector<SlabNumbers> find_slabs(
   std::span<const Subdomain> subdomains, std::array<Slabs, 3>& slabs)
 {
-  std::vector<std::array<std::size_t, 3>> found;
+  std::vector<SlabNumbers> found;
+  found.reserve(subdomains.size());
   for (const Subdomain& subdomain : subdomains)
   {
     auto& numbers = found.emplace_back();
@@ -91,7 +97,7 @@ std::vector<std::array<std::size_t, 3>> find_slabs(
       {
         return {};
       }
-      numbers[axis] = slabs[axis].number(slab);
+      numbers[axis] = static_cast<std::uint32_t>(slabs[axis].number(slab));
     }
     if (slabs[0].size() * slabs[1].size() * slabs[2].size() > subdomains.size())
     {
@@ -123,9 +129,10 @@ std::optional<ProcessGrid> find_process_grid(
   }
   const std::int64_t py = grid.counts()[1];
   const std::int64_t pz = grid.counts()[2];
-  std::vector<std::int64_t> own_order;
-  std::vector<std::int64_t>& taken = order ? *order : own_order;
-  taken.clear();
+  if (order)
+  {
+    order->clear();
+  }
   std::vector<bool> is_taken(subdomains.size());
   for (const auto& [x, y, z] : found)
   {
@@ -135,7 +142,10 @@ std::optional<ProcessGrid> find_process_grid(
       return std::nullopt;
     }
     is_taken[static_cast<std::size_t>(place)] = true;
-    taken.push_back(place);
+    if (order)
+    {
+      order->push_back(place);
+    }
   }
   return grid;
 }

@@ -40,13 +40,20 @@ using Part = std::span<Ranked>;
 /// Fewer are compared each with each.
 constexpr std::size_t few = 32;
 
+/// The axis along which the search begins.
+constexpr std::size_t first_axis = 2;
+
+/// Progress is reported each time so many were looked at.
+constexpr std::size_t report_interval = std::size_t{ 1 } << 20;
+
 class Search
 {
 public:
-  Search(Overlaps& found, std::int64_t most, std::size_t places)
+  Search(Overlaps& found, std::int64_t most, std::size_t places, Progress& progress)
     : found_(found)
     , most_(most)
     , end_(static_cast<Place>(places))
+    , progress_(progress)
   {
   }
 
@@ -58,6 +65,7 @@ public:
     {
       return;
     }
+    this->report(held.size() + holders.size(), axis, lo);
     if (axis == 0)
     {
       this->scan(held, holders);
@@ -87,6 +95,18 @@ public:
   }
 
 private:
+  /// Places before lo are done along the first axis.
+  void report(std::size_t work, std::size_t axis, Place lo)
+  {
+    done_ = axis == first_axis ? lo : done_;
+    work_ += work;
+    if (work_ >= report_interval)
+    {
+      work_ = 0;
+      progress_.step(static_cast<double>(done_) / static_cast<double>(end_));
+    }
+  }
+
   /// Brings those to the front for which it is so, and says how many they are.
   template <class Predicate>
   static std::size_t divide(Part part, const Predicate& predicate)
@@ -161,6 +181,9 @@ private:
   Overlaps& found_;
   std::int64_t most_;
   Place end_;
+  Progress& progress_;
+  Place done_ = 0;
+  std::size_t work_ = 0; ///< since progress was reported
 };
 
 /// Those that are thick enough to overlap at all.
@@ -234,8 +257,8 @@ void sort_axes(std::vector<Ranked>& all)
 }
 }
 
-Overlaps find_overlaps(
-  std::span<const Subdomain> subdomains, const Vector3& allowed, std::int64_t most)
+Overlaps find_overlaps(std::span<const Subdomain> subdomains, const Vector3& allowed,
+  std::int64_t most, Progress& progress)
 {
   if (subdomains.size() > std::numeric_limits<Place>::max())
   {
@@ -245,6 +268,7 @@ Overlaps find_overlaps(
   std::vector<Ranked> held = thick_ones(subdomains, allowed);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
+    progress.step(0);
     if (allowed[axis] >= 0)
     {
       rank(held, subdomains, axis, allowed[axis]);
@@ -257,7 +281,8 @@ Overlaps find_overlaps(
   sort_axes(held);
   Overlaps found;
   std::vector<Ranked> holders = held;
-  Search(found, most, held.size()).run(held, holders, 0, static_cast<Place>(held.size()), 2);
+  Search(found, most, held.size(), progress)
+    .run(held, holders, 0, static_cast<Place>(held.size()), first_axis);
   return found;
 }
 }

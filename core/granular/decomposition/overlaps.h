@@ -2,6 +2,7 @@
 #ifndef granular_decomposition_overlaps_h
 #define granular_decomposition_overlaps_h
 
+#include "granular/base/progress.h"
 #include "granular/decomposition/subdomains.h"
 
 #include <cstdint>
@@ -20,8 +21,8 @@ struct Overlaps
 
 /// Counts the pairs that overlap by more than `allowed` along each axis; an axis where that is below 0 is
 /// not looked at. Bounds are finite, lo <= hi. Stops after `most` pairs. For n subdomains takes time as
-/// n log^3 n at most, plus the pairs.
-Overlaps find_overlaps(
-  std::span<const Subdomain> subdomains, const Vector3& allowed, std::int64_t most);
+/// n log^3 n at most, plus the pairs. Throws Cancelled.
+Overlaps find_overlaps(std::span<const Subdomain> subdomains, const Vector3& allowed,
+  std::int64_t most, Progress& progress);
 }
 #endif

@@ -119,8 +119,17 @@ Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       // in this order a nan changes nothing
-      bounds.lo[axis] = std::min(bounds.lo[axis], subdomain.lo[axis]);
-      bounds.hi[axis] = std::max(bounds.hi[axis], subdomain.hi[axis]);
+      const double lo = subdomain.lo[axis];
+      const double hi = subdomain.hi[axis];
+      bounds.lo[axis] = std::min(std::min(bounds.lo[axis], lo), hi);
+      bounds.hi[axis] = std::max(std::max(bounds.hi[axis], hi), lo);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (bounds.lo[axis] > bounds.hi[axis]) // nothing but nan
+    {
+      bounds.lo[axis] = bounds.hi[axis] = 0;
     }
   }
   return bounds;

@@ -5,6 +5,7 @@
 #include "granular/base/box.h"
 #include "granular/base/communicator.h"
 #include "granular/base/error.h"
+#include "granular/base/progress.h"
 
 #include <cstdint>
 #include <span>
@@ -49,7 +50,8 @@ GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks);
 /// The subdomains with these bounds, p = 0 .. P - 1. Throws Error where an array has not its size.
 Decomposition decomposition_of(const GatheredBounds& bounds);
 
-/// The smallest box around all, without particles; 0 0 0 0 0 0 without subdomains. A nan counts for nothing.
+/// The smallest box around all, without particles; 0 along an axis without numbers. A nan counts for nothing, lo may be
+/// above hi.
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept;
 
 /// The largest number of particles divided by the mean; 1 without particles. processes: how many there are, at
@@ -78,8 +80,8 @@ struct SubdomainChecks
 /// Holds subdomains against the checks, each of which gives one Error or Notice, that names the first two at fault
 /// (a process by its rank) and counts them, up to 10^6 overlaps. Those without bounds are left out of the overlaps; gaps
 /// are looked for where all have bounds and no two overlap. In a box that is flat areas may not overlap, and there are
-/// no gaps. Takes n log n for a grid, n log^3 n at most. Throws FormatError.
+/// no gaps. A grid has neither, which takes no more than finding it; others take n log^3 n at most. Throws FormatError; Cancelled.
 void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChecks& checks,
-  const Where& where, Notices& notices);
+  const Where& where, Notices& notices, Progress& progress);
 }
 #endif

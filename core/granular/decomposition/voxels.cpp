@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,9 +20,8 @@ constexpr std::size_t subdomains_a_chunk = 16384;
 
 /// Calls task(begin, end) for parts of [0, count).
 template <class Task>
-void for_parts(const Executor& executor, std::size_t count, const Task& task)
+void for_parts(const Executor& executor, std::size_t count, Progress& progress, const Task& task)
 {
-  Progress progress;
   const std::size_t chunks = (count + subdomains_a_chunk - 1) / subdomains_a_chunk;
   executor.parallel_for(
     chunks,
@@ -42,11 +42,11 @@ Vector3 corner_of(const Subdomain& subdomain, std::size_t number) noexcept
 
 /// Each subdomain with corners of its own.
 void make_separate(std::span<const Subdomain> subdomains, const Vector3& origin,
-  const Executor& executor, Voxels& voxels)
+  const Executor& executor, Progress& progress, Voxels& voxels)
 {
   double* const points = static_cast<double*>(voxels.points.data());
   auto* const connectivity = static_cast<std::int64_t*>(voxels.connectivity.data());
-  for_parts(executor, subdomains.size(),
+  for_parts(executor, subdomains.size(), progress,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t p = begin; p < end; ++p)
@@ -67,6 +67,11 @@ void make_separate(std::span<const Subdomain> subdomains, const Vector3& origin,
         }
       }
     });
+}
+
+bool has_nan(const double* point) noexcept
+{
+  return std::isnan(point[0]) || std::isnan(point[1]) || std::isnan(point[2]);
 }
 
 /// Finds corners again. It keeps where points are, and with each as much of its hash as there is room for, so
@@ -151,6 +156,11 @@ private:
   {
     const std::uint64_t tag = hash & ~number_bits;
     std::size_t at = hash & (slots_.size() - 1);
+    if (has_nan(corner.data())) // equal to none: it would only be in the way of others
+    {
+      std::copy(corner.begin(), corner.end(), points_ + 3 * size_);
+      return static_cast<std::int64_t>(size_++);
+    }
     for (; slots_[at] != empty; at = (at + 1) & (slots_.size() - 1))
     {
       if ((slots_[at] & ~number_bits) == tag)
@@ -173,6 +183,10 @@ private:
     slots_.swap(slots);
     for (std::size_t number = 0; number < size_; ++number)
     {
+      if (has_nan(points_ + 3 * number))
+      {
+        continue;
+      }
       const std::uint64_t hash = this->hash_of(number);
       std::size_t at = hash & (slots_.size() - 1);
       while (slots_[at] != empty)
@@ -189,23 +203,29 @@ private:
 };
 
 /// Corners that are equal become one. Some subdomains are hashed ahead, while memory fetches their slots.
-std::size_t make_shared_corners(std::span<const Subdomain> subdomains, Voxels& voxels)
+std::size_t make_shared_corners(
+  std::span<const Subdomain> subdomains, Progress& progress, Voxels& voxels)
 {
   constexpr std::size_t ahead = 16;
   std::array<CornerTable::Hashes, ahead> hashes;
   auto* connectivity = static_cast<std::int64_t*>(voxels.connectivity.data());
   CornerTable table(static_cast<double*>(voxels.points.data()), subdomains.size());
-  for (; !subdomains.empty(); subdomains = subdomains.subspan(std::min(ahead, subdomains.size())))
+  const std::size_t all = subdomains.size();
+  for (std::size_t done = 0; done < all; done += ahead)
   {
-    const std::size_t count = std::min(ahead, subdomains.size());
+    if (done % subdomains_a_chunk == 0)
+    {
+      progress.step(static_cast<double>(done) / static_cast<double>(all));
+    }
+    const std::size_t count = std::min(ahead, all - done);
     table.reserve(count);
     for (std::size_t p = 0; p < count; ++p)
     {
-      hashes[p] = table.hashes_of(subdomains[p]);
+      hashes[p] = table.hashes_of(subdomains[done + p]);
     }
     for (std::size_t p = 0; p < count; ++p, connectivity += corners)
     {
-      const CornerTable::Numbers numbers = table.find(subdomains[p], hashes[p]);
+      const CornerTable::Numbers numbers = table.find(subdomains[done + p], hashes[p]);
       for (std::size_t i = 0; i < corners; ++i)
       {
         connectivity[i] = numbers[static_cast<std::size_t>(voxel_corners[i])];
@@ -215,10 +235,10 @@ std::size_t make_shared_corners(std::span<const Subdomain> subdomains, Voxels& v
   return table.size();
 }
 
-void subtract(const Vector3& origin, const Executor& executor, Voxels& voxels)
+void subtract(const Vector3& origin, const Executor& executor, Progress& progress, Voxels& voxels)
 {
   double* const points = static_cast<double*>(voxels.points.data());
-  for_parts(executor, static_cast<std::size_t>(voxels.number_of_points),
+  for_parts(executor, static_cast<std::size_t>(voxels.number_of_points), progress,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = 3 * begin; i < 3 * end; ++i)
@@ -235,6 +255,11 @@ struct KnownOrder
   std::array<unsigned, corners> sides;
 };
 
+bool is_same(double a, double b) noexcept
+{
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 constexpr KnownOrder known_orders[] = {
   { CornerOrder::Voxel, { 0, 1, 2, 3, 4, 5, 6, 7 } },
   { CornerOrder::Reflected, { 0, 4, 2, 6, 1, 5, 3, 7 } },
@@ -243,7 +268,8 @@ constexpr KnownOrder known_orders[] = {
 }
 
 Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
-  bool shared_corners, const Executor& executor, const std::shared_ptr<BlockPool>& pool)
+  bool shared_corners, const Executor& executor, Progress& progress,
+  const std::shared_ptr<BlockPool>& pool)
 {
   const std::size_t most_points = corners * subdomains.size();
   Voxels voxels;
@@ -252,15 +278,18 @@ Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
   voxels.number_of_points = static_cast<std::int64_t>(most_points);
   if (!shared_corners)
   {
-    make_separate(subdomains, origin, executor, voxels);
+    make_separate(subdomains, origin, executor, progress, voxels);
     return voxels;
   }
-  const std::size_t points = make_shared_corners(subdomains, voxels);
+  PartialProgress part(progress);
+  part.set_part(0, 0.9);
+  const std::size_t points = make_shared_corners(subdomains, part, voxels);
   voxels.number_of_points = static_cast<std::int64_t>(points);
   voxels.points.shrink(points * sizeof(Vector3));
   if (origin != Vector3{})
   {
-    subtract(origin, executor, voxels);
+    part.set_part(0.9, 1);
+    subtract(origin, executor, part, voxels);
   }
   return voxels;
 }
@@ -282,8 +311,7 @@ CornerOrder bounds_of_cell(
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         const bool high = (known.sides[i] >> axis & 1) != 0;
-        right = right && points[i][axis] == (high ? box.hi : box.lo)[axis] &&
-          box.lo[axis] <= box.hi[axis];
+        right = right && is_same(points[i][axis], (high ? box.hi : box.lo)[axis]);
       }
     }
     if (right)

@@ -5,6 +5,7 @@
 #include "granular/base/block.h"
 #include "granular/base/block_pool.h"
 #include "granular/base/executor.h"
+#include "granular/base/progress.h"
 #include "granular/decomposition/subdomains.h"
 
 #include <array>
@@ -33,9 +34,10 @@ struct Voxels
 
 /// Point 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p less the origin, rounded once. shared_corners:
 /// corners of several subdomains whose coordinates are equal become one point, the one that comes first, and points
-/// are numbered in the order in which they come first. Does not depend on threads. Throws std::bad_alloc.
+/// are numbered in the order in which they come first; a nan is equal to nothing. Does not depend on threads. Throws std::bad_alloc; Cancelled.
 Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
-  bool shared_corners, const Executor& executor, const std::shared_ptr<BlockPool>& pool = nullptr);
+  bool shared_corners, const Executor& executor, Progress& progress,
+  const std::shared_ptr<BlockPool>& pool = nullptr);
 
 /// In which order the points of a cell are.
 enum class CornerOrder : std::uint8_t
@@ -43,11 +45,12 @@ enum class CornerOrder : std::uint8_t
   Voxel,      ///< i + 2j + 4k
   Reflected,  ///< 4i + 2j + k, as LIGGGHTS-INL writes voxels: x and z exchanged
   Hexahedron, ///< VTK_HEXAHEDRON
-  None        ///< no box along the axes
+  None        ///< another, or no box along the axes
 };
 
-/// Finds the order by geometry and sets the bounds. points: of the corners in the order of the cell. What is flat
-/// or a point (equal bounds) counts as Voxel where it could be. None leaves the bounds alone.
+/// Finds the order by which corners share coordinates (a nan is equal to a nan), and sets the bounds: those of the
+/// corner that comes first are lo, also where they are above hi. points: of the corners in the order of the cell. What is
+/// flat or a point (equal bounds) counts as Voxel where it could be. None leaves the bounds alone.
 CornerOrder bounds_of_cell(
   std::span<const Vector3, corners_of_voxel> points, Subdomain& subdomain) noexcept;
 }
