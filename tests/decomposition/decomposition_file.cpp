@@ -17,6 +17,44 @@ std::string reflected(const std::string& place, int cells)
     " voxels are in the order of LIGGGHTS-INL, x and z exchanged: they were put right\n";
 }
 
+/// Bytes in memory, and how many of them were asked for.
+class CountingSource final : public granular::ByteSource
+{
+public:
+  explicit CountingSource(std::string bytes)
+    : bytes_(std::move(bytes))
+    , source_(granular::open_memory(bytes_))
+  {
+  }
+
+  const std::string& path() const override { return source_->path(); }
+  granular::FileStamp stamp() const override { return source_->stamp(); }
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const std::size_t got = source_->read(offset, buffer, bytes);
+    bytes_read += static_cast<std::int64_t>(got);
+    return got;
+  }
+
+  mutable std::int64_t bytes_read = 0;
+
+private:
+  std::string bytes_;
+  std::unique_ptr<granular::ByteSource> source_;
+};
+
+/// Keeps what is reported.
+struct Reports : granular::Progress
+{
+  bool report(double fraction) override
+  {
+    fractions.push_back(fraction);
+    return true;
+  }
+
+  std::vector<double> fractions;
+};
+
 std::string path_of(const std::string& file)
 {
   return std::string(GRANULAR_DATA) + "/good/" + file;
@@ -327,7 +365,8 @@ TEST(DecompositionFile, ReportsAndCanBeCancelled)
     bool report(double fraction) override
     {
       last = fraction;
-      return ++reports < 2;
+      ++reports;
+      return fraction < 0.5;
     }
     double last = 0;
     int reports = 0;
@@ -338,8 +377,42 @@ TEST(DecompositionFile, ReportsAndCanBeCancelled)
   granular::FileIndex index;
   EXPECT_THROW(
     granular::decomposition_format().index(*source, index, stop, {}), granular::Cancelled);
-  EXPECT_EQ(stop.reports, 2);
-  EXPECT_NEAR(stop.last, 0.5, 0.1);
+  EXPECT_GE(stop.reports, 64); // each MiB
+  EXPECT_NEAR(stop.last, 0.5, 0.01);
+  // short headers, none of which reaches so far
+  text.clear();
+  for (int i = 0; i < 2500; ++i)
+  {
+    text += "# vtk DataFile\n";
+  }
+  Reports all;
+  const auto headers = granular::open_memory(text);
+  index = {};
+  granular::decomposition_format().index(*headers, index, all, {});
+  EXPECT_EQ(all.fractions.size(), 2u);
+  EXPECT_NEAR(all.fractions.at(1), 0.8, 0.001);
+}
+
+/// Of a file that is made of headers no more than some are named, and none is read from the file again.
+TEST(DecompositionFile, HeadersWithoutEnd)
+{
+  for (const std::string header : { "# vtk DataFile", "# vtk DataFile Version 2.0\n" })
+  {
+    std::string text;
+    for (int i = 0; i < 40000; ++i)
+    {
+      text += header;
+    }
+    const CountingSource source(text + two_boxes());
+    granular::FileIndex index;
+    granular::Progress progress;
+    granular::decomposition_format().index(source, index, progress, {});
+    EXPECT_EQ(index.frames.size(), 1u);
+    ASSERT_EQ(index.notices.size(), 101u);
+
+    EXPECT_EQ(to_string(index.notices[100]), "memory: and 39900 more frames are left out");
+    EXPECT_LT(source.bytes_read, 2 * static_cast<std::int64_t>(text.size()));
+  }
 }
 
 // ---- which files are decompositions ------------------------------------------------------------------

@@ -55,10 +55,12 @@ Where LegacyVtk::where(const VtkPlace& place) const
 
 void LegacyVtk::go_to(const VtkPlace& place) noexcept
 {
-  window_offset_ = place.offset;
+  const std::int64_t ahead = place.offset - window_offset_;
+  const bool is_here = ahead >= 0 && ahead <= static_cast<std::int64_t>(size_);
+  at_ = is_here ? static_cast<std::size_t>(ahead) : 0;
+  size_ = is_here ? size_ : 0;
+  window_offset_ = is_here ? window_offset_ : place.offset;
   line_ = place.line;
-  at_ = 0;
-  size_ = 0;
   line_is_open_ = false;
   ended_ = false;
 }
@@ -66,7 +68,7 @@ void LegacyVtk::go_to(const VtkPlace& place) noexcept
 /// Brings more bytes into the window, behind those that are left. False at the end.
 bool LegacyVtk::more()
 {
-  constexpr std::int64_t interval = std::int64_t{ 1 } << 25;
+  constexpr std::int64_t interval = std::int64_t{ 1 } << 20;
   std::memmove(window_.data(), window_.data() + at_, size_ - at_);
   window_offset_ += static_cast<std::int64_t>(at_);
   size_ -= at_;

@@ -77,20 +77,38 @@ void index_vtu(const ByteSource& source, FileIndex& index)
   index.resume_offset = end;
 }
 
+/// More frames that are left out are counted only.
+constexpr std::size_t most_notices = 100;
+
+/// Headers may be as short as one of their lines: progress is reported after so many.
+constexpr int report_interval = 1000;
+
 /// Finds the grids of a legacy file.
 class GridIndexer
 {
 public:
   GridIndexer(const ByteSource& source, FileIndex& index, Progress& progress)
-    : index_(index)
+    : source_(source)
+    , index_(index)
+    , progress_(progress)
     , file_(source, first_place(index), LegacyVtk::no_end, progress)
   {
   }
 
   void run()
   {
-    while (this->next_grid())
+    for (int headers = 1; this->next_grid(); ++headers)
     {
+      if (headers % report_interval == 0)
+      {
+        progress_.step(source_.fraction(file_.place().offset));
+      }
+    }
+    if (untold_ > 0)
+    {
+      index_.notices.push_back({ { source_.path() },
+        "and " + std::to_string(untold_) +
+          (untold_ == 1 ? " more frame is left out" : " more frames are left out") });
     }
   }
 
@@ -100,8 +118,11 @@ private:
   void add(const DecompositionGrid& grid);
   void leave_out(const Error& error);
 
+  const ByteSource& source_;
   FileIndex& index_;
+  Progress& progress_;
   LegacyVtk file_;
+  std::int64_t untold_ = 0; ///< frames that are left out
 };
 
 /// The last frame is indexed again: data of its cells may have come.
@@ -178,6 +199,11 @@ void GridIndexer::add(const DecompositionGrid& grid)
 void GridIndexer::leave_out(const Error& error)
 {
   set_defect(index_, { error.where(), error.text() });
+  if (index_.notices.size() >= most_notices)
+  {
+    ++untold_;
+    return;
+  }
   index_.notices.push_back({ error.where(), error.text() + "; the frame is left out" });
 }
 

@@ -20,7 +20,7 @@ namespace granular
 ///
 /// Timesteps are those of the names (steps_in_names). A file may hold several rectilinear grids, one after the
 /// other. Left out with a notice: a header without a grid, as LIGGGHTS leaves it where a timestep is written twice;
-/// what is not as the format says, up to the next header. A last grid that is not complete is left out silently. In a
+/// what is not as the format says, up to the next header; after 100 of a file such frames are only counted. A last grid that is not complete is left out silently. In a
 /// file that has grown the last frame is looked at again: data of its cells may have come. More than 2^24 processes
 /// are not read.
 const FileFormat& decomposition_format() noexcept;
