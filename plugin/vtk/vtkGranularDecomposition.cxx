@@ -237,7 +237,8 @@ private:
       {
         granular::SubdomainChecks checks;
         checks.gap = granular::Answer::None; // who is in one is outside, which is told
-        granular::check_subdomains(this->Found.subdomains, checks, {}, this->Notices);
+        granular::check_subdomains(
+          this->Found.subdomains, checks, {}, this->Notices, this->Progress);
         counts = granular::count_in_subdomains(
           this->Particles->View, this->Found.subdomains, this->MakeExecutor(), this->Progress);
       });
@@ -341,7 +342,7 @@ private:
     this->Scale(part.subdomains);
     VoxelForm form = this->Shared.MakeForm(this->Self);
     form.Origin = this->Particles->View.point_origin;
-    FillVoxels(this->Output, part, form);
+    FillVoxels(this->Output, part, form, this->Progress);
     vtkFieldData* data = this->Output->GetFieldData();
     data->PassData(vtkDataObject::GetData(this->Inputs[0])->GetFieldData());
     data->AddArray(MakeDoubles(

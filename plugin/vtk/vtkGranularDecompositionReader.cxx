@@ -118,7 +118,8 @@ void vtkGranularDecompositionReader::Read(vtkInformation* request, vtkInformatio
 {
   granular::Communicator& ranks = this->Series->GetRanks();
   AlgorithmProgress own(this);
-  granular::SharedProgress progress(own, ranks);
+  granular::SharedProgress together(own, ranks);
+  granular::PartialProgress progress(together);
   const auto read = [&]
   {
     progress.step(0);
@@ -126,13 +127,15 @@ void vtkGranularDecompositionReader::Read(vtkInformation* request, vtkInformatio
     const std::size_t frame = this->Series->FindFrame(this, request, outputs, time);
     const std::vector<granular::FramePiece> pieces = this->Series->Index.pieces(frame);
     granular::Notices notices;
+    progress.set_part(0, 0.4);
     granular::Decomposition all = ReadPieces(pieces, notices, progress);
     const granular::SubdomainChecks checks = { static_cast<granular::Answer>(this->CheckBounds),
       static_cast<granular::Answer>(this->CheckOverlap),
       static_cast<granular::Answer>(this->CheckGaps), this->Tolerance };
     const granular::FramePiece& first = pieces.front();
+    progress.set_part(0.4, 0.8);
     granular::check_subdomains(
-      all.subdomains, checks, granular::where_of(first.file.path, first.entry), notices);
+      all.subdomains, checks, granular::where_of(first.file.path, first.entry), notices, progress);
 
     granular::FrameHeader header;
     const granular::Subdomain bounds = granular::bounds_of(all.subdomains);
@@ -150,13 +153,20 @@ void vtkGranularDecompositionReader::Read(vtkInformation* request, vtkInformatio
 
     const auto [begin, end] = PieceRequest::Of(outputs->GetInformationObject(0))
                                 .RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
-    const granular::Decomposition part = { { all.subdomains.begin() + begin,
-                                             all.subdomains.begin() + end },
-      all.has_particles, all.has_ranks };
+    granular::Decomposition part = { {}, all.has_particles, all.has_ranks };
+    if (begin == 0 && end == static_cast<vtkTypeInt64>(all.subdomains.size()))
+    {
+      part.subdomains.swap(all.subdomains); // there may be many
+    }
+    else
+    {
+      part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
+    }
     VoxelForm form;
     form.SharedCorners = this->SharedCorners;
     form.Threads = ChooseThreads(this->Threads, ranks);
-    FillVoxels(output, part, form);
+    progress.set_part(0.8, 1);
+    FillVoxels(output, part, form, progress);
     if (ranks.rank() == 0)
     {
       this->Series->Tell(this, notices, false);

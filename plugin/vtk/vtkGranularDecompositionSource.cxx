@@ -35,7 +35,9 @@ void vtkGranularDecompositionSource::Execute(
     const auto [first, last] =
       PieceRequest::Of(outputs->GetInformationObject(0)).RangeOf(grid.size());
     auto* output = vtkUnstructuredGrid::GetData(outputs);
-    FillVoxels(output, { grid.subdomains(first, last) }, this->Shared->MakeForm(this));
+    AlgorithmProgress own(this);
+    granular::SharedProgress progress(own, this->Shared->Ranks.Get());
+    FillVoxels(output, { grid.subdomains(first, last) }, this->Shared->MakeForm(this), progress);
     granular::FrameHeader header;
     header.box = granular::Box::from_bounds(lo, hi);
     header.box.boundary = "ff ff ff";

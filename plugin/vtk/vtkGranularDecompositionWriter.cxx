@@ -312,7 +312,8 @@ private:
     if (this->OneFileAStep)
     {
       const std::string path = granular::name_of_step(this->Path, facts.Timestep);
-      this->Self->Past->Write(path, this->Encode(decomposition, facts, progress), key, notices);
+      this->Self->Past->Write(
+        path, this->Encode(decomposition, facts, notices, progress), key, notices);
       return;
     }
     if (this->LastKey == key)
@@ -325,18 +326,18 @@ private:
         "expected a '*' in the name, which gives each time step its file: this file holds one",
         { this->Path });
     }
-    this->Text += this->Encode(decomposition, facts, progress);
+    this->Text += this->Encode(decomposition, facts, notices, progress);
     this->Keys += (this->Keys.empty() ? "" : ", ") + key;
     this->LastKey = key;
   }
 
   std::string Encode(const granular::Decomposition& decomposition, const SharedFacts& facts,
-    granular::Progress& progress) const
+    granular::Notices& notices, granular::Progress& progress) const
   {
     if (this->Self->Dialect == PUBLIC)
     {
       std::string text;
-      this->NameFile([&] { text = granular::encode_grid(decomposition); });
+      this->NameFile([&] { text = granular::encode_grid(decomposition, notices); });
       return text;
     }
     if (this->Kind == Form::Text)

@@ -34,7 +34,31 @@ std::string voxels_of(const Decomposition& decomposition)
 
 std::string grid_of(const Subdomains& subdomains)
 {
-  return encode_grid({ subdomains });
+  Notices notices;
+  return encode_grid({ subdomains }, notices);
+}
+
+/// What is said of slabs between these cuts along an axis, without its end.
+std::string said_of(const std::vector<double>& cuts, std::size_t axis = 0)
+{
+  Subdomains slabs(cuts.size() - 1, made_subdomain({ 0, 0, 0 }, { 1, 1, 1 }));
+  for (std::size_t i = 0; i < slabs.size(); ++i)
+  {
+    slabs[i].lo[axis] = cuts[i];
+    slabs[i].hi[axis] = cuts[i + 1];
+  }
+  Notices notices;
+  encode_grid({ slabs }, notices);
+  if (notices.empty())
+  {
+    return "";
+  }
+  EXPECT_EQ(notices.size(), 1u);
+  const std::string begin = "six decimals, which is what LIGGGHTS-PUBLIC writes, are few along ";
+  const std::string end = "; the dialect INL keeps all digits";
+  const std::string text = to_string(notices[0]);
+  EXPECT_TRUE(text.starts_with(begin) && text.ends_with(end)) << text;
+  return text.substr(begin.size(), text.size() - begin.size() - end.size());
 }
 
 /// in.settling: region block -0.05 0.05 -0.05 0.05 0 0.15, processors 2 1 2.
@@ -84,6 +108,26 @@ TEST(EncodeGrid, numbers)
     "# vtk DataFile Version 2.0\nLIGGGHTS mesh/gran/VTK export\nASCII\nDATASET RECTILINEAR_GRID\n"
     "DIMENSIONS 2 11 2\nX_COORDINATES 2 float\n0.000000 1.000000 \nY_COORDINATES 11 float\n" +
       expected + "\nZ_COORDINATES 2 float\n0.000000 1.000000 \n");
+}
+
+/// Binary fractions, so that what is lost is exact: 2^-21 becomes 0.000000, 2^-20 0.000001.
+TEST(EncodeGrid, six_decimals)
+{
+  const double few = std::ldexp(1, -21);
+  EXPECT_EQ(said_of({ 0, 0.5, 1 }), "");
+  EXPECT_EQ(said_of({ -0.05, 0.1, 0.3 }), ""); // not what they are, but what they print as
+  EXPECT_EQ(said_of({ 0, few, 1 }),
+    "x: coordinates change by up to 4.76837158203125e-07, the thinnest slab has "
+    "4.76837158203125e-07; 1 of 2 slabs becomes flat");
+  EXPECT_EQ(said_of({ 0, 0.125 + few, 1 }, 2), "");
+  EXPECT_EQ(said_of({ 0, std::ldexp(1, -12), 1 }, 1), "");           // 0.000244140625
+  const std::string thin = said_of({ 0, std::ldexp(1, -15), 1 }, 1); // 0.000030517578125
+  EXPECT_TRUE(thin.starts_with("y: coordinates change by up to 4.82421875")) << thin;
+  EXPECT_TRUE(thin.ends_with(", the thinnest slab has 3.0517578125e-05")) << thin;
+  EXPECT_EQ(said_of({ 7, 7, 8 }), ""); // flat already
+  // a grain of a micrometre
+  EXPECT_NE(
+    said_of({ 0, 1e-7, 2e-7, 3e-7, 4e-7 }).find("; 4 of 4 slabs become flat"), std::string::npos);
 }
 
 TEST(EncodeGrid, no_grid)

@@ -2,6 +2,7 @@
 #include "granular/decomposition/decomposition_text.h"
 
 #include "granular/base/error.h"
+#include "granular/base/number.h"
 #include "granular/base/number_print.h"
 #include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/voxels.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -180,17 +182,71 @@ void add_arrays(std::string& text, const Decomposition& decomposition)
   }
 }
 
-/// printf's %f and a blank.
-void add_fixed(std::string& text, double value)
+/// printf's %f and a blank. Gives what can be read back.
+double add_fixed(std::string& text, double value)
 {
   constexpr int decimals = 6;
   // sign, point and all digits of the largest number
   std::array<char, std::numeric_limits<double>::max_exponent10 + decimals + 3> digits;
   char* const first = digits.data();
-  text.append(first,
-    std::to_chars(first, first + digits.size(), value, std::chars_format::fixed, decimals).ptr);
+  char* const last =
+    std::to_chars(first, first + digits.size(), value, std::chars_format::fixed, decimals).ptr;
+  text.append(first, last);
   text += ' ';
+  static_cast<void>(parse_double(first, last, value));
+  return value;
 }
+
+/// What six decimals do to the cuts of an axis.
+class Rounding
+{
+public:
+  /// The next cut, and what became of it.
+  void add(double cut, double rounded)
+  {
+    if (count_ > 0 && cut != cut_)
+    {
+      thinnest_ = std::min(thinnest_, cut - cut_);
+      joined_ += rounded == rounded_ ? 1 : 0;
+    }
+    moved_ = std::max(moved_, std::abs(rounded - cut));
+    cut_ = cut;
+    rounded_ = rounded;
+    ++count_;
+  }
+
+  void tell(char axis, Notices& notices) const
+  {
+    constexpr double much = 1e-3; // of the thinnest slab
+    if (joined_ == 0 && moved_ <= much * thinnest_)
+    {
+      return;
+    }
+    std::string text = "six decimals, which is what LIGGGHTS-PUBLIC writes, are few along " +
+      std::string(1, axis) + ": coordinates change by up to " + shortest(moved_) +
+      ", the thinnest slab has " + shortest(thinnest_);
+    if (joined_ > 0)
+    {
+      text += "; " + std::to_string(joined_) + " of " + std::to_string(count_ - 1) +
+        (joined_ == 1 ? " slabs becomes flat" : " slabs become flat");
+    }
+    notices.push_back({ {}, text + "; the dialect INL keeps all digits" });
+  }
+
+private:
+  static std::string shortest(double value)
+  {
+    std::array<char, most_number_chars> digits;
+    return { digits.data(), print_number(digits.data(), value, { 0 }) };
+  }
+
+  double cut_ = 0;
+  double rounded_ = 0;
+  double thinnest_ = std::numeric_limits<double>::infinity(); ///< of the slabs that are not flat
+  double moved_ = 0;                                          ///< at most
+  std::int64_t joined_ = 0; ///< cuts that differ from the one before, and no longer do
+  std::int64_t count_ = 0;
+};
 }
 
 std::string encode_voxels(const Decomposition& decomposition, Progress& progress)
@@ -206,7 +262,7 @@ std::string encode_voxels(const Decomposition& decomposition, Progress& progress
   return text;
 }
 
-std::string encode_grid(const Decomposition& decomposition)
+std::string encode_grid(const Decomposition& decomposition, Notices& notices)
 {
   const std::optional<ProcessGrid> grid = find_process_grid(decomposition.subdomains);
   if (!grid)
@@ -224,10 +280,12 @@ std::string encode_grid(const Decomposition& decomposition)
   {
     text += axes[axis];
     add_line(text, "_COORDINATES ", cuts[axis].size(), " float");
+    Rounding rounding;
     for (const double cut : cuts[axis])
     {
-      add_fixed(text, cut);
+      rounding.add(cut, add_fixed(text, cut));
     }
+    rounding.tell(static_cast<char>(axes[axis] - 'X' + 'x'), notices);
     text += '\n';
   }
   return text;

@@ -2,6 +2,7 @@
 #ifndef granular_decomposition_decomposition_text_h
 #define granular_decomposition_decomposition_text_h
 
+#include "granular/base/error.h"
 #include "granular/base/progress.h"
 #include "granular/decomposition/subdomains.h"
 
@@ -15,8 +16,9 @@ namespace granular
 /// Cancelled.
 std::string encode_voxels(const Decomposition& decomposition, Progress& progress);
 
-/// The rectilinear grid that LIGGGHTS-PUBLIC writes, byte for byte (%f: six decimals). Throws UnsupportedError where
-/// the subdomains do not form a grid, which is all that such a file can hold.
-std::string encode_grid(const Decomposition& decomposition);
+/// The rectilinear grid that LIGGGHTS-PUBLIC writes, byte for byte (%f: six decimals). A notice says where these are
+/// too few: cuts that differ become equal, or one moves by more than a thousandth of the thinnest slab. Throws
+/// UnsupportedError where the subdomains do not form a grid, which is all that such a file can hold.
+std::string encode_grid(const Decomposition& decomposition, Notices& notices);
 }
 #endif

@@ -152,13 +152,13 @@ std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) 
                                     : std::pair<vtkTypeInt64, vtkTypeInt64>(count, count);
 }
 
-void FillVoxels(
-  vtkUnstructuredGrid* output, const granular::Decomposition& decomposition, const VoxelForm& form)
+void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& decomposition,
+  const VoxelForm& form, granular::Progress& progress)
 {
   const std::vector<Subdomain>& subdomains = decomposition.subdomains;
   const granular::Executor executor(form.Threads);
   granular::Voxels voxels =
-    granular::make_voxels(subdomains, form.Origin, form.SharedCorners, executor);
+    granular::make_voxels(subdomains, form.Origin, form.SharedCorners, executor, progress);
   const auto cells = static_cast<vtkIdType>(subdomains.size());
   output->SetPoints(TakePoints(voxels.points, voxels.number_of_points, false, {}));
   output->SetCells(VTK_VOXEL, TakeCells(voxels.connectivity, cells, granular::corners_of_voxel));

@@ -5,6 +5,7 @@
 #include "granular/base/box.h"
 #include "granular/base/communicator.h"
 #include "granular/base/error.h"
+#include "granular/base/progress.h"
 #include "granular/decomposition/subdomains.h"
 
 #include "vtkType.h"
@@ -43,10 +44,10 @@ struct VoxelForm
 };
 
 /**
- * Subdomains as voxels with the cell arrays nlocal (int64) and proc (int32), as far as they are known.
+ * Subdomains as voxels with the cell arrays nlocal (int64) and proc (int32), as far as they are known. Throws Cancelled.
  */
-void FillVoxels(
-  vtkUnstructuredGrid* output, const granular::Decomposition& decomposition, const VoxelForm& form);
+void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& decomposition,
+  const VoxelForm& form, granular::Progress& progress);
 
 /**
  * The subdomains that cells are: voxels, in the right order or the mirrored one of LIGGGHTS-INL, or hexahedra,

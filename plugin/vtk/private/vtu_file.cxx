@@ -117,7 +117,8 @@ std::string EncodeVtu(
   const granular::Decomposition& decomposition, std::optional<double> time, const std::string& path)
 {
   vtkNew<vtkUnstructuredGrid> grid;
-  FillVoxels(grid, decomposition, {});
+  granular::Progress progress;
+  FillVoxels(grid, decomposition, {}, progress);
   if (time)
   {
     grid->GetFieldData()->AddArray(MakeDoubles("TimeValue", { *time }));
