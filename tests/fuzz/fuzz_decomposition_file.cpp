@@ -5,6 +5,8 @@
 #include "dump_checks.h"
 
 #include "granular/decomposition/decomposition_file.h"
+#include "granular/decomposition/subdomains.h"
+#include "granular/decomposition/voxels.h"
 #include "granular/decomposition/vtu_head.h"
 #include "granular/dump/file_index.h"
 
@@ -34,6 +36,26 @@ void index(std::string_view text, FileIndex& index)
   require(index.resume_offset >= last && index.resume_offset <= size, "where to go on");
 }
 
+/// Bounds may be any: nobody stumbles over them.
+void use(const Decomposition& all)
+{
+  if (all.subdomains.size() > 1000)
+  {
+    return; // time
+  }
+  const SubdomainChecks checks = { Answer::None, Answer::Notice, Answer::Notice };
+  Progress progress;
+  Notices notices;
+  check_subdomains(all.subdomains, checks, {}, notices, progress);
+  const std::int64_t most = 8 * static_cast<std::int64_t>(all.subdomains.size());
+  require(make_voxels(all.subdomains, {}, true, Executor(1), progress).number_of_points <= most,
+    "points");
+  const Subdomain bounds = bounds_of(all.subdomains);
+  require(
+    bounds.lo[0] <= bounds.hi[0] && bounds.lo[1] <= bounds.hi[1] && bounds.lo[2] <= bounds.hi[2],
+    "bounds of all");
+}
+
 void read(const ByteSource& source, const FrameEntry& entry)
 {
   Notices notices;
@@ -48,8 +70,8 @@ void read(const ByteSource& source, const FrameEntry& entry)
       const Subdomain& box = all.subdomains[i];
       require(box.particles >= 0 && (all.has_particles || box.particles == 0), "particles");
       require(box.rank >= 0 && (all.has_ranks || box.rank == static_cast<int>(i)), "rank");
-      require(box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1] && box.lo[2] <= box.hi[2], "bounds");
     }
+    use(all);
   }
   catch (const Error& error)
   {
