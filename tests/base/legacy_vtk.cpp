@@ -340,6 +340,27 @@ TEST(LegacyVtk, Strings)
     "memory:11: expected numbers, got 'END'");
 }
 
+// What claims more lines than it has does not take those of the next dataset.
+TEST(LegacyVtk, LinesEndAtAHeader)
+{
+  const std::string next = header("ASCII", "POLYDATA");
+  Text words(next + "FIELD f 1\nwords 1 9 string\na\nb\n" + next);
+  words.file.read_header();
+  ASSERT_TRUE(words.file.next());
+  EXPECT_EQ(error_of([&] { words.file.take_arrays(0, nullptr); }),
+    "memory:9: expected a line of text (3 of 9), got '# vtk DataFile Version 4.2'");
+  EXPECT_FALSE(words.file.ended());
+  Text names(next + "METADATA\nINFORMATION 0\n" + next);
+  EXPECT_EQ(error_of(
+              [&]
+              {
+                names.file.read_header();
+                names.file.next();
+              }),
+    "memory:7: expected an empty line behind METADATA, got '# vtk DataFile Version 4.2'");
+  EXPECT_FALSE(names.file.ended());
+}
+
 TEST(LegacyVtk, HeadersAreFoundAnywhere)
 {
   const std::string far(std::size_t{ 1 } << 19, '\n');

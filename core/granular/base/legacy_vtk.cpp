@@ -154,11 +154,17 @@ void LegacyVtk::take_words()
   words_ = split_words(line_text_);
 }
 
+/// Lines of words, in which VTK writes blanks as %20.
 void LegacyVtk::skip_lines(std::int64_t count)
 {
   for (std::int64_t i = 0; i < count; ++i)
   {
-    static_cast<void>(this->take_line());
+    const std::string_view line = this->take_line();
+    if (line.starts_with(legacy_vtk_mark))
+    {
+      this->fail(
+        "a line of text (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")", line);
+    }
   }
 }
 
@@ -276,6 +282,10 @@ void LegacyVtk::skip_metadata()
   {
     line_text_ = this->take_line();
     words_ = split_words(line_text_);
+    if (line_text_.starts_with(legacy_vtk_mark))
+    {
+      this->fail("an empty line behind METADATA", line_text_);
+    }
     if (!words_.empty() && this->is("COMPONENT_NAMES"))
     {
       this->skip_lines(components_);
