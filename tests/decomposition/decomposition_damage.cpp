@@ -11,12 +11,21 @@
 
 #include <sys/resource.h>
 
+// A sanitizer keeps freed memory.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define GRANULAR_TEST_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define GRANULAR_TEST_SANITIZED 1
+#endif
+#endif
+
 namespace
 {
-/// The most memory that the process has had; what the address sanitizer keeps is not counted.
+/// The most memory that the process has had, where that can be told.
 std::int64_t peak_bytes()
 {
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef GRANULAR_TEST_SANITIZED
   return 0;
 #else
   rusage usage = {};
