@@ -197,6 +197,11 @@ public:
             "are counted "
             "from 0" });
         }
+        granular::SubdomainChecks checks; // that a file can be read at all
+        checks.overlap = granular::Answer::None;
+        checks.gap = granular::Answer::None;
+        granular::check_subdomains(
+          all.subdomains, checks, { .path = this->Path }, notices, progress);
         if (this->Ranks.rank() == 0)
         {
           this->WriteFrame(all, shared, notices, progress);
@@ -285,7 +290,7 @@ private:
       {
         for (const granular::Notice& notice : own)
         {
-          text += granular::to_string(notice);
+          text += (text.empty() ? "" : "\n") + granular::to_string(notice);
         }
       });
     const std::vector<std::string> texts = this->Ranks.all_gather(text);
