@@ -31,18 +31,18 @@ std::size_t drop_equal(std::span<SubdomainTree::Box> boxes)
   std::ranges::sort(boxes,
     [](const Box& a, const Box& b)
     { return std::tie(a.lo, a.hi, b.number) < std::tie(b.lo, b.hi, a.number); });
-  return std::ranges::unique(
-    boxes, [](const Box& a, const Box& b) { return a.lo == b.lo && a.hi == b.hi; })
-    .size();
+  const auto end = std::unique(boxes.begin(), boxes.end(),
+    [](const Box& a, const Box& b) { return a.lo == b.lo && a.hi == b.hi; });
+  return static_cast<std::size_t>(boxes.end() - end);
 }
 }
 
 int SubdomainTree::Box::inside(const double* x) const noexcept
 {
   // & and no &&: one branch that can be foreseen, not six that cannot
-  const bool closed = (lo[0] <= x[0]) & (x[0] <= hi[0]) & (lo[1] <= x[1]) & (x[1] <= hi[1]) &
-    (lo[2] <= x[2]) & (x[2] <= hi[2]);
-  return closed ? int{ x[0] < hi[0] } + int{ x[1] < hi[1] } + int{ x[2] < hi[2] } : -1;
+  const int closed = int{ lo[0] <= x[0] } & int{ x[0] <= hi[0] } & int{ lo[1] <= x[1] } &
+    int{ x[1] <= hi[1] } & int{ lo[2] <= x[2] } & int{ x[2] <= hi[2] };
+  return closed != 0 ? int{ x[0] < hi[0] } + int{ x[1] < hi[1] } + int{ x[2] < hi[2] } : -1;
 }
 
 /// A plane: the lower half begins below it.
@@ -101,9 +101,10 @@ SubdomainTree::Split SubdomainTree::find_split(std::span<const Box> boxes)
   Split best;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto [first, end] = std::ranges::minmax(
-      boxes | std::views::transform([axis](const Box& box) { return box.lo[axis]; }));
-    const double scale = static_cast<double>(count) / (end - first);
+    const auto [least, most] = std::minmax_element(boxes.begin(), boxes.end(),
+      [axis](const Box& a, const Box& b) { return a.lo[axis] < b.lo[axis]; });
+    const double first = least->lo[axis];
+    const double scale = static_cast<double>(count) / (most->lo[axis] - first);
     if (!std::isnormal(scale))
     {
       continue;
@@ -180,9 +181,9 @@ SubdomainTree::Place SubdomainTree::build(std::size_t first, std::size_t last, s
   std::size_t middle = boxes.size() / 2;
   if (split.axis != none)
   {
-    const auto upper = std::ranges::partition(
-      boxes, [&](const Box& box) { return box.lo[split.axis] < split.plane; });
-    middle = boxes.size() - upper.size();
+    const auto upper = std::partition(
+      boxes.begin(), boxes.end(), [&](const Box& box) { return box.lo[split.axis] < split.plane; });
+    middle = static_cast<std::size_t>(upper - boxes.begin());
   }
   else if (const auto equal = drop_equal(boxes); equal > 0) // all begin at one point
   {
