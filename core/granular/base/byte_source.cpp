@@ -187,6 +187,22 @@ std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name
   return std::make_unique<MemorySource>(bytes, std::move(name));
 }
 
+std::string read_up_to(const ByteSource& source, std::int64_t end)
+{
+  constexpr std::int64_t step = std::int64_t{ 1 } << 20;
+  std::string bytes;
+  for (std::int64_t got = step; got == step;)
+  {
+    const auto from = static_cast<std::int64_t>(bytes.size());
+    got = std::clamp(end - from, std::int64_t{ 0 }, step);
+    bytes.resize(bytes.size() + static_cast<std::size_t>(got));
+    got = static_cast<std::int64_t>(
+      source.read(from, bytes.data() + from, static_cast<std::size_t>(got)));
+    bytes.resize(static_cast<std::size_t>(from + got));
+  }
+  return bytes;
+}
+
 std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std::int64_t bytes)
 {
   return std::make_unique<FirstBytes>(std::move(source), bytes);

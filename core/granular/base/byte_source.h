@@ -83,6 +83,9 @@ std::unique_ptr<ByteSource> open_file(const std::string& path);
 /// The bytes of a string, which must outlive the source.
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name = "memory");
 
+/// The bytes of a source before end, as many as there are.
+std::string read_up_to(const ByteSource& source, std::int64_t end);
+
 /// The first bytes of a source: what a file held at one moment, while others append to it. The
 /// beginning is read here, once, and kept. Throws what reading throws.
 std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std::int64_t bytes);

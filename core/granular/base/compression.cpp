@@ -117,4 +117,17 @@ std::string compress(std::string_view bytes, Compression how)
   packed.shrink_to_fit(); // many may wait to be written
   return packed;
 }
+
+bool decompress_zlib(std::string_view packed, std::span<char> bytes)
+{
+  uLongf size = bytes.size();
+  uLong used = packed.size();
+  const int status = uncompress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
+    reinterpret_cast<const Bytef*>(packed.data()), &used);
+  if (status == Z_MEM_ERROR)
+  {
+    throw std::bad_alloc();
+  }
+  return status == Z_OK && size == bytes.size();
+}
 }

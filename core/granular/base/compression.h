@@ -3,6 +3,7 @@
 #define granular_base_compression_h
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,5 +20,9 @@ enum class Compression : std::uint8_t
 /// bytes give equal members. From any thread. Throws UnsupportedError if the library that is there
 /// refuses, and std::bad_alloc.
 std::string compress(std::string_view bytes, Compression how);
+
+/// Decompresses data in zlib's format (RFC 1950), which must fill the bytes. False: they do not, or are damaged. Throws
+/// std::bad_alloc.
+bool decompress_zlib(std::string_view packed, std::span<char> bytes);
 }
 #endif

@@ -4,10 +4,13 @@
 #include "granular/base/hash.h"
 #include "granular/base/words.h"
 #include "granular/decomposition/decomposition_grid.h"
+#include "granular/decomposition/voxels.h"
+#include "granular/decomposition/vtu_grids.h"
 #include "granular/decomposition/vtu_head.h"
 #include "granular/dump/file_index.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace granular
@@ -17,28 +20,14 @@ namespace
 /// Line 2 of what LIGGGHTS-PUBLIC and PFM write.
 constexpr std::string_view liggghts_title = "LIGGGHTS mesh/gran/VTK export";
 
-std::string read_bytes(const ByteSource& source, std::int64_t offset, std::size_t most)
+std::string read_head(const ByteSource& source)
 {
-  std::string bytes(most, '\0');
-  bytes.resize(source.read(offset, bytes.data(), bytes.size()));
-  return bytes;
+  return read_up_to(source, vtu_head_bytes);
 }
 
-/// Where the bytes of a source end.
-std::int64_t end_of(const ByteSource& source)
+std::string read_all(const ByteSource& source)
 {
-  constexpr std::size_t step = std::size_t{ 1 } << 18;
-  std::int64_t end = 0;
-  if (!source.compressed())
-  {
-    return source.stamp().size;
-  }
-  for (std::string bytes = read_bytes(source, 0, step); !bytes.empty();
-       bytes = read_bytes(source, end, step))
-  {
-    end += static_cast<std::int64_t>(bytes.size());
-  }
-  return end;
+  return read_up_to(source, std::numeric_limits<std::int64_t>::max());
 }
 
 /// Pieces of one grid have the same.
@@ -53,28 +42,25 @@ std::uint64_t shape_of(const DecompositionGrid& grid)
   return std::max(hash.value(), std::uint64_t{ 1 });
 }
 
-/// A file of XML is one frame, which who has VTK reads.
+/// A file of XML is one frame.
 void index_vtu(const ByteSource& source, FileIndex& index)
 {
-  constexpr std::int64_t tail_bytes = 4096;
   index.frames.clear();
-  const std::int64_t end = end_of(source);
-  const std::string tail =
-    read_bytes(source, std::max(std::int64_t{ 0 }, end - tail_bytes), tail_bytes);
-  const auto last = std::find_if_not(tail.rbegin(), tail.rend(), is_blank);
-  if (!std::string_view(tail.begin(), last.base()).ends_with("</VTKFile>"))
+  const std::string text = read_all(source);
+  const auto last = std::find_if_not(text.rbegin(), text.rend(), is_blank);
+  if (!std::string_view(text.begin(), last.base()).ends_with("</VTKFile>"))
   {
     set_defect(
       index, { { source.path() }, "expected </VTKFile> at the end of the file, got none" });
     return;
   }
   FrameEntry entry;
-  entry.rows = cells_in(read_bytes(source, 0, vtu_head_bytes));
-  entry.end = end;
+  entry.rows = look_at(text).cells;
+  entry.end = static_cast<std::int64_t>(text.size());
   entry.line = 1;
   entry.kind = index.kinds->share(FrameKind{});
+  index.resume_offset = entry.end;
   index.frames.push_back(std::move(entry));
-  index.resume_offset = end;
 }
 
 /// More frames that are left out are counted only.
@@ -214,13 +200,40 @@ void index_decomposition(
   {
     index.kinds = std::make_shared<FrameKinds>();
   }
-  if (is_vtu(read_bytes(source, 0, vtu_head_bytes)))
+  if (is_vtu(read_head(source)))
   {
     index_vtu(source, index);
   }
   else
   {
     GridIndexer(source, index, progress).run();
+  }
+}
+
+/// Whether the first cell of a grid is a box along the axes, and none is of a type that never is.
+bool begins_with_box(const DecompositionGrid& grid)
+{
+  Subdomain subdomain;
+  return grid.cells == 0 ||
+    bounds_of(
+      grid, 0, [](std::int64_t) { return Where(); }, subdomain) != CornerOrder::None;
+}
+
+/// Whether what was read are the cells of a decomposition. Damaged ones are: the reader says why.
+template <class Read>
+bool has_boxes(Read read)
+{
+  try
+  {
+    return begins_with_box(read());
+  }
+  catch (const UnsupportedError&)
+  {
+    return false;
+  }
+  catch (const FormatError&)
+  {
+    return true;
   }
 }
 
@@ -240,16 +253,39 @@ bool is_legacy(const ByteSource& source)
   {
     return has_title;
   }
-  file.go_to(start);
+  const auto read = [&](bool keep)
+  {
+    file.go_to(start);
+    return read_grid(file, keep);
+  };
   try
   {
-    const DecompositionGrid grid = read_grid(file, false);
-    return rectilinear ? !grid.has_data : grid.has_particles;
+    const DecompositionGrid grid = read(false);
+    return rectilinear ? !grid.has_data
+                       : grid.has_particles && has_boxes([&] { return read(true); });
   }
   catch (const FormatError&)
   {
     return rectilinear && file.ended(); // LIGGGHTS may be at work
   }
+}
+
+/// head: what the first bytes say. Most files of others are told by that.
+bool is_decomposition_vtu(const ByteSource& source, const VtuHead& head)
+{
+  if (!head.fits || !head.has_particles)
+  {
+    return false;
+  }
+  const std::string text = read_all(source);
+  const VtuHead all = look_at(text);
+  return all.fits && all.has_ranks &&
+    has_boxes(
+      [&]
+      {
+        const VtuGrids grids(text, {});
+        return grids.size() > 0 ? grids.read(0) : DecompositionGrid();
+      });
 }
 }
 
@@ -261,7 +297,7 @@ const FileFormat& decomposition_format() noexcept
 
 bool is_vtu(std::string_view first_bytes) noexcept
 {
-  return is_unstructured(first_bytes);
+  return look_at(first_bytes).unstructured;
 }
 
 bool is_decomposition_file(const std::string& path) noexcept
@@ -269,8 +305,8 @@ bool is_decomposition_file(const std::string& path) noexcept
   try
   {
     const std::unique_ptr<ByteSource> source = unpack(open_file(path));
-    const std::string head = read_bytes(*source, 0, vtu_head_bytes);
-    return is_vtu(head) ? has_cell_array(head, "nlocal") : is_legacy(*source);
+    const VtuHead head = look_at(read_head(*source));
+    return head.unstructured ? is_decomposition_vtu(*source, head) : is_legacy(*source);
   }
   catch (const std::exception&)
   {

@@ -23,6 +23,30 @@ std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcep
   return cells;
 }
 
+/// Calls good(i) for each number, and says where the first is that is not.
+template <class Failure, class Good>
+void check_numbers(const std::vector<std::int64_t>& numbers, const std::string& expected, Good good,
+  const ProcessArray::WhereOf& where_of)
+{
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    if (!good(i))
+    {
+      throw Failure("expected " + expected + ", got " + std::to_string(numbers[i]),
+        where_of(static_cast<std::int64_t>(i)));
+    }
+  }
+}
+
+constexpr ProcessArray all_process_arrays[] = {
+  { "nlocal", &DecompositionGrid::has_particles, &DecompositionGrid::particles,
+    std::numeric_limits<std::int64_t>::max(), false },
+  { "proc", &DecompositionGrid::has_ranks, &DecompositionGrid::ranks,
+    std::numeric_limits<int>::max(), false },
+  { "procID", &DecompositionGrid::has_ranks, &DecompositionGrid::ranks,
+    std::numeric_limits<int>::max(), true },
+};
+
 /// Reads one dataset, section by section.
 class GridReader
 {
@@ -43,17 +67,7 @@ private:
     void (GridReader::*read)();
   };
 
-  struct CellArray
-  {
-    std::string_view name;
-    bool DecompositionGrid::*there;
-    std::vector<std::int64_t> DecompositionGrid::*numbers;
-    std::int64_t most;
-    bool only_if_none; ///< another name that is less usual
-  };
-
   static const Section sections[];
-  static const CellArray cell_arrays[];
 
   void read_header();
   bool read_section();
@@ -66,9 +80,7 @@ private:
   void read_data(bool of_cells);
   bool take(const VtkArray& array);
   void limit(std::int64_t cells) const;
-  template <class Good>
-  void check(const VtkPlace& first, const VtkArray& array, const std::vector<std::int64_t>& numbers,
-    const std::string& expected, Good good);
+  ProcessArray::WhereOf places(const VtkPlace& first, const VtkArray& array);
 
   LegacyVtk& file_;
   bool keep_;
@@ -88,15 +100,6 @@ const GridReader::Section GridReader::sections[] = {
   { "POINTS", false, &GridReader::read_points },
   { "CELLS", false, &GridReader::read_cells },
   { "CELL_TYPES", false, &GridReader::read_types },
-};
-
-const GridReader::CellArray GridReader::cell_arrays[] = {
-  { "nlocal", &DecompositionGrid::has_particles, &DecompositionGrid::particles,
-    std::numeric_limits<std::int64_t>::max(), false },
-  { "proc", &DecompositionGrid::has_ranks, &DecompositionGrid::ranks,
-    std::numeric_limits<int>::max(), false },
-  { "procID", &DecompositionGrid::has_ranks, &DecompositionGrid::ranks,
-    std::numeric_limits<int>::max(), true },
 };
 
 DecompositionGrid GridReader::read()
@@ -192,19 +195,10 @@ void GridReader::read_dimensions()
   grid_.dimensions = { file_.count(1), file_.count(2), file_.count(3) };
 }
 
-/// Calls good(i) for each number that was kept, and says where the first is that is not.
-template <class Good>
-void GridReader::check(const VtkPlace& first, const VtkArray& array,
-  const std::vector<std::int64_t>& numbers, const std::string& expected, Good good)
+/// Places of the values of an array, for messages.
+ProcessArray::WhereOf GridReader::places(const VtkPlace& first, const VtkArray& array)
 {
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    if (!good(i))
-    {
-      throw FormatError("expected " + expected + ", got " + std::to_string(numbers[i]),
-        file_.where_of(first, array, static_cast<std::int64_t>(i)));
-    }
-  }
+  return [this, first, array](std::int64_t number) { return file_.where_of(first, array, number); };
 }
 
 void GridReader::read_coordinates()
@@ -246,8 +240,7 @@ void GridReader::read_cells()
   {
     if (offsets[i] - offsets[i - 1] != points_a_cell)
     {
-      throw FormatError(
-        "expected eight points in a cell, got " + std::to_string(offsets[i] - offsets[i - 1]),
+      fail_points_of_cell(offsets[i] - offsets[i - 1],
         file_.where_of(grid_.voxels, static_cast<std::int64_t>(i) - 1));
     }
   }
@@ -255,16 +248,13 @@ void GridReader::read_cells()
 
 void GridReader::read_types()
 {
-  constexpr std::int64_t voxel = 11;
-  constexpr std::int64_t hexahedron = 12;
   const VtkArray array = { {}, VtkType::Int32, 1, file_.count(1) };
   types_ = array.tuples;
   types_place_ = file_.line_place();
   std::vector<std::int64_t> types;
   const VtkPlace first = file_.place();
   file_.take(array, keep_, types);
-  this->check(first, array, types, "the cell type of a voxel (11) or a hexahedron (12)",
-    [&](std::size_t i) { return types[i] == voxel || types[i] == hexahedron; });
+  check_types(types, this->places(first, array));
 }
 
 void GridReader::read_data(bool of_cells)
@@ -287,9 +277,11 @@ void GridReader::read_data(bool of_cells)
 /// Reads the arrays that tell what is known of a process.
 bool GridReader::take(const VtkArray& array)
 {
-  const auto* const known = std::find_if(std::begin(cell_arrays), std::end(cell_arrays),
-    [&](const CellArray& entry) { return entry.name == array.name; });
-  if (!of_cells_ || known == std::end(cell_arrays) || (known->only_if_none && grid_.*known->there))
+  const auto* const known =
+    std::find_if(std::begin(all_process_arrays), std::end(all_process_arrays),
+      [&](const ProcessArray& entry) { return entry.name == array.name; });
+  if (!of_cells_ || known == std::end(all_process_arrays) ||
+    (known->only_if_none && grid_.*known->there))
   {
     return false;
   }
@@ -303,9 +295,7 @@ bool GridReader::take(const VtkArray& array)
   std::vector<std::int64_t>& numbers = grid_.*known->numbers;
   const VtkPlace first = file_.place();
   file_.take(array, keep_, numbers);
-  this->check(first, array, numbers,
-    "a number '" + array.name + "' from 0 to " + std::to_string(known->most),
-    [&](std::size_t i) { return numbers[i] >= 0 && numbers[i] <= known->most; });
+  known->check(numbers, this->places(first, array));
   return true;
 }
 }
@@ -313,6 +303,52 @@ bool GridReader::take(const VtkArray& array)
 bool DecompositionGrid::is_piece() const noexcept
 {
   return rectilinear && cells_between(dimensions) > cells;
+}
+
+void ProcessArray::check(const std::vector<std::int64_t>& values, const WhereOf& where_of) const
+{
+  check_numbers<FormatError>(
+    values, "a number '" + std::string(name) + "' from 0 to " + std::to_string(most),
+    [&](std::size_t i) { return values[i] >= 0 && values[i] <= most; }, where_of);
+}
+
+std::span<const ProcessArray> process_arrays() noexcept
+{
+  return all_process_arrays;
+}
+
+void check_types(const std::vector<std::int64_t>& types, const ProcessArray::WhereOf& where_of)
+{
+  constexpr std::int64_t voxel = 11;
+  constexpr std::int64_t hexahedron = 12;
+  check_numbers<UnsupportedError>(
+    types, "the cell type of a voxel (11) or a hexahedron (12)",
+    [&](std::size_t i) { return types[i] == voxel || types[i] == hexahedron; }, where_of);
+}
+
+void fail_points_of_cell(std::int64_t points, const Where& where)
+{
+  throw FormatError("expected eight points in a cell, got " + std::to_string(points), where);
+}
+
+CornerOrder bounds_of(const DecompositionGrid& grid, std::int64_t cell,
+  const ProcessArray::WhereOf& where_of, Subdomain& subdomain)
+{
+  std::array<Vector3, corners_of_voxel> corners;
+  const std::int64_t* const points =
+    grid.voxels.connectivity.data() + cell * std::int64_t{ corners_of_voxel };
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    if (points[i] < 0 || points[i] >= grid.number_of_points)
+    {
+      throw FormatError("expected points from 0 to " + std::to_string(grid.number_of_points - 1) +
+          " in cell " + std::to_string(cell) + ", got " + std::to_string(points[i]),
+        where_of(cell));
+    }
+    const double* const point = grid.points.data() + 3 * points[i];
+    corners[i] = { point[0], point[1], point[2] };
+  }
+  return bounds_of_cell(corners, subdomain);
 }
 
 DecompositionGrid read_grid(LegacyVtk& file, bool keep)

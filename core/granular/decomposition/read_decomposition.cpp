@@ -3,8 +3,10 @@
 
 #include "granular/decomposition/decomposition_grid.h"
 #include "granular/decomposition/voxels.h"
+#include "granular/decomposition/vtu_grids.h"
+#include "granular/decomposition/vtu_head.h"
 
-#include <array>
+#include <algorithm>
 #include <utility>
 
 namespace granular
@@ -26,83 +28,119 @@ void add_boxes(const DecompositionGrid& grid, std::vector<Subdomain>& subdomains
   }
 }
 
-/// The points of a cell. Throws FormatError where one is not there.
-std::array<Vector3, corners_of_voxel> corners_of(
-  const DecompositionGrid& grid, std::int64_t cell, LegacyVtk& file)
-{
-  std::array<Vector3, corners_of_voxel> corners;
-  const std::int64_t* const points =
-    grid.voxels.connectivity.data() + cell * std::int64_t{ corners_of_voxel };
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    if (points[i] < 0 || points[i] >= grid.number_of_points)
-    {
-      throw FormatError("expected points from 0 to " + std::to_string(grid.number_of_points - 1) +
-          " in cell " + std::to_string(cell) + ", got " + std::to_string(points[i]),
-        file.where_of(grid.voxels, cell));
-    }
-    const double* const point = grid.points.data() + 3 * points[i];
-    corners[i] = { point[0], point[1], point[2] };
-  }
-  return corners;
-}
-
-void add_voxels(const DecompositionGrid& grid, std::vector<Subdomain>& subdomains, LegacyVtk& file,
-  Notices& notices)
+/// Adds cells of an unstructured grid. Returns how many were put right.
+std::int64_t add_voxels(const DecompositionGrid& grid, std::vector<Subdomain>& subdomains,
+  const ProcessArray::WhereOf& where_of)
 {
   std::int64_t reflected = 0;
   for (std::int64_t cell = 0; cell < grid.cells; ++cell)
   {
     Subdomain subdomain;
-    const CornerOrder order = bounds_of_cell(corners_of(grid, cell, file), subdomain);
+    const CornerOrder order = bounds_of(grid, cell, where_of, subdomain);
     if (order == CornerOrder::None)
     {
       throw FormatError("expected the corners of a box along the axes, in the order of a voxel or "
                         "a hexahedron, got cell " +
           std::to_string(cell) + " with others",
-        file.where_of(grid.voxels, cell));
+        where_of(cell));
     }
     reflected += order == CornerOrder::Reflected ? 1 : 0;
     subdomains.push_back(subdomain);
+  }
+  return reflected;
+}
+
+/// What is known of the subdomains of a grid, which were the last to be added.
+void add_data(const DecompositionGrid& grid, Decomposition& decomposition)
+{
+  std::vector<Subdomain>& subdomains = decomposition.subdomains;
+  const std::size_t first = subdomains.size() - static_cast<std::size_t>(grid.cells);
+  for (std::size_t i = first; i < subdomains.size(); ++i)
+  {
+    subdomains[i].particles = grid.has_particles ? grid.particles[i - first] : 0;
+    subdomains[i].rank =
+      static_cast<int>(grid.has_ranks ? grid.ranks[i - first] : static_cast<std::int64_t>(i));
+  }
+  decomposition.has_particles = decomposition.has_particles && grid.has_particles;
+  decomposition.has_ranks = decomposition.has_ranks && grid.has_ranks;
+}
+
+void check_cells(std::int64_t cells, const FrameEntry& entry, const Where& where)
+{
+  if (cells != entry.rows)
+  {
+    throw IoError("the file changed since it was indexed: expected " + std::to_string(entry.rows) +
+        " cells, got " + std::to_string(cells) + "; reload the files",
+      where);
+  }
+}
+
+Decomposition read_legacy(
+  const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
+{
+  LegacyVtk file(source, { entry.offset, entry.line }, entry.end, progress);
+  const DecompositionGrid grid = read_grid(file, true);
+  check_cells(grid.cells, entry, file.where(grid.header.place));
+  Decomposition decomposition;
+  decomposition.subdomains.reserve(static_cast<std::size_t>(grid.cells));
+  std::int64_t reflected = 0;
+  if (grid.rectilinear)
+  {
+    add_boxes(grid, decomposition.subdomains);
+  }
+  else
+  {
+    reflected = add_voxels(grid, decomposition.subdomains,
+      [&](std::int64_t cell) { return file.where_of(grid.voxels, cell); });
   }
   if (reflected > 0)
   {
     notices.push_back(note_reflected(file.where(grid.header.place), reflected));
   }
+  add_data(grid, decomposition);
+  return decomposition;
+}
+
+/// The pieces one after the other. What not all of them have nobody knows.
+Decomposition read_vtu(
+  const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
+{
+  const std::string text = read_up_to(source, entry.end);
+  const VtuGrids grids(text, source.path());
+  const Where where = { source.path(), entry.line };
+  check_cells(grids.cells(), entry, where);
+  Decomposition decomposition;
+  decomposition.has_particles = grids.size() > 0;
+  decomposition.has_ranks = grids.size() > 0;
+  std::int64_t reflected = 0;
+  for (std::size_t i = 0; i < grids.size(); ++i)
+  {
+    progress.step(static_cast<double>(i) / static_cast<double>(grids.size()));
+    const DecompositionGrid grid = grids.read(i);
+    reflected += add_voxels(
+      grid, decomposition.subdomains, [&](std::int64_t cell) { return grids.where_of(i, cell); });
+    add_data(grid, decomposition);
+  }
+  std::vector<Subdomain>& subdomains = decomposition.subdomains;
+  for (std::size_t i = 0; i < subdomains.size(); ++i)
+  {
+    subdomains[i].particles *= decomposition.has_particles ? 1 : 0;
+    subdomains[i].rank = decomposition.has_ranks ? subdomains[i].rank : static_cast<int>(i);
+  }
+  if (reflected > 0)
+  {
+    notices.push_back(note_reflected(where, reflected));
+  }
+  return decomposition;
 }
 }
 
 Decomposition read_decomposition(
   const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
 {
-  LegacyVtk file(source, { entry.offset, entry.line }, entry.end, progress);
-  const DecompositionGrid grid = read_grid(file, true);
-  if (grid.cells != entry.rows)
-  {
-    throw IoError("the file changed since it was indexed: expected " + std::to_string(entry.rows) +
-        " cells, got " + std::to_string(grid.cells) + "; reload the files",
-      file.where(grid.header.place));
-  }
-  Decomposition decomposition;
-  std::vector<Subdomain>& subdomains = decomposition.subdomains;
-  subdomains.reserve(static_cast<std::size_t>(grid.cells));
-  if (grid.rectilinear)
-  {
-    add_boxes(grid, subdomains);
-  }
-  else
-  {
-    add_voxels(grid, subdomains, file, notices);
-  }
-  decomposition.has_particles = grid.has_particles;
-  decomposition.has_ranks = grid.has_ranks;
-  for (std::size_t i = 0; i < subdomains.size(); ++i)
-  {
-    subdomains[i].particles = grid.has_particles ? grid.particles[i] : 0;
-    subdomains[i].rank =
-      static_cast<int>(grid.has_ranks ? grid.ranks[i] : static_cast<std::int64_t>(i));
-  }
-  return decomposition;
+  const bool xml = entry.offset == 0 &&
+    is_vtu(read_up_to(source, std::min(entry.end, std::int64_t{ vtu_head_bytes })));
+  return (xml ? read_vtu : read_legacy)(source, entry, notices, progress);
 }
 
 Notice note_reflected(const Where& where, std::int64_t cells)

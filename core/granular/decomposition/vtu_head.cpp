@@ -3,6 +3,7 @@
 
 #include "granular/base/number.h"
 #include "granular/base/words.h"
+#include "granular/base/xml_tags.h"
 
 #include <limits>
 
@@ -10,92 +11,72 @@ namespace granular
 {
 namespace
 {
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
-/// Takes the next tag of that name off a text: its inside behind the name. False: there is none, or its end is missing.
-bool take_tag(std::string_view& text, std::string_view name, std::string_view& inside) noexcept
+/// An attribute that is a number; 0 where it is none.
+std::int64_t count(const XmlTags& tags, std::string_view attribute) noexcept
 {
-  for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at + 1))
+  const std::string_view text = tags.attribute(attribute);
+  std::int64_t number = 0;
+  return parse_int64(text.data(), text.data() + text.size(), number) && number > 0 ? number : 0;
+}
+
+bool begins_with_tag(std::string_view text) noexcept
+{
+  text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  return take_word(text).starts_with('<');
+}
+
+void look_at_piece(const XmlTags& tags, VtuHead& head) noexcept
+{
+  constexpr std::int64_t points_a_cell = 8;
+  const std::int64_t cells = count(tags, "NumberOfCells");
+  const std::int64_t points = count(tags, "NumberOfPoints");
+  const std::int64_t left = std::numeric_limits<std::int64_t>::max() - head.cells;
+  head.cells += cells <= left ? cells : 0;
+  head.fits = head.fits && (points > 0) == (cells > 0) && points / points_a_cell <= cells &&
+    (points / points_a_cell < cells || points % points_a_cell == 0);
+}
+
+void look_at_array(const XmlTags& tags, VtuHead& head) noexcept
+{
+  const std::string_view name = tags.attribute("Name");
+  head.has_particles = head.has_particles || name == "nlocal";
+  head.has_ranks = head.has_ranks || name == "proc" || name == "procID";
+}
+
+void look_at_tags(std::string_view text, VtuHead& head)
+{
+  XmlTags tags(text, {});
+  if (!begins_with_tag(text) || !tags.next() || tags.element() != "/VTKFile" ||
+    tags.attribute("type") != "UnstructuredGrid")
   {
-    const std::string_view rest = text.substr(at + 1);
-    const bool same = rest.starts_with(name) && rest.size() > name.size() &&
-      (is_blank(rest[name.size()]) || rest[name.size()] == '>' || rest[name.size()] == '/');
-    if (same)
+    return;
+  }
+  head.unstructured = true;
+  while (tags.next() && tags.element() != "/VTKFile/AppendedData")
+  {
+    if (tags.element() == "/VTKFile/UnstructuredGrid/Piece")
     {
-      const std::size_t end = rest.find('>');
-      inside = rest.substr(name.size(), end == rest.npos ? 0 : end - name.size());
-      text = end == rest.npos ? std::string_view() : rest.substr(end + 1);
-      return end != rest.npos;
+      look_at_piece(tags, head);
+    }
+    else if (tags.element() == "/VTKFile/UnstructuredGrid/Piece/CellData/DataArray")
+    {
+      look_at_array(tags, head);
     }
   }
-  return false;
-}
-
-/// The value of an attribute of a tag; empty: it has none.
-std::string_view attribute(std::string_view inside, std::string_view name) noexcept
-{
-  for (std::size_t at = inside.find(name); at != inside.npos; at = inside.find(name, at + 1))
-  {
-    std::string_view rest = inside.substr(at + name.size());
-    if (at > 0 && is_blank(inside[at - 1]) && rest.size() > 2 && rest[0] == '=' &&
-      (rest[1] == '"' || rest[1] == '\''))
-    {
-      const char quote = rest[1];
-      rest.remove_prefix(2);
-      const std::size_t end = rest.find(quote);
-      return end == rest.npos ? std::string_view() : rest.substr(0, end);
-    }
-  }
-  return {};
 }
 }
 
-bool is_unstructured(std::string_view head) noexcept
+VtuHead look_at(std::string_view text) noexcept
 {
-  if (head.starts_with(byte_order_mark))
+  VtuHead head;
+  try
   {
-    head.remove_prefix(byte_order_mark.size());
+    look_at_tags(text, head);
   }
-  while (!head.empty() && is_blank(head.front()))
+  catch (const std::exception&)
   {
-    head.remove_prefix(1);
+    return head; // what was found before the end of the text, or what is wrong there
   }
-  const bool is_xml = head.starts_with("<?xml") || head.starts_with("<VTKFile");
-  std::string_view inside;
-  return is_xml && take_tag(head, "VTKFile", inside) &&
-    attribute(inside, "type") == "UnstructuredGrid";
-}
-
-std::int64_t cells_in(std::string_view head) noexcept
-{
-  std::int64_t sum = 0;
-  std::string_view inside;
-  while (take_tag(head, "Piece", inside))
-  {
-    const std::string_view text = attribute(inside, "NumberOfCells");
-    std::int64_t cells = 0;
-    const bool good = parse_int64(text.data(), text.data() + text.size(), cells) && cells >= 0 &&
-      cells <= std::numeric_limits<std::int64_t>::max() - sum;
-    sum += good ? cells : 0;
-  }
-  return sum;
-}
-
-bool has_cell_array(std::string_view head, std::string_view name) noexcept
-{
-  std::string_view inside;
-  if (!take_tag(head, "CellData", inside))
-  {
-    return false;
-  }
-  std::string_view data = head.substr(0, head.find("</CellData>"));
-  while (take_tag(data, "DataArray", inside))
-  {
-    if (attribute(inside, "Name") == name)
-    {
-      return true;
-    }
-  }
-  return false;
+  return head;
 }
 }

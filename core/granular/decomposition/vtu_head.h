@@ -2,6 +2,7 @@
 #ifndef granular_decomposition_vtu_head_h
 #define granular_decomposition_vtu_head_h
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -10,13 +11,17 @@ namespace granular
 /// How many bytes of a .vtu file are looked at: the names of its arrays, mostly not their values.
 inline constexpr std::size_t vtu_head_bytes = std::size_t{ 1 } << 16;
 
-/// Whether the head says that the file has unstructured grids.
-bool is_unstructured(std::string_view head) noexcept;
+/// What the tags at the beginning of a file say.
+struct VtuHead
+{
+  bool unstructured = false;  ///< it is a .vtu file
+  std::int64_t cells = 0;     ///< the sum of NumberOfCells of the pieces
+  bool fits = true;           ///< all pieces have points, at most eight a cell
+  bool has_particles = false; ///< there is an array nlocal of cells
+  bool has_ranks = false;     ///< and proc or procID
+};
 
-/// The sum of NumberOfCells of the pieces, as far as the head goes.
-std::int64_t cells_in(std::string_view head) noexcept;
-
-/// Whether the head has an array of cell data of that name.
-bool has_cell_array(std::string_view head, std::string_view name) noexcept;
+/// As far as the text goes and its tags are right.
+VtuHead look_at(std::string_view text) noexcept;
 }
 #endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_decomposition_vtu_grids_h
+#define granular_decomposition_vtu_grids_h
+
+#include "granular/base/vtk_xml.h"
+#include "granular/decomposition/decomposition_grid.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// The unstructured grids in a .vtu file, which are its pieces. Those without cells are left out.
+class VtuGrids
+{
+public:
+  /// Passes over the elements of a text, which must outlive this; path is for errors. Throws Error.
+  VtuGrids(std::string_view text, const std::string& path);
+
+  std::size_t size() const noexcept { return pieces_.size(); }
+  std::int64_t cells() const noexcept { return cells_; } ///< of all
+
+  /// Throws Error.
+  DecompositionGrid read(std::size_t grid) const;
+
+  /// The place of a cell of a grid, for messages.
+  Where where_of(std::size_t grid, std::int64_t cell) const;
+
+private:
+  static constexpr std::size_t array_kinds = 7;
+
+  struct Piece
+  {
+    std::int64_t points = 0;
+    std::int64_t cells = 0;
+    std::size_t begin = 0; ///< the byte of its tag
+    std::array<std::optional<VtkXmlArray>, array_kinds> arrays;
+  };
+
+  void add_piece();
+  void add_array();
+  const VtkXmlArray& need(const Piece& piece, std::size_t kind) const;
+  void read_cells(const Piece& piece, DecompositionGrid& grid) const;
+  void read_data(const Piece& piece, DecompositionGrid& grid) const;
+  void check_components(const VtkXmlArray& array, std::int64_t components) const;
+
+  VtkXml file_;
+  std::vector<Piece> pieces_;
+  std::int64_t cells_ = 0;
+  bool keep_ = false; ///< arrays of the piece at hand: it has cells
+};
+}
+#endif
