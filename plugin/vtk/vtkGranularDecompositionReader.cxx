@@ -5,7 +5,6 @@
 #include "private/dump_output.h"
 #include "private/series_reader.h"
 #include "private/voxels.h"
-#include "private/vtu_file.h"
 
 #include "granular/decomposition/decomposition_file.h"
 
@@ -33,20 +32,7 @@ granular::Decomposition ReadPiece(
   const granular::FramePiece& piece, granular::Notices& notices, granular::Progress& progress)
 {
   const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(piece.file);
-  std::string first(4096, '\0');
-  first.resize(source->read(0, first.data(), first.size()));
-  if (!granular::is_vtu(first))
-  {
-    return granular::read_decomposition(*source, piece.entry, notices, progress);
-  }
-  granular::Notices ofCells;
-  granular::Decomposition read = ReadVtu(*source, piece.entry, ofCells);
-  for (granular::Notice& notice : ofCells)
-  {
-    notice.where.path = piece.file.path;
-    notices.push_back(notice);
-  }
-  return read;
+  return granular::read_decomposition(*source, piece.entry, notices, progress);
 }
 
 /**

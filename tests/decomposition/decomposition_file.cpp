@@ -440,6 +440,11 @@ TEST(DecompositionFile, IsTold)
   EXPECT_FALSE(is_one(two_voxels("") +
     "POINT_DATA 16\nSCALARS nlocal int\nLOOKUP_TABLE d\n"
     "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"));
+  // nlocal of cells that are no boxes
+  const std::string voxels = two_voxels(counts_and_ranks);
+  EXPECT_FALSE(is_one(replaced(voxels, "6 7 \n", "7 6 \n")));
+  EXPECT_FALSE(is_one(replaced(voxels, "-0.5 2 0 ", "-0.5 2 0.5 ")));
+  EXPECT_FALSE(is_one(replaced(voxels, "11\n11", "11\n10")));
   EXPECT_FALSE(is_one(replaced(two_boxes(), "mesh/gran/VTK", "mesh/VTK")));
   EXPECT_FALSE(is_one(two_boxes() + "CELL_DATA 2\nSCALARS p int\nLOOKUP_TABLE d\n1 2\n"));
   EXPECT_FALSE(is_one(replaced(two_boxes(), "X_COORDINATES 3", "X_COORDINATES x")));

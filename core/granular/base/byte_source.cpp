@@ -189,16 +189,18 @@ std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name
 
 std::string read_up_to(const ByteSource& source, std::int64_t end)
 {
-  constexpr std::int64_t step = std::int64_t{ 1 } << 20;
+  constexpr std::size_t least = std::size_t{ 1 } << 14;
   std::string bytes;
-  for (std::int64_t got = step; got == step;)
+  for (std::size_t wanted = 1, got = 1; wanted > 0 && got == wanted;)
   {
-    const auto from = static_cast<std::int64_t>(bytes.size());
-    got = std::clamp(end - from, std::int64_t{ 0 }, step);
-    bytes.resize(bytes.size() + static_cast<std::size_t>(got));
-    got = static_cast<std::int64_t>(
-      source.read(from, bytes.data() + from, static_cast<std::size_t>(got)));
-    bytes.resize(static_cast<std::size_t>(from + got));
+    const std::size_t from = bytes.size();
+    const auto left = std::max(end - static_cast<std::int64_t>(from), std::int64_t{ 0 });
+    // what end claims may not be there
+    wanted =
+      static_cast<std::size_t>(std::min(left, static_cast<std::int64_t>(std::max(from, least))));
+    bytes.resize(from + wanted);
+    got = source.read(static_cast<std::int64_t>(from), bytes.data() + from, wanted);
+    bytes.resize(from + got);
   }
   return bytes;
 }

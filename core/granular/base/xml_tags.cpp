@@ -39,7 +39,10 @@ bool XmlTags::next()
       element_.append("/").append(name);
       ended_ = this->take('/');
     }
-    this->skip_blanks();
+    else
+    {
+      this->skip_blanks();
+    }
     if (!this->take('>'))
     {
       this->fail("'>' at the end of a tag", quoted(text_.substr(begin_)));

@@ -200,6 +200,12 @@ granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices
       std::array<granular::Vector3, granular::corners_of_voxel> corners;
       for (std::size_t i = 0; i < corners.size(); ++i)
       {
+        if (ids[i] < 0 || ids[i] >= input->GetNumberOfPoints())
+        {
+          throw granular::FormatError("expected points from 0 to " +
+            std::to_string(input->GetNumberOfPoints() - 1) + " in cell " + std::to_string(cell) +
+            ", got " + std::to_string(ids[i]));
+        }
         std::copy_n(points.begin() + 3 * ids[i], 3, corners[i].begin());
       }
       order = granular::bounds_of_cell(corners, subdomain);

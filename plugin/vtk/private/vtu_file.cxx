@@ -4,12 +4,14 @@
 #include "arrays.h"
 #include "voxels.h"
 
+#include "vtkCellData.h"
 #include "vtkCommand.h"
-#include "vtkExecutive.h"
+#include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
+#include "vtkType.h"
+#include "vtkTypeInt32Array.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkXMLUnstructuredGridReader.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
 #include <algorithm>
@@ -21,7 +23,7 @@ namespace vtkGranularPrivate
 namespace
 {
 /**
- * Keeps what a reader has to complain about, first of all, instead of printing it.
+ * Keeps what a writer has to complain about, first of all, instead of printing it.
  */
 class Complaints : public vtkCommand
 {
@@ -52,6 +54,21 @@ std::string OneLine(std::string text)
 }
 
 /**
+ * The counts have 32 bits, as LIGGGHTS-INL writes them, where all fit.
+ */
+void ShortenCounts(vtkUnstructuredGrid* grid)
+{
+  vtkDataArray* counts = grid->GetCellData()->GetArray("nlocal");
+  if (!counts || counts->GetNumberOfTuples() == 0 || counts->GetRange()[1] > VTK_TYPE_INT32_MAX)
+  {
+    return;
+  }
+  vtkNew<vtkTypeInt32Array> shorter;
+  shorter->DeepCopy(counts);
+  grid->GetCellData()->SetScalars(shorter);
+}
+
+/**
  * Leaves out what VTK notes of its arrays' ranges: it prints these numbers as the program's locale has them.
  */
 void LeaveOutKeys(std::string& text)
@@ -67,58 +84,13 @@ void LeaveOutKeys(std::string& text)
 }
 }
 
-granular::Decomposition ReadVtu(
-  const granular::ByteSource& source, const granular::FrameEntry& entry, granular::Notices& notices)
-{
-  const granular::Where where = granular::where_of(source.path(), entry);
-  // each cell has 8 corners; compressed, deflate packs at most 1032 bytes into one
-  constexpr std::int64_t most_cells_a_byte = 1032 / 8;
-  if (entry.rows / most_cells_a_byte > entry.end)
-  {
-    throw granular::FormatError("expected bytes of " + std::to_string(entry.rows) + " cells, got " +
-        std::to_string(entry.end) + " bytes in all",
-      where);
-  }
-  std::string bytes(static_cast<std::size_t>(entry.end), '\0');
-  bytes.resize(source.read(0, bytes.data(), bytes.size()));
-  vtkNew<Complaints> complaints;
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  for (unsigned long event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
-  {
-    reader->AddObserver(event, complaints);
-    reader->GetExecutive()->AddObserver(event, complaints);
-    reader->SetReaderErrorObserver(complaints);
-    reader->SetParserErrorObserver(complaints);
-  }
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(bytes);
-  reader->Update();
-  if (!complaints->First.empty())
-  {
-    throw granular::FormatError(
-      "expected a .vtu file that VTK can read, got: " + OneLine(complaints->First), where);
-  }
-  try
-  {
-    return ReadVoxels(reader->GetOutput(), notices);
-  }
-  catch (const granular::UnsupportedError& error)
-  {
-    throw granular::UnsupportedError(error.text(), where);
-  }
-  catch (const granular::Error& error)
-  {
-    throw granular::FormatError(
-      error.text(), { where.path, where.line, where.byte, error.where().column });
-  }
-}
-
 std::string EncodeVtu(
   const granular::Decomposition& decomposition, std::optional<double> time, const std::string& path)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   granular::Progress progress;
   FillVoxels(grid, decomposition, {}, progress);
+  ShortenCounts(grid);
   if (time)
   {
     grid->GetFieldData()->AddArray(MakeDoubles("TimeValue", { *time }));
