@@ -99,7 +99,7 @@ for (binary, version), (rank_name, connectivity) in itertools.product(
     name = os.path.abspath(f"legacy_{version}_{'binary' if binary else 'text'}_{rank_name}_1000.vtk")
     write_legacy(name, voxels(connectivity, rank_name), binary, version)
     check(name, connectivity == order)
-for mode, connectivity in itertools.product(("Ascii", "Binary"), (order, right)):
+for mode, connectivity in itertools.product(("Ascii", "Binary", "Appended"), (order, right)):
     name = os.path.abspath(f"xml_{mode}_{connectivity[1]}_1000.vtu")
     write_xml(name, voxels(connectivity), mode)
     check(name, connectivity == order)
