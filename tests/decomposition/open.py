@@ -50,7 +50,7 @@ assert servermanager.Fetch(reader).GetFieldData().GetArray("timestep").GetValue(
 
 # other files of these names are for ParaView's own readers
 SaveData("sphere.vtk", Sphere(), FileType="Ascii")
-SaveData("wavelet.vtu", Tetrahedralize(Wavelet()))
+SaveData("wavelet.vtu", Tetrahedralize(Wavelet()), DataMode="Binary")
 SaveData("rectilinear.vtk", Wavelet(), FileType="Ascii")
 for name, expected in (("sphere.vtk", "LegacyVTKFileReader"), ("rectilinear.vtk", "LegacyVTKFileReader"),
                        ("wavelet.vtu", "XMLUnstructuredGridReader")):

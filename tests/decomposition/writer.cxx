@@ -342,7 +342,7 @@ TEST(DecompositionWriter, Xml)
   const std::string text = CellWriter(NewName("a.vtu"), grid).Bytes();
   for (const char* part : { "<Piece NumberOfPoints=\"16\"", "NumberOfCells=\"2\"",
          "<DataArray type=\"Float64\" Name=\"TimeValue\"",
-         "<DataArray type=\"Int64\" Name=\"nlocal\"", "<DataArray type=\"Int32\" Name=\"proc\"",
+         "<DataArray type=\"Int32\" Name=\"nlocal\"", "<DataArray type=\"Int32\" Name=\"proc\"",
          "<DataArray type=\"Float64\" Name=\"Points\"", "format=\"ascii\"" })
   {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
