@@ -348,6 +348,9 @@ TEST(DecompositionWriter, Xml)
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
   EXPECT_EQ(text.find("appended"), std::string::npos);
+  AddCells<vtkTypeInt64Array>(grid, "nlocal", { 5, vtkTypeInt64(1) << 40 });
+  const std::string many = CellWriter(NewName("a.vtu"), grid).Bytes();
+  EXPECT_NE(many.find("<DataArray type=\"Int64\" Name=\"nlocal\""), std::string::npos) << many;
   EXPECT_EQ(text.find("TimeValue"), text.rfind("TimeValue"));
 }
 
