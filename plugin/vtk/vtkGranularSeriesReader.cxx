@@ -107,28 +107,6 @@ void vtkGranularSeriesReader::Internals::Tell(
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularSeriesReader::Internals::Run(
-  Self* self, vtkInformationVector* outputs, const std::function<void()>& work)
-{
-  const Outcome outcome = Guard(self, outputs,
-    [&]
-    {
-      if (this->Ranks.IsCancelled())
-      {
-        throw granular::Cancelled();
-      }
-      // valid already, but for a pipeline that goes on after RequestInformation failed
-      this->Update(self);
-      work();
-    });
-  if (outcome != Outcome::Done)
-  {
-    self->ForgetFrames();
-  }
-  return this->Ranks.EndRequest(self, outcome);
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::StartFrame(granular::Notices& notices)
 {
   if (!this->PoolMade)

@@ -10,7 +10,6 @@
 #include "granular/base/block_pool.h"
 #include "granular/dump/frame_index.h"
 
-#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -68,7 +67,27 @@ struct vtkGranularSeriesReader::Internals
   /**
    * Does a request for data: work() where there are frames to show. Returns what the request returns.
    */
-  int Run(Self* self, vtkInformationVector* outputs, const std::function<void()>& work);
+  template <typename Work>
+  int Run(Self* self, vtkInformationVector* outputs, const Work& work)
+  {
+    using namespace vtkGranularPrivate;
+    const Outcome outcome = Guard(self, outputs,
+      [&]
+      {
+        if (this->Ranks.IsCancelled())
+        {
+          throw granular::Cancelled();
+        }
+        // valid already, but for a pipeline that goes on after RequestInformation failed
+        this->Update(self);
+        work();
+      });
+    if (outcome != Outcome::Done)
+    {
+      self->ForgetFrames();
+    }
+    return this->Ranks.EndRequest(self, outcome);
+  }
 
   /**
    * One warning a file, and each notice once, for whichever frame it came first; not too many.
