@@ -141,20 +141,21 @@ void GridReader::read_header()
 /// False: the line begins none.
 bool GridReader::read_section()
 {
-  for (std::size_t i = 0; i < std::size(sections); ++i)
+  const auto* const section = std::find_if(std::begin(sections), std::end(sections),
+    [&](const auto& each)
+    { return each.rectilinear == grid_.rectilinear && file_.is(each.keyword); });
+  if (section == std::end(sections))
   {
-    if (sections[i].rectilinear == grid_.rectilinear && file_.is(sections[i].keyword))
-    {
-      if ((seen_ >> i & 1) != 0)
-      {
-        file_.fail("one section of the name", sections[i].keyword);
-      }
-      seen_ |= 1U << i;
-      (this->*sections[i].read)();
-      return true;
-    }
+    return false;
   }
-  return false;
+  const auto bit = 1U << (section - std::begin(sections));
+  if ((seen_ & bit) != 0)
+  {
+    file_.fail("one section of the name", section->keyword);
+  }
+  seen_ |= bit;
+  (this->*section->read)();
+  return true;
 }
 
 /// All sections must have been there.
