@@ -229,7 +229,8 @@ private:
         }
         own = ReadVoxels(voxels, this->Notices);
       });
-    this->Found = this->Together ? GatherVoxels(own, this->Ranks) : std::move(own);
+    this->Found =
+      this->Together ? granular::gather_decomposition(own, this->Ranks) : std::move(own);
     this->Found.has_particles = true;
     granular::ParticleCounts counts;
     granular::do_together(this->Ranks,

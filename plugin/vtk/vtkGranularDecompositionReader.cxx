@@ -3,6 +3,7 @@
 
 #include "private/arrays.h"
 #include "private/dump_output.h"
+#include "private/piece_request.h"
 #include "private/series_reader.h"
 #include "private/voxels.h"
 

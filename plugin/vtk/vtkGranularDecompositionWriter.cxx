@@ -186,7 +186,7 @@ public:
       });
     this->GatherNotices(ownNotices, notices);
     const SharedFacts shared = ShareFacts(facts, this->Ranks);
-    const granular::Decomposition all = GatherVoxels(own, this->Ranks);
+    const granular::Decomposition all = granular::gather_decomposition(own, this->Ranks);
     granular::do_together(this->Ranks,
       [&]
       {

@@ -5,6 +5,7 @@
 #include "private/dump_output.h"
 #include "private/frame_ahead.h"
 #include "private/guard.h"
+#include "private/piece_request.h"
 #include "private/series_reader.h"
 
 #include "granular/base/archive.h"
@@ -20,7 +21,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -138,12 +138,9 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
   }
   request.wanted = [names](const granular::ArrayInfo& array)
   { return names.count(array.name) != 0; };
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  if (output->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
-  {
-    request.piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
-    request.pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
-  }
+  const PieceRequest wanted = PieceRequest::Of(output);
+  request.piece = wanted.Piece;
+  request.pieces = wanted.Pieces;
   request.ranges = true; // whoever shows an array asks for it
   request.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
   request.pool = self->Series->Pool;

@@ -4,6 +4,7 @@
 #include "private/arrays.h"
 #include "private/dump_output.h"
 #include "private/guard.h"
+#include "private/piece_request.h"
 #include "private/processes.h"
 
 #include "granular/packing/packing.h"
@@ -83,12 +84,9 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
   request.spacing = self->Spacing;
   request.speed = self->Speed;
   request.seed = static_cast<std::uint64_t>(self->Seed);
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  if (output->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
-  {
-    request.piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
-    request.pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
-  }
+  const PieceRequest wanted = PieceRequest::Of(output);
+  request.piece = wanted.Piece;
+  request.pieces = wanted.Pieces;
   request.ranges = true; // whoever shows an array asks for it
   request.threads = ChooseThreads(self->Threads, this->Ranks.Get());
   return request;

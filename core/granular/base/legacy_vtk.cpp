@@ -13,7 +13,6 @@ namespace
 {
 constexpr std::int64_t window_bytes = std::int64_t{ 1 } << 18; // more than the longest line
 constexpr std::size_t longest_line = std::size_t{ 1 } << 16;
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 constexpr char to_capital(char c) noexcept
 {

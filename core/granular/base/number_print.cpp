@@ -280,6 +280,12 @@ char* print_number(char* to, double value, NumberFormat format) noexcept
                            : print_many(to, value, format.digits);
 }
 
+std::string to_text(double value, NumberFormat format)
+{
+  char word[most_number_chars];
+  return { word, print_number(word, value, format) };
+}
+
 char* print_integer(char* to, std::int64_t value) noexcept
 {
   const auto bits = static_cast<std::uint64_t>(value);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace granular
@@ -28,7 +29,10 @@ inline constexpr std::size_t most_number_chars = 32;
 /// the locale. format.digits must be 0 to 17.
 char* print_number(char* to, double value, NumberFormat format) noexcept;
 
-/// The same for an integer, as %d.
+/// The same, for messages: by default as the shortest that reads back.
+std::string to_text(double value, NumberFormat format = { 0 });
+
+/// print_number for an integer, as %d.
 char* print_integer(char* to, std::int64_t value) noexcept;
 }
 #endif

@@ -15,6 +15,9 @@ constexpr bool is_blank(char c) noexcept
   return static_cast<unsigned char>(c) <= ' ';
 }
 
+/// What a text of UTF-8 may begin with.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 /// Takes the first word off a line, with what is before it. Empty: the line has none.
 inline std::string_view take_word(std::string_view& line) noexcept
 {

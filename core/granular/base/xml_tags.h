@@ -12,9 +12,6 @@
 
 namespace granular
 {
-/// What a file of UTF-8 may begin with.
-inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
 /// Finds the tags of an XML text that begin elements, one after the other, and holds those that end them against
 /// them. Passes over declarations and comments. Entities are left as they are; <!DOCTYPE and CDATA are no tags.
 class XmlTags

@@ -21,15 +21,9 @@ namespace
 /// Pairs beyond this are not counted: there may be n^2 of them.
 constexpr std::int64_t most_overlaps = 1'000'000;
 
-std::string printed(double value)
-{
-  std::array<char, most_number_chars> text;
-  return { text.data(), print_number(text.data(), value, { 0 }) };
-}
-
 std::string printed(const Vector3& values)
 {
-  return printed(values[0]) + ' ' + printed(values[1]) + ' ' + printed(values[2]);
+  return to_text(values[0]) + ' ' + to_text(values[1]) + ' ' + to_text(values[2]);
 }
 
 void tell(Answer answer, const std::string& text, const Where& where, Notices& notices)
@@ -225,7 +219,7 @@ void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChec
     {
       tell(checks.gap,
         "expected subdomains that fill the box from " + printed(bounds.lo) + " to " +
-          printed(bounds.hi) + ", got gaps of " + printed(gap) + " of its volume",
+          printed(bounds.hi) + ", got gaps of " + to_text(gap) + " of its volume",
         where, notices);
     }
   }

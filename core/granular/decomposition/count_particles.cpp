@@ -149,12 +149,6 @@ ParticleCounts count_all(const FrameView& frame, std::size_t places, const Find&
   return sum;
 }
 
-std::string print(double value)
-{
-  char word[most_number_chars];
-  return { word, print_number(word, value, { 0 }) };
-}
-
 void check_cuts(const ProcessGrid& grid)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -165,8 +159,8 @@ void check_cuts(const ProcessGrid& grid)
       if (!std::isfinite(cuts[i]) || (i > 0 && cuts[i] < cuts[i - 1]))
       {
         throw Error(std::string("expected finite cuts along ") + "xyz"[axis] +
-          ", none below the one before, got " + print(cuts[i]) +
-          (i > 0 ? " behind " + print(cuts[i - 1]) : ""));
+          ", none below the one before, got " + to_text(cuts[i]) +
+          (i > 0 ? " behind " + to_text(cuts[i - 1]) : ""));
       }
     }
   }

@@ -10,7 +10,7 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t points_a_cell = 8;
+constexpr std::int64_t points_a_cell = corners_of_voxel;
 
 /// Cells between so many positions along each axis; the largest number there is, where there are more.
 std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcept

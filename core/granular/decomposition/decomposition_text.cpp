@@ -223,8 +223,8 @@ public:
       return;
     }
     std::string text = "six decimals, which is what LIGGGHTS-PUBLIC writes, are few along " +
-      std::string(1, axis) + ": coordinates change by up to " + shortest(moved_) +
-      ", the thinnest slab has " + shortest(thinnest_);
+      std::string(1, axis) + ": coordinates change by up to " + to_text(moved_) +
+      ", the thinnest slab has " + to_text(thinnest_);
     if (joined_ > 0)
     {
       text += "; " + std::to_string(joined_) + " of " + std::to_string(count_ - 1) +
@@ -234,12 +234,6 @@ public:
   }
 
 private:
-  static std::string shortest(double value)
-  {
-    std::array<char, most_number_chars> digits;
-    return { digits.data(), print_number(digits.data(), value, { 0 }) };
-  }
-
   double cut_ = 0;
   double rounded_ = 0;
   double thinnest_ = std::numeric_limits<double>::infinity(); ///< of the slabs that are not flat

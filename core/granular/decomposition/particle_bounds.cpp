@@ -116,9 +116,8 @@ public:
   {
     if (!(process >= 0 && process <= largest_rank && process == std::floor(process)))
     {
-      char word[most_number_chars];
-      throw Error("expected whole numbers of processes, from 0 to 2147483647, got " +
-          std::string(word, print_number(word, process, { 0 })),
+      throw Error(
+        "expected whole numbers of processes, from 0 to 2147483647, got " + to_text(process),
         { .column = array_->name });
     }
     return static_cast<int>(process);
@@ -226,15 +225,6 @@ ParticleBounds find_bounds(
     std::accumulate(outside.begin(), outside.end(), std::int64_t{ 0 }) };
 }
 
-/// Packer and Unpacker.
-template <class Archive>
-void pass_subdomain(Archive& archive, Subdomain& subdomain)
-{
-  archive.number(subdomain.lo);
-  archive.number(subdomain.hi);
-  archive.number(subdomain.particles);
-  archive.number(subdomain.rank);
-}
 }
 
 ParticleBounds bounds_by_process(
@@ -259,7 +249,7 @@ std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communica
       joined.add(own);
       for (Subdomain subdomain : joined.all())
       {
-        pass_subdomain(packer, subdomain);
+        packer.number(subdomain);
       }
     });
   const std::vector<std::string> all = ranks.all_gather(packer.bytes);
@@ -274,7 +264,7 @@ std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communica
         while (!unpacker.bytes.empty())
         {
           Subdomain subdomain;
-          pass_subdomain(unpacker, subdomain);
+          unpacker.number(subdomain);
           joined.add(subdomain);
         }
       }

@@ -14,17 +14,11 @@ namespace
 {
 using Counts = std::array<std::int64_t, 3>;
 
-constexpr std::int64_t most_processes = 2147483647; ///< ranks are int
+constexpr std::int64_t most_ranks = 2147483647; ///< ranks are int
 
 std::string axis_name(std::size_t axis)
 {
   return std::string(1, "xyz"[axis]);
-}
-
-std::string print(double value)
-{
-  char word[most_number_chars];
-  return { word, print_number(word, value, { 0 }) };
 }
 
 std::string print(const Counts& grid)
@@ -40,8 +34,8 @@ void check_box(const Vector3& lo, const Vector3& hi)
     if (!(lo[axis] <= hi[axis]) || !std::isfinite(hi[axis] - lo[axis]))
     {
       throw Error("expected finite bounds along " + axis_name(axis) +
-        ", the upper one not below the lower one, got " + print(lo[axis]) + " and " +
-        print(hi[axis]));
+        ", the upper one not below the lower one, got " + to_text(lo[axis]) + " and " +
+        to_text(hi[axis]));
     }
   }
 }
@@ -77,7 +71,7 @@ std::int64_t product_of(const Counts& grid)
   for (const std::int64_t count : grid)
   {
     product *= std::max<std::int64_t>(count, 1);
-    if (product > most_processes)
+    if (product > most_ranks)
     {
       throw LimitError("expected fewer than 2^31 processes, got a grid of " + print(grid));
     }
@@ -167,7 +161,7 @@ Counts counts_of(const GridRequest& request)
     throw Error("expected a number of processes, or 0 for as many as the grid has, got " +
       std::to_string(processes));
   }
-  if (processes > most_processes)
+  if (processes > most_ranks)
   {
     throw LimitError("expected fewer than 2^31 processes, got " + std::to_string(processes));
   }
@@ -215,9 +209,9 @@ std::vector<double> told_cuts(
   {
     if (!(cut > cuts.back() && cut < hi))
     {
-      throw Error("expected increasing cuts along " + axis_name(axis) + " between " + print(lo) +
-        " and " + print(hi) + ", got " + print(cut) +
-        (cuts.size() > 1 ? " behind " + print(cuts.back()) : ""));
+      throw Error("expected increasing cuts along " + axis_name(axis) + " between " + to_text(lo) +
+        " and " + to_text(hi) + ", got " + to_text(cut) +
+        (cuts.size() > 1 ? " behind " + to_text(cuts.back()) : ""));
     }
     cuts.push_back(cut);
   }

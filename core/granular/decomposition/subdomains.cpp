@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/subdomains.h"
 
+#include "granular/base/archive.h"
 #include "granular/base/compensated.h"
 
 #include <algorithm>
@@ -68,6 +69,20 @@ void expect_size(const char* name, std::size_t got, std::size_t expected)
       std::to_string(got));
   }
 }
+
+template <class Archive>
+void pass(Archive& archive, Decomposition& decomposition)
+{
+  archive.number(decomposition.has_particles);
+  archive.number(decomposition.has_ranks);
+  std::size_t count = decomposition.subdomains.size();
+  archive.number(count);
+  decomposition.subdomains.resize(count);
+  for (Subdomain& subdomain : decomposition.subdomains)
+  {
+    archive.number(subdomain);
+  }
+}
 }
 
 GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks)
@@ -103,6 +118,42 @@ Decomposition decomposition_of(const GatheredBounds& bounds)
     subdomain.rank = static_cast<int>(p);
   }
   return decomposition;
+}
+
+Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks)
+{
+  Packer packer;
+  do_together(ranks,
+    [&]
+    {
+      Decomposition copy = own;
+      pass(packer, copy);
+    });
+  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
+  Decomposition joined;
+  do_together(ranks,
+    [&]
+    {
+      for (const std::string& bytes : all)
+      {
+        Decomposition part;
+        Unpacker unpacker{ bytes };
+        pass(unpacker, part);
+        if (part.subdomains.empty())
+        {
+          continue; // nothing is known of arrays where there are no cells
+        }
+        joined.has_particles = joined.has_particles && part.has_particles;
+        joined.has_ranks = joined.has_ranks && part.has_ranks;
+        joined.subdomains.insert(
+          joined.subdomains.end(), part.subdomains.begin(), part.subdomains.end());
+      }
+      for (std::size_t i = 0; !joined.has_ranks && i < joined.subdomains.size(); ++i)
+      {
+        joined.subdomains[i].rank = static_cast<int>(i);
+      }
+    });
+  return joined;
 }
 
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept

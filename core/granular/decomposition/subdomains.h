@@ -50,6 +50,10 @@ GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks);
 /// The subdomains with these bounds, p = 0 .. P - 1. Throws Error where an array has not its size.
 Decomposition decomposition_of(const GatheredBounds& bounds);
 
+/// The subdomains of all ranks, in the order of the ranks, on all. What not all who have any know of them nobody
+/// knows. Collective.
+Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks);
+
 /// The smallest box around all, without particles; 0 along an axis without numbers. A nan counts for nothing, lo may be
 /// above hi.
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept;

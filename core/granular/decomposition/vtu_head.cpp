@@ -4,6 +4,7 @@
 #include "granular/base/number.h"
 #include "granular/base/words.h"
 #include "granular/base/xml_tags.h"
+#include "granular/decomposition/voxels.h"
 
 #include <limits>
 
@@ -27,7 +28,7 @@ bool begins_with_tag(std::string_view text) noexcept
 
 void look_at_piece(const XmlTags& tags, VtuHead& head) noexcept
 {
-  constexpr std::int64_t points_a_cell = 8;
+  constexpr std::int64_t points_a_cell = corners_of_voxel;
   const std::int64_t cells = count(tags, "NumberOfCells");
   const std::int64_t points = count(tags, "NumberOfPoints");
   const std::int64_t left = std::numeric_limits<std::int64_t>::max() - head.cells;

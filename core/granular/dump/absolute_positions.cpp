@@ -14,11 +14,6 @@ namespace granular
 {
 namespace
 {
-bool is_periodic(const Box& box, std::size_t axis) noexcept
-{
-  return 3 * axis < box.boundary.size() && box.boundary[3 * axis] == 'p';
-}
-
 /// x y z of each row, without anything between.
 bool is_plain(const ArrayView& points) noexcept
 {

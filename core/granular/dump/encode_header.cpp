@@ -58,12 +58,6 @@ private:
   std::string text_;
 };
 
-std::string print_time(double time)
-{
-  char word[most_number_chars];
-  return { word, print_number(word, time, { 16 }) };
-}
-
 void add_box(TextHeaderWriter& writer, const Box& box)
 {
   const BoxBounds b = box.bounds();
@@ -114,7 +108,7 @@ std::string encode_text(const FrameHeader& header, const std::vector<std::string
   }
   if (lammps && format.time)
   {
-    writer.item("TIME", print_time(header.time.value_or(0)));
+    writer.item("TIME", to_text(header.time.value_or(0), { 16 }));
   }
   writer.item("TIMESTEP", std::to_string(header.timestep));
   if (!lammps && custom && !header.box.tilted && !header.label.empty())

@@ -113,9 +113,8 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   }
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();
-  const FileFormat& format = index.format ? *index.format : dump_format();
-  refuse_other_packings(format, *source);
-  format.index(*source, index, progress, ahead);
+  refuse_other_packings(*index.format, *source);
+  index.format->index(*source, index, progress, ahead);
   drop_repeated(index.notices, known);
   index.unchecked = source->unchecked();
   if (index.defect && !index.unchecked.empty())
@@ -130,7 +129,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   index.frames.shrink_to_fit();
   set_defect(index,
     { { index.path },
-      std::string("expected ") + format.name + ", got " +
+      std::string("expected ") + index.format->name + ", got " +
         (stamp.size == 0 ? "an empty file" : "no complete frame") });
   return true;
 }

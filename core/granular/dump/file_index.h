@@ -40,7 +40,7 @@ struct FileIndex
   std::vector<std::string> column_names; ///< of the user, for such a file
   std::shared_ptr<RestartPoints> points; ///< of a compressed file
   std::shared_ptr<FrameKinds> kinds;     ///< may be shared by files; made where it is missing
-  const FileFormat* format = nullptr;    ///< null: dump_format()
+  const FileFormat* format = &dump_format();
 };
 
 /// True if the first bytes of a file, uncompressed, are those of a dump of particles that

@@ -19,11 +19,6 @@ namespace granular
 {
 namespace
 {
-const FileFormat& format_of(const FileIndex& file) noexcept
-{
-  return file.format ? *file.format : dump_format();
-}
-
 Notice left_out(const std::exception_ptr& error)
 {
   try
@@ -87,7 +82,7 @@ void FrameIndex::update(const std::vector<std::string>& files, const IndexOption
   series_ = {};
   this->update_files(dumps, options, notices, progress);
   Notices found;
-  if (!files_.empty() && format_of(files_.front()).steps_in_names)
+  if (options.format->steps_in_names)
   {
     name_steps(files_, found);
   }
@@ -226,7 +221,7 @@ void FrameIndex::fail(const Notices& notices) const
     throw FormatError(notices.front().text, notices.front().where); // pieces are missing
   }
   const Notice defect = files_.front().defect.value_or(Notice{ { files_.front().path },
-    std::string("expected ") + format_of(files_.front()).name + ", got no complete frame" });
+    std::string("expected ") + files_.front().format->name + ", got no complete frame" });
   throw FormatError(defect.text, defect.where);
 }
 

@@ -52,6 +52,11 @@ void load_numbers(const ValueSource& source, Rows rows, std::int64_t* to)
   load_as(source, rows, to);
 }
 
+bool is_periodic(const Box& box, std::size_t axis) noexcept
+{
+  return 3 * axis < box.boundary.size() && box.boundary[3 * axis] == 'p';
+}
+
 ValueSource point_values(const FrameView& frame, std::size_t axis)
 {
   return { frame.points->type, frame.points->components[axis], frame.points->step };
@@ -98,9 +103,7 @@ void count_crossings(const Box& box, std::span<const double> points, std::vector
     plan_form(Coordinates::Absolute, ColumnRole::ScaledPosition), box, {}, {}, images);
   for (std::size_t i = 0; i < images.size(); ++i)
   {
-    const std::size_t flag = 3 * (i % 3);
-    const bool periodic = flag < box.boundary.size() && box.boundary[flag] == 'p';
-    images[i] = periodic && std::isfinite(images[i]) ? std::floor(images[i]) : 0;
+    images[i] = is_periodic(box, i % 3) && std::isfinite(images[i]) ? std::floor(images[i]) : 0;
   }
 }
 }

@@ -17,6 +17,9 @@ namespace granular
 void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, double* to);
 void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, std::int64_t* to);
 
+/// Whether a box is periodic along an axis, by its boundary flags.
+bool is_periodic(const Box& box, std::size_t axis) noexcept;
+
 /// Where a coordinate of the points lies; there must be points.
 ValueSource point_values(const FrameView& frame, std::size_t axis);
 

@@ -13,9 +13,6 @@
 
 namespace granular
 {
-/// Some programs put the UTF-8 byte order mark before a text.
-inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
 /// A line "ITEM: ...": its words after the first. Empty for other lines.
 std::vector<std::string_view> item_words(std::string_view line);
 

@@ -3,6 +3,7 @@
 
 #include "granular/base/error.h"
 #include "granular/base/executor.h"
+#include "granular/dump/exchange_rows.h"
 #include "granular/packing/grain_rows.h"
 #include "granular/packing/lattice.h"
 #include "granular/packing/random_grains.h"
@@ -136,16 +137,10 @@ std::int64_t lattice_count(const PackingRequest& request, const Lattice& lattice
   return request.grains > 0 ? request.grains : room;
 }
 
-/// The first grain of a piece; that of piece `pieces` is the number of all.
-std::int64_t first_of(std::int64_t grains, int piece, int pieces)
-{
-  return grains / pieces * piece + grains % pieces * piece / pieces;
-}
-
 GrainRows piece_of(std::int64_t grains, const PackingRequest& request)
 {
-  return { first_of(grains, request.piece, request.pieces),
-    first_of(grains, request.piece + 1, request.pieces) };
+  return { begin_of_part(grains, request.piece, request.pieces),
+    begin_of_part(grains, request.piece + 1, request.pieces) };
 }
 
 /// The frame, with memory for the rows.

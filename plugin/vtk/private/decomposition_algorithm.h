@@ -4,6 +4,7 @@
 
 #include "vtkGranularDecompositionAlgorithm.h"
 
+#include "piece_request.h"
 #include "processes.h"
 #include "voxels.h"
 

@@ -26,8 +26,8 @@ struct vtkGranularSeriesReader::Internals
   using Self = vtkGranularSeriesReader;
 
   std::vector<std::string> FileNames;
-  const granular::FileFormat* Format = nullptr; ///< null: dumps
-  std::vector<std::string> ColumnNames;         ///< for files that do not name their columns
+  const granular::FileFormat* Format = &granular::dump_format();
+  std::vector<std::string> ColumnNames; ///< for files that do not name their columns
   granular::FrameIndex Index;
   std::vector<std::string> IndexedNames; ///< what Index was made from
   bool Valid = false;                    ///< Index is what the last look at the files gave

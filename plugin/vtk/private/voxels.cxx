@@ -3,9 +3,7 @@
 
 #include "arrays.h"
 #include "dump_input.h"
-#include "dump_output.h"
 
-#include "granular/base/archive.h"
 #include "granular/base/executor.h"
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/decomposition/voxels.h"
@@ -15,10 +13,8 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
-#include "vtkInformation.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
@@ -71,14 +67,14 @@ public:
 
   explicit operator bool() const { return this->Array != nullptr; }
 
-  vtkTypeInt64 Get(vtkIdType cell, double most) const
+  vtkTypeInt64 Get(vtkIdType cell, vtkTypeInt64 most) const
   {
     const double value = this->Array->GetComponent(cell, 0);
-    if (!(std::trunc(value) == value && value >= 0 && value <= most))
+    const bool whole = std::trunc(value) == value && value >= 0 && value < 0x1p63;
+    if (!whole || this->Array->GetVariantValue(cell).ToTypeInt64() > most)
     {
-      throw granular::FormatError("expected whole numbers from 0 to " +
-          std::to_string(static_cast<vtkTypeInt64>(most)) + ", got " + std::to_string(value) +
-          " in cell " + std::to_string(cell),
+      throw granular::FormatError("expected whole numbers from 0 to " + std::to_string(most) +
+          ", got " + std::to_string(value) + " in cell " + std::to_string(cell),
         { .column = this->Array->GetName() });
     }
     return this->Array->GetVariantValue(cell).ToTypeInt64();
@@ -116,40 +112,6 @@ bool IsDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType cell)
 {
   return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
 }
-
-template <class Archive>
-void pass(Archive& archive, granular::Decomposition& decomposition)
-{
-  archive.number(decomposition.has_particles);
-  archive.number(decomposition.has_ranks);
-  std::size_t count = decomposition.subdomains.size();
-  archive.number(count);
-  decomposition.subdomains.resize(count);
-  for (Subdomain& subdomain : decomposition.subdomains)
-  {
-    archive.number(subdomain);
-  }
-}
-}
-
-PieceRequest PieceRequest::Of(vtkInformation* output)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  PieceRequest request;
-  if (output->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
-  {
-    request.Piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
-    request.Pieces = std::max(output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()), 1);
-  }
-  return request;
-}
-
-std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) const
-{
-  const auto end = [&](vtkTypeInt64 piece) // without the product, which may be too large
-  { return count / this->Pieces * piece + count % this->Pieces * piece / this->Pieces; };
-  return this->Piece < this->Pieces ? std::pair(end(this->Piece), end(this->Piece + 1))
-                                    : std::pair<vtkTypeInt64, vtkTypeInt64>(count, count);
 }
 
 void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& decomposition,
@@ -229,42 +191,5 @@ granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices
     notices.push_back(granular::note_reflected({}, reflected));
   }
   return decomposition;
-}
-
-granular::Decomposition GatherVoxels(
-  const granular::Decomposition& own, granular::Communicator& ranks)
-{
-  granular::Packer packer;
-  granular::do_together(ranks,
-    [&]
-    {
-      granular::Decomposition copy = own;
-      pass(packer, copy);
-    });
-  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
-  granular::Decomposition joined;
-  granular::do_together(ranks,
-    [&]
-    {
-      for (const std::string& bytes : all)
-      {
-        granular::Decomposition part;
-        granular::Unpacker unpacker{ bytes };
-        pass(unpacker, part);
-        if (part.subdomains.empty())
-        {
-          continue; // nothing is known of arrays where there are no cells
-        }
-        joined.has_particles = joined.has_particles && part.has_particles;
-        joined.has_ranks = joined.has_ranks && part.has_ranks;
-        joined.subdomains.insert(
-          joined.subdomains.end(), part.subdomains.begin(), part.subdomains.end());
-      }
-      for (std::size_t i = 0; !joined.has_ranks && i < joined.subdomains.size(); ++i)
-      {
-        joined.subdomains[i].rank = static_cast<int>(i);
-      }
-    });
-  return joined;
 }
 }

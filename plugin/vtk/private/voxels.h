@@ -3,36 +3,14 @@
 #define vtkGranularVoxels_h
 
 #include "granular/base/box.h"
-#include "granular/base/communicator.h"
 #include "granular/base/error.h"
 #include "granular/base/progress.h"
 #include "granular/decomposition/subdomains.h"
 
-#include "vtkType.h"
-
-#include <utility>
-
-class vtkInformation;
 class vtkUnstructuredGrid;
 
 namespace vtkGranularPrivate
 {
-/**
- * The part of a pipeline's piece that an output wants.
- */
-struct PieceRequest
-{
-  int Piece = 0;
-  int Pieces = 1;
-
-  static PieceRequest Of(vtkInformation* output);
-
-  /**
-   * Those of so many things that belong to the piece: [first, last).
-   */
-  std::pair<vtkTypeInt64, vtkTypeInt64> RangeOf(vtkTypeInt64 count) const;
-};
-
 /**
  * How voxels are to be.
  */
@@ -56,12 +34,6 @@ void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& deco
  * Error; UnsupportedError of other cells.
  */
 granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices& notices);
-
-/**
- * The subdomains of all processes, in their order, on all. Collective.
- */
-granular::Decomposition GatherVoxels(
-  const granular::Decomposition& own, granular::Communicator& ranks);
 }
 
 #endif
