@@ -3,13 +3,13 @@
 #include "vtkGranularDecomposition.h"
 #include "vtkGranularDecompositionSource.h"
 
+#include "../support/observer.h"
+
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellData.h"
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
-#include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkMultiBlockDataSet.h"
@@ -33,54 +33,15 @@
 
 namespace
 {
-/// Keeps what is said, and asks to stop at the n-th report of progress.
-class Observer : public vtkCommand
-{
-public:
-  static Observer* New() { return new Observer; }
-
-  void Execute(vtkObject* caller, unsigned long event, void* data) override
-  {
-    if (event == vtkCommand::ProgressEvent)
-    {
-      if (++this->Reports == this->StopAt)
-      {
-        static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-      }
-      return;
-    }
-    this->Said.push_back(static_cast<const char*>(data));
-  }
-
-  std::vector<std::string> Said;
-  int Reports = 0;
-  int StopAt = 0;
-};
-
 template <class Algorithm>
-struct Watched
+struct WatchedVoxels : Watched<Algorithm>
 {
-  vtkNew<Algorithm> Get;
-  vtkNew<Observer> Seen;
-  vtkNew<Observer> OfPipeline;
-
-  Watched()
-  {
-    for (unsigned long event :
-      { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ProgressEvent })
-    {
-      this->Get->AddObserver(event, this->Seen);
-    }
-    this->Get->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->OfPipeline);
-  }
-
-  Algorithm* operator->() { return this->Get; }
   vtkUnstructuredGrid* Grid() { return this->Get->GetOutput(); }
   vtkDataArray* Cells(const char* name) { return this->Grid()->GetCellData()->GetArray(name); }
 };
 
-using Source = Watched<vtkGranularDecompositionSource>;
-using Filter = Watched<vtkGranularDecomposition>;
+using Source = WatchedVoxels<vtkGranularDecompositionSource>;
+using Filter = WatchedVoxels<vtkGranularDecomposition>;
 
 /// Points without any field data.
 vtkSmartPointer<vtkPolyData> MakePoints(const std::vector<std::vector<double>>& positions)
@@ -356,9 +317,9 @@ TEST(Decomposition, StopsAtAnyReportAndStartsAfresh)
   Filter counted;
   prepare(counted);
   counted->Update();
-  ASSERT_GE(counted.Seen->Reports, 3);
+  ASSERT_GE(counted.Seen->Reported.size(), 3u);
   // the last report comes from the pipeline when all is done, too late for anything
-  for (int at = 1; at + 1 < counted.Seen->Reports; ++at)
+  for (std::size_t at = 1; at + 1 < counted.Seen->Reported.size(); ++at)
   {
     Filter filter;
     prepare(filter);

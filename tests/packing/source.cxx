@@ -2,10 +2,10 @@
 // vtkGranularPackingSource from C++: arrays, pieces, errors, stopping.
 #include "vtkGranularPackingSource.h"
 
-#include "vtkCommand.h"
+#include "../support/observer.h"
+
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
-#include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -23,45 +23,8 @@
 
 namespace
 {
-/// Keeps what is said, and asks to stop at the n-th report of progress.
-class Observer : public vtkCommand
+struct Source : Watched<vtkGranularPackingSource>
 {
-public:
-  static Observer* New() { return new Observer; }
-
-  void Execute(vtkObject* caller, unsigned long event, void* data) override
-  {
-    if (event == vtkCommand::ErrorEvent)
-    {
-      this->Errors.push_back(static_cast<const char*>(data));
-      return;
-    }
-    this->Reported.push_back(*static_cast<double*>(data));
-    if (this->Reported.size() == this->StopAt)
-    {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-    }
-  }
-
-  std::vector<std::string> Errors;
-  std::vector<double> Reported;
-  std::size_t StopAt = 0;
-};
-
-struct Source
-{
-  vtkNew<vtkGranularPackingSource> Get;
-  vtkNew<Observer> Said;
-  vtkNew<Observer> PipelineSaid;
-
-  Source()
-  {
-    this->Get->AddObserver(vtkCommand::ErrorEvent, this->Said);
-    this->Get->AddObserver(vtkCommand::ProgressEvent, this->Said);
-    this->Get->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->PipelineSaid);
-  }
-
-  vtkGranularPackingSource* operator->() { return this->Get; }
   vtkPolyData* Grains() { return this->Get->GetOutput(); }
   vtkUnstructuredGrid* Box()
   {
@@ -178,8 +141,8 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     Source source;
     each.Spoil(source.Get);
     source->Update();
-    ASSERT_EQ(source.Said->Errors.size(), 1u) << each.Text;
-    EXPECT_NE(source.Said->Errors[0].find(each.Text), std::string::npos) << source.Said->Errors[0];
+    ASSERT_EQ(source.Seen->Said.size(), 1u) << each.Text;
+    EXPECT_NE(source.Seen->Said[0].find(each.Text), std::string::npos) << source.Seen->Said[0];
     EXPECT_NE(source->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
     ExpectEmpty(source);
     source->SetRadius(0.003);
@@ -192,7 +155,7 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
   }
   Source threads;
   threads->SetThreads(-1);
-  EXPECT_EQ(threads.Said->Errors.size(), 1u);
+  EXPECT_EQ(threads.Seen->Said.size(), 1u);
   EXPECT_EQ(threads->GetThreads(), 0);
 }
 
@@ -211,7 +174,7 @@ TEST(PackingSource, StopsAtAnyReportAndStartsAfresh)
     Source counted;
     prepare(counted);
     counted->Update();
-    const std::vector<double> reported = counted.Said->Reported;
+    const std::vector<double> reported = counted.Seen->Reported;
     ASSERT_GE(reported.size(), 5u);
     EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
     // the last report comes from the pipeline when all is done, too late for anything
@@ -219,9 +182,9 @@ TEST(PackingSource, StopsAtAnyReportAndStartsAfresh)
     {
       Source source;
       prepare(source);
-      source.Said->StopAt = at;
+      source.Seen->StopAt = at;
       source->Update();
-      EXPECT_TRUE(source.Said->Errors.empty());
+      EXPECT_TRUE(source.Seen->Said.empty());
       ExpectEmpty(source);
       source->Update();
       EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 20000);
