@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_cells_h
+#define granular_euler_cells_h
+
+#include "granular/base/communicator.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Cells of space with averages of the particles in them: structure of arrays, the same number of cells in each.
+/// Empty cells are 0 but for the centre.
+struct EulerCells
+{
+  std::vector<double> centres;         ///< x y z of each cell [m]
+  std::vector<double> velocities;      ///< u v w, weighted by mass [m/s]
+  std::vector<double> volume_fraction; ///< of solids, 0 and more [-]
+  std::vector<double> radius;          ///< mean over particles [m]
+  std::vector<double> pressure;        ///< positive in compression [Pa]
+  std::vector<double> normal_stress;   ///< xx yy zz, or empty: not known [Pa]
+  std::vector<double> shear_stress;    ///< xy xz yz, or empty: not known [Pa]
+
+  /// Number of cells.
+  std::int64_t count() const noexcept { return static_cast<std::int64_t>(volume_fraction.size()); }
+
+  /// Makes all arrays, but for stresses, that long; new values are 0.
+  void resize(std::int64_t cells);
+
+  bool operator==(const EulerCells&) const = default;
+};
+
+/// An array of cells as files and outputs name it.
+struct EulerArray
+{
+  std::string_view name;
+  int components;
+  std::vector<double> EulerCells::*values;
+  bool optional; ///< may be empty
+};
+
+/// v_avg, volumefraction, radius, pressure as dump euler/vtk of LIGGGHTS writes them, in this order; then sigma (xx yy zz)
+/// and tau (xy xz yz) of its fork PFM.
+std::span<const EulerArray> euler_arrays() noexcept;
+
+/// Values of a packed cell: x y z u v w phi r p.
+inline constexpr std::int64_t values_of_cell = 9;
+
+/// Packs the cells of a process: 9 values for each, x y z u v w phi r p, so that with i and j from 1 value j of cell i is
+/// buffer[9 (i - 1) + j - 1]. Stresses are left out. The buffer has 9 count() values, else it throws std::logic_error.
+void pack_cells(const EulerCells& cells, std::span<double> buffer);
+
+/// The reverse; the size of the buffer is a multiple of 9, else it throws FormatError.
+EulerCells unpack_cells(std::span<const double> buffer);
+
+/// The buffers of all processes one after the other, in the order of their ranks, on rank 0; nothing on others.
+/// Throws FormatError, on all, if there are not 9 values for each cell that the ranks counted. Collective.
+std::vector<double> gather_packed(
+  std::span<const double> own, std::int64_t own_cells, Communicator& ranks);
+
+/// The cells of all processes, with stresses where all processes that have cells have them, on rank 0; none on
+/// others. Collective.
+EulerCells gather_cells(const EulerCells& own, Communicator& ranks);
+}
+#endif

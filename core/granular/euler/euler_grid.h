@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_euler_grid_h
+#define granular_euler_euler_grid_h
+
+#include "granular/base/box.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// A box divided into equal cells along the axes. Cells are numbered with x fastest, z slowest: (k ny + j) nx + i, as
+/// in LIGGGHTS.
+struct EulerGrid
+{
+  Vector3 lo = {};
+  Vector3 hi = {};
+  std::array<std::int64_t, 3> counts = {}; ///< nx ny nz
+
+  std::int64_t size() const noexcept { return counts[0] * counts[1] * counts[2]; }
+
+  /// The edge of a cell, (hi - lo) / n, rounded in this order.
+  double spacing(std::size_t axis) const noexcept;
+
+  /// Where cell i of an axis begins and cell i - 1 ends, 0 <= i <= n: lo + i spacing, rounded in this order as
+  /// vtkImageData does, and hi for the last. Neighbours share it to the bit.
+  double face(std::size_t axis, std::int64_t i) const noexcept;
+  std::vector<double> faces(std::size_t axis) const; ///< all n + 1
+
+  /// lo + (i + 1/2) spacing, as LIGGGHTS has it.
+  double centre(std::size_t axis, std::int64_t i) const noexcept;
+
+  bool operator==(const EulerGrid&) const = default;
+};
+
+/// How a user says what cells there are: by one of counts, size and relative_size; the others are 0.
+struct EulerGridRequest
+{
+  Vector3 lo = {};
+  Vector3 hi = {};
+  std::array<std::int64_t, 3> counts = {}; ///< 1 and more along each axis
+  Vector3
+    size = {}; ///< edges: the largest number of cells that are not smaller than this, at least 1
+  double relative_size =
+    0;               ///< cell_size_relative of LIGGGHTS: an edge in units of the cutoff below
+  double cutoff = 0; ///< largest distance of centres in contact: twice the largest radius
+};
+
+/// The most cells of a grid: their values have 64-bit sizes in memory.
+inline constexpr std::int64_t most_cells = std::int64_t{ 1 } << 40;
+
+/// Throws Error: bounds that are not finite or lo not below hi, counts below 1, sizes that are not above 0,
+/// cells without thickness (faces that coincide), none or several of the three given; LimitError: too many cells.
+EulerGrid make_euler_grid(const EulerGridRequest& request);
+}
+#endif

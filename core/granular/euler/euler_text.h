@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_euler_text_h
+#define granular_euler_euler_text_h
+
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+#include "granular/euler/cells.h"
+
+#include <cstdint>
+#include <string>
+
+namespace granular
+{
+/// How the file of dump euler/vtk is written.
+enum class EulerDialect : std::uint8_t
+{
+  Liggghts, ///< byte for byte as LIGGGHTS: %f, which has six decimals, of type float
+  Wide      ///< the same lines, but of type double with the fewest digits that read back the same
+};
+
+/// The file, points and arrays v_avg, volumefraction, radius, pressure; Wide also sigma and tau where they are known. With
+/// a notice where %f loses more than it should: centres of cells that become equal, radii that become 0. Throws Cancelled.
+std::string encode_euler(
+  const EulerCells& cells, EulerDialect dialect, Notices& notices, Progress& progress);
+}
+#endif

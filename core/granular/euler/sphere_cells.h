@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_sphere_cells_h
+#define granular_euler_sphere_cells_h
+
+#include "granular/base/box.h"
+#include "granular/euler/euler_grid.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// The volume that a sphere has in a cell of a grid.
+struct CellShare
+{
+  std::int64_t cell = 0; ///< number in the grid
+  double volume = 0;     ///< above 0
+};
+
+/// Cells of each axis: from first to last - 1; first == last: none.
+struct CellRange
+{
+  std::array<std::int64_t, 3> first = {};
+  std::array<std::int64_t, 3> last = {};
+};
+
+/// Divides spheres among the cells of a grid, each volume as exact as sphere_box_volume's.
+class SphereCells
+{
+public:
+  /// short_cuts: false has each cell that the bounds of a sphere touch done by sphere_box_volume, for comparison.
+  explicit SphereCells(const EulerGrid& grid, bool short_cuts = true);
+
+  /// The cells that the bounds of a sphere touch.
+  CellRange range(const Twofold3& centre, double radius) const noexcept;
+
+  /// Adds the shares of a sphere at hi + lo of the centre, finite, radius >= 0; what is outside of the grid is in none.
+  /// A sphere without volume has no shares. From any thread.
+  void find(const Twofold3& centre, double radius, std::vector<CellShare>& shares) const;
+
+private:
+  EulerGrid grid_;
+  std::array<std::vector<double>, 3> faces_;
+  bool short_cuts_;
+};
+}
+#endif
