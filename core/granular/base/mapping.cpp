@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <exception>
+#include <fstream>
 #include <limits>
+#include <string>
 
 #include <sys/mman.h>
 
@@ -45,6 +48,19 @@ void advise(const Mapping& mapping, std::size_t from, std::size_t to, int advice
     // only advice: it may be refused
     ::madvise(static_cast<char*>(mapping.base) + from, to - from, advice);
   }
+}
+
+constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
+
+/// The number that a file of the system holds, or begins a line with that word.
+std::int64_t read_number(const char* path, const std::string& word = "")
+{
+  std::ifstream file(path);
+  std::int64_t number = unknown;
+  for (std::string line; !word.empty() && file >> line && line != word;)
+  {
+  }
+  return file >> number ? number : unknown;
 }
 }
 
@@ -110,5 +126,22 @@ void forget_bytes([[maybe_unused]] const Mapping& mapping) noexcept
     advise(mapping, 0, round_down(mapping.resident, large_page), MADV_FREE);
   }
 #endif
+}
+
+std::int64_t available_memory() noexcept
+{
+  try
+  {
+    const std::int64_t kilobytes = read_number("/proc/meminfo", "MemAvailable:");
+    const std::int64_t most = read_number("/sys/fs/cgroup/memory.max");
+    const std::int64_t used = read_number("/sys/fs/cgroup/memory.current");
+    const std::int64_t left = most == unknown || used == unknown ? unknown : most - used;
+    return std::min(
+      kilobytes == unknown ? unknown : kilobytes * 1024, std::max<std::int64_t>(left, 0));
+  }
+  catch (const std::exception&)
+  {
+    return unknown;
+  }
 }
 }

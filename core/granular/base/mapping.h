@@ -3,6 +3,7 @@
 #define granular_base_mapping_h
 
 #include <cstddef>
+#include <cstdint>
 
 namespace granular
 {
@@ -29,5 +30,9 @@ void keep_bytes(Mapping& mapping, std::size_t bytes) noexcept;
 /// Nobody needs what is written there: where the system runs short of memory it may take that of large
 /// pages, and else leaves it as it is.
 void forget_bytes(const Mapping& mapping) noexcept;
+
+/// Bytes of memory that this process can still get without others losing theirs, as the system estimates it and the group
+/// that the process belongs to allows; the largest number there is where nobody knows.
+std::int64_t available_memory() noexcept;
 }
 #endif

@@ -3,7 +3,7 @@
 
 #include "granular/base/error.h"
 #include "granular/base/number_print.h"
-#include "granular/base/slab_finder.h"
+#include "granular/decomposition/slab_finder.h"
 #include "granular/decomposition/subdomain_tree.h"
 #include "granular/dump/absolute_positions.h"
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -69,37 +70,78 @@ AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
     hi_[axis] = bounds.hi[axis];
     wraps_[axis] = wrap && is_periodic(box, axis) && lo_[axis] < hi_[axis];
   }
-  direct_ = frame.points && is_plain(*frame.points) && frame.point_origin == Vector3{} &&
-    frame.coordinates == Coordinates::Absolute && std::ranges::count(wraps_, true) == 0;
+  plain_ = frame.points && is_plain(*frame.points) && frame.point_origin == Vector3{} &&
+    frame.coordinates == Coordinates::Absolute;
 }
 
 const double* AbsolutePositions::load(std::int64_t first, std::size_t count, double* buffer) const
 {
-  if (direct_)
+  if (plain_)
   {
-    return static_cast<const double*>(frame_.points->components[0]) + 3 * first;
-  }
-  this->convert(first, count, buffer);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    for (std::size_t i = axis; wraps_[axis] && i < 3 * count; i += 3)
+    const double* const points =
+      static_cast<const double*>(frame_.points->components[0]) + 3 * first;
+    const bool wraps = std::ranges::count(wraps_, true) > 0;
+    if (!wraps || this->is_wrapped({ points, 3 * count }))
     {
-      if (!(buffer[i] >= lo_[axis] && buffer[i] < hi_[axis]))
-      {
-        buffer[i] =
-          wrap_one(buffer[i], lo_[axis], hi_[axis], frame_.header.box.vectors[axis][axis]);
-      }
+      return points;
     }
   }
+  std::array<std::int64_t, most_rows> rows;
+  std::iota(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count), first);
+  this->load(std::span(rows).first(count), buffer);
   return buffer;
 }
 
-/// Absolute, but not wrapped.
-void AbsolutePositions::convert(std::int64_t first, std::size_t count, double* buffer) const
+void AbsolutePositions::load(std::span<const std::int64_t> rows, double* buffer) const
 {
-  std::array<std::int64_t, most_rows> numbers;
-  std::iota(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count), first);
-  const std::span rows = std::span<const std::int64_t>(numbers).first(count);
+  this->convert(rows, buffer);
+  this->wrap({ buffer, 3 * rows.size() });
+}
+
+bool AbsolutePositions::is_wrapped(std::span<const double> points) const noexcept
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr std::size_t some = 8; // points at once, without branches
+  std::array<double, 3 * some> lo;
+  std::array<double, 3 * some> hi;
+  for (std::size_t i = 0; i < lo.size(); ++i)
+  {
+    lo[i] = wraps_[i % 3] ? lo_[i % 3] : -infinity;
+    hi[i] = wraps_[i % 3] ? hi_[i % 3] : infinity;
+  }
+  std::size_t outside = 0;
+  for (std::size_t first = 0; first < points.size(); first += lo.size())
+  {
+    const std::size_t count = std::min(lo.size(), points.size() - first);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double x = points[first + i];
+      outside |= static_cast<std::size_t>(x < lo[i]) | static_cast<std::size_t>(!(x < hi[i]));
+    }
+  }
+  return outside == 0;
+}
+
+/// Into the box, along periodic axes.
+void AbsolutePositions::wrap(std::span<double> points) const noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (std::size_t i = axis; wraps_[axis] && i < points.size(); i += 3)
+    {
+      if (!(points[i] >= lo_[axis] && points[i] < hi_[axis]))
+      {
+        points[i] =
+          wrap_one(points[i], lo_[axis], hi_[axis], frame_.header.box.vectors[axis][axis]);
+      }
+    }
+  }
+}
+
+/// Absolute, but not wrapped.
+void AbsolutePositions::convert(std::span<const std::int64_t> rows, double* buffer) const
+{
+  const std::size_t count = rows.size();
   std::array<double, most_rows> values;
   const auto load_axis = [&](const ValueSource& source, std::size_t axis, double* to)
   {

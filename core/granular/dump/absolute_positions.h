@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace granular
 {
@@ -30,15 +31,17 @@ public:
   /// nothing is to be done, else in buffer, which has room for most_rows * 3 numbers. From any thread.
   const double* load(std::int64_t first, std::size_t count, double* buffer) const;
 
-  /// Whether load always gives the array's own memory.
-  bool direct() const noexcept { return direct_; }
+  /// The same of rows in any order, always in the buffer.
+  void load(std::span<const std::int64_t> rows, double* buffer) const;
 
 private:
-  void convert(std::int64_t first, std::size_t count, double* buffer) const;
+  void convert(std::span<const std::int64_t> rows, double* buffer) const;
+  bool is_wrapped(std::span<const double> points) const noexcept;
+  void wrap(std::span<double> points) const noexcept;
 
   const FrameView& frame_;
-  bool direct_ = false;
-  Box box_; ///< in the coordinates of the points
+  bool plain_ = false; ///< the array has what is wanted, but for wrapping
+  Box box_;            ///< in the coordinates of the points
   PositionPlan plan_;
   Vector3 less_ = {};
   std::array<std::optional<ValueSource>, 3>

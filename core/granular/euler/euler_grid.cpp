@@ -1,2 +1,143 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/euler_grid.h"
+
+#include "granular/base/error.h"
+#include "granular/base/number_print.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+constexpr std::array<const char*, 3> axis_names = { "x", "y", "z" };
+
+std::string to_text(const Vector3& values)
+{
+  return granular::to_text(values[0]) + " " + granular::to_text(values[1]) + " " +
+    granular::to_text(values[2]);
+}
+
+void check_extent(const Vector3& lo, const Vector3& hi)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (!(lo[axis] < hi[axis]) || !std::isfinite(hi[axis] - lo[axis]))
+    {
+      throw Error(std::string("expected finite bounds of cells, the lower below the upper, got ") +
+        granular::to_text(lo[axis]) + " and " + granular::to_text(hi[axis]) + " along " +
+        axis_names[axis]);
+    }
+  }
+}
+
+/// How many cells of at least that edge there are, as LIGGGHTS rounds: towards fewer, larger ones.
+std::int64_t count_cells(double length, double edge)
+{
+  const double count = std::floor(length / edge);
+  if (!(count < static_cast<double>(most_cells)))
+  {
+    throw LimitError("expected at most 2^40 cells, got edges of " + granular::to_text(edge) +
+      " in a box of " + granular::to_text(length));
+  }
+  return std::max(std::int64_t{ 1 }, static_cast<std::int64_t>(count));
+}
+
+std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
+{
+  const bool by_counts = request.counts != std::array<std::int64_t, 3>{};
+  const bool by_size = request.size != Vector3{};
+  const bool by_cutoff = request.relative_size != 0;
+  if (int{ by_counts } + int{ by_size } + int{ by_cutoff } != 1)
+  {
+    throw Error(std::string("expected one of the number of cells, their size, and their size in "
+                            "units of the cutoff, got ") +
+      (by_counts || by_size || by_cutoff ? "several" : "none"));
+  }
+  if (by_counts)
+  {
+    for (const std::int64_t count : request.counts)
+    {
+      if (count < 1)
+      {
+        throw Error("expected 1 cell or more along each axis, got " +
+          std::to_string(request.counts[0]) + " " + std::to_string(request.counts[1]) + " " +
+          std::to_string(request.counts[2]));
+      }
+    }
+    return request.counts;
+  }
+  const double relative = request.relative_size * request.cutoff;
+  const Vector3 size = by_size ? request.size : Vector3{ relative, relative, relative };
+  std::array<std::int64_t, 3> counts = {};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (!(size[axis] > 0) || !std::isfinite(size[axis]))
+    {
+      throw Error("expected edges of cells above 0, got " + to_text(size));
+    }
+    counts[axis] = count_cells(request.hi[axis] - request.lo[axis], size[axis]);
+  }
+  return counts;
+}
+}
+
+double EulerGrid::spacing(std::size_t axis) const noexcept
+{
+  return (hi[axis] - lo[axis]) / static_cast<double>(counts[axis]);
+}
+
+double EulerGrid::face(std::size_t axis, std::int64_t i) const noexcept
+{
+  return i == counts[axis] ? hi[axis] : lo[axis] + static_cast<double>(i) * this->spacing(axis);
+}
+
+std::vector<double> EulerGrid::faces(std::size_t axis) const
+{
+  std::vector<double> faces(static_cast<std::size_t>(counts[axis]) + 1);
+  for (std::int64_t i = 0; i <= counts[axis]; ++i)
+  {
+    faces[static_cast<std::size_t>(i)] = this->face(axis, i);
+  }
+  return faces;
+}
+
+double EulerGrid::centre(std::size_t axis, std::int64_t i) const noexcept
+{
+  return lo[axis] + (static_cast<double>(i) + 0.5) * this->spacing(axis);
+}
+
+EulerGrid make_euler_grid(const EulerGridRequest& request)
+{
+  check_extent(request.lo, request.hi);
+  const EulerGrid grid{ request.lo, request.hi, counts_of(request) };
+  double cells = 1;
+  for (const std::int64_t count : grid.counts)
+  {
+    cells *= static_cast<double>(count);
+  }
+  if (cells > static_cast<double>(most_cells))
+  {
+    throw LimitError("expected at most 2^40 cells, got " + std::to_string(grid.counts[0]) + " x " +
+      std::to_string(grid.counts[1]) + " x " + std::to_string(grid.counts[2]));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    // of equal steps those at the larger end of the numbers are the first to vanish, and the last may be shorter
+    const std::int64_t last = grid.counts[axis] - 1;
+    const double thin = grid.spacing(axis);
+    const double largest = std::max(std::abs(grid.lo[axis]), std::abs(grid.hi[axis]));
+    const bool fits = largest + thin > largest && grid.face(axis, last) < grid.hi[axis];
+    if (!fits && !std::ranges::is_sorted(grid.faces(axis), std::less_equal<>()))
+    {
+      throw Error("expected cells with a thickness, got " + std::to_string(grid.counts[axis]) +
+        " between " + granular::to_text(grid.lo[axis]) + " and " +
+        granular::to_text(grid.hi[axis]) + " along " + axis_names[axis] +
+        ", of which some have none");
+    }
+  }
+  return grid;
+}
+}

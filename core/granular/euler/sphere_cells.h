@@ -14,7 +14,7 @@ namespace granular
 /// The volume that a sphere has in a cell of a grid.
 struct CellShare
 {
-  std::int64_t cell = 0; ///< number in the grid
+  std::int64_t cell = 0; ///< number in the range that was asked for, x fastest
   double volume = 0;     ///< above 0
 };
 
@@ -35,9 +35,10 @@ public:
   /// The cells that the bounds of a sphere touch.
   CellRange range(const Twofold3& centre, double radius) const noexcept;
 
-  /// Adds the shares of a sphere at hi + lo of the centre, finite, radius >= 0; what is outside of the grid is in none.
+  /// Adds the shares of a sphere at hi + lo of the centre, finite, radius >= 0, in cells within a range of the grid.
   /// A sphere without volume has no shares. From any thread.
-  void find(const Twofold3& centre, double radius, std::vector<CellShare>& shares) const;
+  void find(const Twofold3& centre, double radius, const CellRange& within,
+    std::vector<CellShare>& shares) const;
 
 private:
   EulerGrid grid_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/base/slab_finder.h"
+#include "granular/decomposition/slab_finder.h"
 
 #include <algorithm>
 #include <cmath>

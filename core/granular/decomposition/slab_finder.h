@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_base_slab_finder_h
-#define granular_base_slab_finder_h
+#ifndef granular_decomposition_slab_finder_h
+#define granular_decomposition_slab_finder_h
 
 #include <algorithm>
 #include <cstddef>

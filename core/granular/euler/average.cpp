@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/euler/average.h"
+
+#include "granular/base/number_print.h"
+#include "granular/euler/average_passes.h"
+
+#include <algorithm>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+/// Tells what is not known of the grains. The same on all ranks: grains speak for those who have none.
+struct Known
+{
+  std::int64_t rows = 0;
+  std::int64_t velocity = 0; ///< of the ranks that have grains, how many have it
+  std::int64_t radius = 0;
+  std::int64_t mass = 0;
+  std::int64_t holders = 0; ///< ranks that have grains
+};
+
+void note_missing(const Known& known, const EulerAverageRequest& request, Notices& notices)
+{
+  struct Missing
+  {
+    std::int64_t Known::*count;
+    std::string text;
+  };
+  const Missing all[] = {
+    { &Known::velocity, "no array '" + request.arrays.velocity + "' of velocities: v_avg is 0" },
+    { &Known::radius,
+      "no array '" + request.arrays.radius + "' of radii: radius and volumefraction are 0" },
+    { &Known::mass,
+      "neither an array '" + request.arrays.mass +
+        "' nor density and radius: the mass of each grain is taken as 1" },
+  };
+  for (const Missing& missing : all)
+  {
+    const std::int64_t count = known.*missing.count;
+    if (count == 0 && known.holders > 0)
+    {
+      notices.push_back({ {}, missing.text });
+    }
+    else if (count < known.holders)
+    {
+      throw Error("expected the same arrays on all processes, got some without: " + missing.text);
+    }
+  }
+}
+
+void check_known(const Known& known, const EulerAverageRequest& request, Notices& notices)
+{
+  note_missing(known, request, notices);
+  if (request.cells.weights == CellWeights::Overlap && known.radius == 0 && known.holders > 0)
+  {
+    throw Error("expected an array '" + request.arrays.radius +
+      "' of radii, which the weights Overlap need, got none");
+  }
+}
+}
+
+EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,
+  Communicator& ranks, const Executor& executor, Notices& notices, Progress& progress)
+{
+  GrainSources sources;
+  Known known;
+  do_together(ranks,
+    [&]
+    {
+      if (frame.rows > 0 && !frame.points)
+      {
+        throw Error("expected points to average, got none");
+      }
+      sources = find_grain_sources(frame, request.arrays);
+      const std::int64_t holds = frame.rows > 0 ? 1 : 0;
+      known = { frame.rows, sources.velocity[0] ? holds : 0, sources.radius ? holds : 0,
+        sources.mass || sources.density ? holds : 0, holds };
+    });
+  std::int64_t counts[] = { known.rows, known.velocity, known.radius, known.mass, known.holders };
+  ranks.sum(counts);
+  known = { counts[0], counts[1], counts[2], counts[3], counts[4] };
+  do_together(ranks, [&] { check_known(known, request, notices); });
+  AveragePasses passes(frame, sources, known.rows, request, ranks, executor, progress);
+  return passes.run();
+}
+
+void TimeAverage::add(const EulerAverages& frame)
+{
+  const EulerCells& cells = frame.cells;
+  const std::span<const EulerArray> arrays = euler_arrays();
+  if (frames_ == 0)
+  {
+    centres_ = cells.centres;
+    mass_.assign(frame.mass.size(), {});
+    momentum_.assign(frame.momentum.size(), {});
+    for (const EulerArray& array : arrays)
+    {
+      means_.emplace_back((cells.*array.values).size());
+    }
+  }
+  if (cells.centres != centres_)
+  {
+    throw Error("expected the same cells in all frames that are averaged, got others in frame " +
+      std::to_string(frames_) + ": give Bounds");
+  }
+  const auto add_all = [](std::vector<CompensatedSum>& sums, const std::vector<double>& terms)
+  {
+    for (std::size_t i = 0; i < std::min(sums.size(), terms.size()); ++i)
+    {
+      sums[i].add(terms[i]);
+    }
+  };
+  add_all(mass_, frame.mass);
+  add_all(momentum_, frame.momentum);
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    add_all(means_[i], cells.*arrays[i].values);
+  }
+  ++frames_;
+}
+
+EulerCells TimeAverage::cells() const
+{
+  EulerCells cells;
+  cells.centres = centres_;
+  const std::span<const EulerArray> arrays = euler_arrays();
+  for (std::size_t i = 0; i < means_.size(); ++i)
+  {
+    std::vector<double>& values = cells.*arrays[i].values;
+    for (const CompensatedSum& sum : means_[i])
+    {
+      values.push_back(sum.value() / static_cast<double>(frames_));
+    }
+  }
+  for (std::size_t i = 0; i < momentum_.size(); ++i)
+  {
+    const double mass = mass_[i / 3].value();
+    cells.velocities[i] = mass > 0 ? momentum_[i].value() / mass : 0;
+  }
+  return cells;
+}
+}

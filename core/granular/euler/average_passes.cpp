@@ -1,0 +1,532 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/euler/average_passes.h"
+
+#include "granular/base/mapping.h"
+#include "granular/base/number_print.h"
+#include "granular/euler/sphere_box.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
+constexpr std::int64_t rows_of_chunk = 65536;
+
+/// Of the sums of a group. More of them have fewer sums of ranks to wait for.
+constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
+
+/// Below it the parts of a block are not worth a sum of their own each.
+constexpr std::int64_t rows_of_part = 16384;
+
+/// How far below the largest possible term of a stress its terms still count.
+constexpr int stress_bits = 192;
+
+/// Of one grain in one cell.
+constexpr std::int64_t most_images = 1000;
+
+/// Where the sums of each quantity are.
+enum Lane : std::size_t
+{
+  Share,
+  Mass,
+  MomentumX,
+  MomentumY,
+  MomentumZ,
+  Radius,
+  Volume
+};
+
+std::string mebibytes(double bytes)
+{
+  return std::to_string(static_cast<std::int64_t>(bytes / 1048576)) + " MiB";
+}
+
+double volume_of_cell(const EulerGrid& grid, const std::array<std::int64_t, 3>& cell) noexcept
+{
+  double volume = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    volume *= grid.face(axis, cell[axis] + 1) - grid.face(axis, cell[axis]);
+  }
+  return volume;
+}
+
+/// The place of a cell among the wanted ones, or -1.
+std::int64_t place_of(const EulerGrid& grid, const WantedCells& wanted,
+  const std::array<std::int64_t, 3>& cell) noexcept
+{
+  const auto& [nx, ny, nz] = grid.counts;
+  const std::int64_t number = (cell[2] * ny + cell[1]) * nx + cell[0];
+  std::int64_t place = 0;
+  for (std::size_t axis = 3; axis-- > 0;)
+  {
+    const std::int64_t first = wanted.range.first[axis];
+    const std::int64_t last = wanted.range.last[axis];
+    if (cell[axis] < first || cell[axis] >= last)
+    {
+      return -1;
+    }
+    place = place * (last - first) + cell[axis] - first;
+  }
+  return number >= wanted.first && number < wanted.last ? place - wanted.first : -1;
+}
+}
+
+WantedCells WantedCells::all(const EulerGrid& grid) noexcept
+{
+  return { { {}, grid.counts }, 0, grid.size() };
+}
+
+std::int64_t WantedCells::count(const EulerGrid& grid) const noexcept
+{
+  std::int64_t cells = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    cells *= std::max<std::int64_t>(range.last[axis] - range.first[axis], 0);
+  }
+  return cells == grid.size() ? std::max<std::int64_t>(last - first, 0) : cells;
+}
+
+/// Shares of grains in cells of a block, some at a time.
+struct AveragePasses::Batch
+{
+  static constexpr std::size_t most = GrainBlock::most_rows;
+
+  GrainBlock grains;
+  std::array<std::int64_t, most> rows;
+  GrainCells::Shares shares;
+
+  std::int64_t outside = 0; ///< grains that had no share
+  std::size_t size = 0;
+  std::array<std::size_t, most> grain; ///< of grains
+  std::array<std::int64_t, most> cell; ///< of the block
+  std::array<double, most> share;
+  std::array<double, most> volume;
+  std::array<SumScale::Terms, most> terms;
+};
+
+AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
+  const EulerAverageRequest& request, Communicator& ranks, const Executor& executor,
+  Progress& progress)
+  : frame_(frame)
+  , rows_(rows)
+  , request_(request)
+  , ranks_(ranks)
+  , executor_(executor)
+  , progress_(progress)
+  , grains_(frame, sources)
+  , cells_(request.grid, request.cells, frame.has_box ? &frame.header.box : nullptr)
+  , blocks_(request.grid.counts)
+  , stress_(!request.arrays.stress.empty())
+{
+}
+
+EulerAverages AveragePasses::run()
+{
+  progress_.set_part(0, 0.3);
+  do_together(ranks_, [&] { this->check_memory(); });
+  this->scan();
+  do_together(ranks_, [&] { this->plan(); });
+  const std::int64_t block_bytes =
+    blocks_.largest() * 8 * static_cast<std::int64_t>(std::max(sums_.size(), stresses_.size()));
+  const std::int64_t together = std::max<std::int64_t>(bytes_of_group / block_bytes, 1);
+  const std::int64_t blocks = blocks_.size();
+  for (std::int64_t first = 0; first < blocks; first += together)
+  {
+    const std::int64_t last = std::min(first + together, blocks);
+    const std::int64_t rows =
+      std::accumulate(counts_.begin() + first, counts_.begin() + last, std::int64_t{ 0 });
+    if (rows > 0)
+    {
+      const auto threads = static_cast<std::int64_t>(executor_.threads());
+      const std::int64_t parts =
+        last - first >= 2 * threads ? 1 : std::clamp<std::int64_t>(rows / rows_of_part, 1, threads);
+      progress_.set_part(0.3 + 0.7 * static_cast<double>(first) / static_cast<double>(blocks),
+        0.3 + 0.7 * static_cast<double>(last) / static_cast<double>(blocks));
+      this->sum_group({ first, last, parts });
+    }
+  }
+  return std::move(result_);
+}
+
+/// The cells that are wanted, the sums of a group, and the means.
+void AveragePasses::check_memory() const
+{
+  const auto cells = static_cast<double>(request_.wanted.count(request_.grid));
+  const double values =
+    static_cast<double>(values_of_cell) + (stress_ ? 6 : 0) + (request_.keep_sums ? 4 : 0);
+  const double blocks = 16 * static_cast<double>(blocks_.size());
+  const double bytes = 8 * cells * values + blocks + static_cast<double>(bytes_of_group);
+  const auto available = static_cast<double>(available_memory());
+  if (bytes > available)
+  {
+    throw LimitError("expected cells that fit into memory, got " +
+      std::to_string(request_.grid.counts[0]) + " x " + std::to_string(request_.grid.counts[1]) +
+      " x " + std::to_string(request_.grid.counts[2]) + " cells, which take " + mebibytes(bytes) +
+      "; " + mebibytes(available) + " are available");
+  }
+}
+
+void AveragePasses::scan()
+{
+  do_together(ranks_,
+    [&]
+    {
+      const auto chunks =
+        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
+      entries_.resize(blocks_.size() > 1 ? chunks : 0);
+      std::vector<Scan> scans(executor_.workers(chunks));
+      executor_.parallel_for(
+        chunks,
+        [&](std::size_t chunk, std::size_t worker) { this->scan_chunk(chunk, scans[worker]); },
+        progress_);
+      for (const Scan& scan : scans)
+      {
+        scanned_.add(scan);
+        scanned_.outside += scan.outside;
+      }
+      if (scanned_.broken == 0 && !frame_.ghosts)
+      {
+        grains_.trust_all();
+      }
+    });
+  const std::vector<std::string> all =
+    ranks_.all_gather({ reinterpret_cast<const char*>(&scanned_), sizeof scanned_ });
+  scanned_ = {};
+  for (const std::string& bytes : all)
+  {
+    Scan scan;
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&scan));
+    scanned_.add(scan);
+    scanned_.outside += scan.outside;
+  }
+  result_.outside = scanned_.outside;
+  result_.broken = scanned_.broken;
+  do_together(ranks_,
+    [&]
+    {
+      block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries_, rows_of_chunk, blocks_.size())
+                                       : BlockRows::all(frame_.rows);
+      counts_.resize(static_cast<std::size_t>(blocks_.size()));
+      for (std::size_t block = 0; block < counts_.size(); ++block)
+      {
+        counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
+      }
+    });
+  ranks_.sum(counts_);
+}
+
+void AveragePasses::scan_chunk(std::size_t chunk, Scan& scan)
+{
+  GrainBlock grains;
+  std::array<std::int64_t, GrainBlock::most_rows> buffer;
+  std::vector<BlockRows::Entry>* const entries = entries_.empty() ? nullptr : &entries_[chunk];
+  const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
+  const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
+  for (std::int64_t first = start; first < end; first += rows_of_block)
+  {
+    const std::span<std::int64_t> rows =
+      std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
+    std::iota(rows.begin(), rows.end(), first);
+    grains_.scan(rows, grains, scan);
+    for (std::size_t i = 0; i < grains.rows; ++i)
+    {
+      bool inside = !grains.uses(i);
+      const auto row = static_cast<std::uint32_t>(rows[i] - start);
+      const auto visit = [&](const CellRange& range)
+      {
+        inside = true;
+        if (entries)
+        {
+          blocks_.each(range,
+            [&](std::int64_t block) {
+              entries->push_back({ static_cast<std::uint32_t>(block), row });
+            });
+        }
+      };
+      if (grains.uses(i))
+      {
+        cells_.each_range(grains.positions + 3 * i, grains.radius[i], visit);
+      }
+      scan.outside += inside ? 0 : 1;
+    }
+  }
+}
+
+/// How the sums are made, and the cells that they are for.
+void AveragePasses::plan()
+{
+  const double radius = scanned_.radius.largest();
+  const std::int64_t images = cells_.most_images(radius);
+  if (images > most_images)
+  {
+    throw LimitError(
+      "expected grains not much larger than the periodic box, got a radius of " + to_text(radius));
+  }
+  const std::int64_t terms = rows_ * images;
+  cells_.set_largest_volume(sphere_volume(radius));
+  const int quantum = cells_.quantum();
+  const SumScale::Range mass = scanned_.mass.range(quantum);
+  const SumScale::Range speed = scanned_.speed.range(0);
+  const SumScale::Range momentum = { mass.top + speed.top, mass.bottom + speed.bottom };
+  Magnitudes volumes; // that of the smallest one may be less than any number
+  const double volume[] = { sphere_volume(radius), sphere_volume(scanned_.radius.smallest()) };
+  volumes.add(volume, 2);
+  sums_ = SumScale({ { { 1, quantum }, mass, momentum, momentum, momentum,
+                     scanned_.radius.range(quantum), volumes.range(quantum), {} } },
+    terms);
+  const int largest = std::max(mass.top + 2 * (speed.top + 1), scanned_.stress.range(0).top) + 1;
+  std::array<SumScale::Range, SumScale::lanes> ranges;
+  ranges.fill({ largest, largest - stress_bits });
+  stresses_ = SumScale(ranges, terms);
+
+  const EulerGrid& grid = request_.grid;
+  EulerCells& cells = result_.cells;
+  const std::int64_t wanted = request_.wanted.count(grid);
+  cells.resize(wanted);
+  cells.normal_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
+  cells.shear_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
+  result_.mass.resize(request_.keep_sums ? static_cast<std::size_t>(wanted) : 0);
+  result_.momentum.resize(3 * result_.mass.size());
+  const CellRange& range = request_.wanted.range;
+  std::array<std::int64_t, 3> cell;
+  for (cell[2] = range.first[2]; cell[2] < range.last[2]; ++cell[2])
+  {
+    for (cell[1] = range.first[1]; cell[1] < range.last[1]; ++cell[1])
+    {
+      for (cell[0] = range.first[0]; cell[0] < range.last[0]; ++cell[0])
+      {
+        const std::int64_t place = place_of(grid, request_.wanted, cell);
+        for (std::size_t axis = 0; place >= 0 && axis < 3; ++axis)
+        {
+          cells.centres[static_cast<std::size_t>(3 * place) + axis] = grid.centre(axis, cell[axis]);
+        }
+      }
+    }
+  }
+}
+
+void AveragePasses::sum_group(const Group& group)
+{
+  this->add_grains(group, sums_,
+    [](Batch& batch, const double*)
+    {
+      const GrainBlock& grains = batch.grains;
+      for (std::size_t n = 0; n < batch.size; ++n)
+      {
+        const std::size_t i = batch.grain[n];
+        const double* const v = grains.velocities + 3 * i;
+        const double mass = grains.mass[i] * batch.share[n];
+        batch.terms[n] = { batch.share[n], mass, mass * v[0], mass * v[1], mass * v[2],
+          grains.radius[i] * batch.share[n], batch.volume[n], 0 };
+      }
+    });
+  if (blocks_.size() == 1) // the scan did not look
+  {
+    ranks_.sum({ &outside_, 1 });
+    result_.outside = outside_;
+  }
+  do_together(ranks_, [&] { this->finish_means(group); });
+  this->add_grains(group, stresses_,
+    [](Batch& batch, const double* means)
+    {
+      const GrainBlock& grains = batch.grains;
+      for (std::size_t n = 0; n < batch.size; ++n)
+      {
+        const std::size_t i = batch.grain[n];
+        const double* const v = grains.velocities + 3 * i;
+        const double* const mean = means + 3 * batch.cell[n];
+        const double mass = grains.mass[i] * batch.share[n];
+        const double x = v[0] - mean[0];
+        const double y = v[1] - mean[1];
+        const double z = v[2] - mean[2];
+        batch.terms[n] = { -mass * x * x, -mass * y * y, -mass * z * z, -mass * x * y,
+          -mass * x * z, -mass * y * z, 0, 0 };
+        for (std::size_t k = 0; grains.stresses && k < 6; ++k)
+        {
+          batch.terms[n][k] += grains.stresses[6 * i + k] * batch.share[n];
+        }
+      }
+    });
+  do_together(ranks_, [&] { this->finish_stress(group); });
+}
+
+/// Calls take() whenever the batch is full, and at the end, with the shares of some of the rows of a block.
+template <class Take>
+void AveragePasses::each_batch(
+  std::int64_t block, std::int64_t first, std::int64_t last, Batch& batch, const Take& take) const
+{
+  const CellRange range = blocks_.range(block);
+  const GrainBlock& grains = batch.grains;
+  while (first < last)
+  {
+    const std::span<const std::int64_t> rows = block_rows_.rows(block, first, last, batch.rows);
+    first += static_cast<std::int64_t>(rows.size());
+    grains_.load(rows, batch.grains);
+    for (std::size_t i = 0; i < grains.rows; ++i)
+    {
+      if (!grains.uses(i))
+      {
+        continue;
+      }
+      bool inside = false;
+      cells_.each_share(grains.positions + 3 * i, grains.radius[i], range, batch.shares,
+        [&](std::int64_t cell, double share, double volume)
+        {
+          inside = true;
+          batch.grain[batch.size] = i;
+          batch.cell[batch.size] = cell;
+          batch.share[batch.size] = share;
+          batch.volume[batch.size] = volume;
+          if (++batch.size == Batch::most)
+          {
+            take();
+            batch.size = 0;
+          }
+        });
+      batch.outside += inside ? 0 : 1;
+    }
+    take();
+    batch.size = 0;
+  }
+}
+
+/// Sums over the grains of all ranks in the cells of a group; make_terms fills the terms of a batch and knows the means
+/// of its block. The sums of all parts of all ranks come to be the first part.
+template <class MakeTerms>
+void AveragePasses::add_grains(
+  const Group& group, const SumScale& scale, const MakeTerms& make_terms)
+{
+  const std::int64_t cells = blocks_.largest();
+  const std::int64_t block_size = cells * static_cast<std::int64_t>(scale.size());
+  const std::int64_t part_size = group.blocks() * block_size;
+  const auto do_task = [&](std::int64_t at, std::int64_t part, Batch& batch)
+  {
+    std::int64_t* const sums = integers_.data() + part * part_size + at * block_size;
+    std::fill_n(sums, block_size, 0);
+    const std::int64_t count = block_rows_.count(group.first + at);
+    this->each_batch(group.first + at, count * part / group.parts, count * (part + 1) / group.parts,
+      batch,
+      [&]
+      {
+        make_terms(batch, means_.data() + 3 * at * cells);
+        scale.add(std::span(batch.terms).first(batch.size), batch.cell.data(), sums);
+      });
+  };
+  do_together(ranks_,
+    [&]
+    {
+      integers_.resize(static_cast<std::size_t>(group.parts * part_size));
+      const auto tasks = static_cast<std::size_t>(group.blocks() * group.parts);
+      std::vector<Batch> batches(executor_.workers(tasks));
+      executor_.parallel_for(
+        tasks,
+        [&](std::size_t task, std::size_t worker)
+        {
+          const auto number = static_cast<std::int64_t>(task);
+          do_task(number / group.parts, number % group.parts, batches[worker]);
+        },
+        progress_);
+      outside_ = 0;
+      for (const Batch& batch : batches)
+      {
+        outside_ += batch.outside;
+      }
+      for (std::int64_t part = 1; part < group.parts; ++part)
+      {
+        const auto from = integers_.begin() + part * part_size;
+        std::transform(from, from + part_size, integers_.begin(), integers_.begin(), std::plus<>());
+      }
+    });
+  ranks_.sum({ integers_.data(), static_cast<std::size_t>(part_size) });
+}
+
+/// Calls take(cell of the group, place among the wanted ones or -1, volume of the cell, its sums) for each cell that has a grain.
+template <class Take>
+void AveragePasses::each_cell(const Group& group, const SumScale& scale, const Take& take)
+{
+  const auto largest = static_cast<std::size_t>(blocks_.largest());
+  executor_.parallel_for(
+    static_cast<std::size_t>(group.blocks()),
+    [&](std::size_t at, std::size_t)
+    {
+      const std::int64_t block = group.first + static_cast<std::int64_t>(at);
+      if (counts_[static_cast<std::size_t>(block)] == 0)
+      {
+        return;
+      }
+      const CellRange range = blocks_.range(block);
+      std::size_t cell = at * largest;
+      std::array<std::int64_t, 3> x;
+      for (x[2] = range.first[2]; x[2] < range.last[2]; ++x[2])
+      {
+        for (x[1] = range.first[1]; x[1] < range.last[1]; ++x[1])
+        {
+          for (x[0] = range.first[0]; x[0] < range.last[0]; ++x[0], ++cell)
+          {
+            take(cell, place_of(request_.grid, request_.wanted, x),
+              volume_of_cell(request_.grid, x),
+              scale.values(integers_.data() + cell * scale.size()));
+          }
+        }
+      }
+    },
+    progress_);
+}
+
+void AveragePasses::finish_means(const Group& group)
+{
+  means_.resize(static_cast<std::size_t>(3 * group.blocks() * blocks_.largest()));
+  EulerCells& cells = result_.cells;
+  this->each_cell(group, sums_,
+    [&](std::size_t cell, std::int64_t place, double volume, const SumScale::Terms& sums)
+    {
+      double* const mean = means_.data() + 3 * cell;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        mean[axis] = sums[Mass] > 0 ? sums[MomentumX + axis] / sums[Mass] : 0;
+      }
+      if (place < 0)
+      {
+        return;
+      }
+      const auto to = static_cast<std::size_t>(place);
+      std::copy_n(mean, 3, cells.velocities.begin() + 3 * place);
+      cells.radius[to] = sums[Share] > 0 ? sums[Radius] / sums[Share] : 0;
+      cells.volume_fraction[to] = sums[Volume] / volume;
+      if (request_.keep_sums)
+      {
+        result_.mass[to] = sums[Mass];
+        std::copy_n(&sums[MomentumX], 3, result_.momentum.begin() + 3 * place);
+      }
+    });
+}
+
+void AveragePasses::finish_stress(const Group& group)
+{
+  EulerCells& cells = result_.cells;
+  this->each_cell(group, stresses_,
+    [&](std::size_t, std::int64_t place, double volume, const SumScale::Terms& sums)
+    {
+      if (place < 0)
+      {
+        return;
+      }
+      const auto to = static_cast<std::size_t>(place);
+      cells.pressure[to] = -(sums[0] + sums[1] + sums[2]) / (3 * volume);
+      for (std::size_t k = 0; stress_ && k < 3; ++k)
+      {
+        cells.normal_stress[3 * to + k] = sums[k] / volume;
+        cells.shear_stress[3 * to + k] = sums[3 + k] / volume;
+      }
+    });
+}
+}

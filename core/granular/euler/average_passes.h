@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_average_passes_h
+#define granular_euler_average_passes_h
+
+#include "granular/euler/average.h"
+#include "granular/euler/cell_blocks.h"
+#include "granular/euler/reproducible_sum.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// The passes over the grains that averages take: one looks how large their numbers are and in which blocks of cells they
+/// lie; then, for some blocks at a time, one makes the sums, and another, when the mean velocities are known, those of the
+/// stress. All ranks do the same blocks at the same time.
+class AveragePasses
+{
+public:
+  /// rows: of all ranks.
+  AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
+    const EulerAverageRequest& request, Communicator& ranks, const Executor& executor,
+    Progress& progress);
+
+  EulerAverages run();
+
+private:
+  /// What is known of the numbers of grains, and of places.
+  struct Scan : GrainValues::Scan
+  {
+    std::int64_t outside = 0; ///< grains in no cell; of several blocks
+  };
+
+  struct Batch;
+
+  /// Blocks [first, last), each summed by so many tasks.
+  struct Group
+  {
+    std::int64_t first = 0;
+    std::int64_t last = 0;
+    std::int64_t parts = 1;
+
+    std::int64_t blocks() const noexcept { return last - first; }
+  };
+
+  void check_memory() const;
+  void scan();
+  void scan_chunk(std::size_t chunk, Scan& scan);
+  void plan();
+  void sum_group(const Group& group);
+  template <class MakeTerms>
+  void add_grains(const Group& group, const SumScale& scale, const MakeTerms& make_terms);
+  template <class Take>
+  void each_batch(std::int64_t block, std::int64_t first, std::int64_t last, Batch& batch,
+    const Take& take) const;
+  void finish_means(const Group& group);
+  void finish_stress(const Group& group);
+  template <class Take>
+  void each_cell(const Group& group, const SumScale& scale, const Take& take);
+
+  const FrameView& frame_;
+  const std::int64_t rows_;
+  const EulerAverageRequest& request_;
+  Communicator& ranks_;
+  const Executor& executor_;
+  PartialProgress progress_;
+  GrainValues grains_;
+  GrainCells cells_;
+  CellBlocks blocks_;
+  bool stress_; ///< there is one on some rank
+
+  Scan scanned_;
+  std::vector<std::vector<BlockRows::Entry>> entries_; ///< of each chunk
+  BlockRows block_rows_;
+  std::vector<std::int64_t> counts_; ///< rows of each block, of all ranks
+  SumScale sums_{ {}, 1 };
+  SumScale stresses_{ {}, 1 };
+  std::vector<std::int64_t> integers_; ///< sums of a group: part, block, cell, level, lane
+  std::vector<double> means_;          ///< velocities of the cells of a group
+  std::int64_t outside_ = 0;           ///< grains without a share in the last pass over this rank's
+  EulerAverages result_;
+};
+}
+#endif

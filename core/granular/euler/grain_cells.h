@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_grain_cells_h
+#define granular_euler_grain_cells_h
+
+#include "granular/base/box.h"
+#include "granular/euler/euler_grid.h"
+#include "granular/euler/sphere_box.h"
+#include "granular/euler/sphere_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// To which cells a grain belongs.
+enum class CellWeights : std::uint8_t
+{
+  Centre, ///< to that of its centre, whole, as in LIGGGHTS
+  Overlap ///< to each that it touches, by its volume there
+};
+
+/// Finds the cells of grains and of their periodic images.
+class GrainCells
+{
+public:
+  struct Options
+  {
+    CellWeights weights = CellWeights::Overlap;
+    bool short_cuts = true; ///< see SphereCells
+  };
+
+  /// box: of which grains have images along its periodic axes, wherever the grid reaches; null or tilted: none have.
+  GrainCells(const EulerGrid& grid, const Options& options, const Box* box);
+  GrainCells(const GrainCells&) = delete;
+  GrainCells& operator=(const GrainCells&) = delete;
+
+  /// Room for the work of a thread.
+  using Shares = std::vector<CellShare>;
+
+  /// Calls visit(range) with the cells that each image of a grain may belong to, if there are any.
+  template <class Visit>
+  void each_range(const double* centre, double radius, const Visit& visit) const
+  {
+    if (this->is_point(radius))
+    {
+      this->each_cell(centre,
+        [&](const std::array<std::int64_t, 3>& cell) {
+          visit({ cell, { cell[0] + 1, cell[1] + 1, cell[2] + 1 } });
+        });
+      return;
+    }
+    this->each_image(centre, radius,
+      [&](const Twofold3& image)
+      {
+        const CellRange range = spheres_.range(image, radius);
+        if (range.first[0] < range.last[0] && range.first[1] < range.last[1] &&
+          range.first[2] < range.last[2])
+        {
+          visit(range);
+        }
+      });
+  }
+
+  /// Calls add(cell, share, volume) for each cell within a range that a grain belongs to: its number in the range, the part
+  /// of the grain that is in it, in (0, 1] and a multiple of 2^quantum(), and that part of the volume.
+  template <class Add>
+  void each_share(const double* centre, double radius, const CellRange& within, Shares& shares,
+    const Add& add) const
+  {
+    const double volume = sphere_volume(radius);
+    if (this->is_point(radius))
+    {
+      this->each_cell(centre,
+        [&](const std::array<std::int64_t, 3>& cell)
+        {
+          std::int64_t number = 0;
+          for (std::size_t axis = 3; axis-- > 0;)
+          {
+            if (cell[axis] < within.first[axis] || cell[axis] >= within.last[axis])
+            {
+              return;
+            }
+            number =
+              number * (within.last[axis] - within.first[axis]) + cell[axis] - within.first[axis];
+          }
+          add(number, 1.0, volume);
+        });
+      return;
+    }
+    shares.clear();
+    this->each_image(
+      centre, radius, [&](const Twofold3& image) { spheres_.find(image, radius, within, shares); });
+    for (const CellShare& share : shares)
+    {
+      const double part = share.volume / volume;
+      const double rounded = part + share_shift_ - share_shift_;
+      if (rounded > 0)
+      {
+        add(share.cell, std::min(rounded, 1.0), share.volume);
+      }
+    }
+  }
+
+  /// The most images of a grain of that radius, or smaller, that one cell may have.
+  std::int64_t most_images(double radius) const noexcept;
+
+  /// largest_volume: of all grains. To be called before each_share, whenever weights are Overlap.
+  void set_largest_volume(double largest_volume) noexcept;
+
+  /// Shares are multiples of 2^quantum, 2^-64 of a grain or of the smallest cell, whatever is less; 0 for Centre.
+  int quantum() const noexcept { return quantum_; }
+
+private:
+  struct Images
+  {
+    bool repeats = false; ///< grains have images along the axis
+    Twofold length;
+  };
+
+  /// What finds the cell of a coordinate.
+  struct Axis
+  {
+    double lo = 0;
+    double hi = 0;
+    double spacing = 0;
+    double per_length = 0; ///< cells
+    std::int64_t last = 0; ///< cell
+  };
+
+  std::array<std::int64_t, 2> images(std::size_t axis, double x, double radius) const noexcept;
+
+  /// Whether it belongs to one cell whole: what has no volume does, too.
+  bool is_point(double radius) const noexcept
+  {
+    return weights_ == CellWeights::Centre || sphere_volume(radius) == 0;
+  }
+
+  template <class Visit>
+  void each_image(const double* centre, double radius, const Visit& visit) const
+  {
+    std::array<std::array<std::int64_t, 2>, 3> k;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      k[axis] = this->images(axis, centre[axis], radius);
+    }
+    for (std::int64_t z = k[2][0]; z <= k[2][1]; ++z)
+    {
+      for (std::int64_t y = k[1][0]; y <= k[1][1]; ++y)
+      {
+        for (std::int64_t x = k[0][0]; x <= k[0][1]; ++x)
+        {
+          visit(Twofold3{ this->image(0, centre[0], x), this->image(1, centre[1], y),
+            this->image(2, centre[2], z) });
+        }
+      }
+    }
+  }
+
+  template <class Visit>
+  void each_cell(const double* centre, const Visit& visit) const
+  {
+    if (!repeats_)
+    {
+      const std::array<std::int64_t, 3> cell = { this->slab(0, centre[0]), this->slab(1, centre[1]),
+        this->slab(2, centre[2]) };
+      if ((cell[0] | cell[1] | cell[2]) >= 0)
+      {
+        visit(cell);
+      }
+      return;
+    }
+    this->each_image(centre, 0,
+      [&](const Twofold3& image)
+      {
+        std::array<std::int64_t, 3> cell;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const double x = image[axis].value();
+          // what is at the upper face of the grid is there as the image at the lower one
+          const bool twice = images_[axis].repeats && x != centre[axis] && !(x < grid_.hi[axis]);
+          cell[axis] = twice ? -1 : this->slab(axis, x);
+        }
+        if ((cell[0] | cell[1] | cell[2]) >= 0)
+        {
+          visit(cell);
+        }
+      });
+  }
+
+  Twofold image(std::size_t axis, double x, std::int64_t k) const noexcept
+  {
+    if (k == 0)
+    {
+      return { x, 0 };
+    }
+    CompensatedSum sum;
+    sum.add(x);
+    sum.add_product(static_cast<double>(k), images_[axis].length);
+    return sum.twofold();
+  }
+
+  std::int64_t slab(std::size_t axis, double x) const noexcept
+  {
+    const Axis& a = axes_[axis];
+    if (!(x >= a.lo && x <= a.hi))
+    {
+      return -1;
+    }
+    auto cell = static_cast<std::int64_t>((x - a.lo) * a.per_length);
+    // rounded, but where the faces of all cells are: see EulerGrid::face
+    cell -= x < a.lo + static_cast<double>(cell) * a.spacing ? 1 : 0;
+    cell += x >= a.lo + static_cast<double>(cell + 1) * a.spacing ? 1 : 0;
+    return cell < a.last ? cell : a.last;
+  }
+
+  EulerGrid grid_;
+  CellWeights weights_;
+  SphereCells spheres_;
+  std::array<Axis, 3> axes_;
+  std::array<Images, 3> images_;
+  bool repeats_ = false; ///< centres have images in the grid
+  int quantum_ = 0;
+  double share_shift_ = 0; ///< 1.5 * 2^(52 + quantum)
+};
+}
+#endif

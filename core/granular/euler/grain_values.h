@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_grain_values_h
+#define granular_euler_grain_values_h
+
+#include "granular/dump/absolute_positions.h"
+#include "granular/dump/column_arrays.h"
+#include "granular/dump/frame_view.h"
+#include "granular/euler/reproducible_sum.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace granular
+{
+/// The names of the arrays that averages are made from. Names are those of arrays (`radius`) or of columns of dumps.
+struct GrainArrays
+{
+  std::string velocity = "v";    ///< three components
+  std::string radius = "radius"; ///< or a diameter under that name
+  std::string mass = "mass";     ///< else density and radius
+  std::string
+    stress = {}; ///< volume times stress, xx yy zz xy xz yz (compute stress/atom); empty: none
+};
+
+/// What a frame has of these. Different ranks may have different rows, but not different arrays.
+struct GrainSources
+{
+  std::array<std::optional<ValueSource>, 3> velocity;
+  std::optional<ValueSource> radius;
+  std::optional<ValueSource> mass;
+  std::optional<ValueSource> density;
+  std::array<std::optional<ValueSource>, 6> stress;
+};
+
+/// Throws Error where an array has another number of components than it should, or texts, and where an array for
+/// stress is named that is not there.
+GrainSources find_grain_sources(const FrameView& frame, const GrainArrays& names);
+
+/// Magnitudes of numbers but 0, as their bits, which are in the order of the numbers.
+class Magnitudes
+{
+public:
+  void add(const double* values, std::size_t count) noexcept
+  {
+    std::uint64_t largest = largest_;
+    std::uint64_t less_one = less_one_;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::uint64_t magnitude = std::bit_cast<std::uint64_t>(values[i]) << 1 >> 1;
+      largest = std::max(largest, magnitude);
+      less_one = std::min(less_one, magnitude - 1); // of 0 it is the largest there is
+    }
+    largest_ = largest;
+    less_one_ = less_one;
+  }
+
+  void add(const Magnitudes& other) noexcept
+  {
+    largest_ = std::max(largest_, other.largest_);
+    less_one_ = std::min(less_one_, other.less_one_);
+  }
+
+  double largest() const noexcept { return std::bit_cast<double>(largest_); } ///< or nan
+  double smallest() const noexcept { return std::bit_cast<double>(less_one_ + 1); }
+
+  /// All such numbers, and their products with factors in (0, 1] that are multiples of 2^quantum.
+  SumScale::Range range(int quantum) const noexcept;
+
+private:
+  std::uint64_t largest_ = 0;
+  std::uint64_t less_one_ = ~std::uint64_t{ 0 };
+};
+
+/// Values of some grains.
+struct GrainBlock
+{
+  static constexpr std::size_t most_rows = 256;
+
+  std::size_t rows = 0;
+  const double* positions = nullptr;     ///< x y z of each, absolute
+  const double* velocities = nullptr;    ///< three of each; 0 where nobody knows
+  const double* radius = nullptr;        ///< 0 where nobody knows
+  const double* mass = nullptr;          ///< 1 where nobody knows
+  const double* stresses = nullptr;      ///< six of each, or null
+  const unsigned char* usable = nullptr; ///< 0: the grain is left out; null: all are usable
+
+  bool uses(std::size_t i) const noexcept { return !usable || usable[i] != 0; }
+
+  // what is not in memory of others as it should be
+  std::array<double, 3 * most_rows> positions_buffer;
+  std::array<double, 3 * most_rows> velocities_buffer;
+  std::array<double, most_rows> radius_buffer;
+  std::array<double, most_rows> mass_buffer;
+  std::array<double, 6 * most_rows> stresses_buffer;
+  std::array<unsigned char, most_rows> usable_buffer;
+};
+
+/// Loads grains of a frame.
+class GrainValues
+{
+public:
+  /// What is known of the numbers of grains.
+  struct Scan
+  {
+    Magnitudes mass;
+    Magnitudes speed; ///< of components
+    Magnitudes radius;
+    Magnitudes stress;
+    std::int64_t broken = 0; ///< grains that are left out, but duplicates
+
+    void add(const Scan& other) noexcept;
+  };
+
+  /// frame and sources must stay.
+  GrainValues(const FrameView& frame, const GrainSources& sources);
+
+  bool has_stress() const noexcept { return sources_.stress[0].has_value(); }
+
+  /// Rows in increasing order, at most most_rows. Duplicates of ghosts are not usable, nor are grains with a number that
+  /// is not finite or too large to add (2^290), or a radius or mass below 0. From any thread.
+  void load(std::span<const std::int64_t> rows, GrainBlock& block) const;
+
+  /// The same, and looks at the numbers of those that are usable.
+  void scan(std::span<const std::int64_t> rows, GrainBlock& block, Scan& scan) const;
+
+  /// From now on load need not look: all grains are usable.
+  void trust_all() noexcept { trusted_ = true; }
+
+private:
+  void load_values(std::span<const std::int64_t> rows, GrainBlock& block) const;
+  void find_usable(std::span<const std::int64_t> rows, GrainBlock& block) const;
+
+  const FrameView& frame_;
+  const GrainSources& sources_;
+  AbsolutePositions positions_;
+  bool trusted_ = false;
+};
+}
+#endif
