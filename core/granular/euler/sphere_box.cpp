@@ -1,2 +1,137 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/sphere_box.h"
+
+#include "granular/euler/sphere_octant.h"
+#include "granular/euler/sphere_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace granular
+{
+namespace
+{
+double square(double x)
+{
+  return x * x;
+}
+
+/// At most one plane an axis: the volume of the part that the box takes of the sphere.
+double one_part(double radius, const Vector3& lo, const Vector3& hi)
+{
+  Vector3 distances = {};
+  std::size_t part = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const bool has_lo = lo[k] > -radius;
+    const double plane = has_lo ? lo[k] : hi[k];
+    const bool is_beyond = has_lo ? plane > 0 : plane < 0;
+    distances[k] = std::min(radius, std::abs(plane));
+    part |= static_cast<std::size_t>(is_beyond) << k;
+  }
+  return cut_sphere(radius, distances)[part];
+}
+
+/// Any number of planes: the octants that the planes through the centre cut, mirrored into the first.
+double sum_of_octants(double radius, const Vector3& lo, const Vector3& hi)
+{
+  double volume = 0;
+  for (std::size_t octant = 0; octant < 8; ++octant)
+  {
+    Vector3 near = {};
+    Vector3 far = {};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const bool is_mirrored = ((octant >> k) & 1) != 0;
+      near[k] = std::max(0.0, is_mirrored ? -hi[k] : lo[k]);
+      far[k] = std::min(radius, is_mirrored ? -lo[k] : hi[k]);
+    }
+    if (near[0] < far[0] && near[1] < far[1] && near[2] < far[2])
+    {
+      volume += octant_volume(radius, near, far);
+    }
+  }
+  return volume;
+}
+
+/// Of a radius whose cube neither over- nor underflows. inside: the volume if the box is wholly inside.
+double moderate_volume(double radius, const Vector3& lo, const Vector3& hi, double inside)
+{
+  double nearest2 = 0;
+  double farthest2 = 0;
+  bool is_one_part = true;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    nearest2 += square(std::max({ 0.0, lo[k], -hi[k] }));
+    farthest2 += square(std::max(-lo[k], hi[k]));
+    is_one_part = is_one_part && (lo[k] <= -radius || hi[k] >= radius);
+  }
+  const double radius2 = radius * radius;
+  if (nearest2 >= radius2)
+  {
+    return 0;
+  }
+  if (farthest2 <= radius2)
+  {
+    return inside;
+  }
+  return is_one_part ? one_part(radius, lo, hi) : sum_of_octants(radius, lo, hi);
+}
+}
+
+double sphere_volume(double radius) noexcept
+{
+  return 4 * std::numbers::pi / 3 * radius * radius * radius;
+}
+
+double box_volume(const Vector3& edges) noexcept
+{
+  Vector3 sorted = edges;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[0] * sorted[2] * sorted[1];
+}
+
+double centred_box_volume(
+  double radius, const Vector3& lo, const Vector3& hi, const Vector3& edges) noexcept
+{
+  constexpr double smallest = 0x1p-250;
+  const double box = box_volume(edges);
+  const double most = std::min(box, sphere_volume(radius));
+  if (!(most > 0))
+  {
+    return 0;
+  }
+  if (radius >= smallest && radius <= 1 / smallest)
+  {
+    return std::min(most, moderate_volume(radius, lo, hi, box));
+  }
+  const int exponent = std::ilogb(radius);
+  Vector3 scaled_lo = lo;
+  Vector3 scaled_hi = hi;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    scaled_lo[k] = std::scalbn(lo[k], -exponent);
+    scaled_hi[k] = std::scalbn(hi[k], -exponent);
+  }
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const double volume = moderate_volume(std::scalbn(radius, -exponent), scaled_lo, scaled_hi, all);
+  return std::min(most, std::scalbn(volume, 3 * exponent));
+}
+
+double sphere_box_volume(
+  const Vector3& centre, double radius, const Vector3& lo, const Vector3& hi) noexcept
+{
+  Vector3 from = {};
+  Vector3 to = {};
+  Vector3 edges = {};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    from[k] = lo[k] - centre[k];
+    to[k] = hi[k] - centre[k];
+    edges[k] = hi[k] - lo[k];
+  }
+  return centred_box_volume(radius, from, to, edges);
+}
+}

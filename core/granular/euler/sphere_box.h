@@ -13,5 +13,13 @@ double sphere_volume(double radius) noexcept;
 /// The error is at most 1e-12 min(V_sphere, V_box) + 16 * 2^-53 * radius * A_max, A_max the largest face of the box.
 double sphere_box_volume(
   const Vector3& centre, double radius, const Vector3& lo, const Vector3& hi) noexcept;
+
+/// The same where lo and hi are seen from the centre, and edges are the lengths of the box, which may be known better
+/// than by hi - lo.
+double centred_box_volume(
+  double radius, const Vector3& lo, const Vector3& hi, const Vector3& edges) noexcept;
+
+/// The product of three lengths, in the order in which it does not over- or underflow on its way.
+double box_volume(const Vector3& edges) noexcept;
 }
 #endif

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_sphere_octant_h
+#define granular_euler_sphere_octant_h
+
+#include "granular/base/box.h"
+
+namespace granular
+{
+/// The volume that a sphere around the origin has in common with a box, 0 <= lo <= hi, by quadrature of the areas of
+/// its slices: the sum of what is positive, so that nothing cancels however small the box is against the sphere. Cubes of
+/// lengths must neither over- nor underflow.
+double octant_volume(double radius, Vector3 lo, Vector3 hi) noexcept;
+}
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_sphere_parts_h
+#define granular_euler_sphere_parts_h
+
+#include "granular/base/box.h"
+
+#include <array>
+#include <cstddef>
+
+namespace granular
+{
+/// The volumes of the up to eight parts that planes across x, y and z cut a sphere into. Bit 0 of the index is set on
+/// the side of the plane across x where the centre is not, bits 1 and 2 likewise for y and z.
+using SphereParts = std::array<double, 8>;
+
+/// distances: of the planes from the centre, from 0; the radius and more: there is none. In closed form; the error of
+/// a part is a few ulps of the volume of the sphere.
+SphereParts cut_sphere(double radius, const Vector3& distances) noexcept;
+}
+#endif
