@@ -3,18 +3,15 @@
 
 #include "private/arrays.h"
 #include "private/decomposition_algorithm.h"
-#include "private/dump_input.h"
+#include "private/particles.h"
 
 #include "granular/decomposition/count_particles.h"
-#include "granular/dump/shared_header.h"
 
 #include "vtkAlgorithmOutput.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -28,30 +25,6 @@
 using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularDecomposition);
-
-namespace
-{
-/**
- * Whether a process asks for the part of the whole that is its own.
- */
-bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks)
-{
-  return wanted.Pieces == ranks.size() && wanted.Piece == ranks.rank();
-}
-
-vtkPointSet* GetPoints(vtkInformationVector** inputs)
-{
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  auto* points = vtkPointSet::SafeDownCast(input);
-  if (!points)
-  {
-    throw granular::UnsupportedError("expected a vtkPointSet of particles, got " +
-      (input ? std::string("a ") + input->GetClassName() : "nothing") +
-      (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it" : ""));
-  }
-  return points;
-}
-}
 
 //------------------------------------------------------------------------------
 /**
@@ -76,7 +49,6 @@ public:
   void Run()
   {
     this->ReadParticles();
-    this->FindTogether();
     switch (this->Self->Mode)
     {
       case PROCESSOR_GRID:
@@ -103,73 +75,9 @@ private:
 
   void ReadParticles()
   {
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        this->Progress.step(0);
-        granular::Notices ofArrays; // that have no use here
-        this->Particles.emplace(GetPoints(this->Inputs), ofArrays);
-      });
-    granular::share_header(this->Particles->View, this->Ranks);
-  }
-
-  /**
-   * Whether each process has its piece of the particles, or each has them all.
-   */
-  void FindTogether()
-  {
-    std::int64_t own = IsOwn(this->Wanted, this->Ranks) ? 1 : 0;
-    this->Ranks.sum({ &own, 1 });
-    this->Together = own == this->Ranks.size();
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        if (own != 0 && !this->Together && this->Self->Mode != RANKS)
-        {
-          throw granular::UnsupportedError(
-            "expected that all processes ask for their own piece, or "
-            "none, got " +
-            std::to_string(own) + " of " + std::to_string(this->Ranks.size()));
-        }
-      });
-  }
-
-  /**
-   * The box that is divided.
-   */
-  std::pair<granular::Vector3, granular::Vector3> FindBounds() const
-  {
-    const granular::FrameView& view = this->Particles->View;
-    const double* given = this->Self->Bounds;
-    if (std::any_of(given, given + 6, [](double bound) { return std::isnan(bound); }))
-    {
-      throw granular::Error("expected Bounds of numbers, got nan");
-    }
-    const bool all = given[0] <= given[1] && given[2] <= given[3] && given[4] <= given[5];
-    if (!all && !view.has_box)
-    {
-      throw granular::Error(
-        "expected the box in the field data of the input (BoxOrigin, BoxVectors), "
-        "got none: give Bounds");
-    }
-    if (!all && view.header.box.tilted)
-    {
-      throw granular::UnsupportedError(
-        "expected a box along the axes, got a tilted one: the subdomains of its processes are "
-        "tilted, too, and no voxels");
-    }
-    const granular::BoxBounds box = all ? granular::BoxBounds{} : view.header.box.bounds();
-    granular::Vector3 lo = box.lo;
-    granular::Vector3 hi = box.hi;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      if (given[2 * k] <= given[2 * k + 1])
-      {
-        lo[k] = given[2 * k];
-        hi[k] = given[2 * k + 1];
-      }
-    }
-    return { lo, hi };
+    granular::do_together(this->Ranks, [&] { this->Progress.step(0); });
+    this->Input.emplace(vtkDataObject::GetData(this->Inputs[0]), this->Ranks);
+    this->Together = AreTogether(this->Wanted, this->Self->Mode == RANKS, this->Ranks);
   }
 
   void SetOutside(std::int64_t own)
@@ -204,10 +112,11 @@ private:
     granular::do_together(this->Ranks,
       [&]
       {
-        const auto [lo, hi] = this->FindBounds();
+        const auto [lo, hi] = this->Input->FindBounds(
+          this->Self->Bounds, "the subdomains of its processes are tilted, too, and no voxels");
         const granular::ProcessGrid grid = this->Shared.MakeGrid(this->Self, lo, hi);
-        counts = granular::count_in_grid(
-          this->Particles->View, grid, this->MakeExecutor(), this->Progress);
+        counts =
+          granular::count_in_grid(this->Input->View(), grid, this->MakeExecutor(), this->Progress);
         this->Found.subdomains = grid.subdomains(0, grid.size());
       });
     this->SetCounts(counts);
@@ -241,7 +150,7 @@ private:
         granular::check_subdomains(
           this->Found.subdomains, checks, {}, this->Notices, this->Progress);
         counts = granular::count_in_subdomains(
-          this->Particles->View, this->Found.subdomains, this->MakeExecutor(), this->Progress);
+          this->Input->View(), this->Found.subdomains, this->MakeExecutor(), this->Progress);
       });
     this->SetCounts(counts);
     this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
@@ -253,7 +162,7 @@ private:
     granular::do_together(this->Ranks,
       [&]
       {
-        const granular::FrameView& view = this->Particles->View;
+        const granular::FrameView& view = this->Input->View();
         const char* name = this->Self->ProcessArray ? this->Self->ProcessArray : "";
         const granular::ArrayView* process = view.find(name);
         if (view.rows > 0 && !process)
@@ -282,8 +191,8 @@ private:
     granular::do_together(this->Ranks,
       [&]
       {
-        own = granular::bounds_of_particles(
-          this->Particles->View, this->MakeExecutor(), this->Progress);
+        own =
+          granular::bounds_of_particles(this->Input->View(), this->MakeExecutor(), this->Progress);
         for (granular::Subdomain& subdomain : own.subdomains)
         {
           subdomain.rank = this->Ranks.rank();
@@ -317,7 +226,7 @@ private:
    */
   void Scale(std::vector<granular::Subdomain>& subdomains) const
   {
-    const granular::FrameView& view = this->Particles->View;
+    const granular::FrameView& view = this->Input->View();
     if (view.coordinates != granular::Coordinates::Scaled)
     {
       return;
@@ -342,7 +251,7 @@ private:
     granular::Decomposition part = this->TakePart();
     this->Scale(part.subdomains);
     VoxelForm form = this->Shared.MakeForm(this->Self);
-    form.Origin = this->Particles->View.point_origin;
+    form.Origin = this->Input->View().point_origin;
     FillVoxels(this->Output, part, form, this->Progress);
     vtkFieldData* data = this->Output->GetFieldData();
     data->PassData(vtkDataObject::GetData(this->Inputs[0])->GetFieldData());
@@ -372,7 +281,7 @@ private:
   granular::Communicator& Ranks;
   AlgorithmProgress Own;
   granular::SharedProgress Progress;
-  std::optional<DumpInput> Particles;
+  std::optional<Particles> Input;
   bool Together = false;
   granular::Decomposition Found; ///< all subdomains
   std::int64_t Processes = 0;    ///< of which some may have no particles, and no subdomain

@@ -128,8 +128,6 @@ private:
   vtkGranularWriter(const vtkGranularWriter&) = delete;
   void operator=(const vtkGranularWriter&) = delete;
 
-  class Input;
-
   void WriteFrames();
 
   std::unique_ptr<Internals> Shared;

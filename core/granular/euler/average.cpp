@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/average.h"
 
-#include "granular/base/number_print.h"
+#include "granular/dump/point_forms.h"
 #include "granular/euler/average_passes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <span>
 #include <string>
 
 namespace granular
@@ -84,6 +88,45 @@ EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest
   do_together(ranks, [&] { check_known(known, request, notices); });
   AveragePasses passes(frame, sources, known.rows, request, ranks, executor, progress);
   return passes.run();
+}
+
+double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks)
+{
+  double largest = 0;
+  do_together(ranks,
+    [&]
+    {
+      const std::optional<ValueSource> radius =
+        find_grain_sources(frame, { .radius = arrays.radius }).radius;
+      if (frame.rows > 0 && !radius)
+      {
+        throw Error("expected an array '" + arrays.radius + "' of radii, got none");
+      }
+      std::vector<std::int64_t> rows(GrainBlock::most_rows);
+      std::vector<double> values(rows.size());
+      for (std::int64_t first = 0; first < frame.rows;
+           first += static_cast<std::int64_t>(rows.size()))
+      {
+        const auto count = static_cast<std::size_t>(
+          std::min(frame.rows - first, static_cast<std::int64_t>(rows.size())));
+        std::iota(rows.begin(), rows.end(), first);
+        load_numbers(*radius, std::span(rows).first(count), values.data());
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          const double value = values[i] * radius->factor;
+          largest = std::isfinite(value) ? std::max(largest, value) : largest;
+        }
+      }
+    });
+  const std::vector<std::string> all =
+    ranks.all_gather({ reinterpret_cast<const char*>(&largest), sizeof largest });
+  for (const std::string& bytes : all)
+  {
+    double other = 0;
+    std::memcpy(&other, bytes.data(), sizeof other);
+    largest = std::max(largest, other);
+  }
+  return largest;
 }
 
 void TimeAverage::add(const EulerAverages& frame)

@@ -65,6 +65,9 @@ struct EulerAverages
 EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,
   Communicator& ranks, const Executor& executor, Notices& notices, Progress& progress);
 
+/// The largest radius of the grains of all ranks; 0 without grains. Throws Error, on all, where there are no radii. Collective.
+double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks);
+
 /// Averages over frames, which must have the same cells: v_avg = sum of momenta / sum of masses; of all other values
 /// the mean, where each frame, also one in which the cell is empty, has the same weight.
 class TimeAverage

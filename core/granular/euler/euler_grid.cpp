@@ -47,16 +47,7 @@ std::int64_t count_cells(double length, double edge)
 
 std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
 {
-  const bool by_counts = request.counts != std::array<std::int64_t, 3>{};
-  const bool by_size = request.size != Vector3{};
-  const bool by_cutoff = request.relative_size != 0;
-  if (int{ by_counts } + int{ by_size } + int{ by_cutoff } != 1)
-  {
-    throw Error(std::string("expected one of the number of cells, their size, and their size in "
-                            "units of the cutoff, got ") +
-      (by_counts || by_size || by_cutoff ? "several" : "none"));
-  }
-  if (by_counts)
+  if (request.by == EulerGridRequest::By::Counts)
   {
     for (const std::int64_t count : request.counts)
     {
@@ -69,8 +60,7 @@ std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
     }
     return request.counts;
   }
-  const double relative = request.relative_size * request.cutoff;
-  const Vector3 size = by_size ? request.size : Vector3{ relative, relative, relative };
+  const Vector3& size = request.size;
   std::array<std::int64_t, 3> counts = {};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

@@ -34,24 +34,28 @@ struct EulerGrid
   bool operator==(const EulerGrid&) const = default;
 };
 
-/// How a user says what cells there are: by one of counts, size and relative_size; the others are 0.
+/// How a user says what cells there are.
 struct EulerGridRequest
 {
+  enum class By : std::uint8_t
+  {
+    Counts,
+    Size
+  };
+
   Vector3 lo = {};
   Vector3 hi = {};
+  By by = By::Counts;
   std::array<std::int64_t, 3> counts = {}; ///< 1 and more along each axis
   Vector3
-    size = {}; ///< edges: the largest number of cells that are not smaller than this, at least 1
-  double relative_size =
-    0;               ///< cell_size_relative of LIGGGHTS: an edge in units of the cutoff below
-  double cutoff = 0; ///< largest distance of centres in contact: twice the largest radius
+    size = {}; ///< edges above 0: the largest number of cells that are not smaller, at least 1, as in LIGGGHTS
 };
 
 /// The most cells of a grid: their values have 64-bit sizes in memory.
 inline constexpr std::int64_t most_cells = std::int64_t{ 1 } << 40;
 
 /// Throws Error: bounds that are not finite or lo not below hi, counts below 1, sizes that are not above 0,
-/// cells without thickness (faces that coincide), none or several of the three given; LimitError: too many cells.
+/// cells without thickness (faces that coincide); LimitError: too many cells.
 EulerGrid make_euler_grid(const EulerGridRequest& request);
 }
 #endif

@@ -1,0 +1,482 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularEulerAverage.h"
+
+#include "private/arrays.h"
+#include "private/dump_output.h"
+#include "private/euler_cells.h"
+#include "private/guard.h"
+#include "private/input_frames.h"
+#include "private/particles.h"
+#include "private/piece_request.h"
+#include "private/processes.h"
+
+#include "granular/euler/average.h"
+
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularEulerAverage);
+
+namespace
+{
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+bool AreGiven(const double bounds[6])
+{
+  return bounds[0] <= bounds[1] && bounds[2] <= bounds[3] && bounds[4] <= bounds[5];
+}
+
+std::string TextOf(const char* text)
+{
+  return text ? text : "";
+}
+}
+
+struct vtkGranularEulerAverage::Internals
+{
+  Processes Ranks;
+};
+
+//------------------------------------------------------------------------------
+/**
+ * Does one request. The functions are collective, but for those in the brackets of do_together.
+ */
+class vtkGranularEulerAverage::Averager
+{
+public:
+  Averager(
+    vtkGranularEulerAverage* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
+    : Self(self)
+    , Input(vtkDataObject::GetData(inputs[0]))
+    , Info(outputs->GetInformationObject(0))
+    , Wanted(PieceRequest::Of(this->Info))
+    , Ranks(self->Shared->Ranks.Get())
+    , Own(self)
+    , Shared(this->Own, this->Ranks)
+    , Progress(this->Shared)
+  {
+  }
+
+  void Run()
+  {
+    granular::do_together(this->Ranks, [&] { this->Progress.step(0); });
+    this->Together = AreTogether(this->Wanted, false, this->Ranks);
+    if (this->Self->TimeAverage)
+    {
+      this->AverageFrames();
+    }
+    else
+    {
+      this->Cells = this->AverageFrame(this->Input).cells;
+    }
+    granular::do_together(this->Ranks, [&] { this->Fill(); });
+  }
+
+private:
+  void AverageFrames()
+  {
+    InputFrames frames(this->Self, { this->Wanted.Piece, this->Wanted.Pieces, 0 });
+    std::vector<double> times = frames.GetTimes();
+    CheckTimes(times, this->Ranks);
+    granular::TimeAverage sums;
+    const std::size_t count = std::max<std::size_t>(times.size(), 1);
+    for (std::size_t frame = 0; frame < count; ++frame)
+    {
+      const bool made = times.empty() ? frames.Update() : frames.Update(times[frame]);
+      granular::do_together(this->Ranks,
+        [&]
+        {
+          if (!frames.Check(made))
+          {
+            throw granular::Error("the input could not be made: see the messages before");
+          }
+        });
+      this->Progress.set_part(static_cast<double>(frame) / static_cast<double>(count),
+        static_cast<double>(frame + 1) / static_cast<double>(count));
+      const granular::EulerAverages averages = this->AverageFrame(frames.GetData());
+      granular::do_together(this->Ranks, [&] { sums.add(averages); });
+    }
+    granular::do_together(this->Ranks, [&] { this->Cells = sums.cells(); });
+  }
+
+  granular::EulerAverages AverageFrame(vtkDataObject* input)
+  {
+    this->Grains.emplace(input, this->Ranks);
+    granular::FrameView& view = this->Grains->View();
+    granular::SerialCommunicator alone;
+    granular::Communicator& ranks = this->Together ? this->Ranks : alone;
+    granular::EulerAverageRequest request;
+    request.arrays = { TextOf(this->Self->VelocityArray), TextOf(this->Self->RadiusArray),
+      TextOf(this->Self->MassArray), TextOf(this->Self->StressArray) };
+    const double largest = this->Self->CellsBy == RELATIVE_SIZE
+      ? granular::largest_radius(view, request.arrays, ranks)
+      : 0;
+    granular::Notices notices;
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        if (this->Self->Periodic == NONE)
+        {
+          view.header.box.boundary.clear();
+        }
+        this->CheckTilt(view, notices);
+        request.grid = this->MakeGrid(largest);
+        request.wanted = this->FindWanted(request.grid);
+        request.cells.weights = this->Self->Weights == CENTRE ? granular::CellWeights::Centre
+                                                              : granular::CellWeights::Overlap;
+        request.keep_sums = this->Self->TimeAverage;
+      });
+    this->Grid = request.grid;
+    const granular::Executor executor(ChooseThreads(this->Self->Threads, this->Ranks));
+    granular::EulerAverages averages;
+    if (this->Together)
+    {
+      averages =
+        granular::average_in_cells(view, request, this->Ranks, executor, notices, this->Progress);
+    }
+    else
+    {
+      granular::do_together(this->Ranks,
+        [&]
+        {
+          averages =
+            granular::average_in_cells(view, request, alone, executor, notices, this->Progress);
+        });
+    }
+    granular::do_together(this->Ranks, [&] { this->Tell(averages, notices); });
+    return averages;
+  }
+
+  void CheckTilt(const granular::FrameView& view, granular::Notices& notices) const
+  {
+    const granular::Box& box = view.header.box;
+    if (view.has_box && box.tilted && box.boundary.find('p') != std::string::npos)
+    {
+      granular::Notice notice;
+      notice.text = "the box is tilted: particles have no periodic images, and cells at its faces "
+                    "lack their parts";
+      notices.push_back(notice);
+    }
+  }
+
+  granular::EulerGrid MakeGrid(double largestRadius) const
+  {
+    granular::EulerGridRequest request;
+    std::tie(request.lo, request.hi) = this->Grains->FindBounds(this->Self->Bounds, nullptr);
+    const vtkGranularEulerAverage& self = *this->Self;
+    switch (self.CellsBy)
+    {
+      case COUNTS:
+        std::copy_n(self.CellCounts, 3, request.counts.begin());
+        request.by = granular::EulerGridRequest::By::Counts;
+        break;
+      case SIZE:
+        std::copy_n(self.CellSize, 3, request.size.begin());
+        request.by = granular::EulerGridRequest::By::Size;
+        break;
+      case RELATIVE_SIZE:
+        request.size.fill(self.CellSizeRelative * 2 * largestRadius);
+        request.by = granular::EulerGridRequest::By::Size;
+        break;
+    }
+    return granular::make_euler_grid(request);
+  }
+
+  /**
+   * The cells that the pipeline asks this process for.
+   */
+  granular::WantedCells FindWanted(const granular::EulerGrid& grid)
+  {
+    granular::WantedCells wanted = granular::WantedCells::all(grid);
+    if (this->Self->OutputType == POINTS)
+    {
+      std::tie(wanted.first, wanted.last) = this->Wanted.RangeOf(grid.size());
+      return wanted;
+    }
+    this->Extent = ExtentOf(grid);
+    if (this->Info->Has(Pipeline::UPDATE_EXTENT()))
+    {
+      this->Info->Get(Pipeline::UPDATE_EXTENT(), this->Extent.data());
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      wanted.range.first[axis] = this->Extent[2 * axis];
+      wanted.range.last[axis] = std::max(this->Extent[2 * axis], this->Extent[2 * axis + 1]);
+    }
+    return wanted;
+  }
+
+  void Tell(const granular::EulerAverages& averages, granular::Notices& notices) const
+  {
+    const auto count = [&](std::int64_t number, const char* what)
+    {
+      if (number > 0)
+      {
+        granular::Notice notice;
+        notice.text = std::to_string(number) + what;
+        notices.push_back(notice);
+      }
+    };
+    count(averages.outside, " particles are outside of all cells, and in none");
+    count(averages.broken,
+      " particles are left out: a position, velocity, mass, radius or stress of theirs is no "
+      "number, infinite or too large, or a mass or radius is negative");
+    for (const granular::Notice& notice : notices)
+    {
+      if (this->Ranks.rank() == 0 || !this->Together)
+      {
+        vtkWarningWithObjectMacro(this->Self, << granular::to_string(notice));
+      }
+    }
+  }
+
+  void Fill()
+  {
+    const granular::FrameView& view = this->Grains->View();
+    const bool scaled = view.coordinates == granular::Coordinates::Scaled;
+    const granular::Vector3 origin = scaled ? granular::Vector3{} : view.point_origin;
+    granular::EulerFrame frame = MakeFrame(std::move(this->Cells));
+    vtkDataObject* output = this->Info->Get(vtkDataObject::DATA_OBJECT());
+    if (this->Self->OutputType == POINTS)
+    {
+      FillPoints(vtkPolyData::SafeDownCast(output), frame, 0, frame.cells, origin);
+    }
+    else
+    {
+      FillImage(vtkImageData::SafeDownCast(output), this->Grid, this->Extent, frame,
+        { this->Extent, 0 }, origin);
+    }
+    vtkFieldData* data = output->GetFieldData();
+    data->PassData(this->Input->GetFieldData());
+    data->RemoveArray("Columns"); // of particles
+    if (view.has_box)
+    {
+      FillHeader(data, view.header, granular::Coordinates::Absolute, origin);
+    }
+    this->Progress.set_part(1, 1);
+    this->Progress.step(1);
+  }
+
+  vtkGranularEulerAverage* Self;
+  vtkDataObject* Input;
+  vtkInformation* Info;
+  PieceRequest Wanted;
+  granular::Communicator& Ranks;
+  AlgorithmProgress Own;
+  granular::SharedProgress Shared;
+  granular::PartialProgress Progress;
+  std::optional<Particles> Grains;
+  bool Together = false;
+  granular::EulerGrid Grid;
+  CellExtent Extent = {};
+  granular::EulerCells Cells;
+};
+
+//------------------------------------------------------------------------------
+vtkGranularEulerAverage::vtkGranularEulerAverage()
+  : Shared(std::make_unique<Internals>())
+{
+  this->SetVelocityArray("v");
+  this->SetMassArray("mass");
+  this->SetRadiusArray("radius");
+}
+
+//------------------------------------------------------------------------------
+vtkGranularEulerAverage::~vtkGranularEulerAverage()
+{
+  this->SetVelocityArray(nullptr);
+  this->SetMassArray(nullptr);
+  this->SetRadiusArray(nullptr);
+  this->SetStressArray(nullptr);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerAverage::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see Particles
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerAverage::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject"); // see RequestDataObject
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerAverage::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
+  vtkMTimeType* mtime)
+{
+  this->Shared->Ranks.BeginUpdate(this);
+  return this->Superclass::ComputePipelineMTime(
+    request, inputVector, outputVector, requestFromOutputPort, mtime);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerAverage::RequestDataObject(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  if (this->OutputType == POINTS && !vtkPolyData::SafeDownCast(output))
+  {
+    info->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
+  }
+  if (this->OutputType == IMAGE_DATA && !vtkImageData::SafeDownCast(output))
+  {
+    info->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkImageData>());
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// The extent of an image is known before its data.
+int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  if (this->TimeAverage)
+  {
+    info->Remove(Pipeline::TIME_STEPS());
+    info->Remove(Pipeline::TIME_RANGE());
+  }
+  if (this->OutputType == POINTS)
+  {
+    info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+    return 1;
+  }
+  const Outcome outcome = Guard(this, outputVector,
+    [&]
+    {
+      const bool given = AreGiven(this->Bounds);
+      if (this->CellsBy == RELATIVE_SIZE || (this->CellsBy == SIZE && !given))
+      {
+        throw granular::Error(this->CellsBy == SIZE
+            ? "expected Bounds for an image of cells of a CellSize, got none: give Bounds, "
+              "CellCounts, or "
+              "output points"
+            : "expected points as output for CellSizeRelative, got an image, whose extent must be "
+              "known "
+              "before the particles");
+      }
+      granular::EulerGridRequest request;
+      request.lo = given ? granular::Vector3{ this->Bounds[0], this->Bounds[2], this->Bounds[4] }
+                         : granular::Vector3{};
+      request.hi = given ? granular::Vector3{ this->Bounds[1], this->Bounds[3], this->Bounds[5] }
+                         : granular::Vector3{ 1, 1, 1 };
+      request.by = this->CellsBy == SIZE ? granular::EulerGridRequest::By::Size
+                                         : granular::EulerGridRequest::By::Counts;
+      std::copy_n(this->CellCounts, 3, request.counts.begin());
+      std::copy_n(this->CellSize, 3, request.size.begin());
+      const granular::EulerGrid grid = granular::make_euler_grid(request);
+      const CellExtent extent = ExtentOf(grid);
+      info->Set(Pipeline::WHOLE_EXTENT(), extent.data(), 6);
+      info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+    });
+  return this->Shared->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+// All of the particles, or the piece of them that a process has.
+int vtkGranularEulerAverage::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
+  vtkInformation* info = inputVector[0]->GetInformationObject(0);
+  info->Set(Pipeline::UPDATE_PIECE_NUMBER(), wanted.Piece);
+  info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), wanted.Pieces);
+  info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerAverage::RequestData(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const Outcome outcome =
+    Guard(this, outputVector, [&] { Averager(this, inputVector, outputVector).Run(); });
+  return this->Shared->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerAverage::SetThreads(int threads)
+{
+  if (threads < 0)
+  {
+    vtkErrorMacro("Threads must be at least 0, got " << threads);
+    return;
+  }
+  this->Threads = threads; // changes no result: nothing is to be made again
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerAverage::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Shared->Ranks.SetController(controller))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkMultiProcessController* vtkGranularEulerAverage::GetController()
+{
+  return this->Shared->Ranks.GetController();
+}
+
+//------------------------------------------------------------------------------
+// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
+void vtkGranularEulerAverage::SetAbortExecute(vtkTypeBool abort)
+{
+  this->AbortExecute = abort;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerAverage::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto print = [&](const char* name, const auto& values)
+  {
+    os << indent << name << ":";
+    for (const auto& value : values)
+    {
+      os << " " << value;
+    }
+    os << "\n";
+  };
+  os << indent << "OutputType: " << this->OutputType << "\n";
+  os << indent << "CellsBy: " << this->CellsBy << "\n";
+  print("CellCounts", this->CellCounts);
+  print("CellSize", this->CellSize);
+  os << indent << "CellSizeRelative: " << this->CellSizeRelative << "\n";
+  print("Bounds", this->Bounds);
+  os << indent << "Weights: " << this->Weights << "\n";
+  os << indent << "Periodic: " << this->Periodic << "\n";
+  os << indent << "VelocityArray: " << TextOf(this->VelocityArray) << "\n";
+  os << indent << "MassArray: " << TextOf(this->MassArray) << "\n";
+  os << indent << "RadiusArray: " << TextOf(this->RadiusArray) << "\n";
+  os << indent << "StressArray: " << TextOf(this->StressArray) << "\n";
+  os << indent << "TimeAverage: " << (this->TimeAverage ? "On" : "Off") << "\n";
+  os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "Controller: " << this->GetController() << "\n";
+}

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularEulerAverage
+ * @brief   Averages particles over the cells of a regular grid: fields from grains.
+ *
+ * For each cell of volume V, with the share w of each particle in it, its mass m, radius r, velocity v and stress times volume S:
+ * - `v_avg` = sum w m v / sum w m [m/s]
+ * - `volumefraction` = volume of the particles in the cell / V [-]
+ * - `radius` = sum w r / sum w [m]
+ * - `pressure` = -(xx + yy + zz) / 3 [Pa] of the stress sum(-w m (v - v_avg)(v - v_avg) + w S) / V; with a StressArray also the
+ *   stress itself, `sigma` (xx yy zz) and `tau` (xy xz yz). Without one it is the part of the fluctuations of velocity alone: the
+ *   contacts' is missing.
+ *
+ * as fix ave/euler of LIGGGHTS has it, where w is 1 or 0. Empty cells are 0. These are averages over space at one moment; see
+ * SetTimeAverage for more. Sums are correctly rounded, so that the result is the same, to the bit, for any order of particles
+ * and any number of threads and processes.
+ *
+ * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled,
+ * PointOrigin); the output has the same PointOrigin. Duplicates of ghosts are left out; so are particles with a
+ * number that is nan, infinite or a negative mass or radius, and those outside of all cells, with a warning that counts them.
+ */
+
+#ifndef vtkGranularEulerAverage_h
+#define vtkGranularEulerAverage_h
+
+#include "vtkDataObjectAlgorithm.h"
+#include "vtkGranularModule.h" // For export macro
+
+#include <memory> // for std::unique_ptr
+
+class vtkMultiProcessController;
+
+class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkDataObjectAlgorithm
+{
+public:
+  static vtkGranularEulerAverage* New();
+  vtkTypeMacro(vtkGranularEulerAverage, vtkDataObjectAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum OutputTypes
+  {
+    POINTS = 0,
+    IMAGE_DATA = 1
+  };
+
+  enum CellsByType
+  {
+    COUNTS = 0,
+    SIZE = 1,
+    RELATIVE_SIZE = 2
+  };
+
+  enum WeightsType
+  {
+    CENTRE = 0,
+    OVERLAP = 1
+  };
+
+  enum PeriodicType
+  {
+    BOUNDARY = 0,
+    NONE = 1
+  };
+
+  ///@{
+  /**
+   * IMAGE_DATA, the default: vtkImageData with cell data; of several processes each has an extent of it. POINTS:
+   * vtkPolyData with a vertex at the centre of each cell and point data, as LIGGGHTS writes them.
+   */
+  vtkSetClampMacro(OutputType, int, POINTS, IMAGE_DATA);
+  vtkGetMacro(OutputType, int);
+  ///@}
+
+  ///@{
+  /**
+   * Which of the next three says what cells there are. COUNTS by default.
+   */
+  vtkSetClampMacro(CellsBy, int, COUNTS, RELATIVE_SIZE);
+  vtkGetMacro(CellsBy, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many cells there are along x, y and z: 1 and more. 10 10 10 by default.
+   */
+  vtkSetVector3Macro(CellCounts, int);
+  vtkGetVector3Macro(CellCounts, int);
+  ///@}
+
+  ///@{
+  /**
+   * The least edges of cells along x, y and z [m], above 0: as many cells as fit fill the bounds, and are as large as that or
+   * larger. For IMAGE_DATA the Bounds must be given. 0.01 0.01 0.01 by default.
+   */
+  vtkSetVector3Macro(CellSize, double);
+  vtkGetVector3Macro(CellSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * cell_size_relative of fix ave/euler: the least edge of cells in units of the largest diameter, which is where LIGGGHTS'
+   * granular pair styles cut off. For POINTS only. 3 by default, as in LIGGGHTS.
+   */
+  vtkSetMacro(CellSizeRelative, double);
+  vtkGetMacro(CellSizeRelative, double);
+  ///@}
+
+  ///@{
+  /**
+   * The box that is divided: xlo xhi ylo yhi zlo zhi. An axis with lo above hi, as all have by default, is that of the box
+   * in the field data of the input; of a tilted box its smallest bounds.
+   */
+  vtkSetVector6Macro(Bounds, double);
+  vtkGetVector6Macro(Bounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * To which cells a particle belongs. OVERLAP, the default: to each, by the volume of the sphere in it. CENTRE: to that of
+   * its centre, whole, as in LIGGGHTS: quick, but the volume fraction may exceed 1, and jumps when particles pass faces.
+   */
+  vtkSetClampMacro(Weights, int, CENTRE, OVERLAP);
+  vtkGetMacro(Weights, int);
+  ///@}
+
+  ///@{
+  /**
+   * BOUNDARY, the default: along axes that the flags of the input's box say to be periodic (`pp`) particles have images,
+   * and what sticks out of a face comes in at the opposite one. NONE: particles are where they are.
+   */
+  vtkSetClampMacro(Periodic, int, BOUNDARY, NONE);
+  vtkGetMacro(Periodic, int);
+  ///@}
+
+  ///@{
+  /**
+   * The point array of velocities, three components; "v" by default.
+   */
+  vtkSetStringMacro(VelocityArray);
+  vtkGetStringMacro(VelocityArray);
+  ///@}
+
+  ///@{
+  /**
+   * The point array of masses; "mass" by default. Without it they are made from the array `density` and the radii, or are 1,
+   * with a warning.
+   */
+  vtkSetStringMacro(MassArray);
+  vtkGetStringMacro(MassArray);
+  ///@}
+
+  ///@{
+  /**
+   * The point array of radii; "radius" by default.
+   */
+  vtkSetStringMacro(RadiusArray);
+  vtkGetStringMacro(RadiusArray);
+  ///@}
+
+  ///@{
+  /**
+   * The point array of the stress of particles times their volume, six components xx yy zz xy xz yz as `compute stress/atom` gives
+   * them, which becomes the array c_ID of dumps. None by default.
+   */
+  vtkSetStringMacro(StressArray);
+  vtkGetStringMacro(StressArray);
+  ///@}
+
+  ///@{
+  /**
+   * On: the average over all time steps of the input: v_avg = sum of momenta / sum of masses, all else the mean over frames. Off
+   * by default. The output has no time then; cells must not change with time.
+   */
+  vtkSetMacro(TimeAverage, bool);
+  vtkGetMacro(TimeAverage, bool);
+  vtkBooleanMacro(TimeAverage, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How many threads work. 0, the default: the cores of the machine, divided by the processes of the Controller that run on it.
+   * Changes no result. Below 0 is an error and changes nothing.
+   */
+  void SetThreads(int threads);
+  vtkGetMacro(Threads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The processes that average together, each with its part of the particles: all of them must set it, set the same properties, and update
+   * together. What goes wrong on one of them is an error of all. The global controller by default; null: this process is alone.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
+  /**
+   * Has the update that comes next, or that is running, stop, on all processes of the Controller.
+   */
+  void SetAbortExecute(vtkTypeBool abort) override;
+
+protected:
+  vtkGranularEulerAverage();
+  ~vtkGranularEulerAverage() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkGranularEulerAverage(const vtkGranularEulerAverage&) = delete;
+  void operator=(const vtkGranularEulerAverage&) = delete;
+
+  class Averager;
+  struct Internals;
+
+  int OutputType = IMAGE_DATA;
+  int CellsBy = COUNTS;
+  int CellCounts[3] = { 10, 10, 10 };
+  double CellSize[3] = { 0.01, 0.01, 0.01 };
+  double CellSizeRelative = 3;
+  double Bounds[6] = { 1, -1, 1, -1, 1, -1 };
+  int Weights = OVERLAP;
+  int Periodic = BOUNDARY;
+  char* VelocityArray = nullptr;
+  char* MassArray = nullptr;
+  char* RadiusArray = nullptr;
+  char* StressArray = nullptr;
+  bool TimeAverage = false;
+  int Threads = 0;
+
+  std::unique_ptr<Internals> Shared;
+};
+
+#endif
