@@ -110,14 +110,14 @@ struct Rule
 };
 
 constexpr std::array<Rule, 5> rules = { {
-  { 14.3, 0, 2 },
-  { 4.5, 2, 3 },
-  { 2.6, 5, 4 },
-  { 1.6, 9, 6 },
+  { 130, 0, 2 },
+  { 11, 2, 3 },
+  { 4.3, 5, 4 },
+  { 2, 9, 6 },
   { 0, 15, 8 },
 } };
-constexpr double enough_for_12 = 1.6;
-constexpr double enough_for_16 = 1.31;
+constexpr double enough_for_12 = 2;
+constexpr double enough_for_16 = 1.5;
 
 template <typename Function>
 double integrate(double begin, double end, double half_axis, const Function& function)
@@ -150,7 +150,7 @@ struct CircleIntegral
       (std::sqrt(square(cosine - begin) + sine2) + std::sqrt(square(cosine - end) + sine2)) /
       (end - begin);
     const double pole_axis = (std::sqrt(1 + square(begin)) + std::sqrt(1 + square(end))) / (end - begin);
-    const double half_axis = std::min(root_axis, 0.6 * pole_axis);
+    const double half_axis = std::min(root_axis, 0.63 * pole_axis);
     if (half_axis < enough_for_16 && depth < 40)
     {
       const double middle = (begin + end) / 2;
