@@ -171,8 +171,7 @@ inline ExactVolume exact_sphere_box(const std::array<Quad, 3>& centre, double ra
   for (std::size_t corner = 0; corner < 8; ++corner)
   {
     const auto far = [&](std::size_t k) { return (corner >> k) & 1; };
-    const Quad beyond =
-      quad_corner({ planes[far(0)][0], planes[far(1)][1], planes[far(2)][2] });
+    const Quad beyond = quad_corner({ planes[far(0)][0], planes[far(1)][1], planes[far(2)][2] });
     exact.value += (far(0) + far(1) + far(2)) % 2 == 0 ? beyond * cube : -beyond * cube;
   }
   return exact;

@@ -11,7 +11,7 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t no_cell = -1;
+constexpr std::int64_t no_cell = -1; // in no range
 
 /// A cell of an axis, seen from the centre of a sphere.
 struct Slab
@@ -22,7 +22,7 @@ struct Slab
   double farthest() const { return std::max(-lo, hi); }
 };
 
-/// face less centre, rounded once.
+/// face less centre, rounded once: it never falls as the face rises.
 double difference(double face, Twofold centre)
 {
   const double hi = face - centre.hi;
@@ -30,6 +30,37 @@ double difference(double face, Twofold centre)
   const double lo = (face - (hi - part)) - (centre.hi + part);
   return std::isfinite(hi) ? hi + (lo - centre.lo) : hi;
 }
+
+/// Adds shares with their numbers in a range.
+class Shares
+{
+public:
+  Shares(const CellRange& within, std::vector<CellShare>& shares)
+    : within_(within)
+    , shares_(shares)
+  {
+  }
+
+  bool is_within(std::size_t axis, std::int64_t cell) const
+  {
+    return within_.first[axis] <= cell && cell < within_.last[axis];
+  }
+
+  void add(const std::array<std::int64_t, 3>& cell, double volume)
+  {
+    std::int64_t number = 0;
+    for (std::size_t axis = 3; axis-- > 0;)
+    {
+      number =
+        number * (within_.last[axis] - within_.first[axis]) + cell[axis] - within_.first[axis];
+    }
+    shares_.push_back({ number, volume });
+  }
+
+private:
+  const CellRange& within_;
+  std::vector<CellShare>& shares_;
+};
 }
 
 /// What the faces across an axis do to a sphere.
@@ -43,8 +74,9 @@ struct SphereCells::Cut
     More
   };
   Kind kind = Kind::Outside;
-  double distance = 0;                              ///< of the face, or the radius
-  std::array<std::int64_t, 2> cells = { no_cell, no_cell }; ///< that of the centre, the one beyond the face
+  double distance = 0; ///< of the face, or the radius
+  std::array<std::int64_t, 2> cells = { no_cell,
+    no_cell }; ///< that of the centre, that beyond the face
 };
 
 SphereCells::SphereCells(const EulerGrid& grid, bool short_cuts)
@@ -56,12 +88,6 @@ SphereCells::SphereCells(const EulerGrid& grid, bool short_cuts)
     faces_[axis] = grid.faces(axis);
     per_length_[axis] = 1 / grid.spacing(axis);
   }
-}
-
-double SphereCells::from_centre(
-  std::size_t axis, std::int64_t face, Twofold centre) const noexcept
-{
-  return difference(faces_[axis][static_cast<std::size_t>(face)], centre);
 }
 
 /// The cell that a coordinate is in, or the nearest one.
@@ -76,7 +102,8 @@ std::int64_t SphereCells::cell_of(std::size_t axis, double x) const noexcept
   {
     return cell;
   }
-  return std::upper_bound(faces.begin() + 1, faces.end() - 1, x) - (faces.begin() + 1);
+  const auto inner = faces.begin() + 1;
+  return std::upper_bound(inner, faces.end() - 1, x) - inner;
 }
 
 CellRange SphereCells::range(const Twofold3& centre, double radius) const noexcept
@@ -84,31 +111,47 @@ CellRange SphereCells::range(const Twofold3& centre, double radius) const noexce
   CellRange range;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const std::vector<double>& faces = faces_[axis];
-    const auto end_below = [&](double offset, auto compare) {
-      return std::partition_point(faces.begin(), faces.end(),
-               [&](double face) { return compare(difference(face, centre[axis]), offset); }) -
-        faces.begin();
-    };
-    const std::int64_t below = end_below(-radius, std::less<>()); // faces
-    const std::int64_t not_above = end_below(radius, std::less_equal<>());
-    range.first[axis] = std::max<std::int64_t>(0, below - 1);
-    range.last[axis] = std::min(not_above, grid_.counts[axis]);
-    if (range.first[axis] >= range.last[axis])
+    const auto from_centre = [&](std::int64_t face)
+    { return difference(faces_[axis][static_cast<std::size_t>(face)], centre[axis]); };
+    const std::int64_t count = grid_.counts[axis];
+    std::int64_t first = this->cell_of(axis, centre[axis].hi - radius);
+    while (first > 0 && from_centre(first) >= -radius)
+    {
+      --first;
+    }
+    while (first < count && from_centre(first + 1) < -radius)
+    {
+      ++first;
+    }
+    std::int64_t last = this->cell_of(axis, centre[axis].hi + radius) + 1;
+    while (last < count && from_centre(last) <= radius)
+    {
+      ++last;
+    }
+    while (last > 0 && from_centre(last - 1) > radius)
+    {
+      --last;
+    }
+    if (first >= last)
     {
       return {};
     }
+    range.first[axis] = first;
+    range.last[axis] = last;
   }
   return range;
 }
 
-/// One face, or none: the common case, found without a search.
+/// In the common case, one face or none, a few comparisons tell.
 SphereCells::Cut SphereCells::cut_along(
   std::size_t axis, Twofold centre, double radius) const noexcept
 {
+  const auto from_centre = [&](std::int64_t face)
+  { return difference(faces_[axis][static_cast<std::size_t>(face)], centre); };
+  const std::int64_t count = grid_.counts[axis];
   const std::int64_t cell = this->cell_of(axis, centre.hi);
-  const double lo = this->from_centre(axis, cell, centre);
-  const double hi = this->from_centre(axis, cell + 1, centre);
+  const double lo = from_centre(cell);
+  const double hi = from_centre(cell + 1);
   if (lo >= radius || hi <= -radius)
   {
     return {};
@@ -119,46 +162,36 @@ SphereCells::Cut SphereCells::cut_along(
   {
     return { Cut::Kind::Whole, radius, { cell, no_cell } };
   }
-  const std::int64_t below = is_cut_below ? cell - 1 : cell; // the face
-  const std::int64_t above = below + 1;
-  const bool is_more = (is_cut_below && is_cut_above) ||
-    (is_cut_below && below >= 0 && this->from_centre(axis, below, centre) > -radius) ||
-    (is_cut_above && above < grid_.counts[axis] &&
-      this->from_centre(axis, above + 1, centre) < radius);
-  const double plane = is_cut_below ? lo : hi;
-  const std::int64_t lower = below;
-  const std::int64_t upper = above < grid_.counts[axis] ? above : no_cell;
-  return { is_more ? Cut::Kind::More : Cut::Kind::Two, std::abs(plane),
-    { plane > 0 ? lower : upper, plane > 0 ? upper : lower } };
-}
-
-void SphereCells::add_parts(
-  const std::array<Cut, 3>& cuts, double radius, std::vector<CellShare>& shares) const
-{
-  const SphereParts parts =
-    cut_sphere(radius, { cuts[0].distance, cuts[1].distance, cuts[2].distance });
-  for (std::size_t part = 0; part < parts.size(); ++part)
+  const std::int64_t face = is_cut_below ? cell : cell + 1;
+  if ((is_cut_below && is_cut_above) || (face > 0 && from_centre(face - 1) > -radius) ||
+    (face < count && from_centre(face + 1) < radius))
   {
-    const std::int64_t i = cuts[0].cells[part & 1];
-    const std::int64_t j = cuts[1].cells[(part >> 1) & 1];
-    const std::int64_t k = cuts[2].cells[part >> 2];
-    if (parts[part] > 0 && i != no_cell && j != no_cell && k != no_cell)
-    {
-      shares.push_back({ (k * grid_.counts[1] + j) * grid_.counts[0] + i, parts[part] });
-    }
+    return { Cut::Kind::More };
   }
+  const double plane = is_cut_below ? lo : hi;
+  const std::int64_t below = face - 1; // no_cell below the first
+  const std::int64_t above = face < count ? face : no_cell;
+  return { Cut::Kind::Two, std::abs(plane),
+    { plane > 0 ? below : above, plane > 0 ? above : below } };
 }
 
-void SphereCells::add_cells(
-  const Twofold3& centre, double radius, std::vector<CellShare>& shares) const
+void SphereCells::add_cells(const Twofold3& centre, double radius, const CellRange& within,
+  std::vector<CellShare>& shares) const
 {
-  const CellRange range = this->range(centre, radius);
-  const auto slab = [&](std::size_t axis, std::int64_t cell) {
+  CellRange range = this->range(centre, radius);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    range.first[axis] = std::max(range.first[axis], within.first[axis]);
+    range.last[axis] = std::min(range.last[axis], within.last[axis]);
+  }
+  const auto slab = [&](std::size_t axis, std::int64_t cell)
+  {
     const auto at = static_cast<std::size_t>(cell);
     const std::vector<double>& faces = faces_[axis];
     return Slab{ difference(faces[at], centre[axis]), difference(faces[at + 1], centre[axis]),
       faces[at + 1] - faces[at] };
   };
+  Shares found(within, shares);
   for (std::int64_t k = range.first[2]; k < range.last[2]; ++k)
   {
     const Slab z = slab(2, k);
@@ -172,39 +205,48 @@ void SphereCells::add_cells(
           radius, { x.lo, y.lo, z.lo }, { x.hi, y.hi, z.hi }, { x.edge, y.edge, z.edge });
         if (volume > 0)
         {
-          shares.push_back({ (k * grid_.counts[1] + j) * grid_.counts[0] + i, volume });
+          found.add({ i, j, k }, volume);
         }
       }
     }
   }
 }
 
-void SphereCells::find(
-  const Twofold3& centre, double radius, std::vector<CellShare>& shares) const
+void SphereCells::find(const Twofold3& centre, double radius, const CellRange& within,
+  std::vector<CellShare>& shares) const
 {
   if (!(sphere_volume(radius) > 0))
   {
     return;
   }
-  if (short_cuts_)
+  std::array<Cut, 3> cuts;
+  auto most = short_cuts_ ? Cut::Kind::Whole : Cut::Kind::More;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    std::array<Cut, 3> cuts;
-    auto most = Cut::Kind::Whole;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    cuts[axis] = this->cut_along(axis, centre[axis], radius);
+    if (cuts[axis].kind == Cut::Kind::Outside)
     {
-      cuts[axis] = this->cut_along(axis, centre[axis], radius);
-      if (cuts[axis].kind == Cut::Kind::Outside)
-      {
-        return;
-      }
-      most = std::max(most, cuts[axis].kind);
-    }
-    if (most != Cut::Kind::More)
-    {
-      this->add_parts(cuts, radius, shares);
       return;
     }
+    most = std::max(most, cuts[axis].kind);
   }
-  this->add_cells(centre, radius, shares);
+  if (most == Cut::Kind::More)
+  {
+    this->add_cells(centre, radius, within, shares);
+    return;
+  }
+  const SphereParts parts =
+    cut_sphere(radius, { cuts[0].distance, cuts[1].distance, cuts[2].distance });
+  Shares found(within, shares);
+  for (std::size_t part = 0; part < parts.size(); ++part)
+  {
+    const std::array<std::int64_t, 3> cell = { cuts[0].cells[part & 1],
+      cuts[1].cells[(part >> 1) & 1], cuts[2].cells[part >> 2] };
+    if (parts[part] > 0 && found.is_within(0, cell[0]) && found.is_within(1, cell[1]) &&
+      found.is_within(2, cell[2]))
+    {
+      found.add(cell, parts[part]);
+    }
+  }
 }
 }

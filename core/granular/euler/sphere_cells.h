@@ -43,17 +43,15 @@ public:
 private:
   struct Cut;
 
-  double from_centre(std::size_t axis, std::int64_t face, Twofold centre) const noexcept;
   std::int64_t cell_of(std::size_t axis, double x) const noexcept;
   Cut cut_along(std::size_t axis, Twofold centre, double radius) const noexcept;
-  void add_parts(
-    const std::array<Cut, 3>& cuts, double radius, std::vector<CellShare>& shares) const;
-  void add_cells(const Twofold3& centre, double radius, std::vector<CellShare>& shares) const;
+  void add_cells(const Twofold3& centre, double radius, const CellRange& within,
+    std::vector<CellShare>& shares) const;
 
   EulerGrid grid_;
   std::array<std::vector<double>, 3> faces_;
-  Vector3 per_length_ = {}; ///< cells
-  bool short_cuts_;
+  Vector3 per_length_ = {}; ///< about how many cells
+  bool short_cuts_ = true;
 };
 }
 #endif

@@ -122,8 +122,8 @@ constexpr double enough_for_16 = 1.5;
 template <typename Function>
 double integrate(double begin, double end, double half_axis, const Function& function)
 {
-  const Rule& rule =
-    *std::find_if(rules.begin(), rules.end() - 1, [&](const Rule& r) { return half_axis >= r.half_axis; });
+  const Rule& rule = *std::find_if(
+    rules.begin(), rules.end() - 1, [&](const Rule& r) { return half_axis >= r.half_axis; });
   const double middle = (begin + end) / 2;
   const double half = (end - begin) / 2;
   double sum = 0;
@@ -149,17 +149,20 @@ struct CircleIntegral
     const double root_axis =
       (std::sqrt(square(cosine - begin) + sine2) + std::sqrt(square(cosine - end) + sine2)) /
       (end - begin);
-    const double pole_axis = (std::sqrt(1 + square(begin)) + std::sqrt(1 + square(end))) / (end - begin);
+    const double pole_axis =
+      (std::sqrt(1 + square(begin)) + std::sqrt(1 + square(end))) / (end - begin);
     const double half_axis = std::min(root_axis, 0.63 * pole_axis);
     if (half_axis < enough_for_16 && depth < 40)
     {
       const double middle = (begin + end) / 2;
       return (*this)(begin, middle, depth + 1) + (*this)(middle, end, depth + 1);
     }
-    return integrate(begin, end, half_axis, [&](double q) {
-      const double part = 1 / (1 + q * q);
-      return slices.area(radius * 2 * q * part) * radius * 2 * (1 - q * q) * part * part;
-    });
+    return integrate(begin, end, half_axis,
+      [&](double q)
+      {
+        const double part = 1 / (1 + q * q);
+        return slices.area(radius * 2 * q * part) * radius * 2 * (1 - q * q) * part * part;
+      });
   }
 };
 
@@ -172,7 +175,8 @@ double integrate_slices(const Slices& slices, double begin, double end)
   {
     return integrate(begin, end, half_axis, [&](double y) { return slices.area(y); });
   }
-  const double sine2 = large2 > small2 ? 1 - small2 / large2 : 1; // of equal ones neither is a root then
+  const double sine2 =
+    large2 > small2 ? 1 - small2 / large2 : 1; // of equal ones neither is a root then
   const CircleIntegral integral = { slices, radius, root(1 - sine2), sine2 };
   const auto to_q = [&](double y) { return y / (radius + root((radius - y) * (radius + y))); };
   const double q_begin = to_q(begin);
@@ -211,9 +215,8 @@ struct Piece
   /// The axis along which slices change least.
   std::size_t axis_of_slices() const
   {
-    const auto change = [&](std::size_t axis) {
-      return (hi[axis] - lo[axis]) * (hi[axis] + lo[axis]);
-    };
+    const auto change = [&](std::size_t axis)
+    { return (hi[axis] - lo[axis]) * (hi[axis] + lo[axis]); };
     const std::size_t least = change(1) < change(0) ? 1 : 0;
     return change(2) < change(least) ? 2 : least;
   }
@@ -238,8 +241,8 @@ struct Piece
     const std::size_t x = (y + 1) % 3;
     const std::size_t z = (y + 2) % 3;
     const auto place = [&](double corner2) { return std::clamp(root(corner2), lo[y], hi[y]); };
-    const auto [first, second] = std::minmax(
-      { place(radius2 - square(lo[x]) - square(hi[z])), place(radius2 - square(hi[x]) - square(lo[z])) });
+    const auto [first, second] = std::minmax({ place(radius2 - square(lo[x]) - square(hi[z])),
+      place(radius2 - square(hi[x]) - square(lo[z])) });
     const std::array<double, 4> ends = { lo[y], first, second, hi[y] };
     double volume = 0;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i)
