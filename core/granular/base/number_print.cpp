@@ -286,6 +286,11 @@ std::string to_text(double value, NumberFormat format)
   return { word, print_number(word, value, format) };
 }
 
+char* print_fixed(char* to, double value) noexcept
+{
+  return std::to_chars(to, to + most_fixed_chars, value, std::chars_format::fixed, 6).ptr;
+}
+
 char* print_integer(char* to, std::int64_t value) noexcept
 {
   const auto bits = static_cast<std::uint64_t>(value);

@@ -32,6 +32,12 @@ char* print_number(char* to, double value, NumberFormat format) noexcept;
 /// The same, for messages: by default as the shortest that reads back.
 std::string to_text(double value, NumberFormat format = { 0 });
 
+/// Bytes that the function below may write: sign, point and all digits of the largest number.
+inline constexpr std::size_t most_fixed_chars = 320;
+
+/// Prints a number with six decimals, with the bytes of printf's %f in the C locale, and returns the end.
+char* print_fixed(char* to, double value) noexcept;
+
 /// print_number for an integer, as %d.
 char* print_integer(char* to, std::int64_t value) noexcept;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/vtk_values.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -97,6 +98,16 @@ std::int64_t VtkArray::size() const noexcept
 {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   return components != 0 && tuples > most / components ? most : tuples * components;
+}
+
+std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcept
+{
+  std::int64_t cells = 1;
+  for (const std::int64_t along : positions)
+  {
+    cells = VtkArray{ {}, VtkType::Double, cells, std::max(along, std::int64_t{ 1 }) - 1 }.size();
+  }
+  return cells;
 }
 
 std::int64_t bytes_of(VtkType type) noexcept

@@ -2,6 +2,7 @@
 #ifndef granular_base_vtk_values_h
 #define granular_base_vtk_values_h
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -36,6 +37,10 @@ struct VtkArray
 
   std::int64_t size() const noexcept; ///< values; the largest number there is, where it is larger
 };
+
+/// Cells of a rectilinear grid with so many positions along each axis, one where they are flat; the largest number there
+/// is, where there are more.
+std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcept;
 
 /// Bytes of a binary number; 0: bits, of which eight are a byte, and what is no number.
 std::int64_t bytes_of(VtkType type) noexcept;

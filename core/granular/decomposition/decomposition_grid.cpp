@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/decomposition_grid.h"
 
+#include "granular/base/vtk_sections.h"
+
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -11,32 +13,8 @@ namespace granular
 namespace
 {
 constexpr std::int64_t points_a_cell = corners_of_voxel;
-
-/// Cells between so many positions along each axis; the largest number there is, where there are more.
-std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcept
-{
-  std::int64_t cells = 1;
-  for (const std::int64_t along : positions)
-  {
-    cells = VtkArray{ {}, VtkType::Double, cells, std::max(along, std::int64_t{ 1 }) - 1 }.size();
-  }
-  return cells;
-}
-
-/// Calls good(i) for each number, and says where the first is that is not.
-template <class Failure, class Good>
-void check_numbers(const std::vector<std::int64_t>& numbers, const std::string& expected, Good good,
-  const ProcessArray::WhereOf& where_of)
-{
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    if (!good(i))
-    {
-      throw Failure("expected " + expected + ", got " + std::to_string(numbers[i]),
-        where_of(static_cast<std::int64_t>(i)));
-    }
-  }
-}
+constexpr std::string_view rectilinear = "RECTILINEAR_GRID";
+constexpr std::string_view unstructured = "UNSTRUCTURED_GRID";
 
 constexpr ProcessArray all_process_arrays[] = {
   { "nlocal", &DecompositionGrid::has_particles, &DecompositionGrid::particles,
@@ -51,26 +29,14 @@ constexpr ProcessArray all_process_arrays[] = {
 class GridReader
 {
 public:
-  GridReader(LegacyVtk& file, bool keep)
-    : file_(file)
-    , keep_(keep)
-  {
-  }
+  GridReader(LegacyVtk& file, bool keep);
 
   DecompositionGrid read();
 
 private:
-  struct Section
-  {
-    const char* keyword;
-    bool rectilinear;
-    void (GridReader::*read)();
-  };
-
-  static const Section sections[];
+  static const VtkSection<GridReader> sections[];
 
   void read_header();
-  bool read_section();
   void end_sections();
   void read_dimensions();
   void read_coordinates();
@@ -80,27 +46,34 @@ private:
   void read_data(bool of_cells);
   bool take(const VtkArray& array);
   void limit(std::int64_t cells) const;
-  ProcessArray::WhereOf places(const VtkPlace& first, const VtkArray& array);
+  WhereOf places(const VtkPlace& first, const VtkArray& array);
 
   LegacyVtk& file_;
   bool keep_;
   DecompositionGrid grid_;
-  unsigned seen_ = 0; ///< sections, a bit each
+  VtkSections<GridReader> sections_;
   bool of_cells_ = false;
   std::int64_t tuples_ = 0; ///< of the arrays at hand
   std::int64_t types_ = 0;
   VtkPlace types_place_;
 };
 
-const GridReader::Section GridReader::sections[] = {
-  { "DIMENSIONS", true, &GridReader::read_dimensions },
-  { "X_COORDINATES", true, &GridReader::read_coordinates },
-  { "Y_COORDINATES", true, &GridReader::read_coordinates },
-  { "Z_COORDINATES", true, &GridReader::read_coordinates },
-  { "POINTS", false, &GridReader::read_points },
-  { "CELLS", false, &GridReader::read_cells },
-  { "CELL_TYPES", false, &GridReader::read_types },
+const VtkSection<GridReader> GridReader::sections[] = {
+  { rectilinear, "DIMENSIONS", &GridReader::read_dimensions },
+  { rectilinear, "X_COORDINATES", &GridReader::read_coordinates },
+  { rectilinear, "Y_COORDINATES", &GridReader::read_coordinates },
+  { rectilinear, "Z_COORDINATES", &GridReader::read_coordinates },
+  { unstructured, "POINTS", &GridReader::read_points },
+  { unstructured, "CELLS", &GridReader::read_cells },
+  { unstructured, "CELL_TYPES", &GridReader::read_types },
 };
+
+GridReader::GridReader(LegacyVtk& file, bool keep)
+  : file_(file)
+  , keep_(keep)
+  , sections_(file, sections)
+{
+}
 
 DecompositionGrid GridReader::read()
 {
@@ -111,7 +84,7 @@ DecompositionGrid GridReader::read()
     {
       this->read_data(file_.is("CELL_DATA"));
     }
-    else if (!this->read_section() &&
+    else if (!sections_.read(grid_.header.dataset, *this) &&
       !file_.take_arrays(tuples_, [this](const VtkArray& array) { return this->take(array); }))
     {
       file_.fail("a section of the grid", file_.words().front());
@@ -131,43 +104,17 @@ void GridReader::read_header()
     file_.fail_missing(
       expected, ": LIGGGHTS writes a header without a grid where a timestep is dumped again");
   }
-  grid_.rectilinear = dataset == "RECTILINEAR_GRID";
-  if (!grid_.rectilinear && dataset != "UNSTRUCTURED_GRID")
+  grid_.rectilinear = dataset == rectilinear;
+  if (!grid_.rectilinear && dataset != unstructured)
   {
     file_.fail(expected, dataset);
   }
 }
 
-/// False: the line begins none.
-bool GridReader::read_section()
-{
-  const auto* const section = std::find_if(std::begin(sections), std::end(sections),
-    [&](const auto& each)
-    { return each.rectilinear == grid_.rectilinear && file_.is(each.keyword); });
-  if (section == std::end(sections))
-  {
-    return false;
-  }
-  const auto bit = 1U << (section - std::begin(sections));
-  if ((seen_ & bit) != 0)
-  {
-    file_.fail("one section of the name", section->keyword);
-  }
-  seen_ |= bit;
-  (this->*section->read)();
-  return true;
-}
-
 /// All sections must have been there.
 void GridReader::end_sections()
 {
-  for (std::size_t i = 0; i < std::size(sections); ++i)
-  {
-    if (sections[i].rectilinear == grid_.rectilinear && (seen_ >> i & 1) == 0)
-    {
-      file_.fail_missing(sections[i].keyword);
-    }
-  }
+  sections_.end(grid_.header.dataset);
   if (grid_.rectilinear)
   {
     grid_.cells = cells_between(grid_.counts);
@@ -197,7 +144,7 @@ void GridReader::read_dimensions()
 }
 
 /// Places of the values of an array, for messages.
-ProcessArray::WhereOf GridReader::places(const VtkPlace& first, const VtkArray& array)
+WhereOf GridReader::places(const VtkPlace& first, const VtkArray& array)
 {
   return [this, first, array](std::int64_t number) { return file_.where_of(first, array, number); };
 }
@@ -224,27 +171,9 @@ void GridReader::read_points()
 
 void GridReader::read_cells()
 {
-  const std::int64_t first = file_.count(1);
-  const std::int64_t second = file_.count(2);
-  const bool counted = second % 9 == 0 && second / 9 == first;
-  const bool with_offsets = second % 8 == 0 && second / 8 == std::max(first, std::int64_t{ 1 }) - 1;
-  if (!counted && !with_offsets)
-  {
-    file_.fail(
-      "eight points in each cell", "CELLS " + std::to_string(first) + " " + std::to_string(second));
-  }
-  this->limit(first);
-  grid_.voxels = file_.cells(keep_);
+  this->limit(file_.count(1));
+  grid_.voxels = read_eight_point_cells(file_, keep_);
   grid_.cells = grid_.voxels.size;
-  const std::vector<std::int64_t>& offsets = grid_.voxels.offsets;
-  for (std::size_t i = 1; i < offsets.size(); ++i)
-  {
-    if (offsets[i] - offsets[i - 1] != points_a_cell)
-    {
-      fail_points_of_cell(offsets[i] - offsets[i - 1],
-        file_.where_of(grid_.voxels, static_cast<std::int64_t>(i) - 1));
-    }
-  }
 }
 
 void GridReader::read_types()
@@ -308,9 +237,14 @@ bool DecompositionGrid::is_piece() const noexcept
 
 void ProcessArray::check(const std::vector<std::int64_t>& values, const WhereOf& where_of) const
 {
-  check_numbers<FormatError>(
-    values, "a number '" + std::string(name) + "' from 0 to " + std::to_string(most),
-    [&](std::size_t i) { return values[i] >= 0 && values[i] <= most; }, where_of);
+  const auto other = std::find_if(
+    values.begin(), values.end(), [this](std::int64_t value) { return value < 0 || value > most; });
+  if (other != values.end())
+  {
+    throw FormatError("expected a number '" + std::string(name) + "' from 0 to " +
+        std::to_string(most) + ", got " + std::to_string(*other),
+      where_of(other - values.begin()));
+  }
 }
 
 std::span<const ProcessArray> process_arrays() noexcept
@@ -318,38 +252,10 @@ std::span<const ProcessArray> process_arrays() noexcept
   return all_process_arrays;
 }
 
-void check_types(const std::vector<std::int64_t>& types, const ProcessArray::WhereOf& where_of)
+CornerOrder bounds_of(
+  const DecompositionGrid& grid, std::int64_t cell, const WhereOf& where_of, Subdomain& subdomain)
 {
-  constexpr std::int64_t voxel = 11;
-  constexpr std::int64_t hexahedron = 12;
-  check_numbers<UnsupportedError>(
-    types, "the cell type of a voxel (11) or a hexahedron (12)",
-    [&](std::size_t i) { return types[i] == voxel || types[i] == hexahedron; }, where_of);
-}
-
-void fail_points_of_cell(std::int64_t points, const Where& where)
-{
-  throw FormatError("expected eight points in a cell, got " + std::to_string(points), where);
-}
-
-CornerOrder bounds_of(const DecompositionGrid& grid, std::int64_t cell,
-  const ProcessArray::WhereOf& where_of, Subdomain& subdomain)
-{
-  std::array<Vector3, corners_of_voxel> corners;
-  const std::int64_t* const points =
-    grid.voxels.connectivity.data() + cell * std::int64_t{ corners_of_voxel };
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    if (points[i] < 0 || points[i] >= grid.number_of_points)
-    {
-      throw FormatError("expected points from 0 to " + std::to_string(grid.number_of_points - 1) +
-          " in cell " + std::to_string(cell) + ", got " + std::to_string(points[i]),
-        where_of(cell));
-    }
-    const double* const point = grid.points.data() + 3 * points[i];
-    corners[i] = { point[0], point[1], point[2] };
-  }
-  return bounds_of_cell(corners, subdomain);
+  return bounds_of_cell(corners_of(grid.points, grid.voxels, cell, where_of), subdomain);
 }
 
 DecompositionGrid read_grid(LegacyVtk& file, bool keep)

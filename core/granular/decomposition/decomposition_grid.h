@@ -3,12 +3,12 @@
 #define granular_decomposition_decomposition_grid_h
 
 #include "granular/base/legacy_vtk.h"
+#include "granular/base/vtk_corners.h"
 #include "granular/decomposition/subdomains.h"
 #include "granular/decomposition/voxels.h"
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,23 +53,16 @@ struct ProcessArray
   bool only_if_none; ///< another name that is less usual
 
   /// One value a cell: throws FormatError where one is not from 0 to most.
-  using WhereOf = std::function<Where(std::int64_t)>;
   void check(const std::vector<std::int64_t>& values, const WhereOf& where_of) const;
 };
 
 /// nlocal, proc, procID.
 std::span<const ProcessArray> process_arrays() noexcept;
 
-/// Throws UnsupportedError where a cell is neither a voxel nor a hexahedron.
-void check_types(const std::vector<std::int64_t>& types, const ProcessArray::WhereOf& where_of);
-
-/// Throws FormatError: a cell has another number of points.
-[[noreturn]] void fail_points_of_cell(std::int64_t points, const Where& where);
-
 /// The bounds of a cell of an unstructured grid; see bounds_of_cell. Throws FormatError where one of its points is not
 /// there.
-CornerOrder bounds_of(const DecompositionGrid& grid, std::int64_t cell,
-  const ProcessArray::WhereOf& where_of, Subdomain& subdomain);
+CornerOrder bounds_of(
+  const DecompositionGrid& grid, std::int64_t cell, const WhereOf& where_of, Subdomain& subdomain);
 
 /// Reads a dataset, from its header to the next one or the end; keep: with its numbers. Throws Error; see
 /// LegacyVtk::ended.

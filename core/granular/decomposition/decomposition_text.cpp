@@ -4,12 +4,12 @@
 #include "granular/base/error.h"
 #include "granular/base/number.h"
 #include "granular/base/number_print.h"
+#include "granular/base/text_lines.h"
 #include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/voxels.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 namespace granular
@@ -25,31 +24,6 @@ namespace granular
 namespace
 {
 constexpr std::size_t corners = corners_of_voxel;
-
-void add_integer(std::string& text, std::int64_t value)
-{
-  std::array<char, most_number_chars> digits;
-  text.append(digits.data(), print_integer(digits.data(), value));
-}
-
-/// A line of words, numbers among them.
-template <class... Words>
-void add_line(std::string& text, const Words&... words)
-{
-  const auto add = [&](const auto& word)
-  {
-    if constexpr (std::is_convertible_v<decltype(word), std::string_view>)
-    {
-      text += word;
-    }
-    else
-    {
-      add_integer(text, static_cast<std::int64_t>(word));
-    }
-  };
-  (add(words), ...);
-  text += '\n';
-}
 
 /// Adds text for each subdomain, some at a time, and reports after each lot that it is done.
 class Lots
@@ -185,12 +159,9 @@ void add_arrays(std::string& text, const Decomposition& decomposition)
 /// printf's %f and a blank. Gives what can be read back.
 double add_fixed(std::string& text, double value)
 {
-  constexpr int decimals = 6;
-  // sign, point and all digits of the largest number
-  std::array<char, std::numeric_limits<double>::max_exponent10 + decimals + 3> digits;
+  std::array<char, most_fixed_chars> digits;
   char* const first = digits.data();
-  char* const last =
-    std::to_chars(first, first + digits.size(), value, std::chars_format::fixed, decimals).ptr;
+  char* const last = print_fixed(first, value);
   text.append(first, last);
   text += ' ';
   static_cast<void>(parse_double(first, last, value));

@@ -29,8 +29,8 @@ void add_boxes(const DecompositionGrid& grid, std::vector<Subdomain>& subdomains
 }
 
 /// Adds cells of an unstructured grid. Returns how many were put right.
-std::int64_t add_voxels(const DecompositionGrid& grid, std::vector<Subdomain>& subdomains,
-  const ProcessArray::WhereOf& where_of)
+std::int64_t add_voxels(
+  const DecompositionGrid& grid, std::vector<Subdomain>& subdomains, const WhereOf& where_of)
 {
   std::int64_t reflected = 0;
   for (std::int64_t cell = 0; cell < grid.cells; ++cell)
@@ -65,22 +65,12 @@ void add_data(const DecompositionGrid& grid, Decomposition& decomposition)
   decomposition.has_ranks = decomposition.has_ranks && grid.has_ranks;
 }
 
-void check_cells(std::int64_t cells, const FrameEntry& entry, const Where& where)
-{
-  if (cells != entry.rows)
-  {
-    throw IoError("the file changed since it was indexed: expected " + std::to_string(entry.rows) +
-        " cells, got " + std::to_string(cells) + "; reload the files",
-      where);
-  }
-}
-
 Decomposition read_legacy(
   const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
 {
   LegacyVtk file(source, { entry.offset, entry.line }, entry.end, progress);
   const DecompositionGrid grid = read_grid(file, true);
-  check_cells(grid.cells, entry, file.where(grid.header.place));
+  check_cells(entry, grid.cells, file.where(grid.header.place));
   Decomposition decomposition;
   decomposition.subdomains.reserve(static_cast<std::size_t>(grid.cells));
   std::int64_t reflected = 0;
@@ -108,7 +98,7 @@ Decomposition read_vtu(
   const std::string text = read_up_to(source, entry.end);
   const VtuGrids grids(text, source.path());
   const Where where = { source.path(), entry.line };
-  check_cells(grids.cells(), entry, where);
+  check_cells(entry, grids.cells(), where);
   Decomposition decomposition;
   decomposition.has_particles = grids.size() > 0;
   decomposition.has_ranks = grids.size() > 0;

@@ -6,6 +6,7 @@
 #include "granular/base/block_pool.h"
 #include "granular/base/executor.h"
 #include "granular/base/progress.h"
+#include "granular/base/vtk_corners.h"
 #include "granular/decomposition/subdomains.h"
 
 #include <array>
@@ -15,10 +16,9 @@
 
 namespace granular
 {
-/// Corners of a cell. The corner (i, j, k), each 0 (low) or 1 (high) along x, y, z, is number 4i + 2j + k of a
-/// subdomain, as dump decomposition/vtk numbers points.
-inline constexpr int corners_of_voxel = 8;
-
+/// The corner (i, j, k), each 0 (low) or 1 (high) along x, y, z, is number 4i + 2j + k of a subdomain, as dump
+/// decomposition/vtk numbers points.
+///
 /// A VTK_VOXEL names its corners with x fastest: its corner i + 2j + 4k is point 4i + 2j + k. With the points in
 /// the order of their numbers the cell would be a mirror image: of volume 0, and never found.
 inline constexpr std::array<std::int64_t, corners_of_voxel> voxel_corners = { 0, 4, 2, 6, 1, 5, 3,

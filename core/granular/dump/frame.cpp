@@ -76,4 +76,13 @@ void check_header(const std::string& path, const FrameEntry& entry, const FrameH
       where_of(path, entry));
   }
 }
+void check_cells(const FrameEntry& entry, std::int64_t cells, const Where& where)
+{
+  if (cells != entry.rows)
+  {
+    throw IoError("the file changed since it was indexed: expected " + std::to_string(entry.rows) +
+        " cells, got " + std::to_string(cells) + "; reload the files",
+      where);
+  }
+}
 }

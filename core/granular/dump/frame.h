@@ -68,8 +68,8 @@ struct FrameEntry
   std::int64_t rows = 0;
   std::int64_t offset = 0; ///< of the header
   std::int64_t end = 0;
-  std::int64_t line = 0;   ///< of the header, from 1; binary: 0
-  double time = no_time;   ///< of the header
+  std::int64_t line = 0;       ///< of the header, from 1; binary: 0
+  double time = no_time;       ///< of the header
   std::uint64_t shape = whole; ///< hash of the box and the names of the columns: see hash_shape
   std::shared_ptr<const FrameKind> kind;
 };
@@ -84,5 +84,8 @@ Where where_of(const std::string& path, const FrameEntry& entry);
 /// was indexed; columns are the names in it, or none if it names none. Throws IoError.
 void check_header(const std::string& path, const FrameEntry& entry, const FrameHeader& header,
   const std::vector<std::string>& columns);
+
+/// The same of cells, which frames of other files have instead of rows.
+void check_cells(const FrameEntry& entry, std::int64_t cells, const Where& where);
 }
 #endif

@@ -1,2 +1,213 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/cells.h"
+
+#include "granular/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+constexpr EulerArray arrays[] = {
+  { "v_avg", 3, &EulerCells::velocities, false },
+  { "volumefraction", 1, &EulerCells::volume_fraction, false },
+  { "radius", 1, &EulerCells::radius, false },
+  { "pressure", 1, &EulerCells::pressure, false },
+  { "sigma", 3, &EulerCells::normal_stress, true },
+  { "tau", 3, &EulerCells::shear_stress, true },
+};
+
+/// The values of a packed cell, in their order: an array and which of its values.
+struct PackedValue
+{
+  std::vector<double> EulerCells::*values;
+  std::size_t components;
+  std::size_t component;
+};
+
+constexpr std::array<PackedValue, values_of_cell> packed_values = { {
+  { &EulerCells::centres, 3, 0 },
+  { &EulerCells::centres, 3, 1 },
+  { &EulerCells::centres, 3, 2 },
+  { &EulerCells::velocities, 3, 0 },
+  { &EulerCells::velocities, 3, 1 },
+  { &EulerCells::velocities, 3, 2 },
+  { &EulerCells::volume_fraction, 1, 0 },
+  { &EulerCells::radius, 1, 0 },
+  { &EulerCells::pressure, 1, 0 },
+} };
+
+/// What a rank tells the others of what it has: numbers of cells and of values.
+using Told = std::array<std::int64_t, 2>;
+
+std::vector<Told> tell_all(std::int64_t cells, std::size_t values, Communicator& ranks)
+{
+  const Told own = { cells, static_cast<std::int64_t>(values) };
+  std::array<char, sizeof own> bytes;
+  std::memcpy(bytes.data(), own.data(), bytes.size());
+  const std::vector<std::string> gathered = ranks.all_gather({ bytes.data(), bytes.size() });
+  std::vector<Told> all;
+  do_together(ranks,
+    [&]
+    {
+      all.resize(gathered.size());
+      for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        std::memcpy(all[i].data(), gathered[i].data(), sizeof(Told));
+      }
+    });
+  return all;
+}
+
+/// Values of all ranks one after the other, on rank 0.
+std::vector<double> gather_values(
+  std::span<const double> own, const std::vector<Told>& told, Communicator& ranks)
+{
+  constexpr auto bytes_of_value = static_cast<std::int64_t>(sizeof(double));
+  std::vector<std::int64_t> from_bytes;
+  std::vector<std::int64_t> to_bytes;
+  std::vector<double> all;
+  do_together(ranks,
+    [&]
+    {
+      from_bytes.resize(told.size());
+      to_bytes.resize(told.size());
+      from_bytes[0] = static_cast<std::int64_t>(own.size_bytes());
+      std::size_t total = 0;
+      for (std::size_t i = 0; ranks.rank() == 0 && i < told.size(); ++i)
+      {
+        to_bytes[i] = told[i][1] * bytes_of_value;
+        total += static_cast<std::size_t>(told[i][1]);
+      }
+      all.resize(total);
+    });
+  ranks.exchange(reinterpret_cast<const char*>(own.data()), from_bytes,
+    reinterpret_cast<char*>(all.data()), to_bytes);
+  return all;
+}
+
+void expect_size(std::size_t got, std::size_t expected)
+{
+  if (got != expected)
+  {
+    throw std::logic_error(
+      "expected " + std::to_string(expected) + " values, got " + std::to_string(got));
+  }
+}
+
+std::size_t size_of(const EulerCells& cells)
+{
+  return static_cast<std::size_t>(cells.count());
+}
+}
+
+void EulerCells::resize(std::int64_t cells)
+{
+  const auto count = static_cast<std::size_t>(cells);
+  centres.resize(3 * count);
+  for (const EulerArray& array : arrays)
+  {
+    if (!array.optional)
+    {
+      (this->*array.values).resize(static_cast<std::size_t>(array.components) * count);
+    }
+  }
+}
+
+std::span<const EulerArray> euler_arrays() noexcept
+{
+  return arrays;
+}
+
+void pack_cells(const EulerCells& cells, std::span<double> buffer)
+{
+  const std::size_t count = size_of(cells);
+  expect_size(buffer.size(), packed_values.size() * count);
+  for (std::size_t j = 0; j < packed_values.size(); ++j)
+  {
+    const PackedValue& packed = packed_values[j];
+    const std::vector<double>& values = cells.*packed.values;
+    expect_size(values.size(), packed.components * count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      buffer[packed_values.size() * i + j] = values[packed.components * i + packed.component];
+    }
+  }
+}
+
+EulerCells unpack_cells(std::span<const double> buffer)
+{
+  if (buffer.size() % packed_values.size() != 0)
+  {
+    throw FormatError(
+      "expected 9 values for each cell, got " + std::to_string(buffer.size()) + " values");
+  }
+  EulerCells cells;
+  cells.resize(static_cast<std::int64_t>(buffer.size() / packed_values.size()));
+  for (std::size_t j = 0; j < packed_values.size(); ++j)
+  {
+    const PackedValue& packed = packed_values[j];
+    std::vector<double>& values = cells.*packed.values;
+    for (std::size_t i = 0; i < size_of(cells); ++i)
+    {
+      values[packed.components * i + packed.component] = buffer[packed_values.size() * i + j];
+    }
+  }
+  return cells;
+}
+
+std::vector<double> gather_packed(
+  std::span<const double> own, std::int64_t own_cells, Communicator& ranks)
+{
+  const std::vector<Told> told = tell_all(own_cells, own.size(), ranks);
+  do_together(ranks,
+    [&]
+    {
+      for (std::size_t i = 0; i < told.size(); ++i)
+      {
+        const auto [cells, values] = told[i];
+        if (values % values_of_cell != 0 || values / values_of_cell != cells)
+        {
+          throw FormatError("expected 9 values for each of " + std::to_string(cells) +
+            " cells of process " + std::to_string(i) + ", got " + std::to_string(values));
+        }
+      }
+    });
+  return gather_values(own, told, ranks);
+}
+
+EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
+{
+  std::vector<double> packed;
+  do_together(ranks,
+    [&]
+    {
+      packed.resize(packed_values.size() * size_of(own));
+      pack_cells(own, packed);
+    });
+  EulerCells all;
+  const std::vector<double> gathered = gather_packed(packed, own.count(), ranks);
+  do_together(ranks, [&] { all = unpack_cells(gathered); });
+  for (const EulerArray& array : arrays)
+  {
+    if (!array.optional)
+    {
+      continue;
+    }
+    const std::vector<double>& values = own.*array.values;
+    const std::vector<Told> told = tell_all(own.count(), values.size(), ranks);
+    // known where all who have cells know it
+    if (std::ranges::all_of(
+          told, [&](const Told& each) { return each[1] == array.components * each[0]; }))
+    {
+      all.*array.values = gather_values(values, told, ranks);
+    }
+  }
+  return all;
+}
+}

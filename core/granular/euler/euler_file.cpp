@@ -1,2 +1,157 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/euler_file.h"
+
+#include "granular/dump/file_index.h"
+#include "granular/euler/euler_dataset.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+bool none(std::string_view)
+{
+  return false;
+}
+
+/// Says what is wrong with a file; once, also if it is looked at again when it has grown.
+void tell(FileIndex& index, const Notice& notice)
+{
+  const auto same = [&](const Notice& other) { return to_string(other) == to_string(notice); };
+  if (std::ranges::none_of(index.notices, same))
+  {
+    index.notices.push_back(notice);
+  }
+}
+
+void add_frame(LegacyVtk& file, const EulerDataset& dataset, FileIndex& index)
+{
+  FrameEntry entry;
+  entry.rows = dataset.frame.cells;
+  entry.offset = dataset.header.place.offset;
+  entry.end = file.place().offset;
+  entry.line = dataset.header.binary ? 0 : dataset.header.place.line;
+  entry.kind = index.kinds->share(FrameKind{});
+  index.frames.push_back(std::move(entry));
+  index.resume_offset = file.place().offset;
+  index.resume_line = file.place().line;
+  if (file.at_header())
+  {
+    tell(index,
+      { file.where(file.place()),
+        "expected the end of the file behind Euler cells, got another header; what follows is left "
+        "out" });
+  }
+}
+
+/// A file is one frame, and looked at from its beginning: arrays may have come.
+void index_euler(const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
+{
+  if (!index.kinds)
+  {
+    index.kinds = std::make_shared<FrameKinds>();
+  }
+  index.frames.clear();
+  index.defect.reset();
+  index.resume_offset = 0;
+  index.resume_line = 1;
+  LegacyVtk file(source, {}, LegacyVtk::no_end, progress);
+  if (!file.at_header() && file.at_end())
+  {
+    return;
+  }
+  const auto leave_out = [&](const Error& error)
+  {
+    set_defect(index, { error.where(), error.text() });
+    if (!file.ended()) // else it may still be growing
+    {
+      tell(index, { error.where(), error.text() + "; the frame is left out" });
+    }
+  };
+  try
+  {
+    EulerDataset dataset;
+    read_dataset(file, EulerRead::Names, none, dataset);
+    add_frame(file, dataset, index);
+  }
+  catch (const FormatError& error)
+  {
+    leave_out(error);
+  }
+  catch (const LimitError& error)
+  {
+    leave_out(error);
+  }
+}
+
+/// A file with the title of LIGGGHTS that is not complete, or damaged, is taken if its points are vertices: those of
+/// meshes are not.
+bool look_at(const ByteSource& source)
+{
+  Progress progress;
+  LegacyVtk file(source, {}, LegacyVtk::no_end, progress);
+  if (!file.at_header())
+  {
+    return false;
+  }
+  EulerDataset dataset;
+  try
+  {
+    read_dataset(file, EulerRead::Look, none, dataset);
+    return dataset.is_euler();
+  }
+  catch (const FormatError&)
+  {
+    const bool header_only = dataset.header.dataset.empty() && file.ended();
+    return dataset.is_euler() || (dataset.has_title() && (dataset.has_vertices || header_only));
+  }
+}
+}
+
+const FileFormat& euler_format() noexcept
+{
+  static const FileFormat format = { "a file of Euler cells", &index_euler, true };
+  return format;
+}
+
+bool is_euler_file(const std::string& path) noexcept
+{
+  try
+  {
+    return look_at(*unpack(open_file(path)));
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+
+EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,
+  const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress)
+{
+  LegacyVtk file(source, { entry.offset, entry.line }, entry.end, progress);
+  EulerDataset dataset;
+  read_dataset(file, EulerRead::Values, wanted, dataset);
+  const Where where = file.where(dataset.header.place);
+  check_cells(entry, dataset.frame.cells, where);
+  if (!dataset.texts.empty())
+  {
+    notices.push_back({ where,
+      "expected arrays of numbers, got " + std::to_string(dataset.texts.size()) +
+        " of text, which are left out: the first is '" + dataset.texts.front() + "'" });
+  }
+  return std::move(dataset.frame);
+}
+
+std::vector<std::string> euler_array_names(
+  const ByteSource& source, const FrameEntry& entry, Progress& progress)
+{
+  LegacyVtk file(source, { entry.offset, entry.line }, entry.end, progress);
+  EulerDataset dataset;
+  read_dataset(file, EulerRead::Names, none, dataset);
+  check_cells(entry, dataset.frame.cells, file.where(dataset.header.place));
+  return std::move(dataset.names);
+}
+}
