@@ -3,57 +3,22 @@
 #ifndef granular_tests_decomposition_grid_files_h
 #define granular_tests_decomposition_grid_files_h
 
-#include "../dump/dumps.h"
+#include "../dump/memory_file.h"
 
 #include "granular/decomposition/decomposition_file.h"
-#include "granular/dump/file_index.h"
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
-/// A file in memory, called "memory" in messages, with its index.
-class GridFile
+/// A decomposition file in memory.
+class GridFile : public MemoryFile<granular::Decomposition>
 {
 public:
-  explicit GridFile(std::string bytes) { this->grow(std::move(bytes)); }
-
-  /// Goes on as if the file had grown to that.
-  void grow(std::string bytes)
+  explicit GridFile(std::string bytes)
+    : MemoryFile(granular::decomposition_format(), &granular::read_decomposition, std::move(bytes))
   {
-    bytes_ = std::make_unique<std::string>(std::move(bytes));
-    source_ = granular::open_memory(*bytes_);
-    granular::Progress progress;
-    granular::decomposition_format().index(*source_, index_, progress, {});
   }
-
-  const granular::FileIndex& index() const { return index_; }
-  std::size_t frames() const { return index_.frames.size(); }
-  const granular::FrameEntry& entry(std::size_t frame = 0) const { return index_.frames.at(frame); }
-  std::string said() const { return lines_of(index_.notices); }
-  std::string defect() const { return index_.defect ? to_string(*index_.defect) : ""; }
-
-  granular::Decomposition read(std::size_t frame = 0)
-  {
-    granular::Progress progress;
-    notices_.clear();
-    return granular::read_decomposition(*source_, this->entry(frame), notices_, progress);
-  }
-
-  /// The notices of the last reading, one a line.
-  std::string told() const { return lines_of(notices_); }
-
-  std::string error(std::size_t frame = 0)
-  {
-    return error_of([&] { this->read(frame); });
-  }
-
-private:
-  std::unique_ptr<std::string> bytes_;
-  std::unique_ptr<granular::ByteSource> source_;
-  granular::FileIndex index_;
-  granular::Notices notices_;
 };
 
 /// The three lines that LIGGGHTS begins with.

@@ -3,7 +3,7 @@
 #define granular_euler_average_passes_h
 
 #include "granular/euler/average.h"
-#include "granular/euler/cell_blocks.h"
+#include "granular/euler/sum_blocks.h"
 #include "granular/euler/reproducible_sum.h"
 
 #include <array>
@@ -67,7 +67,7 @@ private:
   PartialProgress progress_;
   GrainValues grains_;
   GrainCells cells_;
-  CellBlocks blocks_;
+  SumBlocks blocks_;
   bool stress_; ///< there is one on some rank
 
   Scan scanned_;

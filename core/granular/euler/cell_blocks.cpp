@@ -1,105 +1,111 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/cell_blocks.h"
 
-#include <algorithm>
-#include <numeric>
+#include "granular/base/number_print.h"
+
+#include <cmath>
 
 namespace granular
 {
-CellBlocks::CellBlocks(const std::array<std::int64_t, 3>& cells) noexcept
-  : cells_(cells)
-  , edges_{ 1, 1, 1 }
+CellBlocks::CellBlocks(const EulerFrame& frame, double rounding)
+  : frame_(frame)
 {
-  // as near to cubes as the grid allows: spheres touch few of them
-  for (std::int64_t size = 1; size < most_cells_of_block; size *= 2)
+  constexpr double six_decimals = 1e-6; // of two centres, for their distance
+  Vector3 largest = {};
+  for (std::int64_t cell = 0; cell < frame.cells; ++cell)
   {
-    std::size_t shortest = 3;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const bool grows = edges_[axis] < cells_[axis];
-      if (grows && (shortest == 3 || edges_[axis] < edges_[shortest]))
+      if (!std::isfinite(this->at(cell, axis)))
       {
-        shortest = axis;
+        this->fail(cell, ", which is nowhere");
+      }
+      largest[axis] = std::max(largest[axis], std::abs(this->at(cell, axis)));
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    tolerances_[axis] = six_decimals + rounding * largest[axis];
+  }
+}
+
+void CellBlocks::fail(std::int64_t cell, const std::string& why) const
+{
+  throw UnsupportedError(
+    "expected cells that form a regular grid, or one for each process, got cell " +
+    std::to_string(cell) + " at " + to_text(this->at(cell, 0)) + " " + to_text(this->at(cell, 1)) +
+    " " + to_text(this->at(cell, 2)) + why);
+}
+
+CellBlock CellBlocks::block(std::int64_t first) const
+{
+  CellBlock block = { first, {} };
+  std::int64_t stride = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    block.counts[axis] = this->run(first, axis, stride);
+    stride *= block.counts[axis];
+  }
+  return block;
+}
+
+/// How many slabs, of that many cells each, follow one another along an axis at equal distances.
+std::int64_t CellBlocks::run(std::int64_t first, std::size_t axis, std::int64_t stride) const
+{
+  if (!this->goes_on(first, axis, stride, 1) || this->is_alone(first, axis, stride))
+  {
+    return 1;
+  }
+  const double start = this->at(first, axis);
+  EqualSteps steps(start, this->tolerance(axis, this->at(first + stride, axis) - start));
+  std::int64_t slab = 1;
+  while (
+    this->goes_on(first, axis, stride, slab) && steps.add(this->at(first + slab * stride, axis)))
+  {
+    ++slab;
+  }
+  return slab;
+}
+
+/// Whether a slab is the first one of all, moved along the axis beyond the one before. What is the same is printed the
+/// same.
+bool CellBlocks::goes_on(
+  std::int64_t first, std::size_t axis, std::int64_t stride, std::int64_t slab) const
+{
+  const std::int64_t begin = first + slab * stride;
+  if (frame_.cells - begin < stride || !(this->at(begin, axis) > this->at(begin - stride, axis)))
+  {
+    return false;
+  }
+  for (std::int64_t i = 0; i < stride; ++i)
+  {
+    for (std::size_t other = 0; other < 3; ++other)
+    {
+      if (this->at(begin + i, other) != this->at(other == axis ? begin : first + i, other))
+      {
+        return false;
       }
     }
-    if (shortest == 3)
-    {
-      break;
-    }
-    edges_[shortest] *= 2;
-    ++shifts_[shortest];
   }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    blocks_[axis] = (cells_[axis] + edges_[axis] - 1) / edges_[axis];
-  }
+  return true;
 }
 
-CellRange CellBlocks::range(std::int64_t block) const noexcept
+/// Whether the first slab is a grid of its own, and at least three of another follow: those have the same distances,
+/// the first one has another.
+bool CellBlocks::is_alone(std::int64_t first, std::size_t axis, std::int64_t stride) const
 {
-  const std::array<std::int64_t, 3> at = { block % blocks_[0], block / blocks_[0] % blocks_[1],
-    block / blocks_[0] / blocks_[1] };
-  CellRange range;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  if (!this->goes_on(first, axis, stride, 2) || !this->goes_on(first, axis, stride, 3))
   {
-    range.first[axis] = at[axis] * edges_[axis];
-    range.last[axis] = std::min(range.first[axis] + edges_[axis], cells_[axis]);
+    return false;
   }
-  return range;
-}
-
-BlockRows BlockRows::all(std::int64_t rows)
-{
-  BlockRows all;
-  all.starts_ = { 0, rows };
-  return all;
-}
-
-BlockRows BlockRows::sorted(
-  std::vector<std::vector<Entry>>& chunks, std::int64_t rows_of_chunk, std::int64_t blocks)
-{
-  BlockRows sorted;
-  sorted.starts_.resize(static_cast<std::size_t>(blocks) + 1);
-  for (const std::vector<Entry>& chunk : chunks)
+  Vector3 steps;
+  for (std::size_t i = 0; i < steps.size(); ++i)
   {
-    for (const Entry& entry : chunk)
-    {
-      ++sorted.starts_[entry.block + 1];
-    }
+    const std::int64_t from = first + static_cast<std::int64_t>(i) * stride;
+    steps[i] = this->at(from + stride, axis) - this->at(from, axis);
   }
-  std::partial_sum(sorted.starts_.begin(), sorted.starts_.end(), sorted.starts_.begin());
-  sorted.rows_.resize(static_cast<std::size_t>(sorted.starts_.back()));
-  std::vector<std::int64_t> next(sorted.starts_.begin(), sorted.starts_.end() - 1);
-  std::int64_t first = 0;
-  for (std::vector<Entry>& chunk : chunks)
-  {
-    for (const Entry& entry : chunk)
-    {
-      sorted.rows_[static_cast<std::size_t>(next[entry.block]++)] = first + entry.row;
-    }
-    std::vector<Entry>().swap(chunk);
-    first += rows_of_chunk;
-  }
-  return sorted;
-}
-
-std::int64_t BlockRows::count(std::int64_t block) const noexcept
-{
-  const auto at = static_cast<std::size_t>(block);
-  return starts_[at + 1] - starts_[at];
-}
-
-std::span<const std::int64_t> BlockRows::rows(std::int64_t block, std::int64_t first,
-  std::int64_t last, std::span<std::int64_t> buffer) const noexcept
-{
-  const std::int64_t start = starts_[static_cast<std::size_t>(block)] + first;
-  const auto count =
-    std::min(static_cast<std::size_t>(std::max<std::int64_t>(last - first, 0)), buffer.size());
-  if (!rows_.empty())
-  {
-    return std::span(rows_).subspan(static_cast<std::size_t>(start), count);
-  }
-  std::iota(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(count), start);
-  return buffer.first(count);
+  const auto differ = [&](double a, double b)
+  { return std::abs(a - b) > 2 * this->tolerance(axis, std::min(a, b)); };
+  return differ(steps[0], steps[1]) && !differ(steps[1], steps[2]);
 }
 }

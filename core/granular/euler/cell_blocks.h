@@ -2,92 +2,85 @@
 #ifndef granular_euler_cell_blocks_h
 #define granular_euler_cell_blocks_h
 
-#include "granular/euler/euler_grid.h"
-#include "granular/euler/sphere_cells.h"
+#include "granular/base/box.h"
+#include "granular/euler/euler_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <span>
-#include <vector>
+#include <limits>
+#include <string>
 
 namespace granular
 {
-/// A grid divided into blocks of cells whose sums fit into the cache of a core.
-class CellBlocks
+/// Tells how far places lie at equal distances.
+class EqualSteps
 {
 public:
-  static constexpr std::int64_t most_cells_of_block = 4096;
-
-  explicit CellBlocks(const std::array<std::int64_t, 3>& cells) noexcept;
-
-  std::int64_t size() const noexcept { return blocks_[0] * blocks_[1] * blocks_[2]; }
-
-  /// Cells of a block that none has more of.
-  std::int64_t largest() const noexcept { return edges_[0] * edges_[1] * edges_[2]; }
-
-  CellRange range(std::int64_t block) const noexcept;
-
-  /// Calls visit(block) for each block that has cells of the range.
-  template <class Visit>
-  void each(const CellRange& range, const Visit& visit) const
+  EqualSteps(double first, double tolerance) noexcept
+    : first_(first)
+    , tolerance_(tolerance)
   {
-    std::array<std::int64_t, 3> first;
-    std::array<std::int64_t, 3> last;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      if (range.first[axis] >= range.last[axis])
-      {
-        return;
-      }
-      first[axis] = range.first[axis] >> shifts_[axis];
-      last[axis] = (range.last[axis] - 1) >> shifts_[axis];
-    }
-    for (std::int64_t k = first[2]; k <= last[2]; ++k)
-    {
-      for (std::int64_t j = first[1]; j <= last[1]; ++j)
-      {
-        for (std::int64_t i = first[0]; i <= last[0]; ++i)
-        {
-          visit((k * blocks_[1] + j) * blocks_[0] + i);
-        }
-      }
-    }
+  }
+
+  /// Whether that goes on with this place.
+  bool add(double place) noexcept
+  {
+    ++steps_;
+    least_ = std::max(least_, (place - first_ - tolerance_) / steps_);
+    most_ = std::min(most_, (place - first_ + tolerance_) / steps_);
+    return least_ <= most_;
   }
 
 private:
-  std::array<std::int64_t, 3> cells_;
-  std::array<int, 3> shifts_ = {}; ///< edges are powers of two
-  std::array<std::int64_t, 3> edges_ = {};
-  std::array<std::int64_t, 3> blocks_ = {};
+  double first_;
+  double tolerance_;
+  double steps_ = 0;
+  double least_ = 0; ///< distances that fit all
+  double most_ = std::numeric_limits<double>::infinity();
 };
 
-/// Which rows have something to do with which block. Rows may be in several.
-class BlockRows
+/// Cells that follow one another as those of a grid, x fastest.
+struct CellBlock
+{
+  std::int64_t first = 0;
+  std::array<std::int64_t, 3> counts = {};
+};
+
+/// Cuts the cells of a frame into such, by their centres.
+class CellBlocks
 {
 public:
-  /// A row of a chunk of rows.
-  struct Entry
+  /// rounding: what coordinates may be wrong by beside their six decimals, as a part of the largest one. Throws UnsupportedError
+  /// where a centre is not finite.
+  CellBlocks(const EulerFrame& frame, double rounding);
+
+  /// The largest block that begins with a cell.
+  CellBlock block(std::int64_t first) const;
+
+  /// A coordinate of a centre.
+  double at(std::int64_t cell, std::size_t axis) const noexcept
   {
-    std::uint32_t block;
-    std::uint32_t row; ///< less the first of the chunk
-  };
+    return frame_.centres[static_cast<std::size_t>(3 * cell) + axis];
+  }
 
-  /// A single block has all rows.
-  static BlockRows all(std::int64_t rows);
+  /// By how much distances of so much may be wrong.
+  double tolerance(std::size_t axis, double spacing) const noexcept
+  {
+    return std::min(tolerances_[axis], spacing / 4);
+  }
 
-  /// entries of each chunk of that many rows; they are freed on the way.
-  static BlockRows sorted(
-    std::vector<std::vector<Entry>>& chunks, std::int64_t rows_of_chunk, std::int64_t blocks);
-
-  std::int64_t count(std::int64_t block) const noexcept;
-
-  /// Rows [first, last) of those of the block, at most as many as buffer has room for.
-  std::span<const std::int64_t> rows(std::int64_t block, std::int64_t first, std::int64_t last,
-    std::span<std::int64_t> buffer) const noexcept;
+  /// Throws UnsupportedError: a cell is in no grid.
+  [[noreturn]] void fail(std::int64_t cell, const std::string& why) const;
 
 private:
-  std::vector<std::int64_t> starts_; ///< blocks + 1
-  std::vector<std::int64_t> rows_;   ///< empty: those of the only block, from 0
+  std::int64_t run(std::int64_t first, std::size_t axis, std::int64_t stride) const;
+  bool goes_on(std::int64_t first, std::size_t axis, std::int64_t stride, std::int64_t slab) const;
+  bool is_alone(std::int64_t first, std::size_t axis, std::int64_t stride) const;
+
+  const EulerFrame& frame_;
+  Vector3 tolerances_ = {};
 };
 }
 #endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_sum_blocks_h
+#define granular_euler_sum_blocks_h
+
+#include "granular/euler/euler_grid.h"
+#include "granular/euler/sphere_cells.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// A grid divided into blocks of cells whose sums fit into the cache of a core.
+class SumBlocks
+{
+public:
+  static constexpr std::int64_t most_cells_of_block = 4096;
+
+  explicit SumBlocks(const std::array<std::int64_t, 3>& cells) noexcept;
+
+  std::int64_t size() const noexcept { return blocks_[0] * blocks_[1] * blocks_[2]; }
+
+  /// Cells of a block that none has more of.
+  std::int64_t largest() const noexcept { return edges_[0] * edges_[1] * edges_[2]; }
+
+  CellRange range(std::int64_t block) const noexcept;
+
+  /// Calls visit(block) for each block that has cells of the range.
+  template <class Visit>
+  void each(const CellRange& range, const Visit& visit) const
+  {
+    std::array<std::int64_t, 3> first;
+    std::array<std::int64_t, 3> last;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (range.first[axis] >= range.last[axis])
+      {
+        return;
+      }
+      first[axis] = range.first[axis] >> shifts_[axis];
+      last[axis] = (range.last[axis] - 1) >> shifts_[axis];
+    }
+    for (std::int64_t k = first[2]; k <= last[2]; ++k)
+    {
+      for (std::int64_t j = first[1]; j <= last[1]; ++j)
+      {
+        for (std::int64_t i = first[0]; i <= last[0]; ++i)
+        {
+          visit((k * blocks_[1] + j) * blocks_[0] + i);
+        }
+      }
+    }
+  }
+
+private:
+  std::array<std::int64_t, 3> cells_;
+  std::array<int, 3> shifts_ = {}; ///< edges are powers of two
+  std::array<std::int64_t, 3> edges_ = {};
+  std::array<std::int64_t, 3> blocks_ = {};
+};
+
+/// Which rows have something to do with which block. Rows may be in several.
+class BlockRows
+{
+public:
+  /// A row of a chunk of rows.
+  struct Entry
+  {
+    std::uint32_t block;
+    std::uint32_t row; ///< less the first of the chunk
+  };
+
+  /// A single block has all rows.
+  static BlockRows all(std::int64_t rows);
+
+  /// entries of each chunk of that many rows; they are freed on the way.
+  static BlockRows sorted(
+    std::vector<std::vector<Entry>>& chunks, std::int64_t rows_of_chunk, std::int64_t blocks);
+
+  std::int64_t count(std::int64_t block) const noexcept;
+
+  /// Rows [first, last) of those of the block, at most as many as buffer has room for.
+  std::span<const std::int64_t> rows(std::int64_t block, std::int64_t first, std::int64_t last,
+    std::span<std::int64_t> buffer) const noexcept;
+
+private:
+  std::vector<std::int64_t> starts_; ///< blocks + 1
+  std::vector<std::int64_t> rows_;   ///< empty: those of the only block, from 0
+};
+}
+#endif
