@@ -2,12 +2,12 @@
 #include "vtkGranularDecompositionWriter.h"
 
 #include "private/dump_input.h"
+#include "private/name_file.h"
 #include "private/voxels.h"
 #include "private/vtu_file.h"
+#include "private/whole_file.h"
 #include "private/writer.h"
 
-#include "granular/base/byte_sink.h"
-#include "granular/base/hash.h"
 #include "granular/decomposition/decomposition_text.h"
 #include "granular/dump/dump_format.h"
 
@@ -17,16 +17,10 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <vector>
 
 using namespace vtkGranularPrivate;
 
@@ -34,7 +28,7 @@ vtkStandardNewMacro(vtkGranularDecompositionWriter);
 
 namespace
 {
-enum class Form
+enum class FileKind
 {
   Text,
   Xml
@@ -46,16 +40,16 @@ enum class Form
 struct Ending
 {
   std::string_view Text;
-  Form Kind;
+  FileKind Kind;
 };
 
 constexpr Ending Endings[] = {
-  { ".vtk", Form::Text },
-  { ".vtu", Form::Xml },
-  { ".decomposition", Form::Text },
+  { ".vtk", FileKind::Text },
+  { ".vtu", FileKind::Xml },
+  { ".decomposition", FileKind::Text },
 };
 
-Form FormOf(std::string_view path)
+FileKind KindOf(std::string_view path)
 {
   const auto* found = std::find_if(std::begin(Endings), std::end(Endings),
     [&](const Ending& ending) { return path.ends_with(ending.Text); });
@@ -66,183 +60,64 @@ Form FormOf(std::string_view path)
   }
   return found->Kind;
 }
-
-/**
- * What a process knows of a frame beside its cells.
- */
-struct FrameFacts
-{
-  bool HasCells = false;
-  bool HasTimestep = false;
-  bool HasTime = false;
-  vtkTypeInt64 Timestep = 0; ///< or the number of the frame
-  double Time = 0;
-  vtkMTimeType Changed = 0; ///< when the data were
-};
-
-/**
- * What all know: the word of the first who has cells, or of the first.
- */
-struct SharedFacts : FrameFacts
-{
-  std::string Key; ///< tells frames apart: one of the same key is the same
-};
-
-SharedFacts ShareFacts(const FrameFacts& own, granular::Communicator& ranks)
-{
-  const std::vector<std::string> all =
-    ranks.all_gather({ reinterpret_cast<const char*>(&own), sizeof own });
-  SharedFacts shared;
-  granular::do_together(ranks,
-    [&]
-    {
-      std::string changed;
-      for (const std::string& bytes : all)
-      {
-        FrameFacts facts;
-        std::memcpy(&facts, bytes.data(), sizeof facts);
-        if (changed.empty() || (facts.HasCells && !shared.HasCells))
-        {
-          static_cast<FrameFacts&>(shared) = facts;
-        }
-        changed += " " + std::to_string(facts.Changed);
-      }
-      shared.Key =
-        shared.HasTimestep ? "timestep " + std::to_string(shared.Timestep) : "data" + changed;
-    });
-  return shared;
 }
-}
-
-//------------------------------------------------------------------------------
-/**
- * What this writer has written. Of the first process alone.
- */
-struct vtkGranularDecompositionWriter::History
-{
-  struct Entry
-  {
-    std::string Keys; ///< of the frames in the file
-    std::uint64_t Hash = 0;
-  };
-
-  std::map<std::string, Entry> Files;
-
-  /**
-   * Writes a file, or leaves it if it is there and has these frames.
-   */
-  void Write(const std::string& path, const std::string& text, const std::string& keys,
-    granular::Notices& notices)
-  {
-    granular::Hash hash;
-    hash.add(text.data(), text.size());
-    const auto known = this->Files.find(path);
-    std::error_code failed; // then it is written
-    if (known != this->Files.end() && known->second.Keys == keys &&
-      std::filesystem::exists(path, failed))
-    {
-      if (known->second.Hash != hash.value())
-      {
-        notices.push_back({ { path },
-          "this writer has written " + keys +
-            " already, with other subdomains: the file is left as it was" });
-      }
-      return;
-    }
-    granular::write_file(path, text);
-    this->Files[path] = { keys, hash.value() };
-  }
-};
 
 //------------------------------------------------------------------------------
 /**
  * A decomposition that is being written.
  */
-class vtkGranularDecompositionWriter::File : public FrameWriter
+class vtkGranularDecompositionWriter::File : public WholeFile
 {
 public:
   File(vtkGranularDecompositionWriter* self, Internals& internals)
-    : Self(self)
-    , Shared(internals)
-    , Ranks(internals.GetRanks())
-    , Path(self->FileName)
-    , Kind(FormOf(Path))
-    , OneFileAStep(granular::is_name_of_steps(Path))
+    : WholeFile({ self->FileName, "subdomains", self->Dialect == PUBLIC ? "PUBLIC" : "",
+                  self->Dialect == PUBLIC },
+        internals.GetRanks(), *self->Past, internals.Notices)
+    , Self(self)
+    , Kind(KindOf(self->FileName))
   {
   }
 
-  void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
-    granular::Progress& progress) override
+protected:
+  FrameFacts Take(vtkDataObject* input, const FrameTime& time, granular::Notices& notices) override
   {
-    granular::Decomposition own;
-    FrameFacts facts;
-    granular::Notices ownNotices;
+    auto* grid = this->Check(input);
+    NameFile({ this->Form.Path }, [&] { this->All = ReadVoxels(grid, notices); });
+    return MakeFacts(grid, grid, grid->GetNumberOfCells() > 0, time);
+  }
+
+  void Gather(granular::Notices& notices, granular::Progress& progress) override
+  {
+    this->All = granular::gather_decomposition(this->All, this->Ranks);
     granular::do_together(this->Ranks,
       [&]
       {
-        auto* grid = this->Check(input);
-        facts = MakeFacts(grid, time);
-        this->NameFile([&] { own = ReadVoxels(grid, ownNotices); });
-      });
-    this->GatherNotices(ownNotices, notices);
-    const SharedFacts shared = ShareFacts(facts, this->Ranks);
-    const granular::Decomposition all = granular::gather_decomposition(own, this->Ranks);
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        if (this->OneFileAStep && !shared.HasTimestep)
-        {
-          notices.push_back({ {},
-            "the input has neither field data 'timestep' nor a time of a whole number: time steps "
-            "are counted "
-            "from 0" });
-        }
         granular::SubdomainChecks checks; // that a file can be read at all
         checks.overlap = granular::Answer::None;
         checks.gap = granular::Answer::None;
         granular::check_subdomains(
-          all.subdomains, checks, { .path = this->Path }, notices, progress);
-        if (this->Ranks.rank() == 0)
-        {
-          this->WriteFrame(all, shared, notices, progress);
-        }
+          this->All.subdomains, checks, { .path = this->Form.Path }, notices, progress);
       });
   }
 
-  void Finish() override
+  std::string Encode(
+    const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress) override
   {
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        if (this->Ranks.rank() == 0 && !this->OneFileAStep)
-        {
-          this->Self->Past->Write(this->Path, this->Text, this->Keys, this->Shared.Notices);
-        }
-      });
+    if (this->Self->Dialect == PUBLIC)
+    {
+      std::string text;
+      NameFile({ this->Form.Path }, [&] { text = granular::encode_grid(this->All, notices); });
+      return text;
+    }
+    if (this->Kind == FileKind::Text)
+    {
+      return granular::encode_voxels(this->All, progress);
+    }
+    return EncodeVtu(
+      this->All, facts.HasTime ? std::optional(facts.Time) : std::nullopt, this->Form.Path);
   }
 
 private:
-  /**
-   * Says in errors which file was to be written.
-   */
-  template <typename Work>
-  void NameFile(const Work& work) const
-  {
-    try
-    {
-      work();
-    }
-    catch (const granular::UnsupportedError& error)
-    {
-      throw granular::UnsupportedError(error.text(), { this->Path });
-    }
-    catch (const granular::FormatError& error)
-    {
-      throw granular::FormatError(
-        error.text(), { .path = this->Path, .column = error.where().column });
-    }
-  }
-
   vtkUnstructuredGrid* Check(vtkDataObject* input) const
   {
     auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
@@ -252,121 +127,26 @@ private:
           std::string(input->GetClassName()) +
           (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
                                                     : ""),
-        { this->Path });
+        { this->Form.Path });
     }
     const auto box = FindBox(grid->GetFieldData());
     if (box && box->tilted)
     {
       throw granular::UnsupportedError(
         "expected a box along the axes, got a tilted one, whose subdomains are no voxels",
-        { this->Path });
+        { this->Form.Path });
     }
     return grid;
   }
 
-  static FrameFacts MakeFacts(vtkUnstructuredGrid* grid, const FrameTime& time)
-  {
-    granular::Notices ofArrays; // that nobody writes
-    const DumpInput data(grid, ofArrays);
-    const granular::FrameHeader& header = data.View.header;
-    FrameFacts facts;
-    facts.HasCells = grid->GetNumberOfCells() > 0;
-    facts.HasTimestep = data.HasTimestep || time.Step.has_value();
-    facts.Timestep = data.HasTimestep ? header.timestep : time.Step.value_or(time.Frame);
-    facts.HasTime = data.HasTime || time.Time.has_value();
-    facts.Time = data.HasTime ? *header.time : time.Time.value_or(0);
-    facts.Changed = grid->GetMTime();
-    return facts;
-  }
-
-  /**
-   * One thing that was noticed by several is told once.
-   */
-  void GatherNotices(const granular::Notices& own, granular::Notices& all)
-  {
-    std::string text;
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        for (const granular::Notice& notice : own)
-        {
-          text += (text.empty() ? "" : "\n") + granular::to_string(notice);
-        }
-      });
-    const std::vector<std::string> texts = this->Ranks.all_gather(text);
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        for (const std::string& each : texts)
-        {
-          if (!each.empty())
-          {
-            all.push_back({ {}, each });
-          }
-        }
-      });
-  }
-
-  /**
-   * Writes a frame into its file, or keeps it for the file of all.
-   */
-  void WriteFrame(const granular::Decomposition& decomposition, const SharedFacts& facts,
-    granular::Notices& notices, granular::Progress& progress)
-  {
-    const std::string key = facts.Key + (this->Self->Dialect == PUBLIC ? " as PUBLIC" : "");
-    if (this->OneFileAStep)
-    {
-      const std::string path = granular::name_of_step(this->Path, facts.Timestep);
-      this->Self->Past->Write(
-        path, this->Encode(decomposition, facts, notices, progress), key, notices);
-      return;
-    }
-    if (this->LastKey == key)
-    {
-      return; // a timestep is written once
-    }
-    if (!this->Keys.empty() && this->Self->Dialect == INL)
-    {
-      throw granular::UnsupportedError(
-        "expected a '*' in the name, which gives each time step its file: this file holds one",
-        { this->Path });
-    }
-    this->Text += this->Encode(decomposition, facts, notices, progress);
-    this->Keys += (this->Keys.empty() ? "" : ", ") + key;
-    this->LastKey = key;
-  }
-
-  std::string Encode(const granular::Decomposition& decomposition, const SharedFacts& facts,
-    granular::Notices& notices, granular::Progress& progress) const
-  {
-    if (this->Self->Dialect == PUBLIC)
-    {
-      std::string text;
-      this->NameFile([&] { text = granular::encode_grid(decomposition, notices); });
-      return text;
-    }
-    if (this->Kind == Form::Text)
-    {
-      return granular::encode_voxels(decomposition, progress);
-    }
-    return EncodeVtu(
-      decomposition, facts.HasTime ? std::optional(facts.Time) : std::nullopt, this->Path);
-  }
-
   vtkGranularDecompositionWriter* Self;
-  Internals& Shared;
-  granular::Communicator& Ranks;
-  const std::string Path;
-  const Form Kind;
-  const bool OneFileAStep;
-  std::string Text; ///< of the file of all frames, so far
-  std::string Keys;
-  std::string LastKey;
+  const FileKind Kind;
+  granular::Decomposition All; ///< until they are gathered those of this process
 };
 
 //------------------------------------------------------------------------------
 vtkGranularDecompositionWriter::vtkGranularDecompositionWriter()
-  : Past(std::make_unique<History>())
+  : Past(std::make_unique<WrittenFiles>())
 {
 }
 
@@ -416,7 +196,7 @@ std::unique_ptr<FrameWriter> vtkGranularDecompositionWriter::OpenFile(Internals&
     throw granular::UnsupportedError(
       "expected a name without '%': one file holds the subdomains of all processes", { path });
   }
-  if (FormOf(path) == Form::Xml && this->Dialect == PUBLIC)
+  if (KindOf(path) == FileKind::Xml && this->Dialect == PUBLIC)
   {
     throw granular::UnsupportedError(
       "expected a name that ends in .vtk or .decomposition: the dialect PUBLIC has no .vtu",

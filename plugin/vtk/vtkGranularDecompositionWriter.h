@@ -25,6 +25,13 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularWriter.h"
 
+#include <memory> // for std::unique_ptr
+
+namespace vtkGranularPrivate
+{
+class WrittenFiles;
+}
+
 class VTKGRANULAR_EXPORT vtkGranularDecompositionWriter : public vtkGranularWriter
 {
 public:
@@ -72,9 +79,8 @@ private:
   void operator=(const vtkGranularDecompositionWriter&) = delete;
 
   class File;
-  struct History;
 
-  std::unique_ptr<History> Past;
+  std::unique_ptr<vtkGranularPrivate::WrittenFiles> Past;
 };
 
 #endif

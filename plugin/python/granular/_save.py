@@ -4,24 +4,26 @@ import os
 
 # Which writer has names of which endings; all others are those of dumps.
 _WRITERS = {".decomposition": "GranularDecompositionWriter",
+            ".euler": "GranularEulerWriter",
             ".vtk": "GranularDecompositionWriter",
             ".vtu": "GranularDecompositionWriter"}
 
 
 def save(proxy, path, time=None, writer=None, **properties):
-    """Writes what a source or filter shows as a particle dump, or as a decomposition, whatever the name of the file.
+    """Writes what a source or filter shows as a particle dump, as a decomposition or as Euler cells, whatever the name of
+    the file.
 
     proxy       a source or filter of paraview.simple, or one of its output ports
     path        the file to write; `*` stands for the timestep. Of dumps `%` stands for the process, and they
                 are binary where the name ends in .bin or .lammpsbin, compressed where it ends in .gz or .zst.
     time        the time to write. None: the one that proxy was last updated or shown with, or, if it
                 never was, its first; the animation's time counts for what is shown only.
-    writer      GranularDumpWriter or GranularDecompositionWriter. None: by the name, the latter where it ends in
-                .decomposition, .vtk or .vtu, else the former.
+    writer      GranularDumpWriter, GranularDecompositionWriter or GranularEulerWriter. None: by the name, the last
+                where it ends in .euler, the second in .decomposition, .vtk or .vtu, else the first.
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Columns, NumberFormat, ...
 
-    SaveData does the same for names that end in .dump, .lammpstrj, .bin, .lammpsbin, .gz, .zst or .decomposition, but
-    says nothing when it fails. Raises AttributeError for a property, or a writer, that there is not, RuntimeError if the
+    SaveData does the same for names that end in .dump, .lammpstrj, .bin, .lammpsbin, .gz, .zst, .decomposition or
+    .euler, but says nothing when it fails. Raises AttributeError for a property, or a writer, that there is not, RuntimeError if the
     file could not be written: what was wrong is in the messages of ParaView.
     """
     from paraview import servermanager

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dump_input.h"
 
+#include "granular/dump/absolute_positions.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -266,5 +269,27 @@ void DumpInput::ReadFieldData(vtkFieldData* data)
   {
     std::copy(origin->begin(), origin->end(), this->View.point_origin.begin());
   }
+}
+
+std::vector<double> ReadAbsolutePoints(vtkPointSet* input)
+{
+  granular::Notices ofArrays; // that nobody wants here
+  DumpInput data(input, ofArrays);
+  if (data.View.coordinates == granular::Coordinates::Unwrapped)
+  {
+    data.View.coordinates = granular::Coordinates::Absolute;
+  }
+  const granular::AbsolutePositions positions(data.View, false);
+  constexpr auto most = static_cast<std::int64_t>(granular::AbsolutePositions::most_rows);
+  std::vector<double> buffer(3 * granular::AbsolutePositions::most_rows);
+  std::vector<double> points;
+  points.reserve(static_cast<std::size_t>(3 * data.View.rows));
+  for (std::int64_t first = 0; first < data.View.rows; first += most)
+  {
+    const auto count = static_cast<std::size_t>(std::min(most, data.View.rows - first));
+    const double* loaded = positions.load(first, count, buffer.data());
+    points.insert(points.end(), loaded, loaded + 3 * count);
+  }
+  return points;
 }
 }

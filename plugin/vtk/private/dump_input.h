@@ -51,6 +51,12 @@ private:
 
   std::vector<vtkSmartPointer<vtkAbstractArray>> Copies;
 };
+
+/**
+ * Where points are that are no grains, such as corners of cells: x y z of each, with the origin added that was subtracted,
+ * and scaled ones multiplied by the box. Unwrapped ones are as they are: grains are unwrapped, cells are not.
+ */
+std::vector<double> ReadAbsolutePoints(vtkPointSet* input);
 }
 
 #endif

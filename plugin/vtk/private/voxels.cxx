@@ -7,7 +7,6 @@
 #include "granular/base/executor.h"
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/decomposition/voxels.h"
-#include "granular/dump/absolute_positions.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -84,30 +83,6 @@ private:
   vtkDataArray* Array = nullptr;
 };
 
-/**
- * The points of voxels, absolute: x y z of each.
- */
-std::vector<double> ReadPoints(vtkUnstructuredGrid* input)
-{
-  granular::Notices ofArrays; // that voxels have no use for
-  DumpInput data(input, ofArrays);
-  if (data.View.coordinates == granular::Coordinates::Unwrapped)
-  {
-    data.View.coordinates = granular::Coordinates::Absolute; // grains are, their voxels are not
-  }
-  const granular::AbsolutePositions positions(data.View, false);
-  constexpr auto most = static_cast<std::int64_t>(granular::AbsolutePositions::most_rows);
-  std::vector<double> buffer(3 * granular::AbsolutePositions::most_rows);
-  std::vector<double> points;
-  for (std::int64_t first = 0; first < data.View.rows; first += most)
-  {
-    const auto count = static_cast<std::size_t>(std::min(most, data.View.rows - first));
-    const double* loaded = positions.load(first, count, buffer.data());
-    points.insert(points.end(), loaded, loaded + 3 * count);
-  }
-  return points;
-}
-
 bool IsDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType cell)
 {
   return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
@@ -139,7 +114,7 @@ granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices
 {
   const WholeNumbers particles(input, { "nlocal" });
   const WholeNumbers ranks(input, { "proc", "procID" });
-  const std::vector<double> points = ReadPoints(input);
+  const std::vector<double> points = ReadAbsolutePoints(input);
   granular::Decomposition decomposition;
   decomposition.has_particles = static_cast<bool>(particles);
   decomposition.has_ranks = static_cast<bool>(ranks);

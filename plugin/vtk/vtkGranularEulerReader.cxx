@@ -1,0 +1,504 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularEulerReader.h"
+
+#include "private/dump_output.h"
+#include "private/euler_cells.h"
+#include "private/name_file.h"
+#include "private/piece_request.h"
+#include "private/series_reader.h"
+
+#include "granular/base/archive.h"
+#include "granular/euler/euler_file.h"
+#include "granular/euler/regular_grids.h"
+
+#include "vtkCommand.h"
+#include "vtkDataArraySelection.h"
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+vtkStandardNewMacro(vtkGranularEulerReader);
+
+namespace
+{
+/**
+ * What the data of all frames are, as the first one that has cells tells.
+ */
+struct Form
+{
+  std::string Path; ///< of that frame
+  vtkTypeInt64 Step = 0;
+  std::vector<std::string> Names; ///< of its arrays
+  bool IsImage = true;            ///< one grid; else any number of them
+  granular::EulerGrid Grid;       ///< of an image; without cells if no frame has any
+};
+
+template <class Archive>
+void pass(Archive& archive, Form& form)
+{
+  archive.text(form.Path);
+  archive.number(form.Step);
+  std::size_t count = form.Names.size();
+  archive.number(count);
+  form.Names.resize(count);
+  for (std::string& name : form.Names)
+  {
+    archive.text(name);
+  }
+  archive.number(form.IsImage);
+  archive.number(form.Grid);
+}
+
+/**
+ * Reads cells and finds the grids that they form, if wanted. Errors name the file.
+ */
+granular::EulerFrame ReadCells(const granular::FramePiece& piece,
+  const std::function<bool(std::string_view)>& wanted, std::vector<granular::RegularGrid>* grids,
+  granular::Notices& notices, granular::Progress& progress)
+{
+  const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(piece.file);
+  granular::EulerFrame frame =
+    granular::read_euler(*source, piece.entry, wanted, notices, progress);
+  if (grids)
+  {
+    NameFile(granular::where_of(piece.file.path, piece.entry),
+      [&] { *grids = granular::find_regular_grids(frame, notices); });
+  }
+  return frame;
+}
+
+std::string ToString(const std::array<std::int64_t, 3>& counts)
+{
+  return std::to_string(counts[0]) + " x " + std::to_string(counts[1]) + " x " +
+    std::to_string(counts[2]);
+}
+
+/**
+ * The pipeline has been told what image there is, for all frames.
+ */
+void CheckImage(const Form& form, const std::vector<granular::RegularGrid>& grids)
+{
+  if (grids.size() > 1 || (grids.size() == 1 && grids.front().grid.counts != form.Grid.counts))
+  {
+    throw granular::UnsupportedError("expected a grid of " + ToString(form.Grid.counts) +
+      " cells as at timestep " + std::to_string(form.Step) + ", got " +
+      (grids.size() > 1 ? std::to_string(grids.size()) + " grids"
+                        : ToString(grids.front().grid.counts)) +
+      ": with the output Points all can be shown");
+  }
+}
+
+/**
+ * The smallest box around points, or around all grids.
+ */
+granular::Box FindBounds(
+  const granular::EulerFrame& frame, const std::vector<granular::RegularGrid>& grids)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  granular::Vector3 lo = { infinity, infinity, infinity };
+  granular::Vector3 hi = { -infinity, -infinity, -infinity };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto add = [&](double from, double to)
+    {
+      lo[axis] = std::min(lo[axis], from); // no nan becomes a bound
+      hi[axis] = std::max(hi[axis], to);
+    };
+    for (const granular::RegularGrid& each : grids)
+    {
+      add(each.grid.lo[axis], each.grid.hi[axis]);
+    }
+    for (std::size_t i = axis; grids.empty() && i < frame.centres.size(); i += 3)
+    {
+      add(frame.centres[i], frame.centres[i]);
+    }
+    if (!(lo[axis] <= hi[axis]))
+    {
+      lo[axis] = hi[axis] = 0;
+    }
+  }
+  return granular::Box::from_bounds(lo, hi);
+}
+
+/**
+ * A part of a grid, as an image in which its cells have the numbers that they have in the grid.
+ */
+void FillGrid(vtkImageData* image, const granular::EulerFrame& frame,
+  const granular::RegularGrid& grid, const CellExtent& extent)
+{
+  FillImage(image, grid.grid, extent, frame, { ExtentOf(grid.grid), grid.first }, {});
+}
+
+void FillBlocks(vtkPartitionedDataSet* output, const granular::EulerFrame& frame,
+  const std::vector<granular::RegularGrid>& grids, const PieceRequest& piece)
+{
+  const auto [begin, end] = piece.RangeOf(static_cast<vtkTypeInt64>(grids.size()));
+  for (vtkTypeInt64 i = begin; i < end; ++i)
+  {
+    vtkNew<vtkImageData> image;
+    FillGrid(image, frame, grids[i], ExtentOf(grids[i].grid));
+    output->SetPartition(static_cast<unsigned int>(i - begin), image);
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+struct vtkGranularEulerReader::Internals
+{
+  using Self = vtkGranularEulerReader;
+
+  vtkNew<vtkDataArraySelection> Arrays;
+  std::optional<Form> Known; ///< nothing: nobody has looked
+
+  const Form& Look(Self* self);
+  void UpdateSelection();
+  void Tell(Self* self, vtkInformation* info) const;
+  void Fill(Self* self, vtkInformation* info, const granular::EulerFrame& frame,
+    const std::vector<granular::RegularGrid>& grids) const;
+  void Read(Self* self, vtkInformation* request, vtkInformationVector* outputs) const;
+};
+
+//------------------------------------------------------------------------------
+// Rank 0 looks, for all. Collective.
+const Form& vtkGranularEulerReader::Internals::Look(Self* self)
+{
+  if (this->Known)
+  {
+    return *this->Known;
+  }
+  granular::Communicator& ranks = self->Series->GetRanks();
+  Form form;
+  granular::Packer packer;
+  const auto look = [&]
+  {
+    const granular::FrameIndex& index = self->Series->Index;
+    std::size_t frame = 0;
+    while (frame + 1 < index.size() && index.first_piece(frame).entry.rows == 0)
+    {
+      ++frame;
+    }
+    const granular::FramePiece piece = index.first_piece(frame);
+    AlgorithmProgress progress(self);
+    form.Path = piece.file.path;
+    form.Step = piece.entry.timestep;
+    form.Names =
+      granular::euler_array_names(*granular::open_indexed(piece.file), piece.entry, progress);
+    if (self->OutputType == IMAGE_DATA)
+    {
+      granular::Notices notices; // are given again where cells are shown
+      std::vector<granular::RegularGrid> grids;
+      ReadCells(
+        piece, [](std::string_view) { return false; }, &grids, notices, progress);
+      form.IsImage = grids.size() <= 1;
+      form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
+      ExtentOf(form.Grid); // can be had
+    }
+    pass(packer, form);
+  };
+  granular::do_together(ranks,
+    [&]
+    {
+      if (ranks.rank() == 0)
+      {
+        look();
+      }
+    });
+  ranks.broadcast(packer.bytes, 0);
+  granular::do_together(ranks,
+    [&]
+    {
+      granular::Unpacker unpacker{ packer.bytes };
+      pass(unpacker, form);
+      this->Known = std::move(form);
+      this->UpdateSelection();
+    });
+  return *this->Known;
+}
+
+//------------------------------------------------------------------------------
+// What was chosen before stays.
+void vtkGranularEulerReader::Internals::UpdateSelection()
+{
+  const std::set<std::string> names(this->Known->Names.begin(), this->Known->Names.end());
+  for (const std::string& name : this->Known->Names)
+  {
+    this->Arrays->AddArray(name.c_str(), true);
+  }
+  for (int i = this->Arrays->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (names.count(this->Arrays->GetArrayName(i)) == 0)
+    {
+      this->Arrays->RemoveArrayByIndex(i);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// An image can be cut anywhere, all else is in pieces.
+void vtkGranularEulerReader::Internals::Tell(Self* self, vtkInformation* info) const
+{
+  const bool image = self->OutputType == IMAGE_DATA && this->Known->IsImage;
+  info->Remove(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
+  info->Remove(Pipeline::WHOLE_EXTENT());
+  info->Remove(vtkDataObject::ORIGIN());
+  info->Remove(vtkDataObject::SPACING());
+  if (image)
+  {
+    const granular::EulerGrid& grid = this->Known->Grid;
+    const bool empty = grid.size() == 0;
+    const CellExtent none = { 0, -1, 0, -1, 0, -1 };
+    const CellExtent whole = empty ? none : ExtentOf(grid);
+    const granular::Vector3 spacing = empty
+      ? granular::Vector3{ 1, 1, 1 }
+      : granular::Vector3{ grid.spacing(0), grid.spacing(1), grid.spacing(2) };
+    info->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
+    info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+    info->Set(Pipeline::WHOLE_EXTENT(), whole.data(), 6);
+    info->Set(vtkDataObject::ORIGIN(), grid.lo.data(), 3);
+    info->Set(vtkDataObject::SPACING(), spacing.data(), 3);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerReader::Internals::Fill(Self* self, vtkInformation* info,
+  const granular::EulerFrame& frame, const std::vector<granular::RegularGrid>& grids) const
+{
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  const PieceRequest piece = PieceRequest::Of(info);
+  auto* image = vtkImageData::SafeDownCast(output);
+  auto* blocks = vtkPartitionedDataSet::SafeDownCast(output);
+  auto* points = vtkPolyData::SafeDownCast(output);
+  if (self->OutputType == POINTS && points)
+  {
+    const auto [begin, end] = piece.RangeOf(frame.cells);
+    FillPoints(points, frame, begin, end, {});
+  }
+  else if (self->OutputType == IMAGE_DATA && this->Known->IsImage && image)
+  {
+    CellExtent extent = {};
+    if (!grids.empty())
+    {
+      info->Get(Pipeline::UPDATE_EXTENT(), extent.data());
+    }
+    FillGrid(image, frame, grids.empty() ? granular::RegularGrid{} : grids.front(), extent);
+  }
+  else if (self->OutputType == IMAGE_DATA && !this->Known->IsImage && blocks)
+  {
+    FillBlocks(blocks, frame, grids, piece);
+  }
+  else
+  {
+    throw granular::Error("expected an output for what the files hold, got a " +
+      std::string(output->GetClassName()) + ": the files have changed, update again");
+  }
+}
+
+//------------------------------------------------------------------------------
+// Collective: an error of one rank is one of all. Each reads the whole frame, and keeps its part.
+void vtkGranularEulerReader::Internals::Read(
+  Self* self, vtkInformation* request, vtkInformationVector* outputs) const
+{
+  granular::Communicator& ranks = self->Series->GetRanks();
+  AlgorithmProgress own(self);
+  granular::SharedProgress together(own, ranks);
+  granular::PartialProgress progress(together);
+  const auto read = [&]
+  {
+    progress.step(0);
+    double time = 0;
+    const std::size_t index = self->Series->FindFrame(self, request, outputs, time);
+    const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(index);
+    const granular::FramePiece& piece = pieces.front();
+    const granular::Where where = granular::where_of(piece.file.path, piece.entry);
+    if (pieces.size() > 1)
+    {
+      throw granular::UnsupportedError(
+        "expected all cells of a timestep in one file, got pieces of it: RepeatedSteps", where);
+    }
+    granular::Notices notices;
+    std::vector<granular::RegularGrid> grids;
+    progress.set_part(0, 0.9);
+    const bool cells = self->OutputType == IMAGE_DATA;
+    const auto wanted = [&](std::string_view name)
+    {
+      const std::string array(name);
+      return this->Arrays->ArrayExists(array.c_str()) == 0 ||
+        this->Arrays->ArrayIsEnabled(array.c_str()) != 0;
+    };
+    const granular::EulerFrame frame =
+      ReadCells(piece, wanted, cells ? &grids : nullptr, notices, progress);
+    if (cells && this->Known->IsImage)
+    {
+      NameFile(where, [&] { CheckImage(*this->Known, grids); });
+    }
+    granular::FrameHeader header;
+    header.box = FindBounds(frame, grids);
+    header.box.boundary = "ff ff ff";
+    header.timestep = piece.entry.timestep;
+    vtkInformation* info = outputs->GetInformationObject(0);
+    this->Fill(self, info, frame, grids);
+    vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+    FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    if (ranks.rank() == 0)
+    {
+      self->Series->Tell(self, notices, false);
+    }
+    progress.set_part(0.9, 1);
+    progress.step(1);
+  };
+  granular::do_together(ranks, read);
+}
+
+//------------------------------------------------------------------------------
+vtkGranularEulerReader::vtkGranularEulerReader()
+  : Internal(std::make_unique<Internals>())
+{
+  this->Series->Format = &granular::euler_format();
+  this->RepeatedSteps = LAST; // the dump refuses `%`
+  // who switches an array on or off wants other data
+  this->Internal->Arrays->AddObserver(
+    vtkCommand::ModifiedEvent, this, &vtkGranularEulerReader::Modified);
+}
+
+//------------------------------------------------------------------------------
+vtkGranularEulerReader::~vtkGranularEulerReader() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerReader::SetOutputType(int type)
+{
+  type = std::clamp(type, static_cast<int>(POINTS), static_cast<int>(IMAGE_DATA));
+  if (this->OutputType != type)
+  {
+    this->OutputType = type;
+    this->Internal->Known.reset();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularEulerReader::GetPointDataArraySelection()
+{
+  return this->Internal->Arrays;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerReader::CanReadFile(const char* fileName)
+{
+  return granular::is_euler_file(fileName ? fileName : "") ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerReader::ForgetFrames()
+{
+  this->Internal->Known.reset();
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerReader::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject"); // see RequestDataObject
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// There is an output whatever happens: of the type that there was, or of one that the files would make.
+int vtkGranularEulerReader::RequestDataObject(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  const auto provide = [&](auto made)
+  {
+    vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+    if (!output || output->GetDataObjectType() != made->GetDataObjectType())
+    {
+      info->Set(vtkDataObject::DATA_OBJECT(), made);
+    }
+  };
+  if (this->OutputType == POINTS)
+  {
+    provide(vtkNew<vtkPolyData>().Get());
+    return 1;
+  }
+  if (!info->Get(vtkDataObject::DATA_OBJECT()))
+  {
+    provide(vtkNew<vtkImageData>().Get());
+  }
+  const Outcome outcome = Guard(this, outputVector,
+    [&]
+    {
+      this->Series->Update(this);
+      if (this->Internal->Look(this).IsImage)
+      {
+        provide(vtkNew<vtkImageData>().Get());
+      }
+      else
+      {
+        provide(vtkNew<vtkPartitionedDataSet>().Get());
+      }
+    });
+  return this->Series->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerReader::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int done = this->Superclass::RequestInformation(request, inputVector, outputVector);
+  if (done == 0 || this->Series->Ranks.IsCancelled())
+  {
+    return done;
+  }
+  const Outcome outcome = Guard(this, outputVector,
+    [&]
+    {
+      this->Internal->Look(this);
+      granular::do_together(this->Series->GetRanks(),
+        [&] { this->Internal->Tell(this, outputVector->GetInformationObject(0)); });
+    });
+  return this->Series->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerReader::RequestData(vtkInformation* request,
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  return this->Series->Run(this, outputVector,
+    [&]
+    {
+      this->Internal->Look(this);
+      this->Internal->Read(this, request, outputVector);
+    });
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "OutputType: " << (this->OutputType == POINTS ? "Points" : "ImageData") << "\n";
+  os << indent << "PointDataArraySelection:\n";
+  this->Internal->Arrays->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularEulerReader
+ * @brief   Reads averages over cells of space: the files of dump euler/vtk.
+ *
+ * LIGGGHTS writes legacy VTK text with a point for each cell of fix ave/euler, and the point arrays `v_avg`, the velocity
+ * weighted by mass [m/s], `volumefraction` of solids, `radius`, the mean [m], and `pressure` [Pa]; its fork PFM also `sigma`
+ * (xx yy zz) and `tau` (xy xz yz), and grids with the arrays in the cells. Legacy files into which VTK has turned these are read, too. Numbers
+ * are doubles; nan and infinities are numbers. LIGGGHTS before 3.2.1 divided velocities once more by the number of
+ * particles in the cell, which no file says.
+ *
+ * The timestep is the last number in the name of a file, of those that differ between the files. Of several files of one timestep the last
+ * counts. Which frames there are, and their times: see vtkGranularSeriesReader.
+ *
+ * The output has one point for each cell (vtkPolyData), or it has the cells, see SetOutputType. Field data: the smallest
+ * box around all points or cells as BoxOrigin, BoxVectors and BoxBounds, and `timestep`. A frame without cells makes an empty
+ * output of the same type.
+ */
+
+#ifndef vtkGranularEulerReader_h
+#define vtkGranularEulerReader_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkGranularSeriesReader.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkDataArraySelection;
+
+class VTKGRANULAR_EXPORT vtkGranularEulerReader : public vtkGranularSeriesReader
+{
+public:
+  static vtkGranularEulerReader* New();
+  vtkTypeMacro(vtkGranularEulerReader, vtkGranularSeriesReader);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum OutputTypes
+  {
+    POINTS = 0,
+    IMAGE_DATA = 1
+  };
+
+  ///@{
+  /**
+   * POINTS, the default: vtkPolyData, a vertex at the centre of each cell, in the order of the file; ranks have equal shares.
+   * IMAGE_DATA: the cells, with cell arrays. If they form one regular grid, vtkImageData, of which each rank has the
+   * extent that the pipeline asks for. If each process of the simulation had a grid of its own (`parallel yes` of
+   * fix ave/euler), vtkPartitionedDataSet with a vtkImageData for each, of which ranks have equal shares. Cells that form no
+   * regular grids are an error. The first frame that has cells decides for all: where it is one grid, others must be one
+   * with as many cells along each axis.
+   */
+  void SetOutputType(int type);
+  vtkGetMacro(OutputType, int);
+  ///@}
+
+  /**
+   * Which arrays are read. Filled by UpdateInformation() with the arrays of the first frame that has cells: all on. Arrays
+   * of other frames are read unless they are off here. What was chosen stays when the files are read again.
+   */
+  virtual vtkDataArraySelection* GetPointDataArraySelection();
+
+  /**
+   * Returns 1 if the file is of dump euler/vtk, by what is in it; other .vtk files are for others. Never fails.
+   */
+  static int CanReadFile(VTK_FILEPATH const char* fileName);
+
+protected:
+  vtkGranularEulerReader();
+  ~vtkGranularEulerReader() override;
+
+  void ForgetFrames() override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkGranularEulerReader(const vtkGranularEulerReader&) = delete;
+  void operator=(const vtkGranularEulerReader&) = delete;
+
+  int OutputType = POINTS;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularEulerWriter.h"
+
+#include "private/euler_input.h"
+#include "private/name_file.h"
+#include "private/whole_file.h"
+#include "private/writer.h"
+
+#include "granular/base/compression.h"
+#include "granular/dump/dump_format.h"
+#include "granular/euler/euler_text.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+
+#include <string>
+#include <utility>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularEulerWriter);
+
+//------------------------------------------------------------------------------
+/**
+ * Cells that are being written.
+ */
+class vtkGranularEulerWriter::File : public WholeFile
+{
+public:
+  File(vtkGranularEulerWriter* self, Internals& internals)
+    : WholeFile({ self->FileName, "cells", self->Dialect == WIDE ? "Wide" : "" },
+        internals.GetRanks(), *self->Past, internals.Notices)
+    , Dialect(
+        self->Dialect == WIDE ? granular::EulerDialect::Wide : granular::EulerDialect::Liggghts)
+  {
+  }
+
+protected:
+  FrameFacts Take(
+    vtkDataObject* input, const FrameTime& time, granular::Notices& vtkNotUsed(notices)) override
+  {
+    NameFile({ this->Form.Path }, [&] { this->Own = ReadCells(input); });
+    return MakeFacts(input, this->Own.Points, this->Own.Cells.count() > 0, time);
+  }
+
+  void Gather(granular::Notices&, granular::Progress&) override
+  {
+    NameFile({ this->Form.Path },
+      [&] { this->All = GatherCells(std::exchange(this->Own, {}), this->Ranks); });
+  }
+
+  std::string Encode(
+    const SharedFacts&, granular::Notices& notices, granular::Progress& progress) override
+  {
+    granular::Notices found;
+    std::string text = granular::encode_euler(this->All, this->Dialect, found, progress);
+    for (granular::Notice& notice : found)
+    {
+      notice.where.path = this->Form.Path;
+      notices.push_back(std::move(notice));
+    }
+    const granular::Compression how = granular::compression_of_name(this->Form.Path);
+    return how == granular::Compression::None ? text : granular::compress(text, how);
+  }
+
+private:
+  const granular::EulerDialect Dialect;
+  EulerInput Own;
+  granular::EulerCells All;
+};
+
+//------------------------------------------------------------------------------
+vtkGranularEulerWriter::vtkGranularEulerWriter()
+  : Past(std::make_unique<WrittenFiles>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkGranularEulerWriter::~vtkGranularEulerWriter() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Dialect: " << this->Dialect << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerWriter::SetDialect(int dialect)
+{
+  if (dialect != LIGGGHTS && dialect != WIDE)
+  {
+    vtkErrorMacro("expected Dialect 0 (LIGGGHTS) or 1 (Wide), got " << dialect);
+    return;
+  }
+  if (this->Dialect != dialect)
+  {
+    this->Dialect = dialect;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see ReadCells
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<FrameWriter> vtkGranularEulerWriter::OpenFile(Internals& internals)
+{
+  const std::string path = this->FileName;
+  if (granular::is_name_of_ranks(path))
+  {
+    throw granular::UnsupportedError(
+      "expected a name without '%': one file holds the cells of all processes", { path });
+  }
+  return std::make_unique<File>(this, internals);
+}
