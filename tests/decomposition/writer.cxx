@@ -3,7 +3,7 @@
 #include "vtkGranularDecompositionWriter.h"
 
 #include "../base/small_disk.h"
-#include "../dump/writer_helpers.h"
+#include "../support/whole_file_writers.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -12,20 +12,17 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkUnstructuredGridAlgorithm.h"
 
 #include <array>
-#include <chrono>
 #include <functional>
 #include <locale>
 
 namespace
 {
-using Lines = std::vector<std::string>;
 using Bounds = std::array<double, 6>; ///< xlo xhi ylo yhi zlo zhi
 
 /// Which corner of a box comes when in a cell: of each which bound it has along x (1), y (2) and z (4).
@@ -69,23 +66,6 @@ void AddCells(
   grid->GetCellData()->AddArray(array);
 }
 
-void AddField(vtkUnstructuredGrid* grid, const char* name, const std::vector<double>& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(static_cast<int>(values.size()));
-  array->InsertNextTuple(values.data());
-  grid->GetFieldData()->AddArray(array);
-}
-
-void AddText(vtkUnstructuredGrid* grid, const char* name, const char* value)
-{
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  grid->GetFieldData()->AddArray(array);
-}
-
 /// Two processes, and what is written of them.
 const std::vector<Bounds> Two = { { 0, 1, 0, 1, 0, 0.1 }, { 1, 2, 0, 1, 0, 0.1 } };
 const std::string TwoCells =
@@ -110,50 +90,7 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeTwo(
   return grid;
 }
 
-struct CellWriter
-{
-  vtkNew<vtkGranularDecompositionWriter> Get;
-  vtkNew<Messages> Said;
-
-  explicit CellWriter(const std::string& file, vtkDataObject* data = nullptr)
-  {
-    this->Get->AddObserver(vtkCommand::ErrorEvent, this->Said);
-    this->Get->AddObserver(vtkCommand::WarningEvent, this->Said);
-    this->Get->SetFileName(file.c_str());
-    this->Get->SetInputDataObject(data);
-  }
-
-  vtkGranularDecompositionWriter* operator->() { return this->Get; }
-
-  void ExpectWritten()
-  {
-    EXPECT_EQ(this->Get->Write(), 1);
-    EXPECT_TRUE(this->Get->GetWritten());
-    EXPECT_EQ(this->Said->Errors, Lines{});
-  }
-
-  std::string Bytes()
-  {
-    this->ExpectWritten();
-    return Content(this->Get->GetFileName());
-  }
-
-  void ExpectError(unsigned long code, const std::string& text)
-  {
-    this->Said->Errors.clear();
-    EXPECT_EQ(this->Get->Write(), 0);
-    EXPECT_FALSE(this->Get->GetWritten());
-    EXPECT_EQ(this->Get->GetErrorCode(), code);
-    EXPECT_EQ(this->Said->Errors, Lines{ text });
-    this->Said->Errors.clear();
-  }
-
-  void ExpectUnsupported(const std::string& text)
-  {
-    this->ExpectError(
-      vtkErrorCode::FileFormatError, std::string(this->Get->GetFileName()) + ": " + text);
-  }
-};
+using CellWriter = WholeFileWriter<vtkGranularDecompositionWriter>;
 
 /// Two processes, at several times, with the timestep in the field data if wanted.
 class Source : public vtkUnstructuredGridAlgorithm
@@ -194,38 +131,6 @@ protected:
 };
 
 vtkStandardNewMacro(Source);
-
-/// A name in an empty folder.
-std::string FreshName(const std::string& name)
-{
-  const std::filesystem::path path = NewName(name);
-  for (const std::string& beside : Beside(path.string()))
-  {
-    std::filesystem::remove(path.parent_path() / beside);
-  }
-  return path.string();
-}
-
-/// A file whose time stamp is of long ago.
-class Stamped
-{
-public:
-  explicit Stamped(std::string path)
-    : Path(std::move(path))
-  {
-    std::filesystem::last_write_time(this->Path, Old());
-  }
-
-  bool IsUntouched() const { return std::filesystem::last_write_time(this->Path) == Old(); }
-
-private:
-  static std::filesystem::file_time_type Old()
-  {
-    return std::filesystem::file_time_type{} + std::chrono::hours(24);
-  }
-
-  std::string Path;
-};
 }
 
 TEST(DecompositionWriter, LegacyText)

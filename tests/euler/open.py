@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Euler cells as ParaView's users meet them: files, names, documentation, slices, contours, a picture."""
+import os
+import shutil
+
+import numpy
+import plain_euler
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+import granular
+
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
+files = [os.path.join(data, f"euler_{step}.vtk") for step in (1000, 2000, 3000, 4000)]
+
+
+def check_documentation(proxy, names):
+    for name in names:
+        text = proxy.SMProxy.GetProperty(name).GetDocumentation()
+        assert text and len(text.GetDescription().strip()) > 40, name
+
+
+# ---- files open as what they are ------------------------------------------------------------------------
+
+reader = OpenDataFile(files[0])
+assert reader.GetXMLName() == "GranularEulerReader", reader
+shutil.copy(files[0], "cells.euler")
+assert OpenDataFile(os.path.abspath("cells.euler")).GetXMLName() == "GranularEulerReader"
+assert OpenDataFile(os.path.join(data, "decomposition_1000.vtk")).GetXMLName() == "GranularDecompositionReader"
+SaveData("sphere.vtk", Sphere(), FileType="Ascii")
+SaveData("wavelet.vtk", Wavelet(), FileType="Binary")
+SaveData("arrays.vtk", PointDatatoCellData(Input=Wavelet()), FileType="Ascii")
+with open("mesh.vtk", "w") as file:  # as dump mesh/vtk of LIGGGHTS, which has the same title
+    file.write("# vtk DataFile Version 2.0\nLIGGGHTS mesh/VTK export\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+               "0 0 0\n1 0 0\n0 1 0\nPOLYGONS 1 4\n3 0 1 2\nCELL_DATA 1\nSCALARS pressure float 1\n"
+               "LOOKUP_TABLE default\n7\n")
+for name in ("sphere.vtk", "wavelet.vtk", "arrays.vtk", "mesh.vtk"):
+    assert OpenDataFile(os.path.abspath(name)).GetXMLName() == "LegacyVTKFileReader", name
+
+series = OpenDataFile(files, TimestepSize=2e-5)
+assert numpy.allclose(series.TimestepValues, [0.02, 0.04, 0.06, 0.08], rtol=1e-15), series.TimestepValues
+series.UpdatePipeline(0.06)
+points = servermanager.Fetch(series)
+assert points.IsA("vtkPolyData") and points.GetNumberOfVerts() == 112
+assert points.GetFieldData().GetArray("timestep").GetValue(0) == 3000
+
+defaults = {"Output": "Points", "TimestepSize": 1, "RefreshOnUpdate": 0, "Threads": 0}
+for name, default in defaults.items():
+    assert getattr(reader, name) == default, (name, getattr(reader, name))
+check_documentation(reader, ("FileNames", "PointArrayStatus", *defaults))
+assert reader.PointArrayStatus[:] == ["v_avg", "volumefraction", "radius", "pressure"], reader.PointArrayStatus[:]
+reader.PointArrayStatus = ["pressure"]
+reader.UpdatePipeline()
+assert [array.GetName() for array in reader.PointData[:]] == ["pressure"]
+
+# ---- points become cells, with filters behind ------------------------------------------------------------
+
+expected = plain_euler.read(files[1])
+table = Calculator(Input=series, Function="volumefraction*2")
+table.UpdatePipeline(0.04)
+series.Output = "ImageData"
+series.UpdatePipeline(0.04)
+image = servermanager.Fetch(series)
+assert image.IsA("vtkImageData") and image.GetDimensions() == (5, 5, 8)
+assert (vtk_to_numpy(image.GetCellData().GetArray("pressure")) == expected["pressure"].ravel()).all()
+averaged = CellDatatoPointData(Input=series)
+cut = Slice(Input=series, SliceType="Plane")
+SetProperties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+level = Contour(Input=averaged, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.2])
+for proxy in (averaged, cut, level):
+    proxy.UpdatePipeline(0.04)
+assert servermanager.Fetch(cut).GetNumberOfCells() >= 28
+assert servermanager.Fetch(level).GetNumberOfCells() > 0
+bounds = servermanager.Fetch(cut).GetBounds()
+assert numpy.allclose(bounds, [.001, .001, -.05, .05, 0, .15], atol=3e-6), bounds
+series.Output = "Points"
+series.UpdatePipeline(0.04)
+assert servermanager.Fetch(series).IsA("vtkPolyData")
+
+# ---- a grid a process --------------------------------------------------------------------------------------
+
+corners = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0))
+parts = [plain_euler.grid(lo, (lo[0] + 1, lo[1] + 1, 2), (2 + i, 3, 4)) for i, lo in enumerate(corners)]
+cells = plain_euler.cells(numpy.concatenate(parts))
+cells["volumefraction"] = cells["centres"][:, 2:]
+with open("parallel_100.vtk", "w") as file:
+    file.write(plain_euler.text(cells))
+blocks = OpenDataFile(os.path.abspath("parallel_100.vtk"), Output="ImageData")
+assert blocks.GetXMLName() == "GranularEulerReader"
+blocks.UpdatePipeline()
+assert blocks.GetDataInformation().GetNumberOfCells() == sum(len(part) for part in parts)
+assert numpy.allclose(blocks.GetDataInformation().GetBounds(), [0, 2, 0, 2, 0, 2], atol=1e-5)
+cut = Slice(Input=blocks, SliceType="Plane")
+SetProperties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
+level = Contour(Input=CellDatatoPointData(Input=blocks), ContourBy=["POINTS", "volumefraction"], Isosurfaces=[1])
+for proxy in (cut, level):
+    proxy.UpdatePipeline()
+    assert proxy.GetDataInformation().GetNumberOfCells() > 0
+assert numpy.allclose(level.GetDataInformation().GetBounds(), [0, 2, 0, 2, 1, 1], atol=1e-5)
+sums = IntegrateVariables(Input=MergeBlocks(Input=blocks))
+sums.UpdatePipeline()
+assert abs(servermanager.Fetch(sums).GetCellData().GetArray("Volume").GetValue(0) - 8) < 1e-4
+
+# ---- a picture -----------------------------------------------------------------------------------------------
+
+view = CreateRenderView(ViewSize=[500, 500], OrientationAxesVisibility=0)
+shown = OpenDataFile(files, Output="ImageData")
+display = Show(shown, view)
+display.Representation = "Surface With Edges"
+ColorBy(display, ("CELLS", "volumefraction"))
+view.ViewTime = 4000
+display.RescaleTransferFunctionToDataRange()
+view.ResetActiveCameraToPositiveY()
+GetActiveCamera().Azimuth(30)
+GetActiveCamera().Elevation(25)
+ResetCamera(view)
+SaveScreenshot("cells.png", view)
+Show(blocks, view)
+Hide(shown, view)
+ResetCamera(view)
+SaveScreenshot("blocks.png", view)

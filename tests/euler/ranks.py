@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Any number of ranks read a part of the cells each, and all of them together the whole."""
+import os
+
+import all_ranks
+import numpy
+import plain_euler
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+import granular
+
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
+files = [os.path.join(data, f"euler_{step}.vtk") for step in (1000, 2000, 3000, 4000)]
+size = all_ranks.ranks.GetNumberOfProcesses()
+rank = all_ranks.ranks.GetLocalProcessId()
+
+# points: the shares one after the other are the file
+series = GranularEulerReader(FileNames=files)
+for step, name in zip((1000, 2000, 3000, 4000), files):
+    points = all_ranks.whole(series, step)
+    expected = plain_euler.read(name)
+    assert (vtk_to_numpy(points.GetPoints().GetData()) == expected["centres"]).all()
+    for array in plain_euler.ARRAYS:
+        found = vtk_to_numpy(points.GetPointData().GetArray(array)).reshape(112, -1)
+        assert (found == expected[array]).all(), (step, array)
+Delete(series)
+
+# an image: each cell on one rank, and filters see no seams
+series = GranularEulerReader(FileNames=files, Output="ImageData")
+series.UpdatePipeline(4000)
+information = series.GetDataInformation()
+assert information.GetNumberOfCells() == 112, information.GetNumberOfCells()
+assert information.GetExtent() == (0, 4, 0, 4, 0, 7), information.GetExtent()
+expected = plain_euler.read(files[3])
+cells = Threshold(Input=series, Scalars=["CELLS", "volumefraction"], LowerThreshold=-1, UpperThreshold=2)
+centres = CellCenters(Input=series, VertexCells=1)
+points = all_ranks.whole(centres, 4000)
+order = numpy.lexsort(vtk_to_numpy(points.GetPoints().GetData()).round(4).T)
+assert len(order) == 112
+assert numpy.allclose(vtk_to_numpy(points.GetPoints().GetData())[order], expected["centres"], rtol=0, atol=1e-6)
+for array in plain_euler.ARRAYS:
+    found = vtk_to_numpy(points.GetPointData().GetArray(array)).reshape(112, -1)
+    assert (found[order] == expected[array]).all(), array
+sums = IntegrateVariables(Input=series)
+sums.UpdatePipeline(4000)
+level = Contour(Input=CellDatatoPointData(Input=series), ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.2])
+cut = Slice(Input=series, SliceType="Plane")
+SetProperties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+for proxy in (cut, level):
+    proxy.UpdatePipeline(4000)
+    assert proxy.GetDataInformation().GetNumberOfCells() > 0
+area = IntegrateVariables(Input=cut)
+area.UpdatePipeline(4000)
+surface = IntegrateVariables(Input=level)
+surface.UpdatePipeline(4000)
+if rank == 0 and not all_ranks.symmetric:
+    volume = servermanager.Fetch(sums).GetCellData().GetArray("Volume").GetValue(0)
+    assert abs(volume - 0.1 * 0.1 * 0.15) < 1e-7, volume
+    total = servermanager.Fetch(area).GetCellData().GetArray("Area").GetValue(0)
+    assert abs(total - 0.1 * 0.15) < 1e-6, total
+    whole = granular.vtkGranularEulerReader()  # the same on this rank alone
+    whole.SetController(None)
+    whole.AddFileName(files[3])
+    whole.SetOutputType(1)
+    whole.Update()
+    from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkContourFilter, vtkMassProperties, vtkTriangleFilter
+    smooth, contour, triangles, mass = vtkCellDataToPointData(), vtkContourFilter(), vtkTriangleFilter(), vtkMassProperties()
+    smooth.SetInputData(whole.GetOutputDataObject(0))
+    contour.SetInputConnection(smooth.GetOutputPort())
+    contour.SetInputArrayToProcess(0, 0, 0, 0, "volumefraction")
+    contour.SetValue(0, 0.2)
+    triangles.SetInputConnection(contour.GetOutputPort())
+    mass.SetInputConnection(triangles.GetOutputPort())
+    mass.Update()
+    alone = mass.GetSurfaceArea()
+    together = servermanager.Fetch(surface).GetCellData().GetArray("Area").GetValue(0)
+    assert abs(together - alone) < 1e-9 * alone, (together, alone)  # with ghost cells there is no seam
+
+# a grid a process: each on one rank
+corners = [(x, y, 0) for x in range(2) for y in range(2)] + [(5, 0, 0)]
+parts = [plain_euler.grid(lo, (lo[0] + 1, lo[1] + 1, 2), (2 + i, 3, 4)) for i, lo in enumerate(corners)]
+values = plain_euler.cells(numpy.concatenate(parts))
+name = os.path.abspath(f"parallel_{rank}_100.vtk" if all_ranks.symmetric else "parallel_0_100.vtk")
+with open(name, "w") as file:
+    file.write(plain_euler.text(values))
+all_ranks.ranks.Barrier() if all_ranks.symmetric else None
+blocks = GranularEulerReader(FileNames=[os.path.abspath("parallel_0_100.vtk")], Output="ImageData")
+blocks.UpdatePipeline()
+assert blocks.GetDataInformation().GetNumberOfCells() == len(values["centres"])
+points = all_ranks.whole(CellCenters(Input=MergeBlocks(Input=blocks, MergePoints=0), VertexCells=1))
+assert points.GetNumberOfPoints() == len(values["centres"])
+found = numpy.sort(vtk_to_numpy(points.GetPointData().GetArray("pressure")))
+assert numpy.allclose(found, numpy.sort(values["pressure"].ravel()), rtol=0, atol=1e-6)
+cut = Slice(Input=blocks, SliceType="Plane")
+SetProperties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
+smooth = Contour(Input=CellDatatoPointData(Input=blocks), ContourBy=["POINTS", "pressure"], Isosurfaces=[0])
+for proxy in (cut, smooth):
+    proxy.UpdatePipeline()
+    assert proxy.GetDataInformation().GetNumberOfCells() > 0
+
+# more ranks than cells, and no cells
+for centres in (plain_euler.grid((0, 0, 0), (1, 1, 1), (1, 1, 2)), numpy.zeros((0, 3))):
+    few = f"few_{len(centres)}_{rank if all_ranks.symmetric else 0}_7.vtk"
+    with open(few, "w") as file:
+        file.write(plain_euler.text(plain_euler.cells(centres)))
+    all_ranks.ranks.Barrier() if all_ranks.symmetric else None
+    for output in ("Points", "ImageData"):
+        reader = GranularEulerReader(FileNames=[os.path.abspath(f"few_{len(centres)}_0_7.vtk")], Output=output)
+        reader.UpdatePipeline()
+        assert reader.GetDataInformation().GetNumberOfCells() == len(centres), (output, len(centres))
+        Delete(reader)
+print("all there")
