@@ -134,7 +134,7 @@ struct ExactVolume
   Quad tolerance = 0; ///< what sphere_box_volume promises
 };
 
-inline ExactVolume exact_sphere_box(const std::array<Quad, 3>& centre, double radius,
+inline ExactVolume exact_sphere_box(const granular::Twofold3& centre, double radius,
   const granular::Vector3& lo, const granular::Vector3& hi)
 {
   const auto r = static_cast<Quad>(radius);
@@ -143,8 +143,9 @@ inline ExactVolume exact_sphere_box(const std::array<Quad, 3>& centre, double ra
   std::array<Quad, 3> edges = {};
   for (std::size_t k = 0; k < 3; ++k)
   {
-    planes[0][k] = (static_cast<Quad>(lo[k]) - centre[k]) / r;
-    planes[1][k] = (static_cast<Quad>(hi[k]) - centre[k]) / r;
+    const Quad middle = static_cast<Quad>(centre[k].hi) + static_cast<Quad>(centre[k].lo);
+    planes[0][k] = (static_cast<Quad>(lo[k]) - middle) / r;
+    planes[1][k] = (static_cast<Quad>(hi[k]) - middle) / r;
     edges[k] = static_cast<Quad>(hi[k]) - static_cast<Quad>(lo[k]);
   }
   Quad farthest = 0;
@@ -180,7 +181,7 @@ inline ExactVolume exact_sphere_box(const std::array<Quad, 3>& centre, double ra
 inline ExactVolume exact_sphere_box(const granular::Vector3& centre, double radius,
   const granular::Vector3& lo, const granular::Vector3& hi)
 {
-  const std::array<Quad, 3> exact_centre = { centre[0], centre[1], centre[2] };
-  return exact_sphere_box(exact_centre, radius, lo, hi);
+  const granular::Twofold3 twofold = { { { centre[0], 0 }, { centre[1], 0 }, { centre[2], 0 } } };
+  return exact_sphere_box(twofold, radius, lo, hi);
 }
 #endif
