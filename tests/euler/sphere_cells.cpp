@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/euler/sphere_cells.h"
+
+#include "exact_sphere_box.h"
+#include "granular/euler/sphere_box.h"
+
+#include <cmath>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+using granular::CellRange;
+using granular::CellShare;
+using granular::EulerGrid;
+using granular::sphere_volume;
+using granular::SphereCells;
+using granular::Twofold;
+using granular::Twofold3;
+using granular::Vector3;
+
+using Cell = std::array<std::int64_t, 3>;
+
+CellRange all_of(const EulerGrid& grid)
+{
+  return { {}, grid.counts };
+}
+
+std::vector<CellShare> find(
+  const SphereCells& cells, const EulerGrid& grid, const Twofold3& centre, double radius)
+{
+  std::vector<CellShare> shares;
+  cells.find(centre, radius, all_of(grid), shares);
+  return shares;
+}
+
+double sum(const std::vector<CellShare>& shares)
+{
+  granular::CompensatedSum sum;
+  for (const CellShare& share : shares)
+  {
+    sum.add(share.volume);
+  }
+  return sum.value();
+}
+
+/// Each cell at most once, of the grid, with a volume.
+std::map<std::int64_t, double> by_cell(const std::vector<CellShare>& shares, const EulerGrid& grid)
+{
+  std::map<std::int64_t, double> volumes;
+  for (const CellShare& share : shares)
+  {
+    EXPECT_TRUE(volumes.emplace(share.cell, share.volume).second) << share.cell;
+    EXPECT_TRUE(0 <= share.cell && share.cell < grid.size()) << share.cell;
+    EXPECT_GT(share.volume, 0);
+  }
+  return volumes;
+}
+
+Twofold3 twofold(const Vector3& centre)
+{
+  return { { { centre[0], 0 }, { centre[1], 0 }, { centre[2], 0 } } };
+}
+
+struct Random
+{
+  explicit Random(std::uint64_t seed)
+    : random(seed)
+  {
+  }
+
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random); }
+  double power(double from, double to) { return std::pow(10, from + (to - from) * this->unit()); }
+  bool one_in(std::uint64_t n) { return random() % n == 0; }
+
+  std::mt19937_64 random;
+};
+
+/// Around a sphere at the origin, of radius 1: so many cells to a diameter, and at least one beyond it on each side.
+EulerGrid grid_around(Random& random, const Vector3& cells_a_diameter)
+{
+  EulerGrid grid;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double edge = 2 / cells_a_diameter[k];
+    grid.lo[k] = -1 - edge * (0.1 + random.unit());
+    grid.counts[k] = static_cast<std::int64_t>((1 - grid.lo[k]) / edge) + 2;
+    grid.hi[k] = grid.lo[k] + static_cast<double>(grid.counts[k]) * edge;
+  }
+  return grid;
+}
+
+Vector3 middle_of(const EulerGrid& grid, const Cell& cell)
+{
+  return { grid.centre(0, cell[0]), grid.centre(1, cell[1]), grid.centre(2, cell[2]) };
+}
+
+// ---- by hand -----------------------------------------------------------------------------------
+
+const EulerGrid six = { { 0, 0, 0 }, { 3, 2, 1 }, { 3, 2, 1 } };
+
+TEST(SphereCells, AGrainInOneCell)
+{
+  const SphereCells cells(six);
+  const auto shares = find(cells, six, twofold({ 2.5, 1.5, 0.5 }), 0.5);
+  ASSERT_EQ(shares.size(), 1U);
+  EXPECT_EQ(shares[0].cell, 5);
+  EXPECT_EQ(shares[0].volume, sphere_volume(0.5));
+}
+
+TEST(SphereCells, HalvesQuartersAndEighths)
+{
+  const SphereCells cells(six);
+  const auto halves = by_cell(find(cells, six, twofold({ 1, 0.5, 0.5 }), 0.25), six);
+  ASSERT_EQ(halves.size(), 2U);
+  EXPECT_DOUBLE_EQ(halves.at(0), sphere_volume(0.25) / 2);
+  EXPECT_DOUBLE_EQ(halves.at(1), sphere_volume(0.25) / 2);
+  const auto quarters = by_cell(find(cells, six, twofold({ 2, 1, 0.5 }), 0.25), six);
+  ASSERT_EQ(quarters.size(), 4U);
+  for (const std::int64_t cell : { 1, 2, 4, 5 })
+  {
+    EXPECT_DOUBLE_EQ(quarters.at(cell), sphere_volume(0.25) / 4);
+  }
+  const EulerGrid eight = { { -1, -1, -1 }, { 1, 1, 1 }, { 2, 2, 2 } };
+  const auto eighths = by_cell(find(SphereCells(eight), eight, {}, 1), eight);
+  ASSERT_EQ(eighths.size(), 8U);
+  for (const auto& [cell, volume] : eighths)
+  {
+    EXPECT_DOUBLE_EQ(volume, sphere_volume(1) / 8) << cell;
+  }
+}
+
+TEST(SphereCells, WhatIsOutsideIsInNone)
+{
+  const SphereCells cells(six);
+  EXPECT_TRUE(find(cells, six, twofold({ 3.5, 0.5, 0.5 }), 0.5).empty()); // touches
+  EXPECT_TRUE(find(cells, six, twofold({ -5, 0.5, 0.5 }), 1).empty());
+  EXPECT_TRUE(find(cells, six, twofold({ 4, 3, 0.5 }), 1.25).empty()); // beyond an edge
+  EXPECT_TRUE(find(cells, six, twofold({ 1, 1, 1 }), 0).empty());
+  const auto half = find(cells, six, twofold({ 3, 1.5, 0.5 }), 0.25);
+  ASSERT_EQ(half.size(), 1U);
+  EXPECT_EQ(half[0].cell, 5);
+  EXPECT_DOUBLE_EQ(half[0].volume, sphere_volume(0.25) / 2);
+  const auto corner = find(cells, six, twofold({ 0, 0, 0 }), 0.25);
+  ASSERT_EQ(corner.size(), 1U);
+  EXPECT_EQ(corner[0].cell, 0);
+  EXPECT_DOUBLE_EQ(corner[0].volume, sphere_volume(0.25) / 8);
+  // a centre beyond the bounds: a cap of height 1/8
+  const auto cap = find(cells, six, twofold({ -0.125, 0.5, 0.5 }), 0.25);
+  ASSERT_EQ(cap.size(), 1U);
+  EXPECT_EQ(cap[0].cell, 0);
+  EXPECT_NEAR(cap[0].volume, 5 * sphere_volume(0.25) / 32, 1e-16);
+  // around all of it
+  const auto inside = by_cell(find(cells, six, twofold({ 1, 1, 1 }), 9), six);
+  ASSERT_EQ(inside.size(), 6U);
+  for (const auto& [cell, volume] : inside)
+  {
+    EXPECT_EQ(volume, 1) << cell;
+  }
+}
+
+TEST(SphereCells, SharesAreAddedToWhatIsThere)
+{
+  const SphereCells cells(six);
+  std::vector<CellShare> shares = { { 77, 7 } };
+  cells.find(twofold({ 1.5, 0.5, 0.5 }), 0.25, all_of(six), shares);
+  ASSERT_EQ(shares.size(), 2U);
+  EXPECT_EQ(shares[0].cell, 77);
+  EXPECT_EQ(shares[1].cell, 1);
+}
+
+// ---- sums --------------------------------------------------------------------------------------
+
+void expect_whole(Random& random, const Vector3& cells_a_diameter)
+{
+  const EulerGrid grid = grid_around(random, cells_a_diameter);
+  const auto shares = find(SphereCells(grid), grid, {}, 1);
+  EXPECT_NEAR(sum(shares) / sphere_volume(1), 1, 1e-13)
+    << cells_a_diameter[0] << " " << cells_a_diameter[1] << " " << cells_a_diameter[2] << ", "
+    << shares.size() << " cells";
+}
+
+TEST(SphereCells, SharesAddUpToTheSphere)
+{
+  Random random(1);
+  for (int i = 0; i < 400; ++i)
+  {
+    const double n = random.power(-1, 1.3);
+    expect_whole(random, { n, n, n });
+  }
+  for (int i = 0; i < 100; ++i)
+  {
+    expect_whole(random, { random.power(-1, 1.5), random.power(-1, 1.5), random.power(-1, 1.5) });
+  }
+  expect_whole(random, { 124, 124, 124 }); // a million
+  expect_whole(random, { 1, 1, 1e5 });     // plates
+  expect_whole(random, { 0.1, 400, 400 }); // needles
+}
+
+TEST(SphereCells, SharesOfAlignedSpheresAddUp)
+{
+  for (const std::int64_t n : { 1, 2, 3, 4, 7, 8, 20, 50 })
+  {
+    const EulerGrid grid = { { -1, -1, -1 }, { 1, 1, 1 }, { n, n, n } };
+    const auto shares = find(SphereCells(grid), grid, {}, 1);
+    EXPECT_NEAR(sum(shares) / sphere_volume(1), 1, 1e-13) << n;
+  }
+}
+
+// ---- each cell ---------------------------------------------------------------------------------
+
+/// Grains of all sizes, near faces and corners, across the bounds, with centres of 106 bits.
+struct Grain
+{
+  EulerGrid grid;
+  Twofold3 centre;
+  double radius;
+};
+
+Grain make_grain(Random& random, double largest)
+{
+  Grain grain = { {}, {}, 0 };
+  const double place = random.one_in(4) ? 1e4 : 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    grain.grid.counts[k] = 1 + static_cast<std::int64_t>(9 * random.unit());
+    grain.grid.lo[k] = place + random.unit();
+    grain.grid.hi[k] = grain.grid.lo[k] +
+      static_cast<double>(grain.grid.counts[k]) * (random.one_in(4) ? random.power(-3, 0) : 1);
+    smallest = std::min(smallest, grain.grid.spacing(k));
+  }
+  grain.radius = smallest * random.power(-2, std::log10(largest));
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto faces = grain.grid.faces(k);
+    const double length = faces.back() - faces.front();
+    double x = faces.front() + length * random.unit();
+    if (random.one_in(3))
+    {
+      x = faces[static_cast<std::size_t>(random.unit() * static_cast<double>(faces.size()))];
+      x += random.one_in(2) ? grain.radius * (1 - 2 * random.unit()) : 0;
+      x += random.one_in(8) ? grain.radius : 0;
+    }
+    grain.centre[k] = { x, x * 0x1p-53 * (1 - 2 * random.unit()) };
+  }
+  return grain;
+}
+
+std::string to_text(const Grain& grain)
+{
+  std::ostringstream out;
+  out.precision(17);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    out << grain.grid.lo[k] << ".." << grain.grid.hi[k] << " / " << grain.grid.counts[k] << " at "
+        << grain.centre[k].hi << " + " << grain.centre[k].lo << ", ";
+  }
+  out << "radius " << grain.radius;
+  return out.str();
+}
+
+template <typename Visit>
+void each_cell(const EulerGrid& grid, const Visit& visit)
+{
+  std::int64_t number = 0;
+  for (std::int64_t k = 0; k < grid.counts[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < grid.counts[1]; ++j)
+    {
+      for (std::int64_t i = 0; i < grid.counts[0]; ++i)
+      {
+        visit(number, Vector3{ grid.face(0, i), grid.face(1, j), grid.face(2, k) },
+          Vector3{ grid.face(0, i + 1), grid.face(1, j + 1), grid.face(2, k + 1) });
+        ++number;
+      }
+    }
+  }
+}
+
+TEST(SphereCells, EachShareIsExact)
+{
+  Random random(2);
+  for (int i = 0; i < 400; ++i)
+  {
+    const Grain grain = make_grain(random, 6);
+    for (const bool short_cuts : { true, false })
+    {
+      const SphereCells cells(grain.grid, short_cuts);
+      auto shares = by_cell(find(cells, grain.grid, grain.centre, grain.radius), grain.grid);
+      each_cell(grain.grid,
+        [&](std::int64_t cell, const Vector3& lo, const Vector3& hi)
+        {
+          const ExactVolume exact = exact_sphere_box(grain.centre, grain.radius, lo, hi);
+          const auto share = shares.find(cell);
+          const Quad volume = share == shares.end() ? 0 : share->second;
+          EXPECT_TRUE(absolute(volume - exact.value) <= exact.tolerance)
+            << to_text(grain) << ", cell " << cell << ": got " << static_cast<double>(volume)
+            << ", expected " << static_cast<double>(exact.value);
+        });
+    }
+  }
+}
+
+/// A grain that is large against the cells, and one that is small: the short cuts agree with the long way.
+TEST(SphereCells, ShortCutsChangeNothing)
+{
+  Random random(3);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Grain grain = make_grain(random, 3);
+    const auto quick =
+      by_cell(find(SphereCells(grain.grid), grain.grid, grain.centre, grain.radius), grain.grid);
+    const auto slow = by_cell(
+      find(SphereCells(grain.grid, false), grain.grid, grain.centre, grain.radius), grain.grid);
+    const double near = 1e-14 * sphere_volume(grain.radius);
+    for (const auto& [cell, volume] : slow)
+    {
+      const auto other = quick.find(cell);
+      EXPECT_NEAR(other == quick.end() ? 0 : other->second, volume, near) << to_text(grain);
+    }
+    for (const auto& [cell, volume] : quick)
+    {
+      EXPECT_TRUE(slow.count(cell) == 1 || volume <= near) << to_text(grain);
+    }
+  }
+}
+
+/// What one thread finds in its cells is what it finds in all of them, bit for bit.
+TEST(SphereCells, RangesHaveTheirShares)
+{
+  Random random(4);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Grain grain = make_grain(random, 4);
+    const EulerGrid& grid = grain.grid;
+    const SphereCells cells(grid);
+    const auto whole = by_cell(find(cells, grid, grain.centre, grain.radius), grid);
+    CellRange within;
+    Cell sizes = {};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto count = static_cast<double>(grid.counts[k]);
+      within.first[k] = static_cast<std::int64_t>(random.unit() * count);
+      within.last[k] = within.first[k] +
+        static_cast<std::int64_t>(
+          random.unit() * static_cast<double>(grid.counts[k] - within.first[k] + 1));
+      sizes[k] = within.last[k] - within.first[k];
+    }
+    std::vector<CellShare> shares;
+    cells.find(grain.centre, grain.radius, within, shares);
+    std::map<std::int64_t, double> part;
+    for (const CellShare& share : shares)
+    {
+      ASSERT_TRUE(0 <= share.cell && share.cell < sizes[0] * sizes[1] * sizes[2]);
+      const std::int64_t x = within.first[0] + share.cell % sizes[0];
+      const std::int64_t y = within.first[1] + share.cell / sizes[0] % sizes[1];
+      const std::int64_t z = within.first[2] + share.cell / (sizes[0] * sizes[1]);
+      part[(z * grid.counts[1] + y) * grid.counts[0] + x] = share.volume;
+    }
+    ASSERT_EQ(part.size(), shares.size());
+    std::size_t expected = 0;
+    for (const auto& [cell, volume] : whole)
+    {
+      const Cell at = { cell % grid.counts[0], cell / grid.counts[0] % grid.counts[1],
+        cell / (grid.counts[0] * grid.counts[1]) };
+      bool is_within = true;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        is_within = is_within && within.first[k] <= at[k] && at[k] < within.last[k];
+      }
+      if (is_within)
+      {
+        ++expected;
+        ASSERT_EQ(part.count(cell), 1U) << to_text(grain);
+        EXPECT_EQ(part.at(cell), volume) << to_text(grain);
+      }
+    }
+    EXPECT_EQ(part.size(), expected) << to_text(grain);
+  }
+}
+
+// ---- ranges ------------------------------------------------------------------------------------
+
+/// In exact arithmetic: cells whose inside the bounds reach are in the range, and at most one more at each end, which
+/// the bounds touch but for rounding.
+TEST(SphereCells, RangesAreNeverTooSmall)
+{
+  Random random(5);
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Grain grain = make_grain(random, 8);
+    const EulerGrid& grid = grain.grid;
+    const CellRange range = SphereCells(grid).range(grain.centre, grain.radius);
+    std::array<std::int64_t, 3> first = {};
+    std::array<std::int64_t, 3> last = {};
+    bool is_any = true;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Quad centre =
+        static_cast<Quad>(grain.centre[k].hi) + static_cast<Quad>(grain.centre[k].lo);
+      const Quad radius = grain.radius;
+      first[k] = grid.counts[k];
+      for (std::int64_t cell = 0; cell < grid.counts[k]; ++cell)
+      {
+        const Quad lo = static_cast<Quad>(grid.face(k, cell)) - centre;
+        const Quad hi = static_cast<Quad>(grid.face(k, cell + 1)) - centre;
+        if (lo < radius && hi > -radius)
+        {
+          first[k] = std::min(first[k], cell);
+          last[k] = cell + 1;
+        }
+      }
+      is_any = is_any && first[k] < last[k];
+    }
+    for (std::size_t k = 0; k < 3 && is_any; ++k)
+    {
+      EXPECT_LE(range.first[k], first[k]) << to_text(grain);
+      EXPECT_GE(range.last[k], last[k]) << to_text(grain);
+      EXPECT_GE(range.first[k], std::max<std::int64_t>(0, first[k] - 1)) << to_text(grain);
+      EXPECT_LE(range.last[k], std::min(grid.counts[k], last[k] + 1)) << to_text(grain);
+    }
+  }
+  const SphereCells cells(six);
+  EXPECT_EQ(cells.range(twofold({ 1.5, 1.5, 0.5 }), 0.25).first, (Cell{ 1, 1, 0 }));
+  EXPECT_EQ(cells.range(twofold({ 1.5, 1.5, 0.5 }), 0.25).last, (Cell{ 2, 2, 1 }));
+  const CellRange none = cells.range(twofold({ 9, 0.5, 0.5 }), 1);
+  EXPECT_EQ(none.first, none.last);
+}
+
+/// The bits of a centre below those of a double count.
+TEST(SphereCells, CentresHave106Bits)
+{
+  const double radius = 0x1p-40;
+  const double below = -0x1p-41; // by half the radius
+  const EulerGrid far = { { 4096, 0, 0 }, { 4098, 1, 1 }, { 2, 1, 1 } };
+  const auto shares = by_cell(
+    find(SphereCells(far), far, { { { 4097, below }, { 0.5, 0 }, { 0.5, 0 } } }, radius), far);
+  ASSERT_EQ(shares.size(), 2U);
+  EXPECT_NEAR(shares.at(1) / sphere_volume(radius), 5.0 / 32, 1e-15);
+  EXPECT_NEAR(shares.at(0) / sphere_volume(radius), 27.0 / 32, 1e-15);
+}
+
+TEST(SphereCells, NumbersOfAnySize)
+{
+  const EulerGrid huge = { { -1e300, -1e300, -1e300 }, { 1e300, 1e300, 1e300 }, { 4, 4, 4 } };
+  EXPECT_EQ(find(SphereCells(huge), huge, twofold({ 1e299, 1e299, 1e299 }), 1).size(), 1U);
+  for (const CellShare& share : find(SphereCells(huge), huge, {}, 9e299))
+  {
+    EXPECT_GT(share.volume, 0); // infinite
+  }
+  const EulerGrid tiny = { { 0, 0, 0 }, { 1e-100, 1e-100, 1e-100 }, { 3, 3, 3 } };
+  const auto middle = middle_of(tiny, { 1, 1, 1 });
+  const auto shares = find(SphereCells(tiny), tiny, twofold(middle), 4e-101);
+  EXPECT_EQ(shares.size(), 27U);
+  EXPECT_NEAR(sum(shares) / sphere_volume(4e-101), 1, 1e-13);
+  EXPECT_TRUE(find(SphereCells(tiny), tiny, twofold(middle), 1e-200).empty()); // has no volume
+}
+}
