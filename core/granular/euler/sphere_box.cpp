@@ -34,7 +34,25 @@ double one_part(double radius, const Vector3& lo, const Vector3& hi)
   return cut_sphere(radius, distances)[part];
 }
 
-/// Any number of planes: the octants that the planes through the centre cut, mirrored into the first.
+/// What is between two planes is what is beyond the one less what is beyond the other. Rounding costs some ulps of the
+/// sphere, which for a large box is next to nothing.
+double sum_of_parts(double radius, const Vector3& lo, const Vector3& hi)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    if (lo[k] > -radius && hi[k] < radius)
+    {
+      Vector3 beyond = lo;
+      Vector3 open = hi;
+      beyond[k] = hi[k];
+      open[k] = radius;
+      return sum_of_parts(radius, lo, open) - sum_of_parts(radius, beyond, open);
+    }
+  }
+  return one_part(radius, lo, hi);
+}
+
+/// The octants that the planes through the centre cut, mirrored into the first.
 double sum_of_octants(double radius, const Vector3& lo, const Vector3& hi)
 {
   double volume = 0;
@@ -59,13 +77,17 @@ double sum_of_octants(double radius, const Vector3& lo, const Vector3& hi)
 /// Of a radius whose cube neither over- nor underflows. inside: the volume if the box is wholly inside.
 double moderate_volume(double radius, const Vector3& lo, const Vector3& hi, double inside)
 {
+  constexpr double large_box =
+    0.05; // in cubes of the radius: 1e-12 of it is 400 ulps of the sphere and more
   double nearest2 = 0;
   double farthest2 = 0;
+  double clipped = 1;
   bool is_one_part = true;
   for (std::size_t k = 0; k < 3; ++k)
   {
     nearest2 += square(std::max({ 0.0, lo[k], -hi[k] }));
     farthest2 += square(std::max(-lo[k], hi[k]));
+    clipped *= std::min(hi[k], radius) - std::max(lo[k], -radius);
     is_one_part = is_one_part && (lo[k] <= -radius || hi[k] >= radius);
   }
   const double radius2 = radius * radius;
@@ -77,7 +99,9 @@ double moderate_volume(double radius, const Vector3& lo, const Vector3& hi, doub
   {
     return inside;
   }
-  return is_one_part ? one_part(radius, lo, hi) : sum_of_octants(radius, lo, hi);
+  return is_one_part || clipped >= large_box * radius2 * radius
+    ? std::max(0.0, sum_of_parts(radius, lo, hi))
+    : sum_of_octants(radius, lo, hi);
 }
 }
 

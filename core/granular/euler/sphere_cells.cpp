@@ -17,22 +17,17 @@ constexpr std::int64_t no_cell = -1; // in no range
 struct Slab
 {
   double lo, hi, edge;
-
-  double nearest() const { return std::max({ 0.0, lo, -hi }); }
-  double farthest() const { return std::max(-lo, hi); }
 };
 
-/// face less centre, rounded once: it never falls as the face rises.
+/// Where the first difference is not exact, the low part is below its last bit. Never falls as the face rises.
 double difference(double face, Twofold centre)
 {
-  const double hi = face - centre.hi;
-  const double part = hi - face;
-  const double lo = (face - (hi - part)) - (centre.hi + part);
-  return std::isfinite(hi) ? hi + (lo - centre.lo) : hi;
+  return face - centre.hi - centre.lo;
+}
 }
 
-/// Adds shares with their numbers in a range.
-class Shares
+/// Adds the shares that are within a range, with their numbers there.
+class SphereCells::Shares
 {
 public:
   Shares(const CellRange& within, std::vector<CellShare>& shares)
@@ -41,9 +36,14 @@ public:
   {
   }
 
-  bool is_within(std::size_t axis, std::int64_t cell) const
+  CellRange intersection(CellRange range) const
   {
-    return within_.first[axis] <= cell && cell < within_.last[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      range.first[axis] = std::max(range.first[axis], within_.first[axis]);
+      range.last[axis] = std::min(range.last[axis], within_.last[axis]);
+    }
+    return range;
   }
 
   void add(const std::array<std::int64_t, 3>& cell, double volume)
@@ -51,6 +51,10 @@ public:
     std::int64_t number = 0;
     for (std::size_t axis = 3; axis-- > 0;)
     {
+      if (cell[axis] < within_.first[axis] || cell[axis] >= within_.last[axis])
+      {
+        return;
+      }
       number =
         number * (within_.last[axis] - within_.first[axis]) + cell[axis] - within_.first[axis];
     }
@@ -61,22 +65,12 @@ private:
   const CellRange& within_;
   std::vector<CellShare>& shares_;
 };
-}
 
 /// What the faces across an axis do to a sphere.
 struct SphereCells::Cut
 {
-  enum class Kind
-  {
-    Outside, ///< no cell touches it
-    Whole,   ///< it is in one cell
-    Two,     ///< one face cuts it
-    More
-  };
-  Kind kind = Kind::Outside;
-  double distance = 0; ///< of the face, or the radius
-  std::array<std::int64_t, 2> cells = { no_cell,
-    no_cell }; ///< that of the centre, that beyond the face
+  double distance;                   ///< of the face that cuts it, or the radius
+  std::array<std::int64_t, 2> cells; ///< that of the centre, that beyond the face
 };
 
 SphereCells::SphereCells(const EulerGrid& grid, bool short_cuts)
@@ -108,27 +102,28 @@ std::int64_t SphereCells::cell_of(std::size_t axis, double x) const noexcept
 
 CellRange SphereCells::range(const Twofold3& centre, double radius) const noexcept
 {
+  const double reach = radius * (1 + 0x1p-50); // differences may be wrong by an ulp
   CellRange range;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto from_centre = [&](std::int64_t face)
     { return difference(faces_[axis][static_cast<std::size_t>(face)], centre[axis]); };
     const std::int64_t count = grid_.counts[axis];
-    std::int64_t first = this->cell_of(axis, centre[axis].hi - radius);
-    while (first > 0 && from_centre(first) >= -radius)
+    std::int64_t first = this->cell_of(axis, centre[axis].hi - reach);
+    while (first > 0 && from_centre(first) >= -reach)
     {
       --first;
     }
-    while (first < count && from_centre(first + 1) < -radius)
+    while (first < count && from_centre(first + 1) < -reach)
     {
       ++first;
     }
-    std::int64_t last = this->cell_of(axis, centre[axis].hi + radius) + 1;
-    while (last < count && from_centre(last) <= radius)
+    std::int64_t last = this->cell_of(axis, centre[axis].hi + reach) + 1;
+    while (last < count && from_centre(last) <= reach)
     {
       ++last;
     }
-    while (last > 0 && from_centre(last - 1) > radius)
+    while (last > 0 && from_centre(last - 1) > reach)
     {
       --last;
     }
@@ -142,48 +137,64 @@ CellRange SphereCells::range(const Twofold3& centre, double radius) const noexce
   return range;
 }
 
-/// In the common case, one face or none, a few comparisons tell.
-SphereCells::Cut SphereCells::cut_along(
-  std::size_t axis, Twofold centre, double radius) const noexcept
+/// Whether no more than one face cuts a sphere that touches this cell, or the one beside it, and which.
+bool SphereCells::cut_once(
+  std::size_t axis, std::int64_t cell, Twofold centre, double radius, Cut& cut) const noexcept
 {
   const auto from_centre = [&](std::int64_t face)
   { return difference(faces_[axis][static_cast<std::size_t>(face)], centre); };
   const std::int64_t count = grid_.counts[axis];
-  const std::int64_t cell = this->cell_of(axis, centre.hi);
   const double lo = from_centre(cell);
   const double hi = from_centre(cell + 1);
-  if (lo >= radius || hi <= -radius)
-  {
-    return {};
-  }
   const bool is_cut_below = lo > -radius;
   const bool is_cut_above = hi < radius;
+  cut = { radius, { cell, no_cell } };
   if (!is_cut_below && !is_cut_above)
   {
-    return { Cut::Kind::Whole, radius, { cell, no_cell } };
+    return true;
   }
   const std::int64_t face = is_cut_below ? cell : cell + 1;
   if ((is_cut_below && is_cut_above) || (face > 0 && from_centre(face - 1) > -radius) ||
     (face < count && from_centre(face + 1) < radius))
   {
-    return { Cut::Kind::More };
+    return false;
   }
   const double plane = is_cut_below ? lo : hi;
   const std::int64_t below = face - 1; // no_cell below the first
   const std::int64_t above = face < count ? face : no_cell;
-  return { Cut::Kind::Two, std::abs(plane),
-    { plane > 0 ? below : above, plane > 0 ? above : below } };
+  cut = { std::abs(plane), { plane > 0 ? below : above, plane > 0 ? above : below } };
+  return true;
 }
 
-void SphereCells::add_cells(const Twofold3& centre, double radius, const CellRange& within,
-  std::vector<CellShare>& shares) const
+/// Where no more than one face an axis cuts a sphere; otherwise it is not done.
+bool SphereCells::add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre,
+  double radius, Shares& shares) const
 {
-  CellRange range = this->range(centre, radius);
+  std::array<Cut, 3> cuts;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    range.first[axis] = std::max(range.first[axis], within.first[axis]);
-    range.last[axis] = std::min(range.last[axis], within.last[axis]);
+    if (!this->cut_once(axis, near[axis], centre[axis], radius, cuts[axis]))
+    {
+      return false;
+    }
   }
+  const SphereParts parts =
+    cut_sphere(radius, { cuts[0].distance, cuts[1].distance, cuts[2].distance });
+  for (std::size_t part = 0; part < parts.size(); ++part)
+  {
+    if (parts[part] > 0)
+    {
+      shares.add(
+        { cuts[0].cells[part & 1], cuts[1].cells[(part >> 1) & 1], cuts[2].cells[part >> 2] },
+        parts[part]);
+    }
+  }
+  return true;
+}
+
+void SphereCells::add_cells(const Twofold3& centre, double radius, Shares& shares) const
+{
+  const CellRange range = shares.intersection(this->range(centre, radius));
   const auto slab = [&](std::size_t axis, std::int64_t cell)
   {
     const auto at = static_cast<std::size_t>(cell);
@@ -191,7 +202,6 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, const CellRan
     return Slab{ difference(faces[at], centre[axis]), difference(faces[at + 1], centre[axis]),
       faces[at + 1] - faces[at] };
   };
-  Shares found(within, shares);
   for (std::int64_t k = range.first[2]; k < range.last[2]; ++k)
   {
     const Slab z = slab(2, k);
@@ -205,7 +215,7 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, const CellRan
           radius, { x.lo, y.lo, z.lo }, { x.hi, y.hi, z.hi }, { x.edge, y.edge, z.edge });
         if (volume > 0)
         {
-          found.add({ i, j, k }, volume);
+          shares.add({ i, j, k }, volume);
         }
       }
     }
@@ -215,38 +225,33 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, const CellRan
 void SphereCells::find(const Twofold3& centre, double radius, const CellRange& within,
   std::vector<CellShare>& shares) const
 {
-  if (!(sphere_volume(radius) > 0))
+  const double volume = sphere_volume(radius);
+  if (!(volume > 0))
   {
     return;
   }
-  std::array<Cut, 3> cuts;
-  auto most = short_cuts_ ? Cut::Kind::Whole : Cut::Kind::More;
+  std::array<std::int64_t, 3> cell = {}; // of the centre, or the nearest
+  bool is_whole = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    cuts[axis] = this->cut_along(axis, centre[axis], radius);
-    if (cuts[axis].kind == Cut::Kind::Outside)
+    cell[axis] = this->cell_of(axis, centre[axis].hi);
+    const double* face = faces_[axis].data() + cell[axis];
+    const double lo = difference(face[0], centre[axis]);
+    const double hi = difference(face[1], centre[axis]);
+    if (lo >= radius || hi <= -radius)
     {
       return;
     }
-    most = std::max(most, cuts[axis].kind);
+    is_whole = is_whole && lo <= -radius && hi >= radius;
   }
-  if (most == Cut::Kind::More)
-  {
-    this->add_cells(centre, radius, within, shares);
-    return;
-  }
-  const SphereParts parts =
-    cut_sphere(radius, { cuts[0].distance, cuts[1].distance, cuts[2].distance });
   Shares found(within, shares);
-  for (std::size_t part = 0; part < parts.size(); ++part)
+  if (is_whole)
   {
-    const std::array<std::int64_t, 3> cell = { cuts[0].cells[part & 1],
-      cuts[1].cells[(part >> 1) & 1], cuts[2].cells[part >> 2] };
-    if (parts[part] > 0 && found.is_within(0, cell[0]) && found.is_within(1, cell[1]) &&
-      found.is_within(2, cell[2]))
-    {
-      found.add(cell, parts[part]);
-    }
+    found.add(cell, volume);
+  }
+  else if (!short_cuts_ || !this->add_parts(cell, centre, radius, found))
+  {
+    this->add_cells(centre, radius, found);
   }
 }
 }

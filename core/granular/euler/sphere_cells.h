@@ -42,11 +42,14 @@ public:
 
 private:
   struct Cut;
+  class Shares;
 
   std::int64_t cell_of(std::size_t axis, double x) const noexcept;
-  Cut cut_along(std::size_t axis, Twofold centre, double radius) const noexcept;
-  void add_cells(const Twofold3& centre, double radius, const CellRange& within,
-    std::vector<CellShare>& shares) const;
+  bool cut_once(
+    std::size_t axis, std::int64_t cell, Twofold centre, double radius, Cut& cut) const noexcept;
+  bool add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre, double radius,
+    Shares& shares) const;
+  void add_cells(const Twofold3& centre, double radius, Shares& shares) const;
 
   EulerGrid grid_;
   std::array<std::vector<double>, 3> faces_;
