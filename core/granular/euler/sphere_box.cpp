@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace granular
@@ -74,32 +73,34 @@ double sum_of_octants(double radius, const Vector3& lo, const Vector3& hi)
   return volume;
 }
 
-/// Of a radius whose cube neither over- nor underflows. inside: the volume if the box is wholly inside.
-double moderate_volume(double radius, const Vector3& lo, const Vector3& hi, double inside)
+/// Where a box is: from the centre, in units of length squared.
+struct Distances
 {
-  constexpr double large_box =
-    0.05; // in cubes of the radius: 1e-12 of it is 400 ulps of the sphere and more
+  Distances(const Vector3& lo, const Vector3& hi)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      nearest2 += square(std::max({ 0.0, lo[k], -hi[k] }));
+      farthest2 += square(std::max(-lo[k], hi[k]));
+    }
+  }
+
   double nearest2 = 0;
   double farthest2 = 0;
-  double clipped = 1;
+};
+
+/// Neither wholly inside nor outside.
+double cut_volume(double radius, const Vector3& lo, const Vector3& hi)
+{
+  constexpr double large = 0.05; // cubes of the radius: 1e-12 of it is 400 ulps of the sphere
+  double size = 1;
   bool is_one_part = true;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    nearest2 += square(std::max({ 0.0, lo[k], -hi[k] }));
-    farthest2 += square(std::max(-lo[k], hi[k]));
-    clipped *= std::min(hi[k], radius) - std::max(lo[k], -radius);
+    size *= std::min(hi[k] - lo[k], 2 * radius);
     is_one_part = is_one_part && (lo[k] <= -radius || hi[k] >= radius);
   }
-  const double radius2 = radius * radius;
-  if (nearest2 >= radius2)
-  {
-    return 0;
-  }
-  if (farthest2 <= radius2)
-  {
-    return inside;
-  }
-  return is_one_part || clipped >= large_box * radius2 * radius
+  return is_one_part || size >= large * radius * radius * radius
     ? std::max(0.0, sum_of_parts(radius, lo, hi))
     : sum_of_octants(radius, lo, hi);
 }
@@ -114,34 +115,38 @@ double box_volume(const Vector3& edges) noexcept
 {
   Vector3 sorted = edges;
   std::sort(sorted.begin(), sorted.end());
-  return sorted[0] * sorted[2] * sorted[1];
+  return sorted[0] > 0 ? sorted[0] * sorted[2] * sorted[1] : 0;
 }
 
 double centred_box_volume(
   double radius, const Vector3& lo, const Vector3& hi, const Vector3& edges) noexcept
 {
-  constexpr double smallest = 0x1p-250;
-  const double box = box_volume(edges);
-  const double most = std::min(box, sphere_volume(radius));
-  if (!(most > 0))
+  constexpr double smallest =
+    0x1p-250; // the cubes of this and of its inverse, and products that are smaller, are normal
+  if (!(radius > 0))
   {
     return 0;
   }
-  if (radius >= smallest && radius <= 1 / smallest)
+  const bool is_moderate = smallest <= radius && radius <= 1 / smallest;
+  const int exponent = is_moderate ? 0 : std::ilogb(radius);
+  const auto scaled = [&](double length)
+  { return is_moderate ? length : std::scalbn(length, -exponent); };
+  const double reach = scaled(radius);
+  const Vector3 from = { scaled(lo[0]), scaled(lo[1]), scaled(lo[2]) };
+  const Vector3 to = { scaled(hi[0]), scaled(hi[1]), scaled(hi[2]) };
+  const Distances distances(from, to);
+  if (distances.nearest2 >= reach * reach)
   {
-    return std::min(most, moderate_volume(radius, lo, hi, box));
+    return 0;
   }
-  const int exponent = std::ilogb(radius);
-  Vector3 scaled_lo = lo;
-  Vector3 scaled_hi = hi;
-  for (std::size_t k = 0; k < 3; ++k)
+  const double box = box_volume(edges);
+  if (distances.farthest2 <= reach * reach)
   {
-    scaled_lo[k] = std::scalbn(lo[k], -exponent);
-    scaled_hi[k] = std::scalbn(hi[k], -exponent);
+    return box;
   }
-  constexpr double all = std::numeric_limits<double>::infinity();
-  const double volume = moderate_volume(std::scalbn(radius, -exponent), scaled_lo, scaled_hi, all);
-  return std::min(most, std::scalbn(volume, 3 * exponent));
+  const double volume = cut_volume(reach, from, to);
+  return std::min(
+    { box, sphere_volume(radius), is_moderate ? volume : std::scalbn(volume, 3 * exponent) });
 }
 
 double sphere_box_volume(

@@ -13,16 +13,22 @@ namespace
 {
 constexpr std::int64_t no_cell = -1; // in no range
 
+/// Where the first difference is not exact, the low part is below its last bit. Never falls as the face rises.
+double difference(double face, Twofold centre)
+{
+  return face - centre.hi - centre.lo;
+}
+
 /// A cell of an axis, seen from the centre of a sphere.
 struct Slab
 {
   double lo, hi, edge;
 };
 
-/// Where the first difference is not exact, the low part is below its last bit. Never falls as the face rises.
-double difference(double face, Twofold centre)
+Slab make_slab(const std::vector<double>& faces, std::int64_t cell, Twofold centre)
 {
-  return face - centre.hi - centre.lo;
+  const double* face = faces.data() + cell;
+  return { difference(face[0], centre), difference(face[1], centre), face[1] - face[0] };
 }
 }
 
@@ -195,22 +201,15 @@ bool SphereCells::add_parts(const std::array<std::int64_t, 3>& near, const Twofo
 void SphereCells::add_cells(const Twofold3& centre, double radius, Shares& shares) const
 {
   const CellRange range = shares.intersection(this->range(centre, radius));
-  const auto slab = [&](std::size_t axis, std::int64_t cell)
-  {
-    const auto at = static_cast<std::size_t>(cell);
-    const std::vector<double>& faces = faces_[axis];
-    return Slab{ difference(faces[at], centre[axis]), difference(faces[at + 1], centre[axis]),
-      faces[at + 1] - faces[at] };
-  };
   for (std::int64_t k = range.first[2]; k < range.last[2]; ++k)
   {
-    const Slab z = slab(2, k);
+    const Slab z = make_slab(faces_[2], k, centre[2]);
     for (std::int64_t j = range.first[1]; j < range.last[1]; ++j)
     {
-      const Slab y = slab(1, j);
+      const Slab y = make_slab(faces_[1], j, centre[1]);
       for (std::int64_t i = range.first[0]; i < range.last[0]; ++i)
       {
-        const Slab x = slab(0, i);
+        const Slab x = make_slab(faces_[0], i, centre[0]);
         const double volume = centred_box_volume(
           radius, { x.lo, y.lo, z.lo }, { x.hi, y.hi, z.hi }, { x.edge, y.edge, z.edge });
         if (volume > 0)
@@ -222,34 +221,40 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, Shares& share
   }
 }
 
-void SphereCells::find(const Twofold3& centre, double radius, const CellRange& within,
-  std::vector<CellShare>& shares) const
+/// The common cases, in which few comparisons tell what faces there are; otherwise it is not done.
+bool SphereCells::add_quickly(const Twofold3& centre, double radius, Shares& shares) const
 {
-  const double volume = sphere_volume(radius);
-  if (!(volume > 0))
-  {
-    return;
-  }
-  std::array<std::int64_t, 3> cell = {}; // of the centre, or the nearest
+  std::array<std::int64_t, 3> near = {}; // the cell of the centre, or the nearest one
   bool is_whole = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    cell[axis] = this->cell_of(axis, centre[axis].hi);
-    const double* face = faces_[axis].data() + cell[axis];
+    near[axis] = this->cell_of(axis, centre[axis].hi);
+    const double* face = faces_[axis].data() + near[axis];
     const double lo = difference(face[0], centre[axis]);
     const double hi = difference(face[1], centre[axis]);
     if (lo >= radius || hi <= -radius)
     {
-      return;
+      return true;
     }
     is_whole = is_whole && lo <= -radius && hi >= radius;
   }
-  Shares found(within, shares);
   if (is_whole)
   {
-    found.add(cell, volume);
+    shares.add(near, sphere_volume(radius));
+    return true;
   }
-  else if (!short_cuts_ || !this->add_parts(cell, centre, radius, found))
+  return this->add_parts(near, centre, radius, shares);
+}
+
+void SphereCells::find(const Twofold3& centre, double radius, const CellRange& within,
+  std::vector<CellShare>& shares) const
+{
+  if (!(sphere_volume(radius) > 0))
+  {
+    return;
+  }
+  Shares found(within, shares);
+  if (!short_cuts_ || !this->add_quickly(centre, radius, found))
   {
     this->add_cells(centre, radius, found);
   }

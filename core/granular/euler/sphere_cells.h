@@ -45,6 +45,7 @@ private:
   class Shares;
 
   std::int64_t cell_of(std::size_t axis, double x) const noexcept;
+  bool add_quickly(const Twofold3& centre, double radius, Shares& shares) const;
   bool cut_once(
     std::size_t axis, std::int64_t cell, Twofold centre, double radius, Cut& cut) const noexcept;
   bool add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre, double radius,
