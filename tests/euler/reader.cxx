@@ -5,7 +5,7 @@
 
 #include "../dump/writer_helpers.h"
 #include "../support/observer.h"
-#include "euler_files.h"
+#include "made_files.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArraySelection.h"

@@ -4,7 +4,7 @@
 
 #include "../base/small_disk.h"
 #include "../support/whole_file_writers.h"
-#include "euler_files.h"
+#include "made_files.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
