@@ -1,17 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/cell_blocks.h"
 
+#include "granular/base/number.h"
 #include "granular/base/number_print.h"
 
 #include <cmath>
 
 namespace granular
 {
-CellBlocks::CellBlocks(const EulerFrame& frame, double rounding)
+namespace
+{
+bool is_single(double value)
+{
+  return static_cast<double>(static_cast<float>(value)) == value;
+}
+
+bool has_six_digits(double value)
+{
+  std::array<char, most_number_chars> word;
+  double rounded = 0;
+  const char* const end = print_number(word.data(), value, { 6 });
+  return parse_double(word.data(), end, rounded) && rounded == value;
+}
+}
+
+CellBlocks::CellBlocks(const EulerFrame& frame)
   : frame_(frame)
 {
-  constexpr double six_decimals = 1e-6; // of two centres, for their distance
-  Vector3 largest = {};
   for (std::int64_t cell = 0; cell < frame.cells; ++cell)
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -20,13 +35,37 @@ CellBlocks::CellBlocks(const EulerFrame& frame, double rounding)
       {
         this->fail(cell, ", which is nowhere");
       }
-      largest[axis] = std::max(largest[axis], std::abs(this->at(cell, axis)));
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    tolerances_[axis] = six_decimals + rounding * largest[axis];
+    tolerances_[axis] = this->rounding(axis);
   }
+}
+
+/// How much the distance of two centres may be wrong: LIGGGHTS prints six decimals; somebody may since have stored them
+/// in single precision, or printed six digits, as VTK does.
+double CellBlocks::rounding(std::size_t axis) const
+{
+  bool single = true;
+  bool six_digits = true;
+  double largest = 0;
+  double last = 0;
+  for (std::int64_t cell = 0; cell < frame_.cells; ++cell)
+  {
+    const double value = this->at(cell, axis);
+    if (value != last)
+    {
+      single = single && is_single(value);
+      six_digits = six_digits && has_six_digits(value);
+      largest = std::max(largest, std::abs(value));
+      last = value;
+    }
+  }
+  const double of_single = single ? largest * 0x1p-23 : 0;
+  const double of_digits =
+    six_digits && largest > 0 ? std::pow(10, std::floor(std::log10(largest)) - 5) : 0;
+  return std::max({ 1e-6, of_single, of_digits });
 }
 
 void CellBlocks::fail(std::int64_t cell, const std::string& why) const

@@ -52,9 +52,8 @@ struct CellBlock
 class CellBlocks
 {
 public:
-  /// rounding: what coordinates may be wrong by beside their six decimals, as a part of the largest one. Throws UnsupportedError
-  /// where a centre is not finite.
-  CellBlocks(const EulerFrame& frame, double rounding);
+  /// Throws UnsupportedError where a centre is not finite.
+  explicit CellBlocks(const EulerFrame& frame);
 
   /// The largest block that begins with a cell.
   CellBlock block(std::int64_t first) const;
@@ -75,6 +74,7 @@ public:
   [[noreturn]] void fail(std::int64_t cell, const std::string& why) const;
 
 private:
+  double rounding(std::size_t axis) const;
   std::int64_t run(std::int64_t first, std::size_t axis, std::int64_t stride) const;
   bool goes_on(std::int64_t first, std::size_t axis, std::int64_t stride, std::int64_t slab) const;
   bool is_alone(std::int64_t first, std::size_t axis, std::int64_t stride) const;

@@ -23,6 +23,11 @@ constexpr std::string_view liggghts_title = "LIGGGHTS mesh/VTK export";
 /// The arrays that tell Euler cells from others.
 constexpr std::string_view telling[] = { "v_avg", "volumefraction" };
 
+bool is_telling(std::string_view name)
+{
+  return std::ranges::find(telling, name) != std::end(telling);
+}
+
 /// Reads one dataset, section by section.
 class DatasetReader
 {
@@ -294,8 +299,7 @@ void DatasetReader::check_arrays()
 {
   for (const EulerArray& array : euler_arrays())
   {
-    const bool needed =
-      dataset_.has_title() ? !array.optional : std::ranges::count(telling, array.name) > 0;
+    const bool needed = dataset_.has_title() ? !array.optional : is_telling(array.name);
     if (what_ != EulerRead::Look && needed && frame_.cells > 0 && !dataset_.has(array.name))
     {
       file_.fail_missing("an array '" + std::string(array.name) + "'");
@@ -349,6 +353,12 @@ bool EulerDataset::has(std::string_view name) const noexcept
 bool EulerDataset::is_euler() const noexcept
 {
   return std::ranges::all_of(telling, [this](std::string_view name) { return this->has(name); });
+}
+
+bool EulerDataset::may_become_euler() const noexcept
+{
+  return this->has_title() && has_vertices &&
+    std::ranges::all_of(names, [](const std::string& name) { return is_telling(name); });
 }
 
 bool EulerDataset::has_title() const noexcept

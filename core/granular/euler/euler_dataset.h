@@ -35,6 +35,10 @@ struct EulerDataset
   /// Whether the arrays are there that tell Euler cells from others.
   bool is_euler() const noexcept;
 
+  /// Whether this is as LIGGGHTS begins: points that are vertices, which those of its meshes are not, and no other
+  /// arrays.
+  bool may_become_euler() const noexcept;
+
   /// Whether it has the title that LIGGGHTS writes, of meshes as well.
   bool has_title() const noexcept;
 };

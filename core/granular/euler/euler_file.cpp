@@ -86,8 +86,6 @@ void index_euler(const ByteSource& source, FileIndex& index, Progress& progress,
   }
 }
 
-/// A file with the title of LIGGGHTS that is not complete, or damaged, is taken if its points are vertices: those of
-/// meshes are not.
 bool look_at(const ByteSource& source)
 {
   Progress progress;
@@ -100,13 +98,15 @@ bool look_at(const ByteSource& source)
   try
   {
     read_dataset(file, EulerRead::Look, none, dataset);
-    return dataset.is_euler();
   }
   catch (const FormatError&)
   {
-    const bool header_only = dataset.header.dataset.empty() && file.ended();
-    return dataset.is_euler() || (dataset.has_title() && (dataset.has_vertices || header_only));
+    if (dataset.header.dataset.empty())
+    {
+      return dataset.has_title() && file.ended();
+    }
   }
+  return dataset.is_euler() || dataset.may_become_euler();
 }
 }
 

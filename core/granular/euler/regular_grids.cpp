@@ -16,12 +16,6 @@ namespace granular
 {
 namespace
 {
-/// What centres may be wrong by beside their six decimals, as parts of the largest coordinate.
-constexpr double roundings[] = {
-  0x1p-22, // single precision
-  1e-5     // six digits, as VTK prints that
-};
-
 /// What is common to the grids between two faces along an axis.
 struct Span
 {
@@ -36,9 +30,9 @@ struct Span
 class GridFinder
 {
 public:
-  GridFinder(const EulerFrame& frame, double rounding)
+  explicit GridFinder(const EulerFrame& frame)
     : frame_(frame)
-    , cells_(frame, rounding)
+    , cells_(frame)
   {
   }
 
@@ -286,27 +280,6 @@ void GridFinder::find_bounds(std::size_t axis)
 
 std::vector<RegularGrid> find_regular_grids(const EulerFrame& frame, Notices& notices)
 {
-  const auto find = [&](double rounding)
-  {
-    Notices told;
-    std::vector<RegularGrid> grids = GridFinder(frame, rounding).find(told);
-    notices.insert(notices.end(), told.begin(), told.end());
-    return grids;
-  };
-  try
-  {
-    return find(roundings[0]);
-  }
-  catch (const UnsupportedError&)
-  {
-    try
-    {
-      return find(roundings[1]);
-    }
-    catch (const UnsupportedError&)
-    {
-    }
-    throw;
-  }
+  return GridFinder(frame).find(notices);
 }
 }
