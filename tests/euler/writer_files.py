@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Written cells have the bytes of LIGGGHTS, or all digits, and are read back as they were."""
+import gzip
+import os
+import shutil
+
+import granular
+import numpy
+import plain_euler
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
+shutil.rmtree("files", ignore_errors=True)
+os.mkdir("files")
+os.chdir("files")
+WRITER = "GranularEulerWriter"
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def write(name, values):
+    with open(name, "w") as file:
+        file.write(plain_euler.text(values))
+    return os.path.abspath(name)
+
+
+def values(reader):
+    reader.UpdatePipeline()
+    output = servermanager.Fetch(reader)
+    found = {"centres": vtk_to_numpy(output.GetPoints().GetData())}
+    for i in range(output.GetPointData().GetNumberOfArrays()):
+        array = output.GetPointData().GetArray(i)
+        found[array.GetName()] = vtk_to_numpy(array).reshape(output.GetNumberOfPoints(), -1)
+    return found
+
+
+# ---- the bytes of LIGGGHTS, from points and from cells ------------------------------------------------
+
+steps = (1000, 2000, 3000, 4000)
+series = GranularEulerReader(FileNames=[os.path.join(data, f"euler_{step}.vtk") for step in steps])
+for output in ("Points", "ImageData"):
+    series.Output = output
+    granular.save(series, "real_*.euler", WriteTimeSteps=1)
+    SaveData("data_*.euler", series, WriteTimeSteps=1)
+    for step in steps:
+        original = content(os.path.join(data, f"euler_{step}.vtk"))
+        for name in (f"real_{step}.euler", f"data_{step}.euler"):
+            assert content(name) == original, (output, name)
+            os.remove(name)
+parallel = OpenDataFile(os.path.join(data, "euler/parallel_2000.vtk"))
+for output in ("Points", "ImageData"):
+    parallel.Output = output
+    granular.save(parallel, "parallel.vtk", writer=WRITER)
+    assert content("parallel.vtk") == content(os.path.join(data, "euler/parallel_2000.vtk")), output
+
+# printf on numbers of every size
+centres = plain_euler.grid((-1e5, 0, 1e-6), (1e5, 7, 2e-3), (3, 4, 5))
+cells = plain_euler.cells(centres, seed=3)
+cells["pressure"] *= 10.0 ** numpy.linspace(-9, 20, len(centres))[:, None]
+cells["v_avg"][:5] = [[0.0000005, -0.0000005, -0.0], [0.0000015, 0.5, 1e300], [numpy.nan, numpy.inf, -numpy.inf],
+                      [2.0000005, 1e15 + 0.3, 123456.7890125], [-1e-300, 5e-324, 0.1]]
+write("nasty.vtk", cells)  # by Python's printf
+with open("wide.vtk", "w") as file:  # the same with all digits, as the reader takes it
+    file.write(plain_euler.text(cells, repr))
+read = GranularEulerReader(FileNames=[os.path.abspath("wide.vtk")])
+for name, expected in cells.items():
+    assert values(read)[name].tobytes() == expected.tobytes() or numpy.isnan(expected).any(), name
+granular.save(read, "printed.vtk", writer=WRITER)
+assert content("printed.vtk") == content("nasty.vtk")
+
+# ---- wide: every number comes back, also by VTK's own reader, with stresses -------------------------------
+
+stressed = plain_euler.cells(plain_euler.grid((0, 0, 0), (3e-6, 1e-6, 2e-6), (3, 2, 4)), stresses=True, seed=5)
+with open("stressed.vtk", "w") as file:
+    file.write(plain_euler.text(stressed, repr))
+read = GranularEulerReader(FileNames=[os.path.abspath("stressed.vtk")])
+granular.save(read, "all_digits.euler", Dialect="Wide")
+again = GranularEulerReader(FileNames=[os.path.abspath("all_digits.euler")])
+for name, expected in stressed.items():
+    assert values(again)[name].tobytes() == expected.tobytes(), name
+vtk = vtkPolyDataReader()
+vtk.SetFileName("all_digits.euler")
+vtk.ReadAllScalarsOn()
+vtk.ReadAllVectorsOn()
+vtk.Update()
+output = vtk.GetOutput()
+assert output.GetNumberOfVerts() == 24 and output.GetPoints().GetData().GetDataTypeAsString() == "double"
+assert (vtk_to_numpy(output.GetPoints().GetData()) == stressed["centres"]).all()
+for name in ("v_avg", "volumefraction", "radius", "pressure", "sigma", "tau"):
+    found = vtk_to_numpy(output.GetPointData().GetArray(name)).reshape(24, -1)
+    assert (found == stressed[name]).all(), name
+infinite = GranularEulerReader(FileNames=[os.path.abspath("wide.vtk")])
+granular.save(infinite, "again.euler", Dialect="Wide")
+again = GranularEulerReader(FileNames=[os.path.abspath("again.euler")])
+for name, expected in cells.items():
+    assert numpy.array_equal(values(again)[name], expected, equal_nan=True), name
+assert numpy.signbit(values(again)["v_avg"][0, 2])
+
+# ---- compressed, empty, and filters in between ---------------------------------------------------------------
+
+granular.save(series, "packed_*.vtk.gz", time=2000, writer=WRITER)
+with gzip.open("packed_2000.vtk.gz") as file:
+    assert file.read() == content(os.path.join(data, "euler_2000.vtk"))
+none = GranularEulerReader(FileNames=[write("none_5.vtk", plain_euler.cells(numpy.zeros((0, 3))))])
+for output in ("Points", "ImageData"):
+    none.Output = output
+    granular.save(none, "nothing.euler")
+    assert content("nothing.euler") == content("none_5.vtk"), output
+series.Output = "Points"
+moved = Transform(Input=series)
+moved.Transform.Translate = [1, 0, 0]
+granular.save(moved, "moved.euler", time=1000)
+first = plain_euler.read("moved.euler")["centres"][0]
+assert numpy.allclose(first, [0.9625, -0.0375, 0.010714], rtol=0, atol=1e-6), first
+series.Output = "ImageData"
+half = ExtractSubset(Input=series, VOI=[0, 4, 0, 4, 0, 3])
+granular.save(half, "half.euler", time=1000)
+whole = plain_euler.read(os.path.join(data, "euler_1000.vtk"))
+for name, rows in plain_euler.read("half.euler").items():
+    assert (rows == whole[name][:48]).all(), name
+dense = Threshold(Input=series, Scalars=["CELLS", "volumefraction"], LowerThreshold=0.1, UpperThreshold=1)
+granular.save(CellCenters(Input=dense), "dense.euler", time=4000)
+whole = plain_euler.read(os.path.join(data, "euler_4000.vtk"))
+chosen = whole["volumefraction"].ravel() >= 0.1
+assert 0 < chosen.sum() < 112
+assert (plain_euler.read("dense.euler")["pressure"] == whole["pressure"][chosen]).all()
+
+# ---- properties ------------------------------------------------------------------------------------------------
+
+writer = servermanager.writers.GranularEulerWriter(Input=series, FileName="never.vtk")
+for name, default in {"Dialect": "LIGGGHTS", "WriteTimeSteps": 0}.items():
+    assert getattr(writer, name) == default, name
+    text = writer.SMProxy.GetProperty(name).GetDocumentation()
+    assert text and len(text.GetDescription().strip()) > 40, name
+assert not [name for name in os.listdir(".") if "tmp" in name or name.startswith(".")], os.listdir(".")
+print("written")
