@@ -93,7 +93,9 @@ public:
 private:
   void AverageFrames()
   {
-    InputFrames frames(this->Self, { this->Wanted.Piece, this->Wanted.Pieces, 0 });
+    const bool own = IsOwn(this->Wanted, this->Ranks);
+    InputFrames frames(
+      this->Self, { own ? this->Wanted.Piece : 0, own ? this->Wanted.Pieces : 1, 0 });
     std::vector<double> times = frames.GetTimes();
     CheckTimes(times, this->Ranks);
     granular::TimeAverage sums;
@@ -397,14 +399,15 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
 }
 
 //------------------------------------------------------------------------------
-// All of the particles, or the piece of them that a process has.
+// The piece of the particles that a process has. Who asks for another one than its own gets it from the whole.
 int vtkGranularEulerAverage::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
   vtkInformation* info = inputVector[0]->GetInformationObject(0);
-  info->Set(Pipeline::UPDATE_PIECE_NUMBER(), wanted.Piece);
-  info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), wanted.Pieces);
+  const bool own = IsOwn(wanted, this->Shared->Ranks.Get());
+  info->Set(Pipeline::UPDATE_PIECE_NUMBER(), own ? wanted.Piece : 0);
+  info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), own ? wanted.Pieces : 1);
   info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   return 1;
 }

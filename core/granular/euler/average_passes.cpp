@@ -228,7 +228,6 @@ void AveragePasses::scan_chunk(std::size_t chunk, Scan& scan)
 {
   GrainBlock grains;
   std::array<std::int64_t, GrainBlock::most_rows> buffer;
-  std::vector<BlockRows::Entry>* const entries = entries_.empty() ? nullptr : &entries_[chunk];
   const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
   const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
   for (std::int64_t first = start; first < end; first += rows_of_block)
@@ -237,28 +236,40 @@ void AveragePasses::scan_chunk(std::size_t chunk, Scan& scan)
       std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
     std::iota(rows.begin(), rows.end(), first);
     grains_.scan(rows, grains, scan);
-    for (std::size_t i = 0; i < grains.rows; ++i)
+    if (!entries_.empty())
     {
-      bool inside = !grains.uses(i);
-      const auto row = static_cast<std::uint32_t>(rows[i] - start);
-      const auto visit = [&](const CellRange& range)
-      {
-        inside = true;
-        if (entries)
-        {
-          blocks_.each(range,
-            [&](std::int64_t block) {
-              entries->push_back({ static_cast<std::uint32_t>(block), row });
-            });
-        }
-      };
-      if (grains.uses(i))
-      {
-        cells_.each_range(grains.positions + 3 * i, grains.radius[i], visit);
-      }
-      scan.outside += inside ? 0 : 1;
+      scan.outside += this->find_blocks(grains, first - start, entries_[chunk]);
     }
   }
+}
+
+/// Adds an entry for each block that a grain may have a share in. Returns how many have none.
+std::int64_t AveragePasses::find_blocks(
+  const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const
+{
+  std::int64_t outside = 0;
+  for (std::size_t i = 0; i < grains.rows; ++i)
+  {
+    if (!grains.uses(i))
+    {
+      continue;
+    }
+    const auto row = static_cast<std::uint32_t>(first_row + static_cast<std::int64_t>(i));
+    const auto before = static_cast<std::ptrdiff_t>(entries.size());
+    const auto add = [&](std::int64_t block)
+    {
+      const BlockRows::Entry entry = { static_cast<std::uint32_t>(block), row };
+      // one of several images may have been there before
+      if (std::find(entries.begin() + before, entries.end(), entry) == entries.end())
+      {
+        entries.push_back(entry);
+      }
+    };
+    cells_.each_range(grains.positions + 3 * i, grains.radius[i],
+      [&](const CellRange& range) { blocks_.each(range, add); });
+    outside += before == static_cast<std::ptrdiff_t>(entries.size()) ? 1 : 0;
+  }
+  return outside;
 }
 
 /// How the sums are made, and the cells that they are for.

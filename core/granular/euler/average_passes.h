@@ -3,8 +3,8 @@
 #define granular_euler_average_passes_h
 
 #include "granular/euler/average.h"
-#include "granular/euler/sum_blocks.h"
 #include "granular/euler/reproducible_sum.h"
+#include "granular/euler/sum_blocks.h"
 
 #include <array>
 #include <cstdint>
@@ -47,6 +47,8 @@ private:
   void check_memory() const;
   void scan();
   void scan_chunk(std::size_t chunk, Scan& scan);
+  std::int64_t find_blocks(
+    const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const;
   void plan();
   void sum_group(const Group& group);
   template <class MakeTerms>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace granular
@@ -37,10 +38,10 @@ void check_extent(const Vector3& lo, const Vector3& hi)
 std::int64_t count_cells(double length, double edge)
 {
   const double count = std::floor(length / edge);
-  if (!(count < static_cast<double>(most_cells)))
+  if (!(count < static_cast<double>(most_cells_of_axis)))
   {
-    throw LimitError("expected at most 2^40 cells, got edges of " + granular::to_text(edge) +
-      " in a box of " + granular::to_text(length));
+    throw LimitError("expected less than 2^31 cells along an axis, got edges of " +
+      granular::to_text(edge) + " in a box of " + granular::to_text(length));
   }
   return std::max(std::int64_t{ 1 }, static_cast<std::int64_t>(count));
 }
@@ -51,9 +52,9 @@ std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
   {
     for (const std::int64_t count : request.counts)
     {
-      if (count < 1)
+      if (count < 1 || count >= most_cells_of_axis)
       {
-        throw Error("expected 1 cell or more along each axis, got " +
+        throw Error("expected 1 to 2^31 - 1 cells along each axis, got " +
           std::to_string(request.counts[0]) + " " + std::to_string(request.counts[1]) + " " +
           std::to_string(request.counts[2]));
       }
@@ -71,6 +72,25 @@ std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
     counts[axis] = count_cells(request.hi[axis] - request.lo[axis], size[axis]);
   }
   return counts;
+}
+
+/// Whether no two faces coincide, however they are rounded.
+bool have_thickness(const EulerGrid& grid, std::size_t axis) noexcept
+{
+  const double largest = std::max(std::abs(grid.lo[axis]), std::abs(grid.hi[axis]));
+  const double step = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+  if (grid.spacing(axis) >= 2 * step)
+  {
+    return true;
+  }
+  for (std::int64_t i = 0; i < grid.counts[axis]; ++i)
+  {
+    if (!(grid.face(axis, i) < grid.face(axis, i + 1)))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 }
 
@@ -115,12 +135,7 @@ EulerGrid make_euler_grid(const EulerGridRequest& request)
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    // of equal steps those at the larger end of the numbers are the first to vanish, and the last may be shorter
-    const std::int64_t last = grid.counts[axis] - 1;
-    const double thin = grid.spacing(axis);
-    const double largest = std::max(std::abs(grid.lo[axis]), std::abs(grid.hi[axis]));
-    const bool fits = largest + thin > largest && grid.face(axis, last) < grid.hi[axis];
-    if (!fits && !std::ranges::is_sorted(grid.faces(axis), std::less_equal<>()))
+    if (!have_thickness(grid, axis))
     {
       throw Error("expected cells with a thickness, got " + std::to_string(grid.counts[axis]) +
         " between " + granular::to_text(grid.lo[axis]) + " and " +

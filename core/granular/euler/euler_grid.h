@@ -51,8 +51,9 @@ struct EulerGridRequest
     size = {}; ///< edges above 0: the largest number of cells that are not smaller, at least 1, as in LIGGGHTS
 };
 
-/// The most cells of a grid: their values have 64-bit sizes in memory.
+/// The most cells of a grid, and one more than the most along an axis: VTK counts these with 32 bits.
 inline constexpr std::int64_t most_cells = std::int64_t{ 1 } << 40;
+inline constexpr std::int64_t most_cells_of_axis = std::int64_t{ 1 } << 31;
 
 /// Throws Error: bounds that are not finite or lo not below hi, counts below 1, sizes that are not above 0,
 /// cells without thickness (faces that coincide); LimitError: too many cells.

@@ -70,6 +70,8 @@ public:
   {
     std::uint32_t block;
     std::uint32_t row; ///< less the first of the chunk
+
+    bool operator==(const Entry&) const = default;
   };
 
   /// A single block has all rows.

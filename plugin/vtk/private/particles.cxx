@@ -68,10 +68,14 @@ std::pair<granular::Vector3, granular::Vector3> Particles::FindBounds(
   return { lo, hi };
 }
 
+bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks)
+{
+  return wanted.Pieces == ranks.size() && wanted.Piece == ranks.rank();
+}
+
 bool AreTogether(const PieceRequest& wanted, bool mayDiffer, granular::Communicator& ranks)
 {
-  const std::int64_t own = wanted.Pieces == ranks.size() && wanted.Piece == ranks.rank() ? 1 : 0;
-  std::int64_t all = own;
+  std::int64_t all = IsOwn(wanted, ranks) ? 1 : 0;
   ranks.sum({ &all, 1 });
   const bool together = all == ranks.size();
   granular::do_together(ranks,

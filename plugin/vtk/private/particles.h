@@ -46,6 +46,11 @@ private:
 };
 
 /**
+ * Whether a process asks for the part of the whole that is its own. Who asks for another one gets it from the whole.
+ */
+bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks);
+
+/**
  * True: each process has asked for its own part of a whole. False: each has asked for all, or is alone. Throws
  * UnsupportedError where some have and some have not, if they must not. Collective.
  */

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Averages where numbers are difficult, missing or wrong.
+#include "made_grains.h"
+
+#include "../base/quad.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace granular;
+
+namespace
+{
+constexpr EulerGrid unit_cell = { { 0, 0, 0 }, { 1, 1, 1 }, { 1, 1, 1 } };
+
+std::string error_of(const FrameView& frame, const EulerAverageRequest& request)
+{
+  try
+  {
+    average(frame, request);
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "none";
+}
+}
+
+TEST(EulerAverageHard, VelocitiesCancelAndMassesDiffer)
+{
+  std::vector<Grain> grains;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const double v = 1 + i * 1e-3;
+    const double mass = i % 2 == 0 ? 1e6 : 1e-6;
+    grains.push_back({ { 0.5, 0.5, 0.5 }, { v, -v, 0.5 }, 0.01, mass });
+    grains.push_back({ { 0.5, 0.5, 0.5 }, { -v, v, 0.5 }, 0.01, mass });
+  }
+  grains.push_back({ { 0.5, 0.5, 0.5 }, { 1e-12, 0, 0.5 }, 0.01, 1e-6 });
+  const EulerCells cells =
+    average(Grains(grains).frame(), request_for(unit_cell, CellWeights::Centre)).cells;
+  Quad mass = 0;
+  for (const Grain& grain : grains)
+  {
+    mass += grain.mass;
+  }
+  const Quad momentum = Quad(1e-6 * 1e-12); // one rounded product is left
+  EXPECT_NEAR(cells.velocities[0] / static_cast<double>(momentum / mass), 1, 1e-15);
+  EXPECT_EQ(cells.velocities[1], 0);
+  EXPECT_EQ(cells.velocities[2], 0.5);
+}
+
+TEST(EulerAverageHard, TenMillionGrainsInOneCell)
+{
+  // rows that all are the same: step 0
+  const Grain grain = { { 0.5, 0.5, 0.5 }, { 0.1, -0.7, 3 }, 1e-3, 0.1 };
+  FrameView frame = Grains({ grain }).frame();
+  const Grains one({ grain });
+  frame = one.frame();
+  frame.rows = 10'000'000;
+  frame.points->step = 0;
+  for (ArrayView& array : frame.arrays)
+  {
+    array.step = 0;
+  }
+  EulerAverageRequest request = request_for(unit_cell, CellWeights::Centre);
+  request.keep_sums = true;
+  const EulerAverages averages = average(frame, request, 2);
+  const Quad rows = 1e7;
+  EXPECT_EQ(averages.mass[0], static_cast<double>(rows * grain.mass));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double term = grain.mass * grain.v[axis];
+    EXPECT_EQ(averages.momentum[axis], static_cast<double>(rows * term));
+  }
+  EXPECT_EQ(averages.cells.radius[0], 1e-3);
+  EXPECT_EQ(
+    averages.cells.volume_fraction[0], static_cast<double>(rows * sphere_volume(grain.radius)));
+}
+
+TEST(EulerAverageHard, CellsOneUlpThick)
+{
+  const double ulp = 0x1p-33; // of a million, rounded up: 2^19 < 10^6 < 2^20
+  const Vector3 lo = { 1e6, 0, 0 };
+  const Vector3 hi = { 1e6 + 64 * ulp, 1, 1 };
+  const EulerGrid grid =
+    make_euler_grid({ lo, hi, EulerGridRequest::By::Counts, { 64, 1, 1 }, {} });
+  std::vector<Grain> grains;
+  for (int i = 0; i < 64; ++i)
+  {
+    grains.push_back({ { 1e6 + i * ulp, 0.5, 0.5 }, { 1.0 * i, 0, 0 }, 0.25, 1 });
+  }
+  const EulerCells centre =
+    average(Grains(grains).frame(), request_for(grid, CellWeights::Centre)).cells;
+  const EulerCells overlap =
+    average(Grains(grains).frame(), request_for(grid, CellWeights::Overlap)).cells;
+  for (std::size_t i = 0; i < 64; ++i)
+  {
+    EXPECT_EQ(centre.velocities[3 * i], static_cast<double>(i));
+    // 64 grains, each of which is cut through its middle: a disc of radius 1/4 in a face of 1
+    EXPECT_NEAR(overlap.volume_fraction[i], 64 * 3.14159265358979324 / 16, 1e-11);
+  }
+  EXPECT_EQ(error_of({}, request_for(grid, CellWeights::Centre)), "none");
+  EXPECT_THROW(make_euler_grid({ lo, hi, EulerGridRequest::By::Counts, { 100, 1, 1 }, {} }), Error);
+}
+
+TEST(EulerAverageHard, FarFromTheOriginAndSmall)
+{
+  const double r = 1e-4;
+  const Vector3 lo = { 1e6, -1e6, 1e6 };
+  const Vector3 hi = { 1e6 + 0x1p-10, -1e6 + 0x1p-10, 1e6 + 0x1p-10 };
+  const EulerGrid grid = { lo, hi, { 4, 4, 4 } };
+  Grain grain = { {}, { 1, 2, 3 }, r, 1 };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    grain.x[axis] = lo[axis] + 0x1p-11; // the corner in the middle
+  }
+  const EulerCells cells =
+    average(Grains({ grain }).frame(), request_for(grid, CellWeights::Overlap)).cells;
+  const double cell = std::pow(0x1p-12, 3);
+  int touched = 0;
+  for (std::size_t i = 0; i < 64; ++i)
+  {
+    if (cells.volume_fraction[i] > 0)
+    {
+      ++touched;
+      EXPECT_NEAR(cells.volume_fraction[i] * cell / (sphere_volume(r) / 8), 1, 1e-14);
+      EXPECT_EQ(cells.velocities[3 * i + 2], 3);
+      EXPECT_EQ(cells.radius[i], r);
+    }
+  }
+  EXPECT_EQ(touched, 8);
+}
+
+TEST(EulerAverageHard, GrainsMuchSmallerAndMuchLargerThanCells)
+{
+  const EulerGrid grid = { { 0, 0, 0 }, { 3, 3, 3 }, { 3, 3, 3 } };
+  const Grains small({ { { 1, 1.5, 1.5 }, { 2, 0, 0 }, 1e-6, 1 } }); // on a face
+  const EulerCells halves = average(small.frame(), request_for(grid, CellWeights::Overlap)).cells;
+  EXPECT_NEAR(halves.volume_fraction[9 + 3] / (sphere_volume(1e-6) / 2), 1, 1e-9);
+  EXPECT_NEAR(halves.volume_fraction[9 + 4] / (sphere_volume(1e-6) / 2), 1, 1e-9);
+  EXPECT_EQ(halves.velocities[3 * 12], 2);
+
+  const Grains large({ { { 1.5, 1.5, 1e6 + 1.5 }, { 2, 0, 0 }, 1e6, 7 },
+    { { 1.5, 1.5, 1.5 }, { 5, 0, 0 }, 1e-3, 7 } });
+  const EulerAverages averages = average(large.frame(), request_for(grid, CellWeights::Overlap));
+  EXPECT_EQ(averages.outside, 0);
+  EXPECT_NEAR(averages.cells.volume_fraction[13], 0.5,
+    1e-5); // its surface is almost a plane through the cell
+  EXPECT_NEAR(averages.cells.volume_fraction[22], 1, 1e-6);
+  EXPECT_NEAR(averages.cells.volume_fraction[4], 0, 1e-6);
+  EXPECT_EQ(averages.cells.velocities[3 * 22], 2); // 1e-18 of the grain alone
+  EXPECT_EQ(averages.cells.velocities[3 * 13], 5); // and here the whole of a small one
+}
+
+TEST(EulerAverageHard, RowsThatAreNoNumbersAreLeftOutAndCounted)
+{
+  std::vector<Grain> grains = random_grains(10, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1);
+  const Grains good(grains);
+  for (int i = 0; i < 8; ++i)
+  {
+    grains.push_back(grains[0]);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  grains[10].x[2] = not_a_number;
+  grains[11].v[0] = infinity;
+  grains[12].radius = -infinity;
+  grains[13].mass = not_a_number;
+  grains[14].mass = -1;
+  grains[15].radius = -0.1;
+  grains[16].stress[5] = not_a_number;
+  grains[17].v[1] = 1e300;
+  for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
+  {
+    EulerAverageRequest request = request_for(unit_cell, weights);
+    request.arrays.stress = "c_stress";
+    const EulerAverages averages = average(Grains(grains).frame(), request, 2);
+    EXPECT_EQ(averages.broken, 8);
+    EXPECT_EQ(averages.cells, average(good.frame(), request).cells);
+  }
+}
+
+TEST(EulerAverageHard, DuplicatesOfOtherProcessesAreLeftOutAndNotCounted)
+{
+  const Grains grains(random_grains(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1));
+  std::vector<unsigned char> ghosts(20);
+  FrameView frame = grains.frame();
+  for (std::size_t i = 0; i < 10; ++i)
+  {
+    ghosts[2 * i + 1] = FrameView::duplicate_row | 32;
+  }
+  frame.ghosts = ghosts.data();
+  std::vector<Grain> own;
+  for (std::size_t i = 0; i < 10; ++i)
+  {
+    own.push_back(grains.all[2 * i]);
+  }
+  const EulerAverageRequest request = request_for(unit_cell, CellWeights::Overlap);
+  const EulerAverages averages = average(frame, request);
+  EXPECT_EQ(averages.cells, average(Grains(own).frame(), request).cells);
+  EXPECT_EQ(averages.broken, 0);
+  EXPECT_EQ(averages.outside, 0);
+}
+
+TEST(EulerAverageHard, NoGrainsGiveEmptyCells)
+{
+  const EulerGrid grid = { { 0, 0, 0 }, { 1, 2, 3 }, { 2, 2, 2 } };
+  for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
+  {
+    Notices notices;
+    const EulerAverages averages = average({}, request_for(grid, weights), 2, &notices);
+    EXPECT_EQ(averages.cells.volume_fraction, std::vector<double>(8));
+    EXPECT_EQ(averages.cells.pressure, std::vector<double>(8));
+    EXPECT_EQ(averages.cells.centres[5], 0.75);
+    EXPECT_TRUE(notices.empty());
+  }
+}
+
+TEST(EulerAverageHard, WhatIsMissingIsToldOrAnError)
+{
+  const Grains grains(random_grains(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1));
+  FrameView frame = grains.frame();
+  frame.arrays.clear();
+  Notices notices;
+  const EulerCells cells =
+    average(frame, request_for(unit_cell, CellWeights::Centre), 1, &notices).cells;
+  ASSERT_EQ(notices.size(), 3U);
+  EXPECT_EQ(notices[0].text, "no array 'v' of velocities: v_avg is 0");
+  EXPECT_EQ(notices[1].text, "no array 'radius' of radii: radius and volumefraction are 0");
+  EXPECT_EQ(notices[2].text,
+    "neither an array 'mass' nor density and radius: the mass of each grain is taken as 1");
+  EXPECT_EQ(cells.volume_fraction[0], 0);
+  EXPECT_EQ(error_of(frame, request_for(unit_cell, CellWeights::Overlap)),
+    "expected an array 'radius' of radii, which the weights Overlap need, got none");
+  EulerAverageRequest request = request_for(unit_cell, CellWeights::Centre);
+  request.arrays.stress = "c_stress";
+  EXPECT_EQ(error_of(frame, request),
+    "expected an array 'c_stress' with six values a particle, the stress times the volume, got "
+    "none");
+  request.arrays.stress = "v";
+  EXPECT_EQ(
+    error_of(grains.frame(), request), "expected an array 'v' with 6 values a particle, got 3");
+  frame.points.reset();
+  EXPECT_EQ(error_of(frame, request_for(unit_cell, CellWeights::Centre)),
+    "expected points to average, got none");
+}
+
+TEST(EulerAverageHard, MassesAreMadeOfDensities)
+{
+  std::vector<Grain> grains = random_grains(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1);
+  std::vector<Grain> heavy = grains;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+  {
+    heavy[i].mass = grains[i].mass * sphere_volume(grains[i].radius); // density by its name
+  }
+  const Grains densities(grains);
+  FrameView frame = densities.frame();
+  frame.arrays[2].name = "density";
+  const EulerAverageRequest request = request_for(unit_cell, CellWeights::Centre);
+  Notices notices;
+  EXPECT_EQ(
+    average(frame, request, 1, &notices).cells, average(Grains(heavy).frame(), request).cells);
+  EXPECT_TRUE(notices.empty());
+}
+
+TEST(EulerAverageHard, GridsThatDoNotFitAreRefusedBeforeAnythingIsAllocated)
+{
+  const EulerGrid grid = { { 0, 0, 0 }, { 1, 1, 1 }, { 10000, 10000, 10000 } };
+  const std::string error = error_of({}, request_for(grid, CellWeights::Centre));
+  EXPECT_EQ(
+    error.rfind("expected cells that fit into memory, got 10000 x 10000 x 10000 cells, which take "
+                "686",
+      0),
+    0U)
+    << error;
+}
+
+TEST(EulerAverageHard, GridsThatAreNoneAreErrors)
+{
+  const auto error = [](const EulerGridRequest& request) -> std::string
+  {
+    try
+    {
+      make_euler_grid(request);
+    }
+    catch (const Error& caught)
+    {
+      return caught.what();
+    }
+    return "none";
+  };
+  using By = EulerGridRequest::By;
+  const Vector3 lo = { 0, 0, 0 };
+  const Vector3 hi = { 1, 1, 1 };
+  EXPECT_EQ(error({ lo, hi, By::Counts, { 4, 0, 4 }, {} }),
+    "expected 1 to 2^31 - 1 cells along each axis, got 4 0 4");
+  EXPECT_EQ(error({ lo, hi, By::Size, {}, { 0.1, 0, 0.1 } }),
+    "expected edges of cells above 0, got 0.1 0 0.1");
+  EXPECT_EQ(error({ lo, hi, By::Size, {}, { 0.1, -1, 0.1 } }),
+    "expected edges of cells above 0, got 0.1 -1 0.1");
+  EXPECT_EQ(error({ lo, hi, By::Size, {}, { 0.1, not_a_number, 0.1 } }),
+    "expected edges of cells above 0, got 0.1 nan 0.1");
+  EXPECT_EQ(error({ lo, { 1, 0, 1 }, By::Counts, { 1, 1, 1 }, {} }),
+    "expected finite bounds of cells, the lower below the upper, got 0 and 0 along y");
+  EXPECT_EQ(error({ lo, hi, By::Counts, { 1 << 20, 1 << 20, 2 }, {} }),
+    "expected at most 2^40 cells, got 1048576 x 1048576 x 2");
+  EXPECT_EQ(error({ lo, hi, By::Size, {}, { 1e-20, 1, 1 } }),
+    "expected less than 2^31 cells along an axis, got edges of 1e-20 in a box of 1");
+  EXPECT_EQ(
+    make_euler_grid({ lo, hi, By::Size, {}, { 0.3, 2, 1 } }), (EulerGrid{ lo, hi, { 3, 1, 1 } }));
+}
+
+TEST(EulerAverageHard, OverTimeMomentaAndMassesAreAddedUp)
+{
+  EulerAverageRequest request =
+    request_for({ { 0, 0, 0 }, { 2, 1, 1 }, { 2, 1, 1 } }, CellWeights::Centre);
+  request.keep_sums = true;
+  TimeAverage time;
+  EXPECT_EQ(time.cells().count(), 0);
+  const double volume = sphere_volume(0.5);
+  time.add(average(Grains({ { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, 0.5, 1 } }).frame(), request));
+  time.add(average(Grains({ { { 0.5, 0.5, 0.5 }, { 4, 0, 0 }, 0.5, 2 },
+                            { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, 0.5, 1 } })
+                     .frame(),
+    request));
+  const EulerCells cells = time.cells();
+  EXPECT_EQ(time.frames(), 2);
+  EXPECT_EQ(cells.velocities[0], (1.0 + 8 + 1) / 4);
+  EXPECT_EQ(cells.velocities[3], 0);
+  EXPECT_DOUBLE_EQ(cells.volume_fraction[0], 1.5 * volume);
+  EXPECT_DOUBLE_EQ(cells.radius[0], 0.5);
+  request.grid.hi[0] = 3;
+  EXPECT_THROW(time.add(average({}, request)), Error);
+}

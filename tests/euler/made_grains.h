@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grains to average, and averages by the plainest means.
+#ifndef granular_tests_euler_made_grains_h
+#define granular_tests_euler_made_grains_h
+
+#include "exact_sum.h"
+
+#include "granular/euler/average.h"
+#include "granular/euler/sphere_box.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct Grain
+{
+  granular::Vector3 x = {};
+  granular::Vector3 v = {};
+  double radius = 1;
+  double mass = 1;
+  std::array<double, 6> stress = {};
+};
+
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Arrays of grains as a frame has them.
+class Grains
+{
+public:
+  explicit Grains(std::vector<Grain> grains)
+    : all(std::move(grains))
+  {
+  }
+
+  granular::FrameView frame(const granular::Box* box = nullptr) const
+  {
+    return this->frame(0, all.size(), box);
+  }
+
+  /// Rows [first, last).
+  granular::FrameView frame(
+    std::size_t first, std::size_t last, const granular::Box* box = nullptr) const
+  {
+    constexpr std::int64_t step = sizeof(Grain) / sizeof(double);
+    const Grain* const grain = all.data() + first;
+    const auto view = [&](const char* name, const double* values, int size)
+    {
+      granular::ArrayView array =
+        granular::view_rows(name, granular::ScalarType::Float64, values, size);
+      array.step = step;
+      return array;
+    };
+    granular::FrameView frame;
+    frame.rows = static_cast<std::int64_t>(last - first);
+    frame.has_box = box != nullptr;
+    frame.header.box = box ? *box : granular::Box();
+    frame.points = view("points", grain->x.data(), 3);
+    frame.arrays = { view("v", grain->v.data(), 3), view("radius", &grain->radius, 1),
+      view("mass", &grain->mass, 1), view("c_stress", grain->stress.data(), 6) };
+    return frame;
+  }
+
+  std::vector<Grain> all;
+};
+
+inline granular::Box periodic_box(
+  const granular::Vector3& lo, const granular::Vector3& hi, const char* boundary)
+{
+  granular::Box box = granular::Box::from_bounds(lo, hi);
+  box.boundary = boundary;
+  return box;
+}
+
+/// Grains all over a box, and somewhat beyond it.
+inline std::vector<Grain> random_grains(std::size_t count, const granular::Vector3& lo,
+  const granular::Vector3& hi, double radius, unsigned seed, double beyond = 0)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Grain> grains(count);
+  for (Grain& grain : grains)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double edge = hi[k] - lo[k];
+      grain.x[k] = lo[k] + edge * ((1 + 2 * beyond) * unit(random) - beyond);
+      grain.v[k] = unit(random) - 0.5;
+    }
+    grain.radius = radius * (0.5 + unit(random) / 2);
+    grain.mass = 1e-3 * unit(random);
+    for (double& value : grain.stress)
+    {
+      value = 1e-4 * (unit(random) - 0.7);
+    }
+  }
+  return grains;
+}
+
+inline granular::EulerAverageRequest request_for(
+  const granular::EulerGrid& grid, granular::CellWeights weights)
+{
+  granular::EulerAverageRequest request;
+  request.grid = grid;
+  request.cells.weights = weights;
+  request.wanted = granular::WantedCells::all(grid);
+  return request;
+}
+
+inline granular::EulerAverages average(const granular::FrameView& frame,
+  const granular::EulerAverageRequest& request, int threads = 1,
+  granular::Notices* notices = nullptr)
+{
+  granular::SerialCommunicator alone;
+  granular::Progress progress;
+  granular::Notices own;
+  return granular::average_in_cells(
+    frame, request, alone, granular::Executor(threads), notices ? *notices : own, progress);
+}
+
+/// The share of a grain in a cell, and the volume there.
+using Share = std::pair<double, double>;
+
+/// Every grain against every cell, with exact sums. share(grain, lo, hi of the cell, whether it is the last of each axis).
+template <class ShareOf>
+granular::EulerCells average_one_by_one(
+  const std::vector<Grain>& grains, const granular::EulerGrid& grid, const ShareOf& share_of)
+{
+  granular::EulerCells cells;
+  cells.resize(grid.size());
+  cells.normal_stress.resize(static_cast<std::size_t>(3 * grid.size()));
+  cells.shear_stress.resize(static_cast<std::size_t>(3 * grid.size()));
+  std::size_t cell = 0;
+  for (std::int64_t k = 0; k < grid.counts[2]; ++k)
+  {
+    for (std::int64_t j = 0; j < grid.counts[1]; ++j)
+    {
+      for (std::int64_t i = 0; i < grid.counts[0]; ++i, ++cell)
+      {
+        const std::array<std::int64_t, 3> at = { i, j, k };
+        granular::Vector3 lo;
+        granular::Vector3 hi;
+        double size = 1;
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          lo[a] = grid.face(a, at[a]);
+          hi[a] = grid.face(a, at[a] + 1);
+          size *= hi[a] - lo[a];
+          cells.centres[3 * cell + a] = grid.centre(a, at[a]);
+        }
+        std::array<ExactSum, 7> sums; // share, mass, momentum, radius, volume
+        for (const Grain& grain : grains)
+        {
+          const auto [share, volume] = share_of(grain, lo, hi);
+          const double mass = grain.mass * share;
+          const double terms[] = { share, mass, mass * grain.v[0], mass * grain.v[1],
+            mass * grain.v[2], grain.radius * share, volume };
+          for (std::size_t n = 0; share > 0 && n < sums.size(); ++n)
+          {
+            sums[n].add(terms[n]);
+          }
+        }
+        const double mass = sums[1].value();
+        granular::Vector3 mean = {};
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          mean[a] = mass > 0 ? sums[2 + a].value() / mass : 0;
+          cells.velocities[3 * cell + a] = mean[a];
+        }
+        cells.radius[cell] = sums[0].value() > 0 ? sums[5].value() / sums[0].value() : 0;
+        cells.volume_fraction[cell] = sums[6].value() / size;
+        std::array<ExactSum, 6> stress;
+        constexpr int axes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 0, 2 }, { 1, 2 } };
+        for (const Grain& grain : grains)
+        {
+          const double share = share_of(grain, lo, hi).first;
+          for (std::size_t n = 0; share > 0 && n < 6; ++n)
+          {
+            const auto a = static_cast<std::size_t>(axes[n][0]);
+            const auto b = static_cast<std::size_t>(axes[n][1]);
+            stress[n].add(-(grain.mass * share) * (grain.v[a] - mean[a]) * (grain.v[b] - mean[b]) +
+              grain.stress[n] * share);
+          }
+        }
+        for (std::size_t n = 0; n < 3; ++n)
+        {
+          cells.normal_stress[3 * cell + n] = stress[n].value() / size;
+          cells.shear_stress[3 * cell + n] = stress[3 + n].value() / size;
+        }
+        cells.pressure[cell] =
+          -(stress[0].value() + stress[1].value() + stress[2].value()) / (3 * size);
+      }
+    }
+  }
+  return cells;
+}
+
+/// lo <= x < hi; at the upper end of the grid x <= hi.
+inline bool is_inside(const Grain& grain, const granular::EulerGrid& grid,
+  const granular::Vector3& lo, const granular::Vector3& hi)
+{
+  bool inside = true;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const bool below = grain.x[a] < hi[a] || (hi[a] == grid.hi[a] && grain.x[a] == hi[a]);
+    inside = inside && grain.x[a] >= lo[a] && below;
+  }
+  return inside;
+}
+
+inline granular::EulerCells average_by_centre(
+  const std::vector<Grain>& grains, const granular::EulerGrid& grid)
+{
+  return average_one_by_one(grains, grid,
+    [&](const Grain& grain, const granular::Vector3& lo, const granular::Vector3& hi)
+    {
+      return is_inside(grain, grid, lo, hi) ? Share(1, granular::sphere_volume(grain.radius))
+                                            : Share(0, 0);
+    });
+}
+#endif
