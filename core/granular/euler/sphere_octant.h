@@ -7,8 +7,8 @@
 namespace granular
 {
 /// The volume that a sphere around the origin has in common with a box, 0 <= lo <= hi, by quadrature of the areas of
-/// its slices: the sum of what is positive, so that nothing cancels however small the box is against the sphere. Cubes of
-/// lengths must neither over- nor underflow.
+/// its slices: a sum of what is positive, so that nothing cancels however small the box is against the
+/// sphere. The cube of the radius must neither over- nor underflow.
 double octant_volume(double radius, Vector3 lo, Vector3 hi) noexcept;
 }
 #endif
