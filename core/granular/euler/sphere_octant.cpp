@@ -135,8 +135,8 @@ double integrate(double begin, double end, double half_axis, const Function& fun
   return sum * (end - begin);
 }
 
-/// Near the end of the smaller of the two circles, slices change like a root. y = radius 2 q / (1 + q^2) makes a fraction
-/// of it. The end of the larger circle is where q is on the unit circle, at the angle whose cosine is small / large;
+/// Near the end of the smaller of the two circles, slices change like a root. y = radius 2 q / (1 + q^2) makes a
+/// fraction of it. The end of the larger circle is where q is on the unit circle, at the angle whose cosine is small / large;
 /// where that is too near, intervals are halved.
 struct CircleIntegral
 {
@@ -151,6 +151,7 @@ struct CircleIntegral
       (end - begin);
     const double pole_axis =
       (std::sqrt(1 + square(begin)) + std::sqrt(1 + square(end))) / (end - begin);
+    // the poles of the fraction, at +-i, are of higher order than a root, and so slow down more
     const double half_axis = std::min(root_axis, 0.63 * pole_axis);
     if (half_axis < enough_for_16 && depth < 40)
     {
