@@ -78,8 +78,7 @@ const double* AbsolutePositions::load(std::int64_t first, std::size_t count, dou
 {
   if (plain_)
   {
-    const double* const points =
-      static_cast<const double*>(frame_.points->components[0]) + 3 * first;
+    const double* const points = this->loaded(first);
     const bool wraps = std::ranges::count(wraps_, true) > 0;
     if (!wraps || this->is_wrapped({ points, 3 * count }))
     {

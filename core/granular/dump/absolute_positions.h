@@ -31,6 +31,12 @@ public:
   /// nothing is to be done, else in buffer, which has room for most_rows * 3 numbers. From any thread.
   const double* load(std::int64_t first, std::size_t count, double* buffer) const;
 
+  /// Where load found that nothing is to be done, the same without looking again.
+  const double* loaded(std::int64_t first) const noexcept
+  {
+    return static_cast<const double*>(frame_.points->components[0]) + 3 * first;
+  }
+
   /// The same of rows in any order, always in the buffer.
   void load(std::span<const std::int64_t> rows, double* buffer) const;
 

@@ -12,6 +12,7 @@
 #include "granular/euler/grain_cells.h"
 #include "granular/euler/grain_values.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct WantedCells
   static WantedCells all(const EulerGrid& grid) noexcept;
 
   std::int64_t count(const EulerGrid& grid) const noexcept;
+
+  /// Which of the wanted ones a cell is, or -1.
+  std::int64_t place(const EulerGrid& grid, const std::array<std::int64_t, 3>& cell) const noexcept;
 };
 
 struct EulerAverageRequest

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/average_passes.h"
 
-#include "granular/base/mapping.h"
-#include "granular/base/number_print.h"
 #include "granular/euler/sphere_box.h"
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,20 +14,8 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
-constexpr std::int64_t rows_of_chunk = 65536;
-
-/// Of the sums of a group. More of them have fewer sums of ranks to wait for.
-constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
-
 /// Below it the parts of a block are not worth a sum of their own each.
 constexpr std::int64_t rows_of_part = 16384;
-
-/// How far below the largest possible term of a stress its terms still count.
-constexpr int stress_bits = 192;
-
-/// Of one grain in one cell.
-constexpr std::int64_t most_images = 1000;
 
 /// Where the sums of each quantity are.
 enum Lane : std::size_t
@@ -44,11 +29,6 @@ enum Lane : std::size_t
   Volume
 };
 
-std::string mebibytes(double bytes)
-{
-  return std::to_string(static_cast<std::int64_t>(bytes / 1048576)) + " MiB";
-}
-
 double volume_of_cell(const EulerGrid& grid, const std::array<std::int64_t, 3>& cell) noexcept
 {
   double volume = 1;
@@ -58,41 +38,6 @@ double volume_of_cell(const EulerGrid& grid, const std::array<std::int64_t, 3>& 
   }
   return volume;
 }
-
-/// The place of a cell among the wanted ones, or -1.
-std::int64_t place_of(const EulerGrid& grid, const WantedCells& wanted,
-  const std::array<std::int64_t, 3>& cell) noexcept
-{
-  const auto& [nx, ny, nz] = grid.counts;
-  const std::int64_t number = (cell[2] * ny + cell[1]) * nx + cell[0];
-  std::int64_t place = 0;
-  for (std::size_t axis = 3; axis-- > 0;)
-  {
-    const std::int64_t first = wanted.range.first[axis];
-    const std::int64_t last = wanted.range.last[axis];
-    if (cell[axis] < first || cell[axis] >= last)
-    {
-      return -1;
-    }
-    place = place * (last - first) + cell[axis] - first;
-  }
-  return number >= wanted.first && number < wanted.last ? place - wanted.first : -1;
-}
-}
-
-WantedCells WantedCells::all(const EulerGrid& grid) noexcept
-{
-  return { { {}, grid.counts }, 0, grid.size() };
-}
-
-std::int64_t WantedCells::count(const EulerGrid& grid) const noexcept
-{
-  std::int64_t cells = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    cells *= std::max<std::int64_t>(range.last[axis] - range.first[axis], 0);
-  }
-  return cells == grid.size() ? std::max<std::int64_t>(last - first, 0) : cells;
 }
 
 /// Shares of grains in cells of a block, some at a time.
@@ -111,6 +56,18 @@ struct AveragePasses::Batch
   std::array<double, most> share;
   std::array<double, most> volume;
   std::array<SumScale::Terms, most> terms;
+
+  /// All grains, each whole in its cell.
+  void fill_whole() noexcept
+  {
+    size = grains.rows;
+    std::iota(grain.begin(), grain.begin() + size, std::size_t{ 0 });
+    std::fill_n(share.begin(), size, 1.0);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      volume[i] = sphere_volume(grains.radius[i]);
+    }
+  }
 };
 
 AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
@@ -155,174 +112,6 @@ EulerAverages AveragePasses::run()
     }
   }
   return std::move(result_);
-}
-
-/// The cells that are wanted, the sums of a group, and the means.
-void AveragePasses::check_memory() const
-{
-  const auto cells = static_cast<double>(request_.wanted.count(request_.grid));
-  const double values =
-    static_cast<double>(values_of_cell) + (stress_ ? 6 : 0) + (request_.keep_sums ? 4 : 0);
-  const double blocks = 16 * static_cast<double>(blocks_.size());
-  const double bytes = 8 * cells * values + blocks + static_cast<double>(bytes_of_group);
-  const auto available = static_cast<double>(available_memory());
-  if (bytes > available)
-  {
-    throw LimitError("expected cells that fit into memory, got " +
-      std::to_string(request_.grid.counts[0]) + " x " + std::to_string(request_.grid.counts[1]) +
-      " x " + std::to_string(request_.grid.counts[2]) + " cells, which take " + mebibytes(bytes) +
-      "; " + mebibytes(available) + " are available");
-  }
-}
-
-void AveragePasses::scan()
-{
-  do_together(ranks_,
-    [&]
-    {
-      const auto chunks =
-        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-      entries_.resize(blocks_.size() > 1 ? chunks : 0);
-      std::vector<Scan> scans(executor_.workers(chunks));
-      executor_.parallel_for(
-        chunks,
-        [&](std::size_t chunk, std::size_t worker) { this->scan_chunk(chunk, scans[worker]); },
-        progress_);
-      for (const Scan& scan : scans)
-      {
-        scanned_.add(scan);
-        scanned_.outside += scan.outside;
-      }
-      if (scanned_.broken == 0 && !frame_.ghosts)
-      {
-        grains_.trust_all();
-      }
-    });
-  const std::vector<std::string> all =
-    ranks_.all_gather({ reinterpret_cast<const char*>(&scanned_), sizeof scanned_ });
-  scanned_ = {};
-  for (const std::string& bytes : all)
-  {
-    Scan scan;
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&scan));
-    scanned_.add(scan);
-    scanned_.outside += scan.outside;
-  }
-  result_.outside = scanned_.outside;
-  result_.broken = scanned_.broken;
-  do_together(ranks_,
-    [&]
-    {
-      block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries_, rows_of_chunk, blocks_.size())
-                                       : BlockRows::all(frame_.rows);
-      counts_.resize(static_cast<std::size_t>(blocks_.size()));
-      for (std::size_t block = 0; block < counts_.size(); ++block)
-      {
-        counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
-      }
-    });
-  ranks_.sum(counts_);
-}
-
-void AveragePasses::scan_chunk(std::size_t chunk, Scan& scan)
-{
-  GrainBlock grains;
-  std::array<std::int64_t, GrainBlock::most_rows> buffer;
-  const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
-  const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
-  for (std::int64_t first = start; first < end; first += rows_of_block)
-  {
-    const std::span<std::int64_t> rows =
-      std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
-    std::iota(rows.begin(), rows.end(), first);
-    grains_.scan(rows, grains, scan);
-    if (!entries_.empty())
-    {
-      scan.outside += this->find_blocks(grains, first - start, entries_[chunk]);
-    }
-  }
-}
-
-/// Adds an entry for each block that a grain may have a share in. Returns how many have none.
-std::int64_t AveragePasses::find_blocks(
-  const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const
-{
-  std::int64_t outside = 0;
-  for (std::size_t i = 0; i < grains.rows; ++i)
-  {
-    if (!grains.uses(i))
-    {
-      continue;
-    }
-    const auto row = static_cast<std::uint32_t>(first_row + static_cast<std::int64_t>(i));
-    const auto before = static_cast<std::ptrdiff_t>(entries.size());
-    const auto add = [&](std::int64_t block)
-    {
-      const BlockRows::Entry entry = { static_cast<std::uint32_t>(block), row };
-      // one of several images may have been there before
-      if (std::find(entries.begin() + before, entries.end(), entry) == entries.end())
-      {
-        entries.push_back(entry);
-      }
-    };
-    cells_.each_range(grains.positions + 3 * i, grains.radius[i],
-      [&](const CellRange& range) { blocks_.each(range, add); });
-    outside += before == static_cast<std::ptrdiff_t>(entries.size()) ? 1 : 0;
-  }
-  return outside;
-}
-
-/// How the sums are made, and the cells that they are for.
-void AveragePasses::plan()
-{
-  const double radius = scanned_.radius.largest();
-  const std::int64_t images = cells_.most_images(radius);
-  if (images > most_images)
-  {
-    throw LimitError(
-      "expected grains not much larger than the periodic box, got a radius of " + to_text(radius));
-  }
-  const std::int64_t terms = rows_ * images;
-  cells_.set_largest_volume(sphere_volume(radius));
-  const int quantum = cells_.quantum();
-  const SumScale::Range mass = scanned_.mass.range(quantum);
-  const SumScale::Range speed = scanned_.speed.range(0);
-  const SumScale::Range momentum = { mass.top + speed.top, mass.bottom + speed.bottom };
-  Magnitudes volumes; // that of the smallest one may be less than any number
-  const double volume[] = { sphere_volume(radius), sphere_volume(scanned_.radius.smallest()) };
-  volumes.add(volume, 2);
-  sums_ = SumScale({ { { 1, quantum }, mass, momentum, momentum, momentum,
-                     scanned_.radius.range(quantum), volumes.range(quantum), {} } },
-    terms);
-  const int largest = std::max(mass.top + 2 * (speed.top + 1), scanned_.stress.range(0).top) + 1;
-  std::array<SumScale::Range, SumScale::lanes> ranges;
-  ranges.fill({ largest, largest - stress_bits });
-  stresses_ = SumScale(ranges, terms);
-
-  const EulerGrid& grid = request_.grid;
-  EulerCells& cells = result_.cells;
-  const std::int64_t wanted = request_.wanted.count(grid);
-  cells.resize(wanted);
-  cells.normal_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
-  cells.shear_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
-  result_.mass.resize(request_.keep_sums ? static_cast<std::size_t>(wanted) : 0);
-  result_.momentum.resize(3 * result_.mass.size());
-  const CellRange& range = request_.wanted.range;
-  std::array<std::int64_t, 3> cell;
-  for (cell[2] = range.first[2]; cell[2] < range.last[2]; ++cell[2])
-  {
-    for (cell[1] = range.first[1]; cell[1] < range.last[1]; ++cell[1])
-    {
-      for (cell[0] = range.first[0]; cell[0] < range.last[0]; ++cell[0])
-      {
-        const std::int64_t place = place_of(grid, request_.wanted, cell);
-        for (std::size_t axis = 0; place >= 0 && axis < 3; ++axis)
-        {
-          cells.centres[static_cast<std::size_t>(3 * place) + axis] = grid.centre(axis, cell[axis]);
-        }
-      }
-    }
-  }
 }
 
 void AveragePasses::sum_group(const Group& group)
@@ -382,6 +171,15 @@ void AveragePasses::each_batch(
     const std::span<const std::int64_t> rows = block_rows_.rows(block, first, last, batch.rows);
     first += static_cast<std::int64_t>(rows.size());
     grains_.load(rows, batch.grains);
+    const std::span points(grains.positions, 3 * grains.rows);
+    if (cells_.is_direct() && !grains.usable &&
+      cells_.finder().find(points, range, batch.cell.data()))
+    {
+      batch.fill_whole();
+      take();
+      batch.size = 0;
+      continue;
+    }
     for (std::size_t i = 0; i < grains.rows; ++i)
     {
       if (!grains.uses(i))
@@ -483,8 +281,7 @@ void AveragePasses::each_cell(const Group& group, const SumScale& scale, const T
         {
           for (x[0] = range.first[0]; x[0] < range.last[0]; ++x[0], ++cell)
           {
-            take(cell, place_of(request_.grid, request_.wanted, x),
-              volume_of_cell(request_.grid, x),
+            take(cell, request_.wanted.place(request_.grid, x), volume_of_cell(request_.grid, x),
               scale.values(integers_.data() + cell * scale.size()));
           }
         }

@@ -26,6 +26,9 @@ public:
   EulerAverages run();
 
 private:
+  /// Bytes of the sums of a group. More of them have fewer sums of ranks to wait for.
+  static constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
+
   /// What is known of the numbers of grains, and of places.
   struct Scan : GrainValues::Scan
   {

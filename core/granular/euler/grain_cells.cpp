@@ -17,12 +17,8 @@ GrainCells::GrainCells(const EulerGrid& grid, const Options& options, const Box*
   : grid_(grid)
   , weights_(options.weights)
   , spheres_(grid, options.short_cuts)
+  , finder_(grid)
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double spacing = grid.spacing(axis);
-    axes_[axis] = { grid.lo[axis], grid.hi[axis], spacing, 1 / spacing, grid.counts[axis] - 1 };
-  }
   if (!box || box->tilted)
   {
     return;

@@ -3,6 +3,7 @@
 #define granular_euler_grain_cells_h
 
 #include "granular/base/box.h"
+#include "granular/euler/cell_finder.h"
 #include "granular/euler/euler_grid.h"
 #include "granular/euler/sphere_box.h"
 #include "granular/euler/sphere_cells.h"
@@ -36,6 +37,10 @@ public:
   GrainCells(const EulerGrid& grid, const Options& options, const Box* box);
   GrainCells(const GrainCells&) = delete;
   GrainCells& operator=(const GrainCells&) = delete;
+
+  /// Whether each grain has one cell at most, that of its centre: see CellFinder.
+  bool is_direct() const noexcept { return weights_ == CellWeights::Centre && !repeats_; }
+  const CellFinder& finder() const noexcept { return finder_; }
 
   /// Room for the work of a thread.
   using Shares = std::vector<CellShare>;
@@ -120,16 +125,6 @@ private:
     Twofold length;
   };
 
-  /// What finds the cell of a coordinate.
-  struct Axis
-  {
-    double lo = 0;
-    double hi = 0;
-    double spacing = 0;
-    double per_length = 0; ///< cells
-    std::int64_t last = 0; ///< cell
-  };
-
   std::array<std::int64_t, 2> images(std::size_t axis, double x, double radius) const noexcept;
 
   /// Whether it belongs to one cell whole: what has no volume does, too.
@@ -164,8 +159,8 @@ private:
   {
     if (!repeats_)
     {
-      const std::array<std::int64_t, 3> cell = { this->slab(0, centre[0]), this->slab(1, centre[1]),
-        this->slab(2, centre[2]) };
+      const std::array<std::int64_t, 3> cell = { finder_.find(0, centre[0]),
+        finder_.find(1, centre[1]), finder_.find(2, centre[2]) };
       if ((cell[0] | cell[1] | cell[2]) >= 0)
       {
         visit(cell);
@@ -181,7 +176,7 @@ private:
           const double x = image[axis].value();
           // what is at the upper face of the grid is there as the image at the lower one
           const bool twice = images_[axis].repeats && x != centre[axis] && !(x < grid_.hi[axis]);
-          cell[axis] = twice ? -1 : this->slab(axis, x);
+          cell[axis] = twice ? -1 : finder_.find(axis, x);
         }
         if ((cell[0] | cell[1] | cell[2]) >= 0)
         {
@@ -202,24 +197,10 @@ private:
     return sum.twofold();
   }
 
-  std::int64_t slab(std::size_t axis, double x) const noexcept
-  {
-    const Axis& a = axes_[axis];
-    if (!(x >= a.lo && x <= a.hi))
-    {
-      return -1;
-    }
-    auto cell = static_cast<std::int64_t>((x - a.lo) * a.per_length);
-    // rounded, but where the faces of all cells are: see EulerGrid::face
-    cell -= x < a.lo + static_cast<double>(cell) * a.spacing ? 1 : 0;
-    cell += x >= a.lo + static_cast<double>(cell + 1) * a.spacing ? 1 : 0;
-    return cell < a.last ? cell : a.last;
-  }
-
   EulerGrid grid_;
   CellWeights weights_;
   SphereCells spheres_;
-  std::array<Axis, 3> axes_;
+  CellFinder finder_;
   std::array<Images, 3> images_;
   bool repeats_ = false; ///< centres have images in the grid
   int quantum_ = 0;

@@ -151,7 +151,7 @@ void GrainValues::load(std::span<const std::int64_t> rows, GrainBlock& block) co
 {
   this->load_values(rows, block);
   block.usable = nullptr;
-  if (!trusted_)
+  if (!all_usable_)
   {
     this->find_usable(rows, block);
   }
@@ -193,14 +193,26 @@ void GrainValues::scan(std::span<const std::int64_t> rows, GrainBlock& block, Sc
       }
     }
   }
+  const bool moved = block.positions == block.positions_buffer.data();
+  own.moved = moved ? static_cast<std::int64_t>(block.rows) : 0;
   scan.add(own);
+}
+
+void GrainValues::trust(const Scan& scan) noexcept
+{
+  all_usable_ = scan.broken == 0 && !frame_.ghosts;
+  none_moved_ = scan.moved == 0;
 }
 
 void GrainValues::load_values(std::span<const std::int64_t> rows, GrainBlock& block) const
 {
   using One = std::array<std::optional<ValueSource>, 1>;
   block.rows = rows.size();
-  if (is_consecutive(rows) && !rows.empty())
+  if (none_moved_ && is_consecutive(rows) && !rows.empty())
+  {
+    block.positions = positions_.loaded(rows.front());
+  }
+  else if (is_consecutive(rows) && !rows.empty())
   {
     block.positions = positions_.load(rows.front(), rows.size(), block.positions_buffer.data());
   }
@@ -252,6 +264,7 @@ void GrainValues::Scan::add(const Scan& other) noexcept
   radius.add(other.radius);
   stress.add(other.stress);
   broken += other.broken;
+  moved += other.moved;
 }
 
 SumScale::Range Magnitudes::range(int quantum) const noexcept

@@ -113,6 +113,7 @@ public:
     Magnitudes radius;
     Magnitudes stress;
     std::int64_t broken = 0; ///< grains that are left out, but duplicates
+    std::int64_t moved = 0;  ///< grains whose positions are not those of an array in memory
 
     void add(const Scan& other) noexcept;
   };
@@ -129,8 +130,8 @@ public:
   /// The same, and looks at the numbers of those that are usable.
   void scan(std::span<const std::int64_t> rows, GrainBlock& block, Scan& scan) const;
 
-  /// From now on load need not look: all grains are usable.
-  void trust_all() noexcept { trusted_ = true; }
+  /// From now on load need not look at what the scan of all grains has found.
+  void trust(const Scan& scan) noexcept;
 
 private:
   void load_values(std::span<const std::int64_t> rows, GrainBlock& block) const;
@@ -139,7 +140,8 @@ private:
   const FrameView& frame_;
   const GrainSources& sources_;
   AbsolutePositions positions_;
-  bool trusted_ = false;
+  bool all_usable_ = false;
+  bool none_moved_ = false;
 };
 }
 #endif

@@ -32,6 +32,7 @@ SumBlocks::SumBlocks(const std::array<std::int64_t, 3>& cells) noexcept
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     blocks_[axis] = (cells_[axis] + edges_[axis] - 1) / edges_[axis];
+    largest_ *= std::min(edges_[axis], cells_[axis]);
   }
 }
 

@@ -23,7 +23,7 @@ public:
   std::int64_t size() const noexcept { return blocks_[0] * blocks_[1] * blocks_[2]; }
 
   /// Cells of a block that none has more of.
-  std::int64_t largest() const noexcept { return edges_[0] * edges_[1] * edges_[2]; }
+  std::int64_t largest() const noexcept { return largest_; }
 
   CellRange range(std::int64_t block) const noexcept;
 
@@ -59,6 +59,7 @@ private:
   std::array<int, 3> shifts_ = {}; ///< edges are powers of two
   std::array<std::int64_t, 3> edges_ = {};
   std::array<std::int64_t, 3> blocks_ = {};
+  std::int64_t largest_ = 1;
 };
 
 /// Which rows have something to do with which block. Rows may be in several.

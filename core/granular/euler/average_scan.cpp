@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/base/mapping.h"
+#include "granular/base/number_print.h"
+#include "granular/euler/average_passes.h"
+#include "granular/euler/sphere_box.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
+constexpr std::int64_t rows_of_chunk = 65536;
+
+/// How far below the largest possible term of a stress its terms still count.
+constexpr int stress_bits = 192;
+
+/// Of one grain in one cell.
+constexpr std::int64_t most_images = 1000;
+
+std::string mebibytes(double bytes)
+{
+  return std::to_string(static_cast<std::int64_t>(bytes / 1048576)) + " MiB";
+}
+}
+
+/// The cells that are wanted, the sums of a group, and the means.
+void AveragePasses::check_memory() const
+{
+  const auto cells = static_cast<double>(request_.wanted.count(request_.grid));
+  const double values =
+    static_cast<double>(values_of_cell) + (stress_ ? 6 : 0) + (request_.keep_sums ? 4 : 0);
+  const double blocks = 16 * static_cast<double>(blocks_.size());
+  const double bytes = 8 * cells * values + blocks + static_cast<double>(bytes_of_group);
+  const auto available = static_cast<double>(available_memory());
+  if (bytes > available)
+  {
+    throw LimitError("expected cells that fit into memory, got " +
+      std::to_string(request_.grid.counts[0]) + " x " + std::to_string(request_.grid.counts[1]) +
+      " x " + std::to_string(request_.grid.counts[2]) + " cells, which take " + mebibytes(bytes) +
+      "; " + mebibytes(available) + " are available");
+  }
+}
+
+void AveragePasses::scan()
+{
+  do_together(ranks_,
+    [&]
+    {
+      const auto chunks =
+        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
+      entries_.resize(blocks_.size() > 1 ? chunks : 0);
+      std::vector<Scan> scans(executor_.workers(chunks));
+      executor_.parallel_for(
+        chunks,
+        [&](std::size_t chunk, std::size_t worker) { this->scan_chunk(chunk, scans[worker]); },
+        progress_);
+      for (const Scan& scan : scans)
+      {
+        scanned_.add(scan);
+        scanned_.outside += scan.outside;
+      }
+      grains_.trust(scanned_);
+    });
+  const std::vector<std::string> all =
+    ranks_.all_gather({ reinterpret_cast<const char*>(&scanned_), sizeof scanned_ });
+  scanned_ = {};
+  for (const std::string& bytes : all)
+  {
+    Scan scan;
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&scan));
+    scanned_.add(scan);
+    scanned_.outside += scan.outside;
+  }
+  result_.outside = scanned_.outside;
+  result_.broken = scanned_.broken;
+  do_together(ranks_,
+    [&]
+    {
+      block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries_, rows_of_chunk, blocks_.size())
+                                       : BlockRows::all(frame_.rows);
+      counts_.resize(static_cast<std::size_t>(blocks_.size()));
+      for (std::size_t block = 0; block < counts_.size(); ++block)
+      {
+        counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
+      }
+    });
+  ranks_.sum(counts_);
+}
+
+void AveragePasses::scan_chunk(std::size_t chunk, Scan& scan)
+{
+  GrainBlock grains;
+  std::array<std::int64_t, GrainBlock::most_rows> buffer;
+  const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
+  const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
+  for (std::int64_t first = start; first < end; first += rows_of_block)
+  {
+    const std::span<std::int64_t> rows =
+      std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
+    std::iota(rows.begin(), rows.end(), first);
+    grains_.scan(rows, grains, scan);
+    if (!entries_.empty())
+    {
+      scan.outside += this->find_blocks(grains, first - start, entries_[chunk]);
+    }
+  }
+}
+
+/// Adds an entry for each block that a grain may have a share in. Returns how many have none.
+std::int64_t AveragePasses::find_blocks(
+  const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const
+{
+  std::int64_t outside = 0;
+  for (std::size_t i = 0; i < grains.rows; ++i)
+  {
+    if (!grains.uses(i))
+    {
+      continue;
+    }
+    const auto row = static_cast<std::uint32_t>(first_row + static_cast<std::int64_t>(i));
+    const auto before = static_cast<std::ptrdiff_t>(entries.size());
+    const auto add = [&](std::int64_t block)
+    {
+      const BlockRows::Entry entry = { static_cast<std::uint32_t>(block), row };
+      // one of several images may have been there before
+      if (std::find(entries.begin() + before, entries.end(), entry) == entries.end())
+      {
+        entries.push_back(entry);
+      }
+    };
+    cells_.each_range(grains.positions + 3 * i, grains.radius[i],
+      [&](const CellRange& range) { blocks_.each(range, add); });
+    outside += before == static_cast<std::ptrdiff_t>(entries.size()) ? 1 : 0;
+  }
+  return outside;
+}
+
+/// How the sums are made, and the cells that they are for.
+void AveragePasses::plan()
+{
+  const double radius = scanned_.radius.largest();
+  const std::int64_t images = cells_.most_images(radius);
+  if (images > most_images)
+  {
+    throw LimitError(
+      "expected grains not much larger than the periodic box, got a radius of " + to_text(radius));
+  }
+  const std::int64_t terms = rows_ * images;
+  cells_.set_largest_volume(sphere_volume(radius));
+  const int quantum = cells_.quantum();
+  const SumScale::Range mass = scanned_.mass.range(quantum);
+  const SumScale::Range speed = scanned_.speed.range(0);
+  const SumScale::Range momentum = { mass.top + speed.top, mass.bottom + speed.bottom };
+  Magnitudes volumes; // that of the smallest one may be less than any number
+  const double volume[] = { sphere_volume(radius), sphere_volume(scanned_.radius.smallest()) };
+  volumes.add(volume, 2);
+  sums_ = SumScale({ { { 1, quantum }, mass, momentum, momentum, momentum,
+                     scanned_.radius.range(quantum), volumes.range(quantum), {} } },
+    terms);
+  const int largest = std::max(mass.top + 2 * (speed.top + 1), scanned_.stress.range(0).top) + 1;
+  std::array<SumScale::Range, SumScale::lanes> ranges;
+  ranges.fill({ largest, largest - stress_bits });
+  stresses_ = SumScale(ranges, terms);
+
+  const EulerGrid& grid = request_.grid;
+  EulerCells& cells = result_.cells;
+  const std::int64_t wanted = request_.wanted.count(grid);
+  cells.resize(wanted);
+  cells.normal_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
+  cells.shear_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
+  result_.mass.resize(request_.keep_sums ? static_cast<std::size_t>(wanted) : 0);
+  result_.momentum.resize(3 * result_.mass.size());
+  const CellRange& range = request_.wanted.range;
+  std::array<std::int64_t, 3> cell;
+  for (cell[2] = range.first[2]; cell[2] < range.last[2]; ++cell[2])
+  {
+    for (cell[1] = range.first[1]; cell[1] < range.last[1]; ++cell[1])
+    {
+      for (cell[0] = range.first[0]; cell[0] < range.last[0]; ++cell[0])
+      {
+        const std::int64_t place = request_.wanted.place(grid, cell);
+        for (std::size_t axis = 0; place >= 0 && axis < 3; ++axis)
+        {
+          cells.centres[static_cast<std::size_t>(3 * place) + axis] = grid.centre(axis, cell[axis]);
+        }
+      }
+    }
+  }
+}
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/euler/cell_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granular
+{
+CellFinder::CellFinder(const EulerGrid& grid) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double lo = grid.lo[axis];
+    const double hi = grid.hi[axis];
+    const double spacing = grid.spacing(axis);
+    // faces are rounded, and so are the distance from the lowest one and its quotient: some ulps of the largest number
+    const double rounding = 0x1p-49 * std::max({ std::abs(lo), std::abs(hi), hi - lo }) / spacing;
+    axes_[axis] = { lo, hi, spacing, 1 / spacing, rounding,
+      static_cast<double>(grid.counts[axis]) };
+  }
+}
+
+std::int64_t CellFinder::find(std::size_t axis, double x) const noexcept
+{
+  const Axis& a = axes_[axis];
+  if (!(x >= a.lo && x <= a.hi))
+  {
+    return -1;
+  }
+  // wrong by one at most: the next faces say by how much
+  double cell = std::floor((x - a.lo) * a.per_length);
+  cell -= x < a.lo + cell * a.spacing ? 1 : 0;
+  cell += x >= a.lo + (cell + 1) * a.spacing ? 1 : 0;
+  return static_cast<std::int64_t>(std::min(cell, a.count - 1));
+}
+
+/// The same, without a look at the faces where rounding cannot matter.
+inline std::int64_t CellFinder::number(std::size_t axis, double x) const noexcept
+{
+  const Axis& a = axes_[axis];
+  const double place = (x - a.lo) * a.per_length;
+  if (place > 0 && place < a.count)
+  {
+    const auto cell = static_cast<std::int32_t>(place);
+    if (std::abs(place - cell - 0.5) < 0.5 - a.rounding)
+    {
+      return cell;
+    }
+  }
+  return this->find(axis, x);
+}
+
+bool CellFinder::find(
+  std::span<const double> points, const CellRange& within, std::int64_t* cells) const noexcept
+{
+  const auto [x0, y0, z0] = within.first;
+  const std::uint64_t nx = static_cast<std::uint64_t>(within.last[0] - x0);
+  const std::uint64_t ny = static_cast<std::uint64_t>(within.last[1] - y0);
+  const std::uint64_t nz = static_cast<std::uint64_t>(within.last[2] - z0);
+  bool all = true;
+  for (std::size_t i = 0; i < points.size(); i += 3)
+  {
+    // below the range they are very large
+    const auto x = static_cast<std::uint64_t>(this->number(0, points[i]) - x0);
+    const auto y = static_cast<std::uint64_t>(this->number(1, points[i + 1]) - y0);
+    const auto z = static_cast<std::uint64_t>(this->number(2, points[i + 2]) - z0);
+    const bool inside = x < nx && y < ny && z < nz;
+    *cells++ = inside ? static_cast<std::int64_t>((z * ny + y) * nx + x) : -1;
+    all = all && inside;
+  }
+  return all;
+}
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_cell_finder_h
+#define granular_euler_cell_finder_h
+
+#include "granular/euler/euler_grid.h"
+#include "granular/euler/sphere_cells.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace granular
+{
+/// Finds the cells of a grid that hold points: lo <= x < hi, in the last along an axis x <= hi. Comparisons with the
+/// faces decide, however they are rounded.
+class CellFinder
+{
+public:
+  explicit CellFinder(const EulerGrid& grid) noexcept;
+
+  /// The number along an axis, or -1: none holds it.
+  std::int64_t find(std::size_t axis, double x) const noexcept;
+
+  /// The numbers within a range, x fastest, of the cells of points x y z; -1 for those elsewhere. Whether there are none of
+  /// these.
+  bool find(
+    std::span<const double> points, const CellRange& within, std::int64_t* cells) const noexcept;
+
+private:
+  struct Axis
+  {
+    double lo;
+    double hi;
+    double spacing;    ///< see EulerGrid::face
+    double per_length; ///< cells
+    double
+      rounding; ///< so near to a face, in cells, faces have to be looked at; 1/2 and more: always
+    double count;
+  };
+
+  std::int64_t number(std::size_t axis, double x) const noexcept;
+
+  std::array<Axis, 3> axes_;
+};
+}
+#endif
