@@ -94,7 +94,7 @@ TEST(EulerAverage, ByOverlapIsThatOfTheVolumesInEachCell)
 TEST(EulerAverage, IsTheSameForAnyOrderOfRowsThreadsAndRanks)
 {
   const Box box = periodic_box(lo, hi, "pp ff pp");
-  std::vector<Grain> grains = random_grains(5000, lo, hi, 0.12, 3, 0.05);
+  std::vector<Grain> grains = random_grains(3000, lo, hi, 0.12, 3, 0.05);
   grains[17].v[1] = not_a_number;
   for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
   {
@@ -153,7 +153,7 @@ TEST(EulerAverage, IsTheSameForAnyOrderOfRowsThreadsAndRanks)
 
 TEST(EulerAverage, PartsOfAGridAreThoseOfTheWhole)
 {
-  const Grains grains(random_grains(3000, lo, hi, 0.2, 4));
+  const Grains grains(random_grains(500, lo, hi, 0.2, 4));
   EulerAverageRequest request = request_for({ lo, hi, { 20, 30, 40 } }, CellWeights::Overlap);
   const EulerCells all = average(grains.frame(), request).cells;
   request.wanted.range = { { 3, 0, 17 }, { 20, 11, 18 } };
