@@ -53,16 +53,18 @@ public:
     return true;
   }
 
-  /// Throws FormatError where one is missing.
-  void end(std::string_view dataset) const
+  /// Throws FormatError where one is missing: at the end, or before the line at hand, with which data begin.
+  void end(std::string_view dataset, bool at_end) const
   {
     for (std::size_t i = 0; i < sections_.size(); ++i)
     {
       const VtkSection<Reader>& section = sections_[i];
-      if (section.dataset == dataset && !section.optional && (seen_ >> i & 1) == 0)
+      if (section.dataset != dataset || section.optional || (seen_ >> i & 1) != 0)
       {
-        file_.fail_missing(section.keyword);
+        continue;
       }
+      at_end ? file_.fail_missing(section.keyword)
+             : file_.fail(section.keyword, file_.words().front());
     }
   }
 

@@ -37,7 +37,7 @@ private:
   static const VtkSection<GridReader> sections[];
 
   void read_header();
-  void end_sections();
+  void end_sections(bool at_end);
   void read_dimensions();
   void read_coordinates();
   void read_points();
@@ -90,7 +90,7 @@ DecompositionGrid GridReader::read()
       file_.fail("a section of the grid", file_.words().front());
     }
   }
-  this->end_sections();
+  this->end_sections(true);
   return std::move(grid_);
 }
 
@@ -112,9 +112,9 @@ void GridReader::read_header()
 }
 
 /// All sections must have been there.
-void GridReader::end_sections()
+void GridReader::end_sections(bool at_end)
 {
-  sections_.end(grid_.header.dataset);
+  sections_.end(grid_.header.dataset, at_end);
   if (grid_.rectilinear)
   {
     grid_.cells = cells_between(grid_.counts);
@@ -189,7 +189,7 @@ void GridReader::read_types()
 
 void GridReader::read_data(bool of_cells)
 {
-  this->end_sections();
+  this->end_sections(false);
   of_cells_ = of_cells;
   tuples_ = file_.count(1);
   grid_.has_data = true;

@@ -42,7 +42,7 @@ private:
 
   void read_header();
   void read_section();
-  void end_sections();
+  void end_sections(bool at_end);
   void read_points();
   void read_vertices();
   void read_dimensions();
@@ -105,7 +105,7 @@ void DatasetReader::read()
   {
     this->read_section();
   }
-  this->end_sections();
+  this->end_sections(true);
   this->check_arrays();
   if (this->keep())
   {
@@ -146,9 +146,9 @@ void DatasetReader::read_section()
 }
 
 /// All sections must have been there, and agree.
-void DatasetReader::end_sections()
+void DatasetReader::end_sections(bool at_end)
 {
-  sections_.end(dataset_.header.dataset);
+  sections_.end(dataset_.header.dataset, at_end);
   if (dataset_.header.dataset == rectilinear && counts_ != dimensions_)
   {
     const auto text = [](const std::array<std::int64_t, 3>& counts)
@@ -239,7 +239,7 @@ void DatasetReader::read_types()
 
 void DatasetReader::begin_data(bool of_cells)
 {
-  this->end_sections();
+  this->end_sections(false);
   const bool by_points = dataset_.header.dataset == points;
   tuples_ = file_.count(1);
   is_data_ = of_cells != by_points;
