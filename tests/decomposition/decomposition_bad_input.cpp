@@ -71,6 +71,7 @@ constexpr Bad bad_voxels[] = {
   { "CELLS 2 18", "CELLS", ":13: expected a number of at least 0 as word 2, got 'CELLS'" },
   { "CELL_TYPES 2", "CELL_TYPES 1", ":19: expected a section of the grid, got '11'" },
   { "CELL_TYPES 2\n11\n11\n", "CELL_TYPES 1\n11\n", ":17: expected CELL_TYPES of 2 cells, got 1" },
+  { "CELL_TYPES 2\n11\n11\n\n", "", ":17: expected CELL_TYPES, got 'CELL_DATA'" },
   { "CELL_DATA 2", "CELL_DATA 3", ":21: expected data of 2 cells, got '3'" },
   { "nlocal 1 2 int\n7 30 ", "nlocal 2 2 int\n7 30 7 30",
     ":23: expected one value of 'nlocal' for each of 2 cells, got '2 x 2'" },
