@@ -18,11 +18,13 @@ namespace granular
 {
 /// The files of dump euler/vtk, for a FrameIndex: one frame each, legacy VTK of versions 1.0 to 5.1, ASCII or BINARY.
 /// Points with a vertex each (LIGGGHTS, its forks), or, of PFM, a rectilinear grid or hexahedra with the data in the
-/// cells. Timesteps are those of the names. A file that is not complete is left out, as one that is still written.
+/// cells. Timesteps are those of the names. A file that is not complete is left out silently, one that is not as the format
+/// says with a notice. LIGGGHTS' own must have all of v_avg, volumefraction, radius and pressure, others the first two.
 const FileFormat& euler_format() noexcept;
 
-/// Whether a file is one of these, by content: the title that LIGGGHTS writes or the arrays v_avg and volumefraction.
-/// Other legacy files are for others. Never throws: what cannot be read is none.
+/// Whether a file is one of these, by content: it has arrays v_avg and volumefraction of its points or cells. One with the
+/// title that LIGGGHTS writes may also end, or go wrong, before these if its points are vertices, which those of its meshes
+/// are not, or be no more than a header. Never throws: what cannot be read is none.
 bool is_euler_file(const std::string& path) noexcept;
 
 /// Values of cells as a file names them: v_avg, volumefraction, ... (see euler_arrays), or others.
@@ -45,7 +47,7 @@ struct EulerFrame
   std::vector<double> faces[3];
 };
 
-/// Decodes a frame; of arrays those that `wanted` says yes to by name. Throws Error with path and line or byte;
+/// Decodes a frame; of arrays those that `wanted` says yes to by name; arrays of text are left out with a notice. Throws Error with path and line or byte;
 /// Cancelled.
 EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,
   const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress);

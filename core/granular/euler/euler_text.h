@@ -18,7 +18,8 @@ enum class EulerDialect : std::uint8_t
   Wide      ///< the same lines, but of type double with the fewest digits that read back the same
 };
 
-/// The file, points and arrays v_avg, volumefraction, radius, pressure; Wide also sigma and tau where they are known. With
+/// The file, points and arrays v_avg, volumefraction, radius, pressure; Wide also sigma and tau where they are known, which
+/// Liggghts leaves out. With
 /// a notice where %f loses more than it should: centres of cells that become equal, radii that become 0. Throws Cancelled.
 std::string encode_euler(
   const EulerCells& cells, EulerDialect dialect, Notices& notices, Progress& progress);

@@ -19,9 +19,12 @@ struct RegularGrid
 };
 
 /// The regular grids that the cells of a frame form, as they follow one another in it: one (`parallel no` of fix
-/// ave/euler), or one for each process (`parallel yes`), x fastest. Edges of cells are found from the distances of centres, within
-/// what six decimals allow; where a grid is one cell thick, from other grids of the frame along that axis, else from its other axes,
-/// with a notice. Throws UnsupportedError that names the first cell that is in none.
+/// ave/euler), or those of processes that divide a box by planes (`parallel yes`), x fastest; processes that go on with the
+/// same grid may be one. Edges of cells are found from the distances of centres, within what six decimals allow, or single
+/// precision or six digits where all centres have no more; neighbours share their faces to the bit. Where a grid is one cell
+/// thick, that is what the grids beside it leave, or their distance; where there is none the mean edge along the other axes,
+/// with a notice. Faces of a rectilinear grid count as they are. Throws UnsupportedError that names the first cell that is in
+/// none.
 std::vector<RegularGrid> find_regular_grids(const EulerFrame& frame, Notices& notices);
 }
 #endif
