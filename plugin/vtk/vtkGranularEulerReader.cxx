@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -73,21 +74,61 @@ void pass(Archive& archive, Form& form)
 }
 
 /**
- * Reads cells and finds the grids that they form, if wanted. Errors name the file.
+ * Adds the cells of one frame to another, with the arrays that both have.
  */
-granular::EulerFrame ReadCells(const granular::FramePiece& piece,
+void Append(granular::EulerFrame& all, const granular::EulerFrame& more)
+{
+  const auto append = [](std::vector<double>& to, const std::vector<double>& from)
+  { to.insert(to.end(), from.begin(), from.end()); };
+  std::erase_if(all.arrays,
+    [&](granular::EulerValues& array)
+    {
+      const auto same = std::find_if(more.arrays.begin(), more.arrays.end(),
+        [&](const granular::EulerValues& other)
+        { return other.name == array.name && other.components == array.components; });
+      if (same == more.arrays.end())
+      {
+        return true;
+      }
+      append(array.values, same->values);
+      return false;
+    });
+  append(all.centres, more.centres);
+  all.cells += more.cells;
+  for (std::vector<double>& faces : all.faces)
+  {
+    faces.clear();
+  }
+}
+
+/**
+ * Reads cells, of which there may be several files, and finds the grids that they form, if wanted. Errors name the file.
+ */
+granular::EulerFrame ReadCells(const std::vector<granular::FramePiece>& pieces,
   const std::function<bool(std::string_view)>& wanted, std::vector<granular::RegularGrid>* grids,
   granular::Notices& notices, granular::Progress& progress)
 {
-  const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(piece.file);
-  granular::EulerFrame frame =
-    granular::read_euler(*source, piece.entry, wanted, notices, progress);
+  granular::EulerFrame all;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(pieces[i].file);
+    granular::EulerFrame frame =
+      granular::read_euler(*source, pieces[i].entry, wanted, notices, progress);
+    if (i == 0)
+    {
+      all = std::move(frame);
+    }
+    else
+    {
+      Append(all, frame);
+    }
+  }
   if (grids)
   {
-    NameFile(granular::where_of(piece.file.path, piece.entry),
-      [&] { *grids = granular::find_regular_grids(frame, notices); });
+    NameFile(granular::where_of(pieces.front().file.path, pieces.front().entry),
+      [&] { *grids = granular::find_regular_grids(all, notices); });
   }
-  return frame;
+  return all;
 }
 
 std::string ToString(const std::array<std::int64_t, 3>& counts)
@@ -200,7 +241,8 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
     {
       ++frame;
     }
-    const granular::FramePiece piece = index.first_piece(frame);
+    const std::vector<granular::FramePiece> pieces = index.pieces(frame);
+    const granular::FramePiece& piece = pieces.front();
     AlgorithmProgress progress(self);
     form.Path = piece.file.path;
     form.Step = piece.entry.timestep;
@@ -211,7 +253,7 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
       granular::Notices notices; // are given again where cells are shown
       std::vector<granular::RegularGrid> grids;
       ReadCells(
-        piece, [](std::string_view) { return false; }, &grids, notices, progress);
+        pieces, [](std::string_view) { return false; }, &grids, notices, progress);
       form.IsImage = grids.size() <= 1;
       form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
       ExtentOf(form.Grid); // can be had
@@ -333,11 +375,6 @@ void vtkGranularEulerReader::Internals::Read(
     const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(index);
     const granular::FramePiece& piece = pieces.front();
     const granular::Where where = granular::where_of(piece.file.path, piece.entry);
-    if (pieces.size() > 1)
-    {
-      throw granular::UnsupportedError(
-        "expected all cells of a timestep in one file, got pieces of it: RepeatedSteps", where);
-    }
     granular::Notices notices;
     std::vector<granular::RegularGrid> grids;
     progress.set_part(0, 0.9);
@@ -349,7 +386,7 @@ void vtkGranularEulerReader::Internals::Read(
         this->Arrays->ArrayIsEnabled(array.c_str()) != 0;
     };
     const granular::EulerFrame frame =
-      ReadCells(piece, wanted, cells ? &grids : nullptr, notices, progress);
+      ReadCells(pieces, wanted, cells ? &grids : nullptr, notices, progress);
     if (cells && this->Known->IsImage)
     {
       NameFile(where, [&] { CheckImage(*this->Known, grids); });
@@ -378,7 +415,6 @@ vtkGranularEulerReader::vtkGranularEulerReader()
   : Internal(std::make_unique<Internals>())
 {
   this->Series->Format = &granular::euler_format();
-  this->RepeatedSteps = LAST; // the dump refuses `%`
   // who switches an array on or off wants other data
   this->Internal->Arrays->AddObserver(
     vtkCommand::ModifiedEvent, this, &vtkGranularEulerReader::Modified);

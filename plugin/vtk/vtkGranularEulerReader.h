@@ -9,8 +9,8 @@
  * are doubles; nan and infinities are numbers. LIGGGHTS before 3.2.1 divided velocities once more by the number of
  * particles in the cell, which no file says.
  *
- * The timestep is the last number in the name of a file, of those that differ between the files. Of several files of one timestep the last
- * counts. Which frames there are, and their times: see vtkGranularSeriesReader.
+ * The timestep is the last number in the name of a file, of those that differ between the files. Files of
+ * one timestep are repetitions, of which the last counts, unless SetRepeatedSteps says that they are pieces. Which frames there are, and their times: see vtkGranularSeriesReader.
  *
  * The output has one point for each cell (vtkPolyData), or it has the cells, see SetOutputType. Field data: the smallest
  * box around all points or cells as BoxOrigin, BoxVectors and BoxBounds, and `timestep`. A frame without cells makes an empty

@@ -44,7 +44,7 @@ points = servermanager.Fetch(series)
 assert points.IsA("vtkPolyData") and points.GetNumberOfVerts() == 112
 assert points.GetFieldData().GetArray("timestep").GetValue(0) == 3000
 
-defaults = {"Output": "Points", "TimestepSize": 1, "RefreshOnUpdate": 0, "Threads": 0}
+defaults = {"Output": "Points", "TimestepSize": 1, "RepeatedSteps": "Auto", "RefreshOnUpdate": 0, "Threads": 0}
 for name, default in defaults.items():
     assert getattr(reader, name) == default, (name, getattr(reader, name))
 check_documentation(reader, ("FileNames", "PointArrayStatus", *defaults))
@@ -66,7 +66,7 @@ assert (vtk_to_numpy(image.GetCellData().GetArray("pressure")) == expected["pres
 averaged = CellDatatoPointData(Input=series)
 cut = Slice(Input=series, SliceType="Plane")
 SetProperties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
-level = Contour(Input=averaged, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.2])
+level = Contour(Input=averaged, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.05])
 for proxy in (averaged, cut, level):
     proxy.UpdatePipeline(0.04)
 assert servermanager.Fetch(cut).GetNumberOfCells() >= 28
@@ -79,8 +79,7 @@ assert servermanager.Fetch(series).IsA("vtkPolyData")
 
 # ---- a grid a process --------------------------------------------------------------------------------------
 
-corners = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0))
-parts = [plain_euler.grid(lo, (lo[0] + 1, lo[1] + 1, 2), (2 + i, 3, 4)) for i, lo in enumerate(corners)]
+parts = plain_euler.grids(([0, 1, 2], [0, 1, 2], [0, 2]), ([2, 3], [3, 4], [5]))
 cells = plain_euler.cells(numpy.concatenate(parts))
 cells["volumefraction"] = cells["centres"][:, 2:]
 with open("parallel_100.vtk", "w") as file:
@@ -106,6 +105,7 @@ assert abs(servermanager.Fetch(sums).GetCellData().GetArray("Volume").GetValue(0
 view = CreateRenderView(ViewSize=[500, 500], OrientationAxesVisibility=0)
 shown = OpenDataFile(files, Output="ImageData")
 display = Show(shown, view)
+assert display.Representation == "Surface", display.Representation
 display.Representation = "Surface With Edges"
 ColorBy(display, ("CELLS", "volumefraction"))
 view.ViewTime = 4000

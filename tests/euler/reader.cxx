@@ -27,7 +27,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 constexpr int Cells = vtkGranularEulerReader::IMAGE_DATA;
 
 const std::vector<Place> Grid = Centres({ -1, 0, 2 }, { 0.5, 0.25, 1 }, { 2, 3, 4 });
-const std::vector<Place> OtherGrid = Centres({ 0, 0, 2 }, { 1, 0.75, 0.5 }, { 2, 2, 2 });
+const std::vector<Place> OtherGrid = Centres({ 0, 0, 2 }, { 1, 0.25, 1 }, { 3, 3, 4 });
 
 struct CellReader : Watched<vtkGranularEulerReader>
 {
@@ -274,10 +274,10 @@ TEST(EulerReader, GridsOfProcesses)
   auto* second = vtkImageData::SafeDownCast(blocks->GetPartition(1));
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->GetNumberOfCells(), 24);
-  ASSERT_EQ(second->GetNumberOfCells(), 8);
-  EXPECT_EQ(Numbers(second->GetCellData(), "radius").size(), 8u);
+  ASSERT_EQ(second->GetNumberOfCells(), 36);
+  EXPECT_EQ(Numbers(second->GetCellData(), "radius").size(), 36u);
   EXPECT_EQ(Numbers(second->GetCellData(), "pressure")[3], 27000);
-  EXPECT_NEAR(second->GetSpacing()[1], 0.75, 1e-12);
+  EXPECT_NEAR(second->GetSpacing()[0], 1, 1e-12);
   EXPECT_NEAR(second->GetOrigin()[2], 2, 1e-12);
 
   // pieces hold each grid once
@@ -350,7 +350,7 @@ TEST(EulerReader, OtherGridLater)
   CellReader reader({ first, other, two }, Cells);
   reader->UpdateTimeStep(20);
   reader.ExpectError(other +
-    ":1: expected a grid of 2 x 3 x 4 cells as at timestep 10, got 2 x 2 x 2: with the output "
+    ":1: expected a grid of 2 x 3 x 4 cells as at timestep 10, got 3 x 3 x 4: with the output "
     "Points all can be shown");
   EXPECT_EQ(reader.Image()->GetNumberOfCells(), 0);
   reader->UpdateTimeStep(30);
@@ -362,7 +362,7 @@ TEST(EulerReader, OtherGridLater)
   EXPECT_EQ(reader.Seen->Said, Texts{});
   reader->SetOutputType(vtkGranularEulerReader::POINTS);
   reader->UpdateTimeStep(30);
-  EXPECT_EQ(reader.Points()->GetNumberOfPoints(), 32);
+  EXPECT_EQ(reader.Points()->GetNumberOfPoints(), 60);
   EXPECT_EQ(reader.Seen->Said, Texts{});
 
   CellReader blocks({ Write("b_10.vtk", Grid + OtherGrid), Write("b_20.vtk", OtherGrid) }, Cells);
@@ -387,7 +387,7 @@ TEST(EulerReader, Refresh)
   reader->SetRefreshOnUpdate(true);
   WriteFile("euler_10.vtk", EulerText(OtherGrid));
   reader->Update();
-  EXPECT_EQ(reader.Image()->GetNumberOfCells(), 8);
+  EXPECT_EQ(reader.Image()->GetNumberOfCells(), 36);
   reader.ExpectNothingSaid();
 }
 
@@ -443,7 +443,7 @@ TEST(EulerReader, Errors)
     const std::string bad = WriteFile("euler_1.vtk", text);
     CellReader word({ bad }, output);
     word->Update();
-    word.ExpectErrorOf(bad + ":160: ");
+    word.ExpectErrorOf(bad + ":158: ");
     auto* empty = output == Cells ? static_cast<vtkDataSet*>(word.Image()) : word.Points();
     EXPECT_EQ(empty->GetNumberOfCells(), 0);
   }
@@ -500,18 +500,28 @@ TEST(EulerReader, Prints)
   }
 }
 
-TEST(EulerReader, TwoFilesOfAStep)
+/// Of several files of a timestep the last counts, unless they are said to be pieces.
+TEST(EulerReader, FilesOfOneStep)
 {
-  // dump euler/vtk knows no pieces: the last file counts
   const std::string first = Write("run_0_10.vtk", Grid);
-  const std::string second = Write("run_1_10.vtk", OtherGrid);
-  CellReader reader({ first, second });
-  reader->Update();
-  EXPECT_EQ(reader.Points()->GetNumberOfPoints(), 8);
+  CellReader reader({ first, Write("run_0_20.vtk", Grid), Write("run_1_10.vtk", OtherGrid),
+                      Write("run_1_20.vtk", OtherGrid) },
+    Cells);
+  reader->UpdateTimeStep(10);
+  EXPECT_EQ(reader.Image()->GetNumberOfCells(), 36);
+  const Texts said = reader.TakeSaid(); // that there are files that nobody sees
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].rfind(first + ": no frame of this file", 0), 0u) << said[0];
   reader->SetRepeatedSteps(vtkGranularEulerReader::MERGE);
-  reader->Update();
-  reader.ExpectError(
-    first + ":1: expected all cells of a timestep in one file, got pieces of it: RepeatedSteps");
-  EXPECT_EQ(reader.Points()->GetNumberOfPoints(), 0);
+  reader->UpdateTimeStep(10);
+  vtkPartitionedDataSet* blocks = reader.Blocks();
+  ASSERT_EQ(blocks->GetNumberOfPartitions(), 2u);
+  auto* second = vtkImageData::SafeDownCast(blocks->GetPartition(1));
+  EXPECT_EQ(Numbers(second->GetCellData(), "pressure")[3], 3000); // counted in its file
+  reader->SetOutputType(vtkGranularEulerReader::POINTS);
+  reader->UpdateTimeStep(10);
+  EXPECT_EQ(reader.Points()->GetNumberOfPoints(), 60);
+  EXPECT_EQ(Numbers(reader.Points()->GetPointData(), "pressure")[24], 0);
+  reader.ExpectNothingSaid();
 }
 }

@@ -53,6 +53,17 @@ def grid(lo, hi, counts):
     return numpy.column_stack([x.ravel(), y.ravel(), z.ravel()])
 
 
+def grids(faces, counts):
+    """The centres of the grids of processes that planes divide a box among: along each axis the planes, and the cells
+    between two of them."""
+    found = []
+    for k, j, i in numpy.ndindex(*(len(along) for along in reversed(counts))):
+        lo = [faces[axis][at] for axis, at in enumerate((i, j, k))]
+        hi = [faces[axis][at + 1] for axis, at in enumerate((i, j, k))]
+        found.append(grid(lo, hi, [counts[axis][at] for axis, at in enumerate((i, j, k))]))
+    return found
+
+
 def cells(centres, stresses=False, seed=1):
     """Values for cells at these centres, that are not the same twice."""
     random = numpy.random.default_rng(seed)
