@@ -193,15 +193,20 @@ void FillGrid(vtkImageData* image, const granular::EulerFrame& frame,
   FillImage(image, grid.grid, extent, frame, { ExtentOf(grid.grid), grid.first }, {});
 }
 
+/**
+ * Each grid is on one rank. All ranks have the same partitions, empty or not: some filters of ParaView wait for each other
+ * with each.
+ */
 void FillBlocks(vtkPartitionedDataSet* output, const granular::EulerFrame& frame,
   const std::vector<granular::RegularGrid>& grids, const PieceRequest& piece)
 {
   const auto [begin, end] = piece.RangeOf(static_cast<vtkTypeInt64>(grids.size()));
+  output->SetNumberOfPartitions(static_cast<unsigned int>(grids.size()));
   for (vtkTypeInt64 i = begin; i < end; ++i)
   {
     vtkNew<vtkImageData> image;
     FillGrid(image, frame, grids[i], ExtentOf(grids[i].grid));
-    output->SetPartition(static_cast<unsigned int>(i - begin), image);
+    output->SetPartition(static_cast<unsigned int>(i), image);
   }
 }
 }

@@ -45,7 +45,7 @@ public:
    * POINTS, the default: vtkPolyData, a vertex at the centre of each cell, in the order of the file; ranks have equal shares.
    * IMAGE_DATA: the cells, with cell arrays. If they form one regular grid, vtkImageData, of which each rank has the
    * extent that the pipeline asks for. If each process of the simulation had a grid of its own (`parallel yes` of
-   * fix ave/euler), vtkPartitionedDataSet with a vtkImageData for each, of which ranks have equal shares. Cells that form no
+   * fix ave/euler), vtkPartitionedDataSet with a vtkImageData for each, of which ranks have equal shares: the partitions of others are null. Cells that form no
    * regular grids are an error. The first frame that has cells decides for all: where it is one grid, others must be one
    * with as many cells along each axis.
    */

@@ -281,13 +281,17 @@ TEST(EulerReader, GridsOfProcesses)
   EXPECT_NEAR(second->GetOrigin()[2], 2, 1e-12);
 
   // pieces hold each grid once
-  unsigned int found = 0;
+  std::array<int, 2> found = {};
   for (int piece = 0; piece < 5; ++piece)
   {
     reader->UpdatePiece(piece, 5, 0);
-    found += reader.Blocks()->GetNumberOfPartitions();
+    ASSERT_EQ(reader.Blocks()->GetNumberOfPartitions(), 2u);
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      found[i] += reader.Blocks()->GetPartition(i) ? 1 : 0;
+    }
   }
-  EXPECT_EQ(found, 2u);
+  EXPECT_EQ(found, (std::array{ 1, 1 }));
   reader.ExpectNothingSaid();
 }
 

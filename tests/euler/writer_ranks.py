@@ -48,7 +48,7 @@ for output in ("Points", "ImageData"):
     assert content("parallel.euler") == content(os.path.join(data, "euler/parallel_2000.vtk")), output
 
 # grids of every shape, which are cut along other axes
-for i, counts in enumerate(((1, 1, 5), (7, 1, 1), (2, 9, 3), (8, 6, 4), (16, 2, 2))):
+for i, counts in enumerate(((2, 2, 5), (7, 2, 2), (2, 9, 3), (8, 6, 4), (16, 2, 2))):
     values = plain_euler.cells(plain_euler.grid((0, 0, 0), counts, counts), seed=i)
     name = write(f"shape_{i}_10.vtk", values)
     reader = GranularEulerReader(FileNames=[name], Output="ImageData")
