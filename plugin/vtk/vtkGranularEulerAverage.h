@@ -73,34 +73,19 @@ public:
 
   ///@{
   /**
-   * Which of the next three says what cells there are. COUNTS by default.
+   * What cells there are, by what CellsBy says.
+   * COUNTS, the default: CellCounts, how many along x, y and z, 1 and more; 10 10 10 by default.
+   * SIZE: CellSize, the least edges along x, y and z [m], above 0: as many cells as fit fill the bounds, and are as large
+   * as that or larger. For IMAGE_DATA the Bounds must be given. 0.01 0.01 0.01 by default.
+   * RELATIVE_SIZE: CellSizeRelative, the least edge in units of the largest diameter, above 0: cell_size_relative of fix
+   * ave/euler, where LIGGGHTS' granular pair styles cut off at that distance. For POINTS only. 3 by default, as there.
    */
   vtkSetClampMacro(CellsBy, int, COUNTS, RELATIVE_SIZE);
   vtkGetMacro(CellsBy, int);
-  ///@}
-
-  ///@{
-  /**
-   * How many cells there are along x, y and z: 1 and more. 10 10 10 by default.
-   */
   vtkSetVector3Macro(CellCounts, int);
   vtkGetVector3Macro(CellCounts, int);
-  ///@}
-
-  ///@{
-  /**
-   * The least edges of cells along x, y and z [m], above 0: as many cells as fit fill the bounds, and are as large as that or
-   * larger. For IMAGE_DATA the Bounds must be given. 0.01 0.01 0.01 by default.
-   */
   vtkSetVector3Macro(CellSize, double);
   vtkGetVector3Macro(CellSize, double);
-  ///@}
-
-  ///@{
-  /**
-   * cell_size_relative of fix ave/euler: the least edge of cells in units of the largest diameter, which is where LIGGGHTS'
-   * granular pair styles cut off. For POINTS only. 3 by default, as in LIGGGHTS.
-   */
   vtkSetMacro(CellSizeRelative, double);
   vtkGetMacro(CellSizeRelative, double);
   ///@}
@@ -118,50 +103,28 @@ public:
   /**
    * To which cells a particle belongs. OVERLAP, the default: to each, by the volume of the sphere in it. CENTRE: to that of
    * its centre, whole, as in LIGGGHTS: quick, but the volume fraction may exceed 1, and jumps when particles pass faces.
+   * Periodic: BOUNDARY, the default: along axes that the flags of the input's box say to be periodic (`pp`) particles have
+   * images, and what sticks out of a face comes in at the opposite one. NONE: particles are where they are.
    */
   vtkSetClampMacro(Weights, int, CENTRE, OVERLAP);
   vtkGetMacro(Weights, int);
-  ///@}
-
-  ///@{
-  /**
-   * BOUNDARY, the default: along axes that the flags of the input's box say to be periodic (`pp`) particles have images,
-   * and what sticks out of a face comes in at the opposite one. NONE: particles are where they are.
-   */
   vtkSetClampMacro(Periodic, int, BOUNDARY, NONE);
   vtkGetMacro(Periodic, int);
   ///@}
 
   ///@{
   /**
-   * The point array of velocities, three components; "v" by default.
+   * The point arrays that are averaged: velocities, three components ("v" by default; without it v_avg is 0, with a
+   * warning); masses ("mass"; without it they are made from the array `density` and the radii, or are 1, with a warning);
+   * radii ("radius"; OVERLAP needs them, CENTRE warns); and the stress of particles times their volume, six components xx
+   * yy zz xy xz yz as `compute stress/atom` gives them, which becomes the array c_ID of dumps (none by default).
    */
   vtkSetStringMacro(VelocityArray);
   vtkGetStringMacro(VelocityArray);
-  ///@}
-
-  ///@{
-  /**
-   * The point array of masses; "mass" by default. Without it they are made from the array `density` and the radii, or are 1,
-   * with a warning.
-   */
   vtkSetStringMacro(MassArray);
   vtkGetStringMacro(MassArray);
-  ///@}
-
-  ///@{
-  /**
-   * The point array of radii; "radius" by default.
-   */
   vtkSetStringMacro(RadiusArray);
   vtkGetStringMacro(RadiusArray);
-  ///@}
-
-  ///@{
-  /**
-   * The point array of the stress of particles times their volume, six components xx yy zz xy xz yz as `compute stress/atom` gives
-   * them, which becomes the array c_ID of dumps. None by default.
-   */
   vtkSetStringMacro(StressArray);
   vtkGetStringMacro(StressArray);
   ///@}
@@ -178,18 +141,13 @@ public:
 
   ///@{
   /**
-   * How many threads work. 0, the default: the cores of the machine, divided by the processes of the Controller that run on it.
-   * Changes no result. Below 0 is an error and changes nothing.
+   * Threads: how many work. 0, the default: the cores of the machine, divided by the processes of the Controller that run
+   * on it. Changes no result. Below 0 is an error and changes nothing. Controller: the processes that average together, each
+   * with its part of the particles: all of them must set it, set the same properties, and update together. What goes wrong
+   * on one of them is an error of all. The global controller by default; null: this process is alone.
    */
   void SetThreads(int threads);
   vtkGetMacro(Threads, int);
-  ///@}
-
-  ///@{
-  /**
-   * The processes that average together, each with its part of the particles: all of them must set it, set the same properties, and update
-   * together. What goes wrong on one of them is an error of all. The global controller by default; null: this process is alone.
-   */
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
   ///@}

@@ -49,6 +49,15 @@ std::array<std::int64_t, 2> GrainCells::images(
     static_cast<std::int64_t>(std::min(last, most_images_of_axis)) };
 }
 
+/// The coordinate of image k.
+Twofold GrainCells::image(std::size_t axis, double x, std::int64_t k) const noexcept
+{
+  CompensatedSum sum;
+  sum.add(x);
+  sum.add_product(static_cast<double>(k), images_[axis].length);
+  return k == 0 ? Twofold{ x, 0 } : sum.twofold();
+}
+
 std::int64_t GrainCells::most_images(double radius) const noexcept
 {
   double all = 1;

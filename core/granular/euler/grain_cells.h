@@ -185,17 +185,7 @@ private:
       });
   }
 
-  Twofold image(std::size_t axis, double x, std::int64_t k) const noexcept
-  {
-    if (k == 0)
-    {
-      return { x, 0 };
-    }
-    CompensatedSum sum;
-    sum.add(x);
-    sum.add_product(static_cast<double>(k), images_[axis].length);
-    return sum.twofold();
-  }
+  Twofold image(std::size_t axis, double x, std::int64_t k) const noexcept;
 
   EulerGrid grid_;
   CellWeights weights_;
