@@ -122,17 +122,44 @@ private:
   granular::EulerAverages AverageFrame(vtkDataObject* input)
   {
     this->Grains.emplace(input, this->Ranks);
-    granular::FrameView& view = this->Grains->View();
-    granular::SerialCommunicator alone;
-    granular::Communicator& ranks = this->Together ? this->Ranks : alone;
-    granular::EulerAverageRequest request;
-    request.arrays = { TextOf(this->Self->VelocityArray), TextOf(this->Self->RadiusArray),
-      TextOf(this->Self->MassArray), TextOf(this->Self->StressArray) };
-    const double largest = this->Self->CellsBy == RELATIVE_SIZE
-      ? granular::largest_radius(view, request.arrays, ranks)
-      : 0;
+    granular::EulerAverages averages;
     granular::Notices notices;
-    granular::do_together(this->Ranks,
+    if (this->Together)
+    {
+      averages = this->Average(this->Ranks, notices);
+    }
+    else
+    {
+      granular::do_together(this->Ranks,
+        [&]
+        {
+          granular::SerialCommunicator alone;
+          averages = this->Average(alone, notices);
+        });
+    }
+    granular::do_together(this->Ranks, [&] { this->Tell(averages, notices); });
+    return averages;
+  }
+
+  /**
+   * Of the grains that these processes have together.
+   */
+  granular::EulerAverages Average(granular::Communicator& ranks, granular::Notices& notices)
+  {
+    granular::FrameView& view = this->Grains->View();
+    granular::EulerAverageRequest request;
+    double largest = 0;
+    granular::do_together(ranks,
+      [&]
+      {
+        request.arrays = { TextOf(this->Self->VelocityArray), TextOf(this->Self->RadiusArray),
+          TextOf(this->Self->MassArray), TextOf(this->Self->StressArray) };
+      });
+    if (this->Self->CellsBy == RELATIVE_SIZE)
+    {
+      largest = granular::largest_radius(view, request.arrays, ranks);
+    }
+    granular::do_together(ranks,
       [&]
       {
         if (this->Self->Periodic == NONE)
@@ -148,23 +175,7 @@ private:
       });
     this->Grid = request.grid;
     const granular::Executor executor(ChooseThreads(this->Self->Threads, this->Ranks));
-    granular::EulerAverages averages;
-    if (this->Together)
-    {
-      averages =
-        granular::average_in_cells(view, request, this->Ranks, executor, notices, this->Progress);
-    }
-    else
-    {
-      granular::do_together(this->Ranks,
-        [&]
-        {
-          averages =
-            granular::average_in_cells(view, request, alone, executor, notices, this->Progress);
-        });
-    }
-    granular::do_together(this->Ranks, [&] { this->Tell(averages, notices); });
-    return averages;
+    return granular::average_in_cells(view, request, ranks, executor, notices, this->Progress);
   }
 
   void CheckTilt(const granular::FrameView& view, granular::Notices& notices) const
@@ -272,6 +283,11 @@ private:
     if (view.has_box)
     {
       FillHeader(data, view.header, granular::Coordinates::Absolute, origin);
+    }
+    if (this->Self->TimeAverage) // it is of no moment
+    {
+      data->RemoveArray("timestep");
+      data->RemoveArray("time");
     }
     this->Progress.set_part(1, 1);
     this->Progress.step(1);

@@ -12,12 +12,12 @@
  *   contacts' is missing.
  *
  * as fix ave/euler of LIGGGHTS has it, where w is 1 or 0. Empty cells are 0. These are averages over space at one moment; see
- * SetTimeAverage for more. Sums are correctly rounded, so that the result is the same, to the bit, for any order of particles
- * and any number of threads and processes.
+ * SetTimeAverage. Sums are correctly rounded: the result is the same, to the bit, for any order of particles and any number of
+ * threads and processes.
  *
- * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled,
- * PointOrigin); the output has the same PointOrigin. Duplicates of ghosts are left out; so are particles with a
- * number that is nan, infinite or a negative mass or radius, and those outside of all cells, with a warning that counts them.
+ * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled, PointOrigin);
+ * the output has the same PointOrigin. Duplicates of ghosts are left out, and, with a warning that counts them, particles
+ * outside of all cells, with a number that is nan or infinite, or with a negative mass or radius.
  */
 
 #ifndef vtkGranularEulerAverage_h
@@ -136,7 +136,6 @@ public:
    */
   vtkSetMacro(TimeAverage, bool);
   vtkGetMacro(TimeAverage, bool);
-  vtkBooleanMacro(TimeAverage, bool);
   ///@}
 
   ///@{
@@ -153,14 +152,13 @@ public:
   ///@}
 
   /**
-   * Has the update that comes next, or that is running, stop, on all processes of the Controller.
+   * Stops the update that comes next, or that is running, on all processes of the Controller.
    */
   void SetAbortExecute(vtkTypeBool abort) override;
 
 protected:
   vtkGranularEulerAverage();
   ~vtkGranularEulerAverage() override;
-
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,

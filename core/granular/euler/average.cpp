@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/average.h"
 
+#include "granular/base/mapping.h"
 #include "granular/dump/point_forms.h"
 #include "granular/euler/average_passes.h"
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -61,6 +63,31 @@ void check_known(const Known& known, const EulerAverageRequest& request, Notices
   {
     throw Error("expected an array '" + request.arrays.radius +
       "' of radii, which the weights Overlap need, got none");
+  }
+}
+
+std::string mebibytes(double bytes)
+{
+  return std::to_string(static_cast<std::int64_t>(bytes / 1048576)) + " MiB";
+}
+
+/// Of the wanted cells, the faces, what is known of blocks of cells, and the sums of some of these.
+void check_memory(const EulerAverageRequest& request)
+{
+  const auto& [nx, ny, nz] = request.grid.counts;
+  const auto cells = static_cast<double>(request.grid.size());
+  const double values = static_cast<double>(values_of_cell) +
+    (request.arrays.stress.empty() ? 0 : 6) + (request.keep_sums ? 24 : 0);
+  const double bytes = 8 *
+      (static_cast<double>(request.wanted.count(request.grid)) * values + cells / 1024 +
+        static_cast<double>(nx) + static_cast<double>(ny) + static_cast<double>(nz)) +
+    static_cast<double>(AveragePasses::bytes_of_group);
+  const auto available = static_cast<double>(available_memory());
+  if (bytes > available)
+  {
+    throw LimitError("expected cells that fit into memory, got " + std::to_string(nx) + " x " +
+      std::to_string(ny) + " x " + std::to_string(nz) + " cells, which take " + mebibytes(bytes) +
+      "; " + mebibytes(available) + " are available");
   }
 }
 }
@@ -117,9 +144,15 @@ EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest
   std::int64_t counts[] = { known.rows, known.velocity, known.radius, known.mass, known.holders };
   ranks.sum(counts);
   known = { counts[0], counts[1], counts[2], counts[3], counts[4] };
-  do_together(ranks, [&] { check_known(known, request, notices); });
-  AveragePasses passes(frame, sources, known.rows, request, ranks, executor, progress);
-  return passes.run();
+  std::optional<AveragePasses> passes;
+  do_together(ranks,
+    [&]
+    {
+      check_known(known, request, notices);
+      check_memory(request);
+      passes.emplace(frame, sources, known.rows, request, ranks, executor, progress);
+    });
+  return passes->run();
 }
 
 double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks)

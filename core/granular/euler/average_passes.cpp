@@ -89,7 +89,6 @@ AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources
 EulerAverages AveragePasses::run()
 {
   progress_.set_part(0, 0.3);
-  do_together(ranks_, [&] { this->check_memory(); });
   this->scan();
   do_together(ranks_, [&] { this->plan(); });
   const std::int64_t block_bytes =

@@ -18,6 +18,9 @@ namespace granular
 class AveragePasses
 {
 public:
+  /// Bytes of the sums of a group. More of them have fewer sums of ranks to wait for.
+  static constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
+
   /// rows: of all ranks.
   AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
     const EulerAverageRequest& request, Communicator& ranks, const Executor& executor,
@@ -26,9 +29,6 @@ public:
   EulerAverages run();
 
 private:
-  /// Bytes of the sums of a group. More of them have fewer sums of ranks to wait for.
-  static constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
-
   /// What is known of the numbers of grains, and of places.
   struct Scan : GrainValues::Scan
   {
@@ -47,7 +47,6 @@ private:
     std::int64_t blocks() const noexcept { return last - first; }
   };
 
-  void check_memory() const;
   void scan();
   void scan_chunk(std::size_t chunk, Scan& scan);
   std::int64_t find_blocks(

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/base/mapping.h"
 #include "granular/base/number_print.h"
 #include "granular/euler/average_passes.h"
 #include "granular/euler/sphere_box.h"
@@ -22,29 +21,6 @@ constexpr int stress_bits = 192;
 
 /// Of one grain in one cell.
 constexpr std::int64_t most_images = 1000;
-
-std::string mebibytes(double bytes)
-{
-  return std::to_string(static_cast<std::int64_t>(bytes / 1048576)) + " MiB";
-}
-}
-
-/// The cells that are wanted, the sums of a group, and the means.
-void AveragePasses::check_memory() const
-{
-  const auto cells = static_cast<double>(request_.wanted.count(request_.grid));
-  const double values =
-    static_cast<double>(values_of_cell) + (stress_ ? 6 : 0) + (request_.keep_sums ? 4 : 0);
-  const double blocks = 16 * static_cast<double>(blocks_.size());
-  const double bytes = 8 * cells * values + blocks + static_cast<double>(bytes_of_group);
-  const auto available = static_cast<double>(available_memory());
-  if (bytes > available)
-  {
-    throw LimitError("expected cells that fit into memory, got " +
-      std::to_string(request_.grid.counts[0]) + " x " + std::to_string(request_.grid.counts[1]) +
-      " x " + std::to_string(request_.grid.counts[2]) + " cells, which take " + mebibytes(bytes) +
-      "; " + mebibytes(available) + " are available");
-  }
 }
 
 void AveragePasses::scan()
