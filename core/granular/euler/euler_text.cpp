@@ -79,10 +79,9 @@ void tell(std::size_t lost, std::size_t all, const std::string& what, Notices& n
 {
   if (lost > 0)
   {
-    const std::string text =
-      "six decimals, which is what LIGGGHTS writes, are few: " + std::to_string(lost) + " of " +
-      std::to_string(all) + what + "; the dialect Wide keeps all digits";
-    notices.emplace_back(Where(), text);
+    Notice& notice = notices.emplace_back();
+    notice.text = "six decimals, which is what LIGGGHTS writes, are few: " + std::to_string(lost) +
+      " of " + std::to_string(all) + what + "; the dialect Wide keeps all digits";
   }
 }
 
@@ -99,8 +98,7 @@ void tell_centres(const EulerCells& cells, std::size_t axis, Notices& notices)
     }
   }
   std::ranges::sort(places);
-  const auto same = std::ranges::unique(places);
-  places.erase(same.begin(), same.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   std::size_t lost = 0;
   for (std::size_t i = 1; i < places.size(); ++i)
   {

@@ -143,8 +143,8 @@ void GridFinder::make_spans()
       spans.push_back(this->span_of(block, axis));
     }
     std::ranges::sort(spans, std::ranges::less(), &Span::first);
-    const auto same = std::ranges::unique(spans, std::ranges::equal_to(), &Span::first);
-    spans.erase(same.begin(), same.end());
+    const auto same = [](const Span& a, const Span& b) { return a.first == b.first; };
+    spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());
   }
 }
 
@@ -238,10 +238,10 @@ void GridFinder::find_spacings(Notices& notices)
     if (spans_[axis][0].spacing == 0)
     {
       spans_[axis][0].spacing = sum / known;
-      notices.emplace_back(Where(),
-        std::string("there is one cell along ") + "xyz"[axis] +
-          ", and the file does not say how thick it is: it is taken to be " +
-          to_text(sum / known, { 6 }) + ", the mean of the other axes");
+      Notice& notice = notices.emplace_back();
+      notice.text = std::string("there is one cell along ") + "xyz"[axis] +
+        ", and the file does not say how thick it is: it is taken to be " +
+        to_text(sum / known, { 6 }) + ", the mean of the other axes";
     }
   }
 }
