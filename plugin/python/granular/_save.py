@@ -23,8 +23,8 @@ def save(proxy, path, time=None, writer=None, **properties):
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Columns, NumberFormat, ...
 
     SaveData does the same for names that end in .dump, .lammpstrj, .bin, .lammpsbin, .gz, .zst, .decomposition or
-    .euler, but says nothing when it fails. Raises AttributeError for a property, or a writer, that there is not, RuntimeError if the
-    file could not be written: what was wrong is in the messages of ParaView.
+    .euler, but says nothing when it fails. Raises AttributeError for a property, or a writer, that there is not,
+    RuntimeError if the file could not be written: what was wrong is in the messages of ParaView.
     """
     from paraview import servermanager
 
