@@ -108,7 +108,7 @@ void add_portable(
   add_all(shifts, terms, cells, sums);
 }
 
-[[gnu::target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")]] void add_avx512(
+[[gnu::target("avx512f,avx512dq,avx512vl")]] void add_avx512(
   Shifts shifts, Shifts terms, const std::int64_t* cells, std::int64_t* sums) noexcept
 {
   add_all(shifts, terms, cells, sums);
