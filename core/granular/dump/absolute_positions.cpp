@@ -79,8 +79,7 @@ const double* AbsolutePositions::load(std::int64_t first, std::size_t count, dou
   if (plain_)
   {
     const double* const points = this->loaded(first);
-    const bool wraps = std::ranges::count(wraps_, true) > 0;
-    if (!wraps || this->is_wrapped({ points, 3 * count }))
+    if (this->is_wrapped({ points, 3 * count }))
     {
       return points;
     }

@@ -28,7 +28,7 @@ public:
   AbsolutePositions(const FrameView& frame, bool wrap);
 
   /// x y z of rows [first, first + count), count <= most_rows: in the array of the points itself where
-  /// nothing is to be done, else in buffer, which has room for most_rows * 3 numbers. From any thread.
+  /// nothing is to be done and all are finite, else in buffer, which has room for most_rows * 3 numbers. From any thread.
   const double* load(std::int64_t first, std::size_t count, double* buffer) const;
 
   /// Where load found that nothing is to be done, the same without looking again.

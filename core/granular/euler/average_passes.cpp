@@ -61,8 +61,8 @@ struct AveragePasses::Batch
   void fill_whole() noexcept
   {
     size = grains.rows;
-    std::iota(grain.begin(), grain.begin() + size, std::size_t{ 0 });
-    std::fill_n(share.begin(), size, 1.0);
+    std::iota(grain.begin(), grain.end(), std::size_t{ 0 });
+    share.fill(1);
     for (std::size_t i = 0; i < size; ++i)
     {
       volume[i] = sphere_volume(grains.radius[i]);
@@ -115,7 +115,7 @@ EulerAverages AveragePasses::run()
 
 void AveragePasses::sum_group(const Group& group)
 {
-  this->add_grains(group, sums_,
+  this->add_grains(Pass::Means, group,
     [](Batch& batch, const double*)
     {
       const GrainBlock& grains = batch.grains;
@@ -134,7 +134,7 @@ void AveragePasses::sum_group(const Group& group)
     result_.outside = outside_;
   }
   do_together(ranks_, [&] { this->finish_means(group); });
-  this->add_grains(group, stresses_,
+  this->add_grains(Pass::Stress, group,
     [](Batch& batch, const double* means)
     {
       const GrainBlock& grains = batch.grains;
@@ -158,21 +158,44 @@ void AveragePasses::sum_group(const Group& group)
   do_together(ranks_, [&] { this->finish_stress(group); });
 }
 
+/// The cells of grains that have one each, whose places among those of all blocks begin there. The first pass keeps
+/// what it finds for the second. Whether all have one.
+bool AveragePasses::find_cells(std::int64_t place, const CellRange& range, Pass pass, Batch& batch)
+{
+  const auto found = found_.begin() + place;
+  const std::size_t count = batch.grains.rows;
+  if (pass == Pass::Means)
+  {
+    const bool all =
+      cells_.finder().find({ batch.grains.positions, 3 * count }, range, batch.cell.data());
+    std::transform(batch.cell.begin(), batch.cell.begin() + static_cast<std::ptrdiff_t>(count),
+      found, [](std::int64_t cell) { return static_cast<std::int16_t>(cell); });
+    return all;
+  }
+  std::int64_t missing = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    batch.cell[i] = found[static_cast<std::ptrdiff_t>(i)];
+    missing |= batch.cell[i];
+  }
+  return missing >= 0;
+}
+
 /// Calls take() whenever the batch is full, and at the end, with the shares of some of the rows of a block.
 template <class Take>
-void AveragePasses::each_batch(
-  std::int64_t block, std::int64_t first, std::int64_t last, Batch& batch, const Take& take) const
+void AveragePasses::each_batch(Pass pass, std::int64_t block, std::int64_t first, std::int64_t last,
+  Batch& batch, const Take& take)
 {
   const CellRange range = blocks_.range(block);
   const GrainBlock& grains = batch.grains;
   while (first < last)
   {
     const std::span<const std::int64_t> rows = block_rows_.rows(block, first, last, batch.rows);
-    first += static_cast<std::int64_t>(rows.size());
     grains_.load(rows, batch.grains);
-    const std::span points(grains.positions, 3 * grains.rows);
-    if (cells_.is_direct() && !grains.usable &&
-      cells_.finder().find(points, range, batch.cell.data()))
+    const bool found = !found_.empty() && !grains.usable &&
+      this->find_cells(block_rows_.start(block) + first, range, pass, batch);
+    first += static_cast<std::int64_t>(rows.size());
+    if (found)
     {
       batch.fill_whole();
       take();
@@ -210,9 +233,9 @@ void AveragePasses::each_batch(
 /// Sums over the grains of all ranks in the cells of a group; make_terms fills the terms of a batch and knows the means
 /// of its block. The sums of all parts of all ranks come to be the first part.
 template <class MakeTerms>
-void AveragePasses::add_grains(
-  const Group& group, const SumScale& scale, const MakeTerms& make_terms)
+void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& make_terms)
 {
+  const SumScale& scale = pass == Pass::Means ? sums_ : stresses_;
   const std::int64_t cells = blocks_.largest();
   const std::int64_t block_size = cells * static_cast<std::int64_t>(scale.size());
   const std::int64_t part_size = group.blocks() * block_size;
@@ -221,8 +244,8 @@ void AveragePasses::add_grains(
     std::int64_t* const sums = integers_.data() + part * part_size + at * block_size;
     std::fill_n(sums, block_size, 0);
     const std::int64_t count = block_rows_.count(group.first + at);
-    this->each_batch(group.first + at, count * part / group.parts, count * (part + 1) / group.parts,
-      batch,
+    this->each_batch(pass, group.first + at, count * part / group.parts,
+      count * (part + 1) / group.parts, batch,
       [&]
       {
         make_terms(batch, means_.data() + 3 * at * cells);

@@ -37,6 +37,12 @@ private:
 
   struct Batch;
 
+  enum class Pass : std::uint8_t
+  {
+    Means,
+    Stress
+  };
+
   /// Blocks [first, last), each summed by so many tasks.
   struct Group
   {
@@ -54,10 +60,11 @@ private:
   void plan();
   void sum_group(const Group& group);
   template <class MakeTerms>
-  void add_grains(const Group& group, const SumScale& scale, const MakeTerms& make_terms);
+  void add_grains(Pass pass, const Group& group, const MakeTerms& make_terms);
   template <class Take>
-  void each_batch(std::int64_t block, std::int64_t first, std::int64_t last, Batch& batch,
-    const Take& take) const;
+  void each_batch(Pass pass, std::int64_t block, std::int64_t first, std::int64_t last,
+    Batch& batch, const Take& take);
+  bool find_cells(std::int64_t place, const CellRange& range, Pass pass, Batch& batch);
   void finish_means(const Group& group);
   void finish_stress(const Group& group);
   template <class Take>
@@ -77,6 +84,8 @@ private:
   Scan scanned_;
   std::vector<std::vector<BlockRows::Entry>> entries_; ///< of each chunk
   BlockRows block_rows_;
+  std::vector<std::int16_t>
+    found_; ///< cells of the rows of all blocks, where each has one; else empty
   std::vector<std::int64_t> counts_; ///< rows of each block, of all ranks
   SumScale sums_{ {}, 1 };
   SumScale stresses_{ {}, 1 };

@@ -60,6 +60,7 @@ void AveragePasses::scan()
     {
       block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries_, rows_of_chunk, blocks_.size())
                                        : BlockRows::all(frame_.rows);
+      found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
       counts_.resize(static_cast<std::size_t>(blocks_.size()));
       for (std::size_t block = 0; block < counts_.size(); ++block)
       {

@@ -163,7 +163,8 @@ void GrainValues::scan(std::span<const std::int64_t> rows, GrainBlock& block, Sc
   block.usable = nullptr;
   Scan own;
   Magnitudes positions;
-  positions.add(block.positions, 3 * block.rows);
+  const bool moved = block.positions == block.positions_buffer.data();
+  positions.add(block.positions, moved ? 3 * block.rows : 0); // else they are finite
   own.mass.add(block.mass, block.rows);
   own.speed.add(block.velocities, 3 * block.rows);
   own.radius.add(block.radius, block.rows);
@@ -193,7 +194,6 @@ void GrainValues::scan(std::span<const std::int64_t> rows, GrainBlock& block, Sc
       }
     }
   }
-  const bool moved = block.positions == block.positions_buffer.data();
   own.moved = moved ? static_cast<std::int64_t>(block.rows) : 0;
   scan.add(own);
 }

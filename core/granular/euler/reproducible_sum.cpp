@@ -61,10 +61,10 @@ template <class To>
 {
   Reals rest;
   copy(terms.data(), rest);
-  for (const SumScale::Terms& level : shifts)
+  for (std::size_t k = 0; k < shifts.size(); ++k)
   {
     Reals shift;
-    copy(level.data(), shift);
+    copy(shifts[k].data(), shift);
     const Reals shifted = rest + shift;
     // unsigned numbers may wrap around, and the difference of the bits is the piece
     Bits sum;
@@ -76,13 +76,15 @@ template <class To>
     sum += more - less;
     std::memcpy(sums, &sum, sizeof sum);
     rest -= shifted - shift;
-    if (all_zero(rest))
+    // the first level hardly ever is enough
+    if (k > 0 && k + 1 < shifts.size() && all_zero(rest))
     {
       return;
     }
     sums += SumScale::lanes;
   }
 }
+
 using Shifts = std::span<const SumScale::Terms>;
 
 [[gnu::always_inline]] inline void add_all(

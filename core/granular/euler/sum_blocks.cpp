@@ -84,16 +84,10 @@ BlockRows BlockRows::sorted(
   return sorted;
 }
 
-std::int64_t BlockRows::count(std::int64_t block) const noexcept
-{
-  const auto at = static_cast<std::size_t>(block);
-  return starts_[at + 1] - starts_[at];
-}
-
 std::span<const std::int64_t> BlockRows::rows(std::int64_t block, std::int64_t first,
   std::int64_t last, std::span<std::int64_t> buffer) const noexcept
 {
-  const std::int64_t start = starts_[static_cast<std::size_t>(block)] + first;
+  const std::int64_t start = this->start(block) + first;
   const auto count =
     std::min(static_cast<std::size_t>(std::max<std::int64_t>(last - first, 0)), buffer.size());
   if (!rows_.empty())

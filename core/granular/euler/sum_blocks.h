@@ -16,7 +16,7 @@ namespace granular
 class SumBlocks
 {
 public:
-  static constexpr std::int64_t most_cells_of_block = 4096;
+  static constexpr std::int64_t most_cells_of_block = 4096; ///< fits into 16 bits
 
   explicit SumBlocks(const std::array<std::int64_t, 3>& cells) noexcept;
 
@@ -82,7 +82,18 @@ public:
   static BlockRows sorted(
     std::vector<std::vector<Entry>>& chunks, std::int64_t rows_of_chunk, std::int64_t blocks);
 
-  std::int64_t count(std::int64_t block) const noexcept;
+  /// Of all blocks, one after the other.
+  std::int64_t size() const noexcept { return starts_.back(); }
+
+  /// Where among these those of a block begin, and how many they are.
+  std::int64_t start(std::int64_t block) const noexcept
+  {
+    return starts_[static_cast<std::size_t>(block)];
+  }
+  std::int64_t count(std::int64_t block) const noexcept
+  {
+    return this->start(block + 1) - this->start(block);
+  }
 
   /// Rows [first, last) of those of the block, at most as many as buffer has room for.
   std::span<const std::int64_t> rows(std::int64_t block, std::int64_t first, std::int64_t last,
