@@ -17,6 +17,9 @@ namespace
 /// Below it the parts of a block are not worth a sum of their own each.
 constexpr std::int64_t rows_of_part = 16384;
 
+/// Shares of a group that the first pass keeps for the second: 256 MiB.
+constexpr std::size_t most_kept = std::size_t{ 1 } << 24;
+
 /// Where the sums of each quantity are.
 enum Lane : std::size_t
 {
@@ -183,47 +186,61 @@ bool AveragePasses::find_cells(std::int64_t place, const CellRange& range, Pass 
 
 /// Calls take() whenever the batch is full, and at the end, with the shares of some of the rows of a block.
 template <class Take>
-void AveragePasses::each_batch(Pass pass, std::int64_t block, std::int64_t first, std::int64_t last,
-  Batch& batch, const Take& take)
+void AveragePasses::each_batch(
+  Pass pass, const Part& part, Batch& batch, KeptShares& kept, const Take& take)
 {
-  const CellRange range = blocks_.range(block);
+  const CellRange range = blocks_.range(part.block);
   const GrainBlock& grains = batch.grains;
-  while (first < last)
+  const auto add = [&](std::size_t grain, std::int64_t cell, double share, double volume)
   {
-    const std::span<const std::int64_t> rows = block_rows_.rows(block, first, last, batch.rows);
-    grains_.load(rows, batch.grains);
-    const bool found = !found_.empty() && !grains.usable &&
-      this->find_cells(block_rows_.start(block) + first, range, pass, batch);
-    first += static_cast<std::int64_t>(rows.size());
-    if (found)
+    batch.grain[batch.size] = grain;
+    batch.cell[batch.size] = cell;
+    batch.share[batch.size] = share;
+    batch.volume[batch.size] = volume;
+    if (++batch.size == Batch::most)
     {
-      batch.fill_whole();
       take();
       batch.size = 0;
-      continue;
     }
-    for (std::size_t i = 0; i < grains.rows; ++i)
+  };
+  auto next = kept.shares.begin();
+  for (std::int64_t first = part.first; first < part.last;)
+  {
+    const std::span<const std::int64_t> rows =
+      block_rows_.rows(part.block, first, part.last, batch.rows);
+    grains_.load(rows, batch.grains);
+    const auto before = static_cast<std::uint64_t>(first - part.first);
+    const std::int64_t place = block_rows_.start(part.block) + first;
+    first += static_cast<std::int64_t>(rows.size());
+    if (!found_.empty() && !grains.usable && this->find_cells(place, range, pass, batch))
     {
-      if (!grains.uses(i))
+      batch.fill_whole();
+    }
+    else if (pass == Pass::Stress && kept.complete)
+    {
+      for (; next != kept.shares.end() && next->grain - before < grains.rows; ++next)
       {
-        continue;
+        add(next->grain - before, next->cell, next->share, 0); // volumes are summed up already
       }
-      bool inside = false;
-      cells_.each_share(grains.positions + 3 * i, grains.radius[i], range, batch.shares,
-        [&](std::int64_t cell, double share, double volume)
+    }
+    else
+    {
+      for (std::size_t i = 0; i < grains.rows; ++i)
+      {
+        if (!grains.uses(i))
         {
-          inside = true;
-          batch.grain[batch.size] = i;
-          batch.cell[batch.size] = cell;
-          batch.share[batch.size] = share;
-          batch.volume[batch.size] = volume;
-          if (++batch.size == Batch::most)
+          continue;
+        }
+        bool inside = false;
+        cells_.each_share(grains.positions + 3 * i, grains.radius[i], range, batch.shares,
+          [&](std::int64_t cell, double share, double volume)
           {
-            take();
-            batch.size = 0;
-          }
-        });
-      batch.outside += inside ? 0 : 1;
+            inside = true;
+            kept.add(before + i, cell, share);
+            add(i, cell, share, volume);
+          });
+        batch.outside += inside ? 0 : 1;
+      }
     }
     take();
     batch.size = 0;
@@ -239,13 +256,16 @@ void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& m
   const std::int64_t cells = blocks_.largest();
   const std::int64_t block_size = cells * static_cast<std::int64_t>(scale.size());
   const std::int64_t part_size = group.blocks() * block_size;
-  const auto do_task = [&](std::int64_t at, std::int64_t part, Batch& batch)
+  const auto do_task = [&](std::size_t task, Batch& batch)
   {
+    const std::int64_t at = static_cast<std::int64_t>(task) / group.parts;
+    const std::int64_t part = static_cast<std::int64_t>(task) % group.parts;
     std::int64_t* const sums = integers_.data() + part * part_size + at * block_size;
     std::fill_n(sums, block_size, 0);
     const std::int64_t count = block_rows_.count(group.first + at);
-    this->each_batch(pass, group.first + at, count * part / group.parts,
-      count * (part + 1) / group.parts, batch,
+    this->each_batch(pass,
+      { group.first + at, count * part / group.parts, count * (part + 1) / group.parts }, batch,
+      kept_[task],
       [&]
       {
         make_terms(batch, means_.data() + 3 * at * cells);
@@ -257,14 +277,13 @@ void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& m
     {
       integers_.resize(static_cast<std::size_t>(group.parts * part_size));
       const auto tasks = static_cast<std::size_t>(group.blocks() * group.parts);
+      if (pass == Pass::Means)
+      {
+        kept_.assign(tasks, { .most = most_kept / tasks });
+      }
       std::vector<Batch> batches(executor_.workers(tasks));
       executor_.parallel_for(
-        tasks,
-        [&](std::size_t task, std::size_t worker)
-        {
-          const auto number = static_cast<std::int64_t>(task);
-          do_task(number / group.parts, number % group.parts, batches[worker]);
-        },
+        tasks, [&](std::size_t task, std::size_t worker) { do_task(task, batches[worker]); },
         progress_);
       outside_ = 0;
       for (const Batch& batch : batches)

@@ -53,6 +53,39 @@ private:
     std::int64_t blocks() const noexcept { return last - first; }
   };
 
+  /// Rows [first, last) of those of a block.
+  struct Part
+  {
+    std::int64_t block;
+    std::int64_t first;
+    std::int64_t last;
+  };
+
+  /// The shares of a part, as long as there are not too many.
+  struct KeptShares
+  {
+    struct Share
+    {
+      double share;
+      std::uint32_t grain; ///< from the first of the part
+      std::int16_t cell;
+    };
+
+    std::size_t most = 0;
+    std::vector<Share> shares = {};
+    bool complete = true;
+
+    void add(std::uint64_t grain, std::int64_t cell, double share)
+    {
+      complete = complete && shares.size() < most && grain <= UINT32_MAX;
+      if (complete)
+      {
+        shares.push_back(
+          { share, static_cast<std::uint32_t>(grain), static_cast<std::int16_t>(cell) });
+      }
+    }
+  };
+
   void scan();
   void scan_chunk(std::size_t chunk, Scan& scan);
   std::int64_t find_blocks(
@@ -62,8 +95,7 @@ private:
   template <class MakeTerms>
   void add_grains(Pass pass, const Group& group, const MakeTerms& make_terms);
   template <class Take>
-  void each_batch(Pass pass, std::int64_t block, std::int64_t first, std::int64_t last,
-    Batch& batch, const Take& take);
+  void each_batch(Pass pass, const Part& part, Batch& batch, KeptShares& kept, const Take& take);
   bool find_cells(std::int64_t place, const CellRange& range, Pass pass, Batch& batch);
   void finish_means(const Group& group);
   void finish_stress(const Group& group);
@@ -90,6 +122,7 @@ private:
   SumScale sums_{ {}, 1 };
   SumScale stresses_{ {}, 1 };
   std::vector<std::int64_t> integers_; ///< sums of a group: part, block, cell, level, lane
+  std::vector<KeptShares> kept_;       ///< of each part of a group
   std::vector<double> means_;          ///< velocities of the cells of a group
   std::int64_t outside_ = 0;           ///< grains without a share in the last pass over this rank's
   EulerAverages result_;

@@ -122,7 +122,7 @@ std::int64_t AveragePasses::find_blocks(
 void AveragePasses::plan()
 {
   const double radius = scanned_.radius.largest();
-  const std::int64_t images = cells_.most_images(radius);
+  const std::int64_t images = cells_.most_in_cell(radius);
   if (images > most_images)
   {
     throw LimitError(

@@ -50,6 +50,30 @@ inline std::int64_t CellFinder::number(std::size_t axis, double x) const noexcep
   return this->find(axis, x);
 }
 
+bool CellFinder::find_whole(
+  const double* centre, double radius, const CellRange& within, std::int64_t& cell) const noexcept
+{
+  cell = 0;
+  for (std::size_t axis = 3; axis-- > 0;)
+  {
+    const Axis& a = axes_[axis];
+    const double place = (centre[axis] - a.lo) * a.per_length;
+    const double reach = radius * a.per_length + a.rounding;
+    if (!(place > reach && place < a.count))
+    {
+      return false;
+    }
+    const auto number = static_cast<std::int32_t>(place);
+    if (!(place - number > reach && number + 1.0 - place > reach) || number < within.first[axis] ||
+      number >= within.last[axis])
+    {
+      return false;
+    }
+    cell = cell * (within.last[axis] - within.first[axis]) + number - within.first[axis];
+  }
+  return true;
+}
+
 bool CellFinder::find(
   std::span<const double> points, const CellRange& within, std::int64_t* cells) const noexcept
 {

@@ -22,6 +22,10 @@ public:
   /// The number along an axis, or -1: none holds it.
   std::int64_t find(std::size_t axis, double x) const noexcept;
 
+  /// Whether a sphere is wholly, and not just, inside of a cell of a range, and the number of this cell there.
+  bool find_whole(const double* centre, double radius, const CellRange& within,
+    std::int64_t& cell) const noexcept;
+
   /// The numbers within a range, x fastest, of the cells of points x y z; -1 for those elsewhere. Whether there are none of
   /// these.
   bool find(

@@ -5,6 +5,7 @@
 #include "granular/base/box.h"
 #include "granular/euler/cell_finder.h"
 #include "granular/euler/euler_grid.h"
+#include "granular/euler/periodic_images.h"
 #include "granular/euler/sphere_box.h"
 #include "granular/euler/sphere_cells.h"
 
@@ -39,7 +40,10 @@ public:
   GrainCells& operator=(const GrainCells&) = delete;
 
   /// Whether each grain has one cell at most, that of its centre: see CellFinder.
-  bool is_direct() const noexcept { return weights_ == CellWeights::Centre && !repeats_; }
+  bool is_direct() const noexcept
+  {
+    return weights_ == CellWeights::Centre && !images_.of_centres();
+  }
   const CellFinder& finder() const noexcept { return finder_; }
 
   /// Room for the work of a thread.
@@ -57,7 +61,7 @@ public:
         });
       return;
     }
-    this->each_image(centre, radius,
+    images_.each(centre, radius,
       [&](const Twofold3& image)
       {
         const CellRange range = spheres_.range(image, radius);
@@ -95,8 +99,15 @@ public:
         });
       return;
     }
+    std::int64_t whole = 0;
+    if (short_cuts_ && images_.alone(centre, radius) &&
+      finder_.find_whole(centre, radius, within, whole))
+    {
+      add(whole, 1.0, volume);
+      return;
+    }
     shares.clear();
-    this->each_image(
+    images_.each(
       centre, radius, [&](const Twofold3& image) { spheres_.find(image, radius, within, shares); });
     for (const CellShare& share : shares)
     {
@@ -109,8 +120,11 @@ public:
     }
   }
 
-  /// The most images of a grain of that radius, or smaller, that one cell may have.
-  std::int64_t most_images(double radius) const noexcept;
+  /// The most shares that a grain of that radius, or a smaller one, may have in one cell: those of its images.
+  std::int64_t most_in_cell(double radius) const noexcept
+  {
+    return images_.most_in_cell(weights_ == CellWeights::Overlap ? radius : 0);
+  }
 
   /// largest_volume: of all grains. To be called before each_share, whenever weights are Overlap.
   void set_largest_volume(double largest_volume) noexcept;
@@ -119,14 +133,6 @@ public:
   int quantum() const noexcept { return quantum_; }
 
 private:
-  struct Images
-  {
-    bool repeats = false; ///< grains have images along the axis
-    Twofold length;
-  };
-
-  std::array<std::int64_t, 2> images(std::size_t axis, double x, double radius) const noexcept;
-
   /// Whether it belongs to one cell whole: what has no volume does, too.
   bool is_point(double radius) const noexcept
   {
@@ -134,30 +140,9 @@ private:
   }
 
   template <class Visit>
-  void each_image(const double* centre, double radius, const Visit& visit) const
-  {
-    std::array<std::array<std::int64_t, 2>, 3> k;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      k[axis] = this->images(axis, centre[axis], radius);
-    }
-    for (std::int64_t z = k[2][0]; z <= k[2][1]; ++z)
-    {
-      for (std::int64_t y = k[1][0]; y <= k[1][1]; ++y)
-      {
-        for (std::int64_t x = k[0][0]; x <= k[0][1]; ++x)
-        {
-          visit(Twofold3{ this->image(0, centre[0], x), this->image(1, centre[1], y),
-            this->image(2, centre[2], z) });
-        }
-      }
-    }
-  }
-
-  template <class Visit>
   void each_cell(const double* centre, const Visit& visit) const
   {
-    if (!repeats_)
+    if (!images_.of_centres())
     {
       const std::array<std::int64_t, 3> cell = { finder_.find(0, centre[0]),
         finder_.find(1, centre[1]), finder_.find(2, centre[2]) };
@@ -167,7 +152,7 @@ private:
       }
       return;
     }
-    this->each_image(centre, 0,
+    images_.each(centre, 0,
       [&](const Twofold3& image)
       {
         std::array<std::int64_t, 3> cell;
@@ -175,7 +160,7 @@ private:
         {
           const double x = image[axis].value();
           // what is at the upper face of the grid is there as the image at the lower one
-          const bool twice = images_[axis].repeats && x != centre[axis] && !(x < grid_.hi[axis]);
+          const bool twice = images_.repeats(axis) && x != centre[axis] && !(x < grid_.hi[axis]);
           cell[axis] = twice ? -1 : finder_.find(axis, x);
         }
         if ((cell[0] | cell[1] | cell[2]) >= 0)
@@ -185,14 +170,12 @@ private:
       });
   }
 
-  Twofold image(std::size_t axis, double x, std::int64_t k) const noexcept;
-
   EulerGrid grid_;
   CellWeights weights_;
   SphereCells spheres_;
   CellFinder finder_;
-  std::array<Images, 3> images_;
-  bool repeats_ = false; ///< centres have images in the grid
+  PeriodicImages images_;
+  bool short_cuts_;
   int quantum_ = 0;
   double share_shift_ = 0; ///< 1.5 * 2^(52 + quantum)
 };

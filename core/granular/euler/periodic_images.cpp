@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/euler/periodic_images.h"
+
+#include "granular/base/compensated.h"
+#include "granular/dump/point_forms.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granular
+{
+namespace
+{
+/// Of a grain that is larger than its periodic box, along one axis and in either direction.
+constexpr double most_images_of_axis = 16;
+
+/// Of the length of the box: an image too many is outside of all cells.
+constexpr double rounding = 1e-9;
+}
+
+PeriodicImages::PeriodicImages(const EulerGrid& grid, const Box* box)
+  : grid_(grid)
+{
+  if (!box || box->tilted)
+  {
+    return;
+  }
+  const BoxBounds bounds = box->bounds();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const bool repeats = is_periodic(*box, axis) && bounds.lo[axis] < bounds.hi[axis];
+    const Twofold length = box->vectors[axis][axis];
+    const double margin = rounding * length.value();
+    axes_[axis] = { repeats, length, grid.hi[axis] - length.value() + margin,
+      grid.lo[axis] + length.value() - margin };
+    of_centres_ = of_centres_ ||
+      (repeats && (grid.lo[axis] < bounds.lo[axis] || grid.hi[axis] > bounds.hi[axis]));
+  }
+}
+
+std::array<std::int64_t, 2> PeriodicImages::find_range(
+  std::size_t axis, double x, double radius) const noexcept
+{
+  const double length = axes_[axis].length.value();
+  const double first = std::ceil((grid_.lo[axis] - x - radius) / length - rounding);
+  const double last = std::floor((grid_.hi[axis] - x + radius) / length + rounding);
+  return { static_cast<std::int64_t>(std::max(first, -most_images_of_axis)),
+    static_cast<std::int64_t>(std::min(last, most_images_of_axis)) };
+}
+
+/// The coordinate of image k.
+Twofold PeriodicImages::moved(std::size_t axis, double x, std::int64_t k) const noexcept
+{
+  CompensatedSum sum;
+  sum.add(x);
+  sum.add_product(static_cast<double>(k), axes_[axis].length);
+  return sum.twofold();
+}
+
+std::int64_t PeriodicImages::most_in_cell(double radius) const noexcept
+{
+  double all = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double extent = 1.001 * (grid_.spacing(axis) + 2 * radius);
+    all *= axes_[axis].repeats
+      ? std::min(std::floor(extent / axes_[axis].length.value()), 2 * most_images_of_axis) + 1
+      : 1;
+  }
+  return static_cast<std::int64_t>(all);
+}
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_periodic_images_h
+#define granular_euler_periodic_images_h
+
+#include "granular/base/box.h"
+#include "granular/euler/euler_grid.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace granular
+{
+/// The images that grains have along the periodic axes of a box, as far as they reach into a grid.
+class PeriodicImages
+{
+public:
+  /// box: null or tilted: there are none but the grains themselves.
+  PeriodicImages(const EulerGrid& grid, const Box* box);
+
+  /// Whether centres in the box may have images in the grid.
+  bool of_centres() const noexcept { return of_centres_; }
+
+  bool repeats(std::size_t axis) const noexcept { return axes_[axis].repeats; }
+
+  /// Whether a grain surely has no image in the grid but itself.
+  bool alone(const double* centre, double radius) const noexcept
+  {
+    return this->alone(0, centre[0], radius) && this->alone(1, centre[1], radius) &&
+      this->alone(2, centre[2], radius);
+  }
+
+  /// Calls visit(centre of the image) for each that may reach into the grid, the grain itself among them.
+  template <class Visit>
+  void each(const double* centre, double radius, const Visit& visit) const
+  {
+    std::array<std::array<std::int64_t, 2>, 3> k;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      k[axis] = this->range(axis, centre[axis], radius);
+    }
+    for (std::int64_t z = k[2][0]; z <= k[2][1]; ++z)
+    {
+      for (std::int64_t y = k[1][0]; y <= k[1][1]; ++y)
+      {
+        for (std::int64_t x = k[0][0]; x <= k[0][1]; ++x)
+        {
+          visit(Twofold3{ this->place(0, centre[0], x), this->place(1, centre[1], y),
+            this->place(2, centre[2], z) });
+        }
+      }
+    }
+  }
+
+  /// The most images of a grain of that radius, or smaller, that one cell may have.
+  std::int64_t most_in_cell(double radius) const noexcept;
+
+private:
+  struct Axis
+  {
+    bool repeats = false;
+    Twofold length;
+    double lo = 0; ///< between these a grain has no image in the grid but itself
+    double hi = 0;
+  };
+
+  bool alone(std::size_t axis, double x, double radius) const noexcept
+  {
+    const Axis& a = axes_[axis];
+    return !a.repeats || (x - radius > a.lo && x + radius < a.hi);
+  }
+
+  /// The first and the last.
+  std::array<std::int64_t, 2> range(std::size_t axis, double x, double radius) const noexcept
+  {
+    return this->alone(axis, x, radius) ? std::array<std::int64_t, 2>{}
+                                        : this->find_range(axis, x, radius);
+  }
+  std::array<std::int64_t, 2> find_range(std::size_t axis, double x, double radius) const noexcept;
+
+  Twofold place(std::size_t axis, double x, std::int64_t k) const noexcept
+  {
+    return k == 0 ? Twofold{ x, 0 } : this->moved(axis, x, k);
+  }
+  Twofold moved(std::size_t axis, double x, std::int64_t k) const noexcept;
+
+  EulerGrid grid_;
+  std::array<Axis, 3> axes_;
+  bool of_centres_ = false;
+};
+}
+#endif
