@@ -410,6 +410,7 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
       const CellExtent extent = ExtentOf(grid);
       info->Set(Pipeline::WHOLE_EXTENT(), extent.data(), 6);
       info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+      info->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // which VTK keeps after an error
     });
   return this->Shared->Ranks.EndRequest(this, outcome);
 }
