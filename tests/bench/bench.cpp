@@ -160,14 +160,20 @@ const char* to_string(granular::Simd simd)
 }
 }
 
-/// program [--full] [flags of Google Benchmark]: fails on wrong results, never on time.
+/// program [--full | --large] [flags of Google Benchmark]: fails on wrong results, never on time.
 int main(int argc, char** argv)
 try
 {
   bench::Size size;
   char** const last = std::remove_if(argv + 1, argv + argc,
-    [](const char* argument) { return std::string_view(argument) == "--full"; });
-  size.full = last != argv + argc;
+    [&size](const std::string_view argument)
+    {
+      const bool large = argument == "--large";
+      const bool full = large || argument == "--full";
+      size.full = size.full || full;
+      size.large = size.large || large;
+      return full;
+    });
   argc = static_cast<int>(last - argv);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv))

@@ -23,7 +23,8 @@ namespace bench
 /// How much is to be done.
 struct Size
 {
-  bool full = false; ///< false: just enough to see that results are right
+  bool full = false;  ///< false: just enough to see that results are right
+  bool large = false; ///< also what takes many minutes
 
   /// The number for a full run, or for a quick one.
   std::int64_t pick(std::int64_t for_full, std::int64_t for_quick) const
