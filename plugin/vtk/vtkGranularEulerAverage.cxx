@@ -10,6 +10,7 @@
 #include "private/piece_request.h"
 #include "private/processes.h"
 
+#include "granular/base/number_print.h"
 #include "granular/euler/average.h"
 
 #include "vtkFieldData.h"
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -87,7 +89,12 @@ public:
     {
       this->Cells = this->AverageFrame(this->Input).cells;
     }
-    granular::do_together(this->Ranks, [&] { this->Fill(); });
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        this->Tell();
+        this->Fill();
+      });
   }
 
 private:
@@ -137,7 +144,16 @@ private:
           averages = this->Average(alone, notices);
         });
     }
-    granular::do_together(this->Ranks, [&] { this->Tell(averages, notices); });
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        this->Outside += averages.outside;
+        this->Broken += averages.broken;
+        for (const granular::Notice& notice : notices)
+        {
+          this->Notices.insert(granular::to_string(notice));
+        }
+      });
     return averages;
   }
 
@@ -206,8 +222,13 @@ private:
         request.by = granular::EulerGridRequest::By::Size;
         break;
       case RELATIVE_SIZE:
-        request.size.fill(self.CellSizeRelative * 2 * largestRadius);
-        request.by = granular::EulerGridRequest::By::Size;
+        if (!(self.CellSizeRelative > 0))
+        {
+          throw granular::Error(
+            "expected a CellSizeRelative above 0, got " + granular::to_text(self.CellSizeRelative));
+        }
+        request.cutoff = self.CellSizeRelative * 2 * largestRadius;
+        request.by = granular::EulerGridRequest::By::Cutoff;
         break;
     }
     return granular::make_euler_grid(request);
@@ -237,26 +258,27 @@ private:
     return wanted;
   }
 
-  void Tell(const granular::EulerAverages& averages, granular::Notices& notices) const
+  /**
+   * Each thing once, whatever the number of frames.
+   */
+  void Tell()
   {
-    const auto count = [&](std::int64_t number, const char* what)
+    const auto count = [&](vtkTypeInt64 number, const char* what)
     {
       if (number > 0)
       {
-        granular::Notice notice;
-        notice.text = std::to_string(number) + what;
-        notices.push_back(notice);
+        this->Notices.insert(std::to_string(number) + what);
       }
     };
-    count(averages.outside, " particles are outside of all cells, and in none");
-    count(averages.broken,
+    count(this->Outside, " particles are outside of all cells, and in none");
+    count(this->Broken,
       " particles are left out: a position, velocity, mass, radius or stress of theirs is no "
       "number, infinite or too large, or a mass or radius is negative");
-    for (const granular::Notice& notice : notices)
+    for (const std::string& text : this->Notices)
     {
       if (this->Ranks.rank() == 0 || !this->Together)
       {
-        vtkWarningWithObjectMacro(this->Self, << granular::to_string(notice));
+        vtkWarningWithObjectMacro(this->Self, << text);
       }
     }
   }
@@ -306,6 +328,9 @@ private:
   granular::EulerGrid Grid;
   CellExtent Extent = {};
   granular::EulerCells Cells;
+  vtkTypeInt64 Outside = 0; ///< particles, of all frames
+  vtkTypeInt64 Broken = 0;
+  std::set<std::string> Notices;
 };
 
 //------------------------------------------------------------------------------

@@ -74,20 +74,33 @@ void pass(Archive& archive, Form& form)
 }
 
 /**
- * Adds the cells of one frame to another, with the arrays that both have.
+ * Adds the cells of one frame to another, with the arrays that both have. Others are left out, and their names noted.
  */
-void Append(granular::EulerFrame& all, const granular::EulerFrame& more)
+void Append(
+  granular::EulerFrame& all, const granular::EulerFrame& more, std::set<std::string>& lost)
 {
   const auto append = [](std::vector<double>& to, const std::vector<double>& from)
   { to.insert(to.end(), from.begin(), from.end()); };
+  const auto find = [](const granular::EulerFrame& frame, const granular::EulerValues& array)
+  {
+    return std::find_if(frame.arrays.begin(), frame.arrays.end(),
+      [&](const granular::EulerValues& other)
+      { return other.name == array.name && other.components == array.components; });
+  };
+  for (const granular::EulerValues& array : more.arrays)
+  {
+    if (find(all, array) == all.arrays.end())
+    {
+      lost.insert(array.name);
+    }
+  }
   std::erase_if(all.arrays,
     [&](granular::EulerValues& array)
     {
-      const auto same = std::find_if(more.arrays.begin(), more.arrays.end(),
-        [&](const granular::EulerValues& other)
-        { return other.name == array.name && other.components == array.components; });
+      const auto same = find(more, array);
       if (same == more.arrays.end())
       {
+        lost.insert(array.name);
         return true;
       }
       append(array.values, same->values);
@@ -109,19 +122,27 @@ granular::EulerFrame ReadCells(const std::vector<granular::FramePiece>& pieces,
   granular::Notices& notices, granular::Progress& progress)
 {
   granular::EulerFrame all;
+  std::set<std::string> lost;
   for (std::size_t i = 0; i < pieces.size(); ++i)
   {
     const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(pieces[i].file);
     granular::EulerFrame frame =
       granular::read_euler(*source, pieces[i].entry, wanted, notices, progress);
-    if (i == 0)
+    if (all.cells == 0)
     {
       all = std::move(frame);
     }
-    else
+    else if (frame.cells > 0) // else it may have no arrays
     {
-      Append(all, frame);
+      Append(all, frame, lost);
     }
+  }
+  for (const std::string& name : lost)
+  {
+    granular::Notice notice;
+    notice.where = granular::where_of(pieces.front().file.path, pieces.front().entry);
+    notice.text = "the array '" + name + "' is not in all files of the timestep, and left out";
+    notices.push_back(notice);
   }
   if (grids)
   {
@@ -247,7 +268,9 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
       ++frame;
     }
     const std::vector<granular::FramePiece> pieces = index.pieces(frame);
-    const granular::FramePiece& piece = pieces.front();
+    const auto filled = std::find_if(pieces.begin(), pieces.end(),
+      [](const granular::FramePiece& one) { return one.entry.rows > 0; });
+    const granular::FramePiece& piece = filled == pieces.end() ? pieces.front() : *filled;
     AlgorithmProgress progress(self);
     form.Path = piece.file.path;
     form.Step = piece.entry.timestep;

@@ -336,3 +336,92 @@ TEST(EulerAverageHard, OverTimeMomentaAndMassesAreAddedUp)
   request.grid.hi[0] = 3;
   EXPECT_THROW(time.add(average({}, request)), Error);
 }
+
+TEST(EulerAverageHard, GridsManyPeriodsLongOrFarAwayHaveAllImages)
+{
+  const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp pp pp");
+  const Grains grains({ { { 0.25, 0.5, 0.5 }, { 1, 0, 0 }, 0.2, 1 } });
+  for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
+  {
+    for (const double first : { 0.0, 1000.0, -40.0 })
+    {
+      const EulerGrid grid = { { first, 0, 0 }, { first + 40, 1, 1 }, { 40, 1, 1 } };
+      for (const double fraction :
+        average(grains.frame(&box), request_for(grid, weights)).cells.volume_fraction)
+      {
+        EXPECT_NEAR(fraction, sphere_volume(0.2), 1e-14);
+      }
+    }
+    const EulerGrid far = { { 1e30, 0, 0 }, { 2e30, 1, 1 }, { 1, 1, 1 } };
+    EXPECT_NE(error_of(grains.frame(&box), request_for(far, weights)).find("too many images"),
+      std::string::npos);
+  }
+}
+
+TEST(EulerAverageHard, GrainsLargerThanAPeriodHaveAllImagesOrAreRefused)
+{
+  const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp ff ff");
+  const auto grains = [](double radius) {
+    return Grains({ { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, radius, 1 } });
+  };
+  // an endless rod of spheres: 2 r of them cover each place
+  for (const double radius : { 16.0, 20.0, 40.0 })
+  {
+    const Grains all = grains(radius);
+    const EulerAverages averages =
+      average(all.frame(&box), request_for(unit_cell, CellWeights::Overlap));
+    EXPECT_NEAR(averages.cells.volume_fraction[0], 2 * radius, 0.05);
+  }
+  const Grains huge = grains(1e4);
+  EXPECT_NE(error_of(huge.frame(&box), request_for(unit_cell, CellWeights::Overlap))
+              .find("expected cells and grains that are not much larger than the periodic box"),
+    std::string::npos);
+}
+
+TEST(EulerAverageHard, PointsOnFacesOfAGridOnePeriodLongCountOnce)
+{
+  const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp ff ff");
+  const Grains grains({ { { 0.5, 0.5, 0.5 }, {}, 0.1, 1 }, { { 0, 0.5, 0.5 }, {}, 0.1, 1 } });
+  for (const double first : { -0.5, 0.0, 0.5, -1.0, 3.0 })
+  {
+    const EulerGrid grid = { { first, 0, 0 }, { first + 1, 1, 1 }, { 2, 1, 1 } };
+    const EulerCells cells =
+      average(grains.frame(&box), request_for(grid, CellWeights::Centre)).cells;
+    EXPECT_NEAR(cells.volume_fraction[0] + cells.volume_fraction[1], 4 * sphere_volume(0.1), 1e-15)
+      << first;
+  }
+}
+
+TEST(EulerAverageHard, WhoIsTooFarAwayForPeriodsIsLeftOut)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp ff pp");
+  const Grains grains(
+    { { { 1e300, 0.5, 0.5 }, {}, 0.1, 1 }, { { 0.5, -infinity, 0.5 }, {}, 0.1, 1 },
+      { { 0.5, 0.5, infinity }, {}, 0.1, 1 }, { { 0.5, 0.5, 0.5 }, {}, 0.1, 1 } });
+  const EulerAverages averages =
+    average(grains.frame(&box), request_for(unit_cell, CellWeights::Centre));
+  EXPECT_EQ(averages.broken, 3);
+  EXPECT_EQ(averages.outside, 0);
+  EXPECT_EQ(averages.cells.volume_fraction[0], sphere_volume(0.1));
+}
+
+TEST(EulerAverageHard, EdgesThatDivideTheBoxDoSoWhateverTheRounding)
+{
+  using By = EulerGridRequest::By;
+  const auto count = [](double length, double size)
+  {
+    return make_euler_grid({ { 0, 0, 0 }, { length, 1, 1 }, By::Size, {}, { size, 1, 1 } })
+      .counts[0];
+  };
+  EXPECT_EQ(count(0.3, 0.1), 3);
+  EXPECT_EQ(count(0.15, 0.05), 3);
+  EXPECT_EQ(count(0.7, 0.1), 7);
+  EXPECT_EQ(count(0.29999, 0.1), 2);
+  // as fix ave/euler divides: the quotient of doubles is cut off
+  EulerGridRequest request = { { 0, 0, 0 }, { 0.3, 1, 1 }, By::Cutoff };
+  request.cutoff = 0.1;
+  EXPECT_EQ(make_euler_grid(request).counts, (std::array<std::int64_t, 3>{ 2, 10, 10 }));
+  request.cutoff = 0;
+  EXPECT_EQ(make_euler_grid(request).counts, (std::array<std::int64_t, 3>{ 1, 1, 1 }));
+}

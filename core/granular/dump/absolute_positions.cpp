@@ -26,7 +26,8 @@ bool is_plain(const ArrayView& points) noexcept
 /// The image in [lo, hi) of a coordinate outside of it; length is hi - lo.
 double wrap_one(double x, double lo, double hi, const Twofold& length) noexcept
 {
-  if (!std::isfinite(x))
+  // so far away that its last bit is more than a period it is nowhere in particular
+  if (!(std::abs(x - lo) < 0x1p53 * length.value()))
   {
     return x;
   }
@@ -99,12 +100,13 @@ void AbsolutePositions::load(std::span<const std::int64_t> rows, double* buffer)
 bool AbsolutePositions::is_wrapped(std::span<const double> points) const noexcept
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double lowest = std::numeric_limits<double>::lowest(); // is finite: -inf is not there
   constexpr std::size_t some = 8; // points at once, without branches
   std::array<double, 3 * some> lo;
   std::array<double, 3 * some> hi;
   for (std::size_t i = 0; i < lo.size(); ++i)
   {
-    lo[i] = wraps_[i % 3] ? lo_[i % 3] : -infinity;
+    lo[i] = wraps_[i % 3] ? lo_[i % 3] : lowest;
     hi[i] = wraps_[i % 3] ? hi_[i % 3] : infinity;
   }
   std::size_t outside = 0;

@@ -162,7 +162,7 @@ double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communi
     [&]
     {
       const std::optional<ValueSource> radius =
-        find_grain_sources(frame, { .radius = arrays.radius }).radius;
+        find_grain_sources(frame, { .velocity = {}, .radius = arrays.radius, .mass = {} }).radius;
       if (frame.rows > 0 && !radius)
       {
         throw Error("expected an array '" + arrays.radius + "' of radii, got none");

@@ -91,9 +91,11 @@ AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources
 
 EulerAverages AveragePasses::run()
 {
-  progress_.set_part(0, 0.3);
+  progress_.set_part(0, 0.2);
   this->scan();
   do_together(ranks_, [&] { this->plan(); });
+  progress_.set_part(0.2, 0.3);
+  this->locate();
   const std::int64_t block_bytes =
     blocks_.largest() * 8 * static_cast<std::int64_t>(std::max(sums_.size(), stresses_.size()));
   const std::int64_t together = std::max<std::int64_t>(bytes_of_group / block_bytes, 1);
@@ -131,7 +133,7 @@ void AveragePasses::sum_group(const Group& group)
           grains.radius[i] * batch.share[n], batch.volume[n], 0 };
       }
     });
-  if (blocks_.size() == 1) // the scan did not look
+  if (blocks_.size() == 1) // nobody looked where grains are
   {
     ranks_.sum({ &outside_, 1 });
     result_.outside = outside_;
@@ -239,7 +241,12 @@ void AveragePasses::each_batch(
             kept.add(before + i, cell, share);
             add(i, cell, share, volume);
           });
-        batch.outside += inside ? 0 : 1;
+        if (!inside)
+        {
+          cells_.each_range(grains.positions + 3 * i, grains.radius[i],
+            [&](const CellRange&) { inside = true; }); // it touches none, but nearly
+          batch.outside += inside ? 0 : 1;
+        }
       }
     }
     take();

@@ -29,12 +29,6 @@ public:
   EulerAverages run();
 
 private:
-  /// What is known of the numbers of grains, and of places.
-  struct Scan : GrainValues::Scan
-  {
-    std::int64_t outside = 0; ///< grains in no cell; of several blocks
-  };
-
   struct Batch;
 
   enum class Pass : std::uint8_t
@@ -87,10 +81,12 @@ private:
   };
 
   void scan();
-  void scan_chunk(std::size_t chunk, Scan& scan);
   std::int64_t find_blocks(
     const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const;
   void plan();
+  void locate();
+  template <class Take>
+  void each_block(std::size_t chunk, const Take& take) const;
   void sum_group(const Group& group);
   template <class MakeTerms>
   void add_grains(Pass pass, const Group& group, const MakeTerms& make_terms);
@@ -113,8 +109,7 @@ private:
   SumBlocks blocks_;
   bool stress_; ///< there is one on some rank
 
-  Scan scanned_;
-  std::vector<std::vector<BlockRows::Entry>> entries_; ///< of each chunk
+  GrainValues::Scan scanned_;
   BlockRows block_rows_;
   std::vector<std::int16_t>
     found_; ///< cells of the rows of all blocks, where each has one; else empty

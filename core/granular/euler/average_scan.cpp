@@ -18,9 +18,22 @@ constexpr std::int64_t rows_of_chunk = 65536;
 
 /// How far below the largest possible term of a stress its terms still count.
 constexpr int stress_bits = 192;
+}
 
-/// Of one grain in one cell.
-constexpr std::int64_t most_images = 1000;
+/// Calls take(rows) for the rows of a chunk, some at a time.
+template <class Take>
+void AveragePasses::each_block(std::size_t chunk, const Take& take) const
+{
+  std::array<std::int64_t, GrainBlock::most_rows> buffer;
+  const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
+  const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
+  for (std::int64_t first = start; first < end; first += rows_of_block)
+  {
+    const std::span<std::int64_t> rows =
+      std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
+    std::iota(rows.begin(), rows.end(), first);
+    take(rows);
+  }
 }
 
 void AveragePasses::scan()
@@ -30,16 +43,19 @@ void AveragePasses::scan()
     {
       const auto chunks =
         static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-      entries_.resize(blocks_.size() > 1 ? chunks : 0);
-      std::vector<Scan> scans(executor_.workers(chunks));
+      std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
       executor_.parallel_for(
         chunks,
-        [&](std::size_t chunk, std::size_t worker) { this->scan_chunk(chunk, scans[worker]); },
+        [&](std::size_t chunk, std::size_t worker)
+        {
+          GrainBlock grains;
+          this->each_block(chunk,
+            [&](std::span<const std::int64_t> rows) { grains_.scan(rows, grains, scans[worker]); });
+        },
         progress_);
-      for (const Scan& scan : scans)
+      for (const GrainValues::Scan& scan : scans)
       {
         scanned_.add(scan);
-        scanned_.outside += scan.outside;
       }
       grains_.trust(scanned_);
     });
@@ -48,17 +64,41 @@ void AveragePasses::scan()
   scanned_ = {};
   for (const std::string& bytes : all)
   {
-    Scan scan;
+    GrainValues::Scan scan;
     std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&scan));
     scanned_.add(scan);
-    scanned_.outside += scan.outside;
   }
-  result_.outside = scanned_.outside;
   result_.broken = scanned_.broken;
+}
+
+/// In which blocks grains are; a single one has them all.
+void AveragePasses::locate()
+{
+  std::int64_t outside = 0;
   do_together(ranks_,
     [&]
     {
-      block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries_, rows_of_chunk, blocks_.size())
+      const auto chunks =
+        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
+      std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
+      std::vector<std::int64_t> counts(executor_.workers(entries.size()));
+      executor_.parallel_for(
+        entries.size(),
+        [&](std::size_t chunk, std::size_t worker)
+        {
+          GrainBlock grains;
+          std::int64_t first = 0;
+          this->each_block(chunk,
+            [&](std::span<const std::int64_t> rows)
+            {
+              grains_.load(rows, grains);
+              counts[worker] += this->find_blocks(grains, first, entries[chunk]);
+              first += static_cast<std::int64_t>(rows.size());
+            });
+        },
+        progress_);
+      outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+      block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
                                        : BlockRows::all(frame_.rows);
       found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
       counts_.resize(static_cast<std::size_t>(blocks_.size()));
@@ -68,25 +108,8 @@ void AveragePasses::scan()
       }
     });
   ranks_.sum(counts_);
-}
-
-void AveragePasses::scan_chunk(std::size_t chunk, Scan& scan)
-{
-  GrainBlock grains;
-  std::array<std::int64_t, GrainBlock::most_rows> buffer;
-  const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
-  const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
-  for (std::int64_t first = start; first < end; first += rows_of_block)
-  {
-    const std::span<std::int64_t> rows =
-      std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
-    std::iota(rows.begin(), rows.end(), first);
-    grains_.scan(rows, grains, scan);
-    if (!entries_.empty())
-    {
-      scan.outside += this->find_blocks(grains, first - start, entries_[chunk]);
-    }
-  }
+  ranks_.sum({ &outside, 1 });
+  result_.outside = outside;
 }
 
 /// Adds an entry for each block that a grain may have a share in. Returns how many have none.
@@ -122,13 +145,7 @@ std::int64_t AveragePasses::find_blocks(
 void AveragePasses::plan()
 {
   const double radius = scanned_.radius.largest();
-  const std::int64_t images = cells_.most_in_cell(radius);
-  if (images > most_images)
-  {
-    throw LimitError(
-      "expected grains not much larger than the periodic box, got a radius of " + to_text(radius));
-  }
-  const std::int64_t terms = rows_ * images;
+  const std::int64_t terms = rows_ * cells_.check(radius);
   cells_.set_largest_volume(sphere_volume(radius));
   const int quantum = cells_.quantum();
   const SumScale::Range mass = scanned_.mass.range(quantum);

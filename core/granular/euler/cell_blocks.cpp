@@ -22,6 +22,14 @@ bool has_six_digits(double value)
   const char* const end = print_number(word.data(), value, { 6 });
   return parse_double(word.data(), end, rounded) && rounded == value;
 }
+
+bool has_six_decimals(double value)
+{
+  std::array<char, most_fixed_chars> word;
+  double rounded = 0;
+  const char* const end = print_fixed(word.data(), value);
+  return parse_double(word.data(), end, rounded) && rounded == value;
+}
 }
 
 CellBlocks::CellBlocks(const EulerFrame& frame)
@@ -44,11 +52,12 @@ CellBlocks::CellBlocks(const EulerFrame& frame)
 }
 
 /// How much the distance of two centres may be wrong: LIGGGHTS prints six decimals; somebody may since have stored them
-/// in single precision, or printed six digits, as VTK does.
+/// in single precision, or printed six digits, as VTK does. Of other numbers only the last bits may.
 double CellBlocks::rounding(std::size_t axis) const
 {
   bool single = true;
   bool six_digits = true;
+  bool six_decimals = true;
   double largest = 0;
   double last = 0;
   for (std::int64_t cell = 0; cell < frame_.cells; ++cell)
@@ -58,6 +67,7 @@ double CellBlocks::rounding(std::size_t axis) const
     {
       single = single && is_single(value);
       six_digits = six_digits && has_six_digits(value);
+      six_decimals = six_decimals && has_six_decimals(value);
       largest = std::max(largest, std::abs(value));
       last = value;
     }
@@ -65,7 +75,8 @@ double CellBlocks::rounding(std::size_t axis) const
   const double of_single = single ? largest * 0x1p-23 : 0;
   const double of_digits =
     six_digits && largest > 0 ? std::pow(10, std::floor(std::log10(largest)) - 5) : 0;
-  return std::max({ 1e-6, of_single, of_digits });
+  const double of_decimals = six_decimals ? 1e-6 : 0;
+  return std::max({ of_decimals, of_single, of_digits, largest * 0x1p-49 });
 }
 
 void CellBlocks::fail(std::int64_t cell, const std::string& why) const

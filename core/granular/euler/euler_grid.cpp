@@ -34,10 +34,10 @@ void check_extent(const Vector3& lo, const Vector3& hi)
   }
 }
 
-/// How many cells of at least that edge there are, as LIGGGHTS rounds: towards fewer, larger ones.
-std::int64_t count_cells(double length, double edge)
+/// How many cells of at least that edge there are: fewer, larger ones where they do not fit. rounding: what may be missing.
+std::int64_t count_cells(double length, double edge, double rounding)
 {
-  const double count = std::floor(length / edge);
+  const double count = std::floor(length / edge * (1 + rounding));
   if (!(count < static_cast<double>(most_cells_of_axis)))
   {
     throw LimitError("expected less than 2^31 cells along an axis, got edges of " +
@@ -61,7 +61,13 @@ std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
     }
     return request.counts;
   }
-  const Vector3& size = request.size;
+  const bool cutoff = request.by == EulerGridRequest::By::Cutoff;
+  if (cutoff && request.cutoff == 0)
+  {
+    return { 1, 1, 1 };
+  }
+  const Vector3 size =
+    cutoff ? Vector3{ request.cutoff, request.cutoff, request.cutoff } : request.size;
   std::array<std::int64_t, 3> counts = {};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -69,7 +75,7 @@ std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
     {
       throw Error("expected edges of cells above 0, got " + to_text(size));
     }
-    counts[axis] = count_cells(request.hi[axis] - request.lo[axis], size[axis]);
+    counts[axis] = count_cells(request.hi[axis] - request.lo[axis], size[axis], cutoff ? 0 : 1e-12);
   }
   return counts;
 }

@@ -40,7 +40,8 @@ struct EulerGridRequest
   enum class By : std::uint8_t
   {
     Counts,
-    Size
+    Size,
+    Cutoff
   };
 
   Vector3 lo = {};
@@ -48,7 +49,9 @@ struct EulerGridRequest
   By by = By::Counts;
   std::array<std::int64_t, 3> counts = {}; ///< 1 and more along each axis
   Vector3
-    size = {}; ///< edges above 0: the largest number of cells that are not smaller, at least 1, as in LIGGGHTS
+    size = {}; ///< edges above 0: as many cells as fit, not smaller but by rounding, at least 1
+  double cutoff =
+    0; ///< of all edges, as size, but cut off as in LIGGGHTS; 0, where there are no grains: one cell
 };
 
 /// The most cells of a grid, and one more than the most along an axis: VTK counts these with 32 bits.

@@ -120,10 +120,13 @@ public:
     }
   }
 
-  /// The most shares that a grain of that radius, or a smaller one, may have in one cell: those of its images.
-  std::int64_t most_in_cell(double radius) const noexcept
+  /// Makes sure that grains of that radius and smaller can be divided: throws LimitError. Returns the most shares that one may
+  /// have in one cell: those of its images. To be called before any range or share is asked for.
+  std::int64_t check(double radius) const
   {
-    return images_.most_in_cell(weights_ == CellWeights::Overlap ? radius : 0);
+    const double reach = weights_ == CellWeights::Overlap ? radius : 0;
+    images_.check(reach);
+    return images_.most_in_cell(reach);
   }
 
   /// largest_volume: of all grains. To be called before each_share, whenever weights are Overlap.
@@ -159,9 +162,7 @@ private:
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           const double x = image[axis].value();
-          // what is at the upper face of the grid is there as the image at the lower one
-          const bool twice = images_.repeats(axis) && x != centre[axis] && !(x < grid_.hi[axis]);
-          cell[axis] = twice ? -1 : finder_.find(axis, x);
+          cell[axis] = images_.is_twice(axis, x) ? -1 : finder_.find(axis, x);
         }
         if ((cell[0] | cell[1] | cell[2]) >= 0)
         {

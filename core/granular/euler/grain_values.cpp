@@ -28,7 +28,7 @@ void check_numbers(const ValueSource& source, const std::string& name)
 
 std::optional<ValueSource> find_number(const FrameView& frame, const std::string& name)
 {
-  std::optional<ValueSource> source = find_values(frame, name);
+  std::optional<ValueSource> source = name.empty() ? std::nullopt : find_values(frame, name);
   if (source)
   {
     check_numbers(*source, name);
@@ -127,7 +127,8 @@ GrainSources find_grain_sources(const FrameView& frame, const GrainArrays& names
   sources.velocity = find_components<3>(frame, names.velocity);
   sources.radius = find_number(frame, names.radius);
   sources.mass = find_number(frame, names.mass);
-  sources.density = sources.mass || !sources.radius ? std::nullopt : find_number(frame, "density");
+  const bool has_mass = sources.mass || names.mass.empty();
+  sources.density = has_mass || !sources.radius ? std::nullopt : find_number(frame, "density");
   if (!names.stress.empty())
   {
     sources.stress = find_components<6>(frame, names.stress);

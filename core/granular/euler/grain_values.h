@@ -18,7 +18,7 @@
 
 namespace granular
 {
-/// The names of the arrays that averages are made from. Names are those of arrays (`radius`) or of columns of dumps.
+/// The names of the arrays that averages are made from; an empty one: none. Names are those of arrays (`radius`) or of columns of dumps.
 struct GrainArrays
 {
   std::string velocity = "v";    ///< three components

@@ -2,6 +2,8 @@
 #include "granular/euler/periodic_images.h"
 
 #include "granular/base/compensated.h"
+#include "granular/base/error.h"
+#include "granular/base/number_print.h"
 #include "granular/dump/point_forms.h"
 
 #include <algorithm>
@@ -11,8 +13,9 @@ namespace granular
 {
 namespace
 {
-/// Of a grain that is larger than its periodic box, along one axis and in either direction.
-constexpr double most_images_of_axis = 16;
+/// Of a grain, in the grid and in a cell: more are no scene.
+constexpr double most_in_grid = 1e6;
+constexpr double most_in_one_cell = 1000;
 
 /// Of the length of the box: an image too many is outside of all cells.
 constexpr double rounding = 1e-9;
@@ -31,7 +34,8 @@ PeriodicImages::PeriodicImages(const EulerGrid& grid, const Box* box)
     const bool repeats = is_periodic(*box, axis) && bounds.lo[axis] < bounds.hi[axis];
     const Twofold length = box->vectors[axis][axis];
     const double margin = rounding * length.value();
-    axes_[axis] = { repeats, length, grid.hi[axis] - length.value() + margin,
+    const bool wraps = repeats && grid.hi[axis] - length.value() >= grid.lo[axis];
+    axes_[axis] = { repeats, wraps, length, grid.hi[axis] - length.value() + margin,
       grid.lo[axis] + length.value() - margin };
     of_centres_ = of_centres_ ||
       (repeats && (grid.lo[axis] < bounds.lo[axis] || grid.hi[axis] > bounds.hi[axis]));
@@ -44,8 +48,7 @@ std::array<std::int64_t, 2> PeriodicImages::find_range(
   const double length = axes_[axis].length.value();
   const double first = std::ceil((grid_.lo[axis] - x - radius) / length - rounding);
   const double last = std::floor((grid_.hi[axis] - x + radius) / length + rounding);
-  return { static_cast<std::int64_t>(std::max(first, -most_images_of_axis)),
-    static_cast<std::int64_t>(std::min(last, most_images_of_axis)) };
+  return { static_cast<std::int64_t>(first), static_cast<std::int64_t>(last) };
 }
 
 /// The coordinate of image k.
@@ -63,10 +66,31 @@ std::int64_t PeriodicImages::most_in_cell(double radius) const noexcept
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double extent = 1.001 * (grid_.spacing(axis) + 2 * radius);
-    all *= axes_[axis].repeats
-      ? std::min(std::floor(extent / axes_[axis].length.value()), 2 * most_images_of_axis) + 1
-      : 1;
+    all *= axes_[axis].repeats ? std::floor(extent / axes_[axis].length.value()) + 1 : 1;
   }
-  return static_cast<std::int64_t>(all);
+  return static_cast<std::int64_t>(std::min(all, 2 * most_in_one_cell));
+}
+
+void PeriodicImages::check(double radius) const
+{
+  double images = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = axes_[axis].length.value();
+    const double farthest = std::max(std::abs(grid_.lo[axis]), std::abs(grid_.hi[axis]));
+    if (axes_[axis].repeats)
+    {
+      // of places far away nobody could tell the periods
+      images *= farthest / length < 0x1p50
+        ? (grid_.hi[axis] - grid_.lo[axis] + 2 * radius) / length + 1
+        : most_in_grid + 1;
+    }
+  }
+  if (images > most_in_grid || static_cast<double>(this->most_in_cell(radius)) > most_in_one_cell)
+  {
+    throw LimitError("expected cells and grains that are not much larger than the periodic box, or "
+                     "far away from it: a grain of radius " +
+      to_text(radius) + " would have too many images");
+  }
 }
 }

@@ -21,8 +21,6 @@ public:
   /// Whether centres in the box may have images in the grid.
   bool of_centres() const noexcept { return of_centres_; }
 
-  bool repeats(std::size_t axis) const noexcept { return axes_[axis].repeats; }
-
   /// Whether a grain surely has no image in the grid but itself.
   bool alone(const double* centre, double radius) const noexcept
   {
@@ -52,13 +50,25 @@ public:
     }
   }
 
+  /// Makes sure that grains of that radius and smaller, with centres in the box, have no more images than can be counted: throws
+  /// LimitError. To be called before each().
+  void check(double radius) const;
+
   /// The most images of a grain of that radius, or smaller, that one cell may have.
   std::int64_t most_in_cell(double radius) const noexcept;
+
+  /// Whether a place along an axis is that of a grain whose image one period below is in the grid, too: at the upper
+  /// face of a grid that is a period long, or longer.
+  bool is_twice(std::size_t axis, double x) const noexcept
+  {
+    return axes_[axis].wraps && x == grid_.hi[axis];
+  }
 
 private:
   struct Axis
   {
     bool repeats = false;
+    bool wraps = false; ///< the grid is not shorter than a period
     Twofold length;
     double lo = 0; ///< between these a grain has no image in the grid but itself
     double hi = 0;
