@@ -245,11 +245,7 @@ private:
       std::tie(wanted.first, wanted.last) = this->Wanted.RangeOf(grid.size());
       return wanted;
     }
-    this->Extent = ExtentOf(grid);
-    if (this->Info->Has(Pipeline::UPDATE_EXTENT()))
-    {
-      this->Info->Get(Pipeline::UPDATE_EXTENT(), this->Extent.data());
-    }
+    this->Extent = AskedExtent(this->Info, ExtentOf(grid));
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       wanted.range.first[axis] = this->Extent[2 * axis];
@@ -403,6 +399,9 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
     info->Remove(Pipeline::TIME_STEPS());
     info->Remove(Pipeline::TIME_RANGE());
   }
+  info->Remove(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
+  info->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
+  info->Remove(Pipeline::WHOLE_EXTENT());
   if (this->OutputType == POINTS)
   {
     info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
@@ -432,10 +431,7 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
       std::copy_n(this->CellCounts, 3, request.counts.begin());
       std::copy_n(this->CellSize, 3, request.size.begin());
       const granular::EulerGrid grid = granular::make_euler_grid(request);
-      const CellExtent extent = ExtentOf(grid);
-      info->Set(Pipeline::WHOLE_EXTENT(), extent.data(), 6);
-      info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-      info->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // which VTK keeps after an error
+      OfferExtent(info, ExtentOf(grid));
     });
   return this->Shared->Ranks.EndRequest(this, outcome);
 }

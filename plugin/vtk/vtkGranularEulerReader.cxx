@@ -345,8 +345,7 @@ void vtkGranularEulerReader::Internals::Tell(Self* self, vtkInformation* info) c
       ? granular::Vector3{ 1, 1, 1 }
       : granular::Vector3{ grid.spacing(0), grid.spacing(1), grid.spacing(2) };
     info->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
-    info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-    info->Set(Pipeline::WHOLE_EXTENT(), whole.data(), 6);
+    OfferExtent(info, whole);
     info->Set(vtkDataObject::ORIGIN(), grid.lo.data(), 3);
     info->Set(vtkDataObject::SPACING(), spacing.data(), 3);
   }
@@ -371,7 +370,7 @@ void vtkGranularEulerReader::Internals::Fill(Self* self, vtkInformation* info,
     CellExtent extent = {};
     if (!grids.empty())
     {
-      info->Get(Pipeline::UPDATE_EXTENT(), extent.data());
+      extent = AskedExtent(info, ExtentOf(this->Known->Grid));
     }
     FillGrid(image, frame, grids.empty() ? granular::RegularGrid{} : grids.front(), extent);
   }

@@ -12,7 +12,8 @@ good = plain_euler.text(cells)
 cells["centres"][5] = [7, 7, 7]
 other = plain_euler.cells(plain_euler.grid((0, 0, 0), (1, 1, 1), (3, 2, 2)))
 texts = {"word_1.vtk": good.replace("LOOKUP_TABLE default\n", "LOOKUP_TABLE default\nx", 1),
-         "no_grid_1.vtk": plain_euler.text(cells), "later_1.vtk": good, "later_2.vtk": plain_euler.text(other)}
+         "no_grid_1.vtk": plain_euler.text(cells), "later_1.vtk": good, "later_2.vtk": plain_euler.text(other),
+         "small_1.vtk": plain_euler.text(plain_euler.cells(plain_euler.grid((0, 0, 0), (1, 1, 1), (1, 1, 2))))}
 for name, text in texts.items():
     with open(name, "w") as file:
         file.write(text)
@@ -38,4 +39,9 @@ assert cells_of(reader, 2) == 0
 assert cells_of(reader, 1) == 8
 reader.Output = "Points"
 assert cells_of(reader, 2) == 12
+# after an error another grid, that is smaller
+SetProperties(reader, Output="ImageData")
+assert cells_of(reader, 2) == 0
+reader.FileNames = [os.path.abspath("small_1.vtk")]
+assert cells_of(reader) == 2
 print("alive")

@@ -3,12 +3,13 @@
 import os
 
 from paraview.simple import SaveData, servermanager
-from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLPImageDataReader, vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 ranks = vtkMultiProcessController.GetGlobalController()
 symmetric = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
-_FILES = {"vtkPolyData": (".pvtp", vtkXMLPPolyDataReader),
+_FILES = {"vtkImageData": (".pvti", vtkXMLPImageDataReader),
+          "vtkPolyData": (".pvtp", vtkXMLPPolyDataReader),
           "vtkUnstructuredGrid": (".pvtu", vtkXMLPUnstructuredGridReader)}
 
 

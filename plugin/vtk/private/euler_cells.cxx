@@ -2,19 +2,24 @@
 #include "euler_cells.h"
 
 #include "arrays.h"
+#include "piece_request.h"
 
 #include "granular/base/error.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkExtentTranslator.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <string>
@@ -23,6 +28,8 @@
 
 namespace vtkGranularPrivate
 {
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
 namespace
 {
 /**
@@ -91,6 +98,36 @@ CellExtent ExtentOf(const granular::EulerGrid& grid)
     extent[2 * axis + 1] = static_cast<int>(grid.counts[axis]);
   }
   return extent;
+}
+
+void OfferExtent(vtkInformation* output, const CellExtent& whole)
+{
+  output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  output->Set(Pipeline::WHOLE_EXTENT(), whole.data(), 6);
+  output->Set(Pipeline::UNRESTRICTED_UPDATE_EXTENT(), 1);
+}
+
+CellExtent AskedExtent(vtkInformation* output, const CellExtent& whole)
+{
+  CellExtent asked = whole;
+  if (output->Has(Pipeline::UPDATE_EXTENT()))
+  {
+    output->Get(Pipeline::UPDATE_EXTENT(), asked.data());
+  }
+  bool within = true;
+  for (std::size_t k = 0; k < 6; k += 2)
+  {
+    within = within && asked[k] >= whole[k] && asked[k + 1] <= whole[k + 1];
+  }
+  if (!within)
+  {
+    const PieceRequest piece = PieceRequest::Of(output);
+    const int ghosts = output->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+    CellExtent all = whole;
+    vtkNew<vtkExtentTranslator>()->PieceToExtentThreadSafe(piece.Piece, piece.Pieces, ghosts,
+      all.data(), asked.data(), vtkExtentTranslator::BLOCK_MODE, 0);
+  }
+  return asked;
 }
 
 granular::EulerFrame MakeFrame(granular::EulerCells&& cells)

@@ -12,6 +12,7 @@
 #include <array>
 
 class vtkImageData;
+class vtkInformation;
 class vtkPolyData;
 
 namespace vtkGranularPrivate
@@ -26,6 +27,17 @@ using CellExtent = std::array<int, 6>;
  * All cells of a grid. Throws LimitError where VTK cannot count them.
  */
 CellExtent ExtentOf(const granular::EulerGrid& grid);
+
+/**
+ * Says what cells an image will have. AskedExtent() answers for whatever the pipeline asks.
+ */
+void OfferExtent(vtkInformation* output, const CellExtent& whole);
+
+/**
+ * The cells of a whole that an output is asked for. After an error VTK may still ask for those of a whole that there was:
+ * then it is the piece of this one.
+ */
+CellExtent AskedExtent(vtkInformation* output, const CellExtent& whole);
 
 /**
  * Cells as a file would have them, under its names: v_avg, volumefraction, ... Takes their memory.
