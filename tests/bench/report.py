@@ -9,6 +9,7 @@ import csv
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -34,10 +35,11 @@ class Figures:
 
 
 class Part:
-    def __init__(self, name, title, about, tables, targets=(), plot=None, needs=None):
+    def __init__(self, name, title, about, tables, targets=(), plot=None, needs=None, page=None):
         self.name, self.title, self.about = name, title, " ".join(about.split())
         self.tables, self.targets, self.plot = tables, targets, plot
         self.needs = needs  # without which a build does not have this part
+        self.page = page  # the page and the picture of docs that --docs makes anew
 
 
 # ---- targets and tables --------------------------------------------------------------------------
@@ -222,6 +224,41 @@ def plot_positions(pyplot, figures):
                 for mark, face, label in (("o", "k", "double"), ("v", "k", "single"),
                                           ("o", "none", "PointOrigin at the box centre"))]
     figure.legend(handles=handles, loc="lower center", ncol=3, fontsize=9)
+    return figure
+
+
+def plot_euler(pyplot, figures):
+    cases = figures.all(r"^cells of")
+    sizes = [float(case.split()[2]) for case in cases]
+    ways = (("Centre", "C1", "o-"), ("Overlap", "C0", "s-"), ("without short cuts", "C2", "^:"))
+    figure, (time, error, both) = pyplot.subplots(1, 3, figsize=(13, 4.6), layout="constrained")
+    for name, color, line in ways:
+        label = name if name != "without short cuts" else "Overlap without short cuts"
+        times = [figures.get(case, f"{name}:ns/grain") for case in cases]
+        largest, rms = ([figures.get(case, f"{name}, error, {what}:1") for case in cases]
+                        for what in ("largest", "rms"))
+        time.plot(sizes, times, line, color=color, label=label)
+        if name == "without short cuts":  # its errors are those of Overlap
+            continue
+        error.plot(sizes, largest, line, color=color, label=f"{name}, largest")
+        error.plot(sizes, rms, line, color=color, label=f"{name}, rms", linestyle="--",
+                   markerfacecolor="none")
+        both.plot(times, rms, line, color=color, label=name)
+        for case, x, y in zip(cases, times, rms):
+            both.annotate(case.split()[2], (x, y), textcoords="offset points", xytext=(5, 5),
+                          fontsize=8)
+    for axes in (time, error, both):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.grid(color="0.9")
+        axes.legend(fontsize=8)
+    for axes in (time, error):
+        axes.set_xlabel("cell size / radius")
+    time.set_ylabel("time [ns/grain]")
+    error.set_ylabel("error of the volume fraction")
+    both.set_xlabel("time [ns/grain]")
+    both.set_ylabel("error of the volume fraction, rms")
+    both.set_title("numbers: cell size / radius", fontsize=9)
     return figure
 
 
@@ -460,6 +497,62 @@ PARTS = (
                            Column("spread", "spread:1", ".0%"))],
          [Target(r"", "even, time against plain:1", "<=", 2),
           Target(r"", "uneven, time against plain:1", "<=", 4)]),
+    Part("euler", "Euler: averages of grains over cells",
+         """average_in_cells, one thread unless said, spheres of equal radius in no order in a cube that they would
+         fill by half if they did not overlap; none reaches beyond its walls. 10^6 grains; fewer where that would take
+         long: about 10^6 cells then, or less, so that the time of a grain contains that of a thousand
+         cells and more. Error is that of volumefraction: of Centre against Overlap, all cells; of
+         Overlap against sums of volumes with 113 bits, in cells at random (exact cells). cells touched
+         is how many cells a grain touches on average, by geometry. plain is a loop of += on doubles that
+         trusts a computed index: count, mass, momentum, radius, volume and, in a second pass, the six
+         stresses. In order: the grains of a cell follow one another. More grains in more cells: 7.5
+         grains in each, edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two threads:
+         time on the wall; cores is how many of them 2 threads had, processor time of 2 threads is against 1.""",
+         [cases_by_metrics(r"^cells of",
+                           Column("grains", "grains:1", ".0f"),
+                           Column("cells touched", "cells touched:1", ".2f"),
+                           Column("Centre ns/grain", "Centre:ns/grain", ".0f"),
+                           Column("Overlap ns/grain", "Overlap:ns/grain", ".0f"),
+                           Column("without short cuts ns/grain", "without short cuts:ns/grain", ".0f"),
+                           Column("against Overlap", "without short cuts, time against Overlap:1", ".2f"),
+                           Column("Overlap against Centre", "Overlap, time against Centre:1", ".2f"),
+                           Column("spread", "spread:1", ".0%")),
+          cases_by_metrics(r"^cells of",
+                           Column("Centre, largest error", "Centre, error, largest:1", ".1e"),
+                           Column("rms", "Centre, error, rms:1", ".1e"),
+                           Column("Overlap, largest error", "Overlap, error, largest:1", ".1e"),
+                           Column("rms", "Overlap, error, rms:1", ".1e"),
+                           Column("without short cuts, largest error",
+                                  "without short cuts, error, largest:1", ".1e"),
+                           Column("rms", "without short cuts, error, rms:1", ".1e"),
+                           Column("exact cells", "exact cells:1", ".0f")),
+          cases_by_metrics(r"^plain",
+                           Column("plain ns/grain", "plain:ns/grain", ".1f"),
+                           Column("Centre ns/grain", "Centre:ns/grain", ".1f"),
+                           Column("Centre against plain", "time against plain:1", ".2f"),
+                           Column("spread", "spread:1", ".0%")),
+          cases_by_metrics(r"^more",
+                           *(Column(f"{name} 10^{power} ns/grain", f"{name}, 10^{power}:ns/grain", ".0f")
+                             for name in ("Centre", "Overlap") for power in (4, 5, 6, 7)),
+                           Column("Centre, slowest against fastest",
+                                  "Centre, slowest against fastest:1", ".2f"),
+                           Column("Overlap", "Overlap, slowest against fastest:1", ".2f")),
+          cases_by_metrics(r"^two threads",
+                           *(Column(heading.format(name), f"{name}, {metric}", form)
+                             for name in ("Centre", "Overlap") for heading, metric, form in (
+                                 ("{} ns/grain", "1 thread:ns/grain", ".0f"),
+                                 ("speed of 2 threads", "speed of 2 threads:1", ".2f"),
+                                 ("spread", "spread:1", ".0%"),
+                                 ("cores", "cores that 2 threads had:1", ".2f"),
+                                 ("processor time", "processor time of 2 threads:1", ".2f"))))],
+         [Target(r"^plain", "time against plain:1", "<=", 3),
+          Target(r"^cells of 20 ", "Overlap, time against Centre:1", "<=", 3),
+          Target(r"^cells of 4 ", "Overlap, time against Centre:1", "<=", 10),
+          Target(r"^more", "Centre, slowest against fastest:1", "<=", 1.5),
+          Target(r"^more", "Overlap, slowest against fastest:1", "<=", 1.5),
+          Target(r"^two threads", "Centre, speed of 2 threads:1", ">=", 1.5, cores=2),
+          Target(r"^two threads", "Overlap, speed of 2 threads:1", ">=", 1.5, cores=2)],
+         plot_euler, page=("euler_averages.md", "euler_speed_error.png")),
     Part("threads", "Threads: one frame, read by several",
          """read_dump of 12 columns (%g where they are text), 10^6 rows and three times as many, file in
          the page cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread. speed
@@ -523,11 +616,11 @@ def has_program(part, programs):
     return os.path.exists(os.path.join(programs, "bench_" + part.name))
 
 
-def run_part(part, programs, quick, folder):
+def run_part(part, programs, how_much, folder):
     """(figures, context) of the part's program; leaves this script where results are wrong."""
     out = os.path.join(folder, part.name + ".json")
     command = [os.path.join(programs, "bench_" + part.name), "--benchmark_out=" + out,
-               "--benchmark_out_format=json"] + ([] if quick else ["--full"])
+               "--benchmark_out_format=json"] + how_much
     print("-- bench_" + part.name, file=sys.stderr, flush=True)
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           check=False)
@@ -627,10 +720,32 @@ def write_markdown(path, results, context, drawn, left_out, quick):
         stream.write("\n".join(lines).rstrip() + "\n")
 
 
+def write_pages(report, results, context, drawn):
+    """Between the marks of a page is what the part says, and its picture beside it."""
+    docs = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs")
+    for part, figures in results:
+        if not part.page:
+            continue
+        page, picture = (os.path.join(docs, name) for name in part.page)
+        with open(page, encoding="utf-8") as stream:
+            text = stream.read()
+        begin, end = f"<!-- made by tests/bench/run --docs {part.name} -->\n", "<!-- until here -->"
+        lines = [machine(context) + ".", "", part.about, ""]
+        for table in part.tables:
+            lines += table(part, figures, False)
+        before, rest = text.split(begin)
+        with open(page, "w", encoding="utf-8") as stream:
+            stream.write(before + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+        if part.name in drawn:
+            shutil.copy(os.path.join(report, part.name + ".png"), picture)
+
+
 def main():
     names = [part.name for part in PARTS]
     parser = argparse.ArgumentParser(prog="tests/bench/run")
     parser.add_argument("--quick", action="store_true", help="small files, one round")
+    parser.add_argument("--large", action="store_true", help="also what takes many minutes")
+    parser.add_argument("--docs", action="store_true", help="also pages and pictures of docs")
     parser.add_argument("--programs", required=True, help="folder of the programs bench_*")
     parser.add_argument("--report", required=True, help="folder to write to")
     parser.add_argument("parts", nargs="*", metavar="part", help=" ".join(names))
@@ -638,6 +753,9 @@ def main():
     for name in options.parts:
         if name not in names:
             parser.error(f"no part {name}: there are {' '.join(names)}")
+    if options.quick and (options.docs or options.large):
+        parser.error("--quick means nothing but itself")
+    how_much = [] if options.quick else ["--large" if options.large else "--full"]
     os.makedirs(options.report, exist_ok=True)
     wanted = [part for part in PARTS if not options.parts or part.name in options.parts]
     left_out = [part for part in wanted if part.needs and not has_program(part, options.programs)]
@@ -649,13 +767,15 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for part in wanted:
             if part not in left_out:
-                figures, one = run_part(part, options.programs, options.quick, folder)
+                figures, one = run_part(part, options.programs, how_much, folder)
                 results.append((part, figures))
                 context = context or one
     write_csv(os.path.join(options.report, "report.csv"), results)
     drawn = draw(options.report, results)
     write_markdown(os.path.join(options.report, "report.md"), results, context, drawn, left_out,
                    options.quick)
+    if options.docs:
+        write_pages(options.report, results, context, drawn)
     if not options.quick:
         for miss in missed(results):
             print("-- target not met: " + miss, file=sys.stderr)
