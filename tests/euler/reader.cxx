@@ -528,4 +528,18 @@ TEST(EulerReader, FilesOfOneStep)
   EXPECT_EQ(Numbers(reader.Points()->GetPointData(), "pressure")[24], 0);
   reader.ExpectNothingSaid();
 }
+
+/// A file without cells has no arrays, and takes none from others; arrays that not all have are named.
+TEST(EulerReader, FilesOfOneStepWithOtherArrays)
+{
+  const std::vector<Place> none;
+  CellReader reader({ Write("part_0_10.vtk", none), Write("part_0_20.vtk", none),
+                      Write("part_1_10.vtk", OtherGrid), Write("part_1_20.vtk", OtherGrid) },
+    vtkGranularEulerReader::POINTS);
+  reader->SetRepeatedSteps(vtkGranularEulerReader::MERGE);
+  reader->UpdateTimeStep(10);
+  EXPECT_EQ(reader.Points()->GetNumberOfPoints(), 36);
+  EXPECT_EQ(reader.Points()->GetPointData()->GetNumberOfArrays(), 4);
+  reader.ExpectNothingSaid();
+}
 }

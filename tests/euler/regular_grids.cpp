@@ -402,3 +402,24 @@ TEST(RegularGrids, FacesThatAreNotEqual)
                        .read()),
     "");
 }
+
+/// Six decimals forgive a micrometre, other numbers do not.
+TEST(RegularGrids, MicrometresThatAreNotEqual)
+{
+  const auto line = [](const std::vector<double>& places)
+  {
+    EulerFrame frame;
+    for (const double y : { 0.5e-6, 1.5e-6 })
+    {
+      for (const double x : places)
+      {
+        frame.centres.insert(frame.centres.end(), { x, y, 0.1234567891234e-6 });
+        ++frame.cells;
+      }
+    }
+    return frame;
+  };
+  EXPECT_EQ(error_of(line({ 0.5e-6, 1.5e-6, 2.5e-6, 3.5e-6 })), "");
+  EXPECT_NE(error_of(line({ 0.5e-6, 1.5e-6, 2.7e-6, 3.3e-6 })), "");
+  EXPECT_EQ(error_of(line({ 4e-6, 8e-6, 13e-6, 17e-6 })), ""); // may be 4.25 apart
+}
