@@ -29,7 +29,7 @@ for place, text in ((1, "grains"), (5, "volume fraction"), (6, "where it is 0.3"
     Show(OutputPort(grains, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     views.append(view)
 granular.show(grains, views[0], color="radius").SetScalarBarVisibility(views[0], False)
-shown = Show(middle, views[1], DisableLighting=1)
+shown = Show(middle, views[1], Ambient=1, Diffuse=0)
 ColorBy(shown, ("POINTS", "volumefraction"))
 colors = GetColorTransferFunction("volumefraction")
 colors.RescaleTransferFunction(0, 0.6)
