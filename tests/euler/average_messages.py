@@ -117,11 +117,12 @@ fails(average, "expected finite bounds of cells", 2000, Bounds=(1, -1, 1, -1, 0,
 again = works(average, 2000, Bounds=(1, -1) * 3)
 assert all(again[name].tobytes() == good[name].tobytes() for name in good)
 for bad in (0.0, -1.0):
-    fails(average, "expected edges of cells above 0, got ", 2000, OutputType=POINTS, CellsBy=RELATIVE,
+    fails(average, "expected a CellSizeRelative above 0, got ", 2000, OutputType=POINTS, CellsBy=RELATIVE,
           CellSizeRelative=bad)
 assert len(works(average, 2000, CellSizeRelative=3)["radius"]) == 112
-# no radius is the largest of none: no cells can be said before there are grains
-fails(average, "expected edges of cells above 0, got 0 0 0", 0)
+# without grains there is no largest one: one cell
+empty = works(average, 0)
+assert len(empty["radius"]) == 1 and not any(values.any() for values in empty.values())
 assert len(works(average, 2000)["radius"]) == 112
 
 # ---- what is needed -------------------------------------------------------------------------------------------
@@ -209,7 +210,7 @@ assert over_time.GetOutputDataObject(0).GetExtent() == (0, 9, 0, 8, 0, 20)
 alone = works(over_time, 1000, TimeAverage=False)
 assert numpy.allclose(alone["volumefraction"], each[0]["volumefraction"].ravel(), rtol=1e-13, atol=1e-15)
 assert info.Length(steps) == 3
-fails(over_time, "expected the same cells in all frames|expected edges of cells above 0", OutputType=POINTS,
+fails(over_time, "expected the same cells in all frames that are averaged, got others in frame 1", OutputType=POINTS,
       CellsBy=RELATIVE, TimeAverage=True)
 
 # a frame that cannot be read: one error of each, no average, no second try
