@@ -230,23 +230,25 @@ def plot_positions(pyplot, figures):
 def plot_euler(pyplot, figures):
     cases = figures.all(r"^cells of")
     sizes = [float(case.split()[2]) for case in cases]
-    ways = (("Centre", "C1", "o-"), ("Overlap", "C0", "s-"), ("without short cuts", "C2", "^:"))
+    ways = (("Centre", "C1", "o", "-"), ("Overlap", "C0", "s", "-"),
+            ("without short cuts", "C2", "^", ":"))
     figure, (time, error, both) = pyplot.subplots(1, 3, figsize=(13, 4.6), layout="constrained")
-    for name, color, line in ways:
+    for name, *style in ways:
+        look = dict(zip(("color", "marker", "linestyle"), style))
         label = name if name != "without short cuts" else "Overlap without short cuts"
         times = [figures.get(case, f"{name}:ns/grain") for case in cases]
         largest, rms = ([figures.get(case, f"{name}, error, {what}:1") for case in cases]
                         for what in ("largest", "rms"))
-        time.plot(sizes, times, line, color=color, label=label)
+        time.plot(sizes, times, **look, label=label)
         if name == "without short cuts":  # its errors are those of Overlap
             continue
-        error.plot(sizes, largest, line, color=color, label=f"{name}, largest")
-        error.plot(sizes, rms, line, color=color, label=f"{name}, rms", linestyle="--",
+        error.plot(sizes, largest, **look, label=f"{name}, largest")
+        error.plot(sizes, rms, **{**look, "linestyle": "--"}, label=f"{name}, rms",
                    markerfacecolor="none")
-        both.plot(times, rms, line, color=color, label=name)
+        both.plot(times, rms, **look, label=name)
         for case, x, y in zip(cases, times, rms):
-            both.annotate(case.split()[2], (x, y), textcoords="offset points", xytext=(5, 5),
-                          fontsize=8)
+            both.annotate(case.split()[2], (x, y), textcoords="offset points", xytext=(0, 7),
+                          fontsize=8, rotation=70)
     for axes in (time, error, both):
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -500,14 +502,14 @@ PARTS = (
     Part("euler", "Euler: averages of grains over cells",
          """average_in_cells, one thread unless said, spheres of equal radius in no order in a cube that they would
          fill by half if they did not overlap; none reaches beyond its walls. 10^6 grains; fewer where that would take
-         long: about 10^6 cells then, or less, so that the time of a grain contains that of a thousand
-         cells and more. Error is that of volumefraction: of Centre against Overlap, all cells; of
+         long. There are 8.4 / s^3 cells of s radii for each grain, and its time contains theirs. Error is that of volumefraction: of Centre against Overlap, all cells; of
          Overlap against sums of volumes with 113 bits, in cells at random (exact cells). cells touched
          is how many cells a grain touches on average, by geometry. plain is a loop of += on doubles that
          trusts a computed index: count, mass, momentum, radius, volume and, in a second pass, the six
          stresses. In order: the grains of a cell follow one another. More grains in more cells: 7.5
          grains in each, edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two threads:
-         time on the wall; cores is how many of them 2 threads had, processor time of 2 threads is against 1.""",
+         time on the wall; cores: processor time of 2 threads by their time on the wall, which is how many the
+         machine let them have: near 1 there is nothing to gain. processor time: that of 2 threads against 1.""",
          [cases_by_metrics(r"^cells of",
                            Column("grains", "grains:1", ".0f"),
                            Column("cells touched", "cells touched:1", ".2f"),
