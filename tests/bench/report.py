@@ -246,9 +246,10 @@ def plot_euler(pyplot, figures):
         error.plot(sizes, rms, **{**look, "linestyle": "--"}, label=f"{name}, rms",
                    markerfacecolor="none")
         both.plot(times, rms, **look, label=name)
-        for case, x, y in zip(cases, times, rms):
-            both.annotate(case.split()[2], (x, y), textcoords="offset points", xytext=(0, 7),
-                          fontsize=8, rotation=70)
+        beside = ((12, -4), (12, -4)) if name == "Centre" else ((0, 7), (0, -14))
+        for i, (case, x, y) in enumerate(zip(cases, times, rms)):
+            both.annotate(case.split()[2], (x, y), textcoords="offset points", xytext=beside[i % 2],
+                          ha="center", fontsize=8)
     for axes in (time, error, both):
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -256,6 +257,7 @@ def plot_euler(pyplot, figures):
         axes.legend(fontsize=8)
     for axes in (time, error):
         axes.set_xlabel("cell size / radius")
+    both.margins(0.1)
     time.set_ylabel("time [ns/grain]")
     error.set_ylabel("error of the volume fraction")
     both.set_xlabel("time [ns/grain]")
