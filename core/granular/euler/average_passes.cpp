@@ -14,6 +14,9 @@ namespace granular
 {
 namespace
 {
+/// Of the sums of a group, where there is one process.
+constexpr std::int64_t bytes_of_thread = std::int64_t{ 8 } << 20;
+
 /// Below it the parts of a block are not worth a sum of their own each.
 constexpr std::int64_t rows_of_part = 16384;
 
@@ -31,16 +34,6 @@ enum Lane : std::size_t
   Radius,
   Volume
 };
-
-double volume_of_cell(const EulerGrid& grid, const std::array<std::int64_t, 3>& cell) noexcept
-{
-  double volume = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    volume *= grid.face(axis, cell[axis] + 1) - grid.face(axis, cell[axis]);
-  }
-  return volume;
-}
 }
 
 /// Shares of grains in cells of a block, some at a time.
@@ -98,7 +91,11 @@ EulerAverages AveragePasses::run()
   this->locate();
   const std::int64_t block_bytes =
     blocks_.largest() * 8 * static_cast<std::int64_t>(std::max(sums_.size(), stresses_.size()));
-  const std::int64_t together = std::max<std::int64_t>(bytes_of_group / block_bytes, 1);
+  // one process alone does better with what fits into caches
+  const std::int64_t bytes = ranks_.size() > 1
+    ? bytes_of_group
+    : std::min<std::int64_t>(bytes_of_group, bytes_of_thread * executor_.threads());
+  const std::int64_t together = std::max<std::int64_t>(bytes / block_bytes, 1);
   const std::int64_t blocks = blocks_.size();
   for (std::int64_t first = 0; first < blocks; first += together)
   {
@@ -329,7 +326,10 @@ void AveragePasses::each_cell(const Group& group, const SumScale& scale, const T
         {
           for (x[0] = range.first[0]; x[0] < range.last[0]; ++x[0], ++cell)
           {
-            take(cell, request_.wanted.place(request_.grid, x), volume_of_cell(request_.grid, x),
+            take(cell, request_.wanted.place(request_.grid, x),
+              edges_[0][static_cast<std::size_t>(x[0])] *
+                edges_[1][static_cast<std::size_t>(x[1])] *
+                edges_[2][static_cast<std::size_t>(x[2])],
               scale.values(integers_.data() + cell * scale.size()));
           }
         }

@@ -116,10 +116,11 @@ private:
   std::vector<std::int64_t> counts_; ///< rows of each block, of all ranks
   SumScale sums_{ {}, 1 };
   SumScale stresses_{ {}, 1 };
-  std::vector<std::int64_t> integers_; ///< sums of a group: part, block, cell, level, lane
-  std::vector<KeptShares> kept_;       ///< of each part of a group
-  std::vector<double> means_;          ///< velocities of the cells of a group
-  std::int64_t outside_ = 0;           ///< grains without a share in the last pass over this rank's
+  std::vector<std::int64_t> integers_;       ///< sums of a group: part, block, cell, level, lane
+  std::vector<KeptShares> kept_;             ///< of each part of a group
+  std::array<std::vector<double>, 3> edges_; ///< of the cells along each axis
+  std::vector<double> means_;                ///< velocities of the cells of a group
+  std::int64_t outside_ = 0; ///< grains without a share in the last pass over this rank's
   EulerAverages result_;
 };
 }

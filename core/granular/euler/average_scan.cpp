@@ -4,6 +4,7 @@
 #include "granular/euler/sphere_box.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <string>
@@ -163,6 +164,13 @@ void AveragePasses::plan()
   stresses_ = SumScale(ranges, terms);
 
   const EulerGrid& grid = request_.grid;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<double> faces = grid.faces(axis);
+    edges_[axis].resize(faces.size() - 1);
+    std::transform(
+      faces.begin() + 1, faces.end(), faces.begin(), edges_[axis].begin(), std::minus<>());
+  }
   EulerCells& cells = result_.cells;
   const std::int64_t wanted = request_.wanted.count(grid);
   cells.resize(wanted);

@@ -21,6 +21,24 @@ constexpr std::size_t most_levels = 128;
 /// So many bits and more of a sum, and whether there are others, are enough to round it.
 constexpr Wide enough = Wide{ 1 } << 62;
 
+/// sum * 2^exponent, rounded once if it is a normal number.
+double round_wide(Wide sum, int exponent) noexcept
+{
+  __extension__ using Unsigned = unsigned __int128;
+  const Unsigned magnitude = sum < 0 ? -static_cast<Unsigned>(sum) : static_cast<Unsigned>(sum);
+  const auto high = static_cast<std::uint64_t>(magnitude >> 62);
+  const int shift = static_cast<int>(std::bit_width(high)); // what is above 62 bits
+  const bool lost = (magnitude & ((Unsigned{ 1 } << shift) - 1)) != 0;
+  const auto kept = static_cast<std::int64_t>(magnitude >> shift) | std::int64_t{ lost };
+  const auto value = static_cast<double>(sum < 0 ? -kept : kept);
+  const int power = exponent + shift;
+  if (power > -1000 && power < 960) // much faster than ldexp, and as exact
+  {
+    return value * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + power) << 52);
+  }
+  return std::ldexp(value, power);
+}
+
 /// A sum of n pieces of w bits has w + log2(n), and one for the sign.
 int width_of(std::int64_t terms) noexcept
 {
@@ -157,34 +175,36 @@ SumScale::Terms SumScale::values(const std::int64_t* sums) const noexcept
 double SumScale::value(const std::int64_t* sums, std::size_t lane) const noexcept
 {
   const std::size_t count = shifts_.size();
-  const std::int64_t unit = std::int64_t{ 1 } << width_;
   if (count <= 2)
   {
-    const Wide sum = count == 2 ? Wide{ sums[lane] } * unit + sums[lanes + lane] : sums[lane];
-    return std::ldexp(static_cast<double>(sum), top_[lane] - static_cast<int>(count) * width_);
+    Wide sum = sums[lane];
+    sum = count == 2 ? (sum << width_) + sums[lanes + lane] : sum;
+    return round_wide(sum, top_[lane] - static_cast<int>(count) * width_);
   }
   // from below, so that each level holds less than one unit of the next
   std::array<std::int64_t, most_levels> digits;
+  const std::int64_t half = std::int64_t{ 1 } << (width_ - 1);
   std::int64_t carry = 0;
+  std::size_t used = 0; // levels down to the last that is not 0
   for (std::size_t k = count; k-- > 0;)
   {
     const std::int64_t digit = sums[k * lanes + lane] + carry;
-    carry = k > 0 ? (digit + unit / 2) >> width_ : 0;
-    digits[k] = digit - carry * unit;
+    carry = k > 0 ? (digit + half) >> width_ : 0;
+    digits[k] = digit - (carry << width_);
+    used = used == 0 && digits[k] != 0 ? k + 1 : used;
   }
   Wide sum = 0;
   std::size_t k = 0;
-  for (; k < count && sum < enough && sum > -enough; ++k)
+  for (; k < used && sum < enough && sum > -enough; ++k)
   {
-    sum = sum * unit + digits[k];
+    sum = (sum << width_) + digits[k];
   }
+  // of those below only the sign of the first counts
   const auto next = std::find_if(digits.begin() + static_cast<std::ptrdiff_t>(k),
-    digits.begin() + static_cast<std::ptrdiff_t>(count),
+    digits.begin() + static_cast<std::ptrdiff_t>(used),
     [](std::int64_t digit) { return digit != 0; });
-  const bool more = next != digits.begin() + static_cast<std::ptrdiff_t>(count);
-  const int sticky = more ? (*next > 0 ? 1 : -1) : 0;
-  const int exponent = top_[lane] - static_cast<int>(k) * width_ - 2;
-  return std::ldexp(static_cast<double>(sum * 4 + sticky), exponent);
+  const int sticky = k < used ? (*next > 0 ? 1 : -1) : 0;
+  return round_wide((sum << 2) + sticky, top_[lane] - static_cast<int>(k) * width_ - 2);
 }
 
 void SumScale::add(std::span<const Terms> terms, const std::int64_t* cells, std::int64_t* sums,
