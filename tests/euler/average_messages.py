@@ -234,7 +234,7 @@ for number in (0, 1):
 growing = reader_of("box_0.dump")
 growing.AddFileName(os.path.abspath("box_1.dump"))
 average = filter_of(growing, CellCounts=(1, 1, 1), TimeAverage=True)
-fails(average, "expected the same cells in all frames that are averaged, got others in frame 1: give Bounds")
+fails(average, "expected the same cells in all frames that are averaged, got others in frame 1: their bounds and their number")
 found = works(average, Bounds=(0, 1, 0, 1, 0, 1))
 assert numpy.allclose(found["v_avg"], [[4 / 3, 0, 0]], rtol=1e-15, atol=0), found
 assert numpy.allclose(found["volumefraction"], 4 / 3 * numpy.pi / 64, rtol=1e-15, atol=0)

@@ -32,26 +32,26 @@ void note_missing(const Known& known, const EulerAverageRequest& request, Notice
   struct Missing
   {
     std::int64_t Known::*count;
-    std::string text;
+    std::string what;
+    const char* then;
   };
   const Missing all[] = {
-    { &Known::velocity, "no array '" + request.arrays.velocity + "' of velocities: v_avg is 0" },
-    { &Known::radius,
-      "no array '" + request.arrays.radius + "' of radii: radius and volumefraction are 0" },
-    { &Known::mass,
-      "neither an array '" + request.arrays.mass +
-        "' nor density and radius: the mass of each grain is taken as 1" },
+    { &Known::velocity, "no array '" + request.arrays.velocity + "' of velocities", "v_avg is 0" },
+    { &Known::radius, "no array '" + request.arrays.radius + "' of radii",
+      "radius and volumefraction are 0" },
+    { &Known::mass, "neither an array '" + request.arrays.mass + "' nor density and radius",
+      "the mass of each grain is taken as 1" },
   };
   for (const Missing& missing : all)
   {
     const std::int64_t count = known.*missing.count;
     if (count == 0 && known.holders > 0)
     {
-      notices.push_back({ {}, missing.text });
+      notices.push_back({ {}, missing.what + ": " + missing.then });
     }
     else if (count < known.holders)
     {
-      throw Error("expected the same arrays on all processes, got some without: " + missing.text);
+      throw Error("expected the same arrays on all processes, got some with " + missing.what);
     }
   }
 }
@@ -211,7 +211,7 @@ void TimeAverage::add(const EulerAverages& frame)
   if (cells.centres != centres_)
   {
     throw Error("expected the same cells in all frames that are averaged, got others in frame " +
-      std::to_string(frames_) + ": give Bounds");
+      std::to_string(frames_) + ": their bounds and their number must not depend on the frame");
   }
   const auto add_all = [](std::vector<CompensatedSum>& sums, const std::vector<double>& terms)
   {
