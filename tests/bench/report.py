@@ -529,6 +529,8 @@ PARTS = (
                            Column("without short cuts, largest error",
                                   "without short cuts, error, largest:1", ".1e"),
                            Column("rms", "without short cuts, error, rms:1", ".1e"),
+                           Column("largest difference from Overlap",
+                                  "without short cuts, largest difference from Overlap:1", ".1e"),
                            Column("exact cells", "exact cells:1", ".0f")),
           cases_by_metrics(r"^plain",
                            Column("plain ns/grain", "plain:ns/grain", ".1f"),
