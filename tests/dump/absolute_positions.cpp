@@ -60,8 +60,7 @@ TEST(AbsolutePositions, WhatLiesJustBelowTheBoxIsTheLastOfIt)
   const std::vector<double> wrapped = load(view_of(points), true);
   EXPECT_EQ(wrapped[0], below);
   EXPECT_EQ(wrapped[1], std::nextafter(8.0, 0.0));
-  EXPECT_GE(wrapped[3], -1);
-  EXPECT_LT(wrapped[3], 3);
+  EXPECT_EQ(wrapped[3], 1e300); // its last bit is many periods
   EXPECT_EQ(wrapped[6], -infinity);
   EXPECT_EQ(wrapped[7], infinity);
 }

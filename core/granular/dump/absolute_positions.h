@@ -22,7 +22,8 @@ class AbsolutePositions
 public:
   static constexpr std::size_t most_rows = 1024; ///< at a time
 
-  /// wrap: into the box along its periodic axes, lo <= x < hi, where the frame has a box that is not tilted.
+  /// wrap: into the box along its periodic axes, lo <= x < hi, where the frame has a box that is not tilted; what is 2^53
+  /// periods away, where no bit tells the place in one, stays there.
   /// Unwrapped points lose their image counts, or are wrapped where the frame has none. Throws
   /// Error where points are scaled or unwrapped and there is no box. The frame must outlive this.
   AbsolutePositions(const FrameView& frame, bool wrap);
