@@ -99,11 +99,7 @@ WantedCells WantedCells::all(const EulerGrid& grid) noexcept
 
 std::int64_t WantedCells::count(const EulerGrid& grid) const noexcept
 {
-  std::int64_t cells = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    cells *= std::max<std::int64_t>(range.last[axis] - range.first[axis], 0);
-  }
+  const std::int64_t cells = range.size();
   return cells == grid.size() ? std::max<std::int64_t>(last - first, 0) : cells;
 }
 
@@ -112,16 +108,8 @@ std::int64_t WantedCells::place(
 {
   const auto& [nx, ny, nz] = grid.counts;
   const std::int64_t number = (cell[2] * ny + cell[1]) * nx + cell[0];
-  std::int64_t place = 0;
-  for (std::size_t axis = 3; axis-- > 0;)
-  {
-    if (cell[axis] < range.first[axis] || cell[axis] >= range.last[axis])
-    {
-      return -1;
-    }
-    place = place * (range.last[axis] - range.first[axis]) + cell[axis] - range.first[axis];
-  }
-  return number >= first && number < last ? place - first : -1;
+  const std::int64_t place = range.number(cell);
+  return place >= 0 && number >= first && number < last ? place - first : -1;
 }
 
 EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,

@@ -53,13 +53,13 @@ struct AveragePasses::Batch
   std::array<double, most> volume;
   std::array<SumScale::Terms, most> terms;
 
-  /// All grains, each whole in its cell.
-  void fill_whole() noexcept
+  /// All grains, each whole in its cell; the stress needs no volumes.
+  void fill_whole(Pass pass) noexcept
   {
     size = grains.rows;
     std::iota(grain.begin(), grain.end(), std::size_t{ 0 });
     share.fill(1);
-    for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t i = 0; pass == Pass::Means && i < size; ++i)
     {
       volume[i] = sphere_volume(grains.radius[i]);
     }
@@ -213,7 +213,7 @@ void AveragePasses::each_batch(
     first += static_cast<std::int64_t>(rows.size());
     if (!found_.empty() && !grains.usable && this->find_cells(place, range, pass, batch))
     {
-      batch.fill_whole();
+      batch.fill_whole(pass);
     }
     else if (pass == Pass::Stress && kept.complete)
     {

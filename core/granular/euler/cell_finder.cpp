@@ -20,7 +20,7 @@ CellFinder::CellFinder(const EulerGrid& grid) noexcept
   }
 }
 
-std::int64_t CellFinder::find(std::size_t axis, double x) const noexcept
+std::int64_t CellFinder::find_by_faces(std::size_t axis, double x) const noexcept
 {
   const Axis& a = axes_[axis];
   if (!(x >= a.lo && x <= a.hi))
@@ -34,27 +34,11 @@ std::int64_t CellFinder::find(std::size_t axis, double x) const noexcept
   return static_cast<std::int64_t>(std::min(cell, a.count - 1));
 }
 
-/// The same, without a look at the faces where rounding cannot matter.
-inline std::int64_t CellFinder::number(std::size_t axis, double x) const noexcept
-{
-  const Axis& a = axes_[axis];
-  const double place = (x - a.lo) * a.per_length;
-  if (place > 0 && place < a.count)
-  {
-    const auto cell = static_cast<std::int32_t>(place);
-    if (std::abs(place - cell - 0.5) < 0.5 - a.rounding)
-    {
-      return cell;
-    }
-  }
-  return this->find(axis, x);
-}
-
 bool CellFinder::find_whole(
   const double* centre, double radius, const CellRange& within, std::int64_t& cell) const noexcept
 {
-  cell = 0;
-  for (std::size_t axis = 3; axis-- > 0;)
+  std::array<std::int64_t, 3> cells;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const Axis& a = axes_[axis];
     const double place = (centre[axis] - a.lo) * a.per_length;
@@ -64,14 +48,14 @@ bool CellFinder::find_whole(
       return false;
     }
     const auto number = static_cast<std::int32_t>(place);
-    if (!(place - number > reach && number + 1.0 - place > reach) || number < within.first[axis] ||
-      number >= within.last[axis])
+    if (!(place - number > reach && number + 1.0 - place > reach))
     {
       return false;
     }
-    cell = cell * (within.last[axis] - within.first[axis]) + number - within.first[axis];
+    cells[axis] = number;
   }
-  return true;
+  cell = within.number(cells);
+  return cell >= 0;
 }
 
 bool CellFinder::find(
@@ -85,9 +69,9 @@ bool CellFinder::find(
   for (std::size_t i = 0; i < points.size(); i += 3)
   {
     // below the range they are very large
-    const auto x = static_cast<std::uint64_t>(this->number(0, points[i]) - x0);
-    const auto y = static_cast<std::uint64_t>(this->number(1, points[i + 1]) - y0);
-    const auto z = static_cast<std::uint64_t>(this->number(2, points[i + 2]) - z0);
+    const auto x = static_cast<std::uint64_t>(this->find(0, points[i]) - x0);
+    const auto y = static_cast<std::uint64_t>(this->find(1, points[i + 1]) - y0);
+    const auto z = static_cast<std::uint64_t>(this->find(2, points[i + 2]) - z0);
     const bool inside = x < nx && y < ny && z < nz;
     *cells++ = inside ? static_cast<std::int64_t>((z * ny + y) * nx + x) : -1;
     all = all && inside;

@@ -3,9 +3,9 @@
 #define granular_euler_cell_finder_h
 
 #include "granular/euler/euler_grid.h"
-#include "granular/euler/sphere_cells.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,7 +20,20 @@ public:
   explicit CellFinder(const EulerGrid& grid) noexcept;
 
   /// The number along an axis, or -1: none holds it.
-  std::int64_t find(std::size_t axis, double x) const noexcept;
+  std::int64_t find(std::size_t axis, double x) const noexcept
+  {
+    const Axis& a = axes_[axis];
+    const double place = (x - a.lo) * a.per_length;
+    if (place > 0 && place < a.count)
+    {
+      const auto cell = static_cast<std::int32_t>(place);
+      if (std::abs(place - cell - 0.5) < 0.5 - a.rounding)
+      {
+        return cell; // rounding cannot matter
+      }
+    }
+    return this->find_by_faces(axis, x);
+  }
 
   /// Whether a sphere is wholly, and not just, inside of a cell of a range, and the number of this cell there.
   bool find_whole(const double* centre, double radius, const CellRange& within,
@@ -43,7 +56,7 @@ private:
     double count;
   };
 
-  std::int64_t number(std::size_t axis, double x) const noexcept;
+  std::int64_t find_by_faces(std::size_t axis, double x) const noexcept;
 
   std::array<Axis, 3> axes_;
 };

@@ -5,6 +5,7 @@
 #include "granular/base/box.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,39 @@ struct EulerGrid
   double centre(std::size_t axis, std::int64_t i) const noexcept;
 
   bool operator==(const EulerGrid&) const = default;
+};
+
+/// Cells of each axis: from first to last - 1; first == last: none.
+struct CellRange
+{
+  std::array<std::int64_t, 3> first = {};
+  std::array<std::int64_t, 3> last = {};
+
+  /// How many cells there are.
+  std::int64_t size() const noexcept
+  {
+    std::int64_t cells = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      cells *= last[axis] > first[axis] ? last[axis] - first[axis] : 0;
+    }
+    return cells;
+  }
+
+  /// The number of a cell in the range, x fastest; -1: it is not there.
+  std::int64_t number(const std::array<std::int64_t, 3>& cell) const noexcept
+  {
+    std::int64_t number = 0;
+    for (std::size_t axis = 3; axis-- > 0;)
+    {
+      if (cell[axis] < first[axis] || cell[axis] >= last[axis])
+      {
+        return -1;
+      }
+      number = number * (last[axis] - first[axis]) + cell[axis] - first[axis];
+    }
+    return number;
+  }
 };
 
 /// How a user says what cells there are.

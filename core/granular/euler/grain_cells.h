@@ -65,8 +65,7 @@ public:
       [&](const Twofold3& image)
       {
         const CellRange range = spheres_.range(image, radius);
-        if (range.first[0] < range.last[0] && range.first[1] < range.last[1] &&
-          range.first[2] < range.last[2])
+        if (range.size() > 0)
         {
           visit(range);
         }
@@ -85,17 +84,10 @@ public:
       this->each_cell(centre,
         [&](const std::array<std::int64_t, 3>& cell)
         {
-          std::int64_t number = 0;
-          for (std::size_t axis = 3; axis-- > 0;)
+          if (const std::int64_t number = within.number(cell); number >= 0)
           {
-            if (cell[axis] < within.first[axis] || cell[axis] >= within.last[axis])
-            {
-              return;
-            }
-            number =
-              number * (within.last[axis] - within.first[axis]) + cell[axis] - within.first[axis];
+            add(number, 1.0, volume);
           }
-          add(number, 1.0, volume);
         });
       return;
     }

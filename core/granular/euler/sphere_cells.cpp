@@ -54,17 +54,10 @@ public:
 
   void add(const std::array<std::int64_t, 3>& cell, double volume)
   {
-    std::int64_t number = 0;
-    for (std::size_t axis = 3; axis-- > 0;)
+    if (const std::int64_t number = within_.number(cell); number >= 0)
     {
-      if (cell[axis] < within_.first[axis] || cell[axis] >= within_.last[axis])
-      {
-        return;
-      }
-      number =
-        number * (within_.last[axis] - within_.first[axis]) + cell[axis] - within_.first[axis];
+      shares_.push_back({ number, volume });
     }
-    shares_.push_back({ number, volume });
   }
 
 private:
@@ -81,29 +74,19 @@ struct SphereCells::Cut
 
 SphereCells::SphereCells(const EulerGrid& grid, bool short_cuts)
   : grid_(grid)
+  , finder_(grid)
   , short_cuts_(short_cuts)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     faces_[axis] = grid.faces(axis);
-    per_length_[axis] = 1 / grid.spacing(axis);
   }
 }
 
 /// The cell that a coordinate is in, or the nearest one.
 std::int64_t SphereCells::cell_of(std::size_t axis, double x) const noexcept
 {
-  const std::vector<double>& faces = faces_[axis];
-  const auto last = static_cast<double>(grid_.counts[axis] - 1);
-  const double guess = std::min(last, std::max(0.0, (x - faces.front()) * per_length_[axis]));
-  const auto cell = static_cast<std::int64_t>(guess);
-  const double* face = faces.data() + cell;
-  if (face[0] <= x && x < face[1])
-  {
-    return cell;
-  }
-  const auto inner = faces.begin() + 1;
-  return std::upper_bound(inner, faces.end() - 1, x) - inner;
+  return finder_.find(axis, std::clamp(x, grid_.lo[axis], grid_.hi[axis]));
 }
 
 CellRange SphereCells::range(const Twofold3& centre, double radius) const noexcept

@@ -3,6 +3,7 @@
 #define granular_euler_sphere_cells_h
 
 #include "granular/base/box.h"
+#include "granular/euler/cell_finder.h"
 #include "granular/euler/euler_grid.h"
 
 #include <array>
@@ -16,13 +17,6 @@ struct CellShare
 {
   std::int64_t cell = 0; ///< number in the range that was asked for, x fastest
   double volume = 0;     ///< above 0
-};
-
-/// Cells of each axis: from first to last - 1; first == last: none.
-struct CellRange
-{
-  std::array<std::int64_t, 3> first = {};
-  std::array<std::int64_t, 3> last = {};
 };
 
 /// Divides spheres among the cells of a grid, each volume as exact as sphere_box_volume's.
@@ -54,8 +48,8 @@ private:
 
   EulerGrid grid_;
   std::array<std::vector<double>, 3> faces_;
-  Vector3 per_length_ = {}; ///< about how many cells
-  bool short_cuts_ = true;
+  CellFinder finder_;
+  bool short_cuts_;
 };
 }
 #endif
