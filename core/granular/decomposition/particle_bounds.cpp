@@ -167,12 +167,11 @@ void add_rows(const FrameView& frame, const AbsolutePositions& positions,
     const auto count = static_cast<std::size_t>(std::min(most, last - first));
     processes.load(first, count, numbers.data());
     const double* x = positions.load(first, count, buffer.data());
-    const unsigned char* ghosts = frame.ghosts ? frame.ghosts + first : nullptr;
     Run run;
     double process = 0;
     for (std::size_t i = 0; i < count; ++i, x += 3)
     {
-      if (ghosts && (ghosts[i] & FrameView::duplicate_row) != 0)
+      if (frame.is_duplicate(first + static_cast<std::int64_t>(i)))
       {
         continue;
       }

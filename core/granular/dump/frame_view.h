@@ -72,6 +72,12 @@ struct FrameView
   /// Bit of a ghost value that says that another process has the row, too: it is left out.
   static constexpr unsigned char duplicate_row = 1;
 
+  /// Whether another process has the row, too.
+  bool is_duplicate(std::int64_t row) const noexcept
+  {
+    return ghosts && (ghosts[row] & duplicate_row) != 0;
+  }
+
   /// The first array of that name, or null.
   const ArrayView* find(std::string_view name) const noexcept;
 };

@@ -203,7 +203,7 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
   if (frame.ghosts)
   {
     const auto end = std::remove_if(kept_.begin(), kept_.begin() + count,
-      [&](std::int64_t row) { return (frame.ghosts[row] & FrameView::duplicate_row) != 0; });
+      [&](std::int64_t row) { return frame.is_duplicate(row); });
     rows_ = static_cast<std::size_t>(end - kept_.begin());
   }
   const Rows rows = std::span(kept_).first(rows_);

@@ -189,9 +189,7 @@ void GrainValues::scan(std::span<const std::int64_t> rows, GrainBlock& block, Sc
       }
       else
       {
-        const bool ghost =
-          frame_.ghosts && (frame_.ghosts[rows[i]] & FrameView::duplicate_row) != 0;
-        own.broken += ghost ? 0 : 1;
+        own.broken += frame_.is_duplicate(rows[i]) ? 0 : 1;
       }
     }
   }
@@ -248,8 +246,8 @@ void GrainValues::find_usable(std::span<const std::int64_t> rows, GrainBlock& bl
   };
   for (std::size_t i = 0; i < block.rows; ++i)
   {
-    const bool ghost = frame_.ghosts && (frame_.ghosts[rows[i]] & FrameView::duplicate_row) != 0;
-    const bool usable = !ghost && fits(block.positions + 3 * i, 3, -too_large) &&
+    const bool usable = !frame_.is_duplicate(rows[i]) &&
+      fits(block.positions + 3 * i, 3, -too_large) &&
       fits(block.velocities + 3 * i, 3, -too_large) && fits(block.radius + i, 1, 0) &&
       fits(block.mass + i, 1, 0) && sphere_volume(block.radius[i]) < too_large &&
       (!block.stresses || fits(block.stresses + 6 * i, 6, -too_large));
