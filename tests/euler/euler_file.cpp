@@ -47,7 +47,7 @@ TEST(EulerFile, OfLiggghts)
   EXPECT_EQ(file.entry().line, 1);
   EXPECT_EQ(file.entry().end, 10202);
   EXPECT_EQ(file.entry().shape, 0u);
-  EXPECT_TRUE(euler_format().steps_in_names);
+  EXPECT_EQ(euler_format().complete, &name_steps);
   const EulerFrame frame = file.read();
   EXPECT_EQ(frame.cells, 112);
   EXPECT_EQ(names_of(frame), "v_avg volumefraction radius pressure ");

@@ -38,7 +38,7 @@ void check(const FileIndex& file)
   require(file.stamp.size >= 0 && file.resume_offset >= 0 && file.resume_line >= 1, "a place");
   for (const FrameEntry& frame : file.frames)
   {
-    require(frame.kind && frame.kind->layout >= FrameKind::text &&
+    require(frame.kind && frame.kind->layout >= FrameKind::bare &&
         frame.kind->layout < static_cast<int>(binary_layouts().size()),
       "the kind of a frame");
     require(frame.rows >= 0 && frame.offset >= 0 && frame.rows <= frame.end - frame.offset,

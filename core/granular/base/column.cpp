@@ -46,11 +46,11 @@ int split_index(std::string_view name, std::string_view& base) noexcept
   return ec == std::errc{} && ptr == last && index >= 1 ? index : 0;
 }
 
-ColumnInfo describe(const std::string& name)
+ColumnInfo describe(const std::string& name, std::span<const KnownColumn> table)
 {
   ColumnInfo column;
   column.name = name;
-  if (const KnownColumn* known = find_known_column(name))
+  if (const KnownColumn* known = find_known_column(name, table))
   {
     column.type = known->type;
     column.role = known->role;
@@ -69,12 +69,12 @@ void join(Group& group, std::string_view array, std::size_t component, int colum
   place = place < 0 ? column : place;
 }
 
-Groups collect_groups(const std::vector<ColumnInfo>& columns)
+Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const KnownColumn> table)
 {
   Groups groups;
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
-    const KnownColumn* known = find_known_column(columns[i].name);
+    const KnownColumn* known = find_known_column(columns[i].name, table);
     std::string_view base;
     if (known && known->components > 1)
     {
@@ -123,11 +123,12 @@ bool is_position(ColumnRole role) noexcept
     role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
 }
 
-std::vector<ArrayInfo> make_arrays(const std::vector<ColumnInfo>& columns)
+std::vector<ArrayInfo> make_arrays(
+  const std::vector<ColumnInfo>& columns, std::span<const KnownColumn> table)
 {
   std::map<int, const Group*> first_columns; // the array stands where its first column stands
   std::set<int> grouped;
-  const Groups groups = collect_groups(columns);
+  const Groups groups = collect_groups(columns, table);
   for (const auto& [key, group] : groups)
   {
     if (is_array(key, group))
@@ -184,19 +185,20 @@ std::span<const KnownColumn> known_columns() noexcept
   return known_column_table;
 }
 
-const KnownColumn* find_known_column(std::string_view name) noexcept
+const KnownColumn* find_known_column(
+  std::string_view name, std::span<const KnownColumn> table) noexcept
 {
-  const auto* const found =
-    std::find_if(std::begin(known_column_table), std::end(known_column_table),
-      [name](const KnownColumn& column) { return matches(column.name, name); });
-  return found == std::end(known_column_table) ? nullptr : found;
+  const auto found = std::ranges::find_if(
+    table, [name](const KnownColumn& column) { return matches(column.name, name); });
+  return found == table.end() ? nullptr : &*found;
 }
 
-ColumnSchema::ColumnSchema(const std::vector<std::string>& names)
+ColumnSchema::ColumnSchema(
+  const std::vector<std::string>& names, std::span<const KnownColumn> table)
 {
   for (const std::string& name : names)
   {
-    columns_.push_back(describe(name));
+    columns_.push_back(describe(name, table));
     ColumnInfo& column = columns_.back();
     if (this->find(column.role, column.component) < static_cast<int>(columns_.size()) - 1)
     {
@@ -204,7 +206,7 @@ ColumnSchema::ColumnSchema(const std::vector<std::string>& names)
         ColumnRole::Other; // the first column has the role; a second one is just a column
     }
   }
-  arrays_ = make_arrays(columns_);
+  arrays_ = make_arrays(columns_, table);
   add_radius(*this, arrays_);
 }
 

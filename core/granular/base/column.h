@@ -52,8 +52,9 @@ struct KnownColumn
 /// THE table. Readers, writers, documentation and tests take names, types and meanings from here.
 std::span<const KnownColumn> known_columns() noexcept;
 
-/// The row of the table for a name, or null.
-const KnownColumn* find_known_column(std::string_view name) noexcept;
+/// The row of a table for a name, or null.
+const KnownColumn* find_known_column(
+  std::string_view name, std::span<const KnownColumn> table = known_columns()) noexcept;
 
 /// One column of a file.
 struct ColumnInfo
@@ -61,7 +62,7 @@ struct ColumnInfo
   std::string name; ///< as the file spells it; not unique
   ValueType type = ValueType::Float64;
   ColumnRole role = ColumnRole::Other;
-  int component = 0; ///< axis of a position or image
+  int component = 0; ///< axis of a position or image; end of a line
   bool known = false;
 };
 
@@ -89,7 +90,8 @@ class ColumnSchema
 {
 public:
   ColumnSchema() = default;
-  explicit ColumnSchema(const std::vector<std::string>& names);
+  explicit ColumnSchema(
+    const std::vector<std::string>& names, std::span<const KnownColumn> table = known_columns());
 
   const std::vector<ColumnInfo>& columns() const noexcept { return columns_; }
   const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }

@@ -49,6 +49,18 @@ inline std::vector<std::string_view> split_words(std::string_view line)
   return words;
 }
 
+/// Words, separated by blanks.
+template <class Words>
+std::string join_words(const Words& words)
+{
+  std::string text;
+  for (const auto& word : words)
+  {
+    text.append(text.empty() ? "" : " ").append(word);
+  }
+  return text;
+}
+
 /// In quotes, shortened to what fits a message; other than printable bytes become '?'.
 inline std::string quoted(std::string_view text)
 {

@@ -8,6 +8,7 @@
 #include "granular/decomposition/vtu_grids.h"
 #include "granular/decomposition/vtu_head.h"
 #include "granular/dump/file_index.h"
+#include "granular/dump/named_steps.h"
 
 #include <algorithm>
 #include <limits>
@@ -291,7 +292,7 @@ bool is_decomposition_vtu(const ByteSource& source, const VtuHead& head)
 
 const FileFormat& decomposition_format() noexcept
 {
-  static const FileFormat format = { "a decomposition file", &index_decomposition, true };
+  static const FileFormat format = { "a decomposition file", &index_decomposition, &name_steps };
   return format;
 }
 

@@ -18,7 +18,7 @@ namespace granular
 /// (LIGGGHTS-PUBLIC, PFM), or with an unstructured one (LIGGGHTS-INL, this library; versions 2.0 to 5.1, ASCII and
 /// BINARY), and .vtu files, which are a frame each.
 ///
-/// Timesteps are those of the names (steps_in_names). A file may hold several rectilinear grids, one after the
+/// Timesteps are those of the names (name_steps). A file may hold several rectilinear grids, one after the
 /// other. Left out with a notice: a header without a grid, as LIGGGHTS leaves it where a timestep is written twice;
 /// what is not as the format says, up to the next header; after 100 of a file such frames are only counted. A last grid that is not complete is left out silently. In a
 /// file that has grown the last frame is looked at again: data of its cells may have come. More than 2^24 processes

@@ -100,11 +100,11 @@ void ChunkDecoder::measure(std::size_t count, std::vector<ValueRange>& ranges) c
   const auto add = [&](ValueRange& range, const auto* values, std::size_t components)
   { range.add(values + row * components, count); };
   const DumpFrame& frame = layout_.frame;
-  if (request_.single_precision)
+  if (layout_.points && request_.single_precision)
   {
     add(ranges[0], static_cast<const float*>(frame.points.data()), 3);
   }
-  else
+  else if (layout_.points)
   {
     add(ranges[0], static_cast<const double*>(frame.points.data()), 3);
   }
@@ -144,11 +144,14 @@ void ChunkDecoder::aim()
 std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number)
 {
   this->copy_batch(count);
-  this->convert(layout_.points, count);
-  if (request_.single_precision)
+  if (layout_.points)
+  {
+    this->convert(*layout_.points, count);
+  }
+  if (layout_.points && request_.single_precision)
   {
     const auto* const from =
-      reinterpret_cast<const double*>(layout_.points.xyz.at(row_, scratch_.get()));
+      reinterpret_cast<const double*>(layout_.points->xyz.at(row_, scratch_.get()));
     std::transform(from, from + 3 * count,
       static_cast<float*>(layout_.frame.points.data()) + 3 * row_,
       [](double coordinate) { return static_cast<float>(coordinate); });

@@ -40,8 +40,8 @@ std::string text_of(const Misfit& misfit)
 /// are where the user says that they are. Columns that nobody named must, too. The same on all ranks.
 void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
 {
-  const bool binary = kind.layout != FrameKind::text;
-  if (schema.columns()[static_cast<std::size_t>(misfit.column)].role == ColumnRole::Id && !binary)
+  if (schema.columns()[static_cast<std::size_t>(misfit.column)].role == ColumnRole::Id &&
+    kind.is_text())
   {
     throw FormatError(text_of(misfit), misfit.where);
   }
@@ -64,15 +64,22 @@ void widen(const Misfit& misfit, ColumnSchema& schema, Notices& notices)
 }
 
 /// The columns of all pieces, which must be the same; what holds texts in one piece does in all.
-ColumnSchema join_schemas(const PieceList& pieces)
+ColumnSchema join_schemas(const PieceList& pieces, const DumpRequest& request)
 {
   const FrameEntry& first = *pieces.entries.front();
-  ColumnSchema schema = first.kind->schema;
+  if (request.schema && request.schema->columns().size() != first.kind->schema.columns().size())
+  {
+    throw FormatError("expected " + std::to_string(request.schema->columns().size()) +
+        " columns, got " + std::to_string(first.kind->schema.columns().size()) + ": " +
+        first.kind->schema.text(),
+      pieces.where(0));
+  }
+  ColumnSchema schema = request.schema.value_or(first.kind->schema);
   for (std::size_t i = 1; i < pieces.entries.size(); ++i)
   {
     const FrameEntry& entry = *pieces.entries[i];
     const ColumnSchema& other = entry.kind->schema;
-    const bool same_form = (entry.kind->layout < 0) == (first.kind->layout < 0);
+    const bool same_form = entry.kind->is_text() == first.kind->is_text();
     if (!same_form || entry.shape != first.shape)
     {
       const bool same_columns = other.text() == schema.text();
@@ -245,7 +252,7 @@ DumpFrame read(const PieceList& pieces, const DumpRequest& request, Communicator
     {
       own = own_request(request, ranks.size() > 1);
       where = pieces.where(0);
-      schema = join_schemas(pieces);
+      schema = join_schemas(pieces, request);
       part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, forward);
       ahead.reset();
     });
@@ -310,6 +317,6 @@ DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& r
 {
   check(request);
   const PieceList list = list_of(pieces);
-  return decode(list, join_schemas(list), own_request(request, together), progress);
+  return decode(list, join_schemas(list, request), own_request(request, together), progress);
 }
 }

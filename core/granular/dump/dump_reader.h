@@ -28,6 +28,8 @@ namespace granular
 struct DumpRequest
 {
   Coordinates coordinates = Coordinates::Absolute;
+  bool points = true;            ///< false: none are made, and coordinates are columns like others
+  std::optional<ColumnSchema> schema = {}; ///< what the columns are, if they are not what their names say
   bool single_precision = false; ///< points as float instead of double
   Vector3 point_origin = {};     ///< subtracted from the points in double before any rounding
   bool sort_by_id = false;

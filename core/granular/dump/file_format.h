@@ -3,8 +3,11 @@
 #define granular_dump_file_format_h
 
 #include "granular/base/byte_source.h"
+#include "granular/base/error.h"
 #include "granular/base/progress.h"
 #include "granular/base/text_scanner.h"
+
+#include <vector>
 
 namespace granular
 {
@@ -19,8 +22,9 @@ struct FileFormat
   void (*index)(
     const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead);
 
-  /// Frames do not say their timestep: it is the number in the name of the file, see name_steps.
-  bool steps_in_names = false;
+  /// Completes what frames do not say by themselves from all files of a run and their names, or null; may be called again
+  /// with files that it has completed.
+  void (*complete)(std::vector<FileIndex>& files, Notices& notices) = nullptr;
 };
 
 /// Dumps of particles.

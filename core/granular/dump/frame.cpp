@@ -59,7 +59,7 @@ std::uint64_t hash_shape(const FrameHeader& header, const FrameKind& kind)
 
 Where where_of(const std::string& path, const FrameEntry& entry)
 {
-  const bool text = entry.kind->layout == FrameKind::text;
+  const bool text = entry.kind->is_text();
   return { path, entry.line, text ? -1 : entry.offset };
 }
 

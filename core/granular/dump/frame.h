@@ -25,20 +25,24 @@ struct FrameHeader
   std::string units; ///< ITEM: UNITS of this frame or an earlier one of the file
   std::int64_t rows = 0;
   Box box;
+  std::string counted = "ATOMS"; ///< what rows are: ITEM: NUMBER OF ...
+  bool has_box = true;           ///< false: the box is none, of no size
 };
 
 /// What many frames have in common.
 struct FrameKind
 {
   static constexpr int text = -1;
+  static constexpr int bare = -2; ///< text, too, rows without a header
 
   ColumnSchema schema;
   std::string units;
-  int layout = text; ///< index into binary_layouts(), or text
+  int layout = text; ///< index into binary_layouts(), or text, or bare
   bool named = true; ///< false: nobody has named the columns of a binary file, these are stand-ins
   bool guessed = false;         ///< nobody has, and they are taken for those of dump atom
   std::uint64_t names_hash = 0; ///< of the columns; set where the kind is shared
 
+  bool is_text() const noexcept { return layout < 0; }
   bool operator==(const FrameKind&) const = default;
 };
 

@@ -107,7 +107,7 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
   {
     before += pieces_.entries[piece]->rows;
   }
-  if (pieces_.entries[range.piece]->kind->layout != FrameKind::text)
+  if (!pieces_.entries[range.piece]->kind->is_text())
   {
     return before + range.first;
   }

@@ -5,7 +5,6 @@
 #include "granular/dump/binary_dump.h"
 #include "granular/dump/index_archive.h"
 #include "granular/dump/index_bytes.h"
-#include "granular/dump/named_steps.h"
 #include "granular/dump/update_files.h"
 
 #include <algorithm>
@@ -82,9 +81,9 @@ void FrameIndex::update(const std::vector<std::string>& files, const IndexOption
   series_ = {};
   this->update_files(dumps, options, notices, progress);
   Notices found;
-  if (options.format->steps_in_names)
+  if (options.format->complete)
   {
-    name_steps(files_, found);
+    options.format->complete(files_, found);
   }
   series_ = FileSeries(files_, options.repeated_steps, found);
   if (series_.size() == 0)

@@ -33,7 +33,10 @@ FrameLayout::FrameLayout(const ColumnSchema& schema, const FrameHeader& header,
 {
   frame.header = header;
   this->lay_arrays();
-  this->lay_points(where, notices);
+  if (request.points)
+  {
+    this->lay_points(where, notices);
+  }
   this->lay_filters(where, notices);
 }
 
@@ -123,14 +126,15 @@ void FrameLayout::lay(PointsWire& wire)
 
 void FrameLayout::lay_points(const Where& where, Notices& notices)
 {
-  points.plan = plan_positions(schema_, frame.header.box, request_.coordinates, where, notices);
-  points.point_origin = request_.point_origin;
-  frame.coordinates = points.plan.coordinates;
+  points.emplace();
+  points->plan = plan_positions(schema_, frame.header.box, request_.coordinates, where, notices);
+  points->point_origin = request_.point_origin;
+  frame.coordinates = points->plan.coordinates;
   frame.points = Block(point_bytes * static_cast<std::size_t>(rows), request_.pool);
-  points.xyz = request_.single_precision
+  points->xyz = request_.single_precision
     ? this->scratch(3 * sizeof(double))
     : Destination{ static_cast<char*>(frame.points.data()), 0, 3 * sizeof(double), false };
-  this->lay(points);
+  this->lay(*points);
 }
 
 void FrameLayout::lay_filters(const Where& where, Notices& notices)

@@ -81,7 +81,10 @@ public:
   template <typename Visit>
   void for_each_block(Visit&& visit)
   {
-    visit(frame.points, point_bytes);
+    if (points)
+    {
+      visit(frame.points, point_bytes);
+    }
     if (ids.bytes() > 0)
     {
       visit(ids, sizeof(std::int64_t));
@@ -98,7 +101,7 @@ public:
   std::size_t point_bytes;
   std::size_t scratch_bytes = 0;
   std::map<int, Wire> wires; ///< by column
-  PointsWire points;
+  std::optional<PointsWire> points; ///< where they are wanted
   std::optional<PointsWire> region; ///< absolute coordinates, where a region restricts the rows
   std::vector<TextWire> texts;
   int id_column; ///< -1: there is none

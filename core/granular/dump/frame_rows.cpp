@@ -10,12 +10,12 @@ namespace granular
 {
 std::int64_t extent_of(const FrameEntry& entry) noexcept
 {
-  return entry.kind->layout == FrameKind::text ? entry.end - entry.offset : entry.rows;
+  return entry.kind->is_text() ? entry.end - entry.offset : entry.rows;
 }
 
 std::int64_t chunk_extent(const FrameEntry& entry, std::size_t bytes) noexcept
 {
-  const std::size_t unit = entry.kind->layout == FrameKind::text
+  const std::size_t unit = entry.kind->is_text()
     ? 1
     : entry.kind->schema.columns().size() * sizeof(double);
   return static_cast<std::int64_t>(
@@ -24,7 +24,7 @@ std::int64_t chunk_extent(const FrameEntry& entry, std::size_t bytes) noexcept
 
 std::unique_ptr<FrameRows> open_rows(const ByteSource& source, const FrameEntry& entry)
 {
-  if (entry.kind->layout == FrameKind::text)
+  if (entry.kind->is_text())
   {
     return std::make_unique<TextRows>(source, entry);
   }

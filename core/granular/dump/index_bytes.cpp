@@ -210,10 +210,10 @@ Kinds read_kinds(IndexReader& in, FrameKinds& store)
           in.text(column.name);
           in.number(column.type);
         });
-      require(layout >= FrameKind::text && layout < layouts, "a layout of binary dumps");
-      require(!columns.empty() || layout == FrameKind::text, "a column"); // other files have none
+      require(layout >= FrameKind::bare && layout < layouts, "a layout of binary dumps");
       kind.layout = layout;
-      kind.schema = make_schema(columns, layout == FrameKind::text);
+      require(!columns.empty() || kind.is_text(), "a column"); // other files have none
+      kind.schema = make_schema(columns, kind.is_text());
       shared = store.share(std::move(kind));
     });
   return kinds;
@@ -239,7 +239,7 @@ bool plausible(const FrameRecord& frame, const FrameKind& kind)
   }
   // a row of text has a line feed at least
   const std::size_t row_bytes =
-    kind.layout == FrameKind::text ? 1 : kind.schema.columns().size() * sizeof(double);
+    kind.is_text() ? 1 : kind.schema.columns().size() * sizeof(double);
   return static_cast<std::uint64_t>(frame.rows) <=
     static_cast<std::uint64_t>(frame.end - frame.offset) / row_bytes;
 }

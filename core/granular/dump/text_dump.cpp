@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -74,12 +75,13 @@ bool makes_schema(const std::vector<std::string>& names,
 class Indexer
 {
 public:
-  Indexer(const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
+  Indexer(const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead,
+    RowsOf rows_of)
     : source_(source)
     , index_(index)
     , progress_(progress)
     , scanner_(source, index.resume_offset, index.resume_line, window, ahead)
-    , reader_(scanner_, index.units)
+    , reader_(scanner_, index.units, rows_of)
   {
   }
 
@@ -299,7 +301,10 @@ bool Indexer::find_glued_header(FrameEntry& entry, std::int64_t& rows)
 }
 }
 
-bool is_text_dump(std::string_view first_bytes)
+namespace
+{
+/// What the first bytes of a text dump say that its rows are; Any: that is not among them. Nothing for other files.
+std::optional<RowsOf> find_rows(std::string_view first_bytes)
 {
   constexpr int longest_header = 64; // lines
   bool opened = false;
@@ -316,22 +321,34 @@ bool is_text_dump(std::string_view first_bytes)
     {
       if (!opens_frame(words))
       {
-        return false;
+        return {};
       }
       opened = true;
     }
     if (feed != first_bytes.npos && begins_with(words, "NUMBER OF"))
     {
-      return begins_with(words, "NUMBER OF ATOMS");
+      return begins_with(words, "NUMBER OF ATOMS") ? RowsOf::Particles : RowsOf::Others;
     }
     first_bytes.remove_prefix(feed == first_bytes.npos ? first_bytes.size() : feed + 1);
   }
-  return opened;
+  return opened ? std::optional(RowsOf::Any) : std::nullopt;
+}
 }
 
-void index_text_dump(
-  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
+bool is_text_dump(std::string_view first_bytes)
 {
-  Indexer(source, index, progress, ahead).run();
+  const std::optional<RowsOf> rows = find_rows(first_bytes);
+  return rows && *rows != RowsOf::Others;
+}
+
+bool is_text_of_others(std::string_view first_bytes)
+{
+  return find_rows(first_bytes) == RowsOf::Others;
+}
+
+void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
+  const ScanAhead& ahead, RowsOf rows_of)
+{
+  Indexer(source, index, progress, ahead, rows_of).run();
 }
 }

@@ -6,6 +6,7 @@
 #include "granular/base/progress.h"
 #include "granular/base/text_scanner.h"
 #include "granular/dump/file_index.h"
+#include "granular/dump/text_header.h"
 
 #include <string_view>
 
@@ -16,8 +17,12 @@ namespace granular
 /// go, ITEM: NUMBER OF ATOMS (files of dump local count ENTRIES or a word of the user's).
 bool is_text_dump(std::string_view first_bytes);
 
+/// Whether the first bytes of a file are those of a text of dump local: as is_text_dump, but with something else than
+/// atoms that is counted, within these bytes.
+bool is_text_of_others(std::string_view first_bytes);
+
 /// As index_dump, of a text. index.kinds must be there.
-void index_text_dump(
-  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
+void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
+  const ScanAhead& ahead = {}, RowsOf rows_of = RowsOf::Particles);
 }
 #endif

@@ -69,10 +69,8 @@ const TextHeader::Section TextHeader::sections[] = {
   { "TIME", true, &TextHeader::parse_time },
   { "UNITS", true, &TextHeader::parse_units },
   { "LABEL", true, &TextHeader::parse_label },
-  { "NUMBER OF ATOMS", true, &TextHeader::parse_rows },
-  { "NUMBER OF", false, &TextHeader::refuse_rows },
+  { "NUMBER OF", false, &TextHeader::parse_rows },
   { "BOX BOUNDS", false, &TextHeader::parse_box },
-  { "ATOMS", false, &TextHeader::parse_columns },
   { "", false, &TextHeader::skip_section },
 };
 
@@ -80,6 +78,7 @@ void TextHeader::restart(const std::string& units)
 {
   header_.time.reset();
   header_.label.clear();
+  header_.counted = rows_of_ == RowsOf::Particles ? "ATOMS" : "";
   header_.units = units;
   next_line_ = 0;
   opened_ = false;
@@ -120,6 +119,7 @@ bool TextHeader::read_section(std::string_view line)
   {
     append_words(rest, words_);
   }
+  const bool columns = opened_ && !header_.counted.empty() && begins_with(words_, header_.counted);
   const Section& section = find_section(words_);
   if (!opened_ && !words_.empty() && section.parse == &TextHeader::skip_section)
   {
@@ -136,7 +136,7 @@ bool TextHeader::read_section(std::string_view line)
     line_ = scanner_.last_line();
   }
   this->look_for_next_frame(words_, section_);
-  return (this->*section.parse)(words_);
+  return columns ? this->parse_columns(words_) : (this->*section.parse)(words_);
 }
 
 bool TextHeader::next(std::string_view& line)
@@ -168,7 +168,7 @@ void TextHeader::look_for_next_frame(Words words, std::string_view line)
   }
   if (words[0] == "TIMESTEP")
   {
-    const std::string expected = "expected ITEM: ATOMS, got " + quoted(line);
+    const std::string expected = "expected " + this->columns_section() + ", got " + quoted(line);
     const Where where = scanner_.where();
     scanner_.go_to(next_offset_, next_line_);
     throw FormatError(expected, where);
@@ -186,12 +186,19 @@ void TextHeader::fail(const std::string& expected, std::string_view got) const
   throw FormatError("expected " + expected + ", got " + quoted(got), scanner_.where());
 }
 
+/// The line that the header ends with.
+std::string TextHeader::columns_section() const
+{
+  return "ITEM: " + (header_.counted.empty() ? std::string("ENTRIES") : header_.counted);
+}
+
 void TextHeader::require(bool seen, const char* section) const
 {
   if (!seen)
   {
-    throw FormatError(
-      std::string("expected ITEM: ") + section + " before ITEM: ATOMS, got none", scanner_.where());
+    throw FormatError(std::string("expected ITEM: ") + section + " before " +
+        this->columns_section() + ", got none",
+      scanner_.where());
   }
 }
 
@@ -269,8 +276,17 @@ bool TextHeader::parse_label(Words)
   return true;
 }
 
-bool TextHeader::parse_rows(Words)
+bool TextHeader::parse_rows(Words words)
 {
+  const std::string counted = join_words(words.subspan(2));
+  const bool particles = counted == "ATOMS";
+  if (counted.empty() || (rows_of_ != RowsOf::Any && particles != (rows_of_ == RowsOf::Particles)))
+  {
+    this->fail(rows_of_ == RowsOf::Others ? "ITEM: NUMBER OF ENTRIES, or of other things than ATOMS"
+                                          : "ITEM: NUMBER OF ATOMS",
+      "ITEM: " + join_words(words));
+  }
+  header_.counted = counted;
   std::string_view line;
   if (!this->value_line(line))
   {
@@ -286,17 +302,6 @@ bool TextHeader::parse_rows(Words)
   return true;
 }
 
-/// Files of dump local have the same shape but count other things than particles.
-bool TextHeader::refuse_rows(Words words)
-{
-  std::string name;
-  for (const std::string_view word : words)
-  {
-    name += " " + std::string(word);
-  }
-  this->fail("ITEM: NUMBER OF ATOMS", "ITEM:" + name);
-}
-
 /// "[xy xz yz | abc origin] [flags]" and three lines of 2, 3 or 4 numbers.
 bool TextHeader::parse_box(Words words)
 {
@@ -304,11 +309,6 @@ bool TextHeader::parse_box(Words words)
   const bool tilted = begins_with(rest, "xy xz yz");
   const bool general = begins_with(rest, "abc origin");
   rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
-  std::string boundary;
-  for (const std::string_view flag : rest)
-  {
-    boundary += (boundary.empty() ? "" : " ") + std::string(flag);
-  }
   std::array<std::array<double, 4>, 3> n = {};
   for (auto& numbers : n)
   {
@@ -330,7 +330,7 @@ bool TextHeader::parse_box(Words words)
     header_.box = tilted ? Box::from_tilted_bounds(lo, hi, n[0][2], n[1][2], n[2][2])
                          : Box::from_bounds(lo, hi);
   }
-  header_.box.boundary = std::move(boundary);
+  header_.box.boundary = join_words(rest);
   has_box_ = true;
   return true;
 }
@@ -367,8 +367,15 @@ bool TextHeader::parse_columns(Words words)
 {
   this->require(has_timestep_, "TIMESTEP");
   this->require(has_rows_, "NUMBER OF ATOMS");
-  this->require(has_box_, "BOX BOUNDS");
-  column_names_.assign(words.begin() + 1, words.end());
+  const bool particles = header_.counted == "ATOMS";
+  if (particles)
+  {
+    this->require(has_box_, "BOX BOUNDS");
+  }
+  header_.has_box = has_box_;
+  header_.box = has_box_ ? std::move(header_.box) : Box();
+  const auto section = split_words(header_.counted).size();
+  column_names_.assign(words.begin() + static_cast<std::ptrdiff_t>(section), words.end());
   has_columns_ = true;
   return true;
 }

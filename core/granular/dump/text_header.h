@@ -24,13 +24,22 @@ bool begins_with(
 /// which LAMMPS puts before it.
 bool opens_frame(std::span<const std::string_view> words) noexcept;
 
+/// What the rows of a dump are: ITEM: NUMBER OF ATOMS, or ENTRIES or any words of the user's.
+enum class RowsOf : std::uint8_t
+{
+  Particles,
+  Others, ///< of dump local; there need be no box
+  Any
+};
+
 /// Reads the header of one frame of a text dump, in any of its dialects: sections in any order
-/// up to ITEM: ATOMS, unknown ones passed over.
+/// up to ITEM: ATOMS, or what else it counts; unknown ones passed over.
 class TextHeader
 {
 public:
-  TextHeader(TextScanner& scanner, const std::string& units)
+  TextHeader(TextScanner& scanner, const std::string& units, RowsOf rows_of)
     : scanner_(scanner)
+    , rows_of_(rows_of)
   {
     this->restart(units);
   }
@@ -72,16 +81,17 @@ private:
   bool parse_units(Words words);
   bool parse_label(Words words);
   bool parse_rows(Words words);
-  [[noreturn]] bool refuse_rows(Words words);
   bool parse_box(Words words);
   bool parse_columns(Words words);
   bool skip_section(Words words);
   bool read_numbers(std::size_t count, double* numbers);
   std::int64_t integer(std::string_view word, const char* what) const;
   void require(bool seen, const char* section) const;
+  std::string columns_section() const;
   [[noreturn]] void fail(const std::string& expected, std::string_view got) const;
 
   TextScanner& scanner_;
+  RowsOf rows_of_;
   FrameHeader header_;
   std::vector<std::string> column_names_;
   std::string section_;                 ///< the line ITEM: of the section at hand

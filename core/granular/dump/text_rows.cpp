@@ -15,6 +15,15 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   : source_(source)
   , entry_(entry)
 {
+  if (entry.kind->layout == FrameKind::bare)
+  {
+    header_.timestep = entry.timestep;
+    header_.rows = entry.rows;
+    header_.has_box = false;
+    rows_offset_ = entry.offset;
+    rows_line_ = entry.line;
+    return;
+  }
   check_header(source.path(), entry, header_, this->read_header());
 }
 
@@ -23,7 +32,7 @@ std::vector<std::string> TextRows::read_header()
 {
   constexpr std::size_t window = 4096; // most headers are shorter
   TextScanner scanner(source_, entry_.offset, entry_.line, window);
-  TextHeader reader(scanner, entry_.kind->units);
+  TextHeader reader(scanner, entry_.kind->units, RowsOf::Any);
   try
   {
     if (!reader.read())

@@ -2,6 +2,7 @@
 #include "granular/euler/euler_file.h"
 
 #include "granular/dump/file_index.h"
+#include "granular/dump/named_steps.h"
 #include "granular/euler/euler_dataset.h"
 
 #include <algorithm>
@@ -112,7 +113,7 @@ bool look_at(const ByteSource& source)
 
 const FileFormat& euler_format() noexcept
 {
-  static const FileFormat format = { "a file of Euler cells", &index_euler, true };
+  static const FileFormat format = { "a file of Euler cells", &index_euler, &name_steps };
   return format;
 }
 

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/local/local_file.h"
+
+#include "granular/base/number.h"
+#include "granular/dump/file_index.h"
+#include "granular/dump/numbered_name.h"
+#include "granular/dump/text_dump.h"
+#include "granular/local/data_bonds.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+constexpr std::size_t enough_bytes = 65536; ///< for a header of ordinary length, many times over
+
+std::string first_bytes_of(const ByteSource& source)
+{
+  std::string bytes(enough_bytes, '\0');
+  bytes.resize(source.read(0, bytes.data(), bytes.size()));
+  return bytes;
+}
+
+/// Whether a text begins with a row of numbers; so does one that is empty, of a process without rows.
+bool is_bare(std::string_view first_bytes)
+{
+  const std::vector<std::string_view> words =
+    split_words(first_bytes.substr(0, first_bytes.find('\n')));
+  return std::ranges::all_of(words,
+    [](std::string_view word)
+    {
+      double number = 0;
+      return static_cast<bool>(parse_double(word.data(), word.data() + word.size(), number));
+    });
+}
+
+/// Whether a frame is a file of rows, without the header that the first process has.
+bool is_headless(const FrameEntry& entry)
+{
+  return entry.kind->layout == FrameKind::bare && entry.offset == 0;
+}
+
+/// As many columns as the first row has words, whose names are in the header of another file.
+ColumnSchema unnamed_columns(std::string_view first_row)
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i <= split_words(first_row).size(); ++i)
+  {
+    names.push_back("column" + std::to_string(i));
+  }
+  return ColumnSchema(names);
+}
+
+void index_bare(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
+{
+  TextScanner scanner(
+    source, index.resume_offset, index.resume_line, std::size_t{ 1 } << 18, ahead);
+  FrameEntry entry;
+  if (!index.frames.empty())
+  {
+    entry = index.frames.front();
+  }
+  else
+  {
+    std::string_view line;
+    FrameKind kind;
+    kind.layout = FrameKind::bare;
+    if (scanner.next(line))
+    {
+      kind.schema = unnamed_columns(line);
+      scanner.put_back();
+    }
+    entry.line = 1;
+    entry.kind = index.kinds->share(std::move(kind));
+  }
+  entry.rows += scanner.skip_to_item(progress);
+  entry.end = scanner.offset();
+  std::string_view line;
+  if (scanner.next(line))
+  {
+    index.frames.clear();
+    set_defect(index,
+      { scanner.where(),
+        "expected rows without a header to the end of the file, got " + quoted(line) });
+    return;
+  }
+  index.frames.assign(1, entry);
+  index.resume_offset = entry.end;
+  index.resume_line = scanner.line();
+}
+
+void index_local(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
+{
+  if (index.resume_offset == 0)
+  {
+    index.frames.clear(); // an empty file may become any
+  }
+  const std::string first_bytes = first_bytes_of(source);
+  if (is_data_with_bonds(first_bytes))
+  {
+    index_data_bonds(source, index, progress);
+  }
+  else if (is_bare(first_bytes))
+  {
+    index_bare(source, index, progress, ahead);
+  }
+  else
+  {
+    index_text_dump(source, index, progress, ahead, RowsOf::Others);
+  }
+}
+
+/// Makes a file of rows a piece of the frame whose header another file has. False if the columns are others.
+bool adopt(FileIndex& file, const FrameEntry& head, FrameKinds& kinds)
+{
+  FrameEntry& entry = file.frames.front();
+  const std::size_t columns = entry.kind->schema.columns().size();
+  if (entry.rows > 0 && columns != head.kind->schema.columns().size())
+  {
+    return false;
+  }
+  FrameKind kind = *head.kind;
+  kind.layout = FrameKind::bare;
+  entry.kind = kinds.share(std::move(kind));
+  entry.timestep = head.timestep;
+  entry.time = head.time;
+  entry.shape = head.shape;
+  return true;
+}
+
+bool has_head(const FileIndex& file)
+{
+  return file.frames.size() == 1 && file.frames.front().kind->layout == FrameKind::text;
+}
+
+/// Completes files of rows by those that have the header. Returns their numbers.
+std::set<std::uint32_t> adopt_all(std::vector<FileIndex>& files)
+{
+  std::set<std::uint32_t> adopted;
+  for (const auto& [rest, family] : families_of(files))
+  {
+    const std::size_t places = family.begin()->second.size();
+    for (std::size_t at = 0; at < places; ++at)
+    {
+      for (const auto& [others, group] : group_by_others(family, at))
+      {
+        const auto head = group.find(Digits{ "0" });
+        if (head == group.end() || !has_head(files[head->second]))
+        {
+          continue;
+        }
+        for (const auto& [value, file] : group)
+        {
+          if (!files[file].frames.empty() && is_headless(files[file].frames.front()) &&
+            adopt(files[file], files[head->second].frames.front(), *files[file].kinds))
+          {
+            adopted.insert(file);
+          }
+        }
+      }
+    }
+  }
+  return adopted;
+}
+
+/// Gives the files of rows that `%` makes what the file with the header says, and leaves out the others.
+void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
+{
+  const std::set<std::uint32_t> adopted = adopt_all(files);
+  for (std::uint32_t number = 0; number < files.size(); ++number)
+  {
+    FileIndex& file = files[number];
+    if (file.frames.empty() || !is_headless(file.frames.front()) || adopted.contains(number))
+    {
+      continue;
+    }
+    if (file.frames.front().end > 0)
+    {
+      Notice notice;
+      notice.where.path = file.path;
+      notice.text =
+        "expected a header, or rows of one timestep of which the file with 0 in its name has the "
+        "header, got rows alone; the file is left out. A name with % and * gives each timestep "
+        "its own files";
+      notices.push_back(notice);
+    }
+    file.frames.clear();
+    file.resume_offset = 0;
+    file.resume_line = 1;
+    file.stamp = {}; // another file may come that has the header
+  }
+}
+}
+
+const FileFormat& local_format() noexcept
+{
+  static constexpr FileFormat format = { "a dump of local data", index_local, complete_pieces };
+  return format;
+}
+
+bool is_local(std::string_view first_bytes)
+{
+  return is_text_of_others(first_bytes) || is_data_with_bonds(first_bytes);
+}
+
+bool is_local_file(const std::string& path) noexcept
+{
+  try
+  {
+    return is_local(first_bytes_of(*unpack(open_file(path))));
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+}

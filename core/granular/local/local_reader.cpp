@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/local/local_reader.h"
+
+#include "granular/base/archive.h"
+#include "granular/local/local_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t least_rounded = 1'000'000; ///< what %g does not print as it is
+constexpr std::string_view end_arrays[] = { "position1", "position2" };
+
+/// The schema of local data, in which columns that hold texts do so, too.
+ColumnSchema schema_for(const std::vector<std::string>& names, const ColumnSchema& of_file)
+{
+  ColumnSchema schema = make_local_schema(names);
+  const std::size_t count = std::min(names.size(), of_file.columns().size());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (of_file.columns()[i].type == ValueType::Text && !schema.columns()[i].known)
+    {
+      schema.set_type(static_cast<int>(i), ValueType::Text);
+    }
+  }
+  return schema;
+}
+
+DumpArray* find_array(DumpFrame& frame, std::string_view name)
+{
+  const auto found = std::ranges::find_if(
+    frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
+  return found == frame.arrays.end() ? nullptr : &*found;
+}
+
+template <class Value>
+std::span<const Value> values_of(const DumpArray* array)
+{
+  return array ? std::span(static_cast<const Value*>(array->block.data()),
+                   array->block.bytes() / sizeof(Value))
+               : std::span<const Value>();
+}
+
+/// Whether no digit of a number is lost where it is printed with six.
+bool has_six_digits(std::int64_t id) noexcept
+{
+  std::uint64_t left = id < 0 ? 0 - static_cast<std::uint64_t>(id) : static_cast<std::uint64_t>(id);
+  while (left >= static_cast<std::uint64_t>(least_rounded))
+  {
+    if (left % 10 != 0)
+    {
+      return false;
+    }
+    left /= 10;
+  }
+  return true;
+}
+
+bool is_large(std::int64_t id) noexcept
+{
+  return id >= least_rounded || id <= -least_rounded;
+}
+
+/// How many words of an array of texts have an exponent.
+std::int64_t count_exponents(const DumpArray& array)
+{
+  std::vector<char> has(array.words.size());
+  std::ranges::transform(array.words, has.begin(),
+    [](const std::string& word) { return word.find_first_of("eE") != word.npos ? 1 : 0; });
+  return std::ranges::count_if(values_of<std::int32_t>(&array),
+    [&](std::int32_t word) { return has[static_cast<std::size_t>(word)] != 0; });
+}
+
+/// How many ids of a part were printed with an exponent. Only where all that have more than six digits end in zeros
+/// is the text looked at again.
+std::int64_t count_rounded(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  DumpFrame& frame, bool together, Progress& progress)
+{
+  constexpr std::string_view ids[] = { "id1", "id2" };
+  bool any = false;
+  for (const std::string_view name : ids)
+  {
+    const DumpArray* array = find_array(frame, name);
+    for (const std::int64_t id : values_of<std::int64_t>(array))
+    {
+      if (is_large(id) && !has_six_digits(id))
+      {
+        return 0;
+      }
+      any = any || is_large(id);
+    }
+  }
+  if (!any)
+  {
+    return 0;
+  }
+  DumpRequest texts = request;
+  texts.ranges = false;
+  texts.wanted = [&](const ArrayInfo& array)
+  { return std::ranges::find(ids, array.name) != std::end(ids); };
+  for (const int end : { 0, 1 })
+  {
+    const int column = request.schema->find(ColumnRole::Id, end);
+    if (column >= 0)
+    {
+      texts.schema->set_type(column, ValueType::Text);
+    }
+  }
+  const DumpPart part = decode_dump(pieces, texts, together, progress);
+  std::int64_t count = 0;
+  for (const DumpArray& array : part.frame.arrays)
+  {
+    count += count_exponents(array);
+  }
+  return count;
+}
+
+/// Lines whose ends are as far apart as `dist` does not say: both have six digits, and places lose some near each other.
+std::int64_t count_misfits(
+  std::span<const double> dist, const Lines& lines, std::span<const double> ends)
+{
+  constexpr double digits = 1e-5;
+  const std::span lengths(static_cast<const double*>(lines.lengths.data()), dist.size());
+  std::int64_t misfits = 0;
+  for (std::size_t row = 0; row < dist.size(); ++row)
+  {
+    double largest = 0;
+    for (std::size_t i = 3 * row; i < 3 * row + 3; ++i)
+    {
+      largest = std::max(largest, std::abs(ends[i]));
+    }
+    misfits += std::abs(lengths[row] - dist[row]) > digits * (2 * dist[row] + 4 * largest) ? 1 : 0;
+  }
+  return misfits;
+}
+
+DumpRequest table_request(const LocalRequest& request, const ColumnSchema& schema)
+{
+  DumpRequest table;
+  table.points = false;
+  table.schema = schema;
+  table.ranges = true;
+  table.piece = request.piece;
+  table.pieces = request.pieces;
+  table.threads = request.lines.threads;
+  table.pool = request.lines.pool;
+  table.wanted = [&](const ArrayInfo& array)
+  {
+    return is_end_array(array.name) || array.name == "id1" || array.name == "id2" ||
+      array.name == "dist" || !request.wanted || request.wanted(array.name);
+  };
+  return table;
+}
+
+/// Leaves out what was only needed on the way.
+void drop_unwanted(const LocalRequest& request, DumpFrame& frame)
+{
+  std::erase_if(frame.arrays,
+    [&](const DumpArray& array)
+    { return request.wanted ? !request.wanted(array.info.name) : is_end_array(array.info.name); });
+}
+
+/// What is to be said of rows, of a rank or of all.
+struct Remarks
+{
+  std::int64_t rows = 0;
+  std::int64_t rounded = 0;
+  std::int64_t misfits = 0;
+
+  void add(const Remarks& more)
+  {
+    rows += more.rows;
+    rounded += more.rounded;
+    misfits += more.misfits;
+  }
+
+  void note(const Where& where, Notices& notices) const
+  {
+    const std::string of_rows = " of " + std::to_string(rows);
+    if (rounded > 0)
+    {
+      notices.push_back({ where,
+        std::to_string(rounded) +
+          " ids are printed with an exponent and have lost the digits beyond six: lines of them "
+          "end at wrong particles. In the input script, dump_modify with format float %.15g, or "
+          "\"%.15g\" for each column, keeps them" });
+    }
+    if (misfits > 0)
+    {
+      notices.push_back({ where,
+        std::to_string(misfits) + of_rows + " lines are not as long as the column dist says" });
+    }
+  }
+};
+}
+
+template <class Archive>
+static void pass(Archive& archive, Remarks& remarks)
+{
+  archive.number(remarks.rows);
+  archive.number(remarks.rounded);
+  archive.number(remarks.misfits);
+}
+
+bool is_end_array(std::string_view name) noexcept
+{
+  return std::ranges::find(end_arrays, name) != std::end(end_arrays);
+}
+
+LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress& progress)
+{
+  constexpr std::int64_t most_rows = 100'000;
+  const auto rows_of = [&](std::size_t frame)
+  {
+    const FramePiece piece = index.first_piece(frame);
+    return piece.entry.kind->schema == kind.schema ? piece.entry.rows : 0;
+  };
+  std::size_t best = 0;
+  for (std::size_t frame = 1; frame < index.size(); ++frame)
+  {
+    best = rows_of(frame) > rows_of(best) ? frame : best;
+  }
+  LocalSample sample;
+  if (index.size() == 0 || rows_of(best) == 0)
+  {
+    return sample;
+  }
+  DumpRequest request;
+  request.points = false;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < kind.schema.columns().size(); ++i)
+  {
+    names.push_back("column" + std::to_string(i));
+  }
+  request.schema = ColumnSchema(names);
+  request.pieces = static_cast<int>((rows_of(best) + most_rows - 1) / most_rows);
+  const DumpPart part = decode_dump({ index.first_piece(best) }, request, false, progress);
+  if (part.misfit)
+  {
+    return sample; // words among the numbers: names must say what is what
+  }
+  sample.rows = static_cast<std::size_t>(part.frame.rows);
+  sample.values.resize(sample.rows * names.size());
+  sample.box = part.frame.header.box;
+  for (std::size_t column = 0; column < names.size(); ++column)
+  {
+    const auto* const from = static_cast<const double*>(part.frame.arrays[column].block.data());
+    for (std::size_t row = 0; row < sample.rows; ++row)
+    {
+      sample.values[row * names.size() + column] = from[row];
+    }
+  }
+  return sample;
+}
+
+LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest& request,
+  Communicator& ranks, Notices& notices, Progress& progress)
+{
+  LocalFrame local;
+  DumpRequest table;
+  Where where;
+  SharedProgress shared(progress, ranks);
+  PartialProgress forward(shared);
+  do_together(ranks,
+    [&]
+    {
+      const FramePiece& first = pieces.front();
+      const ColumnSchema schema = schema_for(request.columns, first.entry.kind->schema);
+      local.has_lines = has_ends(schema);
+      table = table_request(request, schema);
+      where = where_of(first.file.path, first.entry);
+      forward.set_part(0, 0.8);
+    });
+  local.table = read_dump(pieces, table, ranks, std::nullopt, notices, forward);
+  Packer packer;
+  do_together(ranks,
+    [&]
+    {
+      DumpFrame& frame = local.table;
+      Remarks remarks;
+      forward.set_part(0.8, 1);
+      remarks.rows = frame.rows;
+      remarks.rounded = count_rounded(pieces, table, frame, ranks.size() > 1, forward);
+      if (local.has_lines)
+      {
+        const auto first = values_of<double>(find_array(frame, end_arrays[0]));
+        const auto second = values_of<double>(find_array(frame, end_arrays[1]));
+        local.lines = make_lines(first, second, frame.header.box, request.lines, forward);
+        remarks.misfits =
+          count_misfits(values_of<double>(find_array(frame, "dist")), local.lines, first);
+      }
+      drop_unwanted(request, frame);
+      pass(packer, remarks);
+    });
+  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
+  do_together(ranks,
+    [&]
+    {
+      Remarks sum;
+      for (const std::string& bytes : all)
+      {
+        Unpacker unpacker{ bytes };
+        Remarks of_rank;
+        pass(unpacker, of_rank);
+        local.first_row += &bytes - all.data() < ranks.rank() ? of_rank.rows : 0;
+        sum.add(of_rank);
+      }
+      sum.note(where, notices);
+    });
+  return local;
+}
+}
