@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/local/dual_vector.h"
+
+#include <array>
+
+namespace granular
+{
+namespace
+{
+/// Makes a vector perpendicular to another one.
+void remove_part(Vector3& vector, const Vector3& along) noexcept
+{
+  const double part = dot(vector, along) / dot(along, along);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    vector[axis] -= part * along[axis];
+  }
+}
+}
+
+std::optional<Vector3> dual_vector(std::span<const Vector3> vectors, std::size_t which) noexcept
+{
+  Vector3 dual = vectors[which];
+  std::array<Vector3, 2> others;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+  {
+    if (i != which)
+    {
+      others[count] = vectors[i];
+      if (count == 1)
+      {
+        remove_part(others[1], others[0]);
+      }
+      remove_part(dual, others[count++]);
+    }
+  }
+  const double square = dot(dual, dual);
+  if (!(square > 0x1p-80 * dot(vectors[which], vectors[which])))
+  {
+    return std::nullopt;
+  }
+  for (double& component : dual)
+  {
+    component /= square;
+  }
+  return dual;
+}
+}
