@@ -253,7 +253,7 @@ TEST(MinimumImage, ShortestInRandomTiltedBoxes)
     const Box box = with_boundary(
       Box::from_tilted_bounds(lo, hi, tilts[0], tilts[1], tilts[2]), all_boundaries[run % 7]);
     const MinimumImage images(box);
-    for (const double scale : { 0.5, 2., 30., 1e6 })
+    for (const double scale : { 0.5, 2., 30., 1e6, 1e13 })
     {
       expect_shortest(box, images, numbers.vector(scale), run % 50 == 0 ? 20 : 8);
     }
@@ -269,7 +269,7 @@ TEST(MinimumImage, ShortestInRandomGeneralBoxes)
       Box::from_vectors({}, { numbers.vector(1), numbers.vector(1), numbers.vector(1) }),
       all_boundaries[run % 7]);
     const MinimumImage images(box);
-    for (const double scale : { 1., 20., 1e6 })
+    for (const double scale : { 1., 20., 1e6, 1e11 })
     {
       expect_shortest(box, images, numbers.vector(scale), 9);
     }
@@ -357,6 +357,27 @@ TEST(MinimumImage, TiltedNeedle)
   }
 }
 
+/// None of the vectors is made shorter by another one, but all three together are short.
+TEST(MinimumImage, ThreeVectorsNearlyInAPlane)
+{
+  Numbers numbers;
+  for (const double height : { 0.1, 1e-3, 1e-6 })
+  {
+    const double y = std::sqrt(0.75);
+    const Box box = with_boundary(
+      Box::from_vectors(
+        {}, { Vector3{ 1, 0, height }, Vector3{ -0.5, y, height }, Vector3{ -0.5, -y, height } }),
+      "pp pp pp");
+    const MinimumImage images(box);
+    EXPECT_TRUE(images.is_periodic());
+    EXPECT_EQ(images.find({ height / 2, 0, 2.9 * height }), (BoxCounts{ -1, -1, -1 }));
+    for (int i = 0; i < 100; ++i)
+    {
+      expect_shortest(box, images, numbers.vector(i % 2 == 0 ? 1 : 1e4), 8);
+    }
+  }
+}
+
 TEST(MinimumImage, BoxesInAPlane)
 {
   // two vectors along one line have a common measure
@@ -415,17 +436,17 @@ TEST(MinimumImage, SmallestCountsOfTies)
     }
     const Box box = with_boundary(Box::from_vectors({}, vectors), "pp pp pp");
     const MinimumImage images(box);
-    constexpr int size = 7;
+    constexpr int size = 11;
     for (int number = 0; number < size * size * size; ++number)
     {
-      const Integer3 vector = { number % size - 3, number / size % size - 3,
-        number / size / size - 3 };
+      const Integer3 vector = { number % size - 5, number / size % size - 5,
+        number / size / size - 5 };
       Integer3 best = {};
       Integer3 best_counts = {};
       best = vector;
-      for (int other = 0; other < 13 * 13 * 13; ++other)
+      for (int other = 0; other < 17 * 17 * 17; ++other)
       {
-        const Integer3 counts = { other % 13 - 6, other / 13 % 13 - 6, other / 169 - 6 };
+        const Integer3 counts = { other % 17 - 8, other / 17 % 17 - 8, other / 289 - 8 };
         Integer3 image = vector;
         for (std::size_t k = 0; k < 3; ++k)
         {

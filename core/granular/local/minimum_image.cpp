@@ -241,23 +241,19 @@ BoxCounts MinimumImage::find_tilted(const Vector3& vector) const noexcept
     return {};
   }
   Vector3 counts = {};
-  Vector3 rest = vector;
-  for (int pass = 0; pass < 2; ++pass) // the second takes what rounding left of many boxes
+  for (std::size_t i = 0; i < reduced_.size(); ++i)
   {
-    for (std::size_t i = 0; i < reduced_.size(); ++i)
+    const double count = std::nearbyint(dot(duals_[i], vector));
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double count = std::nearbyint(dot(duals_[i], rest));
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        counts[axis] -= count * reduced_[i].counts[axis];
-      }
+      counts[axis] -= count * reduced_[i].counts[axis];
     }
-    if (!are_below(counts, most_counts))
-    {
-      return {};
-    }
-    rest = this->moved(vector, counts);
   }
+  if (!are_below(counts, most_counts))
+  {
+    return {};
+  }
+  const Vector3 rest = this->moved(vector, counts);
   if (dot(rest, rest) <= surely_shortest_)
   {
     return to_integers(counts);
