@@ -241,7 +241,7 @@ TEST(MinimumImage, TiltedByHalfTheBoxAndMore)
 TEST(MinimumImage, ShortestInRandomTiltedBoxes)
 {
   Numbers numbers;
-  for (int run = 0; run < 1500; ++run)
+  for (int run = 0; run < 700; ++run)
   {
     const Vector3 size = { numbers.between(0.5, 2), numbers.between(0.5, 2),
       numbers.between(0.5, 2) };
@@ -263,7 +263,7 @@ TEST(MinimumImage, ShortestInRandomTiltedBoxes)
 TEST(MinimumImage, ShortestInRandomGeneralBoxes)
 {
   Numbers numbers;
-  for (int run = 0; run < 600; ++run)
+  for (int run = 0; run < 300; ++run)
   {
     const Box box = with_boundary(
       Box::from_vectors({}, { numbers.vector(1), numbers.vector(1), numbers.vector(1) }),

@@ -2,6 +2,7 @@
 #include "granular/local/dual_vector.h"
 
 #include <array>
+#include <cmath>
 
 namespace granular
 {
@@ -16,6 +17,14 @@ void remove_part(Vector3& vector, const Vector3& along) noexcept
     vector[axis] -= part * along[axis];
   }
 }
+}
+
+bool has_length(const Twofold3& vector) noexcept
+{
+  const double x = vector[0].value();
+  const double y = vector[1].value();
+  const double z = vector[2].value();
+  return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && (x != 0 || y != 0 || z != 0);
 }
 
 std::optional<Vector3> dual_vector(std::span<const Vector3> vectors, std::size_t which) noexcept

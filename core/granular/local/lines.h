@@ -19,8 +19,8 @@ class BlockPool;
 enum class PeriodicLines : std::uint8_t
 {
   MinimumImage, ///< short, from the first end out of the box
-  Split,        ///< from both ends to the faces between them: a line more for each face that is crossed
-  AsWritten     ///< from end to end, wherever these are
+  Split,    ///< from both ends to the faces between them: a line more for each face that is crossed
+  AsWritten ///< from end to end, wherever these are
 };
 
 /// How lines are made.
@@ -36,10 +36,10 @@ struct LineRequest
 struct Lines
 {
   std::int64_t count = 0;
-  Block points;                   ///< count x 2 x 3 doubles: the ends of each line
-  Block lengths;                  ///< a double a row: of the whole line, however many parts it was split into
+  Block points;  ///< count x 2 x 3 doubles: the ends of each line
+  Block lengths; ///< a double a row: of the whole line, however many parts it was split into
   std::vector<std::int64_t> rows; ///< of each line, in their order; empty: line i is row i
-  std::int64_t moved = 0;         ///< rows whose second end is not drawn where it was, or which are split
+  std::int64_t moved = 0; ///< rows whose second end is not drawn where it was, or which are split
 };
 
 /// Lines from first to second, which hold x y z of the ends of each row, absolute coordinates of any size. box

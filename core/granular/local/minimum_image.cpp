@@ -19,14 +19,6 @@ constexpr double rounding = 0x1p-48;
 constexpr double most_counts = 0x1p50;
 constexpr double most_counts_of_sum = 0x1p40;
 
-bool has_length(const Twofold3& vector) noexcept
-{
-  const double x = vector[0].value();
-  const double y = vector[1].value();
-  const double z = vector[2].value();
-  return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && (x != 0 || y != 0 || z != 0);
-}
-
 bool are_below(const Vector3& counts, double limit) noexcept
 {
   return std::abs(counts[0]) < limit && std::abs(counts[1]) < limit && std::abs(counts[2]) < limit;
@@ -89,32 +81,26 @@ MinimumImage::MinimumImage(const Box& box)
 
 MinimumImage::Sum MinimumImage::make_sum(const Vector3& counts) const noexcept
 {
-  const Vector3 vector = this->moved({}, counts);
+  const Vector3 vector = this->moved({}, to_integers(counts), {});
   return { counts, vector, dot(vector, vector) };
 }
 
-/// A vector and that many box vectors, rounded once.
-Vector3 MinimumImage::moved(const Vector3& vector, const Vector3& counts) const noexcept
+Vector3 MinimumImage::moved(
+  const Vector3& point, const BoxCounts& counts, const Vector3& less) const noexcept
 {
   Vector3 result;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     CompensatedSum total;
-    total.add(vector[axis]);
+    total.add(point[axis]);
     for (std::size_t i = 0; i < 3; ++i)
     {
-      total.add_product(counts[i], vectors_[i][axis]);
+      total.add_product(static_cast<double>(counts[i]), vectors_[i][axis]);
     }
+    total.add(-less[axis]);
     result[axis] = total.value();
   }
   return result;
-}
-
-Vector3 MinimumImage::shift(const BoxCounts& counts) const noexcept
-{
-  return this->moved({},
-    { static_cast<double>(counts[0]), static_cast<double>(counts[1]),
-      static_cast<double>(counts[2]) });
 }
 
 /// Adds multiples of the next and the last one to one of the vectors, if that makes it shorter.
@@ -253,7 +239,7 @@ BoxCounts MinimumImage::find_tilted(const Vector3& vector) const noexcept
   {
     return {};
   }
-  const Vector3 rest = this->moved(vector, counts);
+  const Vector3 rest = this->moved(vector, to_integers(counts), {});
   if (dot(rest, rest) <= surely_shortest_)
   {
     return to_integers(counts);
@@ -268,7 +254,7 @@ BoxCounts MinimumImage::find_tilted(const Vector3& vector) const noexcept
 /// Goes to the neighbour that is the shortest, if it is shorter than what rounding may do.
 bool MinimumImage::descend(const Vector3& vector, double slack, Vector3& counts) const noexcept
 {
-  const Vector3 rest = this->moved(vector, counts);
+  const Vector3 rest = this->moved(vector, to_integers(counts), {});
   const Sum* best = nullptr;
   double least = 0;
   for (const Sum& step : steps_)
@@ -288,7 +274,7 @@ bool MinimumImage::descend(const Vector3& vector, double slack, Vector3& counts)
 Vector3 MinimumImage::smallest_of_ties(
   const Vector3& vector, double slack, const Vector3& counts) const noexcept
 {
-  const Vector3 rest = this->moved(vector, counts);
+  const Vector3 rest = this->moved(vector, to_integers(counts), {});
   Vector3 smallest = counts;
   for (const Sum& step : steps_)
   {

@@ -33,7 +33,10 @@ public:
   }
 
   /// That many box vectors, rounded once.
-  Vector3 shift(const BoxCounts& counts) const noexcept;
+  Vector3 shift(const BoxCounts& counts) const noexcept { return this->moved({}, counts, {}); }
+
+  /// A point and that many box vectors, less another point, rounded once.
+  Vector3 moved(const Vector3& point, const BoxCounts& counts, const Vector3& less) const noexcept;
 
 private:
   /// A sum of box vectors.
@@ -48,7 +51,6 @@ private:
   BoxCounts find_tilted(const Vector3& vector) const noexcept;
 
   Sum make_sum(const Vector3& counts) const noexcept;
-  Vector3 moved(const Vector3& vector, const Vector3& counts) const noexcept;
   bool shorten(std::size_t which, double j_times, double k_times) noexcept;
   void reduce() noexcept;
   void make_steps();
