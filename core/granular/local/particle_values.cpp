@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/local/particle_values.h"
+
+#include "granular/base/error.h"
+#include "granular/dump/absolute_positions.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+
+namespace granular
+{
+namespace
+{
+constexpr auto some = static_cast<std::int64_t>(AbsolutePositions::most_rows);
+constexpr std::int64_t rows_per_chunk = 64 * some;
+
+/// Where particles are shown counts, in how many periods they have been does not.
+FrameView as_shown(const FrameView& frame)
+{
+  FrameView shown = frame;
+  shown.coordinates =
+    frame.coordinates == Coordinates::Unwrapped ? Coordinates::Absolute : frame.coordinates;
+  return shown;
+}
+
+/// Doubles x y z of each row, one after the other, as they are wanted.
+bool is_plain(const FrameView& frame) noexcept
+{
+  const ArrayView& points = *frame.points;
+  const auto* const first = static_cast<const double*>(points.components[0]);
+  return frame.coordinates != Coordinates::Scaled && frame.point_origin == Vector3{} &&
+    points.type == ScalarType::Float64 && points.components[1] == first + 1 &&
+    points.components[2] == first + 2;
+}
+
+void compute_points(
+  const FrameView& frame, ParticleValues& particles, const Executor& executor, Progress& progress)
+{
+  const AbsolutePositions positions(frame, false);
+  const std::int64_t rows = frame.rows;
+  particles.own.resize(static_cast<std::size_t>(rows) * 3);
+  double* const points = particles.own.data();
+  executor.parallel_for(
+    static_cast<std::size_t>((rows + rows_per_chunk - 1) / rows_per_chunk),
+    [&](std::size_t chunk, std::size_t)
+    {
+      std::int64_t row = static_cast<std::int64_t>(chunk) * rows_per_chunk;
+      for (const std::int64_t last = std::min(row + rows_per_chunk, rows); row < last; row += some)
+      {
+        const std::int64_t count = std::min(some, last - row);
+        double* const to = points + 3 * row;
+        const double* const from = positions.load(row, static_cast<std::size_t>(count), to);
+        if (from != to)
+        {
+          std::copy_n(from, 3 * count, to);
+        }
+      }
+    },
+    progress);
+  particles.points = points;
+  particles.point_step = 3;
+}
+
+ArrayView view_array(const FrameView& frame, const std::string& name)
+{
+  const ArrayView* const array = frame.find(name);
+  if (!array && frame.rows > 0)
+  {
+    throw Error("expected an array '" + name + "' of the particles, got none");
+  }
+  if (array && array->type == ScalarType::Text)
+  {
+    throw Error("expected numbers in array '" + name + "' of the particles, got texts");
+  }
+  return array ? *array : ArrayView{ name };
+}
+
+template <class Value>
+void gather(const void* data, std::int64_t step, std::span<const std::int64_t> rows, double* to,
+  std::size_t to_step)
+{
+  const auto* const from = static_cast<const Value*>(data);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    to[i * to_step] = static_cast<double>(from[rows[i] * step]);
+  }
+}
+
+/// What a rank tells of itself: whether it has rows, and the sizes of the arrays.
+std::string pack_sizes(const ParticleValues& particles, std::int64_t rows)
+{
+  std::vector<std::int32_t> told = { rows > 0 };
+  for (const ArrayView& array : particles.arrays)
+  {
+    told.push_back(array.size());
+  }
+  return { reinterpret_cast<const char*>(told.data()), told.size() * sizeof told[0] };
+}
+
+std::int32_t number_at(const std::string& told, std::size_t place) noexcept
+{
+  std::int32_t number = 0;
+  std::memcpy(&number, told.data() + place * sizeof number, sizeof number);
+  return number;
+}
+
+/// Of the ranks with rows, who must agree; if none has any, of the first that knows it.
+int size_among(const std::vector<std::string>& told, std::size_t place, const std::string& name)
+{
+  int size = 0;
+  bool counted = false; // on a rank with rows
+  for (const std::string& one : told)
+  {
+    const std::int32_t here = number_at(one, place);
+    const bool counts = number_at(one, 0) != 0;
+    if (counts && counted && here != size)
+    {
+      throw Error("expected as many numbers a particle in array '" + name +
+        "' on all processes, got " + std::to_string(size) + " and " + std::to_string(here));
+    }
+    if (counts ? !counted : size == 0)
+    {
+      size = here;
+    }
+    counted = counted || counts;
+  }
+  return std::max(size, 1);
+}
+}
+
+ParticleValues view_particles(const FrameView& frame, std::span<const std::string> names,
+  const Executor& executor, Progress& progress)
+{
+  ParticleValues particles;
+  for (const std::string& name : names)
+  {
+    particles.arrays.push_back(view_array(frame, name));
+  }
+  if (frame.rows == 0)
+  {
+    return particles;
+  }
+  if (!frame.points)
+  {
+    throw Error("expected points of the particles, got none");
+  }
+  const FrameView shown = as_shown(frame);
+  if (is_plain(shown))
+  {
+    particles.points = static_cast<const double*>(shown.points->components[0]);
+    particles.point_step = shown.points->step;
+  }
+  else
+  {
+    compute_points(shown, particles, executor, progress);
+  }
+  return particles;
+}
+
+void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks)
+{
+  std::string own;
+  do_together(ranks, [&] { own = pack_sizes(particles, rows); });
+  const std::vector<std::string> told = ranks.all_gather(own);
+  do_together(ranks,
+    [&]
+    {
+      for (std::size_t i = 0; i < particles.arrays.size(); ++i)
+      {
+        ArrayView& array = particles.arrays[i];
+        array.components.resize(static_cast<std::size_t>(size_among(told, i + 1, array.name)));
+      }
+    });
+}
+
+void gather_numbers(const ArrayView& array, int component, std::span<const std::int64_t> rows,
+  double* to, std::size_t to_step) noexcept
+{
+  using Gather =
+    void (*)(const void*, std::int64_t, std::span<const std::int64_t>, double*, std::size_t);
+  constexpr Gather gathers[] = { gather<std::int8_t>, gather<std::uint8_t>, gather<std::int16_t>,
+    gather<std::uint16_t>, gather<std::int32_t>, gather<std::uint32_t>, gather<std::int64_t>,
+    gather<std::uint64_t>, gather<float>, gather<double> };
+  gathers[static_cast<std::size_t>(array.type)](
+    array.components[static_cast<std::size_t>(component)], array.step, rows, to, to_step);
+}
+}
