@@ -48,6 +48,8 @@ const Part parts[] = {
       request.arrangement = Arrangement::Hexagonal;
       request.radii = radii_between(0.1, 0.4);
     } },
+  { "chain", [](PackingRequest& r) { r.arrangement = Arrangement::Chain; } },
+  { "bundle", [](PackingRequest& r) { r.arrangement = Arrangement::FibreBundle; } },
 };
 
 PackingRequest request_of(const Part& part)

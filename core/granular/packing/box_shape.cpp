@@ -64,6 +64,12 @@ BoxShape::BoxShape(const Box& box)
   }
 }
 
+Vector3 BoxShape::point(const Vector3& scaled) const noexcept
+{
+  const Vector3 from_origin = this->edge(scaled);
+  return { origin[0] + from_origin[0], origin[1] + from_origin[1], origin[2] + from_origin[2] };
+}
+
 double BoxShape::rounding() const noexcept
 {
   return 8 * std::numeric_limits<double>::epsilon() * reach;

@@ -24,6 +24,9 @@ struct BoxShape
   /// How much nearer than in exact arithmetic two points may come, because they were rounded.
   double rounding() const noexcept;
 
+  /// A place in space, rounded the same way whoever asks.
+  Vector3 point(const Vector3& scaled) const noexcept;
+
   /// From the origin of the box.
   Vector3 edge(const Vector3& scaled) const noexcept
   {

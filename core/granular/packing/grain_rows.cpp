@@ -82,11 +82,11 @@ void fill_arrays(DumpFrame& frame, const BoxShape& box, const Radii& radii, cons
       {
         const std::int64_t grain = rows.first + i;
         double* const point = rows.scaled + 3 * i;
-        const Vector3 edge = box.edge({ point[0], point[1], point[2] });
+        const Vector3 place = box.point({ point[0], point[1], point[2] });
         RandomNumbers numbers(request.seed, Stream::Velocities, grain);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          point[axis] = box.origin[axis] + edge[axis];
+          point[axis] = place[axis];
           velocities[3 * i + static_cast<std::int64_t>(axis)] =
             request.speed > 0 ? request.speed * numbers.normal() : 0;
         }

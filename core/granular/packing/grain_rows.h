@@ -13,25 +13,26 @@
 
 namespace granular
 {
+constexpr std::int64_t rows_a_chunk = 8192;
+
 /// Calls work(begin, end, worker) for chunks of the rows.
 template <class Work>
 void for_row_chunks(std::int64_t rows, int threads, Progress& progress, const Work& work)
 {
-  constexpr std::int64_t chunk_rows = 8192;
-  const auto chunks = static_cast<std::size_t>((rows + chunk_rows - 1) / chunk_rows);
+  const auto chunks = static_cast<std::size_t>((rows + rows_a_chunk - 1) / rows_a_chunk);
   Executor(threads).parallel_for(
     chunks,
     [&](std::size_t chunk, std::size_t worker)
     {
-      const std::int64_t begin = static_cast<std::int64_t>(chunk) * chunk_rows;
-      work(begin, std::min(rows, begin + chunk_rows), worker);
+      const std::int64_t begin = static_cast<std::int64_t>(chunk) * rows_a_chunk;
+      work(begin, std::min(rows, begin + rows_a_chunk), worker);
     },
     progress);
 }
 
 /// The values of an array that the frame has.
 template <typename T>
-T* array_of(DumpFrame& frame, std::string_view name)
+T* array_of(const DumpFrame& frame, std::string_view name)
 {
   const auto found = std::find_if(frame.arrays.begin(), frame.arrays.end(),
     [name](const DumpArray& array) { return array.info.name == name; });

@@ -20,14 +20,17 @@ constexpr Vector3 face_centred_grains[] = { { 0, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5,
 constexpr Vector3 hexagonal_grains[] = { { 0, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5, 5.0 / 6, 0.5 },
   { 0, 1.0 / 3, 0.5 } };
 
+constexpr Vector3 fibre_grains[] = { { 0, 0, 0 }, { 0, 0.5, 0.5 } };
+
 constexpr double root_2 = 1.4142135623730951;
 constexpr double root_3 = 1.7320508075688772;
 constexpr double root_8_thirds = 1.6329931618554521;
 
 constexpr LatticeCell cell_table[] = {
-  { "simple cubic", { 1, 1, 1 }, simple_grains },
-  { "face-centred cubic", { root_2, root_2, root_2 }, face_centred_grains },
-  { "hexagonal", { 1, root_3, root_8_thirds }, hexagonal_grains },
+  { "simple cubic lattice", { 1, 1, 1 }, simple_grains },
+  { "face-centred cubic lattice", { root_2, root_2, root_2 }, face_centred_grains },
+  { "hexagonal lattice", { 1, root_3, root_8_thirds }, hexagonal_grains },
+  { "fibre bundle", { 1, 1, root_3 }, fibre_grains, true },
 };
 
 const LatticeCell& cell_of(LatticeKind kind)
@@ -89,7 +92,7 @@ void Lattice::lay(const BoxShape& box, double length, double radius)
     if (cells_[axis] == 0)
     {
       throw LimitError(std::string("expected a box that holds a cell of the ") + cell_.name +
-        " lattice, got one of height " + std::to_string(height) + " along vector " +
+        ", got one of height " + std::to_string(height) + " along vector " +
         std::to_string(axis + 1) + ", where a cell needs " +
         std::to_string(box.periodic[axis] ? cell : last_place(cell_, axis) * cell + 2 * radius));
     }
@@ -142,22 +145,39 @@ Vector3 Lattice::scaled(std::int64_t row) const noexcept
   return place;
 }
 
+std::vector<RowRange> Lattice::rows_near(
+  const RowRange& rows, const BoxShape& box, double distance) const
+{
+  const std::int64_t layer = this->capacity() / cells_[2];
+  const std::int64_t low = rows.first / layer;
+  const std::int64_t high = (rows.last - 1) / layer;
+  // a grain is less than a cell above the bottom of its own
+  const double cells = std::floor(distance / (step_[2] * box.heights[2]) * (1 + tolerance)) + 1;
+  const auto reach = static_cast<std::int64_t>(std::min(cells, static_cast<double>(cells_[2])));
+  const std::int64_t end = std::min(high + reach + 1, cells_[2]);
+  const std::int64_t wrapped = box.periodic[2] ? low + cells_[2] - reach : cells_[2];
+  const std::int64_t top = std::clamp(wrapped, end, cells_[2]);
+  return { { rows.last, end * layer }, { top * layer, this->capacity() } };
+}
+
 Vector3 Lattice::lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,
   double radius, std::int64_t grains)
 {
   const LatticeCell& cell = cell_of(kind);
   const double cells =
     std::ceil(static_cast<double>(grains) / static_cast<double>(cell.grains.size()));
-  const double edge = std::cbrt(cells * cell.lengths[0] * cell.lengths[1] * cell.lengths[2]);
-  Vector3 counts;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  const double volume = cells * cell.lengths[0] * cell.lengths[1] * cell.lengths[2];
+  const double edge = cell.flat ? std::sqrt(volume / cell.lengths[0]) : std::cbrt(volume);
+  const std::size_t first = cell.flat ? 1 : 0;
+  Vector3 counts = { 1, 1, 1 };
+  for (std::size_t axis = first; axis < 3; ++axis)
   {
     counts[axis] = std::max(1.0, std::floor(edge / cell.lengths[axis]));
   }
   while (counts[0] * counts[1] * counts[2] < cells)
   {
-    std::size_t shortest = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
+    std::size_t shortest = first;
+    for (std::size_t axis = first + 1; axis < 3; ++axis)
     {
       const double length = counts[axis] * cell.lengths[axis];
       shortest = length < counts[shortest] * cell.lengths[shortest] ? axis : shortest;

@@ -3,10 +3,12 @@
 #define granular_packing_lattice_h
 
 #include "granular/packing/box_shape.h"
+#include "granular/packing/row_range.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace granular
 {
@@ -17,13 +19,15 @@ struct LatticeCell
   const char* name;
   Vector3 lengths;
   std::span<const Vector3> grains;
+  bool flat = false; ///< one cell along x is all there is
 };
 
 enum class LatticeKind : std::uint8_t
 {
   SimpleCubic,
   FaceCentredCubic,
-  Hexagonal ///< closest packing in layers ABAB across z
+  Hexagonal,  ///< closest packing in layers ABAB across z
+  FibreBundle ///< a cross-section: closest packing in rows ABAB across z
 };
 
 /// Whole cells of a lattice along the vectors of a box, in its middle, sheared with the box. Neighbours are
@@ -40,6 +44,10 @@ public:
 
   /// The place of a grain in units of the box vectors, x fastest, then y, then z.
   Vector3 scaled(std::int64_t row) const noexcept;
+
+  /// Rows after some, in order, that have all those later ones that may be nearer to one of them than a
+  /// distance: whole layers across z, to the next cells and through a periodic face.
+  std::vector<RowRange> rows_near(const RowRange& rows, const BoxShape& box, double distance) const;
 
   /// The lengths of a box that has room for a number of grains, as much like a cube as whole cells
   /// allow.

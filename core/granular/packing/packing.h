@@ -18,7 +18,9 @@ enum class Arrangement : std::uint8_t
   Random,
   SimpleCubic,
   FaceCentredCubic,
-  Hexagonal
+  Hexagonal,
+  Chain,      ///< one straight row of grains along the first box vector, in the middle of the box
+  FibreBundle ///< parallel chains, in closest packing
 };
 
 /// Which grains are wanted. At least one of grains and box must be given.
@@ -31,8 +33,10 @@ struct PackingRequest
   RadiusChoice radii;
   double solid_fraction = 0.2; ///< random grains, where grains or box are not given: volume of
                                ///< grains by that of the box
-  double spacing = 1; ///< lattices: distance of nearest neighbours by the largest diameter, >= 1
-  double speed = 0;   ///< standard deviation of each component of the velocities, >= 0
+  double spacing =
+    1; ///< all but random: distance of nearest neighbours by the largest diameter, >= 1
+  std::int64_t grains_per_fibre = 20; ///< of a bundle, >= 1; its last fibre may have fewer
+  double speed = 0; ///< standard deviation of each component of the velocities, >= 0
   std::uint64_t seed = 1;
   int piece = 0; ///< the part of the grains that is wanted, of `pieces` in all: see make_packing
   int pieces = 1;
@@ -41,13 +45,14 @@ struct PackingRequest
 };
 
 /// Makes grains that do not overlap one another: as a frame of timestep 0 with the columns id type x y z
-/// radius vx vy vz. Each is a function of the request and of its number: the parts hold each grain once,
+/// radius vx vy vz, and mol, the number of its fibre from 1 on, of chains and bundles. Each is a function of the request and of its number: the parts hold each grain once,
 /// in the order of their ids, which count from 1, and are equal in number; threads and pieces
 /// change nothing else. Each process makes its own part alone, and of random grains those around it.
 ///
 /// Grains are wholly inside the box, but for periodic axes: there centres are, and images do not overlap
 /// grains either. Random grains do not touch; coordinates are rounded, and neighbours of a lattice of
-/// spacing 1 touch as far as that allows.
+/// spacing 1 touch as far as that allows. A fibre begins a radius inside the face, is never stretched, and
+/// an error if it is longer than the box.
 ///
 /// Throws LimitError for what cannot be: values out of bounds, a box without room, random grains that find
 /// no place; Cancelled; std::bad_alloc.

@@ -272,15 +272,20 @@ void wrap(const BoxShape& box, const GrainRows& rows)
     }
   }
 }
-}
 
-void place(const RandomGrains& all, const GrainRows& rows, int threads, Progress& progress)
+Regions regions_of(const RandomGrains& all)
 {
   constexpr double slack = 1 + 1e-9; // for the rounding of scaled coordinates
   const RadiusChoice& choice = all.radii.choice();
   const double radius = (choice.largest() + all.box.rounding()) * slack;
   const double inset = (choice.smallest() + choice.largest()) / 2;
-  const Regions regions(all.box, radius, inset, all.grains);
+  return { all.box, radius, inset, all.grains };
+}
+}
+
+void place(const RandomGrains& all, const GrainRows& rows, int threads, Progress& progress)
+{
+  const Regions regions = regions_of(all);
   RegionStore store(regions, rows);
   const Executor executor(threads);
   std::vector<Filler> fillers(
@@ -297,5 +302,10 @@ void place(const RandomGrains& all, const GrainRows& rows, int threads, Progress
   store.finish();
   wrap(all.box, rows);
   progress.step(1);
+}
+
+std::vector<RowRange> rows_near(const RandomGrains& all, const RowRange& rows)
+{
+  return regions_of(all).rows_near(rows);
 }
 }

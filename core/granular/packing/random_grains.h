@@ -5,20 +5,18 @@
 #include "granular/base/progress.h"
 #include "granular/packing/box_shape.h"
 #include "granular/packing/radii.h"
+#include "granular/packing/row_range.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace granular
 {
-/// Rows of grains, from first to last - 1, and where they go.
-struct GrainRows
+/// Rows of grains, and where they go.
+struct GrainRows : RowRange
 {
-  std::int64_t first = 0;
-  std::int64_t last = 0;
   double* scaled = nullptr; ///< three a row: their place in units of the box vectors
   double* radius = nullptr;
-
-  std::int64_t count() const noexcept { return last - first; }
 };
 
 /// Grains where chance puts them, one after the other, each where no other is (random sequential addition),
@@ -34,5 +32,9 @@ struct RandomGrains
 /// Places some of the grains, and what is around them. Throws LimitError where one finds no place;
 /// Cancelled.
 void place(const RandomGrains& all, const GrainRows& rows, int threads, Progress& progress);
+
+/// Rows after some, in order, that have all those later ones that may be nearer to one of them than six of the
+/// largest radii.
+std::vector<RowRange> rows_near(const RandomGrains& all, const RowRange& rows);
 }
 #endif

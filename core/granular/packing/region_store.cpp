@@ -54,7 +54,7 @@ RegionStore::RegionStore(const Regions& regions, const GrainRows& rows)
 
 GrainRows RegionStore::grains(std::int64_t region) noexcept
 {
-  GrainRows grains = { regions_.first(region), regions_.first(region + 1) };
+  GrainRows grains = { { regions_.first(region), regions_.first(region + 1) } };
   if (region >= begin_ && region < end_)
   {
     const std::int64_t row = grains.first - rows_.first;

@@ -3,10 +3,12 @@
 #define granular_packing_regions_h
 
 #include "granular/packing/box_shape.h"
+#include "granular/packing/row_range.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace granular
 {
@@ -70,6 +72,10 @@ public:
 
   Bounds bounds(const Region& region) const noexcept;
 
+  /// Rows after some, in order, that have all those later ones that may be nearer to one of them than six
+  /// radii: what is left of their blocks, and later blocks beside these, which are thick enough.
+  std::vector<RowRange> rows_near(const RowRange& rows) const;
+
   static constexpr int outside = -1;
 
   /// How deep in a region a place within its bounds is, seen from the regions before and after it: the
@@ -125,6 +131,8 @@ private:
   void narrow(
     std::size_t axis, double plane, double place, double first, Bounds& bounds) const noexcept;
   std::int64_t first_of_block(std::int64_t block) const noexcept;
+  void add_later_neighbours(
+    std::int64_t block, std::int64_t last, std::vector<std::int64_t>& found) const;
   void cut(const BoxShape& box, std::int64_t grains);
   void measure(double inset);
   Volumes volumes_of(const std::array<std::size_t, 3>& kinds) const noexcept;

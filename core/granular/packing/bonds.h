@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_bonds_h
+#define granular_packing_bonds_h
+
+#include "granular/base/block.h"
+#include "granular/base/progress.h"
+#include "granular/dump/dump_reader.h"
+#include "granular/packing/packing.h"
+
+#include <cstdint>
+
+namespace granular
+{
+/// Bonds between grains, in the order of (id1, id2).
+struct GrainBonds
+{
+  std::int64_t count = 0;
+  Block id1;                ///< std::int64_t
+  Block id2;                ///< std::int64_t, greater than id1
+  Block btype;              ///< std::int32_t: 1
+  Block equilibrium_length; ///< double: the distance of the two centres
+  Block points; ///< 2 x 3 doubles a bond: the centre of id1, and of id2's image nearest to it
+};
+
+/// Bonds the grains that make_packing made for the request. In chains and bundles consecutive grains of a
+/// fibre are bonded, whatever the factor. Of other arrangements all pairs are whose centres are no farther
+/// apart than the factor, 1 to 3, times the sum of the radii, within rounding: at 1, the neighbours of a lattice
+/// of spacing 1. Periodic images count, and of several of a pair the nearest, so that a pair has one bond
+/// at most, and a grain none with itself; of equally near ones that moved by fewer box vectors.
+///
+/// A bond belongs to the piece of its lower id; the piece holds all of its own, and pieces and threads change
+/// nothing else. Where there are several a process makes the grains around its piece once more: of a lattice the
+/// layers within reach, of random grains the blocks around its own, of about 30 radii.
+///
+/// Throws LimitError for other factors and as make_packing does; Cancelled; std::bad_alloc.
+GrainBonds make_bonds(
+  const PackingRequest& request, const DumpFrame& grains, double factor, Progress& progress);
+}
+#endif

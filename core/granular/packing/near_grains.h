@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_near_grains_h
+#define granular_packing_near_grains_h
+
+#include "granular/packing/box_shape.h"
+#include "granular/packing/row_range.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// Grains that are where they are: the points are three coordinates a row.
+struct PlacedGrains
+{
+  RowRange rows;
+  const double* points;
+  const double* radius;
+};
+
+/// Finds the grains, and periodic images of grains, that are near to some: nearer than a factor times the
+/// sum of the radii. Grains are in cells, those of different sizes on levels, each with radii up to
+/// twice those of the next and cells as large as two of its grains.
+class NearGrains
+{
+public:
+  struct Grain
+  {
+    Vector3 point;
+    double radius;
+    std::int64_t row;
+    std::array<std::int8_t, 3> image; ///< how many of each box vector it was moved by
+  };
+
+  /// own: those whose neighbours are asked for; not empty. others: further ones that may be near to them.
+  NearGrains(const BoxShape& box, double factor, const PlacedGrains& own,
+    const std::vector<PlacedGrains>& others);
+
+  /// How near the centres of grains of two sizes are at most, rounding allowed for.
+  double limit(double sum_of_radii) const noexcept
+  {
+    return sum_of_radii * factor_ + 2 * box_.rounding();
+  }
+
+  /// Calls visit(grain) for a number of grains, among them all that are near, each as often as images are.
+  template <class Visit>
+  void visit(const Vector3& point, double radius, const Visit& visit) const;
+
+private:
+  struct Level
+  {
+    double radius = 0; ///< the largest
+    std::array<std::int64_t, 3> cells = {};
+    Vector3 scale = {};                    ///< cells per scaled coordinate
+    std::vector<std::uint32_t> first = {}; ///< grain of each cell, x fastest, and the end
+    std::vector<Grain> grains = {};        ///< in the order of cells
+  };
+
+  Vector3 scaled(const double* point) const noexcept;
+  double margin(double distance, std::size_t axis) const noexcept;
+  void bound(const PlacedGrains& own);
+  void add(const PlacedGrains& grains);
+  void add_images(const double* point, const Grain& grain);
+  void lay(Level& level) const;
+  void sort(Level& level) const;
+
+  const BoxShape& box_;
+  double factor_;
+  std::array<Vector3, 3> faces_; ///< of a vector from the origin they make scaled coordinates
+  double largest_ = 0;           ///< radius
+  Vector3 low_;                  ///< of what is kept, in scaled coordinates
+  Vector3 high_;
+  std::vector<Level> levels_; ///< from large to small
+};
+
+template <class Visit>
+void NearGrains::visit(const Vector3& point, double radius, const Visit& visit) const
+{
+  const Vector3 place = this->scaled(point.data());
+  for (const Level& level : levels_)
+  {
+    std::array<std::int64_t, 3> from = {};
+    std::array<std::int64_t, 3> to = {};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double reach = this->margin(this->limit(radius + level.radius), k);
+      const double begin = (place[k] - reach - low_[k]) * level.scale[k];
+      const double end = (place[k] + reach - low_[k]) * level.scale[k];
+      from[k] = static_cast<std::int64_t>(std::max(begin, 0.0));
+      to[k] = std::min(static_cast<std::int64_t>(end), level.cells[k] - 1);
+    }
+    for (std::int64_t z = from[2]; z <= to[2]; ++z)
+    {
+      for (std::int64_t y = from[1]; y <= to[1]; ++y)
+      {
+        const std::int64_t row = (z * level.cells[1] + y) * level.cells[0];
+        const std::uint32_t end = level.first[static_cast<std::size_t>(row + to[0]) + 1];
+        for (std::uint32_t i = level.first[static_cast<std::size_t>(row + from[0])]; i < end; ++i)
+        {
+          visit(level.grains[i]);
+        }
+      }
+    }
+  }
+}
+}
+#endif

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/packing/packing_plan.h"
+
+#include "granular/base/error.h"
+#include "granular/dump/exchange_rows.h"
+#include "granular/packing/grain_rows.h"
+#include "granular/packing/random_grains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t most_grains = 1'000'000'000'000;
+
+/// Of equal spheres the densest packing there is has 0.74; what chance can do shows when it is tried.
+constexpr double most_solid = 0.74;
+
+/// Radii that coordinates can still tell apart, in units of what these lose by rounding.
+constexpr double least_radius = 1e4;
+
+void expect(bool right, const std::string& what, double got)
+{
+  if (!right)
+  {
+    throw LimitError("expected " + what + ", got " + std::to_string(got));
+  }
+}
+
+void check_numbers(const PackingRequest& request)
+{
+  check(request.radii);
+  expect(request.grains >= 0 && request.grains <= most_grains, "a number of grains from 0 to 10^12",
+    static_cast<double>(request.grains));
+  expect(request.solid_fraction > 0 && request.solid_fraction <= most_solid,
+    "a solid fraction greater than 0 and at most 0.74", request.solid_fraction);
+  expect(request.spacing >= 1 && std::isfinite(request.spacing), "a finite spacing of at least 1",
+    request.spacing);
+  expect(request.grains_per_fibre >= 1 && request.grains_per_fibre <= most_grains,
+    "a number of grains per fibre from 1 to 10^12", static_cast<double>(request.grains_per_fibre));
+  expect(request.speed >= 0 && std::isfinite(request.speed), "a finite speed of at least 0",
+    request.speed);
+  expect(request.pieces >= 1, "at least 1 piece", request.pieces);
+  expect(request.piece >= 0 && request.piece < request.pieces,
+    "a piece from 0 to " + std::to_string(request.pieces - 1), request.piece);
+  if (request.grains == 0 && !request.box)
+  {
+    throw LimitError("expected a number of grains or a box, got neither");
+  }
+}
+
+enum class Way : std::uint8_t
+{
+  Random,
+  Lattice,
+  Fibres
+};
+
+/// How each arrangement is made, in the order of Arrangement.
+struct Making
+{
+  Way way;
+  LatticeKind lattice = LatticeKind::SimpleCubic;
+  Fibres::Kind fibres = Fibres::Kind::One;
+};
+
+constexpr Making makings[] = {
+  { Way::Random },
+  { Way::Lattice, LatticeKind::SimpleCubic },
+  { Way::Lattice, LatticeKind::FaceCentredCubic },
+  { Way::Lattice, LatticeKind::Hexagonal },
+  { Way::Fibres, {}, Fibres::Kind::One },
+  { Way::Fibres, {}, Fibres::Kind::Bundle },
+};
+
+const Making& making_of(const PackingRequest& request)
+{
+  return makings[static_cast<std::size_t>(request.arrangement)];
+}
+
+double distance_of(const PackingRequest& request)
+{
+  return request.spacing * 2 * request.radii.largest();
+}
+
+/// Of a chain all, of a bundle as asked for if there are so many; 0: as many as the box holds.
+std::int64_t grains_a_fibre(const PackingRequest& request)
+{
+  if (request.arrangement == Arrangement::Chain)
+  {
+    return request.grains;
+  }
+  return request.grains > 0 ? std::min(request.grains, request.grains_per_fibre)
+                            : request.grains_per_fibre;
+}
+
+/// The edge of a cube for random grains. Between walls few of them have less room than the solid fraction
+/// says: then at least the cube of a diameter is left to each.
+double made_edge(const PackingRequest& request, bool walls)
+{
+  const double volume = static_cast<double>(request.grains) * request.radii.mean_volume();
+  const double diameter = 2 * request.radii.largest();
+  const double room = walls && request.grains > 1 ? std::cbrt(volume * 6 / std::numbers::pi) : 0;
+  return std::max(std::cbrt(volume / request.solid_fraction), diameter + room);
+}
+
+/// The box at 0 0 0 for the grains.
+Box made_box(const PackingRequest& request, const std::string& boundary)
+{
+  const double radius = request.radii.largest();
+  const double distance = distance_of(request);
+  const std::array<bool, 3> periodic = { boundary[0] == 'p', boundary[3] == 'p',
+    boundary[6] == 'p' };
+  const Making& making = making_of(request);
+  Vector3 lengths;
+  switch (making.way)
+  {
+    case Way::Random:
+      lengths.fill(made_edge(request, boundary != "pp pp pp"));
+      break;
+    case Way::Lattice:
+      lengths = Lattice::lengths_for(making.lattice, periodic, distance, radius, request.grains);
+      break;
+    case Way::Fibres:
+      const std::int64_t each = grains_a_fibre(request);
+      lengths = Fibres::lengths_for(
+        making.fibres, periodic, distance, radius, each, (request.grains - 1) / each + 1);
+      break;
+  }
+  return Box::from_bounds({}, lengths);
+}
+
+Box box_of(const PackingRequest& request)
+{
+  const std::string boundary = checked_boundary(request.boundary);
+  Box box = request.box ? *request.box : made_box(request, boundary);
+  box.boundary = boundary;
+  return box;
+}
+
+void check_room(const BoxShape& box, const RadiusChoice& radii)
+{
+  const double diameter = 2 * radii.largest();
+  const double height = *std::min_element(box.heights.begin(), box.heights.end());
+  expect(height >= diameter * (1 - 1e-12),
+    "a box of at least the largest diameter, " + std::to_string(diameter) +
+      ", between any two opposite faces",
+    height);
+  if (radii.smallest() < least_radius * box.rounding())
+  {
+    throw LimitError("expected grains that coordinates of " + std::to_string(box.reach) +
+      " can place, got a radius of " + std::to_string(radii.smallest()));
+  }
+}
+
+/// How many random grains there are.
+std::int64_t random_count(const PackingRequest& request, const BoxShape& box)
+{
+  const double mean = request.radii.mean_volume();
+  const double room = box.volume / mean;
+  const double count = request.grains > 0 ? static_cast<double>(request.grains)
+                                          : std::floor(request.solid_fraction * room + 1e-9);
+  expect(count >= 1, "a box that holds a grain at the solid fraction asked for", count);
+  expect(count <= static_cast<double>(most_grains),
+    "a box that holds at most 10^12 grains at this solid fraction", count);
+  expect(count <= most_solid * room * (1 + 1e-9) || count == 1, "a solid fraction of at most 0.74",
+    count / room);
+  return static_cast<std::int64_t>(count);
+}
+
+/// How many grains there are of those that there are places for.
+std::int64_t count_of(const PackingRequest& request, std::int64_t places, const char* where)
+{
+  const std::int64_t room = std::min(places, most_grains);
+  if (request.grains > room)
+  {
+    throw LimitError("expected at most " + std::to_string(room) +
+      " grains, which the box holds in " + where + ", got " + std::to_string(request.grains));
+  }
+  return request.grains > 0 ? request.grains : room;
+}
+
+Box checked_box(const PackingRequest& request)
+{
+  check_numbers(request);
+  return box_of(request);
+}
+}
+
+PackingPlan::PackingPlan(const PackingRequest& request)
+  : box(checked_box(request))
+  , shape(box)
+  , radii(request.radii, 0, request.seed)
+  , seed_(request.seed)
+{
+  check_room(shape, request.radii);
+  const Making& making = making_of(request);
+  const double radius = request.radii.largest();
+  switch (making.way)
+  {
+    case Way::Random:
+      grains = random_count(request, shape);
+      break;
+    case Way::Lattice:
+      lattice_.emplace(making.lattice, shape, distance_of(request), radius);
+      grains = count_of(request, lattice_->capacity(), "this lattice");
+      break;
+    case Way::Fibres:
+      fibres.emplace(making.fibres, shape, distance_of(request), radius, grains_a_fibre(request));
+      grains = count_of(request, fibres->capacity(), "these fibres");
+      break;
+  }
+  radii = Radii(request.radii, grains, request.seed);
+}
+
+RowRange PackingPlan::rows_of_piece(int piece, int pieces) const noexcept
+{
+  return { begin_of_part(grains, piece, pieces), begin_of_part(grains, piece + 1, pieces) };
+}
+
+void PackingPlan::place_rows(const GrainRows& rows, int threads, Progress& progress) const
+{
+  if (this->is_random())
+  {
+    place({ shape, radii, grains, seed_ }, rows, threads, progress);
+    return;
+  }
+  for_row_chunks(rows.count(), threads, progress,
+    [&](std::int64_t begin, std::int64_t end, std::size_t)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const std::int64_t row = rows.first + i;
+        const Vector3 place = lattice_ ? lattice_->scaled(row) : fibres->scaled(row);
+        std::copy(place.begin(), place.end(), rows.scaled + 3 * i);
+        rows.radius[i] = radii.radius(row);
+      }
+    });
+}
+
+std::vector<RowRange> PackingPlan::rows_near(const RowRange& rows, double distance) const
+{
+  std::vector<RowRange> ranges = lattice_
+    ? lattice_->rows_near(rows, shape, distance)
+    : granular::rows_near({ shape, radii, grains, seed_ }, rows);
+  for (RowRange& range : ranges)
+  {
+    range.last = std::min(range.last, grains); // a lattice may have room for more
+  }
+  std::erase_if(ranges, [](const RowRange& range) { return range.count() <= 0; });
+  return ranges;
+}
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_packing_plan_h
+#define granular_packing_packing_plan_h
+
+#include "granular/base/progress.h"
+#include "granular/packing/box_shape.h"
+#include "granular/packing/fibres.h"
+#include "granular/packing/lattice.h"
+#include "granular/packing/packing.h"
+#include "granular/packing/radii.h"
+#include "granular/packing/random_grains.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace granular
+{
+/// What a request comes to: its box, how many grains, of which sizes, and where.
+class PackingPlan
+{
+public:
+  /// Throws LimitError for what cannot be.
+  explicit PackingPlan(const PackingRequest& request);
+
+  Box box;
+  BoxShape shape;
+  std::optional<Fibres> fibres; ///< of a chain or a bundle
+  std::int64_t grains = 0;
+  Radii radii;
+
+  bool is_random() const noexcept { return !lattice_ && !fibres; }
+
+  RowRange rows_of_piece(int piece, int pieces) const noexcept;
+
+  /// Any rows of the grains: each place is a function of the request and of its row. Throws LimitError where a
+  /// random grain finds no place; Cancelled.
+  void place_rows(const GrainRows& rows, int threads, Progress& progress) const;
+
+  /// Rows after some, in order, that have all those later ones that may be nearer to one of them than a
+  /// distance, which is at most six of the largest radii. Not of fibres. rows are not empty.
+  std::vector<RowRange> rows_near(const RowRange& rows, double distance) const;
+
+private:
+  std::optional<Lattice> lattice_;
+  std::uint64_t seed_;
+};
+}
+#endif

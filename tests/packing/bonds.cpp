@@ -1,0 +1,501 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bonds of grains: numbers from arithmetic, and each bond against all pairs and their images.
+#include "packings.h"
+
+#include "granular/base/error.h"
+#include "granular/packing/bonds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+using granular::Arrangement;
+using granular::PackingRequest;
+using granular::Vector3;
+
+using Pair = std::pair<std::int64_t, std::int64_t>;
+
+template <typename T>
+std::vector<T> values(const granular::Block& block, std::int64_t count)
+{
+  const auto* const from = static_cast<const T*>(block.data());
+  return std::vector<T>(from, from + count);
+}
+
+struct Bonds
+{
+  Bonds(const PackingRequest& request, double factor)
+    : grains(request)
+  {
+    granular::Progress progress;
+    const granular::GrainBonds made = granular::make_bonds(request, grains.frame, factor, progress);
+    id1 = values<std::int64_t>(made.id1, made.count);
+    id2 = values<std::int64_t>(made.id2, made.count);
+    btype = values<std::int32_t>(made.btype, made.count);
+    length = values<double>(made.equilibrium_length, made.count);
+    ends = values<std::array<Vector3, 2>>(made.points, made.count);
+  }
+
+  std::size_t size() const { return id1.size(); }
+
+  void append(const Bonds& more)
+  {
+    id1.insert(id1.end(), more.id1.begin(), more.id1.end());
+    id2.insert(id2.end(), more.id2.begin(), more.id2.end());
+    btype.insert(btype.end(), more.btype.begin(), more.btype.end());
+    length.insert(length.end(), more.length.begin(), more.length.end());
+    ends.insert(ends.end(), more.ends.begin(), more.ends.end());
+  }
+
+  bool operator==(const Bonds& other) const
+  {
+    return id1 == other.id1 && id2 == other.id2 && btype == other.btype && length == other.length &&
+      ends == other.ends;
+  }
+
+  Grains grains;
+  std::vector<std::int64_t> id1;
+  std::vector<std::int64_t> id2;
+  std::vector<std::int32_t> btype;
+  std::vector<double> length;
+  std::vector<std::array<Vector3, 2>> ends;
+};
+
+/// How many images of the box along each vector a reach needs: sufficient in any box.
+std::array<int, 3> images_for(const Grains& grains, double reach)
+{
+  std::array<int, 3> most = {};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const bool periodic = grains.frame.header.box.boundary[3 * k] == 'p';
+    most[k] = periodic ? static_cast<int>(std::ceil(reach / grains.heights[k])) + 1 : 0;
+  }
+  return most;
+}
+
+/// The distance of the nearest images of two grains.
+long double nearest(
+  const Grains& grains, std::size_t i, std::size_t j, const std::array<int, 3>& most)
+{
+  long double least = std::numeric_limits<long double>::infinity();
+  for (int z = -most[2]; z <= most[2]; ++z)
+  {
+    for (int y = -most[1]; y <= most[1]; ++y)
+    {
+      for (int x = -most[0]; x <= most[0]; ++x)
+      {
+        long double square = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const long double edge = static_cast<long double>(grains.points[j][axis]) -
+            grains.points[i][axis] + x * static_cast<long double>(grains.vectors[0][axis]) +
+            y * static_cast<long double>(grains.vectors[1][axis]) +
+            z * static_cast<long double>(grains.vectors[2][axis]);
+          square += edge * edge;
+        }
+        least = std::min(least, square);
+      }
+    }
+  }
+  return std::sqrt(least);
+}
+
+/// All pairs that are near enough, with their distances. Those of which rounding decides would be no test.
+std::map<Pair, long double> all_pairs(const Grains& grains, double factor)
+{
+  const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
+  const std::array<int, 3> most = images_for(grains, 2 * factor * largest);
+  std::map<Pair, long double> found;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < grains.size(); ++j)
+    {
+      const long double limit =
+        factor * (static_cast<long double>(grains.radius[i]) + grains.radius[j]);
+      const long double distance = nearest(grains, i, j, most);
+      EXPECT_GT(std::abs(distance / limit - 1), 1e-8L);
+      if (distance <= limit)
+      {
+        found[{ grains.id[i], grains.id[j] }] = distance;
+      }
+    }
+  }
+  return found;
+}
+
+/// How far a point is from the nearest image of a grain, in box vectors.
+double away_from_images(Grains& grains, const Vector3& point, std::int64_t id)
+{
+  grains.points.push_back(point);
+  const Vector3 there = grains.scaled(grains.points.size() - 1);
+  grains.points.pop_back();
+  const Vector3 at = grains.scaled(static_cast<std::size_t>(id - 1));
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double steps = there[k] - at[k];
+    const bool periodic = grains.frame.header.box.boundary[3 * k] == 'p';
+    most = std::max(most, std::abs(periodic ? steps - std::round(steps) : steps));
+  }
+  return most;
+}
+
+/// Each bond is what it says, and they are in order.
+void expect_sound(Bonds& bonds)
+{
+  for (std::size_t i = 0; i < bonds.size(); ++i)
+  {
+    const auto& [first, second] = bonds.ends[i];
+    EXPECT_EQ(first, bonds.grains.points[static_cast<std::size_t>(bonds.id1[i] - 1)]);
+    EXPECT_LT(away_from_images(bonds.grains, second, bonds.id2[i]), 1e-12);
+    EXPECT_NEAR(std::hypot(second[0] - first[0], second[1] - first[1], second[2] - first[2]),
+      bonds.length[i], 1e-13);
+    EXPECT_EQ(bonds.btype[i], 1);
+    EXPECT_LT(bonds.id1[i], bonds.id2[i]);
+    if (i > 0)
+    {
+      EXPECT_LT(Pair(bonds.id1[i - 1], bonds.id2[i - 1]), Pair(bonds.id1[i], bonds.id2[i]));
+    }
+  }
+}
+
+void expect_all_pairs(const PackingRequest& request, double factor)
+{
+  Bonds bonds(request, factor);
+  expect_sound(bonds);
+  const std::map<Pair, long double> pairs = all_pairs(bonds.grains, factor);
+  ASSERT_EQ(bonds.size(), pairs.size());
+  std::size_t i = 0;
+  for (const auto& [pair, distance] : pairs)
+  {
+    EXPECT_EQ(pair, Pair(bonds.id1[i], bonds.id2[i]));
+    EXPECT_NEAR(static_cast<double>(distance), bonds.length[i], 1e-13);
+    ++i;
+  }
+}
+
+PackingRequest request_for(Arrangement arrangement, const Vector3& lengths,
+  const std::string& boundary, const Vector3& tilts = {})
+{
+  PackingRequest request;
+  request.arrangement = arrangement;
+  request.box = tilted_box({}, lengths, tilts);
+  request.boundary = boundary;
+  request.radii = one_radius(0.5);
+  return request;
+}
+
+std::size_t count_of(
+  Arrangement arrangement, const Vector3& lengths, const std::string& boundary, double factor)
+{
+  Bonds bonds(request_for(arrangement, lengths, boundary), factor);
+  expect_sound(bonds);
+  return bonds.size();
+}
+
+struct Case
+{
+  const char* name;
+  double factor;
+  std::function<void(PackingRequest&)> choose;
+};
+
+const Case cases[] = {
+  { "random, walls", 1.3, [](PackingRequest&) {} },
+  { "random, periodic", 1.3, [](PackingRequest& r) { r.boundary = "p p p"; } },
+  { "random, two sizes, tilted, far away", 1.5,
+    [](PackingRequest& r)
+    {
+      r.box = tilted_box({ 1e5, -1e5, 3e4 }, { 9, 8, 10 }, { 3, -4, 5 });
+      r.boundary = "p f p";
+      r.radii = two_radii(0.2, 0.6, 0.3);
+    } },
+  { "random, 20 to 1, strongly tilted", 2.2,
+    [](PackingRequest& r)
+    {
+      r.box = tilted_box({ -1, 0, 2 }, { 6, 5, 7 }, { 8, -9, 11 });
+      r.boundary = "p p p";
+      r.radii = two_radii(0.05, 1, 0.02);
+    } },
+  { "random, a range", 1.7,
+    [](PackingRequest& r)
+    {
+      r.boundary = "f p f";
+      r.radii = radii_between(0.1, 0.7);
+      r.solid_fraction = 0.15;
+    } },
+  { "simple cubic with gaps", 1.5,
+    [](PackingRequest& r)
+    {
+      r.arrangement = Arrangement::SimpleCubic;
+      r.spacing = 1.04;
+      r.boundary = "p p f";
+    } },
+  { "hexagonal, tilted, two sizes", 1.9,
+    [](PackingRequest& r)
+    {
+      r.arrangement = Arrangement::Hexagonal;
+      r.grains = 0;
+      r.box = tilted_box({ 1, 2, 3 }, { 8, 9, 7 }, { -2, 5, 3 });
+      r.boundary = "p p p";
+      r.radii = two_radii(0.3, 0.5, 0.5);
+    } },
+  { "face-centred cubic, not full", 2.9,
+    [](PackingRequest& r)
+    {
+      r.arrangement = Arrangement::FaceCentredCubic;
+      r.boundary = "p p p";
+      r.grains = 301;
+    } },
+  { "two cells", 1.5,
+    [](PackingRequest& r)
+    {
+      r.arrangement = Arrangement::SimpleCubic;
+      r.grains = 0;
+      r.box = tilted_box({}, { 2.2, 2.3, 2.5 }, { 0.3, 0.1, -0.2 });
+      r.boundary = "p p p";
+    } },
+  { "few, as near as can be, and three times that", 2.99,
+    [](PackingRequest& r)
+    {
+      r.grains = 3;
+      r.box = tilted_box({}, { 2, 2, 2 }, { 0.9, 0.7, -0.8 });
+      r.boundary = "p p p";
+    } },
+};
+
+PackingRequest request_of(const Case& each)
+{
+  PackingRequest request;
+  request.grains = 400;
+  request.radii = one_radius(0.5);
+  each.choose(request);
+  return request;
+}
+
+std::string bonds_error(const PackingRequest& request, double factor)
+{
+  try
+  {
+    Bonds(request, factor);
+  }
+  catch (const granular::LimitError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+}
+
+TEST(PackingBonds, SimpleCubicHasThreeForEachGrainButForWalls)
+{
+  for (const std::size_t n : { 3u, 4u, 7u })
+  {
+    const auto edge = static_cast<double>(n);
+    for (const double factor : { 1.0, 1.05, 1.4 })
+    {
+      EXPECT_EQ(count_of(Arrangement::SimpleCubic, { edge, edge, edge }, "f f f", factor),
+        3 * n * n * (n - 1));
+      EXPECT_EQ(
+        count_of(Arrangement::SimpleCubic, { edge, edge, edge }, "p p p", factor), 3 * n * n * n);
+      EXPECT_EQ(count_of(Arrangement::SimpleCubic, { edge, edge, edge }, "f p f", factor),
+        n * n * n + 2 * n * n * (n - 1));
+    }
+  }
+  // of the next nearest, at sqrt(2): six more for each grain
+  EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 5, 5, 5 }, "p p p", 1.42), 9u * 125);
+}
+
+TEST(PackingBonds, APairHasOneAndAGrainNoneWithItself)
+{
+  EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 2, 2, 2 }, "p p p", 1.1), 12u);
+  EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 2, 2, 2 }, "p p p", 3), 28u);
+  EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 1, 1, 2 }, "p p p", 3), 1u);
+  EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 1, 1, 1 }, "p p p", 3), 0u);
+  EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 1, 1, 1 }, "f f f", 3), 0u);
+  // of two ways that are equally long that which stays in the box
+  const Bonds two(request_for(Arrangement::SimpleCubic, { 1, 1, 2 }, "p p p"), 1.1);
+  EXPECT_EQ(two.ends[0][1], two.grains.points[1]);
+}
+
+TEST(PackingBonds, ClosestPackingsHaveSixForEachGrain)
+{
+  const double fcc = std::sqrt(2.0);
+  for (const double factor : { 1.0, 1.05, 1.4 })
+  {
+    EXPECT_EQ(
+      count_of(Arrangement::FaceCentredCubic, { 3 * fcc, 4 * fcc, 5 * fcc }, "p p p", factor),
+      6u * 240);
+    EXPECT_EQ(count_of(Arrangement::Hexagonal, { 4, 3 * std::sqrt(3.0), 3 * std::sqrt(8.0 / 3) },
+                "p p p", factor),
+      6u * 144);
+  }
+}
+
+TEST(PackingBonds, AreThoseOfAllPairs)
+{
+  for (const Case& each : cases)
+  {
+    SCOPED_TRACE(each.name);
+    expect_all_pairs(request_of(each), each.factor);
+  }
+}
+
+TEST(PackingBonds, OfAChainJoinConsecutiveGrains)
+{
+  PackingRequest request;
+  request.arrangement = Arrangement::Chain;
+  request.grains = 9;
+  request.spacing = 1.25;
+  request.radii = one_radius(0.5);
+  Bonds bonds(request, 1); // longer than the factor says
+  expect_sound(bonds);
+  ASSERT_EQ(bonds.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    EXPECT_EQ(bonds.id1[i], static_cast<std::int64_t>(i + 1));
+    EXPECT_EQ(bonds.id2[i], static_cast<std::int64_t>(i + 2));
+    EXPECT_NEAR(bonds.length[i], 1.25, 1e-14);
+  }
+  request.grains = 1;
+  EXPECT_EQ(Bonds(request, 1).size(), 0u);
+}
+
+TEST(PackingBonds, OfABundleStayInTheirFibre)
+{
+  PackingRequest request;
+  request.arrangement = Arrangement::FibreBundle;
+  request.grains = 7 * 12 + 5;
+  request.grains_per_fibre = 12;
+  request.boundary = "p p p";
+  Bonds bonds(request, 3);
+  expect_sound(bonds);
+  EXPECT_EQ(bonds.size(), 7u * 11 + 4);
+  for (std::size_t i = 0; i < bonds.size(); ++i)
+  {
+    EXPECT_EQ(bonds.id2[i], bonds.id1[i] + 1);
+    EXPECT_EQ((bonds.id1[i] - 1) / 12, (bonds.id2[i] - 1) / 12);
+  }
+  request.grains_per_fibre = 1;
+  EXPECT_EQ(Bonds(request, 1).size(), 0u);
+}
+
+TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
+{
+  std::vector<PackingRequest> requests;
+  for (const Case& each : cases)
+  {
+    requests.push_back(request_of(each));
+  }
+  for (const char* const boundary : { "f f f", "p p p" })
+  {
+    PackingRequest many; // several blocks along each axis
+    many.grains = 60000;
+    many.boundary = boundary;
+    requests.push_back(many);
+    many.arrangement = Arrangement::Hexagonal;
+    requests.push_back(many);
+    many.arrangement = Arrangement::FibreBundle;
+    requests.push_back(many);
+  }
+  for (PackingRequest& request : requests)
+  {
+    const Bonds whole(request, 1.5);
+    EXPECT_GT(whole.size(), 0u);
+    for (const int pieces : { 1, 2, 3, 4, 5, 500 })
+    {
+      request.pieces = pieces;
+      request.threads = 1 + pieces % 3;
+      request.piece = 0;
+      Bonds joined(request, 1.5);
+      for (request.piece = 1; request.piece < pieces; ++request.piece)
+      {
+        if (pieces < 500 || request.grains < 1000)
+        {
+          joined.append(Bonds(request, 1.5));
+        }
+      }
+      if (pieces < 500 || request.grains < 1000)
+      {
+        EXPECT_TRUE(joined == whole) << request.grains << " grains, " << pieces << " pieces";
+      }
+    }
+  }
+}
+
+TEST(PackingBonds, OfOneBlockOfManyAreThoseOfTheWhole)
+{
+  PackingRequest request;
+  request.grains = 60000;
+  request.boundary = "p p p";
+  const Bonds whole(request, 3);
+  request.pieces = 200;
+  for (request.piece = 0; request.piece < 200; request.piece += 33)
+  {
+    const Bonds part(request, 3);
+    const auto begin = std::lower_bound(whole.id1.begin(), whole.id1.end(), part.id1[0]);
+    const auto from = static_cast<std::size_t>(begin - whole.id1.begin());
+    ASSERT_LE(from + part.size(), whole.size());
+    EXPECT_TRUE(std::equal(
+      part.id2.begin(), part.id2.end(), whole.id2.begin() + static_cast<std::ptrdiff_t>(from)));
+    EXPECT_TRUE(std::equal(
+      part.ends.begin(), part.ends.end(), whole.ends.begin() + static_cast<std::ptrdiff_t>(from)));
+    EXPECT_TRUE(
+      from + part.size() == whole.size() || whole.id1[from + part.size()] > part.grains.id.back());
+  }
+}
+
+TEST(PackingBonds, ErrorsSayWhatCanBe)
+{
+  PackingRequest request;
+  request.grains = 10;
+  for (const double factor :
+    { 0.0, 0.99, 3.01, -1.0, std::numeric_limits<double>::infinity(), std::nan("") })
+  {
+    EXPECT_EQ(bonds_error(request, factor),
+      "expected a bond factor from 1 to 3, got " + std::to_string(factor));
+  }
+  EXPECT_EQ(bonds_error(request, 3), "");
+}
+
+TEST(PackingBonds, ProgressGoesOnAndCanStop)
+{
+  struct Watch : granular::Progress
+  {
+    bool report(double fraction) override
+    {
+      reported.push_back(fraction);
+      return reported.size() != stop_at;
+    }
+    std::vector<double> reported;
+    std::size_t stop_at = 0;
+  };
+  for (const Arrangement arrangement : { Arrangement::Random, Arrangement::FibreBundle })
+  {
+    PackingRequest request;
+    request.arrangement = arrangement;
+    request.grains = 20000;
+    const Grains grains(request);
+    Watch whole;
+    granular::make_bonds(request, grains.frame, 1.5, whole);
+    EXPECT_TRUE(std::is_sorted(whole.reported.begin(), whole.reported.end()));
+    EXPECT_EQ(whole.reported.front(), 0);
+    EXPECT_EQ(whole.reported.back(), 1);
+    for (std::size_t at = 1; at <= whole.reported.size(); ++at)
+    {
+      Watch stopped;
+      stopped.stop_at = at;
+      EXPECT_THROW(granular::make_bonds(request, grains.frame, 1.5, stopped), granular::Cancelled);
+    }
+  }
+}
