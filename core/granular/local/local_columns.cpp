@@ -111,7 +111,7 @@ constexpr std::string_view spellings[][2] = {
   { "heatFlux", "heat_flux" },
 };
 
-/// What the computes of contacts print for a keyword (see columns_of_keyword).
+/// What the computes of contacts print for a keyword, in this order; nothing is known of history.
 constexpr std::string_view keywords[][2] = {
   { "pos", "x1 y1 z1 x2 y2 z2" },
   { "vel", "vx1 vy1 vz1 vx2 vy2 vz2" },
@@ -122,7 +122,9 @@ constexpr std::string_view keywords[][2] = {
   { "torque", "torquex torquey torquez" },
   { "torque_normal", "torque_normalx torque_normaly torque_normalz" },
   { "torque_tangential", "torque_tangentialx torque_tangentialy torque_tangentialz" },
+  { "history", "" },
   { "contactArea", "contact_area" },
+  { "delta", "delta" },
   { "contactPoint", "contact_pointx contact_pointy contact_pointz" },
   { "ms_id", "ms_id1 ms_id2" },
   { "heatFlux", "heat_flux" },
@@ -148,10 +150,40 @@ std::string_view local_name(std::string_view name) noexcept
   return known.empty() ? name : known;
 }
 
-std::vector<std::string> columns_of_keyword(std::string_view keyword)
+std::vector<std::string> expand_keywords(std::vector<std::string> words, std::size_t columns)
 {
-  const std::vector<std::string_view> words = split_words(find(keywords, keyword));
-  return { words.begin(), words.end() };
+  const auto place = [](const std::string& word)
+  {
+    return std::ranges::find_if(keywords, [&](const auto& entry) { return entry[0] == word; }) -
+      std::begin(keywords);
+  };
+  const auto is_keyword = [&](const std::string& word)
+  { return place(word) < static_cast<std::ptrdiff_t>(std::size(keywords)); };
+  if (std::ranges::all_of(words, is_keyword))
+  {
+    std::ranges::stable_sort(words, {}, place);
+  }
+  std::vector<std::string> names;
+  std::ptrdiff_t history = -1;
+  for (const std::string& word : words)
+  {
+    const std::vector<std::string_view> printed = split_words(find(keywords, word));
+    names.insert(names.end(), printed.begin(), printed.end());
+    if (word == "history")
+    {
+      history = static_cast<std::ptrdiff_t>(names.size());
+    }
+    else if (printed.empty())
+    {
+      names.emplace_back(local_name(word));
+    }
+  }
+  for (std::size_t i = names.size(); history >= 0 && i < columns; ++i)
+  {
+    const std::string name = "history" + std::to_string(columns - i);
+    names.insert(names.begin() + history, name);
+  }
+  return names;
 }
 
 ColumnSchema make_local_schema(const std::vector<std::string>& names)

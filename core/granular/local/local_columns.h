@@ -19,9 +19,11 @@ std::span<const KnownColumn> local_known_columns() noexcept;
 /// is forcex. Other names, such as c_b[1], stay as they are.
 std::string_view local_name(std::string_view name) noexcept;
 
-/// The columns of the computes of contacts (pair/gran/local, wall/gran/local) that a keyword stands for, such as pos or
-/// force; empty: it is none.
-std::vector<std::string> columns_of_keyword(std::string_view keyword);
+/// Names of columns from words that are such names or keywords of the computes of contacts (pair/gran/local,
+/// wall/gran/local): pos vel id force force_normal force_tangential torque torque_normal torque_tangential history contactArea
+/// delta contactPoint ms_id heatFlux. Each stands for what is printed for it, history for as many columns as are left. Where
+/// all words are keywords they are taken in this order, which is that of the file, whatever that of the compute.
+std::vector<std::string> expand_keywords(std::vector<std::string> words, std::size_t columns);
 
 /// Columns and arrays of local data with these names of the table, or any others. Coordinates of the ends become the arrays
 /// `position1` and `position2`.

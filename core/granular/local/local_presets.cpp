@@ -217,22 +217,19 @@ bool says_something(const std::string& name)
   return find_known_column(local_name(name), local_known_columns()) != nullptr;
 }
 
-/// The columns that a preset names: all, or those whose names say nothing. Empty: there are not as many as it has.
+/// The columns that a preset names, if there are as many as it has: those whose names say nothing, or all.
 std::vector<std::size_t> columns_for(
-  const LocalPreset& preset, const std::vector<std::string>& columns)
+  const LocalPreset& preset, const std::vector<std::string>& columns, bool all)
 {
-  const std::size_t wanted = split_words(preset.columns).size();
-  std::vector<std::size_t> all;
-  std::vector<std::size_t> silent;
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
-    all.push_back(i);
-    if (!says_something(columns[i]))
+    if (all || !says_something(columns[i]))
     {
-      silent.push_back(i);
+      places.push_back(i);
     }
   }
-  return silent.size() == wanted ? silent : all.size() == wanted ? all : std::vector<std::size_t>();
+  return places.size() == split_words(preset.columns).size() ? places : std::vector<std::size_t>();
 }
 
 std::string describe(const LocalPreset& preset)
@@ -345,7 +342,8 @@ std::vector<std::string> name_columns(const std::vector<std::string>& columns)
 std::vector<std::string> name_columns(
   const std::vector<std::string>& columns, const LocalPreset& preset)
 {
-  const std::vector<std::size_t> places = columns_for(preset, columns);
+  std::vector<std::size_t> places = columns_for(preset, columns, false);
+  places = places.empty() ? columns_for(preset, columns, true) : places;
   if (places.empty())
   {
     throw FormatError("expected the " + std::to_string(split_words(preset.columns).size()) +
@@ -370,16 +368,7 @@ std::vector<std::string> name_columns(
   {
     return name_by_pairs(columns, words);
   }
-  std::vector<std::string> names;
-  for (const std::string& word : words)
-  {
-    const std::vector<std::string> expanded = columns_of_keyword(word);
-    names.insert(names.end(), expanded.begin(), expanded.end());
-    if (expanded.empty())
-    {
-      names.emplace_back(local_name(word));
-    }
-  }
+  const std::vector<std::string> names = expand_keywords(words, columns.size());
   if (names.size() != columns.size())
   {
     throw FormatError("expected a name for each of " + std::to_string(columns.size()) +
@@ -403,7 +392,7 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
   std::vector<const LocalPreset*> fitting;
   for (const LocalPreset& preset : presets)
   {
-    const std::vector<std::size_t> places = columns_for(preset, columns);
+    const std::vector<std::size_t> places = columns_for(preset, columns, false);
     if (!places.empty())
     {
       as_long.push_back(&preset);
@@ -429,15 +418,17 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
   }
   if (as_long.size() > 1)
   {
-    std::string others;
+    std::vector<std::string_view> others;
     for (const LocalPreset* preset : as_long)
     {
-      others +=
-        preset == fitting[0] ? "" : (others.empty() ? "" : ", ") + std::string(preset->name);
+      if (preset != fitting[0])
+      {
+        others.push_back(preset->name);
+      }
     }
     notices.push_back({ where,
       "the columns are not named: taken for the preset " + describe(*fitting[0]) +
-        ", which fits the values, as " + others + " does not" });
+        ", which fits the values, and not for " + join_words(others) });
   }
   return name_columns(columns, *fitting[0]);
 }

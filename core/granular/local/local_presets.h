@@ -47,8 +47,8 @@ std::vector<std::string> name_columns(const std::vector<std::string>& columns);
 std::vector<std::string> name_columns(
   const std::vector<std::string>& columns, const LocalPreset& preset);
 
-/// The same as the user has it: either a name for each column in turn, where the keywords of computes of contacts stand for
-/// their columns (pos id force), or pairs NAME=COLUMN, where COLUMN is its name or its number from 1 on, and the
+/// The same as the user has it: either a name for each column in turn, or keywords of the computes of contacts (pos id force),
+/// or both (see expand_keywords), or pairs NAME=COLUMN, where COLUMN is its name or its number from 1 on, and the
 /// other columns keep their names. Names and columns are separated by blanks or commas. Throws FormatError for a name
 /// that is given twice, a column that is named twice or not there, and another number of names than columns.
 std::vector<std::string> name_columns(

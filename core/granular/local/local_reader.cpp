@@ -218,16 +218,23 @@ LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress
   constexpr std::int64_t most_rows = 100'000;
   const auto rows_of = [&](std::size_t frame)
   {
-    const FramePiece piece = index.first_piece(frame);
-    return piece.entry.kind->schema == kind.schema ? piece.entry.rows : 0;
+    std::int64_t rows = 0;
+    for (const FramePiece& piece : index.pieces(frame))
+    {
+      rows += piece.entry.kind->schema == kind.schema ? piece.entry.rows : 0;
+    }
+    return rows;
   };
   std::size_t best = 0;
-  for (std::size_t frame = 1; frame < index.size(); ++frame)
+  std::int64_t rows = 0;
+  for (std::size_t frame = 0; frame < index.size(); ++frame)
   {
-    best = rows_of(frame) > rows_of(best) ? frame : best;
+    const std::int64_t there = rows_of(frame);
+    best = there > rows ? frame : best;
+    rows = std::max(rows, there);
   }
   LocalSample sample;
-  if (index.size() == 0 || rows_of(best) == 0)
+  if (rows == 0)
   {
     return sample;
   }
@@ -239,8 +246,8 @@ LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress
     names.push_back("column" + std::to_string(i));
   }
   request.schema = ColumnSchema(names);
-  request.pieces = static_cast<int>((rows_of(best) + most_rows - 1) / most_rows);
-  const DumpPart part = decode_dump({ index.first_piece(best) }, request, false, progress);
+  request.pieces = static_cast<int>((rows + most_rows - 1) / most_rows);
+  const DumpPart part = decode_dump(index.pieces(best), request, false, progress);
   if (part.misfit)
   {
     return sample; // words among the numbers: names must say what is what
@@ -292,8 +299,10 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         const auto first = values_of<double>(find_array(frame, end_arrays[0]));
         const auto second = values_of<double>(find_array(frame, end_arrays[1]));
         local.lines = make_lines(first, second, frame.header.box, request.lines, forward);
-        remarks.misfits =
-          count_misfits(values_of<double>(find_array(frame, "dist")), local.lines, first);
+        const bool as_written = request.lines.periodic == PeriodicLines::AsWritten;
+        remarks.misfits = as_written
+          ? 0
+          : count_misfits(values_of<double>(find_array(frame, "dist")), local.lines, first);
       }
       drop_unwanted(request, frame);
       pass(packer, remarks);
