@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpReader.h"
 
+#include "private/array_choice.h"
 #include "private/arrays.h"
 #include "private/dump_output.h"
 #include "private/frame_ahead.h"
@@ -25,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <set>
 #include <string>
@@ -43,8 +43,7 @@ struct vtkGranularDumpReader::Internals
   using Self = vtkGranularDumpReader;
 
   std::string ColumnNames; ///< as they were given
-  vtkNew<vtkDataArraySelection> PointArrays;
-  std::set<std::string> ArrayNames; ///< of all frames
+  ArrayChoice Arrays;
 
   VertexCache Vertices; ///< of the frame before
   FrameAhead Ahead;     ///< the next frame
@@ -61,11 +60,9 @@ struct vtkGranularDumpReader::Internals
   };
 
   void UpdateSelection(const granular::FrameIndex& index);
-  void CheckSelection(const std::string& path, granular::Notices& notices);
   granular::DumpRequest MakeRequest(Self* self, vtkInformation* output);
   void FindTask(Self* self, vtkInformation* request, vtkInformationVector* outputs, Task& task);
   std::string FormOf(const Task& task) const;
-  static bool AreTogether(granular::Communicator& ranks, const Task& task, const std::string& form);
   granular::DumpFrame Read(Self* self, const Task& task, bool together, granular::Notices& notices);
   void FillOutputs(Self* self, vtkInformationVector* outputs, const Task& task,
     granular::DumpFrame& frame, granular::Notices& notices);
@@ -75,11 +72,11 @@ struct vtkGranularDumpReader::Internals
 };
 
 //------------------------------------------------------------------------------
-// The arrays of all frames, in the order in which they occur; what was chosen before stays.
+// The arrays of all frames, in the order in which they occur.
 void vtkGranularDumpReader::Internals::UpdateSelection(const granular::FrameIndex& index)
 {
   std::set<const granular::FrameKind*> seen;
-  this->ArrayNames.clear();
+  this->Arrays.Begin();
   for (std::size_t frame = 0; frame < index.size(); ++frame)
   {
     const granular::FrameKind* kind = index.first_piece(frame).entry.kind.get();
@@ -89,32 +86,10 @@ void vtkGranularDumpReader::Internals::UpdateSelection(const granular::FrameInde
     }
     for (const granular::ArrayInfo& array : kind->schema.arrays())
     {
-      this->ArrayNames.insert(array.name);
-      this->PointArrays->AddArray(array.name.c_str(), !array.position_form);
+      this->Arrays.Add(array.name, !array.position_form);
     }
   }
-  for (int i = this->PointArrays->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    if (this->ArrayNames.count(this->PointArrays->GetArrayName(i)) == 0)
-    {
-      this->PointArrays->RemoveArrayByIndex(i);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-// A name that is asked for and in no frame is a slip of the pen: without a word, a column is missing.
-void vtkGranularDumpReader::Internals::CheckSelection(
-  const std::string& path, granular::Notices& notices)
-{
-  for (int i = 0; i < this->PointArrays->GetNumberOfArrays(); ++i)
-  {
-    const std::string name = this->PointArrays->GetArrayName(i);
-    if (this->PointArrays->GetArraySetting(i) != 0 && this->ArrayNames.count(name) == 0)
-    {
-      notices.push_back({ { path, 0, -1, {} }, "no frame has the array '" + name + "' asked for" });
-    }
-  }
+  this->Arrays.End();
 }
 
 //------------------------------------------------------------------------------
@@ -128,15 +103,8 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
   request.sort_by_id = self->SortById;
   request.stride = self->Stride;
   std::copy_n(self->RegionOfInterest, 6, request.region.begin());
-  std::set<std::string> names; // a copy: the frame may be decoded while the selection changes
-  for (int i = 0; i < this->PointArrays->GetNumberOfArrays(); ++i)
-  {
-    if (this->PointArrays->GetArraySetting(i) != 0)
-    {
-      names.insert(this->PointArrays->GetArrayName(i));
-    }
-  }
-  request.wanted = [names](const granular::ArrayInfo& array)
+  // a copy: the frame may be decoded while the selection changes
+  request.wanted = [names = this->Arrays.GetWanted()](const granular::ArrayInfo& array)
   { return names.count(array.name) != 0; };
   const PieceRequest wanted = PieceRequest::Of(output);
   request.piece = wanted.Piece;
@@ -165,13 +133,11 @@ void vtkGranularDumpReader::Internals::FindTask(
 }
 
 //------------------------------------------------------------------------------
-// What must be the same on ranks that read together, behind the piece: they exchange rows.
+// What must be the same on ranks that read together: they exchange rows.
 std::string vtkGranularDumpReader::Internals::FormOf(const Task& task) const
 {
   granular::DumpRequest request = task.Request;
   granular::Packer form;
-  form.number(request.piece);
-  form.number(request.pieces);
   std::size_t frame = task.Frame;
   form.number(frame);
   form.number(request.coordinates);
@@ -180,33 +146,11 @@ std::string vtkGranularDumpReader::Internals::FormOf(const Task& task) const
   form.number(request.sort_by_id);
   form.number(request.stride);
   form.number(request.region);
-  for (int i = 0; i < this->PointArrays->GetNumberOfArrays(); ++i)
+  for (std::string name : this->Arrays.GetWanted())
   {
-    if (this->PointArrays->GetArraySetting(i) != 0)
-    {
-      std::string name = this->PointArrays->GetArrayName(i);
-      form.text(name);
-    }
+    form.text(name);
   }
   return form.bytes;
-}
-
-//------------------------------------------------------------------------------
-// Whether the ranks want the pieces of one frame, each its own: then they read it together. Else each is
-// alone, such as where a filter asks one rank for another time.
-bool vtkGranularDumpReader::Internals::AreTogether(
-  granular::Communicator& ranks, const Task& task, const std::string& form)
-{
-  constexpr std::size_t piece = sizeof task.Request.piece;
-  int rank = 0;
-  bool together = task.Request.pieces == ranks.size();
-  for (const std::string& other : ranks.all_gather(form))
-  {
-    together = together && std::memcmp(other.data(), &rank, piece) == 0 &&
-      other.compare(piece, other.npos, form, piece) == 0;
-    ++rank;
-  }
-  return together;
 }
 
 //------------------------------------------------------------------------------
@@ -280,10 +224,10 @@ void vtkGranularDumpReader::Internals::Run(
     {
       self->Series->StartFrame(notices);
       this->FindTask(self, request, outputs, task);
-      this->CheckSelection(self->Series->Index.first_piece(task.Frame).file.path, notices);
+      this->Arrays.CheckNames(self->Series->Index.first_piece(task.Frame).file.path, notices);
       form = this->FormOf(task);
     });
-  const bool together = AreTogether(ranks, task, form);
+  const bool together = AskTogether({ task.Request.piece, task.Request.pieces }, form, ranks);
   granular::DumpFrame frame = this->Read(self, task, together, notices);
   granular::do_together(ranks,
     [&]
@@ -331,7 +275,7 @@ vtkGranularDumpReader::vtkGranularDumpReader()
   : Internal(std::make_unique<Internals>())
 {
   this->SetNumberOfOutputPorts(2);
-  this->Internal->PointArrays->AddObserver(
+  this->Internal->Arrays.GetSelection()->AddObserver(
     vtkCommand::ModifiedEvent, this, &vtkGranularDumpReader::Modified);
 }
 
@@ -411,7 +355,7 @@ void vtkGranularDumpReader::SetPrefetch(bool prefetch)
 //------------------------------------------------------------------------------
 vtkDataArraySelection* vtkGranularDumpReader::GetPointDataArraySelection()
 {
-  return this->Internal->PointArrays;
+  return this->Internal->Arrays.GetSelection();
 }
 
 //------------------------------------------------------------------------------
@@ -448,5 +392,5 @@ void vtkGranularDumpReader::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << bound;
   }
   os << "\n" << indent << "PointArrays:\n";
-  this->Internal->PointArrays->PrintSelf(os, indent.GetNextIndent());
+  this->Internal->Arrays.GetSelection()->PrintSelf(os, indent.GetNextIndent());
 }

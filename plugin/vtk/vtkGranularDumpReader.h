@@ -6,7 +6,7 @@
  * Reads the files of `dump atom` and `dump custom`, text and binary, also compressed with gzip or
  * Zstandard: every header there has been since 2010, any box, any columns in any order. Binary files
  * of either byte order; those of LIGGGHTS, and of LAMMPS before 2020, do not name their columns: see
- * SetColumnNames. `dump local` is not read. Which frames there are: see vtkGranularSeriesReader.
+ * SetColumnNames. `dump local` is read by vtkGranularLocalReader. Which frames there are: see vtkGranularSeriesReader.
  *
  * Output port 0 holds the particles (vtkPolyData), output port 1 the simulation box as one
  * hexahedron (vtkUnstructuredGrid). Both are relative to PointOrigin.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularEulerReader.h"
 
+#include "private/array_choice.h"
 #include "private/dump_output.h"
 #include "private/euler_cells.h"
 #include "private/name_file.h"
@@ -237,11 +238,10 @@ struct vtkGranularEulerReader::Internals
 {
   using Self = vtkGranularEulerReader;
 
-  vtkNew<vtkDataArraySelection> Arrays;
+  ArrayChoice Arrays;
   std::optional<Form> Known; ///< nothing: nobody has looked
 
   const Form& Look(Self* self);
-  void UpdateSelection();
   void Tell(Self* self, vtkInformation* info) const;
   void Fill(Self* self, vtkInformation* info, const granular::EulerFrame& frame,
     const std::vector<granular::RegularGrid>& grids) const;
@@ -303,27 +303,14 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
       granular::Unpacker unpacker{ packer.bytes };
       pass(unpacker, form);
       this->Known = std::move(form);
-      this->UpdateSelection();
+      this->Arrays.Begin();
+      for (const std::string& name : this->Known->Names)
+      {
+        this->Arrays.Add(name, true);
+      }
+      this->Arrays.End();
     });
   return *this->Known;
-}
-
-//------------------------------------------------------------------------------
-// What was chosen before stays.
-void vtkGranularEulerReader::Internals::UpdateSelection()
-{
-  const std::set<std::string> names(this->Known->Names.begin(), this->Known->Names.end());
-  for (const std::string& name : this->Known->Names)
-  {
-    this->Arrays->AddArray(name.c_str(), true);
-  }
-  for (int i = this->Arrays->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    if (names.count(this->Arrays->GetArrayName(i)) == 0)
-    {
-      this->Arrays->RemoveArrayByIndex(i);
-    }
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -409,8 +396,8 @@ void vtkGranularEulerReader::Internals::Read(
     const auto wanted = [&](std::string_view name)
     {
       const std::string array(name);
-      return this->Arrays->ArrayExists(array.c_str()) == 0 ||
-        this->Arrays->ArrayIsEnabled(array.c_str()) != 0;
+      return this->Arrays.GetSelection()->ArrayExists(array.c_str()) == 0 ||
+        this->Arrays.GetSelection()->ArrayIsEnabled(array.c_str()) != 0;
     };
     const granular::EulerFrame frame =
       ReadCells(pieces, wanted, cells ? &grids : nullptr, notices, progress);
@@ -443,7 +430,7 @@ vtkGranularEulerReader::vtkGranularEulerReader()
 {
   this->Series->Format = &granular::euler_format();
   // who switches an array on or off wants other data
-  this->Internal->Arrays->AddObserver(
+  this->Internal->Arrays.GetSelection()->AddObserver(
     vtkCommand::ModifiedEvent, this, &vtkGranularEulerReader::Modified);
 }
 
@@ -465,7 +452,7 @@ void vtkGranularEulerReader::SetOutputType(int type)
 //------------------------------------------------------------------------------
 vtkDataArraySelection* vtkGranularEulerReader::GetPointDataArraySelection()
 {
-  return this->Internal->Arrays;
+  return this->Internal->Arrays.GetSelection();
 }
 
 //------------------------------------------------------------------------------
@@ -563,5 +550,5 @@ void vtkGranularEulerReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "OutputType: " << (this->OutputType == POINTS ? "Points" : "ImageData") << "\n";
   os << indent << "PointDataArraySelection:\n";
-  this->Internal->Arrays->PrintSelf(os, indent.GetNextIndent());
+  this->Internal->Arrays.GetSelection()->PrintSelf(os, indent.GetNextIndent());
 }

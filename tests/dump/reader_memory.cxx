@@ -25,7 +25,7 @@
 
 using granular::BlockPool;
 using vtkGranularPrivate::MakePool;
-using vtkGranularPrivate::MakeVertices;
+using vtkGranularPrivate::MakeCells;
 using vtkGranularPrivate::TakePoints;
 using vtkGranularPrivate::VertexCache;
 
@@ -173,20 +173,20 @@ TEST_F(ReaderMemory, OfAnArrayThatIsUsedAgainIsFreedAsItWasMade)
 
 TEST_F(ReaderMemory, OfVerticesIsPooled)
 {
-  auto cells = MakeVertices(Rows, true, this->Pool);
+  auto cells = MakeCells(Rows, 1, this->Pool);
   EXPECT_FALSE(cells->IsStorage64Bit());
   EXPECT_TRUE(AreVertices(cells, Rows));
   cells = nullptr;
   EXPECT_GE(this->Pool->idle_bytes(), 2 * Rows * sizeof(vtkTypeInt32));
-  cells = MakeVertices(Rows, false, this->Pool);
+  cells = MakeCells(1, Rows, this->Pool);
   ASSERT_EQ(cells->GetNumberOfCells(), 1);
   EXPECT_EQ(cells->GetCellSize(0), Rows);
   vtkNew<vtkIdList> ids;
   cells->GetCellAtId(0, ids);
   EXPECT_EQ(ids->GetId(Rows - 1), Rows - 1);
-  EXPECT_TRUE(AreVertices(MakeVertices(7, true, this->Pool), 7));
-  EXPECT_TRUE(AreVertices(MakeVertices(7, true), 7));
-  EXPECT_EQ(MakeVertices(0, true, this->Pool)->GetNumberOfCells(), 0);
+  EXPECT_TRUE(AreVertices(MakeCells(7, 1, this->Pool), 7));
+  EXPECT_TRUE(AreVertices(MakeCells(7, 1), 7));
+  EXPECT_EQ(MakeCells(0, 1, this->Pool)->GetNumberOfCells(), 0);
 }
 
 using ReaderVertices = Pooled;

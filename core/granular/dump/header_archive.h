@@ -15,6 +15,8 @@ void pass(Archive& archive, FrameHeader& header)
   archive.number(header.time);
   archive.text(header.label);
   archive.text(header.units);
+  archive.text(header.counted);
+  archive.number(header.has_box);
   archive.number(header.box.origin);
   archive.number(header.box.vectors);
   archive.text(header.box.boundary);

@@ -2,7 +2,6 @@
 #include "arrays.h"
 
 #include "vtkCellArray.h"
-#include "vtkDataArrayRange.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
@@ -17,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace vtkGranularPrivate
 {
@@ -66,28 +64,31 @@ void NameComponents(vtkAbstractArray* array, const granular::ArrayInfo& info,
   }
 }
 
+/**
+ * 0, step, 2 step and so on.
+ */
 template <typename Index>
-vtkSmartPointer<Index> CountUp(vtkIdType count, const std::shared_ptr<granular::BlockPool>& pool)
+vtkSmartPointer<Index> CountUp(
+  vtkIdType count, vtkIdType step, const std::shared_ptr<granular::BlockPool>& pool)
 {
   using Value = typename Index::ValueType;
   granular::Block block(static_cast<std::size_t>(count) * sizeof(Value), pool);
-  auto* first = static_cast<Value*>(block.data());
-  std::iota(first, first + count, 0);
+  auto* values = static_cast<Value*>(block.data());
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    values[i] = static_cast<Value>(i * step);
+  }
   return TakeBlock<Index>(block, count, 1);
 }
 
 template <typename Index>
-vtkSmartPointer<vtkCellArray> MakeVerticesOf(
-  vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool)
+vtkSmartPointer<vtkCellArray> MakeCellsOf(
+  vtkIdType cells, vtkIdType size, const std::shared_ptr<granular::BlockPool>& pool)
 {
-  auto offsets = CountUp<Index>(onePerPoint ? points + 1 : 2, pool);
-  if (!onePerPoint)
-  {
-    offsets->SetValue(1, static_cast<typename Index::ValueType>(points));
-  }
-  auto vertices = vtkSmartPointer<vtkCellArray>::New();
-  vertices->SetData(offsets.Get(), CountUp<Index>(points, pool).Get());
-  return vertices;
+  auto made = vtkSmartPointer<vtkCellArray>::New();
+  made->SetData(
+    CountUp<Index>(cells + 1, size, pool).Get(), CountUp<Index>(cells * size, 1, pool).Get());
+  return made;
 }
 
 /**
@@ -179,6 +180,14 @@ vtkSmartPointer<vtkPoints> TakePoints(
   return points;
 }
 
+vtkSmartPointer<vtkDoubleArray> TakeDoubles(
+  const char* name, granular::Block& block, vtkIdType tuples, int components)
+{
+  auto array = TakeBlock<vtkDoubleArray>(block, tuples, components);
+  array->SetName(name);
+  return array;
+}
+
 vtkSmartPointer<vtkAbstractArray> MakeDoubles(const char* name, const std::vector<double>& values)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -213,26 +222,22 @@ vtkSmartPointer<vtkCellArray> TakeCells(granular::Block& connectivity, vtkIdType
   auto taken = vtkSmartPointer<vtkCellArray>::New();
   if (cells > 0)
   {
-    auto offsets = CountUp<vtkTypeInt64Array>(cells + 1, connectivity.pool());
-    for (vtkTypeInt64& offset : vtk::DataArrayValueRange<1>(offsets.Get()))
-    {
-      offset *= size;
-    }
+    auto offsets = CountUp<vtkTypeInt64Array>(cells + 1, size, connectivity.pool());
     auto corners = TakeBlock<vtkTypeInt64Array>(connectivity, cells * size, 1);
     taken->SetData(offsets.Get(), corners.Get());
   }
   return taken;
 }
 
-vtkSmartPointer<vtkCellArray> MakeVertices(
-  vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool)
+vtkSmartPointer<vtkCellArray> MakeCells(
+  vtkIdType cells, vtkIdType size, const std::shared_ptr<granular::BlockPool>& pool)
 {
-  if (points == 0)
+  if (cells * size == 0)
   {
     return vtkSmartPointer<vtkCellArray>::New();
   }
-  return points < VTK_TYPE_INT32_MAX ? MakeVerticesOf<vtkTypeInt32Array>(points, onePerPoint, pool)
-                                     : MakeVerticesOf<vtkTypeInt64Array>(points, onePerPoint, pool);
+  return cells * size < VTK_TYPE_INT32_MAX ? MakeCellsOf<vtkTypeInt32Array>(cells, size, pool)
+                                           : MakeCellsOf<vtkTypeInt64Array>(cells, size, pool);
 }
 
 VertexCache::VertexCache() = default;
@@ -248,7 +253,7 @@ vtkSmartPointer<vtkCellArray> VertexCache::Get(
   if (!same)
   {
     this->Cells = nullptr; // into the pool, if nobody else has it
-    this->Cells = MakeVertices(points, onePerPoint, pool);
+    this->Cells = MakeCells(onePerPoint ? points : 1, onePerPoint ? 1 : points, pool);
     this->Points = points;
     this->OnePerPoint = onePerPoint;
     this->Time = TimeOf(this->Cells);

@@ -15,6 +15,7 @@
 
 class vtkAbstractArray;
 class vtkCellArray;
+class vtkDoubleArray;
 class vtkPoints;
 
 namespace vtkGranularPrivate
@@ -42,19 +43,25 @@ vtkSmartPointer<vtkAbstractArray> MakeStrings(
   const char* name, const std::vector<std::string>& values);
 
 /**
+ * An array that takes the memory of tuples x components doubles.
+ */
+vtkSmartPointer<vtkDoubleArray> TakeDoubles(
+  const char* name, granular::Block& block, vtkIdType tuples, int components);
+
+/**
+ * Cells with so many points of their own each, one after the other; with 32-bit indices where they suffice. None is
+ * no cells.
+ */
+vtkSmartPointer<vtkCellArray> MakeCells(
+  vtkIdType cells, vtkIdType size, const std::shared_ptr<granular::BlockPool>& pool = nullptr);
+
+/**
  * Cells of equal size that take the memory of cells x size std::int64_t, the points of each.
  */
 vtkSmartPointer<vtkCellArray> TakeCells(granular::Block& connectivity, vtkIdType cells, int size);
 
 /**
- * One vertex a point, or one cell with all points; with 32-bit indices where they suffice. No
- * points give no cells.
- */
-vtkSmartPointer<vtkCellArray> MakeVertices(
-  vtkIdType points, bool onePerPoint, const std::shared_ptr<granular::BlockPool>& pool = nullptr);
-
-/**
- * MakeVertices, but the cells of the frame before where those would be the same. Nothing may be
+ * One vertex a point, or one cell with all points, by MakeCells; the cells of the frame before where those would be the same. Nothing may be
  * changed in the cells of an output; who does that all the same, and says so, or who changes their
  * number, gets new ones with the next frame.
  */

@@ -49,6 +49,23 @@ std::vector<double> Bounds(const granular::Box& box)
   }
   return values;
 }
+
+void FillBoxData(vtkFieldData* data, const granular::Box& box)
+{
+  std::vector<double> vectors;
+  for (const granular::Twofold3& vector : box.vectors)
+  {
+    const std::vector<double> values = Values(vector);
+    vectors.insert(vectors.end(), values.begin(), values.end());
+  }
+  data->AddArray(MakeDoubles("BoxOrigin", Values(box.origin)));
+  data->AddArray(MakeDoubles("BoxVectors", vectors));
+  if (!box.general)
+  {
+    data->AddArray(MakeDoubles("BoxBounds", Bounds(box)));
+  }
+  data->AddArray(MakeStrings("Boundary", { box.boundary }));
+}
 }
 
 void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision,
@@ -113,22 +130,13 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
 void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
 {
-  std::vector<double> vectors;
-  for (const granular::Twofold3& vector : header.box.vectors)
-  {
-    const std::vector<double> values = Values(vector);
-    vectors.insert(vectors.end(), values.begin(), values.end());
-  }
   data->AddArray(MakeStrings("Coordinates", { granular::to_string(coordinates) }));
   data->AddArray(
     MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
-  data->AddArray(MakeDoubles("BoxOrigin", Values(header.box.origin)));
-  data->AddArray(MakeDoubles("BoxVectors", vectors));
-  if (!header.box.general)
+  if (header.has_box)
   {
-    data->AddArray(MakeDoubles("BoxBounds", Bounds(header.box)));
+    FillBoxData(data, header.box);
   }
-  data->AddArray(MakeStrings("Boundary", { header.box.boundary }));
   data->AddArray(MakeInteger("timestep", header.timestep));
   if (!header.label.empty())
   {

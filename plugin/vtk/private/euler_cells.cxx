@@ -161,7 +161,7 @@ void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeI
   vtkNew<vtkPoints> points;
   points->SetData(centres);
   output->SetPoints(points);
-  output->SetVerts(MakeVertices(count, true));
+  output->SetVerts(MakeCells(count, 1));
   for (const granular::EulerValues& values : frame.arrays)
   {
     const auto array = MakeArray(values, count);

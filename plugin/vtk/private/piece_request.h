@@ -2,8 +2,11 @@
 #ifndef vtkGranularPieceRequest_h
 #define vtkGranularPieceRequest_h
 
+#include "granular/base/communicator.h"
+
 #include "vtkType.h"
 
+#include <string>
 #include <utility>
 
 class vtkInformation;
@@ -25,6 +28,13 @@ struct PieceRequest
    */
   std::pair<vtkTypeInt64, vtkTypeInt64> RangeOf(vtkTypeInt64 count) const;
 };
+
+/**
+ * Whether the ranks want the pieces of one thing, each its own, which has the same form for all: then they read it together.
+ * Else each is alone, such as where a filter asks one rank for another time. Collective.
+ */
+bool AskTogether(
+  const PieceRequest& wanted, const std::string& form, granular::Communicator& ranks);
 }
 
 #endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lines.h"
+
+#include "arrays.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
+namespace vtkGranularPrivate
+{
+void FillLines(
+  vtkPolyData* output, granular::Lines& lines, const std::shared_ptr<granular::BlockPool>& pool)
+{
+  const auto count = static_cast<vtkIdType>(lines.count);
+  output->SetPoints(TakePoints(lines.points, 2 * count, false, {}));
+  output->SetLines(MakeCells(count, 2, pool));
+  const auto rows = static_cast<vtkIdType>(lines.lengths.bytes() / sizeof(double));
+  const auto lengths = TakeDoubles("length", lines.lengths, rows, 1);
+  output->GetCellData()->AddArray(TakeRows(lengths, lines));
+}
+
+vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granular::Lines& lines)
+{
+  if (lines.rows.empty())
+  {
+    return array;
+  }
+  vtkNew<vtkIdList> rows;
+  rows->SetNumberOfIds(static_cast<vtkIdType>(lines.rows.size()));
+  std::copy(lines.rows.begin(), lines.rows.end(), rows->GetPointer(0));
+  auto taken = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+  taken->SetName(array->GetName());
+  taken->SetNumberOfComponents(array->GetNumberOfComponents());
+  taken->CopyComponentNames(array);
+  taken->SetNumberOfTuples(rows->GetNumberOfIds());
+  array->GetTuples(rows, taken);
+  return taken;
+}
+}

@@ -1,0 +1,460 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularLocalReader.h"
+
+#include "private/array_choice.h"
+#include "private/arrays.h"
+#include "private/dump_output.h"
+#include "private/lines.h"
+#include "private/piece_request.h"
+#include "private/series_reader.h"
+
+#include "granular/base/archive.h"
+#include "granular/local/local_columns.h"
+#include "granular/local/local_file.h"
+#include "granular/local/local_reader.h"
+
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDataArraySelection.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkTypeInt64Array.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularLocalReader);
+
+namespace
+{
+/**
+ * What the columns of a kind of frames are, or why that cannot be known.
+ */
+struct Meaning
+{
+  std::vector<std::string> Names;
+  std::string Error; ///< where Names are only what the file says
+  granular::Where Where;
+  granular::Notices Notices;
+};
+
+template <class Archive>
+void pass(Archive& archive, Meaning& meaning)
+{
+  std::size_t count = meaning.Names.size();
+  archive.number(count);
+  meaning.Names.resize(count);
+  for (std::string& name : meaning.Names)
+  {
+    archive.text(name);
+  }
+  archive.text(meaning.Error);
+  granular::pass(archive, meaning.Where);
+  granular::pass(archive, meaning.Notices);
+}
+
+/**
+ * What is known of all kinds, by the columns as the file names them.
+ */
+using Meanings = std::map<std::string, Meaning>;
+
+/**
+ * The rows of the lines, from 0 in the frame.
+ */
+vtkSmartPointer<vtkAbstractArray> NumberRows(const granular::LocalFrame& frame)
+{
+  auto rows = vtkSmartPointer<vtkTypeInt64Array>::New();
+  rows->SetName("row");
+  rows->SetNumberOfValues(static_cast<vtkIdType>(frame.lines.rows.size()));
+  std::transform(frame.lines.rows.begin(), frame.lines.rows.end(), rows->GetPointer(0),
+    [&](std::int64_t row) { return frame.first_row + row; });
+  return rows;
+}
+}
+
+//------------------------------------------------------------------------------
+struct vtkGranularLocalReader::Internals
+{
+  using Self = vtkGranularLocalReader;
+
+  std::string ColumnMap;
+  ArrayChoice Arrays;
+  Meanings Known; ///< empty: nobody has looked
+
+  Meaning FindMeaning(
+    Self* self, const granular::FramePiece& piece, granular::Progress& progress) const;
+  void Look(Self* self);
+  granular::LocalRequest MakeRequest(Self* self, vtkInformation* output) const;
+  std::string FormOf(const granular::LocalRequest& request, std::size_t frame) const;
+  void FillOutputs(Self* self, vtkInformationVector* outputs, const granular::LocalRequest& request,
+    granular::LocalFrame& frame, double time) const;
+  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+};
+
+//------------------------------------------------------------------------------
+// An error is kept: which arrays there are can be told all the same.
+Meaning vtkGranularLocalReader::Internals::FindMeaning(
+  Self* self, const granular::FramePiece& piece, granular::Progress& progress) const
+{
+  const granular::FrameKind& kind = *piece.entry.kind;
+  std::vector<std::string> columns;
+  for (const granular::ColumnInfo& column : kind.schema.columns())
+  {
+    columns.push_back(column.name);
+  }
+  Meaning meaning;
+  meaning.Where = granular::where_of(piece.file.path, piece.entry);
+  try
+  {
+    if (!this->ColumnMap.empty())
+    {
+      meaning.Names = granular::name_columns(columns, this->ColumnMap);
+    }
+    else if (self->Preset == AUTOMATIC)
+    {
+      const granular::LocalSample sample =
+        granular::read_sample(self->Series->Index, kind, progress);
+      meaning.Names = granular::find_columns(columns, sample, meaning.Where, meaning.Notices);
+    }
+    else if (self->Preset == AS_NAMED)
+    {
+      meaning.Names = granular::name_columns(columns);
+    }
+    else
+    {
+      const auto preset = static_cast<std::size_t>(self->Preset - AS_NAMED - 1);
+      meaning.Names = granular::name_columns(columns, granular::local_presets()[preset]);
+    }
+  }
+  catch (const granular::FormatError& error)
+  {
+    meaning.Error = error.text();
+    meaning.Names = granular::name_columns(columns);
+  }
+  return meaning;
+}
+
+//------------------------------------------------------------------------------
+// Rank 0 looks, for all. Collective.
+void vtkGranularLocalReader::Internals::Look(Self* self)
+{
+  if (!this->Known.empty())
+  {
+    return;
+  }
+  granular::Communicator& ranks = self->Series->GetRanks();
+  granular::Packer packer;
+  const auto look = [&]
+  {
+    AlgorithmProgress progress(self);
+    Meanings found;
+    const granular::FrameIndex& index = self->Series->Index;
+    for (std::size_t frame = 0; frame < index.size(); ++frame)
+    {
+      const granular::FramePiece piece = index.first_piece(frame);
+      const std::string columns = piece.entry.kind->schema.text();
+      if (found.count(columns) == 0)
+      {
+        found[columns] = this->FindMeaning(self, piece, progress);
+      }
+    }
+    std::size_t count = found.size();
+    packer.number(count);
+    for (auto& [columns, meaning] : found)
+    {
+      std::string key = columns;
+      packer.text(key);
+      pass(packer, meaning);
+    }
+  };
+  granular::do_together(ranks,
+    [&]
+    {
+      if (ranks.rank() == 0)
+      {
+        look();
+      }
+    });
+  ranks.broadcast(packer.bytes, 0);
+  granular::do_together(ranks,
+    [&]
+    {
+      granular::Unpacker unpacker{ packer.bytes };
+      std::size_t count = 0;
+      unpacker.number(count);
+      Meanings found;
+      this->Arrays.Begin();
+      while (found.size() < count)
+      {
+        std::string columns;
+        unpacker.text(columns);
+        Meaning& meaning = found[columns];
+        pass(unpacker, meaning);
+        const granular::ColumnSchema schema = granular::make_local_schema(meaning.Names);
+        for (const granular::ArrayInfo& array : schema.arrays())
+        {
+          this->Arrays.Add(array.name, !granular::is_end_array(array.name));
+        }
+      }
+      this->Arrays.End();
+      this->Known = std::move(found);
+    });
+}
+
+//------------------------------------------------------------------------------
+granular::LocalRequest vtkGranularLocalReader::Internals::MakeRequest(
+  Self* self, vtkInformation* output) const
+{
+  granular::LocalRequest request;
+  request.lines.periodic = static_cast<granular::PeriodicLines>(self->PeriodicLines);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!std::isfinite(self->PointOrigin[axis]))
+    {
+      throw granular::LimitError("PointOrigin must be finite");
+    }
+    request.lines.point_origin[axis] = self->PointOrigin[axis];
+  }
+  request.lines.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
+  request.lines.pool = self->Series->Pool;
+  request.wanted = [names = this->Arrays.GetWanted()](std::string_view name)
+  { return names.count(std::string(name)) != 0; };
+  const PieceRequest wanted = PieceRequest::Of(output);
+  request.piece = wanted.Piece;
+  request.pieces = wanted.Pieces;
+  return request;
+}
+
+//------------------------------------------------------------------------------
+// What must be the same on ranks that read together.
+std::string vtkGranularLocalReader::Internals::FormOf(
+  const granular::LocalRequest& request, std::size_t frame) const
+{
+  granular::LineRequest lines = request.lines;
+  granular::Packer form;
+  form.number(frame);
+  form.number(lines.periodic);
+  form.number(lines.point_origin);
+  for (std::string name : this->Arrays.GetWanted())
+  {
+    form.text(name);
+  }
+  return form.bytes;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
+  const granular::LocalRequest& request, granular::LocalFrame& frame, double time) const
+{
+  auto* lines = vtkPolyData::GetData(outputs, 0);
+  auto* rows = vtkTable::GetData(outputs, 1);
+  const auto count = static_cast<vtkIdType>(frame.table.rows);
+  for (granular::DumpArray& from : frame.table.arrays)
+  {
+    const auto array = TakeArray(from, count, frame.table.schema.columns());
+    rows->AddColumn(array);
+    if (frame.has_lines)
+    {
+      lines->GetCellData()->AddArray(TakeRows(array, frame.lines));
+    }
+  }
+  if (frame.has_lines)
+  {
+    if (!frame.lines.rows.empty())
+    {
+      lines->GetCellData()->AddArray(NumberRows(frame));
+    }
+    FillLines(lines, frame.lines, self->Series->Pool);
+  }
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject* output = vtkDataObject::GetData(outputs, port);
+    FillFieldData(output->GetFieldData(), frame.table, request.lines.point_origin);
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Collective: what may fail on one rank alone is done together.
+void vtkGranularLocalReader::Internals::Run(
+  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+{
+  granular::Communicator& ranks = self->Series->GetRanks();
+  granular::Notices notices;
+  granular::LocalRequest wanted;
+  std::vector<granular::FramePiece> pieces;
+  double time = 0;
+  std::string form;
+  granular::do_together(ranks,
+    [&]
+    {
+      self->Series->StartFrame(notices);
+      const std::size_t frame = self->Series->FindFrame(self, request, outputs, time);
+      pieces = self->Series->Index.pieces(frame);
+      const granular::FramePiece& first = pieces.front();
+      wanted =
+        this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
+      this->Arrays.CheckNames(first.file.path, notices);
+      const Meaning& meaning = this->Known.at(first.entry.kind->schema.text());
+      if (!meaning.Error.empty())
+      {
+        throw granular::FormatError(meaning.Error, meaning.Where);
+      }
+      wanted.columns = meaning.Names;
+      notices.insert(notices.end(), meaning.Notices.begin(), meaning.Notices.end());
+      form = this->FormOf(wanted, frame);
+    });
+  const bool together = AskTogether({ wanted.piece, wanted.pieces }, form, ranks);
+  AlgorithmProgress progress(self);
+  granular::LocalFrame frame;
+  if (together)
+  {
+    frame = granular::read_local(pieces, wanted, ranks, notices, progress);
+  }
+  else
+  {
+    granular::SerialCommunicator alone;
+    granular::SharedProgress shared(progress, ranks);
+    granular::do_together(
+      ranks, [&] { frame = granular::read_local(pieces, wanted, alone, notices, shared); });
+  }
+  granular::do_together(ranks,
+    [&]
+    {
+      this->FillOutputs(self, outputs, wanted, frame, time);
+      if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
+      {
+        self->Series->Tell(self, notices, false);
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+vtkGranularLocalReader::vtkGranularLocalReader()
+  : Internal(std::make_unique<Internals>())
+{
+  this->SetNumberOfOutputPorts(2);
+  this->Series->Format = &granular::local_format();
+  this->Internal->Arrays.GetSelection()->AddObserver(
+    vtkCommand::ModifiedEvent, this, &vtkGranularLocalReader::Modified);
+}
+
+//------------------------------------------------------------------------------
+vtkGranularLocalReader::~vtkGranularLocalReader() = default;
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularLocalReader::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkTable* vtkGranularLocalReader::GetRows()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalReader::SetPreset(int preset)
+{
+  preset = std::clamp(preset, static_cast<int>(AUTOMATIC), static_cast<int>(BOND_TYPE_IDS_FORCE));
+  if (this->Preset != preset)
+  {
+    this->Preset = preset;
+    this->Internal->Known.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalReader::SetColumnMap(const char* map)
+{
+  const std::string wanted = map ? map : "";
+  if (this->Internal->ColumnMap != wanted)
+  {
+    this->Internal->ColumnMap = wanted;
+    this->Internal->Known.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGranularLocalReader::GetColumnMap()
+{
+  return this->Internal->ColumnMap.c_str();
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularLocalReader::GetCellDataArraySelection()
+{
+  return this->Internal->Arrays.GetSelection();
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularLocalReader::CanReadFile(const char* fileName)
+{
+  return granular::is_local_file(fileName ? fileName : "") ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalReader::ForgetFrames()
+{
+  this->Internal->Known.clear();
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularLocalReader::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkTable");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularLocalReader::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int done = this->Superclass::RequestInformation(request, inputVector, outputVector);
+  if (done == 0 || this->Series->Ranks.IsCancelled())
+  {
+    return done;
+  }
+  const Outcome outcome = Guard(this, outputVector, [&] { this->Internal->Look(this); });
+  return this->Series->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularLocalReader::RequestData(vtkInformation* request,
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  return this->Series->Run(this, outputVector,
+    [&]
+    {
+      this->Internal->Look(this);
+      this->Internal->Run(this, request, outputVector);
+    });
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Preset: " << this->Preset << "\n";
+  os << indent << "ColumnMap: " << this->Internal->ColumnMap << "\n";
+  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
+  os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
+     << this->PointOrigin[2] << "\n";
+  os << indent << "CellArrays:\n";
+  this->Internal->Arrays.GetSelection()->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularLocalReader
+ * @brief   Reads contacts and bonds: the files of dump local, and the bonds of LAMMPS' data files.
+ *
+ * Reads the text files of `dump local` of LIGGGHTS and LAMMPS, whatever they count (ENTRIES, or the word of `dump_modify
+ * label`), with and without a box, of one process each (`%`: all but the first of these have no header), and the section Bonds
+ * of data files of LAMMPS, as one frame. Which frames there are: see vtkGranularSeriesReader.
+ *
+ * Output port 0 holds lines (vtkPolyData), one cell a row with two points of its own, if the columns say where the ends
+ * are; else it is empty. Output port 1 holds the rows as a table (vtkTable), which vtkGranularLocalJoin makes lines of by the ids of
+ * particles. What columns mean: see SetPreset and SetColumnMap. They become arrays of the cells and of the table:
+ * - `id1` and `id2`, the particles at the ends, are vtkTypeInt64Array, `btype` and `periodic` vtkTypeInt32Array, all others double;
+ * - three columns x, y, z of a vector become one array: `force`, `torque`, `v1` and so on;
+ * - `length` is the length of the line that is drawn, of all its parts where it is split;
+ * - `position1` and `position2` are the ends as the file has them, only if they are asked for;
+ * - `row`, where lines are split: the number of the row in the frame, from 0.
+ *
+ * Both outputs carry field data as those of vtkGranularDumpReader: box, PointOrigin, Columns, timestep; the box only if the file has
+ * one. A pipeline may ask for any piece of any number: the pieces hold each row once.
+ */
+
+#ifndef vtkGranularLocalReader_h
+#define vtkGranularLocalReader_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkGranularSeriesReader.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkDataArraySelection;
+class vtkPolyData;
+class vtkTable;
+
+class VTKGRANULAR_EXPORT vtkGranularLocalReader : public vtkGranularSeriesReader
+{
+public:
+  static vtkGranularLocalReader* New();
+  vtkTypeMacro(vtkGranularLocalReader, vtkGranularSeriesReader);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The lines.
+   */
+  vtkPolyData* GetOutput();
+
+  /**
+   * The rows.
+   */
+  vtkTable* GetRows();
+
+  enum PresetType
+  {
+    AUTOMATIC = 0,
+    AS_NAMED = 1,
+    BOND_IDS = 2,
+    BOND_TYPE_IDS = 3,
+    BONDS = 4,
+    BONDS_FORCE = 5,
+    BONDS_FORCE_TORQUE = 6,
+    CONTACTS = 7,
+    CONTACTS_FORCE = 8,
+    WALL_CONTACTS = 9,
+    WALL_CONTACTS_FORCE = 10,
+    BOND_IDS_FORCE = 11,
+    BOND_TYPE_IDS_FORCE = 12
+  };
+
+  enum PeriodicLinesType
+  {
+    MINIMUM_IMAGE = 0,
+    SPLIT = 1,
+    AS_WRITTEN = 2
+  };
+
+  ///@{
+  /**
+   * What the columns are, which files rarely say: c_b[1] is any. AUTOMATIC, the default: what they are named, if that says
+   * between which particles or places lines are; else the preset with as many columns that fits the values, with a warning where
+   * another has as many; an error that lists presets where none fits or several do. AS_NAMED: what they are named. Others:
+   * the columns, or those whose names say nothing, in this order:
+   * - BOND_IDS: id1 id2 btype; BOND_TYPE_IDS: btype id1 id2; both also with dist engpot and the force behind them
+   *   (BOND_IDS_FORCE, BOND_TYPE_IDS_FORCE: property/local with bond/local of LAMMPS);
+   * - BONDS: the ends (6), id1 id2 btype (property/local of LIGGGHTS' forks); BONDS_FORCE: and the force; BONDS_FORCE_TORQUE:
+   *   and the torque and equilibrium_length (16 columns);
+   * - CONTACTS: the ends (6), id1 id2 periodic (pair/gran/local pos id); CONTACTS_FORCE: and the force;
+   * - WALL_CONTACTS: the ends (6), mesh triangle id2 (wall/gran/local pos id); WALL_CONTACTS_FORCE: and the force.
+   */
+  void SetPreset(int preset);
+  vtkGetMacro(Preset, int);
+  ///@}
+
+  ///@{
+  /**
+   * What the columns are, in the user's words, instead of Preset if it is not empty. Either a name for each column, or the
+   * keywords of the compute that made them, such as "pos id force"; or pairs of a name and a column, which the file names or which is a
+   * number from 1 on, such as "id1=c_b[7] id2=8". Names are those of arrays and their components (x1 y1 z1 x2 y2 z2
+   * id1 id2 btype periodic forcex forcey forcez torquex dist equilibrium_length and so on), or any others.
+   */
+  void SetColumnMap(const char* map);
+  const char* GetColumnMap();
+  ///@}
+
+  ///@{
+  /**
+   * How lines across the periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the second end, so
+   * that they are short and leave the box. SPLIT: from both ends to the faces. AS_WRITTEN: from end to end, through the
+   * whole box.
+   */
+  vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
+  vtkGetMacro(PeriodicLines, int);
+  ///@}
+
+  ///@{
+  /**
+   * Subtracted from the points, in double precision: for data far from the origin, as that of the particles. Any finite numbers;
+   * (0, 0, 0) by default.
+   */
+  vtkSetVector3Macro(PointOrigin, double);
+  vtkGetVector3Macro(PointOrigin, double);
+  ///@}
+
+  /**
+   * Which arrays are read. Filled by UpdateInformation() with the arrays of all frames: on, but for position1 and position2.
+   */
+  virtual vtkDataArraySelection* GetCellDataArraySelection();
+
+  /**
+   * True if the first 64 KiB, decompressed, are those of a text of dump local (ITEM: NUMBER OF something that is not ATOMS), or
+   * of a data file of LAMMPS that counts bonds. False, silently, for all else, missing files and directories included.
+   */
+  static int CanReadFile(VTK_FILEPATH const char* fileName);
+
+protected:
+  vtkGranularLocalReader();
+  ~vtkGranularLocalReader() override;
+
+  void ForgetFrames() override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkGranularLocalReader(const vtkGranularLocalReader&) = delete;
+  void operator=(const vtkGranularLocalReader&) = delete;
+
+  int Preset = AUTOMATIC;
+  int PeriodicLines = MINIMUM_IMAGE;
+  double PointOrigin[3] = { 0, 0, 0 };
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
