@@ -8,6 +8,7 @@
 #include "granular/local/data_bonds.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -134,15 +135,13 @@ bool adopt(FileIndex& file, const FrameEntry& head, FrameKinds& kinds)
   return true;
 }
 
-bool has_head(const FileIndex& file)
-{
-  return file.frames.size() == 1 && file.frames.front().kind->layout == FrameKind::text;
-}
+/// The files of a run that differ in the number of the process.
+using Group = std::map<Digits, std::uint32_t>;
 
-/// Completes files of rows by those that have the header. Returns their numbers.
-std::set<std::uint32_t> adopt_all(std::vector<FileIndex>& files)
+/// Calls visit(head, group) for files whose names differ in one number, where that with 0 has a header.
+template <class Visit>
+void for_each_group(const std::vector<FileIndex>& files, const Visit& visit)
 {
-  std::set<std::uint32_t> adopted;
   for (const auto& [rest, family] : families_of(files))
   {
     const std::size_t places = family.begin()->second.size();
@@ -151,49 +150,76 @@ std::set<std::uint32_t> adopt_all(std::vector<FileIndex>& files)
       for (const auto& [others, group] : group_by_others(family, at))
       {
         const auto head = group.find(Digits{ "0" });
-        if (head == group.end() || !has_head(files[head->second]))
+        const bool has_head = head != group.end() && !files[head->second].frames.empty() &&
+          files[head->second].frames.front().kind->layout == FrameKind::text;
+        if (has_head)
         {
-          continue;
-        }
-        for (const auto& [value, file] : group)
-        {
-          if (!files[file].frames.empty() && is_headless(files[file].frames.front()) &&
-            adopt(files[file], files[head->second].frames.front(), *files[file].kinds))
-          {
-            adopted.insert(file);
-          }
+          visit(head->second, group);
         }
       }
     }
   }
-  return adopted;
 }
 
-/// Gives the files of rows that `%` makes what the file with the header says, and leaves out the others.
+bool is_headless(const FileIndex& file)
+{
+  return !file.frames.empty() && is_headless(file.frames.front());
+}
+
+/// Forgets what is in a file, which is read again when the files of the run are looked at again.
+void leave_out(FileIndex& file)
+{
+  file.frames.clear();
+  file.resume_offset = 0;
+  file.resume_line = 1;
+  file.stamp = {};
+}
+
+/// Gives the files of rows that `%` makes what the file with the header says, and leaves out the others; so are frames that lack
+/// their rows.
 void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
 {
-  const std::set<std::uint32_t> adopted = adopt_all(files);
+  std::set<std::uint32_t> adopted;
+  std::set<std::uint32_t> incomplete;
+  for_each_group(files,
+    [&](std::uint32_t head, const Group& group)
+    {
+      for (const auto& [value, file] : group)
+      {
+        if (!is_headless(files[file]))
+        {
+          continue;
+        }
+        if (files[head].frames.size() == 1 &&
+          adopt(files[file], files[head].frames.front(), *files[file].kinds))
+        {
+          adopted.insert(file);
+        }
+        else if (files[file].frames.front().rows > 0)
+        {
+          incomplete.insert(head);
+        }
+      }
+    });
   for (std::uint32_t number = 0; number < files.size(); ++number)
   {
     FileIndex& file = files[number];
-    if (file.frames.empty() || !is_headless(file.frames.front()) || adopted.contains(number))
-    {
-      continue;
-    }
-    if (file.frames.front().end > 0)
+    const bool alone = is_headless(file) && !adopted.contains(number);
+    if (alone && file.frames.front().end > 0)
     {
       Notice notice;
       notice.where.path = file.path;
       notice.text =
         "expected a header, or rows of one timestep of which the file with 0 in its name has the "
-        "header, got rows alone; the file is left out. A name with % and * gives each timestep "
-        "its own files";
+        "header, got rows alone; they are left out, and so is what they belong to. A name with % "
+        "and * gives "
+        "each timestep its own files";
       notices.push_back(notice);
     }
-    file.frames.clear();
-    file.resume_offset = 0;
-    file.resume_line = 1;
-    file.stamp = {}; // another file may come that has the header
+    if (alone || incomplete.contains(number))
+    {
+      leave_out(file);
+    }
   }
 }
 }

@@ -12,7 +12,7 @@ namespace granular
 /// The files of dump local, for a FrameIndex: as text dumps of particles, but something else than ATOMS is counted, and
 /// there need be no box (LIGGGHTS 2). A `%` in the name of such a dump gives the first process a header, of its own rows,
 /// and the others files of rows alone: these belong to the file whose name has 0 in the same place, if that has one
-/// frame; rows of several frames (a name without `*`) cannot be told apart, and are left out with a notice.
+/// frame; rows of several frames (a name without `*`) cannot be told apart: these frames are left out with a notice.
 ///
 /// A data file of LAMMPS has one frame: the section Bonds, with the columns bond_id btype id1 id2, of the timestep that
 /// its first line says, or 0.

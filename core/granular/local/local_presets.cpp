@@ -81,7 +81,7 @@ public:
 
   bool keep_rules() const;
   bool ends_differ() const;
-  bool few_types() const;
+  bool few_values() const;
   bool flags_fit() const;
   bool places_fit() const;
 
@@ -139,14 +139,25 @@ bool PresetRows::ends_differ() const
   return true;
 }
 
-bool PresetRows::few_types() const
+bool PresetRows::few_values() const
 {
-  std::set<double> types;
-  for (std::size_t row = 0; this->has("btype") && !this->has("x1") && row < sample_.rows; ++row)
+  for (const std::string_view name : { "btype", "mesh" })
   {
-    types.insert(this->value(row, "btype"));
+    if (!this->has(name) || (name == "btype" && this->has("x1")))
+    {
+      continue;
+    }
+    std::set<double> distinct;
+    for (std::size_t row = 0; row < sample_.rows; ++row)
+    {
+      distinct.insert(this->value(row, name));
+    }
+    if (distinct.size() * distinct.size() > sample_.rows)
+    {
+      return false;
+    }
   }
-  return types.size() * types.size() <= sample_.rows;
+  return true;
 }
 
 bool PresetRows::flags_fit() const
@@ -325,7 +336,7 @@ bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::
   const LocalSample& sample)
 {
   const PresetRows rows(preset, columns, all, sample);
-  return rows.keep_rules() && rows.ends_differ() && rows.few_types() && rows.flags_fit() &&
+  return rows.keep_rules() && rows.ends_differ() && rows.few_values() && rows.flags_fit() &&
     rows.places_fit();
 }
 

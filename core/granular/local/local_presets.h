@@ -33,8 +33,8 @@ struct LocalSample
 
 /// Whether rows can be what a preset says: ids are integers from 1 on, and those of the two ends differ; bond types are
 /// integers other than 0; the periodic flag is 1 where the ends are more than half the box apart, else 0; an id is
-/// always at the same place, or an image of it; and, where there are no places, bond types have few values (their number
-/// squared is at most that of the rows). columns are the columns of the file that the preset names, in its order; of
+/// always at the same place, or an image of it; and meshes, and bond types where there are no places, have few values
+/// (their number squared is at most that of the rows). columns are the columns of the file that the preset names, in its order; of
 /// `all` in a row.
 bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
   const LocalSample& sample);

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What columns mean that files do not name.
+#include "local_files.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace
+{
+/// What a file with these rows is taken for, or the error behind its path.
+std::string taken(const std::string& columns, const std::vector<std::string>& rows)
+{
+  const std::string path = write_text("columns.dump", local_frame(columns, rows));
+  std::string found;
+  const std::string error = error_of([&] { found = LocalRun({ path }).found(); });
+  return error.empty() ? found : error.substr(path.size());
+}
+
+constexpr const char* contacts = "x1 y1 z1 x2 y2 z2 id1 id2 periodic forcex forcey forcez";
+constexpr const char* bonds = "x1 y1 z1 x2 y2 z2 id1 id2 btype forcex forcey forcez";
+constexpr const char* walls = "x1 y1 z1 x2 y2 z2 mesh triangle id2 forcex forcey forcez";
+}
+
+TEST(LocalColumns, RealFiles)
+{
+  LocalRun force(std::vector{ local_file("contacts.dump") });
+  EXPECT_EQ(force.found(), contacts);
+  EXPECT_NE(force.said().find("taken for the preset ContactsForce"), std::string::npos);
+  EXPECT_NE(force.said().find("not for BondsForce WallContactsForce"), std::string::npos);
+  LocalRun chain(std::vector{ local_file("chain_bonds.dump") });
+  EXPECT_EQ(chain.found(), "btype id1 id2 dist engpot forcex forcey forcez");
+  LocalRun data(std::vector{ local_file("chain.data") });
+  EXPECT_EQ(data.found(), "bond_id btype id1 id2");
+  EXPECT_EQ(data.said(), "");
+}
+
+TEST(LocalColumns, NamesThatSayIt)
+{
+  EXPECT_EQ(taken("batom1 batom2 btype", { "1 2 1" }), "id1 id2 btype");
+  EXPECT_EQ(
+    taken("x1 y1 z1 x2 y2 z2 id1 id2 periodic fx fy fz", { "1 1 1 2 2 2 1 2 0 0 0 1" }), contacts);
+  EXPECT_EQ(
+    taken("batom1x batom1y batom1z batom2x batom2y batom2z batom1 batom2 btype bforceX bforceY "
+          "bforceZ btorqueX btorqueY btorqueZ beqdist",
+      { "1 1 1 2 2 2 1 2 1 0 0 1 0 0 0 1.5" }),
+    "x1 y1 z1 x2 y2 z2 id1 id2 btype forcex forcey forcez torquex torquey torquez "
+    "equilibrium_length");
+  EXPECT_EQ(taken("index natom1 natom2 c_d", { "1 1 2 0.5" }), "index id1 id2 c_d");
+}
+
+// Column 9 tells bonds from contacts, and from contacts with walls.
+TEST(LocalColumns, TwelveColumns)
+{
+  const std::string names = silent_columns(12);
+  EXPECT_EQ(taken(names, { "1 1 1 2 1 1 7 8 0 0 0 5", "2 1 1 3 1 1 8 9 0 0 0 5" }), contacts);
+  EXPECT_EQ(taken(names, { "1 1 1 2 1 1 7 8 1 0 0 5", "2 1 1 3 1 1 8 9 2 0 0 5" }), bonds);
+  EXPECT_EQ(taken(names, { "1 1 1 2 1 1 7 8 1 0 0 5", "2 1 1 3 1 1 8 9 1 0 0 5" }), bonds)
+    << "flags that are not those of the box";
+  EXPECT_EQ(taken(names, { "1 1 1 9.5 1 1 7 8 1 0 0 5", "1 1 1 3 1 1 7 9 0 0 0 5" }), contacts);
+  EXPECT_EQ(taken(names, { "1 1 0 1 1 0.5 1 40 7 0 0 5", "2 2 0 2 2 0.5 1 41 8 0 0 5" }), walls)
+    << "the first id would be at two places";
+  EXPECT_EQ(taken(names, { "1 1 0 1 1 0.5 0 40 7 0 0 5" }), walls) << "particles count from 1";
+}
+
+// What cannot be known is an error that lists what fits.
+TEST(LocalColumns, Undecidable)
+{
+  const std::string both = taken(silent_columns(12), { "1 1 1 9.5 1 1 7 8 1 0 0 5" });
+  EXPECT_EQ(both.substr(0, both.find(" (x1")),
+    ":1: expected columns whose names say what they hold, got " + silent_columns(12) +
+      "; several presets fit the values: BondsForce");
+  EXPECT_NE(both.find("ContactsForce"), std::string::npos);
+  EXPECT_TRUE(both.ends_with("; set Preset or ColumnMap"));
+  EXPECT_NE(
+    taken(silent_columns(3), { "1 2 1", "1 3 1" }).find("several presets fit"), std::string::npos);
+  EXPECT_NE(
+    taken(silent_columns(3), { "0.5 2 1" }).find("no preset fits the values"), std::string::npos);
+  EXPECT_NE(
+    taken(silent_columns(5), { "1 2 1 1 1" }).find("no preset has as many"), std::string::npos);
+}
+
+TEST(LocalColumns, TypesHaveFewValues)
+{
+  std::vector<std::string> type_first;
+  std::vector<std::string> type_last;
+  for (int i = 1; i <= 9; ++i)
+  {
+    const std::string ids = std::to_string(i) + " " + std::to_string(i + 1);
+    const std::string type = std::to_string(i % 2 + 1);
+    type_first.push_back(type + " " + ids);
+    type_last.push_back(ids + " " + type);
+  }
+  EXPECT_EQ(taken(silent_columns(3), type_first), "btype id1 id2");
+  EXPECT_EQ(taken(silent_columns(3), type_last), "id1 id2 btype");
+  type_last[4] = "5 6 -2"; // breaking
+  EXPECT_EQ(taken(silent_columns(3), type_last), "id1 id2 btype");
+  type_last[4] = "5 6 0";
+  EXPECT_NE(taken(silent_columns(3), type_last).find("no preset fits"), std::string::npos);
+}
+
+TEST(LocalColumns, EmptyFramesAreAsTheyAreNamed)
+{
+  EXPECT_EQ(taken(silent_columns(3), {}), silent_columns(3));
+}
+
+// One frame with rows says what all are.
+TEST(LocalColumns, TheFrameWithMostRowsDecides)
+{
+  const std::string names = silent_columns(12);
+  const std::string path = write_text("most.dump",
+    local_frame(names, {}) +
+      local_frame(names, { "1 1 1 9.5 1 1 7 8 1 0 0 5" }, "BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10",
+        "ENTRIES", 1) +
+      local_frame(names, { "1 1 1 2 1 1 7 8 0 0 0 5", "2 1 1 3 1 1 8 9 0 0 0 5" },
+        "BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10", "ENTRIES", 2));
+  for (const std::size_t frame : { 0, 1, 2 })
+  {
+    EXPECT_EQ(LocalRun({ path }).found(frame), contacts);
+  }
+}
+
+TEST(ColumnMap, NamesAndKeywords)
+{
+  using granular::join_words;
+  using granular::name_columns;
+  const std::vector<std::string> three = { "index", "c_a[1]", "c_a[2]" };
+  EXPECT_EQ(join_words(name_columns(three, std::string("index id1,id2"))), "index id1 id2");
+  EXPECT_EQ(join_words(name_columns(three, std::string("id1=2 id2=c_a[2]"))), "index id1 id2");
+  EXPECT_EQ(join_words(name_columns(three, std::string("batom1=2 mine=3"))), "index id1 mine");
+  const std::vector<std::string> many(22, "c");
+  const std::string order =
+    "x1 y1 z1 x2 y2 z2 vx1 vy1 vz1 vx2 vy2 vz2 id1 id2 periodic forcex forcey forcez "
+    "torquex torquey torquez delta";
+  EXPECT_EQ(join_words(name_columns(many, std::string("pos vel id force torque delta"))), order);
+  EXPECT_EQ(join_words(name_columns(many, std::string("delta torque force id vel pos"))), order)
+    << "a compute prints in an order of its own";
+  EXPECT_EQ(join_words(name_columns(std::vector<std::string>(6, "c"), std::string("history id"))),
+    "id1 id2 periodic history1 history2 history3");
+}
+
+TEST(ColumnMap, Errors)
+{
+  const std::vector<std::string> columns = { "c_a[1]", "c_a[2]", "c_a[3]" };
+  const auto error = [&](const char* map)
+  { return error_of([&] { granular::name_columns(columns, std::string(map)); }); };
+  EXPECT_EQ(error("id1 id2"),
+    "expected a name for each of 3 columns in the column map, got 2: id1 id2; the columns are "
+    "c_a[1] c_a[2] c_a[3]");
+  EXPECT_EQ(error("id1 id2 id1"), "expected each name once in the column map, got 'id1' twice");
+  EXPECT_EQ(error("id1=1 batom1=2"), "expected each name once in the column map, got 'id1' twice");
+  EXPECT_EQ(error("id1=1 id2=c_a[1]"),
+    "expected each column once in the column map, got c_a[1] as 'id1' and as 'id2'");
+  EXPECT_EQ(error("id1=c_b[1]"),
+    "expected a column, or its number from 1 to 3, in the column map, got 'c_b[1]'; the columns "
+    "are c_a[1] c_a[2] c_a[3]");
+  EXPECT_EQ(error("id1=4").substr(0, 30), "expected a column, or its numb");
+  EXPECT_EQ(
+    error("id1=1 id2"), "expected NAME=COLUMN in the column map, as in its other words, got 'id2'");
+  EXPECT_EQ(
+    error("id1="), "expected NAME=COLUMN in the column map, as in its other words, got 'id1='");
+}
+
+TEST(Presets, ColumnsAreInTheTable)
+{
+  std::set<std::string_view> names;
+  for (const granular::LocalPreset& preset : granular::local_presets())
+  {
+    EXPECT_TRUE(names.insert(preset.name).second) << preset.name;
+    for (const std::string_view column : granular::split_words(preset.columns))
+    {
+      EXPECT_NE(granular::find_known_column(column, granular::local_known_columns()), nullptr)
+        << column;
+    }
+  }
+  EXPECT_EQ(names.size(), 11u);
+}
+
+TEST(Presets, AskedFor)
+{
+  const std::vector<std::string> columns = { "index", "c_a[1]", "c_a[2]", "c_a[3]" };
+  const granular::LocalPreset& ids = granular::local_presets()[0];
+  EXPECT_EQ(granular::join_words(granular::name_columns(columns, ids)), "index id1 id2 btype");
+  EXPECT_EQ(error_of([&] { granular::name_columns(columns, granular::local_presets()[2]); }),
+    "expected the 9 columns of the preset Bonds (x1 y1 z1 x2 y2 z2 id1 id2 btype), got 4: index "
+    "c_a[1] "
+    "c_a[2] c_a[3]");
+}

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames of dump local, of its pieces without headers, and of data files.
+#include "local_files.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+std::vector<std::string> piece_files(const std::string& step)
+{
+  std::vector<std::string> paths;
+  for (int process = 0; process < 4; ++process)
+  {
+    paths.push_back(local_file("pieces_" + step + "." + std::to_string(process) + ".dump"));
+  }
+  return paths;
+}
+
+std::vector<std::string> all_pieces()
+{
+  std::vector<std::string> paths;
+  for (const char* step : { "0", "1500", "3000" })
+  {
+    const std::vector<std::string> files = piece_files(step);
+    paths.insert(paths.end(), files.begin(), files.end());
+  }
+  return paths;
+}
+
+std::string opening_error(const std::vector<std::string>& paths)
+{
+  return error_of([&] { LocalRun run(paths); });
+}
+
+/// Of a file with that text, behind its path.
+std::string text_error(const std::string& text)
+{
+  const std::string path = write_text("bad.dump", text);
+  return opening_error({ path }).substr(path.size());
+}
+}
+
+TEST(LocalFile, RealFrames)
+{
+  LocalRun run({ local_file("contacts.dump") });
+  ASSERT_EQ(run.size(), 5u);
+  const std::int64_t rows[] = { 0, 4, 35, 108, 261 };
+  for (std::size_t frame = 0; frame < 5; ++frame)
+  {
+    EXPECT_EQ(run.step(frame), static_cast<std::int64_t>(frame) * 1000);
+    const granular::LocalFrame local = run.read(frame);
+    EXPECT_EQ(local.table.rows, rows[frame]);
+    EXPECT_EQ(local.lines.count, rows[frame]);
+    EXPECT_EQ(local.table.header.box.boundary, "pp pp ff");
+    EXPECT_EQ(local.table.header.counted, "ENTRIES");
+  }
+  LocalRun label({ local_file("label.dump") });
+  EXPECT_EQ(label
+              .read(0,
+                []
+                {
+                  granular::LocalRequest request;
+                  request.columns = { "index", "id1", "id2" };
+                  return request;
+                }())
+              .table.header.counted,
+    "CONTACTS");
+}
+
+TEST(LocalFile, WhatItIs)
+{
+  EXPECT_TRUE(granular::is_local_file(local_file("contacts.dump")));
+  EXPECT_TRUE(granular::is_local_file(local_file("chain_bonds.dump")));
+  EXPECT_TRUE(granular::is_local_file(local_file("chain.data")));
+  EXPECT_FALSE(granular::is_local_file(local_file("pieces_3000.2.dump"))) << "any table is like it";
+  EXPECT_FALSE(granular::is_local_file(std::string(GRANULAR_DATA) + "/good/chain.dump"));
+  EXPECT_FALSE(granular::is_local_file("/no/such/file"));
+  EXPECT_FALSE(granular::is_local("ITEM: TIMESTEP\n0\n")) << "atoms may be what it counts";
+  EXPECT_FALSE(granular::is_local("title\n\n10 atoms\n\nAtoms\n")) << "no bonds";
+}
+
+// Of a run on four processes only the first writes headers, of its own rows.
+TEST(LocalFile, PiecesWithoutHeaders)
+{
+  LocalRun run(all_pieces());
+  ASSERT_EQ(run.size(), 3u);
+  for (std::size_t frame = 0; frame < 3; ++frame)
+  {
+    EXPECT_EQ(run.pieces(frame), 4u);
+    EXPECT_EQ(run.step(frame), static_cast<std::int64_t>(frame) * 1500);
+  }
+  const granular::LocalFrame last = run.read(2);
+  std::vector<std::int64_t> ids; // of all files, in the order of the processes
+  for (const std::string& path : piece_files("3000"))
+  {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);)
+    {
+      const std::vector<std::string_view> words = granular::split_words(line);
+      if (words.size() == 12 && words[0] != "ITEM:")
+      {
+        ids.push_back(std::stoll(std::string(words[6])));
+      }
+    }
+  }
+  const auto got = values<std::int64_t>(last, "id1");
+  EXPECT_EQ(std::vector(got.begin(), got.end()), ids);
+  EXPECT_GT(ids.size(), 20u);
+}
+
+// In any order, and by themselves.
+TEST(LocalFile, PiecesBelongToTheFileWithZero)
+{
+  const std::vector<std::string> files = piece_files("3000");
+  LocalRun turned({ files[2], files[1], files[0], files[3] });
+  EXPECT_EQ(turned.size(), 1u);
+  EXPECT_EQ(turned.read(0).table.rows, LocalRun(files).read(0).table.rows);
+  EXPECT_EQ(opening_error({ files[2] }),
+    files[2] +
+      ": expected a header, or rows of one timestep of which the file with 0 in its name has the "
+      "header, got rows alone; they are left out, and so is what they belong to. A name with % and "
+      "* gives each timestep its own files");
+}
+
+// Rows of several timesteps, one behind the other, cannot be told apart.
+TEST(LocalFile, PiecesOfSeveralFramesAreLeftOut)
+{
+  std::vector<std::string> files;
+  for (int process = 0; process < 4; ++process)
+  {
+    files.push_back(local_file("nostar." + std::to_string(process) + ".dump"));
+  }
+  const std::string error = opening_error(files);
+  EXPECT_EQ(error.substr(0, error.find(',')), files[2] + ": expected a header")
+    << "of 1 and 3 there are no rows";
+  EXPECT_EQ(LocalRun({ files[0] }).size(), 3u);
+}
+
+// A header that comes later, and rows that do.
+TEST(LocalFile, PiecesThatGrow)
+{
+  const std::string rows = write_text("grow_5.1.dump", "3 4 1 \n");
+  EXPECT_NE(opening_error({ rows }), "");
+  const std::string head =
+    write_text("grow_5.0.dump", local_frame("id1 id2 btype", { "1 2 1" }, "", "BONDS", 5));
+  LocalRun run({ head, rows });
+  EXPECT_EQ(run.read(0).table.rows, 2);
+  EXPECT_EQ(run.step(0), 5);
+  write_text("grow_5.1.dump", "3 4 1 \n5 6 1 \n7 8");
+  run.update({ head, rows });
+  EXPECT_EQ(run.read(0).table.rows, 3) << "the last line is not complete";
+  write_text("grow_5.0.dump", local_frame("id1 id2 btype", { "1 2 1", "2 3 1" }, "", "BONDS", 5));
+  run.update({ head, rows });
+  EXPECT_EQ(run.read(0).table.rows, 4);
+  const granular::LocalFrame frame = run.read(0);
+  const auto ids = values<std::int64_t>(frame, "id2");
+  EXPECT_EQ(std::vector(ids.begin(), ids.end()), (std::vector<std::int64_t>{ 2, 3, 4, 6 }));
+  write_text("grow_5.1.dump", "3 4 \n");
+  EXPECT_NE(error_of([&] { run.update({ head, rows }); }), "") << "of other columns";
+  write_text("grow_5.1.dump", "3 4 1 \n");
+  run.update({ head, rows });
+  EXPECT_EQ(run.read(0).table.rows, 3);
+}
+
+TEST(LocalFile, WithoutABox)
+{
+  const std::string path =
+    write_text("boxless.dump", local_frame("x1 y1 z1 x2 y2 z2", { "0 0 0 9 0 0" }, ""));
+  LocalRun run({ path });
+  const granular::LocalFrame frame = run.read(0);
+  EXPECT_FALSE(frame.table.header.has_box);
+  EXPECT_EQ(frame.lines.count, 1);
+  EXPECT_EQ(frame.lines.moved, 0);
+  EXPECT_EQ(static_cast<const double*>(frame.lines.lengths.data())[0], 9);
+}
+
+// A label of several words, and one like a section.
+TEST(LocalFile, Labels)
+{
+  for (const char* label : { "FORCE CHAINS", "entries", "BONDS", "ATOMS OF BONDS" })
+  {
+    const std::string path = write_text("label.dump",
+      local_frame("id1 id2", { "1 2", "3 4" }, "BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1", label) +
+        local_frame("id1 id2", { "5 6" }, "BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1", label, 1));
+    LocalRun run({ path });
+    EXPECT_EQ(run.size(), 2u) << label;
+    EXPECT_EQ(run.read(0).table.rows, 2) << label;
+    EXPECT_EQ(run.said(), "") << label;
+  }
+}
+
+TEST(LocalFile, DataFiles)
+{
+  LocalRun run({ local_file("chain.data") });
+  ASSERT_EQ(run.size(), 1u);
+  const granular::LocalFrame frame = run.read(0);
+  EXPECT_EQ(frame.table.rows, 96);
+  const auto types = values<std::int32_t>(frame, "btype");
+  const auto first = values<std::int64_t>(frame, "id1");
+  const auto second = values<std::int64_t>(frame, "id2");
+  for (std::size_t i = 0; i < 96; ++i) // four chains of 25
+  {
+    const auto atom = static_cast<std::int64_t>(i / 24 * 25 + i % 24 + 1);
+    EXPECT_EQ(first[i], atom);
+    EXPECT_EQ(second[i], atom + 1);
+    EXPECT_TRUE(types[i] == 1 || types[i] == 2);
+  }
+  EXPECT_FALSE(frame.has_lines);
+  const std::string path = write_text("write_data.data",
+    "LAMMPS data file via write_data, version 29 Sep 2021, timestep = 2000, units = lj\n\n"
+    "3 atoms\n1 atom types\n2 bonds # of three\n1 bond types\n\n0 1 xlo xhi\n\n"
+    "Bond Coeffs # harmonic\n\n1 200 1.05\n\nAtoms # bond\n\n1 1 1 0 0 0\n2 1 1 0 0 1\n3 1 1 0 0 "
+    "2\n\n"
+    "Bonds # ids\n\n1 1 1 2\n\n2 1 2 3 # last\n\nVelocities\n\n1 0 0 0\n2 0 0 0\n3 0 0 0\n");
+  LocalRun written({ path });
+  EXPECT_EQ(written.step(0), 2000);
+  EXPECT_EQ(written.read(0).table.rows, 2);
+}
+
+TEST(LocalFile, DataFilesThatAreNotComplete)
+{
+  const std::string head = "title\n\n2 atoms\n1 bonds\n\nAtoms\n\n1 1 1 0 0 0\n2 1 1 0 0 1\n";
+  EXPECT_EQ(text_error(head), ":10: expected a section Bonds with 1 rows, got none");
+  EXPECT_EQ(text_error(head + "\nBonds\n\n"), ":12: expected 1 rows in the section Bonds, got 0");
+  EXPECT_EQ(
+    text_error("title\n\n2 atoms\n3 bonds\n\nBonds\n\n1 1 1 2\n2 1 2 1\n\nAtoms\n\n1 1 1 0 0 0\n"),
+    ":7: expected 3 rows in the section Bonds, got 2");
+  const std::string none =
+    write_text("none.data", "title\n\n2 atoms\n0 bonds\n\nAtoms\n\n1 1 1 0 0 0\n");
+  EXPECT_EQ(LocalRun({ none }).read(0).table.rows, 0);
+}
+
+TEST(LocalFile, BadInput)
+{
+  EXPECT_EQ(text_error(""), ": expected a dump of local data, got an empty file");
+  EXPECT_EQ(text_error("Step Atoms KinEng\n"),
+    ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'Step Atoms KinEng'");
+  EXPECT_EQ(text_error("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\n"),
+    ":3: expected ITEM: NUMBER OF ENTRIES, or of other things than ATOMS, got 'ITEM: NUMBER OF "
+    "ATOMS'");
+  EXPECT_EQ(text_error(local_frame("id1 id2", { "1 2" }).substr(0, 90)),
+    ":1: expected a complete frame, got the end of the file in its header");
+  EXPECT_EQ(text_error("ITEM: TIMESTEP\n0\nITEM: NUMBER OF BONDS\n2\nITEM: BONDS a b\n1 2\n"),
+    ":1: expected 2 rows, got 1");
+  EXPECT_EQ(text_error("1 2\n3 4\nITEM: TIMESTEP\n"),
+    ":3: expected rows without a header to the end of the file, got 'ITEM: TIMESTEP'");
+}
+
+// Found when rows are decoded.
+TEST(LocalFile, BadRows)
+{
+  const auto error = [](const std::string& columns, const std::vector<std::string>& rows)
+  {
+    const std::string path = write_text("rows.dump", local_frame(columns, rows));
+    return error_of([&] { LocalRun({ path }).read(0); }).substr(path.size());
+  };
+  EXPECT_EQ(error("id1 id2 c_d", { "1 2 0.5", "1.5 3 1" }),
+    ":11: column 'id1': expected an integer, got '1.5'");
+  EXPECT_EQ(error("id1 id2 c_d", { "1 2 0.5", "1 3" }), ":11: expected 3 words in a row, got 2");
+  EXPECT_EQ(
+    error("id1 id2 c_d", { "1 2 0.5", "1 3 x" }), ":11: column 'c_d': expected a number, got 'x'");
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of local data and what is read of them, easy to look at.
+#ifndef granular_tests_local_local_files_h
+#define granular_tests_local_local_files_h
+
+#include "granular/local/local_columns.h"
+#include "granular/local/local_file.h"
+#include "granular/local/local_reader.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+inline std::string local_file(const std::string& name)
+{
+  return std::string(GRANULAR_DATA) + "/good/local/" + name;
+}
+
+/// A file of that content in the folder of the test. Returns its path.
+inline std::string write_text(const std::string& name, const std::string& text)
+{
+  const std::filesystem::path path = std::filesystem::path(GRANULAR_OUTPUT) / name;
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+  return path.string();
+}
+
+/// The message of what is thrown, or "".
+template <class Work>
+std::string error_of(const Work& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const granular::Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+/// A run of local data.
+class LocalRun
+{
+public:
+  explicit LocalRun(const std::vector<std::string>& paths) { this->update(paths); }
+
+  void update(const std::vector<std::string>& paths)
+  {
+    granular::IndexOptions options;
+    options.format = &granular::local_format();
+    granular::Progress progress;
+    notices_.clear();
+    index_.update(paths, options, notices_, progress);
+  }
+
+  const granular::FrameIndex& index() const { return index_; }
+  std::size_t size() const { return index_.size(); }
+  std::int64_t step(std::size_t frame) const { return index_.first_piece(frame).entry.timestep; }
+  std::size_t pieces(std::size_t frame) const { return index_.pieces(frame).size(); }
+
+  std::vector<std::string> columns(std::size_t frame = 0) const
+  {
+    std::vector<std::string> names;
+    for (const auto& column : index_.first_piece(frame).entry.kind->schema.columns())
+    {
+      names.push_back(column.name);
+    }
+    return names;
+  }
+
+  /// What the columns are taken for, blank-separated.
+  std::string found(std::size_t frame = 0)
+  {
+    granular::Progress progress;
+    const granular::FramePiece piece = index_.first_piece(frame);
+    const granular::LocalSample sample = granular::read_sample(index_, *piece.entry.kind, progress);
+    found_ = granular::find_columns(
+      this->columns(frame), sample, granular::where_of(piece.file.path, piece.entry), notices_);
+    return granular::join_words(found_);
+  }
+
+  granular::LocalFrame read(std::size_t frame, granular::LocalRequest request = {})
+  {
+    if (request.columns.empty())
+    {
+      this->found(frame);
+      request.columns = found_;
+    }
+    granular::SerialCommunicator alone;
+    granular::Progress progress;
+    return granular::read_local(index_.pieces(frame), request, alone, notices_, progress);
+  }
+
+  /// The notices so far, one a line.
+  std::string said() const
+  {
+    std::string text;
+    for (const granular::Notice& notice : notices_)
+    {
+      text += granular::to_string(notice) + "\n";
+    }
+    return text;
+  }
+
+private:
+  granular::FrameIndex index_;
+  granular::Notices notices_;
+  std::vector<std::string> found_;
+};
+
+/// Values of an array of a frame, row-major.
+template <class Value>
+std::span<const Value> values(const granular::LocalFrame& frame, const std::string& name)
+{
+  for (const granular::DumpArray& array : frame.table.arrays)
+  {
+    if (array.info.name == name)
+    {
+      return { static_cast<const Value*>(array.block.data()), array.block.bytes() / sizeof(Value) };
+    }
+  }
+  return {};
+}
+
+/// A frame of dump local.
+inline std::string local_frame(const std::string& columns, const std::vector<std::string>& rows,
+  const std::string& box = "BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10",
+  const std::string& label = "ENTRIES", std::int64_t step = 0)
+{
+  std::string text = "ITEM: TIMESTEP\n" + std::to_string(step) + "\nITEM: NUMBER OF " + label +
+    "\n" + std::to_string(rows.size()) + "\n" + (box.empty() ? "" : "ITEM: " + box + "\n") +
+    "ITEM: " + label + " " + columns + " \n";
+  for (const std::string& row : rows)
+  {
+    text += row + " \n";
+  }
+  return text;
+}
+
+/// Names of columns that say nothing: c_a[1] and so on.
+inline std::string silent_columns(int count)
+{
+  std::string names;
+  for (int i = 1; i <= count; ++i)
+  {
+    names += (i > 1 ? " c_a[" : "c_a[") + std::to_string(i) + "]";
+  }
+  return names;
+}
+#endif

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of frames of local data, held against the grains of the same run and against plain parsing.
+#include "local_files.h"
+
+#include "../base/thread_ranks.h"
+
+#include "granular/base/compression.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+using Row = std::vector<double>;
+
+/// The rows of a frame of a text, by the standard library.
+std::vector<Row> plain_rows(const std::string& path, std::int64_t step)
+{
+  std::ifstream file(path);
+  std::vector<Row> rows;
+  bool in_frame = false;
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line == "ITEM: TIMESTEP")
+    {
+      std::getline(file, line);
+      in_frame = std::stoll(line) == step;
+    }
+    std::istringstream words(line);
+    Row row;
+    for (double number = 0; words >> number;)
+    {
+      row.push_back(number);
+    }
+    if (in_frame && row.size() > 3)
+    {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+}
+
+TEST(LocalReader, EveryValueOfARealFile)
+{
+  LocalRun run({ local_file("contacts.dump") });
+  granular::LocalRequest request;
+  request.wanted = [](std::string_view) { return true; };
+  run.found();
+  for (std::size_t frame = 1; frame < 5; ++frame)
+  {
+    const std::vector<Row> rows = plain_rows(local_file("contacts.dump"), run.step(frame));
+    request.columns = granular::name_columns(run.columns(), granular::local_presets()[6]);
+    const granular::LocalFrame local = run.read(frame, request);
+    const auto first = values<double>(local, "position1");
+    const auto second = values<double>(local, "position2");
+    const auto force = values<double>(local, "force");
+    ASSERT_EQ(static_cast<std::size_t>(local.table.rows), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_EQ(first[3 * i + axis], rows[i][axis]);
+        EXPECT_EQ(second[3 * i + axis], rows[i][3 + axis]);
+        EXPECT_EQ(force[3 * i + axis], rows[i][9 + axis]);
+      }
+      EXPECT_EQ(static_cast<double>(values<std::int64_t>(local, "id1")[i]), rows[i][6]);
+      EXPECT_EQ(static_cast<double>(values<std::int64_t>(local, "id2")[i]), rows[i][7]);
+      EXPECT_EQ(values<std::int32_t>(local, "periodic")[i], rows[i][8]);
+    }
+  }
+}
+
+// Contacts of spheres: centres are closer than the radii reach, and not much.
+TEST(LocalReader, ContactsOverlap)
+{
+  const std::string grains_path = std::string(GRANULAR_DATA) + "/good/grains.dump";
+  std::map<std::int64_t, double> radii;
+  for (const Row& row : plain_rows(grains_path, 2000))
+  {
+    radii[static_cast<std::int64_t>(row[0])] = row[17];
+  }
+  LocalRun run({ local_file("contacts.dump") });
+  const granular::LocalFrame local = run.read(2);
+  ASSERT_EQ(local.table.rows, 35);
+  const auto* lengths = static_cast<const double*>(local.lines.lengths.data());
+  for (std::size_t i = 0; i < 35; ++i)
+  {
+    const double reach = radii.at(values<std::int64_t>(local, "id1")[i]) +
+      radii.at(values<std::int64_t>(local, "id2")[i]);
+    const double overlap = reach - lengths[i];
+    EXPECT_GE(overlap, -1e-7);
+    EXPECT_LT(overlap, 0.1 * reach);
+  }
+}
+
+TEST(LocalReader, ArraysThatAreAskedFor)
+{
+  LocalRun run({ local_file("contacts.dump") });
+  run.found();
+  granular::LocalRequest request;
+  request.wanted = [](std::string_view name) { return name == "force"; };
+  const granular::LocalFrame local = run.read(3, request);
+  ASSERT_EQ(local.table.arrays.size(), 1u);
+  EXPECT_EQ(local.table.arrays[0].info.name, "force");
+  EXPECT_EQ(local.lines.count, 108);
+}
+
+// Threads, pieces and ranks change nothing.
+TEST(LocalReader, PartsAreTheWhole)
+{
+  std::vector<std::string> rows;
+  for (int i = 0; i < 20'000; ++i)
+  {
+    rows.push_back(std::to_string(i % 97) + " " + std::to_string(i * 7 % 1009) + " 0.25 9." +
+      std::to_string(i) + " 1 2 3 4 " + std::to_string(i % 5));
+  }
+  const std::string columns = "id1 id2 x1 y1 z1 x2 y2 z2 c_v";
+  const std::string path = write_text("parts.dump", local_frame(columns, rows));
+  for (const granular::PeriodicLines periodic :
+    { granular::PeriodicLines::MinimumImage, granular::PeriodicLines::Split })
+  {
+    LocalRun run({ path });
+    granular::LocalRequest request;
+    request.lines.periodic = periodic;
+    request.columns = granular::name_columns(run.columns());
+    const granular::LocalFrame whole = run.read(0, request);
+    const auto points_of = [](const granular::LocalFrame& frame)
+    {
+      const auto* points = static_cast<const double*>(frame.lines.points.data());
+      return std::vector<double>(points, points + 6 * frame.lines.count);
+    };
+    for (const int ranks : { 1, 2, 3 })
+    {
+      std::vector<std::vector<double>> points(static_cast<std::size_t>(ranks));
+      std::vector<std::int64_t> first(static_cast<std::size_t>(ranks));
+      std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks));
+      run_ranks(ranks,
+        [&](granular::Communicator& communicator)
+        {
+          const auto rank = static_cast<std::size_t>(communicator.rank());
+          granular::LocalRequest own = request;
+          own.piece = communicator.rank();
+          own.pieces = ranks;
+          own.lines.threads = 2;
+          granular::Notices notices;
+          granular::Progress progress;
+          const granular::LocalFrame part =
+            granular::read_local(run.index().pieces(0), own, communicator, notices, progress);
+          points[rank] = points_of(part);
+          first[rank] = part.first_row;
+          counts[rank] = part.table.rows;
+        });
+      std::vector<double> joined;
+      std::int64_t before = 0;
+      for (std::size_t rank = 0; rank < points.size(); ++rank)
+      {
+        joined.insert(joined.end(), points[rank].begin(), points[rank].end());
+        EXPECT_EQ(first[rank], before);
+        before += counts[rank];
+      }
+      EXPECT_EQ(joined, points_of(whole));
+    }
+  }
+}
+
+// %g has six digits: of ids that are printed with an exponent the others are lost.
+TEST(LocalReader, RoundedIdsAreCounted)
+{
+  const auto said = [](const std::vector<std::string>& rows)
+  {
+    const std::string path = write_text("rounded.dump", local_frame("id1 id2", rows));
+    LocalRun run({ path });
+    run.read(0);
+    const std::string text = run.said();
+    return text.empty() ? text : text.substr(path.size(), text.find(" ids") - path.size());
+  };
+  EXPECT_EQ(said({ "1 2", "999999 -999999" }), "");
+  EXPECT_EQ(said({ "1 2", "1e+06 3", "1.23457e+06 1.2345e+09" }), ":1: 3");
+  EXPECT_EQ(said({ "1 2", "1000000 2000000" }), "") << "printed as they are";
+  EXPECT_EQ(said({ "1 2", "1234567 2000000" }), "");
+  EXPECT_EQ(said({ "-1e+06 2" }), ":1: 1");
+}
+
+TEST(LocalReader, IdsOfAllSizes)
+{
+  const std::vector<std::string> ids = { "0", "-1", "2147483648", "9007199254740993",
+    "9223372036854775807", "-9223372036854775808" };
+  std::vector<std::string> rows;
+  for (const std::string& id : ids)
+  {
+    rows.push_back(id + " 7");
+  }
+  const std::string path = write_text("ids.dump", local_frame("id1 id2", rows));
+  LocalRun run({ path });
+  const granular::LocalFrame frame = run.read(0);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    EXPECT_EQ(std::to_string(values<std::int64_t>(frame, "id1")[i]), ids[i]);
+  }
+}
+
+// The column dist says how far apart the ends are.
+TEST(LocalReader, LinesThatAreNotAsLongAsDistSays)
+{
+  const auto said = [](const std::string& row)
+  {
+    const std::string path =
+      write_text("dist.dump", local_frame("x1 y1 z1 x2 y2 z2 dist", { row, "1 1 1 1 1 2 1" }));
+    LocalRun run({ path });
+    run.read(0);
+    return run.said().substr(run.said().empty() ? 0 : path.size());
+  };
+  EXPECT_EQ(said("1 1 1 9.5 1 1 1.5"), "");
+  EXPECT_EQ(said("1 1 1 7 1 1 6"), ":1: 1 of 2 lines are not as long as the column dist says\n");
+}
+
+TEST(LocalReader, CompressedFilesAreTheSame)
+{
+  std::ifstream file(local_file("contacts.dump"), std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  for (const auto compression : { granular::Compression::Gzip, granular::Compression::Zstd })
+  {
+    const std::string packed = granular::compress(text, compression);
+    LocalRun run({ write_text("packed.dump", packed) });
+    ASSERT_EQ(run.size(), 5u);
+    const granular::LocalFrame frame = run.read(4);
+    LocalRun plain({ local_file("contacts.dump") });
+    const granular::LocalFrame expected = plain.read(4);
+    const auto got = values<double>(frame, "force");
+    const auto wanted = values<double>(expected, "force");
+    EXPECT_TRUE(std::equal(got.begin(), got.end(), wanted.begin(), wanted.end()));
+  }
+}
