@@ -71,15 +71,18 @@ void pass(Archive& archive, Meaning& meaning)
 using Meanings = std::map<std::string, Meaning>;
 
 /**
- * The rows of the lines, from 0 in the frame.
+ * The row of each line, from 0 in the frame.
  */
 vtkSmartPointer<vtkAbstractArray> NumberRows(const granular::LocalFrame& frame)
 {
   auto rows = vtkSmartPointer<vtkTypeInt64Array>::New();
   rows->SetName("row");
-  rows->SetNumberOfValues(static_cast<vtkIdType>(frame.lines.rows.size()));
-  std::transform(frame.lines.rows.begin(), frame.lines.rows.end(), rows->GetPointer(0),
-    [&](std::int64_t row) { return frame.first_row + row; });
+  rows->SetNumberOfValues(static_cast<vtkIdType>(frame.lines.count));
+  for (vtkIdType line = 0; line < rows->GetNumberOfValues(); ++line)
+  {
+    rows->SetValue(
+      line, frame.first_row + (frame.lines.rows.empty() ? line : frame.lines.rows[line]));
+  }
   return rows;
 }
 }
@@ -272,7 +275,7 @@ void vtkGranularLocalReader::Internals::FillOutputs(Self* self, vtkInformationVe
   }
   if (frame.has_lines)
   {
-    if (!frame.lines.rows.empty())
+    if (request.lines.periodic == granular::PeriodicLines::Split)
     {
       lines->GetCellData()->AddArray(NumberRows(frame));
     }
