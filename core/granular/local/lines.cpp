@@ -2,7 +2,7 @@
 #include "granular/local/lines.h"
 
 #include "granular/base/executor.h"
-#include "granular/local/dual_vector.h"
+#include "granular/local/box_vectors.h"
 #include "granular/local/minimum_image.h"
 #include "granular/local/split_line.h"
 
@@ -20,8 +20,9 @@ double length_of(const Vector3& vector) noexcept
 {
   const double length = std::sqrt(dot(vector, vector));
   // its square may have left the range of numbers
-  return length > 0x1p-500 && length < 0x1p500 ? length
-                                               : std::hypot(vector[0], vector[1], vector[2]);
+  return length > 0x1p-500 && length < 0x1p500
+    ? length
+    : std::hypot(std::hypot(vector[0], vector[1]), vector[2]);
 }
 
 class LineMaker

@@ -2,7 +2,7 @@
 #include "granular/local/minimum_image.h"
 
 #include "granular/dump/point_forms.h"
-#include "granular/local/dual_vector.h"
+#include "granular/local/box_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -167,13 +167,14 @@ void MinimumImage::make_steps()
   for (std::size_t i = 0; i < vectors.size(); ++i)
   {
     // reduced vectors stand out by more than half their length
-    const std::optional<Vector3> dual = dual_vector(vectors, i);
-    if (!dual || !(dot(*dual, *dual) * reduced_[i].square < 4))
+    const Vector3 own = own_part(vectors, i);
+    const double square = dot(own, own);
+    if (!(square > reduced_[i].square / 4))
     {
       reduced_.clear();
       return;
     }
-    duals_.push_back(*dual);
+    duals_.push_back({ own[0] / square, own[1] / square, own[2] / square });
   }
   surely_shortest_ = shortest / 4 * (1 - 0x1p-30);
   const int size = static_cast<int>(reduced_.size());

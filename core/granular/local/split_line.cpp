@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/split_line.h"
 
-#include "granular/local/dual_vector.h"
+#include "granular/local/box_vectors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace granular
 {
@@ -26,7 +27,7 @@ LineSplitter::LineSplitter(const Box& box, const MinimumImage& images, const Vec
   }
   for (std::size_t i = 0; i < axes.size(); ++i)
   {
-    duals_[axes[i]] = dual_vector(vectors, i).value_or(Vector3{});
+    normals_[axes[i]] = own_part(vectors, i);
   }
 }
 
@@ -34,19 +35,19 @@ LineSplitter::LineSplitter(const Box& box, const MinimumImage& images, const Vec
 LineSplitter::Crossing LineSplitter::find_crossing(std::size_t axis, bool upper,
   const Vector3& first, const Vector3& second, const Vector3& whole) const noexcept
 {
-  const Vector3& dual = duals_[axis];
+  const Vector3& normal = normals_[axis];
   const auto up = [&](std::size_t of) { return upper && of == axis ? 1 : 0; };
   const Vector3 to_face = box_.corner(up(0), up(1), up(2), first);
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    size += std::abs(dual[i]) * std::max(std::abs(first[i]), std::abs(second[i]));
+    size += std::abs(normal[i]) * std::max(std::abs(first[i]), std::abs(second[i]));
   }
-  const double length = dot(dual, whole);
+  const double length = dot(normal, whole);
   Crossing crossing;
   crossing.axis = axis;
   crossing.rounding = std::abs(0x1p-50 * size / length);
-  const double place = dot(dual, to_face) / length;
+  const double place = dot(normal, to_face) / length;
   // nothing tells where a line in the face crosses it: at its first end
   crossing.place = place > crossing.rounding ? place : 0;
   crossing.place = crossing.place < 1 - crossing.rounding ? crossing.place : 1;

@@ -7,8 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
-#include <vector>
 
 namespace granular
 {
@@ -50,7 +48,7 @@ private:
   const Box& box_;
   const MinimumImage& images_;
   Vector3 point_origin_;
-  std::array<Vector3, 3> duals_ = {}; ///< of the box vectors that have a length
+  std::array<Vector3, 3> normals_ = {}; ///< of the faces that box vectors end at
 };
 }
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/local/dual_vector.h"
+#include "granular/local/box_vectors.h"
 
 #include <array>
 #include <cmath>
@@ -27,9 +27,9 @@ bool has_length(const Twofold3& vector) noexcept
   return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && (x != 0 || y != 0 || z != 0);
 }
 
-std::optional<Vector3> dual_vector(std::span<const Vector3> vectors, std::size_t which) noexcept
+Vector3 own_part(std::span<const Vector3> vectors, std::size_t which) noexcept
 {
-  Vector3 dual = vectors[which];
+  Vector3 own = vectors[which];
   std::array<Vector3, 2> others;
   std::size_t count = 0;
   for (std::size_t i = 0; i < vectors.size(); ++i)
@@ -41,18 +41,10 @@ std::optional<Vector3> dual_vector(std::span<const Vector3> vectors, std::size_t
       {
         remove_part(others[1], others[0]);
       }
-      remove_part(dual, others[count++]);
+      remove_part(own, others[count++]);
     }
   }
-  const double square = dot(dual, dual);
-  if (!(square > 0x1p-80 * dot(vectors[which], vectors[which])))
-  {
-    return std::nullopt;
-  }
-  for (double& component : dual)
-  {
-    component /= square;
-  }
-  return dual;
+  const bool is_one = dot(own, own) > 0x1p-80 * dot(vectors[which], vectors[which]);
+  return is_one ? own : Vector3{};
 }
 }

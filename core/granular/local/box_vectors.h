@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_local_box_vectors_h
+#define granular_local_box_vectors_h
+
+#include "granular/base/box.h"
+
+#include <cstddef>
+#include <span>
+
+namespace granular
+{
+inline double dot(const Vector3& a, const Vector3& b) noexcept
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Whether a vector of a box is one: not zero, and finite.
+bool has_length(const Twofold3& vector) noexcept;
+
+/// The part of one of at most three vectors that is perpendicular to the others: its product with any vector tells how many
+/// of that one are in it. Zero where there is no such part, to twelve digits.
+Vector3 own_part(std::span<const Vector3> vectors, std::size_t which) noexcept;
+}
+#endif
