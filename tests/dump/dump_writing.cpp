@@ -207,7 +207,7 @@ std::vector<Frames> cut(const Frames& whole, const std::vector<std::int64_t>& sh
     {
       if (shares[rank] == knows_nothing)
       {
-        ranks[rank].push_back({});
+        ranks[rank].emplace_back();
         continue;
       }
       const std::int64_t left = frame.rows - first;

@@ -15,12 +15,6 @@ bool is_coordinate(ColumnRole role) noexcept
     role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
 }
 
-/// Filters may give a frame without grains no arrays: such a one can have any columns.
-bool is_blank_frame(const FrameView& frame) noexcept
-{
-  return frame.rows == 0 && frame.arrays.empty();
-}
-
 /// Arrays with several columns, as far as the table has them; without values.
 std::vector<ArrayView> known_arrays()
 {
@@ -71,18 +65,6 @@ std::optional<ColumnSource> find_source(
     return source;
   }
   return is_blank_frame(frame) ? std::optional(source) : std::nullopt;
-}
-
-[[noreturn]] void fail_missing(const FrameView& frame, const std::string& name)
-{
-  std::string names;
-  for (const ArrayView& array : frame.arrays)
-  {
-    names += (names.empty() ? "" : ", ") + array.name;
-  }
-  throw Error("expected an array to make it from, got none: there are " +
-      (names.empty() ? "no arrays" : names),
-    { .column = name });
 }
 
 /// Image counts, where a column needs them.
@@ -164,6 +146,23 @@ void replace_text(ColumnSource& column, const FrameView& frame)
   column.kind = types ? Kind::Array : Kind::One;
   column.values = types.value_or(ValueSource{});
 }
+}
+
+bool is_blank_frame(const FrameView& frame) noexcept
+{
+  return frame.rows == 0 && frame.arrays.empty();
+}
+
+void fail_missing(const FrameView& frame, const std::string& name)
+{
+  std::string names;
+  for (const ArrayView& array : frame.arrays)
+  {
+    names += (names.empty() ? "" : ", ") + array.name;
+  }
+  throw Error("expected an array to make it from, got none: there are " +
+      (names.empty() ? "no arrays" : names),
+    { .column = name });
 }
 
 std::vector<std::string> default_columns(const FrameView& frame, Notices& notices, bool binary)

@@ -46,6 +46,12 @@ struct ColumnPlan
   bool wraps = false;  ///< image counts are found by wrapping unwrapped points into the box
 };
 
+/// Filters may give a frame without rows no arrays: such a one can have any columns.
+bool is_blank_frame(const FrameView& frame) noexcept;
+
+/// Throws the Error that there is nothing to make a column from.
+[[noreturn]] void fail_missing(const FrameView& frame, const std::string& name);
+
 /// The columns of a frame that are written where nobody says which: those of the file that it comes from, as
 /// far as there is something to make them from, with a notice of those that are left out, and then the
 /// arrays that are new; else id, type, x, y, z and all arrays. Texts that a binary dump cannot hold, and an array

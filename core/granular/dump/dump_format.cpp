@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/dump_format.h"
 
+#include "granular/base/error.h"
+
 #include <algorithm>
 
 namespace granular
@@ -28,6 +30,35 @@ std::string replace_first(const std::string& path, char mark, const std::string&
   const std::size_t place = path.find(mark, begin_of_name(path));
   return place == path.npos ? path : path.substr(0, place) + text + path.substr(place + 1);
 }
+}
+
+void check_format(const DumpFormat& format)
+{
+  if (format.binary && format.compression != Compression::None)
+  {
+    throw UnsupportedError("expected text to compress, got a binary dump: no program reads that");
+  }
+  if (format.style != DumpStyle::Local)
+  {
+    return;
+  }
+  if (format.binary)
+  {
+    throw UnsupportedError(
+      "expected text for local data, got a binary dump: no program reads that");
+  }
+  constexpr std::string_view sections[] = { "ATOMS", "BOX", "LABEL", "NUMBER", "TIME", "TIMESTEP",
+    "UNITS" };
+  const std::string& word = format.counted;
+  const bool is_word = !word.empty() &&
+    std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c <= '~'; });
+  if (!is_word || std::find(std::begin(sections), std::end(sections), word) != std::end(sections))
+  {
+    throw Error(
+      "expected one word for what the rows are called, as ENTRIES, CONTACTS or BONDS, and not "
+      "that of another section, got '" +
+      word + "'");
+  }
 }
 
 bool is_binary_name(std::string_view path) noexcept

@@ -16,8 +16,9 @@ namespace granular
 /// Which command of the simulation code would have written the file.
 enum class DumpStyle : std::uint8_t
 {
-  Atom,  ///< dump atom: the columns of an AtomForm
-  Custom ///< dump custom: any columns
+  Atom,   ///< dump atom: the columns of an AtomForm
+  Custom, ///< dump custom: any columns
+  Local   ///< dump local: rows of any arrays, which are no particles; text only
 };
 
 /// Whose bytes a file has.
@@ -35,15 +36,21 @@ struct DumpFormat
   bool binary = false;
   Compression compression = Compression::None; ///< of text only: no program reads compressed binary
   AtomForm atom;                               ///< of DumpStyle::Atom
-  std::vector<std::string> columns;            ///< of DumpStyle::Custom; empty: see default_columns
-  NumberFormat numbers;                        ///< of real numbers in text
-  bool units = false; ///< ITEM: UNITS in the first frame of the file; Lammps only
-  bool time = false;  ///< ITEM: TIME; Lammps only
+  std::vector<std::string>
+    columns; ///< not of DumpStyle::Atom; empty: see default_columns, or default_table_columns
+  std::string counted = "ENTRIES"; ///< what rows are called; of DumpStyle::Local
+  NumberFormat numbers;            ///< of real numbers in text
+  bool units = false;              ///< ITEM: UNITS in the first frame of the file; Lammps only
+  bool time = false;               ///< ITEM: TIME; Lammps only
   bool sort_by_id = false;
 
   /// Values of a chunk of a binary file, which counts them with 32 bits: less than 2^31 - 1.
   std::int64_t chunk_values = (std::int64_t{ 1 } << 31) - 2;
 };
+
+/// Makes sure that there is such a format: local data that are text, and are not called as something else is in a dump.
+/// Throws Error, UnsupportedError for binary dumps that are compressed or of local data.
+void check_format(const DumpFormat& format);
 
 /// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it, but for the end that
 /// says that it is compressed.

@@ -269,11 +269,7 @@ DumpWriter::DumpWriter(
   , options_(options)
   , ranks_(ranks)
 {
-  if (format_.binary && format_.compression != Compression::None)
-  {
-    throw UnsupportedError(
-      "expected text to compress, got a binary dump: no program reads that", { path_ });
-  }
+  check_format(format_);
   if (!is_name_of_steps(path_))
   {
     file_ = std::make_unique<File>(path_, format_, options_, ranks_);

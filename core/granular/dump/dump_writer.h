@@ -34,14 +34,15 @@ struct WriteOptions
 /// depend on their number, nor on that of threads. The file is there when finish() is done, and until then the
 /// old one is as it was; so it stays where a writer ends without. A name with '%' gives each rank a
 /// file of its own with its number for the '%', and its own number of atoms, and one with '*' each frame one
-/// with its timestep for the '*', which is there when write() is done, as the dump command has it.
+/// with its timestep for the '*', which is there when write() is done, as the dump command has it. With '%' each file of
+/// local data, too, has a header of its own, which programs give to the first one only.
 ///
 /// All functions, the destructor too, are collective. Errors of one rank are thrown on all (see agree);
 /// after one the writer is of no use. Memory beside the rows: some 64 MiB; sorting copies the rows.
 class DumpWriter
 {
 public:
-  /// Opens the file under another name. Throws IoError, UnsupportedError for compressed binary.
+  /// Opens the file under another name. Throws IoError, and what check_format does.
   DumpWriter(std::string path, DumpFormat format, const WriteOptions& options, Communicator& ranks);
   DumpWriter(const DumpWriter&) = delete;
   DumpWriter& operator=(const DumpWriter&) = delete;

@@ -115,9 +115,13 @@ std::string encode_text(const FrameHeader& header, const std::vector<std::string
   {
     writer.item("LABEL", header.label);
   }
-  writer.item("NUMBER OF ATOMS", std::to_string(header.rows));
-  add_box(writer, header.box);
-  writer.line("ITEM: ATOMS " + join(columns) + (!lammps && custom ? " " : ""));
+  writer.item("NUMBER OF " + header.counted, std::to_string(header.rows));
+  if (header.has_box)
+  {
+    add_box(writer, header.box);
+  }
+  writer.line(
+    "ITEM: " + header.counted + " " + join(columns) + (has_trailing_blanks(format) ? " " : ""));
   return writer.take();
 }
 
@@ -258,6 +262,12 @@ std::int64_t ChunkLengths::offset(std::int64_t row) const noexcept
   const std::int64_t lengths = (row + rows_per_chunk_ - 1) / rows_per_chunk_;
   return lengths * static_cast<std::int64_t>(sizeof(std::int32_t)) +
     row * size_one_ * static_cast<std::int64_t>(sizeof(double));
+}
+
+bool has_trailing_blanks(const DumpFormat& format) noexcept
+{
+  return format.style == DumpStyle::Local ||
+    (format.style == DumpStyle::Custom && format.dialect == Dialect::Liggghts);
 }
 
 std::string encode_header(const FrameHeader& header, const std::vector<std::string>& columns,

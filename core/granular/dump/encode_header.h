@@ -44,8 +44,11 @@ private:
   std::int32_t chunks_ = 0;
 };
 
-/// The header of a frame, up to its first row. first: of the file. Text as dump_atom.cpp and dump_custom.cpp
-/// of LIGGGHTS and LAMMPS print it, in their order: [UNITS, TIME,] timestep, [LABEL,] number of atoms, box,
+/// Whether there is a blank behind the last column, of names and of rows: dump local has it, and dump custom of LIGGGHTS.
+bool has_trailing_blanks(const DumpFormat& format) noexcept;
+
+/// The header of a frame, up to its first row. first: of the file. Text as dump_atom.cpp, dump_custom.cpp and dump_local.cpp
+/// of LIGGGHTS and LAMMPS print it, in their order: [UNITS, TIME,] timestep, [LABEL,] number of what is counted, [box,]
 /// columns; binary: timestep, number, triclinic, boundary, box, [tilts,] values a row, [units, time, columns,]
 /// number of chunks. A tilted box is given by its bounds and tilts. Throws LimitError, UnsupportedError.
 std::string encode_header(const FrameHeader& header, const std::vector<std::string>& columns,

@@ -7,6 +7,7 @@
 #include "granular/dump/grain_bounds.h"
 #include "granular/dump/header_archive.h"
 #include "granular/dump/row_batches.h"
+#include "granular/dump/table_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,15 +115,22 @@ Item unpack(std::string_view bytes)
   return item;
 }
 
-/// Makes one where there is none.
-void choose_box(Lead& lead, const FrameView& frame, const std::vector<Survey>& surveys)
+bool is_table(const DumpFormat& format) noexcept
+{
+  return format.style == DumpStyle::Local;
+}
+
+/// Makes one for particles where there is none.
+void choose_box(
+  Lead& lead, const FrameView& frame, const DumpFormat& format, const std::vector<Survey>& surveys)
 {
   if (std::any_of(surveys.begin(), surveys.end(),
         [&](const Survey& rank) { return rank.kept > 0 && rank.has_box != frame.has_box; }))
   {
     throw Error("expected a box on all ranks or on none, got one on some");
   }
-  if (frame.has_box)
+  lead.header.has_box = frame.has_box || !is_table(format);
+  if (frame.has_box || is_table(format))
   {
     return;
   }
@@ -139,9 +147,22 @@ void choose_box(Lead& lead, const FrameView& frame, const std::vector<Survey>& s
 std::vector<std::string> choose_names(
   const FrameView& frame, const DumpFormat& format, Notices& notices)
 {
+  const bool chosen = !format.columns.empty();
+  if (is_table(format))
+  {
+    return chosen ? expand_table_columns(format.columns, frame)
+                  : default_table_columns(frame, notices);
+  }
   return format.style == DumpStyle::Atom ? atom_columns(format.atom)
-    : format.columns.empty()             ? default_columns(frame, notices, format.binary)
-                                         : expand_columns(format.columns, frame);
+    : chosen                             ? expand_columns(format.columns, frame)
+                                         : default_columns(frame, notices, format.binary);
+}
+
+ColumnPlan plan_names(const std::vector<std::string>& names, const FrameView& frame,
+  const DumpFormat& format, Notices& notices)
+{
+  return is_table(format) ? plan_table_columns(names, frame)
+                          : plan_columns(names, frame, format.binary, notices);
 }
 
 void check_names(const std::vector<std::string>& names)
@@ -224,7 +245,7 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
   {
     notices.push_back({ {}, "no integer array 'id': the rows are not sorted" });
   }
-  if (box.boundary.empty())
+  if (box.boundary.empty() && lead.header.has_box)
   {
     notices.push_back(
       { {}, "the boundaries of the box are not known: they are written as ff ff ff" });
@@ -237,7 +258,7 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
 }
 
 /// The columns of a rank without rows, or the check that those of a rank with rows are the same.
-ColumnPlan join_plan(const Lead& lead, const FrameView& frame, bool binary)
+ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat& format)
 {
   if (frame.rows == 0)
   {
@@ -249,7 +270,7 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, bool binary)
   {
     names.push_back(column.name);
   }
-  ColumnPlan plan = plan_columns(names, frame, binary, told);
+  ColumnPlan plan = plan_names(names, frame, format, told);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const ColumnSource& own = plan.columns[i];
@@ -298,7 +319,7 @@ FramePlan plan_frame(
       survey.kept = count_kept(frame, 0, frame.rows);
       survey.arrays = static_cast<std::int64_t>(frame.arrays.size());
       survey.has_box = frame.has_box;
-      if (!frame.has_box)
+      if (!frame.has_box && !is_table(format))
       {
         survey.bounds = bounds_of_grains(frame);
       }
@@ -326,10 +347,10 @@ FramePlan plan_frame(
         return;
       }
       Lead lead{ frame.header, {}, {} };
-      choose_box(lead, frame, surveys);
+      choose_box(lead, frame, format, surveys);
       const std::vector<std::string> names = choose_names(frame, format, lead.notices);
       check_names(names);
-      lead.columns = plan_columns(names, frame, format.binary, lead.notices);
+      lead.columns = plan_names(names, frame, format, lead.notices);
       check_frame(lead, format, lead.notices);
       told = pack(std::move(lead));
     });
@@ -340,11 +361,12 @@ FramePlan plan_frame(
     {
       const Lead lead = unpack<Lead>(told);
       plan.header = lead.header;
+      plan.header.counted = is_table(format) ? format.counted : "ATOMS";
       plan.header.rows =
         std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
       plan.header.box.boundary =
         lead.header.box.boundary.empty() ? "ff ff ff" : parse_boundary(lead.header.box.boundary);
-      plan.columns = join_plan(lead, frame, format.binary);
+      plan.columns = join_plan(lead, frame, format);
       notices.insert(notices.end(), lead.notices.begin(), lead.notices.end());
     });
   return plan;

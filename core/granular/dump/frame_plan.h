@@ -24,7 +24,8 @@ struct FramePlan
 };
 
 /// Agrees on header and columns: they are those of the first rank that has rows, and a rank without rows need
-/// have nothing else. A frame without a box gets one from the bounds of all its grains, with a notice.
+/// have nothing else. A frame without a box gets one from the bounds of all its grains, with a notice; local data have
+/// none then.
 /// Throws Error, on all ranks, if the ranks have other arrays, or the format wants what the frame does not
 /// have: a box with a volume for scaled coordinates, units, a time. Notices are on all ranks. Collective.
 FramePlan plan_frame(

@@ -59,10 +59,12 @@ ArrayView view_rows(std::string name, ScalarType type, const Value* values, int 
 /// must stay until the frame is written.
 struct FrameView
 {
-  FrameHeader header;  ///< of the frame; rows are counted when it is written, box counts if has_box
-  bool has_box = true; ///< false: the box is made from the bounds of the grains
-  std::int64_t rows = 0;                ///< of this process
-  std::optional<ArrayView> points = {}; ///< three numbers a row; needed where there are rows
+  FrameHeader header; ///< of the frame; rows are counted when it is written, box counts if has_box
+  bool has_box =
+    true; ///< false: the box is made from the bounds of the grains, and local data have none
+  std::int64_t rows = 0; ///< of this process
+  std::optional<ArrayView>
+    points = {}; ///< three numbers a row; needed where there are rows, but of local data
   Coordinates coordinates = Coordinates::Absolute; ///< what the points are
   Vector3 point_origin = {};                       ///< what was subtracted from them
   std::vector<ArrayView> arrays = {};

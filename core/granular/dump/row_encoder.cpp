@@ -120,7 +120,7 @@ RowEncoder::RowEncoder(const FrameView& frame, const ColumnPlan& plan, const Box
   , chunks_(chunks)
   , first_row_(first_row)
   , first_in_file_(first_in_file)
-  , trailing_blank_(format.style == DumpStyle::Custom && format.dialect == Dialect::Liggghts)
+  , trailing_blank_(has_trailing_blanks(format))
 {
 }
 

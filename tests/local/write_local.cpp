@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dumps of local data: rows that are no particles.
+#include "../dump/dump_writing.h"
+#include "../dump/dumps.h"
+#include "text_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace granular;
+
+DumpFormat local(Dialect dialect, const std::string& counted = "ENTRIES")
+{
+  DumpFormat format;
+  format.style = DumpStyle::Local;
+  format.dialect = dialect;
+  format.counted = counted;
+  format.numbers.digits = 6;
+  return format;
+}
+
+/// A frame of a file, with its columns as arrays: those of a compute as one, as c_fc of c_fc[1] .. c_fc[12], or each by
+/// itself.
+struct Table
+{
+  explicit Table(TextFrame read, bool together)
+    : text(std::move(read))
+  {
+    view.header.timestep = text.timestep;
+    view.header.box = Box::from_bounds(
+      { text.lo[0], text.lo[1], text.lo[2] }, { text.hi[0], text.hi[1], text.hi[2] });
+    view.header.box.boundary = text.boundary;
+    view.rows = static_cast<std::int64_t>(text.rows.size());
+    view.columns = text.columns;
+    for (std::size_t begin = 0, end = 0; begin < text.columns.size(); begin = end)
+    {
+      const auto base = [&](std::size_t column)
+      { return text.columns[column].substr(0, text.columns[column].find('[')); };
+      const bool joins = together && text.columns[begin].ends_with("[1]");
+      for (++end; joins && end < text.columns.size() && base(end) == base(begin); ++end)
+      {
+      }
+      std::vector<double>& values = arrays.emplace_back();
+      for (const std::vector<double>& row : text.rows)
+      {
+        values.insert(values.end(), row.begin() + static_cast<std::ptrdiff_t>(begin),
+          row.begin() + static_cast<std::ptrdiff_t>(end));
+      }
+      view.arrays.push_back(view_rows(end - begin > 1 ? base(begin) : text.columns[begin],
+        ScalarType::Float64, values.data(), static_cast<int>(end - begin)));
+    }
+  }
+
+  TextFrame text;
+  std::vector<std::vector<double>> arrays;
+  FrameView view;
+};
+
+struct Tables
+{
+  explicit Tables(const std::string& file, bool together = true)
+  {
+    for (TextFrame& frame : read_text_frames(GRANULAR_DATA "/good/local/" + file))
+    {
+      tables.emplace_back(std::move(frame), together);
+      views.push_back(tables.back().view);
+    }
+  }
+
+  std::vector<Table> tables;
+  Frames views;
+};
+
+struct RealFile
+{
+  const char* name;
+  Dialect dialect;
+  const char* counted;
+};
+
+constexpr RealFile real_files[] = {
+  { "contacts.dump", Dialect::Liggghts, "ENTRIES" },
+  { "all.dump", Dialect::Liggghts, "ENTRIES" },
+  { "label.dump", Dialect::Liggghts, "CONTACTS" },
+  { "chain_bonds.dump", Dialect::Lammps, "BONDS" },
+};
+
+std::string bytes_of(const RealFile& file)
+{
+  return data_file(std::string("good/local/") + file.name);
+}
+
+// ---- real files --------------------------------------------------------------------------------
+
+TEST(WriteLocal, RealFilesByteByByte)
+{
+  const Folder folder;
+  for (const RealFile& file : real_files)
+  {
+    for (const bool together : { true, false })
+    {
+      const Tables tables(file.name, together);
+      DumpFormat format = local(file.dialect, file.counted);
+      for (const bool chosen : { false, true })
+      {
+        format.columns = chosen ? tables.views.back().columns : std::vector<std::string>();
+        const Written written = write_dump(folder.path("again"), tables.views, format);
+        EXPECT_EQ(written.error, "");
+        EXPECT_EQ(written.said, "");
+        EXPECT_EQ(difference(written.bytes, bytes_of(file)), "") << file.name;
+      }
+    }
+  }
+}
+
+TEST(WriteLocal, AnyRanksAndThreadsGiveTheSameBytes)
+{
+  const Folder folder;
+  for (const RealFile& file : real_files)
+  {
+    const Tables tables(file.name);
+    const DumpFormat format = local(file.dialect, file.counted);
+    for (const ParallelMode mode : { ParallelMode::Gather, ParallelMode::MpiIo })
+    {
+      for (const std::vector<std::int64_t>& shares : std::vector<std::vector<std::int64_t>>{
+             { 1000 }, { 7, 1000 }, { 0, 20, 1000 }, { knows_nothing, 3, knows_nothing } })
+      {
+        WriteOptions options;
+        options.mode = mode;
+        options.threads = 2;
+        const Written written =
+          write_dump(folder.path("ranks"), cut(tables.views, shares), format, options);
+        EXPECT_EQ(written.error, "");
+        EXPECT_EQ(difference(written.bytes, bytes_of(file)), "") << file.name;
+      }
+    }
+  }
+}
+
+TEST(WriteLocal, FilesOfRanksAndStepsHaveHeadersOfTheirOwn)
+{
+  const Folder folder;
+  const Tables tables("contacts.dump");
+  const Written written = write_dump(folder.path("part_*.%.dump"),
+    cut({ tables.views[1], tables.views[2] }, { 3, 1000 }), local(Dialect::Liggghts));
+  EXPECT_EQ(written.error, "");
+  const std::map<std::string, std::size_t> rows = { { "part_1000.0.dump", 3 },
+    { "part_1000.1.dump", 1 }, { "part_2000.0.dump", 3 }, { "part_2000.1.dump", 32 } };
+  for (const auto& [name, count] : rows)
+  {
+    const std::vector<TextFrame> frames = read_text_frames(folder.path(name));
+    ASSERT_EQ(frames.size(), 1u) << name;
+    EXPECT_EQ(frames[0].rows.size(), count) << name;
+    EXPECT_EQ(frames[0].columns, tables.views[1].columns) << name;
+  }
+}
+
+// ---- made by hand ------------------------------------------------------------------------------
+
+struct Made
+{
+  std::vector<std::int64_t> first = { 1000001, 2147483649, 9007199254740993 };
+  std::vector<double> second = { 1000002, 2147483650, 9007199254740990 };
+  std::vector<double> force = { 1, 2, 3, 4.5, -0.25, 1e-7, 1234567, 0, 7 };
+  std::vector<std::string> kinds = { "soft", "hard", "soft" };
+
+  FrameView view() const
+  {
+    FrameView view;
+    view.header.timestep = 5;
+    view.header.box = Box::from_bounds({ 0, 0, 0 }, { 1, 2, 3 });
+    view.header.box.boundary = "pp pp ff";
+    view.rows = 3;
+    view.arrays.push_back(view_rows("id1", ScalarType::Int64, first.data()));
+    view.arrays.push_back(view_rows("id2", ScalarType::Float64, second.data()));
+    view.arrays.push_back(view_rows("force", ScalarType::Float64, force.data(), 3));
+    return view;
+  }
+};
+
+const std::string box_lines = "ITEM: BOX BOUNDS pp pp ff\n0 1\n0 2\n0 3\n";
+
+Written write(const FrameView& view, const DumpFormat& format)
+{
+  const Folder folder;
+  return write_dump(folder.path("local"), Frames{ view }, format);
+}
+
+TEST(WriteLocal, IdsOfTheEndsAreWhole)
+{
+  const Made made;
+  const Written written = write(made.view(), local(Dialect::Liggghts, "BONDS"));
+  EXPECT_EQ(written.error, "");
+  EXPECT_EQ(written.said, "");
+  EXPECT_EQ(written.bytes,
+    "ITEM: TIMESTEP\n5\nITEM: NUMBER OF BONDS\n3\n" + box_lines +
+      "ITEM: BONDS id1 id2 force[1] force[2] force[3] \n"
+      "1000001 1000002 1 2 3 \n"
+      "2147483649 2147483650 4.5 -0.25 1e-07 \n"
+      "9007199254740993 9007199254740990 1.23457e+06 0 7 \n");
+}
+
+TEST(WriteLocal, ColumnsAreArraysByTheirNames)
+{
+  const Made made;
+  FrameView view = made.view();
+  view.arrays.push_back(view_rows("kind of it", ScalarType::Text, made.kinds.data()));
+  view.arrays.push_back(view_rows("x", ScalarType::Float64, made.second.data())); // no coordinate
+  DumpFormat format = local(Dialect::Lammps);
+  format.columns = { "force[3]", "x", "kind_of_it", "force", "id1" };
+  format.numbers.digits = 10;
+  const Written written = write(view, format);
+  EXPECT_EQ(written.error, "");
+  EXPECT_EQ(written.bytes,
+    "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n3\nITEM: BOX BOUNDS pp pp ff\n"
+    "0.0000000000000000e+00 1.0000000000000000e+00\n"
+    "0.0000000000000000e+00 2.0000000000000000e+00\n"
+    "0.0000000000000000e+00 3.0000000000000000e+00\n"
+    "ITEM: ENTRIES force[3] x kind_of_it force[1] force[2] force[3] id1 \n"
+    "3 1000002 soft 1 2 3 1000001 \n"
+    "1e-07 2147483650 hard 4.5 -0.25 1e-07 2147483649 \n"
+    "7 9.007199255e+15 soft 1234567 0 7 9007199254740993 \n");
+}
+
+TEST(WriteLocal, NamesOfParticleColumnsMeanNothing)
+{
+  const Made made;
+  DumpFormat format = local(Dialect::Liggghts);
+  FrameView view = made.view();
+  view.arrays.push_back(view_rows("f", ScalarType::Float64, made.force.data(), 3));
+  for (const char* name : { "id", "type", "x", "ix", "fx", "diameter" })
+  {
+    format.columns = { name };
+    EXPECT_EQ(write(view, format).error,
+      "column '" + std::string(name) +
+        "': expected an array to make it from, got none: there are id1, id2, force, f");
+  }
+  format.columns = { "f" };
+  EXPECT_NE(
+    write(view, format).bytes.find("ITEM: ENTRIES f[1] f[2] f[3] \n1 2 3 \n"), std::string::npos);
+}
+
+TEST(WriteLocal, ColumnsOfTheInputComeFirst)
+{
+  const Made made;
+  FrameView view = made.view();
+  view.columns = { "force[2]", "energy", "id2" };
+  const Written written = write(view, local(Dialect::Liggghts));
+  EXPECT_EQ(written.said, "columns of the input without an array are left out: energy\n");
+  EXPECT_NE(written.bytes.find(
+              "ITEM: ENTRIES force[2] id2 id1 force[1] force[3] \n2 1000002 1000001 1 3 \n"),
+    std::string::npos)
+    << written.bytes;
+}
+
+TEST(WriteLocal, NoBox)
+{
+  const Made made;
+  FrameView view = made.view();
+  view.has_box = false;
+  DumpFormat format = local(Dialect::Lammps);
+  format.columns = { "id1" };
+  const std::string expected = "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n3\nITEM: ENTRIES id1 \n"
+                               "1000001 \n2147483649 \n9007199254740993 \n";
+  const Written written = write(view, format);
+  EXPECT_EQ(written.error, "");
+  EXPECT_EQ(written.said, "");
+  EXPECT_EQ(written.bytes, expected);
+  const Folder folder;
+  EXPECT_EQ(write_dump(folder.path("ranks"), cut({ view }, { knows_nothing, 1, 2 }), format).bytes,
+    expected);
+}
+
+TEST(WriteLocal, TiltedBoxUnitsAndTime)
+{
+  const Made made;
+  FrameView view = made.view();
+  view.header.box = Box::from_tilted_bounds({ 0, 0, 0 }, { 5, 4, 3 }, 1, 0, 0.5);
+  view.header.box.boundary = "pp pp pp";
+  view.header.units = "lj";
+  view.header.time = 0.125;
+  DumpFormat format = local(Dialect::Lammps);
+  format.columns = { "id1" };
+  format.units = true;
+  format.time = true;
+  const std::string begin =
+    "ITEM: UNITS\nlj\nITEM: TIME\n0.125\nITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n3\n"
+    "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0.0000000000000000e+00 5.0000000000000000e+00 "
+    "1.0000000000000000e+00\n";
+  EXPECT_EQ(write(view, format).bytes.substr(0, begin.size()), begin);
+}
+
+TEST(WriteLocal, NoRows)
+{
+  const Made made;
+  FrameView view = rows_of(made.view(), 0, 0);
+  const std::string head =
+    "ITEM: TIMESTEP\n5\nITEM: NUMBER OF CONTACTS\n0\n" + box_lines + "ITEM: CONTACTS ";
+  DumpFormat format = local(Dialect::Liggghts, "CONTACTS");
+  EXPECT_EQ(write(view, format).bytes, head + "id1 id2 force[1] force[2] force[3] \n");
+  // without arrays, too, as filters leave nothing
+  view.arrays.clear();
+  view.columns = { "c_fc[1]", "c_fc[2]" };
+  EXPECT_EQ(write(view, format).bytes, head + "c_fc[1] c_fc[2] \n");
+  format.columns = { "id1", "anything" };
+  EXPECT_EQ(write(view, format).bytes, head + "id1 anything \n");
+  format.columns.clear();
+  view.columns.clear();
+  EXPECT_EQ(write(view, format).error, "expected at least one column, got none");
+}
+
+TEST(WriteLocal, DuplicatesAreLeftOut)
+{
+  const Made made;
+  const unsigned char ghosts[] = { 0, FrameView::duplicate_row, 0 };
+  FrameView view = made.view();
+  view.ghosts = ghosts;
+  DumpFormat format = local(Dialect::Liggghts);
+  format.columns = { "id1" };
+  EXPECT_EQ(write(view, format).bytes,
+    "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n2\n" + box_lines +
+      "ITEM: ENTRIES id1 \n1000001 \n9007199254740993 \n");
+}
+
+/// More rows than a chunk has.
+TEST(WriteLocal, ManyRows)
+{
+  std::vector<std::int64_t> ids;
+  std::string expected;
+  for (std::int64_t i = 0; i < 100000; ++i)
+  {
+    ids.push_back(i * 7919);
+    expected += std::to_string(i * 7919) + " \n";
+  }
+  FrameView view;
+  view.has_box = false;
+  view.rows = static_cast<std::int64_t>(ids.size());
+  view.arrays.push_back(view_rows("id1", ScalarType::Int64, ids.data()));
+  const Folder folder;
+  for (const std::vector<std::int64_t>& shares :
+    std::vector<std::vector<std::int64_t>>{ { 100000 }, { 1, 70000, 100000 } })
+  {
+    const Written written =
+      write_dump(folder.path("many"), cut({ view }, shares), local(Dialect::Lammps));
+    EXPECT_EQ(
+      difference(written.bytes,
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n100000\nITEM: ENTRIES id1 \n" + expected),
+      "");
+  }
+}
+
+// ---- errors ------------------------------------------------------------------------------------
+
+TEST(WriteLocal, WhatRowsAreCalled)
+{
+  const Made made;
+  for (const char* word : { "", "MY BONDS", "BONDS ", "B\nC", "B\x7f", "ATOMS", "TIMESTEP", "BOX" })
+  {
+    const Written written = write(made.view(), local(Dialect::Lammps, word));
+    EXPECT_EQ(written.error,
+      "expected one word for what the rows are called, as ENTRIES, CONTACTS or BONDS, and not "
+      "that of another section, got '" +
+        std::string(word) + "'");
+    EXPECT_EQ(written.bytes, "");
+  }
+  // it is nothing to dumps of particles, whose rows are atoms
+  FrameView view = made.view();
+  view.points = view_rows("points", ScalarType::Float64, made.force.data(), 3);
+  DumpFormat custom = local(Dialect::Lammps, "");
+  custom.style = DumpStyle::Custom;
+  view.header.counted = "BONDS";
+  EXPECT_NE(write(view, custom).bytes.find("ITEM: NUMBER OF ATOMS\n3\n"), std::string::npos);
+}
+
+TEST(WriteLocal, Errors)
+{
+  const Made made;
+  DumpFormat format = local(Dialect::Lammps);
+  format.columns = { "id1", "force[4]" };
+  EXPECT_EQ(write(made.view(), format).error,
+    "column 'force[4]': expected an array to make it from, got none: there are id1, id2, force");
+  format.columns = { "two words" };
+  const FrameView nothing;
+  EXPECT_EQ(
+    write(nothing, format).error, "expected the name of a column as one word, got 'two words'");
+  format = local(Dialect::Lammps);
+  format.binary = true;
+  EXPECT_EQ(write(made.view(), format).error,
+    "expected text for local data, got a binary dump: no program reads that");
+  // other arrays on another rank
+  FrameView other = rows_of(made.view(), 1, 2);
+  other.arrays.pop_back();
+  const Folder folder;
+  EXPECT_EQ(
+    write_dump(folder.path("ranks"),
+      std::vector<Frames>{ { rows_of(made.view(), 0, 1) }, { other } }, local(Dialect::Lammps))
+      .error,
+    "column 'force[1]': expected an array to make it from, got none: there are id1, id2 (on rank 1 "
+    "of 2)");
+}
+}
