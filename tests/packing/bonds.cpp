@@ -274,6 +274,13 @@ const Case cases[] = {
       r.box = tilted_box({}, { 2.2, 2.3, 2.5 }, { 0.3, 0.1, -0.2 });
       r.boundary = "p p p";
     } },
+  { "thin and sheared: the nearest image is several boxes away", 2.9,
+    [](PackingRequest& r)
+    {
+      r.grains = 0;
+      r.box = tilted_box({}, { 20, 20, 1.1 }, { 0, 7.6, 4.4 });
+      r.boundary = "p p p";
+    } },
   { "few, as near as can be, and three times that", 2.99,
     [](PackingRequest& r)
     {

@@ -29,7 +29,7 @@ struct Bond
 {
   std::int64_t first; ///< row
   std::int64_t second;
-  Vector3 ends[2];
+  Vector3 end; ///< the second; the first is where the grain is
   double length;
 };
 
@@ -98,7 +98,7 @@ void add_near(const NearGrains& all, const NearGrains::Grain& grain, Bonds& bond
   for (const NearGrains::Grain& other : found)
   {
     const double length = distance(grain.point, other.point);
-    const Bond bond = { grain.row, other.row, { grain.point, other.point }, length };
+    const Bond bond = { grain.row, other.row, other.point, length };
     if (other.row != before)
     {
       bonds.push_back(bond);
@@ -117,6 +117,8 @@ std::vector<Bonds> find_bonds(
 {
   std::vector<Bonds> chunks(
     static_cast<std::size_t>((rows.count() + rows_a_chunk - 1) / rows_a_chunk));
+  std::vector<Bonds> of_workers(
+    static_cast<std::size_t>(threads)); // memory that was touched before
   for_row_chunks(rows.count(), threads, progress,
     [&](std::int64_t begin, std::int64_t end, std::size_t)
     {
@@ -127,7 +129,8 @@ std::vector<Bonds> find_bonds(
 }
 
 /// The bonds of all chunks one after the other; the memory of each is given back on the way.
-GrainBonds join(std::vector<Bonds>& chunks, int threads, Progress& progress)
+GrainBonds join(
+  std::vector<Bonds>& chunks, const PlacedGrains& own, int threads, Progress& progress)
 {
   std::vector<std::size_t> starts = { 0 };
   for (const Bonds& bonds : chunks)
@@ -159,8 +162,8 @@ GrainBonds join(std::vector<Bonds>& chunks, int threads, Progress& progress)
         id2[to] = bonds[i].second + 1;
         btype[to] = 1;
         length[to] = bonds[i].length;
-        std::copy_n(bonds[i].ends[0].data(), 3, points + 6 * to);
-        std::copy_n(bonds[i].ends[1].data(), 3, points + 6 * to + 3);
+        std::copy_n(own.points + 3 * (bonds[i].first - own.rows.first), 3, points + 6 * to);
+        std::copy_n(bonds[i].end.data(), 3, points + 6 * to + 3);
       }
     },
     progress);
@@ -177,7 +180,7 @@ AddBonds along_fibres(const PackingPlan& plan)
       {
         const Vector3 from = plan.shape.point(plan.fibres->scaled(row));
         const Vector3 to = plan.shape.point(plan.fibres->scaled(row + 1));
-        bonds.push_back({ row, row + 1, { from, to }, distance(from, to) });
+        bonds.push_back({ row, row + 1, to, distance(from, to) });
       }
     }
   };
@@ -225,22 +228,21 @@ GrainBonds make_bonds(
     throw LimitError("expected a bond factor from 1 to 3, got " + std::to_string(factor));
   }
   const PackingPlan plan(request);
-  const RowRange rows = plan.rows_of_piece(request.piece, request.pieces);
+  const PlacedGrains own = { plan.rows_of_piece(request.piece, request.pieces),
+    static_cast<const double*>(grains.points.data()), array_of<double>(grains, "radius") };
   PartialProgress part(progress);
   std::vector<Bonds> chunks;
   if (plan.fibres)
   {
     part.set_part(0, 0.9);
-    chunks = find_bonds(rows, along_fibres(plan), request.threads, part);
+    chunks = find_bonds(own.rows, along_fibres(plan), request.threads, part);
   }
-  else if (rows.count() > 0)
+  else if (own.rows.count() > 0)
   {
-    const PlacedGrains own = { rows, static_cast<const double*>(grains.points.data()),
-      array_of<double>(grains, "radius") };
     chunks = find_near(plan, own, factor, request.threads, part);
   }
   part.set_part(0.9, 1);
-  GrainBonds bonds = join(chunks, request.threads, part);
+  GrainBonds bonds = join(chunks, own, request.threads, part);
   progress.step(1);
   return bonds;
 }
