@@ -2,11 +2,13 @@
 #include "vtkGranularPackingSource.h"
 
 #include "private/arrays.h"
+#include "private/bond_lines.h"
 #include "private/dump_output.h"
 #include "private/guard.h"
 #include "private/piece_request.h"
 #include "private/processes.h"
 
+#include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"
 
 #include "vtkDataObject.h"
@@ -23,6 +25,17 @@
 
 using namespace vtkGranularPrivate;
 
+namespace
+{
+enum Ports
+{
+  GRAINS,
+  BOX,
+  BONDS,
+  NUMBER_OF_PORTS
+};
+}
+
 vtkStandardNewMacro(vtkGranularPackingSource);
 
 //------------------------------------------------------------------------------
@@ -36,6 +49,8 @@ struct vtkGranularPackingSource::Internals
 
   granular::Box MakeBox(Self* self);
   granular::PackingRequest MakeRequest(Self* self, vtkInformation* output);
+  void Fill(Self* self, const granular::PackingRequest& wanted, vtkInformationVector* outputs,
+    granular::Progress& progress);
   void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
 };
 
@@ -82,6 +97,7 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
   request.radii.share = self->SecondShare;
   request.solid_fraction = self->SolidFraction;
   request.spacing = self->Spacing;
+  request.grains_per_fibre = self->GrainsPerFibre;
   request.speed = self->Speed;
   request.seed = static_cast<std::uint64_t>(self->Seed);
   const PieceRequest wanted = PieceRequest::Of(output);
@@ -90,6 +106,32 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
   request.ranges = true; // whoever shows an array asks for it
   request.threads = ChooseThreads(self->Threads, this->Ranks.Get());
   return request;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::PackingRequest& wanted,
+  vtkInformationVector* outputs, granular::Progress& progress)
+{
+  const bool bonded = self->BondFactor != 0;
+  granular::PartialProgress part(progress);
+  part.set_part(0, bonded ? 0.5 : 1);
+  granular::DumpFrame frame = granular::make_packing(wanted, part);
+  if (bonded)
+  {
+    part.set_part(0.5, 1);
+    granular::GrainBonds bonds = granular::make_bonds(wanted, frame, self->BondFactor, part);
+    FillBonds(vtkPolyData::GetData(outputs, BONDS), bonds);
+  }
+  FillParticles(vtkPolyData::GetData(outputs, GRAINS), frame, false, VertexCells::OnePerPoint,
+    this->Vertices, nullptr);
+  if (wanted.piece == 0)
+  {
+    FillBox(vtkUnstructuredGrid::GetData(outputs, BOX), frame.header.box, frame.coordinates, {});
+  }
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    FillFieldData(vtkDataObject::GetData(outputs, i)->GetFieldData(), frame, {});
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -103,33 +145,18 @@ void vtkGranularPackingSource::Internals::Run(
     : 0;
   AlgorithmProgress own(self);
   granular::SharedProgress progress(own, ranks);
-  const auto work = [&]
-  {
-    const granular::PackingRequest wanted =
-      this->MakeRequest(self, outputs->GetInformationObject(port));
-    granular::DumpFrame frame = granular::make_packing(wanted, progress);
-    FillParticles(vtkPolyData::GetData(outputs, 0), frame, false, VertexCells::OnePerPoint,
-      this->Vertices, nullptr);
-    if (wanted.piece == 0)
-    {
-      FillBox(vtkUnstructuredGrid::GetData(outputs, 1), frame.header.box, frame.coordinates, {});
-    }
-    for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
-    {
-      FillFieldData(vtkDataObject::GetData(outputs, i)->GetFieldData(), frame, {});
-    }
-  };
   granular::do_together(ranks,
     [&]
     {
       try
       {
-        work();
+        this->Fill(
+          self, this->MakeRequest(self, outputs->GetInformationObject(port)), outputs, progress);
       }
       catch (const std::bad_alloc&)
       {
         throw granular::LimitError(
-          "not enough memory for so many grains: ask for fewer, or use more "
+          "not enough memory for so many grains and bonds: ask for fewer, or use more "
           "processes on more machines");
       }
     });
@@ -140,7 +167,7 @@ vtkGranularPackingSource::vtkGranularPackingSource()
   : Internal(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(0);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(NUMBER_OF_PORTS);
 }
 
 //------------------------------------------------------------------------------
@@ -209,7 +236,7 @@ int vtkGranularPackingSource::ComputePipelineMTime(vtkInformation* request,
 //------------------------------------------------------------------------------
 int vtkGranularPackingSource::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkUnstructuredGrid");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == BOX ? "vtkUnstructuredGrid" : "vtkPolyData");
   return 1;
 }
 
@@ -252,6 +279,8 @@ void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SecondShare: " << this->SecondShare << "\n";
   os << indent << "SolidFraction: " << this->SolidFraction << "\n";
   os << indent << "Spacing: " << this->Spacing << "\n";
+  os << indent << "GrainsPerFibre: " << this->GrainsPerFibre << "\n";
+  os << indent << "BondFactor: " << this->BondFactor << "\n";
   os << indent << "Speed: " << this->Speed << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Threads: " << this->Threads << "\n";

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularPackingSource
- * @brief   Makes grains that do not overlap, on a lattice or at random places, without a file.
+ * @brief   Makes grains that do not overlap, at random places, on a lattice or in fibres, without a file.
  *
  * Output port 0 holds the grains (vtkPolyData, one vertex a grain), output port 1 the box as one
  * hexahedron (vtkUnstructuredGrid). Both have the arrays and field data that vtkGranularDumpReader gives for
  * a dump of timestep 0 with the columns id type x y z radius vx vy vz: `id` (vtkTypeInt64Array from 1 on,
- * and the pedigree ids), `type` (vtkTypeInt32Array), `radius`, `v` (3).
+ * and the pedigree ids), `type` (vtkTypeInt32Array), `radius`, `v` (3). Grains in fibres have another column, the
+ * number of the fibre from 1 on: `mol` (vtkTypeInt64Array).
+ *
+ * Output port 2 holds the bonds that BondFactor asks for (vtkPolyData, one line a bond, with two points of
+ * its own): from the centre of a grain to that of the other, or to that of its nearest periodic image. Cell arrays
+ * are `id1` and the greater `id2` (vtkTypeInt64Array), `btype` (vtkTypeInt32Array, 1), `equilibrium_length`
+ * and `length`, which are equal here. The field data are those of the grains. Without bonds it has no cells, and
+ * no arrays if none were asked for.
  *
  * Grains are wholly inside the box; along periodic axes their centres are, and their periodic images do not
- * overlap grains either. Random grains do not touch one another, those of a lattice of spacing 1 do.
+ * overlap grains either. Random grains do not touch one another, those of lattices and fibres of spacing 1 do.
  *
  * Each grain follows from the properties and its number: any pieces, threads and ranks give the same.
- * Pieces hold equal numbers of grains, in the order of their ids; the box is in piece 0 alone.
+ * Pieces hold equal numbers of grains, in the order of their ids, and the bonds of these with greater ids, in
+ * the order of (id1, id2); the box is in piece 0 alone.
  *
- * After an error both outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
+ * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
  * abort holds for one update: the outputs are empty then, and the next update starts afresh.
  */
 
@@ -40,7 +48,9 @@ public:
     RANDOM = 0,
     SIMPLE_CUBIC = 1,
     FACE_CENTRED_CUBIC = 2,
-    HEXAGONAL = 3
+    HEXAGONAL = 3,
+    CHAIN = 4,
+    FIBRE_BUNDLE = 5
   };
 
   enum RadiiType
@@ -52,9 +62,11 @@ public:
 
   ///@{
   /**
-   * RANDOM, the default, or whole cells of a lattice along the box vectors, in the middle of the box.
+   * RANDOM, the default; or whole cells of a lattice along the box vectors, in the middle of the box; or a
+   * CHAIN, one straight fibre along the first box vector; or a FIBRE_BUNDLE, such fibres side by side in closest
+   * packing. Fibres begin a radius inside the low face; one that is longer than the box is an error.
    */
-  vtkSetClampMacro(Arrangement, int, RANDOM, HEXAGONAL);
+  vtkSetClampMacro(Arrangement, int, RANDOM, FIBRE_BUNDLE);
   vtkGetMacro(Arrangement, int);
   ///@}
 
@@ -119,12 +131,31 @@ public:
   /**
    * SolidFraction: volume of random grains by that of the box, where not both their number and the box are
    * given; greater than 0, 0.2 by default, and up to about 0.3 grains find their places. Spacing: distance
-   * of nearest neighbours of a lattice by the largest diameter; at least 1, the default, where they touch.
+   * of nearest neighbours, of lattices and fibres, by the largest diameter; at least 1, the default, where
+   * they touch.
    */
   vtkSetMacro(SolidFraction, double);
   vtkGetMacro(SolidFraction, double);
   vtkSetMacro(Spacing, double);
   vtkGetMacro(Spacing, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many grains a fibre of a FIBRE_BUNDLE has, at least 1; the last one may have fewer. 20 by default.
+   */
+  vtkSetMacro(GrainsPerFibre, vtkTypeInt64);
+  vtkGetMacro(GrainsPerFibre, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * 0, the default: no bonds. From 1 to 3: bonds between grains whose centres are no farther apart than this times the
+   * sum of their radii, within rounding; through periodic faces, too, but one at most for a pair. In fibres it is
+   * the consecutive grains of each that are bonded, whatever the factor.
+   */
+  vtkSetMacro(BondFactor, double);
+  vtkGetMacro(BondFactor, double);
   ///@}
 
   ///@{
@@ -189,6 +220,8 @@ private:
   double SecondShare = 0.3;
   double SolidFraction = 0.2;
   double Spacing = 1;
+  vtkTypeInt64 GrainsPerFibre = 20;
+  double BondFactor = 0;
   double Speed = 0;
   int Seed = 1;
   int Threads = 0;

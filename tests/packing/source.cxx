@@ -4,6 +4,7 @@
 
 #include "../support/observer.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
@@ -17,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -30,6 +32,8 @@ struct Source : Watched<vtkGranularPackingSource>
   {
     return vtkUnstructuredGrid::SafeDownCast(this->Get->GetOutputDataObject(1));
   }
+  vtkPolyData* Bonds() { return vtkPolyData::SafeDownCast(this->Get->GetOutputDataObject(2)); }
+  vtkDataArray* BondArray(const char* name) { return this->Bonds()->GetCellData()->GetArray(name); }
   vtkDataArray* Array(const char* name) { return this->Grains()->GetPointData()->GetArray(name); }
 };
 
@@ -38,7 +42,12 @@ void ExpectEmpty(Source& source)
   EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 0);
   EXPECT_EQ(source.Grains()->GetPointData()->GetNumberOfArrays(), 0);
   EXPECT_EQ(source.Box()->GetNumberOfCells(), 0);
+  EXPECT_EQ(source.Bonds()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(source.Bonds()->GetNumberOfCells(), 0);
+  EXPECT_EQ(source.Bonds()->GetCellData()->GetNumberOfArrays(), 0);
 }
+
+constexpr const char* BondNames[] = { "id1", "id2", "btype", "equilibrium_length", "length" };
 }
 
 TEST(PackingSource, GivesWhatADumpWould)
@@ -57,8 +66,10 @@ TEST(PackingSource, GivesWhatADumpWould)
   EXPECT_EQ(range[0], 0.003);
   EXPECT_EQ(range[1], 0.005);
   EXPECT_EQ(source.Box()->GetNumberOfCells(), 1);
-  for (vtkDataObject* output :
-    { static_cast<vtkDataObject*>(source.Grains()), static_cast<vtkDataObject*>(source.Box()) })
+  EXPECT_EQ(source.Bonds()->GetNumberOfCells(), 0);
+  EXPECT_EQ(source.Bonds()->GetCellData()->GetNumberOfArrays(), 0);
+  for (vtkDataObject* output : { static_cast<vtkDataObject*>(source.Grains()),
+         static_cast<vtkDataObject*>(source.Box()), static_cast<vtkDataObject*>(source.Bonds()) })
   {
     vtkFieldData* data = output->GetFieldData();
     for (const char* name : { "Coordinates", "PointOrigin", "BoxOrigin", "BoxVectors", "Boundary",
@@ -96,6 +107,115 @@ TEST(PackingSource, PiecesAreTheWholeAndTheBoxIsInTheFirst)
   EXPECT_EQ(row, 1000);
 }
 
+TEST(PackingSource, BondsOfABlockAreLines)
+{
+  Source source;
+  source->SetArrangement(vtkGranularPackingSource::SIMPLE_CUBIC);
+  source->SetRadii(vtkGranularPackingSource::ONE);
+  source->SetRadius(0.005);
+  source->SetNumberOfGrains(0);
+  source->SetBoundary("p f f");
+  source->SetBondFactor(1.05);
+  source->Update();
+  ASSERT_EQ(source.Grains()->GetNumberOfPoints(), 1000);
+  // ten cubed: along each line across a wall nine, along each periodic one ten
+  ASSERT_EQ(source.Bonds()->GetNumberOfLines(), 100 * (10 + 9 + 9));
+  ASSERT_EQ(source.Bonds()->GetNumberOfPoints(), 2 * source.Bonds()->GetNumberOfLines());
+  EXPECT_EQ(source.Bonds()->GetNumberOfCells(), source.Bonds()->GetNumberOfLines());
+  EXPECT_NE(vtkTypeInt64Array::SafeDownCast(source.BondArray("id1")), nullptr);
+  EXPECT_NE(vtkTypeInt64Array::SafeDownCast(source.BondArray("id2")), nullptr);
+  EXPECT_NE(vtkTypeInt32Array::SafeDownCast(source.BondArray("btype")), nullptr);
+  for (vtkIdType bond = 0; bond < source.Bonds()->GetNumberOfCells(); ++bond)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ends = nullptr;
+    source.Bonds()->GetCellPoints(bond, size, ends);
+    ASSERT_EQ(size, 2);
+    double first[3];
+    double second[3];
+    double one[3];
+    double two[3];
+    source.Bonds()->GetPoint(ends[0], first);
+    source.Bonds()->GetPoint(ends[1], second);
+    source.Grains()->GetPoint(
+      static_cast<vtkIdType>(source.BondArray("id1")->GetTuple1(bond)) - 1, one);
+    source.Grains()->GetPoint(
+      static_cast<vtkIdType>(source.BondArray("id2")->GetTuple1(bond)) - 1, two);
+    double square = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      ASSERT_EQ(first[k], one[k]);
+      const double away = std::abs(second[k] - two[k]);
+      ASSERT_TRUE(away == 0 || (k == 0 && std::abs(away - 0.1) < 1e-15)) << away;
+      square += (second[k] - first[k]) * (second[k] - first[k]);
+    }
+    ASSERT_NEAR(std::sqrt(square), 0.01, 1e-15);
+    ASSERT_NEAR(source.BondArray("equilibrium_length")->GetTuple1(bond), 0.01, 1e-15);
+    ASSERT_EQ(source.BondArray("length")->GetTuple1(bond),
+      source.BondArray("equilibrium_length")->GetTuple1(bond));
+    ASSERT_EQ(source.BondArray("btype")->GetTuple1(bond), 1);
+  }
+  source->SetBondFactor(0);
+  source->Update();
+  EXPECT_EQ(source.Bonds()->GetNumberOfCells(), 0);
+}
+
+TEST(PackingSource, FibresHaveNumbersAndBonds)
+{
+  Source source;
+  source->SetArrangement(vtkGranularPackingSource::FIBRE_BUNDLE);
+  source->SetBoxGiven(false);
+  source->SetNumberOfGrains(45);
+  source->SetGrainsPerFibre(10);
+  source->SetBondFactor(1);
+  source->Update();
+  ASSERT_EQ(source.Grains()->GetNumberOfPoints(), 45);
+  ASSERT_NE(vtkTypeInt64Array::SafeDownCast(source.Array("mol")), nullptr);
+  for (vtkIdType i = 0; i < 45; ++i)
+  {
+    EXPECT_EQ(source.Array("mol")->GetTuple1(i), static_cast<double>(i / 10 + 1));
+  }
+  EXPECT_EQ(source.Bonds()->GetNumberOfLines(), 4 * 9 + 4);
+  source->SetArrangement(vtkGranularPackingSource::CHAIN);
+  source->Update();
+  EXPECT_EQ(source.Bonds()->GetNumberOfLines(), 44);
+  EXPECT_EQ(source.Array("mol")->GetRange()[1], 1);
+}
+
+TEST(PackingSource, BondsOfPiecesAreTheWhole)
+{
+  const auto prepare = [](Source& source)
+  {
+    source->SetBoundary("p p p");
+    source->SetBondFactor(1.5);
+  };
+  Source whole;
+  prepare(whole);
+  whole->Update();
+  vtkIdType bond = 0;
+  for (int piece = 0; piece < 5; ++piece)
+  {
+    Source part;
+    prepare(part);
+    part->UpdatePiece(piece, 5, 0);
+    for (vtkIdType i = 0; i < part.Bonds()->GetNumberOfCells(); ++i, ++bond)
+    {
+      ASSERT_LT(bond, whole.Bonds()->GetNumberOfCells());
+      for (const char* name : BondNames)
+      {
+        ASSERT_EQ(part.BondArray(name)->GetTuple1(i), whole.BondArray(name)->GetTuple1(bond));
+      }
+      for (int k = 0; k < 6; ++k)
+      {
+        ASSERT_EQ(part.Bonds()->GetPoint(2 * i + k / 3)[k % 3],
+          whole.Bonds()->GetPoint(2 * bond + k / 3)[k % 3]);
+      }
+    }
+  }
+  EXPECT_GT(bond, 500);
+  EXPECT_EQ(bond, whole.Bonds()->GetNumberOfCells());
+}
+
 TEST(PackingSource, TiltedBox)
 {
   Source source;
@@ -129,6 +249,8 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     { [](vtkGranularPackingSource* s) { s->SetBoundary("x"); }, "got 'x'" },
     { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(4000); }, "at most 0.74" },
     { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(2300); }, "no place was found" },
+    { [](vtkGranularPackingSource* s) { s->SetBondFactor(0.5); },
+      "expected a bond factor from 1 to 3, got 0.500000" },
     { [](vtkGranularPackingSource* s)
       {
         s->SetNumberOfGrains(0);
@@ -148,6 +270,7 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     source->SetRadius(0.003);
     source->SetBoxLengths(0.1, 0.1, 0.1);
     source->SetBoundary("f f f");
+    source->SetBondFactor(0);
     source->SetNumberOfGrains(10);
     source->Update();
     EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 10);
@@ -169,6 +292,7 @@ TEST(PackingSource, StopsAtAnyReportAndStartsAfresh)
         lattice ? vtkGranularPackingSource::SIMPLE_CUBIC : vtkGranularPackingSource::RANDOM);
       source->SetBoxGiven(false);
       source->SetNumberOfGrains(20000);
+      source->SetBondFactor(1.2);
       source->SetThreads(1);
     };
     Source counted;
@@ -189,6 +313,7 @@ TEST(PackingSource, StopsAtAnyReportAndStartsAfresh)
       source->Update();
       EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 20000);
       EXPECT_EQ(source.Box()->GetNumberOfCells(), 1);
+      EXPECT_EQ(source.Bonds()->GetNumberOfCells(), counted.Bonds()->GetNumberOfCells());
     }
   }
 }
@@ -199,8 +324,8 @@ TEST(PackingSource, PrintsAllProperties)
   source->SetNumberOfGrains(77);
   std::ostringstream out;
   source->Print(out);
-  for (const char* line :
-    { "NumberOfGrains: 77\n", "BoxLengths: 0.1 0.1 0.1\n", "Boundary: ff ff ff\n" })
+  for (const char* line : { "NumberOfGrains: 77\n", "BoxLengths: 0.1 0.1 0.1\n",
+         "Boundary: ff ff ff\n", "GrainsPerFibre: 20\n", "BondFactor: 0\n" })
   {
     EXPECT_NE(out.str().find(line), std::string::npos) << line;
   }

@@ -15,7 +15,7 @@ source = GranularPackingSource()
 expected = {"Arrangement": "Random", "NumberOfGrains": 1000, "BoxGiven": 1, "BoxOrigin": [0, 0, 0],
             "BoxLengths": [0.1, 0.1, 0.1], "BoxTilts": [0, 0, 0], "Boundary": "ff ff ff", "Radii": "Two",
             "Radius": 0.003, "SecondRadius": 0.005, "SecondShare": 0.3, "SolidFraction": 0.2,
-            "Spacing": 1, "Speed": 0, "Seed": 1, "Threads": 0}
+            "Spacing": 1, "GrainsPerFibre": 20, "BondFactor": 0, "Speed": 0, "Seed": 1, "Threads": 0}
 for name, default in expected.items():
     value = getattr(source, name)
     assert (list(value) if isinstance(default, list) else value) == default, (name, value)
@@ -107,6 +107,33 @@ assert source.GetDataInformation().GetNumberOfPoints() == 5000
 bounds = box.GetDataInformation().GetBounds()
 edge = (5000 * 4 / 3 * math.pi * 0.005 ** 3 / 0.25) ** (1 / 3)
 assert numpy.allclose(bounds, [0, edge, 0, edge, 0, edge]), bounds
+
+# a bonded bundle: tubes on its bonds, in their place
+SetProperties(source, Arrangement="FibreBundle", NumberOfGrains=12 * 15, GrainsPerFibre=15, Radii="One",
+              Radius=0.002, Spacing=1.5, Speed=0, BondFactor=1, Boundary="f f f")
+bonds = OutputPort(source, "Bonds")
+assert bonds.GetDataInformation().GetNumberOfCells() == 12 * 14
+lines = servermanager.Fetch(bonds)
+ids, ends = (vtk_to_numpy(lines.GetCellData().GetArray(name)) for name in ("id1", "id2"))
+fibre = vtk_to_numpy(servermanager.Fetch(source).GetPointData().GetArray("mol"))
+assert (fibre == (numpy.arange(180) // 15 + 1)).all()
+assert (ends == ids + 1).all() and (fibre[ids - 1] == fibre[ends - 1]).all()
+length = vtk_to_numpy(lines.GetCellData().GetArray("length"))
+assert numpy.allclose(length, 0.006, rtol=1e-12)
+Hide(source, view)
+Hide(box, view)
+assert Show(bonds, view).Representation == "Surface"
+Hide(bonds, view)
+tubes = Tube(bonds, Radius=0.0008)
+display = Show(tubes, view)
+ColorBy(display, ("CELLS", "id1"))
+ResetCamera(view)
+SaveScreenshot("tubes.png", view)
+pixels = picture("tubes.png")
+assert ((pixels.max(axis=1) - pixels.min(axis=1)) > 60).mean() > 0.02
+Delete(tubes)
+Show(source, view)
+SetProperties(source, Arrangement="Random", Radius=0.005, BondFactor=0)
 
 # more than 2^31 can be asked for, and are refused here for want of room
 source.NumberOfGrains = 3_000_000_000

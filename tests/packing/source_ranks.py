@@ -17,25 +17,41 @@ def alone(**properties):
     for name, value in properties.items():
         getattr(source, f"Set{name}")(value)
     source.Update()
-    return source.GetOutput()
+    return source.GetOutput(), source.GetOutputDataObject(2)
 
 
-def digest(data):
-    arrays = [data.GetPoints().GetData()] + [data.GetPointData().GetArray(name)
-                                             for name in ("id", "type", "radius", "v")]
+def digest(data, values, names):
+    arrays = [data.GetPoints().GetData()] + [values.GetArray(name) for name in names]
     return [hashlib.sha256(vtk_to_numpy(array).tobytes()).hexdigest() for array in arrays]
+
+
+def grains_of(data):
+    return digest(data, data.GetPointData(), ("id", "type", "radius", "v"))
+
+
+def bonds_of(data):
+    return digest(data, data.GetCellData(), ("id1", "id2", "btype", "equilibrium_length", "length"))
 
 
 for properties in ({"NumberOfGrains": 1000, "Speed": 1.0},
                    {"NumberOfGrains": 20000, "BoxGiven": 0, "Boundary": "p p p", "Radii": 2},
                    {"NumberOfGrains": 5000, "BoxGiven": 0, "Arrangement": 3, "Seed": 7},
+                   {"NumberOfGrains": 30000, "BoxGiven": 0, "Boundary": "p p p", "BondFactor": 1.5},
+                   {"NumberOfGrains": 8000, "BoxGiven": 0, "Arrangement": 1, "BondFactor": 1.1},
+                   {"NumberOfGrains": 1000, "BoxGiven": 0, "Arrangement": 5, "BondFactor": 1.0},
+                   {"NumberOfGrains": 10, "BoxGiven": 0, "Arrangement": 4, "BondFactor": 1.0},
                    {"NumberOfGrains": 2, "BoxGiven": 0}):
     source = GranularPackingSource(**properties)
     data = whole(source)
     number = properties["NumberOfGrains"]
     assert data.GetNumberOfPoints() == data.GetNumberOfVerts() == number
     assert (vtk_to_numpy(data.GetPointData().GetArray("id")) == numpy.arange(1, number + 1)).all()
-    assert digest(data) == digest(alone(**properties)), properties
+    grains, bonds = alone(**properties)
+    assert grains_of(data) == grains_of(grains), properties
+    if "BondFactor" in properties:
+        lines = whole(OutputPort(source, 2))
+        assert lines.GetNumberOfLines() == bonds.GetNumberOfLines() > 0, properties
+        assert bonds_of(lines) == bonds_of(bonds), properties
     if not symmetric:
         assert OutputPort(source, 1).GetDataInformation().GetNumberOfCells() == 1
         assert source.GetDataInformation().GetNumberOfPoints() == number
