@@ -117,8 +117,6 @@ std::vector<Bonds> find_bonds(
 {
   std::vector<Bonds> chunks(
     static_cast<std::size_t>((rows.count() + rows_a_chunk - 1) / rows_a_chunk));
-  std::vector<Bonds> of_workers(
-    static_cast<std::size_t>(threads)); // memory that was touched before
   for_row_chunks(rows.count(), threads, progress,
     [&](std::int64_t begin, std::int64_t end, std::size_t)
     {
