@@ -111,9 +111,10 @@ assert numpy.allclose(bounds, [0, edge, 0, edge, 0, edge]), bounds
 # a bonded bundle: tubes on its bonds, in their place
 SetProperties(source, Arrangement="FibreBundle", NumberOfGrains=12 * 15, GrainsPerFibre=15, Radii="One",
               Radius=0.002, Spacing=1.5, Speed=0, BondFactor=1, Boundary="f f f")
+source.UpdatePipeline()
 bonds = OutputPort(source, "Bonds")
 assert bonds.GetDataInformation().GetNumberOfCells() == 12 * 14
-lines = servermanager.Fetch(bonds)
+lines = servermanager.Fetch(source, idx=2)
 ids, ends = (vtk_to_numpy(lines.GetCellData().GetArray(name)) for name in ("id1", "id2"))
 fibre = vtk_to_numpy(servermanager.Fetch(source).GetPointData().GetArray("mol"))
 assert (fibre == (numpy.arange(180) // 15 + 1)).all()
