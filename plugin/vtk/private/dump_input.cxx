@@ -22,38 +22,6 @@ namespace vtkGranularPrivate
 {
 namespace
 {
-using granular::ScalarType;
-
-static_assert(sizeof(vtkStdString) == sizeof(std::string), "texts are viewed as std::string");
-
-/**
- * The type of the core for a type of VTK, by kind and size.
- */
-std::optional<ScalarType> TypeOf(int type)
-{
-  if (type == VTK_FLOAT || type == VTK_DOUBLE)
-  {
-    return type == VTK_FLOAT ? ScalarType::Float32 : ScalarType::Float64;
-  }
-  struct Integer
-  {
-    int Bytes;
-    ScalarType Signed;
-    ScalarType Unsigned;
-  };
-  constexpr Integer integers[] = { { 1, ScalarType::Int8, ScalarType::UInt8 },
-    { 2, ScalarType::Int16, ScalarType::UInt16 }, { 4, ScalarType::Int32, ScalarType::UInt32 },
-    { 8, ScalarType::Int64, ScalarType::UInt64 } };
-  for (const Integer& integer : integers)
-  {
-    if (vtkDataArray::GetDataTypeSize(type) == integer.Bytes)
-    {
-      return vtkDataArray::GetDataTypeMin(type) < 0 ? integer.Signed : integer.Unsigned;
-    }
-  }
-  return {};
-}
-
 /**
  * The values of a field array, if it has just so many.
  */
@@ -88,16 +56,6 @@ std::string FindText(vtkFieldData* data, const char* name)
 {
   const std::vector<std::string> texts = FindTexts(data, name);
   return texts.empty() ? std::string() : texts.front();
-}
-
-void CheckTuples(vtkAbstractArray* array, vtkIdType points, const char* name)
-{
-  if (array->GetNumberOfTuples() != points)
-  {
-    throw granular::Error("expected a value for each of " + std::to_string(points) +
-        " points, got " + std::to_string(array->GetNumberOfTuples()),
-      { .column = name });
-  }
 }
 
 /**
@@ -166,7 +124,7 @@ DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
   this->View.rows = input->GetNumberOfPoints();
   if (vtkPoints* points = input->GetPoints())
   {
-    this->View.points = this->MakeView(points->GetData(), "points");
+    this->View.points = this->Arrays.See(points->GetData(), "points", this->View.rows);
   }
   vtkPointData* data = input->GetPointData();
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
@@ -177,64 +135,26 @@ DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
     {
       continue;
     }
-    auto view = name && *name ? this->MakeView(array, name) : std::nullopt;
+    auto view = name && *name ? this->Arrays.See(array, name, this->View.rows) : std::nullopt;
     if (view)
     {
       this->View.arrays.push_back(std::move(*view));
     }
     else
     {
-      notices.push_back({ {},
-        name && *name ? "the array '" + std::string(name) + "' of the type " +
-            array->GetDataTypeAsString() + " is left out"
-                      : "an array without a name is left out" });
+      granular::Notice notice;
+      notice.text = name && *name ? "the array '" + std::string(name) + "' of the type " +
+          array->GetDataTypeAsString() + " is left out"
+                                  : "an array without a name is left out";
+      notices.push_back(notice);
     }
   }
   static_assert(granular::FrameView::duplicate_row == vtkDataSetAttributes::DUPLICATEPOINT);
   if (vtkUnsignedCharArray* ghosts = input->GetPointGhostArray())
   {
-    CheckTuples(ghosts, this->View.rows, vtkDataSetAttributes::GhostArrayName());
+    this->Arrays.CheckTuples(ghosts, vtkDataSetAttributes::GhostArrayName(), this->View.rows);
     this->View.ghosts = ghosts->GetPointer(0);
   }
-}
-
-std::optional<granular::ArrayView> DumpInput::MakeView(vtkAbstractArray* array, const char* name)
-{
-  CheckTuples(array, this->View.rows, name);
-  granular::ArrayView view;
-  const int size = array->GetNumberOfComponents();
-  if (auto* texts = vtkStringArray::SafeDownCast(array))
-  {
-    const std::string* first = array->GetNumberOfValues() > 0 ? texts->GetPointer(0) : nullptr;
-    view = granular::view_rows(name, ScalarType::Text, first, size);
-    return view;
-  }
-  auto* numbers = vtkDataArray::SafeDownCast(array);
-  const bool bits = numbers && numbers->GetDataType() == VTK_BIT;
-  const auto type = bits ? ScalarType::UInt8
-    : numbers            ? TypeOf(numbers->GetDataType())
-                         : std::nullopt;
-  if (!type || size == 0)
-  {
-    return {};
-  }
-  if (bits || !numbers->HasStandardMemoryLayout())
-  {
-    auto copy = vtkSmartPointer<vtkDataArray>::Take(
-      vtkDataArray::CreateDataArray(bits ? VTK_UNSIGNED_CHAR : numbers->GetDataType()));
-    copy->DeepCopy(numbers);
-    this->Copies.push_back(copy);
-    numbers = copy;
-  }
-  view.name = name;
-  view.type = *type;
-  view.step = size;
-  const char* first = static_cast<const char*>(numbers->GetVoidPointer(0));
-  for (int i = 0; i < size; ++i)
-  {
-    view.components.push_back(first + i * numbers->GetDataTypeSize());
-  }
-  return view;
 }
 
 void DumpInput::ReadFieldData(vtkFieldData* data)

@@ -2,16 +2,15 @@
 #ifndef vtkGranularDumpInput_h
 #define vtkGranularDumpInput_h
 
+#include "array_views.h"
+
 #include "granular/base/box.h"
 #include "granular/base/error.h"
 #include "granular/dump/frame_view.h"
 
-#include "vtkSmartPointer.h"
-
 #include <optional>
 #include <vector>
 
-class vtkAbstractArray;
 class vtkFieldData;
 class vtkPointSet;
 
@@ -46,10 +45,9 @@ public:
   bool HasTime = false;     ///< and the time
 
 private:
-  std::optional<granular::ArrayView> MakeView(vtkAbstractArray* array, const char* name);
   void ReadFieldData(vtkFieldData* data);
 
-  std::vector<vtkSmartPointer<vtkAbstractArray>> Copies;
+  ArrayViews Arrays{ "points" };
 };
 
 /**

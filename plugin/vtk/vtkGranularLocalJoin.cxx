@@ -1,0 +1,636 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularLocalJoin.h"
+
+#include "private/arrays.h"
+#include "private/guard.h"
+#include "private/local_rows.h"
+#include "private/particles.h"
+#include "private/piece_request.h"
+#include "private/processes.h"
+
+#include "granular/base/number_print.h"
+#include "granular/base/words.h"
+#include "granular/dump/point_forms.h"
+#include "granular/local/join.h"
+#include "granular/local/lines.h"
+
+#include "vtkAlgorithmOutput.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTypeInt64Array.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularLocalJoin);
+
+namespace
+{
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/**
+ * What the filter makes of each line, and of arrays of the same name in its input.
+ */
+constexpr const char* MadeArrays[] = { "length", "elongation", "strain" };
+
+std::string TextOf(const char* text)
+{
+  return text ? text : "";
+}
+
+std::string TimestepOf(vtkFieldData* data)
+{
+  vtkDataArray* timestep = data->GetArray("timestep");
+  return timestep && timestep->GetNumberOfValues() == 1
+    ? std::to_string(timestep->GetVariantValue(0).ToTypeInt64())
+    : std::string();
+}
+
+/**
+ * The names in a list; for "*" those of all arrays of numbers but id.
+ */
+std::vector<std::string> NamesIn(std::string list, const granular::FrameView& particles)
+{
+  std::ranges::replace(list, ',', ' ');
+  std::vector<std::string> names;
+  for (const std::string_view word : granular::split_words(list))
+  {
+    if (word != "*")
+    {
+      names.emplace_back(word);
+      continue;
+    }
+    for (const granular::ArrayView& array : particles.arrays)
+    {
+      if (array.type != granular::ScalarType::Text && array.name != "id")
+      {
+        names.push_back(array.name);
+      }
+    }
+  }
+  return names;
+}
+
+std::span<double> DoublesIn(const granular::Block& block)
+{
+  return { static_cast<double*>(block.data()), block.bytes() / sizeof(double) };
+}
+
+/**
+ * An array of values a line: those of the row that each is of.
+ */
+vtkSmartPointer<vtkDoubleArray> MakeArray(const std::string& name, std::span<const double> values,
+  int components, const std::vector<std::int64_t>& rows)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(components);
+  const auto size = static_cast<std::size_t>(components);
+  const std::size_t lines = rows.empty() ? values.size() / size : rows.size();
+  array->SetNumberOfTuples(static_cast<vtkIdType>(lines));
+  double* to = array->GetPointer(0);
+  if (rows.empty())
+  {
+    std::ranges::copy(values, to);
+  }
+  for (const std::int64_t row : rows)
+  {
+    to = std::copy_n(values.data() + static_cast<std::size_t>(row) * size, size, to);
+  }
+  return array;
+}
+}
+
+struct vtkGranularLocalJoin::Internals
+{
+  Processes Ranks;
+};
+
+//------------------------------------------------------------------------------
+/**
+ * Does one request. The functions are collective, but for those in the brackets of do_together.
+ */
+class vtkGranularLocalJoin::Joiner
+{
+public:
+  Joiner(vtkGranularLocalJoin* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
+    : Self(self)
+    , Inputs{ vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(inputs[1]) }
+    , Output(vtkPolyData::GetData(outputs))
+    , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
+    , Ranks(self->Shared->Ranks.Get())
+    , Own(self)
+    , Shared(this->Own, this->Ranks)
+    , Progress(this->Shared)
+  {
+  }
+
+  void Run()
+  {
+    granular::do_together(this->Ranks, [&] { this->Progress.step(0); });
+    this->Input.emplace(this->Inputs[0], this->Ranks);
+    this->Together = AreTogether(this->Wanted, false, this->Ranks);
+    if (this->Together)
+    {
+      this->Join(this->Ranks);
+    }
+    else
+    {
+      granular::do_together(this->Ranks,
+        [&]
+        {
+          granular::SerialCommunicator alone;
+          this->Join(alone);
+        });
+    }
+    granular::do_together(this->Ranks,
+      [&]
+      {
+        this->Fill();
+        this->Tell();
+      });
+  }
+
+private:
+  /**
+   * What is counted, over all processes.
+   */
+  struct Counts
+  {
+    std::int64_t Rows = 0;
+    std::int64_t Misfits = 0;     ///< lines that are not as long as their array dist says
+    std::int64_t WithoutRest = 0; ///< lines whose equilibrium length is 0
+  };
+
+  /**
+   * With the particles and rows that these processes have together.
+   */
+  void Join(granular::Communicator& ranks)
+  {
+    granular::JoinRequest request;
+    granular::do_together(ranks, [&] { this->ReadRows(); });
+    this->ShareNames(request, ranks);
+    std::vector<std::int64_t> id1;
+    std::vector<std::int64_t> id2;
+    granular::do_together(ranks,
+      [&]
+      {
+        id1 = this->Rows->ReadIds("id1", this->Progress);
+        id2 = this->Rows->ReadIds("id2", this->Progress);
+        request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
+      });
+    this->Progress.set_part(0, 0.6);
+    this->Joined =
+      granular::join_lines(this->Input->View(), id1, id2, request, ranks, this->Progress);
+    granular::do_together(ranks,
+      [&]
+      {
+        this->Progress.set_part(0.6, 0.95);
+        this->MakeLines(request.threads);
+        this->FindElongations();
+        this->CountMisfits();
+        this->Remarks = { this->FindExample(id1, id2), this->CompareTimesteps() };
+      });
+    ranks.sum({ &this->All.Rows, 1 });
+    ranks.sum({ &this->All.Misfits, 1 });
+    ranks.sum({ &this->All.WithoutRest, 1 });
+    for (std::string& remark : this->Remarks)
+    {
+      const std::vector<std::string> said = ranks.all_gather(remark);
+      const auto first = std::ranges::find_if(said, [](const auto& text) { return !text.empty(); });
+      granular::do_together(ranks, [&] { remark = first == said.end() ? std::string() : *first; });
+    }
+  }
+
+  void ReadRows()
+  {
+    this->Rows.emplace(this->Inputs[1]);
+    if (!this->Together)
+    {
+      const auto range = this->Wanted.RangeOf(this->Rows->Count());
+      this->FirstRow = range.first;
+      this->Rows->Keep(range);
+    }
+    this->All.Rows = this->Rows->Count();
+    const double rest = this->Self->EquilibriumLength;
+    if (!(rest >= 0 && rest <= std::numeric_limits<double>::max()))
+    {
+      throw granular::Error(
+        "expected an EquilibriumLength of 0 or more, got " + granular::to_text(rest));
+    }
+  }
+
+  /**
+   * What all must know alike, also those who have no particles or no rows, and then perhaps no arrays: the names that
+   * "*" stands for, whether there are equilibrium lengths, and where the rows of each begin.
+   */
+  void ShareNames(granular::JoinRequest& request, granular::Communicator& ranks)
+  {
+    const std::string rest = TextOf(this->Self->EquilibriumLengthArray);
+    std::array<std::vector<std::string>*, 2> lists = { &request.means, &request.differences };
+    const std::array<const char*, 2> given = { this->Self->Averages, this->Self->Differences };
+    for (std::size_t i = 0; i < lists.size(); ++i)
+    {
+      std::string own; // whether there are particles, then the names
+      granular::do_together(ranks,
+        [&]
+        {
+          const granular::FrameView& view = this->Input->View();
+          own =
+            (view.rows > 0 ? "1 " : "0 ") + granular::join_words(NamesIn(TextOf(given[i]), view));
+        });
+      const std::vector<std::string> all = ranks.all_gather(own);
+      granular::do_together(ranks,
+        [&]
+        {
+          const auto known =
+            std::ranges::find_if(all, [](const std::string& one) { return one[0] == '1'; });
+          const auto words = granular::split_words(known == all.end() ? all.front() : *known);
+          lists[i]->assign(words.begin() + 1, words.end());
+        });
+    }
+    this->RestKnown = this->Rows->Count() > 0 && this->Rows->Has(rest.c_str());
+    std::array<std::int64_t, 1> with = { this->RestKnown ? 1 : 0 };
+    ranks.sum(with);
+    this->RestKnown = with[0] > 0;
+    std::vector<std::int64_t> counts;
+    granular::do_together(ranks, [&] { counts.resize(static_cast<std::size_t>(ranks.size())); });
+    counts[static_cast<std::size_t>(ranks.rank())] = this->All.Rows;
+    ranks.sum(counts);
+    this->FirstRow +=
+      std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::int64_t{ 0 });
+  }
+
+  /**
+   * Scaled points: the lines are made where the particles are, and then scaled as these were.
+   */
+  void MakeLines(int threads)
+  {
+    const granular::FrameView& view = this->Input->View();
+    const bool scaled = view.coordinates == granular::Coordinates::Scaled;
+    const bool unwrapped = view.coordinates == granular::Coordinates::Unwrapped;
+    const granular::Box box = view.has_box ? view.header.box : granular::Box{};
+    constexpr granular::PeriodicLines ways[] = { granular::PeriodicLines::MinimumImage,
+      granular::PeriodicLines::Split, granular::PeriodicLines::AsWritten };
+    granular::LineRequest request;
+    request.periodic = ways[this->Self->PeriodicLines];
+    if (unwrapped && this->Self->PeriodicLines == SPLIT)
+    {
+      request.periodic = granular::PeriodicLines::MinimumImage;
+    }
+    request.point_origin = scaled ? granular::Vector3{} : view.point_origin;
+    request.threads = threads;
+    this->Lines = granular::make_lines(
+      DoublesIn(this->Joined.first), DoublesIn(this->Joined.second), box, request, this->Progress);
+    if (scaled && this->Lines.count > 0)
+    {
+      granular::check_volume(box);
+      granular::convert_positions(
+        granular::plan_form(granular::Coordinates::Absolute, granular::ColumnRole::ScaledPosition),
+        box, view.point_origin, {}, DoublesIn(this->Lines.points));
+    }
+  }
+
+  /**
+   * Numbers of the rows whose ends were found.
+   */
+  std::vector<double> NumbersOfJoined(const char* name)
+  {
+    const std::vector<double> all = this->Rows->ReadNumbers(name);
+    std::vector<double> numbers;
+    numbers.reserve(this->Joined.rows.size());
+    for (const std::int64_t row : this->Joined.rows)
+    {
+      numbers.push_back(all[static_cast<std::size_t>(row)]);
+    }
+    return numbers;
+  }
+
+  void FindElongations()
+  {
+    const double constant = this->Self->EquilibriumLength;
+    std::vector<double> rest;
+    if (this->RestKnown)
+    {
+      rest = this->NumbersOfJoined(this->Self->EquilibriumLengthArray);
+    }
+    else if (constant > 0)
+    {
+      rest.assign(this->Joined.rows.size(), constant);
+      this->RestKnown = true;
+    }
+    const std::span<const double> lengths = DoublesIn(this->Lines.lengths);
+    for (std::size_t i = 0; i < rest.size(); ++i)
+    {
+      const double length = std::abs(rest[i]);
+      const bool none = length == 0;
+      this->All.WithoutRest += none ? 1 : 0;
+      this->Elongations.push_back(
+        none ? std::numeric_limits<double>::quiet_NaN() : lengths[i] - length);
+      this->Strains.push_back(this->Elongations.back() / length);
+    }
+  }
+
+  /**
+   * The array has six digits, where particles are has six, too, and more are lost where both are near each other.
+   */
+  void CountMisfits()
+  {
+    if (this->Self->PeriodicLines == AS_WRITTEN || !this->Rows->Has("dist"))
+    {
+      return;
+    }
+    const std::vector<double> dist = this->NumbersOfJoined("dist");
+    const std::span<const double> lengths = DoublesIn(this->Lines.lengths);
+    const std::span<const double> ends = DoublesIn(this->Joined.first);
+    for (std::size_t i = 0; i < dist.size(); ++i)
+    {
+      double largest = 0;
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+      {
+        largest = std::max(largest, std::abs(ends[k]));
+      }
+      const bool fits = std::abs(lengths[i] - dist[i]) <= 1e-4 * std::abs(dist[i]) + 4e-5 * largest;
+      this->All.Misfits += fits ? 0 : 1;
+    }
+  }
+
+  /**
+   * The ids of the first row that was left out; empty if none was.
+   */
+  std::string FindExample(
+    const std::vector<std::int64_t>& id1, const std::vector<std::int64_t>& id2) const
+  {
+    const std::vector<std::int64_t>& found = this->Joined.rows;
+    std::size_t row = 0;
+    while (row < found.size() && found[row] == static_cast<std::int64_t>(row))
+    {
+      ++row;
+    }
+    return row == id1.size() ? std::string()
+                             : std::to_string(id1[row]) + " and " + std::to_string(id2[row]);
+  }
+
+  std::string CompareTimesteps() const
+  {
+    const std::string particles = TimestepOf(this->Inputs[0]->GetFieldData());
+    const std::string lines = TimestepOf(this->Rows->GetFieldData());
+    return particles.empty() || lines.empty() || particles == lines
+      ? std::string()
+      : "the particles are of timestep " + particles + ", the lines of " + lines;
+  }
+
+  void Fill()
+  {
+    const std::vector<std::int64_t>& of = this->Lines.rows;
+    const auto count = static_cast<std::size_t>(this->Lines.count);
+    vtkCellData* data = this->Output->GetCellData();
+    std::vector<std::int64_t> rows(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      rows[i] = this->Joined.rows[of.empty() ? i : static_cast<std::size_t>(of[i])];
+    }
+    this->Rows->Pass(rows, data);
+    for (const char* name : MadeArrays)
+    {
+      data->RemoveArray(name);
+    }
+    data->AddArray(MakeArray("length", DoublesIn(this->Lines.lengths), 1, of));
+    if (this->RestKnown)
+    {
+      data->AddArray(MakeArray("elongation", this->Elongations, 1, of));
+      data->AddArray(MakeArray("strain", this->Strains, 1, of));
+    }
+    for (const granular::EndArray& array : this->Joined.arrays)
+    {
+      auto made = MakeArray(array.name, DoublesIn(array.values), array.size, of);
+      const std::string from = array.name.substr(0, array.name.rfind('_'));
+      auto* points = vtkPointSet::SafeDownCast(this->Inputs[0])->GetPointData();
+      if (vtkAbstractArray* named = points->GetAbstractArray(from.c_str()))
+      {
+        made->CopyComponentNames(named);
+      }
+      data->AddArray(made);
+    }
+    if (this->Self->PeriodicLines == SPLIT && !this->Rows->Has(LocalRows::RowArray))
+    {
+      this->AddRows(rows, data);
+    }
+    this->FillLines(this->Lines.count);
+    vtkFieldData* fields = this->Output->GetFieldData();
+    fields->PassData(this->Inputs[0]->GetFieldData());
+    fields->RemoveArray("Columns"); // of particles
+    if (vtkAbstractArray* columns = this->Rows->GetFieldData()->GetAbstractArray("Columns"))
+    {
+      fields->AddArray(columns);
+    }
+    this->Progress.set_part(1, 1);
+    this->Progress.step(1);
+  }
+
+  void AddRows(const std::vector<std::int64_t>& rows, vtkCellData* data) const
+  {
+    auto numbers = vtkSmartPointer<vtkTypeInt64Array>::New();
+    numbers->SetName(LocalRows::RowArray);
+    numbers->SetNumberOfValues(static_cast<vtkIdType>(rows.size()));
+    std::ranges::transform(
+      rows, numbers->GetPointer(0), [&](vtkTypeInt64 row) { return this->FirstRow + row; });
+    data->AddArray(numbers);
+  }
+
+  void FillLines(vtkIdType count)
+  {
+    granular::Block ends(static_cast<std::size_t>(2 * count) * sizeof(vtkTypeInt64));
+    auto* const first = static_cast<vtkTypeInt64*>(ends.data());
+    std::iota(first, first + 2 * count, 0);
+    this->Output->SetPoints(TakePoints(this->Lines.points, 2 * count, false, {}));
+    this->Output->SetLines(TakeCells(ends, count, 2));
+  }
+
+  void Tell() const
+  {
+    const auto tell = [&](bool is, const std::string& text)
+    {
+      if (is && (this->Ranks.rank() == 0 || !this->Together))
+      {
+        vtkWarningWithObjectMacro(this->Self, << text);
+      }
+    };
+    const std::string ofRows = " of " + std::to_string(this->All.Rows) + " lines ";
+    tell(this->Joined.missing > 0,
+      std::to_string(this->Joined.missing) + ofRows +
+        "are left out: no particle has the id of an end, as in " + this->Remarks[0]);
+    tell(this->Joined.repeated > 0,
+      std::to_string(this->Joined.repeated) +
+        " particles have the id of another one: lines go to the first");
+    tell(this->All.WithoutRest > 0,
+      std::to_string(this->All.WithoutRest) + ofRows +
+        "have an equilibrium length of 0: their elongation and strain are nan");
+    tell(this->All.Misfits > 0,
+      std::to_string(this->All.Misfits) + ofRows +
+        "are not as long as their array dist says: box or timestep are not those of the particles");
+    tell(!this->Remarks[1].empty(), this->Remarks[1]);
+  }
+
+  vtkGranularLocalJoin* Self;
+  std::array<vtkDataObject*, 2> Inputs;
+  vtkPolyData* Output;
+  PieceRequest Wanted;
+  granular::Communicator& Ranks;
+  AlgorithmProgress Own;
+  granular::SharedProgress Shared;
+  granular::PartialProgress Progress;
+  bool Together = false;
+  std::optional<Particles> Input;
+  std::optional<LocalRows> Rows;
+  std::int64_t FirstRow = 0; ///< of these, among all
+  granular::JoinedLines Joined;
+  granular::Lines Lines; ///< between the joined
+  bool RestKnown = false;
+  std::vector<double> Elongations; ///< of the joined
+  std::vector<double> Strains;
+  Counts All;
+  std::array<std::string, 2> Remarks; ///< ids that were not found, timesteps that differ; or empty
+};
+
+//------------------------------------------------------------------------------
+vtkGranularLocalJoin::vtkGranularLocalJoin()
+  : Shared(std::make_unique<Internals>())
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetEquilibriumLengthArray("equilibrium_length");
+}
+
+//------------------------------------------------------------------------------
+vtkGranularLocalJoin::~vtkGranularLocalJoin()
+{
+  this->SetAverages(nullptr);
+  this->SetDifferences(nullptr);
+  this->SetEquilibriumLengthArray(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalJoin::SetLinesConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+//------------------------------------------------------------------------------
+// All data come in, and are looked at by all processes together: see Particles and LocalRows.
+int vtkGranularLocalJoin::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularLocalJoin::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
+  vtkMTimeType* mtime)
+{
+  this->Shared->Ranks.BeginUpdate(this);
+  return this->Superclass::ComputePipelineMTime(
+    request, inputVector, outputVector, requestFromOutputPort, mtime);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularLocalJoin::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// The piece of the inputs that a process has. Who asks for another one than its own gets it from the whole.
+int vtkGranularLocalJoin::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
+  const bool own = IsOwn(wanted, this->Shared->Ranks.Get());
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), own ? wanted.Piece : 0);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), own ? wanted.Pieces : 1);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularLocalJoin::RequestData(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const Outcome outcome =
+    Guard(this, outputVector, [&] { Joiner(this, inputVector, outputVector).Run(); });
+  return this->Shared->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalJoin::SetThreads(int threads)
+{
+  if (threads < 0)
+  {
+    vtkErrorMacro("Threads must be at least 0, got " << threads);
+    return;
+  }
+  this->Threads = threads; // changes no result: nothing is to be made again
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalJoin::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Shared->Ranks.SetController(controller))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkMultiProcessController* vtkGranularLocalJoin::GetController()
+{
+  return this->Shared->Ranks.GetController();
+}
+
+//------------------------------------------------------------------------------
+// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
+void vtkGranularLocalJoin::SetAbortExecute(vtkTypeBool abort)
+{
+  this->AbortExecute = abort;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularLocalJoin::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
+  os << indent << "Averages: " << TextOf(this->Averages) << "\n";
+  os << indent << "Differences: " << TextOf(this->Differences) << "\n";
+  os << indent << "EquilibriumLengthArray: " << TextOf(this->EquilibriumLengthArray) << "\n";
+  os << indent << "EquilibriumLength: " << this->EquilibriumLength << "\n";
+  os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "Controller: " << this->GetController() << "\n";
+}
