@@ -1,0 +1,587 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The filter from C++: what lines get, what is said, inputs that are none, pieces, stopping, printing.
+#include "vtkGranularLocalJoin.h"
+
+#include "../support/observer.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdList.h"
+#include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+#include "vtkTrivialProducer.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVariantArray.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+using Values = std::vector<double>;
+
+template <class Array = vtkDoubleArray>
+vtkSmartPointer<Array> MakeArray(const char* name, const Values& values, int components = 1)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  for (const double value : values)
+  {
+    array->InsertNextValue(static_cast<typename Array::ValueType>(value));
+  }
+  return array;
+}
+
+void AddText(vtkFieldData* data, const char* name, const char* text)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(text);
+  data->AddArray(array);
+}
+
+/// Four particles in the box from 0 to 10, periodic along x: 11 and 12 at the lower face, 13 at the upper one, and 14.
+vtkSmartPointer<vtkPolyData> MakeParticles(const Values& ids = { 11, 12, 13, 14 })
+{
+  auto particles = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetData(MakeArray("points", { 1, 5, 5, 1, 8, 9, 9, 5, 5, 4, 5, 5 }, 3));
+  particles->SetPoints(points);
+  vtkPointData* data = particles->GetPointData();
+  data->AddArray(MakeArray<vtkTypeInt64Array>("id", ids));
+  data->AddArray(MakeArray<vtkFloatArray>("radius", { 0.5, 1.5, 2.5, 4 }));
+  data->AddArray(MakeArray("v", { 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 0, 0 }, 3));
+  data->GetArray("v")->SetComponentName(1, "up");
+  vtkFieldData* fields = particles->GetFieldData();
+  fields->AddArray(MakeArray("BoxOrigin", { 0, 0, 0 }, 3));
+  fields->AddArray(MakeArray("BoxVectors", { 10, 0, 0, 0, 10, 0, 0, 0, 10 }, 9));
+  fields->AddArray(MakeArray<vtkTypeInt64Array>("timestep", { 100 }));
+  AddText(fields, "Boundary", "pp ff ff");
+  AddText(fields, "Columns", "id");
+  return particles;
+}
+
+/// Rows with columns of ids, of different types.
+vtkSmartPointer<vtkTable> MakeTable(const Values& id1, const Values& id2)
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  table->AddColumn(MakeArray<vtkIntArray>("id1", id1));
+  table->AddColumn(MakeArray("id2", id2));
+  return table;
+}
+
+/// The bonds 11-12, 11-13, of which the second crosses a face, and 14-14.
+vtkSmartPointer<vtkTable> MakeTable()
+{
+  return MakeTable({ 11, 11, 14 }, { 12, 13, 14 });
+}
+
+struct Filter : Watched<vtkGranularLocalJoin>
+{
+  Filter(vtkDataObject* particles, vtkDataObject* lines)
+  {
+    this->Get->SetController(nullptr);
+    for (int port = 0; port < 2; ++port)
+    {
+      this->Inputs[port]->SetOutput(port == 0 ? particles : lines);
+      this->Get->SetInputConnection(port, this->Inputs[port]->GetOutputPort());
+    }
+  }
+
+  vtkPolyData* Lines() { return this->Get->GetOutput(); }
+  vtkDataArray* Cells(const char* name) { return this->Lines()->GetCellData()->GetArray(name); }
+
+  Values ValuesOf(const char* name)
+  {
+    Values values;
+    vtkDataArray* array = this->Cells(name);
+    for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+    {
+      for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+      {
+        values.push_back(array->GetComponent(i, k));
+      }
+    }
+    return values;
+  }
+
+  /// x of both ends of each line.
+  Values Xs()
+  {
+    Values xs;
+    vtkNew<vtkIdList> ends;
+    for (vtkIdType line = 0; line < this->Lines()->GetNumberOfCells(); ++line)
+    {
+      this->Lines()->GetCellPoints(line, ends);
+      EXPECT_EQ(ends->GetNumberOfIds(), 2);
+      xs.push_back(this->Lines()->GetPoint(ends->GetId(0))[0]);
+      xs.push_back(this->Lines()->GetPoint(ends->GetId(1))[0]);
+    }
+    return xs;
+  }
+
+  /// That nothing was said, or one thing with this in it.
+  void ExpectSaid(const std::string& text)
+  {
+    ASSERT_EQ(this->Seen->Said.size(), text.empty() ? 0u : 1u)
+      << text << (this->Seen->Said.empty() ? "" : ": " + this->Seen->Said[0]);
+    if (!text.empty())
+    {
+      EXPECT_NE(this->Seen->Said[0].find(text), std::string::npos) << this->Seen->Said[0];
+    }
+    this->Seen->Said.clear();
+  }
+
+  vtkNew<vtkTrivialProducer> Inputs[2];
+};
+
+bool IsEmpty(Filter& filter)
+{
+  return filter.Lines()->GetNumberOfCells() == 0 && filter.Lines()->GetNumberOfPoints() == 0 &&
+    filter->GetErrorCode() != static_cast<unsigned long>(vtkErrorCode::NoError);
+}
+}
+
+TEST(LocalJoinFilter, LinesGoToTheNearestImage)
+{
+  Filter filter(MakeParticles(), MakeTable());
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, -1, 4, 4 }));
+  EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 2, 0 }));
+  EXPECT_EQ(filter.ValuesOf("id1"), (Values{ 11, 11, 14 }));
+  EXPECT_EQ(filter.ValuesOf("id2"), (Values{ 12, 13, 14 }));
+  EXPECT_EQ(filter.Cells("id1")->GetDataType(), VTK_INT);
+  EXPECT_EQ(filter.Lines()->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_EQ(filter.Lines()->GetNumberOfPoints(), 6);
+  EXPECT_EQ(filter.Lines()->GetNumberOfLines(), 3);
+  for (const char* name : { "elongation", "strain", "row" })
+  {
+    EXPECT_EQ(filter.Cells(name), nullptr) << name;
+  }
+  vtkFieldData* fields = filter.Lines()->GetFieldData();
+  EXPECT_EQ(fields->GetArray("timestep")->GetComponent(0, 0), 100);
+  EXPECT_TRUE(fields->HasArray("BoxVectors"));
+  EXPECT_FALSE(fields->HasArray("Columns")); // those of particles
+
+  filter->SetPeriodicLines(vtkGranularLocalJoin::AS_WRITTEN);
+  filter->Update();
+  EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, 9, 4, 4 }));
+  EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 8, 0 }));
+}
+
+TEST(LocalJoinFilter, PartsOfSplitLinesHaveAllOfTheirRow)
+{
+  auto table = MakeTable();
+  vtkNew<vtkStringArray> words;
+  words->SetName("word");
+  vtkNew<vtkVariantArray> variants;
+  variants->SetName("variant");
+  for (const char* word : { "a", "b", "c" })
+  {
+    words->InsertNextValue(word);
+    variants->InsertNextValue(vtkVariant(word));
+  }
+  table->AddColumn(words);
+  table->AddColumn(variants);
+  table->AddColumn(MakeArray<vtkFloatArray>("force", { 1, 2, 3, 4, 5, 6, 7, 8, 9 }, 3));
+  table->GetRowData()->GetArray("force")->SetComponentName(2, "down");
+  Filter filter(MakeParticles(), table);
+  filter->SetPeriodicLines(vtkGranularLocalJoin::SPLIT);
+  filter->SetAverages("radius");
+  filter->SetEquilibriumLength(1);
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, 0, 10, 9, 4, 4 }));
+  EXPECT_EQ(filter.ValuesOf("row"), (Values{ 0, 1, 1, 2 }));
+  EXPECT_NE(vtkTypeInt64Array::SafeDownCast(filter.Cells("row")), nullptr);
+  EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 2, 2, 0 }));
+  EXPECT_EQ(filter.ValuesOf("elongation"), (Values{ 4, 1, 1, -1 }));
+  EXPECT_EQ(filter.ValuesOf("radius_mean"), (Values{ 1, 1.5, 1.5, 4 }));
+  EXPECT_EQ(filter.ValuesOf("force"), (Values{ 1, 2, 3, 4, 5, 6, 4, 5, 6, 7, 8, 9 }));
+  EXPECT_EQ(filter.Cells("force")->GetDataType(), VTK_FLOAT);
+  EXPECT_STREQ(filter.Cells("force")->GetComponentName(2), "down");
+  vtkCellData* data = filter.Lines()->GetCellData();
+  for (const char* name : { "word", "variant" })
+  {
+    ASSERT_EQ(data->GetAbstractArray(name)->GetNumberOfTuples(), 4);
+    EXPECT_EQ(data->GetAbstractArray(name)->GetVariantValue(2).ToString(), "b");
+    EXPECT_EQ(data->GetAbstractArray(name)->GetVariantValue(3).ToString(), "c");
+  }
+
+  // what was split once is known by its number, and counts once
+  vtkNew<vtkPolyData> split;
+  split->DeepCopy(filter.Lines());
+  Filter again(MakeParticles(), split);
+  again->SetAverages("radius");
+  again->Update();
+  again.ExpectSaid("");
+  EXPECT_EQ(again.Xs(), (Values{ 1, 1, 1, -1, 4, 4 }));
+  EXPECT_EQ(again.ValuesOf("row"), (Values{ 0, 1, 2 }));
+  EXPECT_EQ(again.ValuesOf("length"), (Values{ 5, 2, 0 }));
+  EXPECT_FALSE(again.Cells("elongation")); // nothing is known of it now
+  again->SetPeriodicLines(vtkGranularLocalJoin::SPLIT);
+  again->Update();
+  EXPECT_EQ(again.ValuesOf("row"), (Values{ 0, 1, 1, 2 }));
+}
+
+TEST(LocalJoinFilter, MeansAndDifferences)
+{
+  Filter filter(MakeParticles(), MakeTable());
+  filter->SetAverages(" radius,v  radius ");
+  filter->SetDifferences("v");
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.ValuesOf("radius_mean"), (Values{ 1, 1.5, 4 }));
+  EXPECT_EQ(filter.ValuesOf("v_mean"), (Values{ 2.5, 3.5, 4.5, 4, 5, 6, 0, 0, 0 }));
+  EXPECT_EQ(filter.ValuesOf("v_difference"), (Values{ 3, 3, 3, 6, 6, 6, 0, 0, 0 }));
+  EXPECT_STREQ(filter.Cells("v_mean")->GetComponentName(1), "up");
+  EXPECT_EQ(filter.Cells("radius_difference"), nullptr);
+
+  filter->SetAverages(nullptr);
+  filter->SetDifferences("*");
+  filter->Update();
+  EXPECT_EQ(filter.ValuesOf("radius_difference"), (Values{ 1, 2, 0 }));
+  EXPECT_EQ(filter.ValuesOf("v_difference"), (Values{ 3, 3, 3, 6, 6, 6, 0, 0, 0 }));
+  EXPECT_EQ(filter.Cells("id_difference"), nullptr);
+  EXPECT_EQ(filter.Cells("v_mean"), nullptr);
+}
+
+TEST(LocalJoinFilter, ElongationAndStrain)
+{
+  auto table = MakeTable();
+  table->AddColumn(MakeArray("equilibrium_length", { 4, -4, 0 }));
+  table->AddColumn(MakeArray("length", { 7, 7, 7 })); // of something else
+  table->AddColumn(MakeArray("l0", { 5, 1, 1 }));
+  Filter filter(MakeParticles(), table);
+  filter->SetEquilibriumLength(2); // not used where there is the array
+  filter->Update();
+  filter.ExpectSaid("1 of 3 lines have an equilibrium length of 0");
+  Values elongation = filter.ValuesOf("elongation");
+  Values strain = filter.ValuesOf("strain");
+  EXPECT_TRUE(std::isnan(elongation.back()) && std::isnan(strain.back()));
+  elongation.pop_back();
+  strain.pop_back();
+  EXPECT_EQ(elongation, (Values{ 1, -2 }));
+  EXPECT_EQ(strain, (Values{ 0.25, -0.5 }));
+  EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 2, 0 }));
+
+  filter->SetEquilibriumLengthArray("l0");
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.ValuesOf("strain"), (Values{ 0, 1, -1 }));
+
+  filter->SetEquilibriumLengthArray("not there");
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.ValuesOf("strain"), (Values{ 1.5, 0, -1 }));
+}
+
+/// Lines lie where the points are, and are as long as in the simulation.
+TEST(LocalJoinFilter, PointsOfAllKinds)
+{
+  auto particles = MakeParticles();
+  vtkFieldData* fields = particles->GetFieldData();
+  fields->AddArray(MakeArray("PointOrigin", { -100, 0, 0 }, 3));
+  fields->AddArray(MakeArray("BoxOrigin", { -100, 0, 0 }, 3));
+  {
+    Filter filter(particles, MakeTable());
+    filter->SetPeriodicLines(vtkGranularLocalJoin::SPLIT);
+    filter->Update();
+    filter.ExpectSaid("");
+    EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, 0, 10, 9, 4, 4 }));
+    EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 2, 2, 0 }));
+  }
+  // three periods on: the end that was found last is drawn next to the first, split or not
+  AddText(fields, "Coordinates", "Unwrapped");
+  particles->GetPoints()->SetPoint(0, 31, 5, 5);
+  for (const int way : { vtkGranularLocalJoin::MINIMUM_IMAGE, vtkGranularLocalJoin::SPLIT })
+  {
+    Filter filter(particles, MakeTable());
+    filter->SetPeriodicLines(way);
+    filter->Update();
+    filter.ExpectSaid("");
+    EXPECT_EQ(filter.Xs(), (Values{ 31, 31, 31, 29, 4, 4 }));
+    EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 2, 0 }));
+  }
+  // in units of the box, less an origin in such units
+  AddText(fields, "Coordinates", "Scaled");
+  fields->AddArray(MakeArray("PointOrigin", { 0.25, 0, 0 }, 3));
+  particles->GetPoints()->SetData(
+    MakeArray("points", { -0.125, 0.5, 0.5, -0.125, 0.75, 0.5, 0.625, 0.5, 0.5, 0, 0, 0 }, 3));
+  {
+    Filter filter(particles, MakeTable());
+    filter->Update();
+    filter.ExpectSaid("");
+    EXPECT_EQ(filter.Xs(), (Values{ -0.125, -0.125, -0.125, -0.375, 0, 0 }));
+    EXPECT_EQ(filter.ValuesOf("length"), (Values{ 2.5, 2.5, 0 }));
+    EXPECT_EQ(filter.Lines()->GetPoint(1)[1], 0.75);
+    filter->SetPeriodicLines(vtkGranularLocalJoin::SPLIT);
+    filter->Update();
+    EXPECT_EQ(filter.Xs(), (Values{ -0.125, -0.125, -0.125, -0.25, 0.75, 0.625, 0, 0 }));
+  }
+  fields->RemoveArray("BoxVectors");
+  Filter filter(particles, MakeTable());
+  filter->Update();
+  filter.ExpectSaid("expected the box of scaled points");
+  EXPECT_TRUE(IsEmpty(filter));
+}
+
+TEST(LocalJoinFilter, WithoutABoxAsWritten)
+{
+  auto particles = MakeParticles();
+  particles->GetFieldData()->Initialize();
+  Filter filter(particles, MakeTable());
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, 9, 4, 4 }));
+  EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 8, 0 }));
+}
+
+TEST(LocalJoinFilter, WhatIsLeftOutIsTold)
+{
+  Filter missing(MakeParticles(), MakeTable({ 11, 11, 7, 13 }, { 12, 3, 11, 8 }));
+  missing->Update();
+  missing.ExpectSaid("3 of 4 lines are left out: no particle has the id of an end, as in 11 and 3");
+  EXPECT_EQ(missing.ValuesOf("id2"), Values{ 12 });
+
+  Filter repeated(MakeParticles({ 11, 12, 13, 12 }), MakeTable({ 11 }, { 12 }));
+  repeated->Update();
+  repeated.ExpectSaid("1 particles have the id of another one: lines go to the first");
+  EXPECT_EQ(repeated.Xs(), (Values{ 1, 1 }));
+
+  auto table = MakeTable();
+  table->AddColumn(MakeArray("dist", { 5.0004, 2.2, 0 }));
+  Filter misfit(MakeParticles(), table);
+  misfit->Update();
+  misfit.ExpectSaid("1 of 3 lines are not as long as their array dist says");
+  misfit->SetPeriodicLines(vtkGranularLocalJoin::AS_WRITTEN); // is asked for
+  misfit->Update();
+  misfit.ExpectSaid("");
+
+  table->RemoveColumnByName("dist");
+  table->GetFieldData()->AddArray(MakeArray<vtkTypeInt64Array>("timestep", { 200 }));
+  AddText(table->GetFieldData(), "Columns", "id1");
+  Filter other(MakeParticles(), table);
+  other->Update();
+  other.ExpectSaid("the particles are of timestep 100, the lines of 200");
+  EXPECT_EQ(other.Lines()->GetFieldData()->GetArray("timestep")->GetComponent(0, 0), 100);
+  EXPECT_EQ(
+    other.Lines()->GetFieldData()->GetAbstractArray("Columns")->GetVariantValue(0).ToString(),
+    "id1");
+}
+
+TEST(LocalJoinFilter, DuplicatesAreLeftOut)
+{
+  auto particles = MakeParticles({ 11, 12, 12, 14 });
+  auto ghosts = MakeArray<vtkUnsignedCharArray>("vtkGhostType", { 0, 1, 0, 1 });
+  particles->GetPointData()->AddArray(ghosts);
+  auto table = MakeTable({ 11, 11, 11 }, { 12, 12, 14 });
+  table->AddColumn(MakeArray<vtkUnsignedCharArray>("vtkGhostType", { 0, 1, 0 }));
+  Filter filter(particles, table);
+  filter->Update();
+  filter.ExpectSaid("1 of 2 lines are left out: no particle has the id of an end, as in 11 and 14");
+  EXPECT_EQ(filter.Xs(), (Values{ 1, -1 }));
+  EXPECT_FALSE(filter.Lines()->GetCellData()->HasArray("vtkGhostType"));
+}
+
+TEST(LocalJoinFilter, NothingOnEitherSide)
+{
+  vtkNew<vtkPolyData> nobody;
+  vtkNew<vtkTable> noRows;
+  {
+    Filter filter(nobody, MakeTable());
+    filter->SetAverages("radius");
+    filter->Update();
+    filter.ExpectSaid("3 of 3 lines are left out");
+    EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 0);
+    EXPECT_NE(filter.Cells("id1"), nullptr);
+    EXPECT_NE(filter.Cells("radius_mean"), nullptr);
+  }
+  {
+    Filter filter(MakeParticles(), noRows);
+    filter->SetDifferences("*");
+    filter->Update();
+    filter.ExpectSaid("");
+    EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 0);
+    EXPECT_EQ(filter.Cells("v_difference")->GetNumberOfComponents(), 3);
+  }
+  Filter filter(nobody, noRows);
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 0);
+}
+
+TEST(LocalJoinFilter, WhatCannotBeIsAnError)
+{
+  vtkNew<vtkTable> noIds;
+  noIds->AddColumn(MakeArray("id1", { 11 }));
+  vtkNew<vtkTable> vectors;
+  vectors->AddColumn(MakeArray("id1", { 11, 12 }, 2));
+  vectors->AddColumn(MakeArray("id2", { 11 }));
+  vtkNew<vtkTable> texts;
+  AddText(texts->GetRowData(), "id1", "11");
+  texts->AddColumn(MakeArray("id2", { 11 }));
+  vtkNew<vtkPolyData> shortArray;
+  shortArray->DeepCopy(MakeParticles());
+  shortArray->GetCellData()->AddArray(MakeArray("id1", { 11 }));
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType point = 0; point < 2; ++point)
+  {
+    vertices->InsertNextCell(1, &point);
+  }
+  shortArray->SetVerts(vertices);
+  auto withoutId = MakeParticles();
+  withoutId->GetPointData()->RemoveArray("id");
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeParticles());
+  const struct
+  {
+    vtkSmartPointer<vtkDataObject> Particles;
+    vtkSmartPointer<vtkDataObject> Lines;
+    const char* Text;
+  } cases[] = {
+    { MakeParticles(), noIds, "expected an array 'id2' of the lines, got none" },
+    { MakeParticles(), vectors,
+      "expected one number a row in the array 'id1' of the lines, got 2" },
+    { MakeParticles(), texts,
+      "expected one number a row in the array 'id1' of the lines, got the type string" },
+    { MakeParticles(), MakeTable({ 11 }, { 11.5 }),
+      "column 'id2': expected a 64-bit integer as id, got 11.5 in row 0" },
+    { MakeParticles(), shortArray, "expected a value for each of 2 rows, got 1" },
+    { withoutId, MakeTable(), "expected an array 'id' of the particles, got none" },
+    { MakeTable(), MakeTable(), "expected a vtkPointSet of particles, got a vtkTable" },
+    { blocks, MakeTable(), "MergeBlocks" },
+    { MakeParticles(), blocks, "got a vtkMultiBlockDataSet: the filter MergeBlocks" },
+  };
+  for (const auto& each : cases)
+  {
+    Filter filter(each.Particles, each.Lines);
+    filter->Update();
+    filter.ExpectSaid(each.Text);
+    EXPECT_TRUE(IsEmpty(filter)) << each.Text;
+    filter.Inputs[0]->SetOutput(MakeParticles());
+    filter.Inputs[1]->SetOutput(MakeTable());
+    filter->Update();
+    filter.ExpectSaid("");
+    EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 3);
+  }
+}
+
+TEST(LocalJoinFilter, PropertiesThatCannotBeAreErrors)
+{
+  Filter filter(MakeParticles(), MakeTable());
+  filter->SetThreads(-1);
+  filter.ExpectSaid("Threads must be at least 0, got -1");
+  for (const double length :
+    { -1., std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  {
+    filter->SetEquilibriumLength(length);
+    filter->Update();
+    filter.ExpectSaid("expected an EquilibriumLength of 0 or more, got ");
+    EXPECT_TRUE(IsEmpty(filter));
+  }
+  filter->SetEquilibriumLength(0);
+  filter->SetAverages("radius mass");
+  filter->Update();
+  filter.ExpectSaid("expected an array 'mass' of the particles, got none");
+  EXPECT_TRUE(IsEmpty(filter));
+  filter->SetAverages("radius");
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 3);
+}
+
+TEST(LocalJoinFilter, PiecesAreTheWhole)
+{
+  for (const int way : { vtkGranularLocalJoin::MINIMUM_IMAGE, vtkGranularLocalJoin::SPLIT })
+  {
+    Filter whole(MakeParticles(), MakeTable());
+    whole->SetPeriodicLines(way);
+    whole->Update();
+    Values xs;
+    Values lengths;
+    Values rows;
+    for (int piece = 0; piece < 2; ++piece)
+    {
+      Filter part(MakeParticles(), MakeTable());
+      part->SetPeriodicLines(way);
+      part->UpdatePiece(piece, 2, 0);
+      part.ExpectSaid("");
+      for (const double x : part.Xs())
+      {
+        xs.push_back(x);
+      }
+      for (const double length : part.ValuesOf("length"))
+      {
+        lengths.push_back(length);
+      }
+      for (const double row : part.ValuesOf("row"))
+      {
+        rows.push_back(row);
+      }
+    }
+    EXPECT_EQ(xs, whole.Xs());
+    EXPECT_EQ(lengths, whole.ValuesOf("length"));
+    EXPECT_EQ(rows, whole.ValuesOf("row"));
+  }
+}
+
+TEST(LocalJoinFilter, StopsAtAnyReportAndStartsAfresh)
+{
+  const Values first(100000, 11);
+  const Values second(100000, 13);
+  const auto table = MakeTable(first, second);
+  Filter counted(MakeParticles(), table);
+  counted->SetThreads(1);
+  counted->Update();
+  ASSERT_GE(counted.Seen->Reported.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(counted.Seen->Reported.begin(), counted.Seen->Reported.end()));
+  // the last report comes from the pipeline when all is done, too late for anything
+  for (std::size_t at = 1; at + 1 < counted.Seen->Reported.size(); ++at)
+  {
+    Filter filter(MakeParticles(), table);
+    filter->SetThreads(1);
+    filter.Seen->StopAt = at;
+    filter->Update();
+    filter.ExpectSaid("");
+    EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 0) << at;
+    filter->Update();
+    EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 100000);
+  }
+}
+
+TEST(LocalJoinFilter, PrintsAllProperties)
+{
+  Filter filter(MakeParticles(), MakeTable());
+  filter->SetAverages("radius v");
+  filter->SetEquilibriumLength(0.25);
+  std::ostringstream out;
+  filter->Print(out);
+  for (const char* line : { "PeriodicLines: 0\n", "Averages: radius v\n", "Differences: \n",
+         "EquilibriumLengthArray: equilibrium_length\n", "EquilibriumLength: 0.25\n",
+         "Threads: 0\n", "Controller: " })
+  {
+    EXPECT_NE(out.str().find(line), std::string::npos) << line;
+  }
+}

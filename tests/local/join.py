@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The bonds of a real run, between the particles of its dump: as long as the program that wrote them says."""
+import os
+
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_TYPE_INT64
+from vtkmodules.vtkCommonDataModel import vtkTable
+
+import plain_dump
+
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
+NAMES = ["btype", "id1", "id2", "dist", "energy", "fx", "fy", "fz"]
+
+
+def read_bonds():
+    """By timestep: a row a bond, NAMES its columns."""
+    frames = {}
+    with open(os.path.join(data, "local", "chain_bonds.dump")) as file:
+        lines = iter(file.read().splitlines())
+    for line in lines:
+        if line == "ITEM: TIMESTEP":
+            step = int(next(lines))
+        elif line == "ITEM: NUMBER OF BONDS":
+            count = int(next(lines))
+        elif line.startswith("ITEM: BONDS"):
+            frames[step] = numpy.array([next(lines).split() for _ in range(count)], float)
+    return frames
+
+
+def table_of(rows, step):
+    table = vtkTable()
+    for name, values in zip(NAMES, rows.T):
+        array = numpy_to_vtk(values.astype(int) if name.startswith("id") else values, deep=1)
+        array.SetName(name)
+        table.AddColumn(array)
+    timestep = numpy_to_vtk(numpy.array([step]), deep=1, array_type=VTK_TYPE_INT64)
+    timestep.SetName("timestep")
+    table.GetFieldData().AddArray(timestep)
+    return table
+
+
+bonds = read_bonds()
+assert list(bonds) == [0, 500, 1000] and all(len(rows) == 96 for rows in bonds.values())
+particles = {frame.timestep: frame for frame in plain_dump.read(os.path.join(data, "chain.dump"))}
+grains = GranularDumpReader(FileNames=[os.path.join(data, "chain.dump")])
+rows = TrivialProducer()
+crossed = 0
+for step, table in bonds.items():
+    rows.GetClientSideObject().SetOutput(table_of(table, step))
+    # what they are: by id, the second end brought as near to the first as the box allows
+    frame = particles[step]
+    ids = frame.numbers("id").astype(int)
+    places = dict(zip(ids, frame.stack("xyz")))
+    speeds = dict(zip(ids, frame.stack(["vx", "vy", "vz"])))
+    edges = numpy.diff(numpy.array(frame.bounds)).T[0]
+    first, second = (numpy.array([places[int(i)] for i in table[:, k]]) for k in (1, 2))
+    vectors = second - first
+    crossed += (abs(vectors) > edges / 2).any(axis=1).sum()
+    vectors -= edges * numpy.round(vectors / edges)
+    for coordinates in ("Absolute", "Unwrapped", "Scaled"):
+        grains.Coordinates = coordinates
+        lines = GranularLocalJoin(Input=grains, Lines=rows, Averages="v", Differences="*", EquilibriumLength=1.05)
+        lines.UpdatePipeline(step)
+        output = lines.GetClientSideObject().GetOutput()
+        cells = {name: vtk_to_numpy(output.GetCellData().GetArray(name)) for name in
+                 ("id1", "id2", "dist", "length", "elongation", "strain", "v_mean", "v_difference", "mol_difference")}
+        assert output.GetNumberOfLines() == output.GetNumberOfCells() == 96
+        assert (cells["id1"] == table[:, 1]).all() and (cells["id2"] == table[:, 2]).all()
+        # both files have six digits
+        assert abs(cells["length"] - cells["dist"]).max() < 3e-4, abs(cells["length"] - cells["dist"]).max()
+        assert numpy.allclose(cells["length"], numpy.sqrt((vectors ** 2).sum(axis=1)), rtol=0, atol=1e-13)
+        assert (cells["elongation"] == cells["length"] - 1.05).all()
+        assert (cells["strain"] == cells["elongation"] / 1.05).all()
+        assert not cells["mol_difference"].any()  # bonds are within molecules
+        ends = [numpy.array([speeds[int(i)] for i in table[:, k]]) for k in (1, 2)]
+        assert (cells["v_mean"] == (ends[0] + ends[1]) / 2).all()
+        assert (cells["v_difference"] == ends[1] - ends[0]).all()
+        points = vtk_to_numpy(output.GetPoints().GetData()).reshape(-1, 2, 3)
+        scale = edges if coordinates == "Scaled" else 1
+        assert numpy.allclose((points[:, 1] - points[:, 0]) * scale, vectors, rtol=0, atol=1e-13)
+        # they begin where the particles are shown
+        shown = grains.GetClientSideObject().GetOutput()
+        where = dict(zip(vtk_to_numpy(shown.GetPointData().GetArray("id")), vtk_to_numpy(shown.GetPoints().GetData())))
+        starts = numpy.array([where[int(i)] for i in table[:, 1]])
+        assert numpy.allclose(points[:, 0], starts, rtol=0, atol=1e-13)
+        assert output.GetFieldData().GetAbstractArray("Coordinates").GetValue(0) == coordinates
+        Delete(lines)
+assert crossed > 3, crossed
+
+# split: the parts of a line are as long as the line, and in the box
+grains.Coordinates = "Absolute"
+lines = GranularLocalJoin(Input=grains, Lines=rows, PeriodicLines="Split")
+lines.UpdatePipeline(1000)
+output = lines.GetClientSideObject().GetOutput()
+row = vtk_to_numpy(output.GetCellData().GetArray("row"))
+assert len(row) > 96 and (numpy.unique(row) == numpy.arange(96)).all()
+points = vtk_to_numpy(output.GetPoints().GetData()).reshape(-1, 2, 3)
+parts = numpy.bincount(row, numpy.sqrt(((points[:, 1] - points[:, 0]) ** 2).sum(axis=1)))
+assert abs(parts - numpy.sqrt((vectors ** 2).sum(axis=1))).max() < 1e-13
+low, high = numpy.array(particles[1000].bounds).T
+outside = ((points < low) | (points > high)).any(axis=(1, 2))
+ends_outside = ((first < low) | (first > high) | (second < low) | (second > high)).any(axis=1)
+assert not (outside & ~ends_outside[row]).any()
+print("as long as they are")

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Any number of ranks join the same to the bit, wherever particles and bonds are, each the lines of its bonds."""
+import os
+
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+from vtkmodules.vtkCommonDataModel import vtkTable
+
+import all_ranks
+import granular
+
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
+dump = os.path.join(data, "chain.dump")
+
+# The bonds of the last frame and one with nobody, on the ranks that {own} says; {known}: those without know the columns.
+BONDS = f"""
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+lines = open({os.path.join(data, "local", "chain_bonds.dump")!r}).read().splitlines()[-96:]
+rows = numpy.array([line.split()[:3] + [1 + i / 128] for i, line in enumerate(lines)] + [[1, 7, 1000, 1]], float)
+controller = vtkMultiProcessController.GetGlobalController()
+rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+"""
+SHARE = """
+rows = rows[{own}]
+table = self.GetOutputDataObject(0)
+for name, values in zip(["btype", "id1", "id2", "equilibrium_length"] if len(rows) or {known} else [], rows.T):
+    array = numpy_to_vtk(values.copy(), deep=1)
+    array.SetName(name)
+    table.AddColumn(array)
+"""
+NUMBERS = ["btype", "id1", "id2", "length", "elongation", "strain", "v_mean", "type_mean", "v_difference"]
+
+
+def content(output):
+    """All that is told of each line, in the order of the ids."""
+    cells = output.GetCellData()
+    arrays = [vtk_to_numpy(cells.GetArray(name)).reshape(output.GetNumberOfCells(), -1) for name in NUMBERS]
+    arrays.append(vtk_to_numpy(output.GetPoints().GetData()).reshape(-1, 6))
+    table = numpy.hstack([array.astype(float) for array in arrays])
+    return table[numpy.lexsort((table[:, 2], table[:, 1]))]
+
+
+def alone(periodic):
+    """The same by the classes, in this process without the others."""
+    reader, join, rows = granular.vtkGranularDumpReader(), granular.vtkGranularLocalJoin(), vtkTable()
+    reader.SetController(None)
+    reader.AddFileName(dump)
+    script = (BONDS + SHARE.format(own=":", known=True)).replace("self.GetOutputDataObject(0)", "made")
+    exec(script, {"made": rows})
+    join.SetController(None)
+    join.SetInputConnection(0, reader.GetOutputPort())
+    join.SetInputDataObject(1, rows)
+    join.SetPeriodicLines(periodic)
+    join.SetAverages("v type")
+    join.SetDifferences("*")
+    join.UpdateTimeStep(1000)
+    return join.GetOutput()
+
+
+grains = GranularDumpReader(FileNames=[dump])
+for periodic in (0, 1, 2):
+    expected = content(alone(periodic))
+    assert len(expected) == 96 if periodic != 1 else len(expected) > 96
+    for own, known in (("rank::ranks", True), ("slice(0, 97 if rank == 0 else 0)", False),
+                       ("slice(0, 97 if rank == ranks - 1 else 0)", True)):
+        rows = ProgrammableSource(OutputDataSetType="vtkTable", Script=BONDS + SHARE.format(own=own, known=known))
+        lines = GranularLocalJoin(Input=grains, Lines=rows, PeriodicLines=periodic, Averages="v type", Differences="*")
+        output = all_ranks.whole(lines, 1000)
+        found = content(output)
+        assert found.tobytes() == expected.tobytes(), (periodic, own, abs(found - expected).max())
+        if periodic == 1:  # the parts of a line have its number, which no other has
+            ids = vtk_to_numpy(output.GetCellData().GetArray("id1"))
+            row = vtk_to_numpy(output.GetCellData().GetArray("row"))
+            assert len(numpy.unique(row)) == 96 and row.max() < 97
+            assert all(len(set(ids[row == i])) == 1 for i in numpy.unique(row))
+        Delete(lines)
+        Delete(rows)
+
+# without ids on one rank: an error of all, and none waits
+without = ProgrammableSource(OutputDataSetType="vtkTable", Script=BONDS + SHARE.format(
+    own=":", known=True).replace('"id2"', '"id2" if rank < ranks - 1 else "other"'))
+lines = GranularLocalJoin(Input=grains, Lines=without)
+lines.UpdatePipeline(1000)
+assert lines.GetDataInformation().GetNumberOfCells() == 0
+print("all there")
