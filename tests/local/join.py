@@ -43,8 +43,8 @@ def table_of(rows, step):
 
 bonds = read_bonds()
 assert list(bonds) == [0, 500, 1000] and all(len(rows) == 96 for rows in bonds.values())
-particles = {frame.timestep: frame for frame in plain_dump.read(os.path.join(data, "chain.dump"))}
-grains = GranularDumpReader(FileNames=[os.path.join(data, "chain.dump")])
+particles = {frame.timestep: frame for frame in plain_dump.read(os.path.join(data, "local", "chain.dump"))}
+grains = GranularDumpReader(FileNames=[os.path.join(data, "local", "chain.dump")])
 rows = TrivialProducer()
 crossed = 0
 for step, table in bonds.items():

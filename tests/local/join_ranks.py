@@ -12,7 +12,7 @@ import all_ranks
 import granular
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
-dump = os.path.join(data, "chain.dump")
+dump = os.path.join(data, "local", "chain.dump")
 
 # The bonds of the last frame and one with nobody, on the ranks that {own} says; {known}: those without know the columns.
 BONDS = f"""
