@@ -3,6 +3,7 @@
 
 #include "private/arrays.h"
 #include "private/guard.h"
+#include "private/lines.h"
 #include "private/local_rows.h"
 #include "private/particles.h"
 #include "private/piece_request.h"
@@ -15,7 +16,6 @@
 #include "granular/local/lines.h"
 
 #include "vtkAlgorithmOutput.h"
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -25,8 +25,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTypeInt64Array.h"
 
@@ -49,11 +49,6 @@ vtkStandardNewMacro(vtkGranularLocalJoin);
 namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-/**
- * What the filter makes of each line, and of arrays of the same name in its input.
- */
-constexpr const char* MadeArrays[] = { "length", "elongation", "strain" };
 
 std::string TextOf(const char* text)
 {
@@ -93,33 +88,16 @@ std::vector<std::string> NamesIn(std::string list, const granular::FrameView& pa
   return names;
 }
 
+vtkSmartPointer<vtkDoubleArray> MakeEmpty(const char* name)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name);
+  return array;
+}
+
 std::span<double> DoublesIn(const granular::Block& block)
 {
   return { static_cast<double*>(block.data()), block.bytes() / sizeof(double) };
-}
-
-/**
- * An array of values a line: those of the row that each is of.
- */
-vtkSmartPointer<vtkDoubleArray> MakeArray(const std::string& name, std::span<const double> values,
-  int components, const std::vector<std::int64_t>& rows)
-{
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(components);
-  const auto size = static_cast<std::size_t>(components);
-  const std::size_t lines = rows.empty() ? values.size() / size : rows.size();
-  array->SetNumberOfTuples(static_cast<vtkIdType>(lines));
-  double* to = array->GetPointer(0);
-  if (rows.empty())
-  {
-    std::ranges::copy(values, to);
-  }
-  for (const std::int64_t row : rows)
-  {
-    to = std::copy_n(values.data() + static_cast<std::size_t>(row) * size, size, to);
-  }
-  return array;
 }
 }
 
@@ -234,6 +212,8 @@ private:
       this->Rows->Keep(range);
     }
     this->All.Rows = this->Rows->Count();
+    this->RestKnown =
+      this->All.Rows > 0 && this->Rows->Has(TextOf(this->Self->EquilibriumLengthArray).c_str());
     const double rest = this->Self->EquilibriumLength;
     if (!(rest >= 0 && rest <= std::numeric_limits<double>::max()))
     {
@@ -248,7 +228,6 @@ private:
    */
   void ShareNames(granular::JoinRequest& request, granular::Communicator& ranks)
   {
-    const std::string rest = TextOf(this->Self->EquilibriumLengthArray);
     std::array<std::vector<std::string>*, 2> lists = { &request.means, &request.differences };
     const std::array<const char*, 2> given = { this->Self->Averages, this->Self->Differences };
     for (std::size_t i = 0; i < lists.size(); ++i)
@@ -271,10 +250,9 @@ private:
           lists[i]->assign(words.begin() + 1, words.end());
         });
     }
-    this->RestKnown = this->Rows->Count() > 0 && this->Rows->Has(rest.c_str());
-    std::array<std::int64_t, 1> with = { this->RestKnown ? 1 : 0 };
-    ranks.sum(with);
-    this->RestKnown = with[0] > 0;
+    std::int64_t with = this->RestKnown ? 1 : 0;
+    ranks.sum({ &with, 1 });
+    this->RestKnown = with > 0;
     std::vector<std::int64_t> counts;
     granular::do_together(ranks, [&] { counts.resize(static_cast<std::size_t>(ranks.size())); });
     counts[static_cast<std::size_t>(ranks.rank())] = this->All.Rows;
@@ -313,28 +291,13 @@ private:
     }
   }
 
-  /**
-   * Numbers of the rows whose ends were found.
-   */
-  std::vector<double> NumbersOfJoined(const char* name)
-  {
-    const std::vector<double> all = this->Rows->ReadNumbers(name);
-    std::vector<double> numbers;
-    numbers.reserve(this->Joined.rows.size());
-    for (const std::int64_t row : this->Joined.rows)
-    {
-      numbers.push_back(all[static_cast<std::size_t>(row)]);
-    }
-    return numbers;
-  }
-
   void FindElongations()
   {
     const double constant = this->Self->EquilibriumLength;
     std::vector<double> rest;
     if (this->RestKnown)
     {
-      rest = this->NumbersOfJoined(this->Self->EquilibriumLengthArray);
+      rest = this->Rows->ReadNumbers(this->Self->EquilibriumLengthArray, this->Joined.rows);
     }
     else if (constant > 0)
     {
@@ -345,11 +308,11 @@ private:
     for (std::size_t i = 0; i < rest.size(); ++i)
     {
       const double length = std::abs(rest[i]);
-      const bool none = length == 0;
-      this->All.WithoutRest += none ? 1 : 0;
-      this->Elongations.push_back(
-        none ? std::numeric_limits<double>::quiet_NaN() : lengths[i] - length);
-      this->Strains.push_back(this->Elongations.back() / length);
+      this->All.WithoutRest += length == 0 ? 1 : 0;
+      const double elongation =
+        length == 0 ? std::numeric_limits<double>::quiet_NaN() : lengths[i] - length;
+      this->Elongations->InsertNextValue(elongation);
+      this->Strains->InsertNextValue(elongation / length);
     }
   }
 
@@ -358,11 +321,11 @@ private:
    */
   void CountMisfits()
   {
-    if (this->Self->PeriodicLines == AS_WRITTEN || !this->Rows->Has("dist"))
+    if (this->Self->PeriodicLines == AS_WRITTEN || !this->Rows->HasNumbers("dist"))
     {
       return;
     }
-    const std::vector<double> dist = this->NumbersOfJoined("dist");
+    const std::vector<double> dist = this->Rows->ReadNumbers("dist", this->Joined.rows);
     const std::span<const double> lengths = DoublesIn(this->Lines.lengths);
     const std::span<const double> ends = DoublesIn(this->Joined.first);
     for (std::size_t i = 0; i < dist.size(); ++i)
@@ -413,32 +376,32 @@ private:
       rows[i] = this->Joined.rows[of.empty() ? i : static_cast<std::size_t>(of[i])];
     }
     this->Rows->Pass(rows, data);
-    for (const char* name : MadeArrays)
+    for (const char* name : { "elongation", "strain" }) // of the input
     {
       data->RemoveArray(name);
     }
-    data->AddArray(MakeArray("length", DoublesIn(this->Lines.lengths), 1, of));
     if (this->RestKnown)
     {
-      data->AddArray(MakeArray("elongation", this->Elongations, 1, of));
-      data->AddArray(MakeArray("strain", this->Strains, 1, of));
+      data->AddArray(TakeRows(this->Elongations, this->Lines));
+      data->AddArray(TakeRows(this->Strains, this->Lines));
     }
-    for (const granular::EndArray& array : this->Joined.arrays)
+    vtkPointData* points = vtkPointSet::SafeDownCast(this->Inputs[0])->GetPointData();
+    const auto joined = static_cast<vtkIdType>(this->Joined.rows.size());
+    for (granular::EndArray& array : this->Joined.arrays)
     {
-      auto made = MakeArray(array.name, DoublesIn(array.values), array.size, of);
+      auto made = TakeDoubles(array.name.c_str(), array.values, joined, array.size);
       const std::string from = array.name.substr(0, array.name.rfind('_'));
-      auto* points = vtkPointSet::SafeDownCast(this->Inputs[0])->GetPointData();
       if (vtkAbstractArray* named = points->GetAbstractArray(from.c_str()))
       {
         made->CopyComponentNames(named);
       }
-      data->AddArray(made);
+      data->AddArray(TakeRows(made, this->Lines));
     }
     if (this->Self->PeriodicLines == SPLIT && !this->Rows->Has(LocalRows::RowArray))
     {
       this->AddRows(rows, data);
     }
-    this->FillLines(this->Lines.count);
+    FillLines(this->Output, this->Lines, nullptr);
     vtkFieldData* fields = this->Output->GetFieldData();
     fields->PassData(this->Inputs[0]->GetFieldData());
     fields->RemoveArray("Columns"); // of particles
@@ -458,15 +421,6 @@ private:
     std::ranges::transform(
       rows, numbers->GetPointer(0), [&](vtkTypeInt64 row) { return this->FirstRow + row; });
     data->AddArray(numbers);
-  }
-
-  void FillLines(vtkIdType count)
-  {
-    granular::Block ends(static_cast<std::size_t>(2 * count) * sizeof(vtkTypeInt64));
-    auto* const first = static_cast<vtkTypeInt64*>(ends.data());
-    std::iota(first, first + 2 * count, 0);
-    this->Output->SetPoints(TakePoints(this->Lines.points, 2 * count, false, {}));
-    this->Output->SetLines(TakeCells(ends, count, 2));
   }
 
   void Tell() const
@@ -509,8 +463,8 @@ private:
   granular::JoinedLines Joined;
   granular::Lines Lines; ///< between the joined
   bool RestKnown = false;
-  std::vector<double> Elongations; ///< of the joined
-  std::vector<double> Strains;
+  vtkSmartPointer<vtkDoubleArray> Elongations = MakeEmpty("elongation"); ///< of the joined
+  vtkSmartPointer<vtkDoubleArray> Strains = MakeEmpty("strain");
   Counts All;
   std::array<std::string, 2> Remarks; ///< ids that were not found, timesteps that differ; or empty
 };

@@ -14,24 +14,30 @@ import granular
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 dump = os.path.join(data, "local", "chain.dump")
 
-# The bonds of the last frame and one with nobody, on the ranks that {own} says; {known}: those without know the columns.
+# The bonds of the last frame and one with nobody: PART of them on each rank; KNOWN: those without know the columns.
+# What a script of ParaView defines it leaves here: a function, and nothing else.
 BONDS = f"""
-import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
-lines = open({os.path.join(data, "local", "chain_bonds.dump")!r}).read().splitlines()[-96:]
-rows = numpy.array([line.split()[:3] + [1 + i / 128] for i, line in enumerate(lines)] + [[1, 7, 1000, 1]], float)
-controller = vtkMultiProcessController.GetGlobalController()
-rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+def fill(table):
+    import numpy
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+    text = open({os.path.join(data, "local", "chain_bonds.dump")!r}).read().splitlines()[-96:]
+    bonds = numpy.array([line.split()[:3] + [1 + i / 128] for i, line in enumerate(text)] + [[1, 7, 1000, 1]], float)
+    controller = vtkMultiProcessController.GetGlobalController()
+    rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+    bonds = bonds[PART]
+    for name, values in zip(["btype", "id1", "id2", "equilibrium_length"] if len(bonds) or KNOWN else [], bonds.T):
+        array = numpy_to_vtk(values.copy(), deep=1)
+        array.SetName(name)
+        table.AddColumn(array)
+fill(self.GetOutputDataObject(0))
 """
-SHARE = """
-rows = rows[{own}]
-table = self.GetOutputDataObject(0)
-for name, values in zip(["btype", "id1", "id2", "equilibrium_length"] if len(rows) or {known} else [], rows.T):
-    array = numpy_to_vtk(values.copy(), deep=1)
-    array.SetName(name)
-    table.AddColumn(array)
-"""
+
+
+def script(part=":", known=True):
+    return BONDS.replace("PART", part).replace("KNOWN", str(known))
+
+
 NUMBERS = ["btype", "id1", "id2", "length", "elongation", "strain", "v_mean", "type_mean", "v_difference"]
 
 
@@ -49,8 +55,7 @@ def alone(periodic):
     reader, join, rows = granular.vtkGranularDumpReader(), granular.vtkGranularLocalJoin(), vtkTable()
     reader.SetController(None)
     reader.AddFileName(dump)
-    script = (BONDS + SHARE.format(own=":", known=True)).replace("self.GetOutputDataObject(0)", "made")
-    exec(script, {"made": rows})
+    exec(script().replace("self.GetOutputDataObject(0)", "made"), {"made": rows})
     join.SetController(None)
     join.SetInputConnection(0, reader.GetOutputPort())
     join.SetInputDataObject(1, rows)
@@ -67,7 +72,7 @@ for periodic in (0, 1, 2):
     assert len(expected) == 96 if periodic != 1 else len(expected) > 96
     for own, known in (("rank::ranks", True), ("slice(0, 97 if rank == 0 else 0)", False),
                        ("slice(0, 97 if rank == ranks - 1 else 0)", True)):
-        rows = ProgrammableSource(OutputDataSetType="vtkTable", Script=BONDS + SHARE.format(own=own, known=known))
+        rows = ProgrammableSource(OutputDataSetType="vtkTable", Script=script(own, known))
         lines = GranularLocalJoin(Input=grains, Lines=rows, PeriodicLines=periodic, Averages="v type", Differences="*")
         output = all_ranks.whole(lines, 1000)
         found = content(output)
@@ -76,13 +81,13 @@ for periodic in (0, 1, 2):
             ids = vtk_to_numpy(output.GetCellData().GetArray("id1"))
             row = vtk_to_numpy(output.GetCellData().GetArray("row"))
             assert len(numpy.unique(row)) == 96 and row.max() < 97
-            assert all(len(set(ids[row == i])) == 1 for i in numpy.unique(row))
+            assert not [i for i in numpy.unique(row) if len(set(ids[row == i])) > 1]
         Delete(lines)
         Delete(rows)
 
 # without ids on one rank: an error of all, and none waits
-without = ProgrammableSource(OutputDataSetType="vtkTable", Script=BONDS + SHARE.format(
-    own=":", known=True).replace('"id2"', '"id2" if rank < ranks - 1 else "other"'))
+without = ProgrammableSource(OutputDataSetType="vtkTable", Script=script().replace(
+    '"id2"', '"id2" if rank < ranks - 1 else "other"'))
 lines = GranularLocalJoin(Input=grains, Lines=without)
 lines.UpdatePipeline(1000)
 assert lines.GetDataInformation().GetNumberOfCells() == 0

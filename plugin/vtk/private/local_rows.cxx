@@ -10,6 +10,7 @@
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -19,8 +20,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace vtkGranularPrivate
 {
@@ -58,9 +59,9 @@ void LocalRows::FindTuples(vtkIdType count)
     this->Arrays.CheckTuples(
       const_cast<vtkUnsignedCharArray*>(ghosts), vtkDataSetAttributes::GhostArrayName(), count);
   }
-  vtkDataArray* of = this->Data->GetArray(RowArray);
-  const bool split = of && of->GetNumberOfComponents() == 1 && of->GetDataType() != VTK_FLOAT &&
-    of->GetDataType() != VTK_DOUBLE;
+  const int type =
+    this->HasNumbers(RowArray) ? this->Data->GetArray(RowArray)->GetDataType() : VTK_DOUBLE;
+  const bool split = type != VTK_FLOAT && type != VTK_DOUBLE;
   granular::Ids numbers;
   if (split)
   {
@@ -89,6 +90,12 @@ void LocalRows::Keep(std::pair<vtkTypeInt64, vtkTypeInt64> range)
 bool LocalRows::Has(const char* name) const
 {
   return this->Data->HasArray(name) != 0;
+}
+
+bool LocalRows::HasNumbers(const char* name) const
+{
+  vtkDataArray* array = this->Data->GetArray(name);
+  return array && array->GetNumberOfComponents() == 1;
 }
 
 granular::ArrayView LocalRows::See(const char* name)
@@ -122,12 +129,14 @@ std::vector<std::int64_t> LocalRows::ReadIds(const char* name, granular::Progres
   return ids;
 }
 
-std::vector<double> LocalRows::ReadNumbers(const char* name)
+std::vector<double> LocalRows::ReadNumbers(const char* name, const std::vector<std::int64_t>& rows)
 {
-  std::vector<double> numbers(this->Tuples.size());
-  if (this->Count() > 0)
+  std::vector<double> numbers(rows.size());
+  if (!rows.empty())
   {
-    const std::vector<std::int64_t> tuples(this->Tuples.begin(), this->Tuples.end());
+    std::vector<std::int64_t> tuples;
+    std::ranges::transform(rows, std::back_inserter(tuples),
+      [&](std::int64_t row) { return this->Tuples[static_cast<std::size_t>(row)]; });
     granular::gather_numbers(this->See(name), 0, tuples, numbers.data());
   }
   return numbers;

@@ -48,10 +48,15 @@ public:
   bool Has(const char* name) const;
 
   /**
-   * The ids, or numbers, of each row. Throws Error if the array is not there, or has others; granular::Cancelled.
+   * Whether an array has one number a row.
+   */
+  bool HasNumbers(const char* name) const;
+
+  /**
+   * The ids of each row; the numbers of some. Throws Error if the array is not there, or has others; granular::Cancelled.
    */
   std::vector<std::int64_t> ReadIds(const char* name, granular::Progress& progress);
-  std::vector<double> ReadNumbers(const char* name);
+  std::vector<double> ReadNumbers(const char* name, const std::vector<std::int64_t>& rows);
 
   /**
    * All arrays, with the values of these rows, in any number and order.
