@@ -102,6 +102,66 @@ TEST(LocalReader, ContactsOverlap)
   }
 }
 
+// A bed at rest: what acts on a grain is its weight and the forces of its contacts, which are opposite on both ends,
+// but for those of the ground.
+TEST(LocalReader, ForcesAddUp)
+{
+  constexpr double gravity = 9.81;
+  LocalRun run({ local_file("settled_contacts.dump.gz") });
+  const granular::LocalFrame contacts = run.read(0);
+  ASSERT_EQ(contacts.table.rows, 698);
+  granular::FrameIndex index;
+  granular::Notices notices;
+  granular::Progress progress;
+  index.update({ local_file("settled_grains.dump.gz") }, {}, notices, progress);
+  const granular::LocalFrame grains = { granular::read_dump(
+    index.pieces(0), {}, notices, progress) };
+  ASSERT_EQ(grains.table.rows, 300);
+  const auto ids = values<std::int64_t>(grains, "id");
+  std::map<std::int64_t, std::size_t> row_of;
+  for (std::size_t row = 0; row < ids.size(); ++row)
+  {
+    row_of[ids[row]] = row;
+  }
+  const auto* const centres = static_cast<const double*>(grains.table.points.data());
+  const auto radius = values<double>(grains, "radius");
+  const auto mass = values<double>(grains, "mass");
+  const auto total = values<double>(grains, "f");
+  const auto force = values<double>(contacts, "force");
+  std::vector<double> sums(total.begin(), total.end());
+  for (std::size_t row = 0; row < ids.size(); ++row)
+  {
+    sums[3 * row + 2] += gravity * mass[row];
+  }
+  const auto* const lengths = static_cast<const double*>(contacts.lines.lengths.data());
+  for (std::size_t i = 0; i < 698; ++i)
+  {
+    const std::size_t first = row_of.at(values<std::int64_t>(contacts, "id1")[i]);
+    const std::size_t second = row_of.at(values<std::int64_t>(contacts, "id2")[i]);
+    EXPECT_GE(radius[first] + radius[second] - lengths[i], -1e-10);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      sums[3 * first + axis] -= force[3 * i + axis];
+      sums[3 * second + axis] += force[3 * i + axis];
+    }
+  }
+  std::size_t inside = 0;
+  for (std::size_t row = 0; row < ids.size(); ++row)
+  {
+    if (centres[3 * row + 2] < radius[row])
+    {
+      EXPECT_GT(sums[3 * row + 2], 0) << "the ground bears it";
+      continue;
+    }
+    ++inside;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(sums[3 * row + axis], 0, 1e-9 * gravity * mass[row] + 1e-11);
+    }
+  }
+  EXPECT_GT(inside, 200u);
+}
+
 TEST(LocalReader, ArraysThatAreAskedFor)
 {
   LocalRun run({ local_file("contacts.dump") });
