@@ -114,8 +114,8 @@ TEST(LocalReader, ForcesAddUp)
   granular::Notices notices;
   granular::Progress progress;
   index.update({ local_file("settled_grains.dump.gz") }, {}, notices, progress);
-  const granular::LocalFrame grains = { granular::read_dump(
-    index.pieces(0), {}, notices, progress) };
+  granular::LocalFrame grains;
+  grains.table = granular::read_dump(index.pieces(0), {}, notices, progress);
   ASSERT_EQ(grains.table.rows, 300);
   const auto ids = values<std::int64_t>(grains, "id");
   std::map<std::int64_t, std::size_t> row_of;

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How is the weight of a bed of grains carried? Its contacts as tubes, as thick and red as their force is large."""
+from pathlib import Path
+
+import granular
+import numpy as np
+from paraview.simple import *
+
+data = Path(__file__).parent / "data" / "bonds"
+grains = OpenDataFile(str(data / "settled_grains.dump.gz"))
+contacts = OpenDataFile(str(data / "settled_contacts.dump.gz"))  # a warning says what its columns are taken for
+
+# Tubes take their radius from an array of points: each line has two of its own, so that nothing is mixed.
+strength = Calculator(Input=contacts, AttributeType="Cell Data", ResultArrayName="strength", Function="mag(force)")
+thickness = Calculator(Input=strength, AttributeType="Cell Data", ResultArrayName="thickness", Function="0.12*strength")
+chains = Tube(Input=CellDatatoPointData(Input=thickness), Scalars=["POINTS", "thickness"],
+              VaryRadius="By Absolute Scalar", NumberofSides=12)
+
+LoadPalette("WhiteBackground")
+view = CreateRenderView(ViewSize=[1000, 500], OrientationAxesVisibility=0)
+grey = granular.show(grains, view)
+SetProperties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
+shown = Show(chains, view)
+ColorBy(shown, ("POINTS", "strength"))
+shown.SetScalarBarVisibility(view, True)
+SetProperties(GetScalarBar(GetColorTransferFunction("strength"), view), Title="force [N]", ComponentTitle="",
+              HorizontalTitle=1, AutomaticLabelFormat=0, LabelFormat="%.3f", RangeLabelFormat="%.3f")
+Show(OutputPort(grains, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
+Render(view)
+SetProperties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoint=[0.004, 0, 0.006], CameraViewUp=[0, 0, 1])
+SaveScreenshot("force_chains.png", view)
+
+# What acts on a grain that does not touch the ground: its weight, and the forces of its contacts, opposite at both ends.
+rows = servermanager.Fetch(contacts, 0).GetCellData()
+id1, id2, force = (np.array(rows.GetArray(name)) for name in ("id1", "id2", "force"))
+points = servermanager.Fetch(grains, 0)
+ids, radius, mass, f = (np.array(points.GetPointData().GetArray(name)) for name in ("id", "radius", "mass", "f"))
+height = np.array(points.GetPoints().GetData())[:, 2]
+row = {number: index for index, number in enumerate(ids)}
+total = np.zeros((len(ids), 3))
+np.add.at(total, [row[number] for number in id1], force)
+np.add.at(total, [row[number] for number in id2], -force)
+total[:, 2] -= 9.81 * mass
+above = height > radius
+assert np.abs(total - f)[above].max() < 1e-7 * np.abs(force).max()
+print(f"{len(id1)} contacts of {len(ids)} grains; the largest force is {np.abs(force).max():.3f} N, "
+      f"{np.abs(force).max() / (9.81 * mass.mean()):.0f} times the weight of a grain")
