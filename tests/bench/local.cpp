@@ -2,6 +2,7 @@
 // Lines joined with the particles at their ends: time of a line, against a plain gather of as many positions by
 // rows that are known.
 #include "bench.h"
+#include "local_read.h"
 
 #include "granular/base/block_pool.h"
 #include "granular/local/join.h"
@@ -219,6 +220,7 @@ void measure_growth(benchmark::State& state, const std::vector<std::int64_t>& co
 
 void add_benchmarks(const Size& size)
 {
+  add_reading(size);
   const std::int64_t particles = size.pick(1'000'000, 1'000);
   const std::int64_t lines = size.pick(10'000'000, 10'000);
   const JoinCase cases[] = {
