@@ -3,13 +3,9 @@
 
 #include "granular/base/number.h"
 #include "granular/base/words.h"
-#include "granular/dump/point_forms.h"
 #include "granular/local/local_columns.h"
-#include "granular/local/minimum_image.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -36,192 +32,6 @@ constexpr LocalPreset presets[] = {
   { "BondIdsForce", "id1 id2 btype dist engpot forcex forcey forcez" },
   { "BondTypeIdsForce", "btype id1 id2 dist engpot forcex forcey forcez" },
 };
-
-bool is_integral(double value) noexcept
-{
-  return std::isfinite(value) && value == std::nearbyint(value);
-}
-
-/// What a column may hold; null: anything.
-using Rule = bool (*)(double);
-
-Rule rule_of(std::string_view name) noexcept
-{
-  struct Entry
-  {
-    std::string_view name;
-    Rule rule;
-  };
-  static constexpr Entry rules[] = {
-    { "id1", [](double value) { return is_integral(value) && value >= 1; } },
-    { "id2", [](double value) { return is_integral(value) && value >= 1; } },
-    { "mesh", [](double value) { return is_integral(value) && value >= 0; } },
-    { "triangle", [](double value) { return is_integral(value) && value >= 0; } },
-    { "btype", [](double value) { return is_integral(value) && value != 0; } },
-    { "periodic", [](double value) { return value == 0 || value == 1; } },
-    { "dist", [](double value) { return value >= 0; } },
-  };
-  const auto* const found =
-    std::ranges::find_if(rules, [&](const Entry& entry) { return entry.name == name; });
-  return found == std::end(rules) ? nullptr : found->rule;
-}
-
-/// The rows of a sample as a preset sees them.
-class PresetRows
-{
-public:
-  PresetRows(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
-    const LocalSample& sample)
-    : names_(split_words(preset.columns))
-    , columns_(columns)
-    , all_(all)
-    , sample_(sample)
-  {
-  }
-
-  bool keep_rules() const;
-  bool ends_differ() const;
-  bool few_values() const;
-  bool flags_fit() const;
-  bool places_fit() const;
-
-private:
-  bool has(std::string_view name) const { return std::ranges::find(names_, name) != names_.end(); }
-
-  double value(std::size_t row, std::string_view name) const
-  {
-    const auto at = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
-    return sample_.values[row * all_ + columns_[at]];
-  }
-
-  Vector3 place(std::size_t row, int end) const
-  {
-    const bool first = end == 1;
-    return { this->value(row, first ? "x1" : "x2"), this->value(row, first ? "y1" : "y2"),
-      this->value(row, first ? "z1" : "z2") };
-  }
-
-  std::vector<std::string_view> names_;
-  std::span<const std::size_t> columns_;
-  std::size_t all_;
-  const LocalSample& sample_;
-};
-
-bool PresetRows::keep_rules() const
-{
-  for (std::size_t i = 0; i < names_.size(); ++i)
-  {
-    const Rule rule = rule_of(names_[i]);
-    for (std::size_t row = 0; rule && row < sample_.rows; ++row)
-    {
-      if (!rule(sample_.values[row * all_ + columns_[i]]))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-bool PresetRows::ends_differ() const
-{
-  if (!this->has("id1") || !this->has("id2"))
-  {
-    return true;
-  }
-  for (std::size_t row = 0; row < sample_.rows; ++row)
-  {
-    if (this->value(row, "id1") == this->value(row, "id2"))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool PresetRows::few_values() const
-{
-  for (const std::string_view name : { "btype", "mesh" })
-  {
-    if (!this->has(name) || (name == "btype" && this->has("x1")))
-    {
-      continue;
-    }
-    std::set<double> distinct;
-    for (std::size_t row = 0; row < sample_.rows; ++row)
-    {
-      distinct.insert(this->value(row, name));
-    }
-    if (distinct.size() * distinct.size() > sample_.rows)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool PresetRows::flags_fit() const
-{
-  if (!this->has("periodic") || !this->has("x1") || sample_.box.tilted)
-  {
-    return true;
-  }
-  for (std::size_t row = 0; row < sample_.rows; ++row)
-  {
-    const Vector3 first = this->place(row, 1);
-    const Vector3 second = this->place(row, 2);
-    bool far = false;
-    bool near_half = false; // either may be right
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double half = std::abs(sample_.box.vectors[axis][axis].value()) / 2;
-      const double distance = std::abs(second[axis] - first[axis]);
-      far = far || (is_periodic(sample_.box, axis) && distance > half);
-      near_half = near_half || std::abs(distance - half) < 1e-3 * half;
-    }
-    if (!near_half && far != (this->value(row, "periodic") == 1))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Places are printed with six digits, or more.
-bool PresetRows::places_fit() const
-{
-  constexpr double digits = 2e-5;
-  const MinimumImage images(sample_.box);
-  std::map<double, Vector3> places;
-  for (std::size_t row = 0; this->has("x1") && row < sample_.rows; ++row)
-  {
-    for (const int end : { 1, 2 })
-    {
-      const std::string_view id = end == 1 ? "id1" : "id2";
-      if (!this->has(id))
-      {
-        continue;
-      }
-      const Vector3 here = this->place(row, end);
-      const auto [known, is_new] = places.try_emplace(this->value(row, id), here);
-      Vector3 apart = {};
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        apart[axis] = here[axis] - known->second[axis];
-      }
-      const Vector3 shift = images.shift(images.find(apart));
-      for (std::size_t axis = 0; axis < 3 && !is_new; ++axis)
-      {
-        const double most = std::max(std::abs(here[axis]), std::abs(known->second[axis]));
-        if (!(std::abs(apart[axis] + shift[axis]) <= digits * (most + std::abs(shift[axis]))))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
-}
 
 bool says_something(const std::string& name)
 {
@@ -330,14 +140,6 @@ std::vector<std::string> name_by_pairs(
 std::span<const LocalPreset> local_presets() noexcept
 {
   return presets;
-}
-
-bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
-  const LocalSample& sample)
-{
-  const PresetRows rows(preset, columns, all, sample);
-  return rows.keep_rules() && rows.ends_differ() && rows.few_values() && rows.flags_fit() &&
-    rows.places_fit();
 }
 
 std::vector<std::string> name_columns(const std::vector<std::string>& columns)
