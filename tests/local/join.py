@@ -9,24 +9,10 @@ from vtkmodules.vtkCommonCore import VTK_TYPE_INT64
 from vtkmodules.vtkCommonDataModel import vtkTable
 
 import plain_dump
+import plain_local
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 NAMES = ["btype", "id1", "id2", "dist", "energy", "fx", "fy", "fz"]
-
-
-def read_bonds():
-    """By timestep: a row a bond, NAMES its columns."""
-    frames = {}
-    with open(os.path.join(data, "local", "chain_bonds.dump")) as file:
-        lines = iter(file.read().splitlines())
-    for line in lines:
-        if line == "ITEM: TIMESTEP":
-            step = int(next(lines))
-        elif line == "ITEM: NUMBER OF BONDS":
-            count = int(next(lines))
-        elif line.startswith("ITEM: BONDS"):
-            frames[step] = numpy.array([next(lines).split() for _ in range(count)], float)
-    return frames
 
 
 def table_of(rows, step):
@@ -41,7 +27,8 @@ def table_of(rows, step):
     return table
 
 
-bonds = read_bonds()
+bonds = {frame.timestep: frame.stack(range(8)) for frame in
+         plain_local.read(os.path.join(data, "local", "chain_bonds.dump"))}
 assert list(bonds) == [0, 500, 1000] and all(len(rows) == 96 for rows in bonds.values())
 particles = {frame.timestep: frame for frame in plain_dump.read(os.path.join(data, "local", "chain.dump"))}
 grains = GranularDumpReader(FileNames=[os.path.join(data, "local", "chain.dump")])
@@ -103,4 +90,39 @@ low, high = numpy.array(particles[1000].bounds).T
 outside = ((points < low) | (points > high)).any(axis=(1, 2))
 ends_outside = ((first < low) | (first > high) | (second < low) | (second > high)).any(axis=1)
 assert not (outside & ~ends_outside[row]).any()
+
+# the same by the reader: the ids of its table are those of the particles
+read = GranularLocalReader(FileNames=[os.path.join(data, "local", "chain_bonds.dump")], Preset="BondTypeIdsForce")
+lines = GranularLocalJoin(Input=grains, Lines=OutputPort(read, 1))
+for step, table in bonds.items():
+    lines.UpdatePipeline(step)
+    output = lines.GetClientSideObject().GetOutput()
+    for place, name in enumerate(("btype", "id1", "id2", "dist")):
+        assert (vtk_to_numpy(output.GetCellData().GetArray(name)) == table[:, place]).all(), name
+    assert output.GetFieldData().GetArray("timestep").GetValue(0) == step
+    assert abs(vtk_to_numpy(output.GetCellData().GetArray("length")) - table[:, 3]).max() < 3e-4
+
+# contacts of LIGGGHTS, which have their places, too: there the particles are, whether the reader split the lines or not
+grains = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])
+contacts = GranularLocalReader(FileNames=[os.path.join(data, "local", "contacts.dump")], Preset="ContactsForce")
+joined = GranularLocalJoin(Input=grains, Lines=contacts)
+counts = []
+for step in (0, 1000, 2000):
+    found = []
+    for periodic in ("MinimumImage", "Split"):
+        contacts.PeriodicLines = periodic
+        joined.UpdatePipeline(step)
+        output = joined.GetClientSideObject().GetOutput()
+        if output.GetNumberOfCells():
+            found.append([vtk_to_numpy(output.GetCellData().GetArray(name)).copy() for name in ("id1", "id2", "length")]
+                         + [vtk_to_numpy(output.GetPoints().GetData()).copy()])
+    if periodic == "Split" and found:
+        contacts.PeriodicLines = "MinimumImage"
+        contacts.UpdatePipeline(step)
+        own = vtk_to_numpy(contacts.GetClientSideObject().GetOutput().GetPoints().GetData())
+        assert abs(found[0][3] - own).max() < 1e-6, abs(found[0][3] - own).max()  # six digits of both
+        assert all((one == other).all() for one, other in zip(*found)), step
+    counts.append(len(found[0][0]) if found else 0)
+assert counts[0] == 0 and counts == [len(frame.rows) for frame in
+                                     plain_local.read(os.path.join(data, "local", "contacts.dump"))[:3]], counts
 print("as long as they are")
