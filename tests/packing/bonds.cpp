@@ -423,6 +423,8 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
     requests.push_back(many);
     many.arrangement = Arrangement::FibreBundle;
     requests.push_back(many);
+    many.grains = 89;
+    requests.push_back(many); // the last fibre has nine
   }
   for (PackingRequest& request : requests)
   {

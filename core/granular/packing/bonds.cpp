@@ -9,9 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <functional>
-#include <iterator>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -22,21 +21,16 @@ namespace granular
 namespace
 {
 constexpr double least_factor = 1;
-constexpr double most_factor =
-  3; // so that no bond is longer than six radii: see Regions::rows_near
+constexpr double most_factor = 3; // longer than six radii none may be: see Regions::rows_near
 
-struct Bond
+/// A grain of the piece and one of NearGrains.
+struct Pair
 {
-  std::int64_t first; ///< row
-  std::int64_t second;
-  Vector3 end; ///< the second; the first is where the grain is
-  double length;
+  std::uint32_t own;
+  std::uint32_t other;
 };
 
-using Bonds = std::vector<Bond>;
-
-/// Adds the bonds of some rows with later ones.
-using AddBonds = std::function<void(const RowRange& rows, Bonds& bonds)>;
+using Pairs = std::vector<Pair>;
 
 double distance(const Vector3& a, const Vector3& b)
 {
@@ -79,141 +73,164 @@ bool comes_before(const NearGrains::Grain& a, const NearGrains::Grain& b)
   return std::tuple(a.row, moves(a), a.image) < std::tuple(b.row, moves(b), b.image);
 }
 
-/// Bonds of a grain with those after it.
-void add_near(const NearGrains& all, const NearGrains::Grain& grain, Bonds& bonds,
-  std::vector<NearGrains::Grain>& found)
+/// What make_bonds fills.
+class BondArrays
 {
-  found.clear();
-  all.visit(grain.point, grain.radius,
-    [&](const NearGrains::Grain& other)
+public:
+  explicit BondArrays(std::int64_t count)
+  {
+    const auto size = static_cast<std::size_t>(count);
+    bonds_.count = count;
+    bonds_.id1 = Block(size * sizeof(std::int64_t));
+    bonds_.id2 = Block(size * sizeof(std::int64_t));
+    bonds_.btype = Block(size * sizeof(std::int32_t));
+    bonds_.equilibrium_length = Block(size * sizeof(double));
+    bonds_.points = Block(size * 6 * sizeof(double));
+  }
+
+  void set(std::int64_t bond, std::int64_t row1, const Vector3& point1, std::int64_t row2,
+    const Vector3& point2)
+  {
+    static_cast<std::int64_t*>(bonds_.id1.data())[bond] = row1 + 1;
+    static_cast<std::int64_t*>(bonds_.id2.data())[bond] = row2 + 1;
+    static_cast<std::int32_t*>(bonds_.btype.data())[bond] = 1;
+    static_cast<double*>(bonds_.equilibrium_length.data())[bond] = distance(point1, point2);
+    auto* const ends = static_cast<double*>(bonds_.points.data()) + 6 * bond;
+    std::copy(point1.begin(), point1.end(), ends);
+    std::copy(point2.begin(), point2.end(), ends + 3);
+  }
+
+  GrainBonds take() { return std::move(bonds_); }
+
+private:
+  GrainBonds bonds_;
+};
+
+/// Finds the bonds of grains with those after them.
+class PairFinder
+{
+public:
+  PairFinder(const NearGrains& all, const PlacedGrains& own)
+    : all_(all)
+    , own_(own)
+  {
+  }
+
+  void add(std::int64_t i, Pairs& pairs);
+
+private:
+  const NearGrains& all_;
+  const PlacedGrains& own_;
+  std::vector<std::uint32_t> found_;
+};
+
+void PairFinder::add(std::int64_t i, Pairs& pairs)
+{
+  const Vector3 point = own_.point(i);
+  const std::int64_t row = own_.rows.first + i;
+  found_.clear();
+  all_.visit(point, own_.radius[i],
+    [&](std::uint32_t number, const NearGrains::Grain& other)
     {
-      if (other.row > grain.row &&
-        distance(grain.point, other.point) <= all.limit(grain.radius + other.radius))
+      if (other.row > row &&
+        distance(point, other.point) <= all_.limit(own_.radius[i] + other.radius))
       {
-        found.push_back(other);
+        found_.push_back(number);
       }
     });
-  std::sort(found.begin(), found.end(), comes_before);
-  std::int64_t before = grain.row;
-  for (const NearGrains::Grain& other : found)
+  std::sort(found_.begin(), found_.end(),
+    [this](std::uint32_t a, std::uint32_t b) { return comes_before(all_[a], all_[b]); });
+  std::int64_t before = row;
+  double length = 0;
+  for (const std::uint32_t number : found_)
   {
-    const double length = distance(grain.point, other.point);
-    const Bond bond = { grain.row, other.row, other.point, length };
+    const NearGrains::Grain& other = all_[number];
+    const double other_length = distance(point, other.point);
     if (other.row != before)
     {
-      bonds.push_back(bond);
+      pairs.push_back({ static_cast<std::uint32_t>(i), number });
+      length = other_length;
     }
-    else if (length < bonds.back().length * (1 - 1e-12))
+    else if (other_length < length * (1 - 1e-12))
     {
-      bonds.back() = bond;
+      pairs.back().other = number;
+      length = other_length;
     }
     before = other.row;
   }
 }
 
-/// All bonds of some rows, in chunks.
-std::vector<Bonds> find_bonds(
-  const RowRange& rows, const AddBonds& add, int threads, Progress& progress)
-{
-  std::vector<Bonds> chunks(
-    static_cast<std::size_t>((rows.count() + rows_a_chunk - 1) / rows_a_chunk));
-  for_row_chunks(rows.count(), threads, progress,
-    [&](std::int64_t begin, std::int64_t end, std::size_t)
-    {
-      add({ rows.first + begin, rows.first + end },
-        chunks[static_cast<std::size_t>(begin / rows_a_chunk)]);
-    });
-  return chunks;
-}
-
-/// The bonds of all chunks one after the other; the memory of each is given back on the way.
-GrainBonds join(
-  std::vector<Bonds>& chunks, const PlacedGrains& own, int threads, Progress& progress)
-{
-  std::vector<std::size_t> starts = { 0 };
-  for (const Bonds& bonds : chunks)
-  {
-    starts.push_back(starts.back() + bonds.size());
-  }
-  const std::size_t count = starts.back();
-  GrainBonds all;
-  all.count = static_cast<std::int64_t>(count);
-  const auto make = [count](Block& block, auto value, std::size_t size)
-  {
-    block = Block(count * size * sizeof(value));
-    return static_cast<decltype(value)*>(block.data());
-  };
-  auto* const id1 = make(all.id1, std::int64_t{}, 1);
-  auto* const id2 = make(all.id2, std::int64_t{}, 1);
-  auto* const btype = make(all.btype, std::int32_t{}, 1);
-  auto* const length = make(all.equilibrium_length, double{}, 1);
-  auto* const points = make(all.points, double{}, 6);
-  Executor(threads).parallel_for(
-    chunks.size(),
-    [&](std::size_t chunk, std::size_t)
-    {
-      const Bonds bonds = std::move(chunks[chunk]);
-      for (std::size_t i = 0; i < bonds.size(); ++i)
-      {
-        const std::size_t to = starts[chunk] + i;
-        id1[to] = bonds[i].first + 1;
-        id2[to] = bonds[i].second + 1;
-        btype[to] = 1;
-        length[to] = bonds[i].length;
-        std::copy_n(own.points + 3 * (bonds[i].first - own.rows.first), 3, points + 6 * to);
-        std::copy_n(bonds[i].end.data(), 3, points + 6 * to + 3);
-      }
-    },
-    progress);
-  return all;
-}
-
-AddBonds along_fibres(const PackingPlan& plan)
-{
-  return [&plan](const RowRange& rows, Bonds& bonds)
-  {
-    for (std::int64_t row = rows.first; row < std::min(rows.last, plan.grains - 1); ++row)
-    {
-      if (plan.fibres->fibre(row + 1) == plan.fibres->fibre(row))
-      {
-        const Vector3 from = plan.shape.point(plan.fibres->scaled(row));
-        const Vector3 to = plan.shape.point(plan.fibres->scaled(row + 1));
-        bonds.push_back({ row, row + 1, to, distance(from, to) });
-      }
-    }
-  };
-}
-
-/// own: not empty.
-std::vector<Bonds> find_near(const PackingPlan& plan, const PlacedGrains& own, double factor,
-  int threads, PartialProgress& progress)
+/// Bonds between near grains; own: not empty.
+GrainBonds near_bonds(const PackingPlan& plan, const PlacedGrains& own, double factor, int threads,
+  PartialProgress& progress)
 {
   progress.set_part(0, 0.4);
   std::vector<MadeGrains> made;
+  std::vector<PlacedGrains> others;
   const double reach = factor * 2 * plan.radii.choice().largest();
   for (const RowRange& rows : plan.rows_near(own.rows, reach * (1 + 1e-9)))
   {
     made.push_back(make_grains(plan, rows, threads, progress));
+    others.push_back(made.back().placed());
   }
-  std::vector<PlacedGrains> others;
-  std::transform(made.begin(), made.end(), std::back_inserter(others),
-    [](const MadeGrains& grains) { return grains.placed(); });
   const NearGrains all(plan.shape, factor, own, others);
   made.clear();
   progress.set_part(0.5, 0.9);
-  return find_bonds(
-    own.rows,
-    [&](const RowRange& rows, Bonds& bonds)
+  std::vector<Pairs> chunks(chunks_of_rows(own.rows.count()));
+  for_row_chunks(own.rows.count(), threads, progress,
+    [&](std::int64_t begin, std::int64_t end, std::size_t)
     {
-      std::vector<NearGrains::Grain> found;
-      for (std::int64_t row = rows.first; row < rows.last; ++row)
+      PairFinder finder(all, own);
+      for (std::int64_t i = begin; i < end; ++i)
       {
-        const std::int64_t i = row - own.rows.first;
-        const double* const at = own.points + 3 * i;
-        add_near(all, { { at[0], at[1], at[2] }, own.radius[i], row, {} }, bonds, found);
+        finder.add(i, chunks[static_cast<std::size_t>(begin / rows_a_chunk)]);
+      }
+    });
+  progress.set_part(0.9, 1);
+  std::vector<std::int64_t> starts = { 0 };
+  for (const Pairs& pairs : chunks)
+  {
+    starts.push_back(starts.back() + static_cast<std::int64_t>(pairs.size()));
+  }
+  BondArrays bonds(starts.back());
+  Executor(threads).parallel_for(
+    chunks.size(),
+    [&](std::size_t chunk, std::size_t)
+    {
+      std::int64_t bond = starts[chunk];
+      for (const Pair& pair : chunks[chunk])
+      {
+        const NearGrains::Grain& other = all[pair.other];
+        bonds.set(bond++, own.rows.first + pair.own, own.point(pair.own), other.row, other.point);
       }
     },
-    threads, progress);
+    progress);
+  return bonds.take();
+}
+
+/// Bonds between consecutive grains of each fibre.
+GrainBonds fibre_bonds(
+  const PackingPlan& plan, const RowRange& rows, int threads, Progress& progress)
+{
+  const Fibres& fibres = *plan.fibres;
+  // of all grains before a row: one each, but for the last ones of fibres
+  const auto bonds_before = [&](std::int64_t row)
+  { return row - fibres.fibre(row) - (row == plan.grains && fibres.is_inside(row) ? 1 : 0); };
+  const std::int64_t first = bonds_before(rows.first);
+  BondArrays bonds(bonds_before(rows.last) - first);
+  for_row_chunks(rows.count(), threads, progress,
+    [&](std::int64_t begin, std::int64_t end, std::size_t)
+    {
+      for (std::int64_t row = rows.first + begin; row < rows.first + end; ++row)
+      {
+        if (row + 1 < plan.grains && fibres.is_inside(row + 1))
+        {
+          bonds.set(bonds_before(row) - first, row, plan.shape.point(fibres.scaled(row)), row + 1,
+            plan.shape.point(fibres.scaled(row + 1)));
+        }
+      }
+    });
+  return bonds.take();
 }
 }
 
@@ -229,18 +246,15 @@ GrainBonds make_bonds(
   const PlacedGrains own = { plan.rows_of_piece(request.piece, request.pieces),
     static_cast<const double*>(grains.points.data()), array_of<double>(grains, "radius") };
   PartialProgress part(progress);
-  std::vector<Bonds> chunks;
+  GrainBonds bonds;
   if (plan.fibres)
   {
-    part.set_part(0, 0.9);
-    chunks = find_bonds(own.rows, along_fibres(plan), request.threads, part);
+    bonds = fibre_bonds(plan, own.rows, request.threads, part);
   }
   else if (own.rows.count() > 0)
   {
-    chunks = find_near(plan, own, factor, request.threads, part);
+    bonds = near_bonds(plan, own, factor, request.threads, part);
   }
-  part.set_part(0.9, 1);
-  GrainBonds bonds = join(chunks, own, request.threads, part);
   progress.step(1);
   return bonds;
 }

@@ -37,6 +37,9 @@ public:
   /// From 0 on.
   std::int64_t fibre(std::int64_t row) const noexcept { return row / grains_a_fibre_; }
 
+  /// Whether a row is not the first one of its fibre.
+  bool is_inside(std::int64_t row) const noexcept { return row % grains_a_fibre_ != 0; }
+
   /// The lengths of a box that has room for a number of fibres, its cross-section as much like a square as
   /// whole cells allow. Across periodic axes images are as far away as grains are from each other.
   static Vector3 lengths_for(Kind kind, const std::array<bool, 3>& periodic, double distance,

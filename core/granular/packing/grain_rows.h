@@ -15,11 +15,16 @@ namespace granular
 {
 constexpr std::int64_t rows_a_chunk = 8192;
 
+inline std::size_t chunks_of_rows(std::int64_t rows) noexcept
+{
+  return static_cast<std::size_t>((rows + rows_a_chunk - 1) / rows_a_chunk);
+}
+
 /// Calls work(begin, end, worker) for chunks of the rows.
 template <class Work>
 void for_row_chunks(std::int64_t rows, int threads, Progress& progress, const Work& work)
 {
-  const auto chunks = static_cast<std::size_t>((rows + rows_a_chunk - 1) / rows_a_chunk);
+  const std::size_t chunks = chunks_of_rows(rows);
   Executor(threads).parallel_for(
     chunks,
     [&](std::size_t chunk, std::size_t worker)

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 #include <string>
-#include <utility>
 
 namespace granular
 {
@@ -55,13 +55,24 @@ NearGrains::NearGrains(const BoxShape& box, double factor, const PlacedGrains& o
     levels_.push_back({ radius });
   }
   this->bound(own);
-  this->add(own);
-  std::for_each(
-    others.begin(), others.end(), [this](const PlacedGrains& grains) { this->add(grains); });
-  for (Level& level : levels_)
+  std::vector<PlacedGrains> all = others;
+  all.push_back(own);
+  for (const PlacedGrains& grains : all)
   {
-    this->lay(level);
-    this->sort(level);
+    for (std::int64_t i = 0; i < grains.rows.count(); ++i)
+    {
+      ++this->level_of(grains.radius[i]).grains;
+    }
+  }
+  std::for_each(levels_.begin(), levels_.end(), [this](Level& level) { this->lay(level); });
+  for (const PlacedGrains& grains : all)
+  {
+    this->count(grains);
+  }
+  this->add_up();
+  for (const PlacedGrains& grains : all)
+  {
+    this->put(grains);
   }
 }
 
@@ -100,57 +111,20 @@ void NearGrains::bound(const PlacedGrains& own)
   }
 }
 
-void NearGrains::add(const PlacedGrains& grains)
+NearGrains::Level& NearGrains::level_of(double radius) noexcept
 {
-  for (std::int64_t i = 0; i < grains.rows.count(); ++i)
-  {
-    const Grain grain = { {}, grains.radius[i], grains.rows.first + i, {} };
-    this->add_images(grains.points + 3 * i, grain);
-  }
-}
-
-/// A grain and its images, as far as they are within the bounds.
-void NearGrains::add_images(const double* point, const Grain& grain)
-{
-  const Vector3 place = this->scaled(point);
-  std::array<int, 3> from = {};
-  std::array<int, 3> to = {};
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    // heights are at least two radii, and bounds six radii away: images are few
-    constexpr double most = 8;
-    const auto first = static_cast<int>(std::clamp(std::ceil(low_[k] - place[k]), -most, most));
-    const auto last = static_cast<int>(std::clamp(std::floor(high_[k] - place[k]), -most, most));
-    from[k] = box_.periodic[k] ? first : std::max(first, 0);
-    to[k] = box_.periodic[k] ? last : std::min(last, 0);
-  }
   std::size_t at = 0;
-  while (at + 1 < levels_.size() && grain.radius <= levels_[at + 1].radius)
+  while (at + 1 < levels_.size() && radius <= levels_[at + 1].radius)
   {
     ++at;
   }
-  for (int z = from[2]; z <= to[2]; ++z)
-  {
-    for (int y = from[1]; y <= to[1]; ++y)
-    {
-      for (int x = from[0]; x <= to[0]; ++x)
-      {
-        const Vector3 edge =
-          box_.edge({ static_cast<double>(x), static_cast<double>(y), static_cast<double>(z) });
-        Grain image = grain;
-        image.point = { point[0] + edge[0], point[1] + edge[1], point[2] + edge[2] };
-        image.image = { static_cast<std::int8_t>(x), static_cast<std::int8_t>(y),
-          static_cast<std::int8_t>(z) };
-        levels_[at].grains.push_back(image);
-      }
-    }
-  }
+  return levels_[at];
 }
 
 /// Cells as large as two grains, but not many more than grains.
 void NearGrains::lay(Level& level) const
 {
-  const double most = 2 * static_cast<double>(level.grains.size()) + 64;
+  const double most = 2 * static_cast<double>(level.grains) + 64;
   Vector3 cells;
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -167,44 +141,97 @@ void NearGrains::lay(Level& level) const
     level.cells[k] = static_cast<std::int64_t>(cells[k]);
     level.scale[k] = cells[k] / (high_[k] - low_[k]);
   }
+  level.first.assign(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]) + 1, 0);
 }
 
-/// By counting, cell by cell.
-void NearGrains::sort(Level& level) const
+std::size_t NearGrains::cell_of(const Level& level, const Vector3& scaled) const noexcept
 {
-  if (level.grains.size() >= std::numeric_limits<std::uint32_t>::max())
+  std::int64_t cell = 0;
+  for (std::size_t k = 3; k-- > 0;)
+  {
+    const auto at = static_cast<std::int64_t>((scaled[k] - low_[k]) * level.scale[k]);
+    cell = cell * level.cells[k] + std::clamp<std::int64_t>(at, 0, level.cells[k] - 1);
+  }
+  return static_cast<std::size_t>(cell);
+}
+
+/// Calls visit(image, scaled) for a grain and its images, as far as they are within the bounds.
+template <class Visit>
+void NearGrains::visit_images(const PlacedGrains& grains, std::int64_t i, const Visit& visit) const
+{
+  const double* const point = grains.points + 3 * i;
+  const Vector3 place = this->scaled(point);
+  std::array<int, 3> from = {};
+  std::array<int, 3> to = {};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    // heights are at least two radii, and bounds six radii away: images are few
+    constexpr double most = 8;
+    const auto first = static_cast<int>(std::clamp(std::ceil(low_[k] - place[k]), -most, most));
+    const auto last = static_cast<int>(std::clamp(std::floor(high_[k] - place[k]), -most, most));
+    from[k] = box_.periodic[k] ? first : std::max(first, 0);
+    to[k] = box_.periodic[k] ? last : std::min(last, 0);
+  }
+  for (int z = from[2]; z <= to[2]; ++z)
+  {
+    for (int y = from[1]; y <= to[1]; ++y)
+    {
+      for (int x = from[0]; x <= to[0]; ++x)
+      {
+        const Vector3 moves = { static_cast<double>(x), static_cast<double>(y),
+          static_cast<double>(z) };
+        const Vector3 edge = box_.edge(moves);
+        const Grain image = { { point[0] + edge[0], point[1] + edge[1], point[2] + edge[2] },
+          grains.radius[i], grains.rows.first + i,
+          { static_cast<std::int8_t>(x), static_cast<std::int8_t>(y),
+            static_cast<std::int8_t>(z) } };
+        visit(image, { place[0] + moves[0], place[1] + moves[1], place[2] + moves[2] });
+      }
+    }
+  }
+}
+
+/// How many are in each cell.
+void NearGrains::count(const PlacedGrains& grains)
+{
+  for (std::int64_t i = 0; i < grains.rows.count(); ++i)
+  {
+    Level& level = this->level_of(grains.radius[i]);
+    this->visit_images(grains, i,
+      [&](const Grain&, const Vector3& scaled) { ++level.first[this->cell_of(level, scaled)]; });
+  }
+}
+
+/// Makes of the numbers of cells their ends, and the memory.
+void NearGrains::add_up()
+{
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  std::uint64_t end = 0;
+  for (Level& level : levels_)
+  {
+    for (std::uint32_t& first : level.first)
+    {
+      end += first;
+      first = static_cast<std::uint32_t>(std::min(end, most));
+    }
+  }
+  if (end > most)
   {
     throw LimitError("expected less than 2^32 grains a process to find bonds of, got " +
-      std::to_string(level.grains.size()));
+      std::to_string(end) + ", images among them");
   }
-  const auto cell_of = [&](const Grain& grain)
+  block_ = Block(static_cast<std::size_t>(end) * sizeof(Grain));
+}
+
+/// Each before those of its cell that are there already: in the end cells begin with their first.
+void NearGrains::put(const PlacedGrains& grains)
+{
+  for (std::int64_t i = 0; i < grains.rows.count(); ++i)
   {
-    const Vector3 place = this->scaled(grain.point.data());
-    std::int64_t cell = 0;
-    for (std::size_t k = 3; k-- > 0;)
-    {
-      const auto at = static_cast<std::int64_t>((place[k] - low_[k]) * level.scale[k]);
-      cell = cell * level.cells[k] + std::clamp<std::int64_t>(at, 0, level.cells[k] - 1);
-    }
-    return static_cast<std::size_t>(cell);
-  };
-  const auto cells = static_cast<std::size_t>(level.cells[0] * level.cells[1] * level.cells[2]);
-  level.first.assign(cells + 1, 0);
-  for (const Grain& grain : level.grains)
-  {
-    ++level.first[cell_of(grain)];
+    Level& level = this->level_of(grains.radius[i]);
+    this->visit_images(grains, i,
+      [&](const Grain& image, const Vector3& scaled)
+      { new (this->grains() + --level.first[this->cell_of(level, scaled)]) Grain(image); });
   }
-  std::uint32_t end = 0;
-  for (std::uint32_t& first : level.first)
-  {
-    end += first;
-    first = end; // of the cell; each grain that is put there goes before the others
-  }
-  std::vector<Grain> sorted(level.grains.size());
-  for (const Grain& grain : level.grains)
-  {
-    sorted[--level.first[cell_of(grain)]] = grain;
-  }
-  level.grains = std::move(sorted);
 }
 }

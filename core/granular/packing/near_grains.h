@@ -2,6 +2,7 @@
 #ifndef granular_packing_near_grains_h
 #define granular_packing_near_grains_h
 
+#include "granular/base/block.h"
 #include "granular/packing/box_shape.h"
 #include "granular/packing/row_range.h"
 
@@ -19,6 +20,11 @@ struct PlacedGrains
   RowRange rows;
   const double* points;
   const double* radius;
+
+  Vector3 point(std::int64_t i) const noexcept
+  {
+    return { points[3 * i], points[3 * i + 1], points[3 * i + 2] };
+  }
 };
 
 /// Finds the grains, and periodic images of grains, that are near to some: nearer than a factor times the
@@ -45,27 +51,35 @@ public:
     return sum_of_radii * factor_ + 2 * box_.rounding();
   }
 
-  /// Calls visit(grain) for a number of grains, among them all that are near, each as often as images are.
+  /// Calls visit(number, grain) for a number of grains, among them all that are near, each as often as images are.
   template <class Visit>
   void visit(const Vector3& point, double radius, const Visit& visit) const;
+
+  /// The grain of a number that visit told.
+  const Grain& operator[](std::uint32_t number) const noexcept { return grains()[number]; }
 
 private:
   struct Level
   {
     double radius = 0; ///< the largest
+    std::int64_t grains = 0;
     std::array<std::int64_t, 3> cells = {};
     Vector3 scale = {};                    ///< cells per scaled coordinate
     std::vector<std::uint32_t> first = {}; ///< grain of each cell, x fastest, and the end
-    std::vector<Grain> grains = {};        ///< in the order of cells
   };
 
   Vector3 scaled(const double* point) const noexcept;
   double margin(double distance, std::size_t axis) const noexcept;
   void bound(const PlacedGrains& own);
-  void add(const PlacedGrains& grains);
-  void add_images(const double* point, const Grain& grain);
+  Level& level_of(double radius) noexcept;
   void lay(Level& level) const;
-  void sort(Level& level) const;
+  std::size_t cell_of(const Level& level, const Vector3& scaled) const noexcept;
+  void count(const PlacedGrains& grains);
+  void add_up();
+  void put(const PlacedGrains& grains);
+  template <class Visit>
+  void visit_images(const PlacedGrains& grains, std::int64_t i, const Visit& visit) const;
+  Grain* grains() const noexcept { return static_cast<Grain*>(block_.data()); }
 
   const BoxShape& box_;
   double factor_;
@@ -74,6 +88,7 @@ private:
   Vector3 low_;                  ///< of what is kept, in scaled coordinates
   Vector3 high_;
   std::vector<Level> levels_; ///< from large to small
+  Block block_;               ///< the grains of all levels, in the order of cells
 };
 
 template <class Visit>
@@ -100,7 +115,7 @@ void NearGrains::visit(const Vector3& point, double radius, const Visit& visit) 
         const std::uint32_t end = level.first[static_cast<std::size_t>(row + to[0]) + 1];
         for (std::uint32_t i = level.first[static_cast<std::size_t>(row + from[0])]; i < end; ++i)
         {
-          visit(level.grains[i]);
+          visit(i, grains()[i]);
         }
       }
     }
