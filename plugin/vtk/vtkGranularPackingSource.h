@@ -3,17 +3,14 @@
  * @class   vtkGranularPackingSource
  * @brief   Makes grains that do not overlap, at random places, on a lattice or in fibres, without a file.
  *
- * Output port 0 holds the grains (vtkPolyData, one vertex a grain), output port 1 the box as one
- * hexahedron (vtkUnstructuredGrid). Both have the arrays and field data that vtkGranularDumpReader gives for
- * a dump of timestep 0 with the columns id type x y z radius vx vy vz: `id` (vtkTypeInt64Array from 1 on,
- * and the pedigree ids), `type` (vtkTypeInt32Array), `radius`, `v` (3). Grains in fibres have another column, the
- * number of the fibre from 1 on: `mol` (vtkTypeInt64Array).
+ * Output port 0 holds the grains (vtkPolyData, one vertex a grain), port 1 the box (vtkUnstructuredGrid, one
+ * hexahedron), with the arrays and field data that vtkGranularDumpReader gives for a dump of timestep 0 with the
+ * columns id type x y z radius vx vy vz: `id` (vtkTypeInt64Array from 1 on, and the pedigree ids), `type`
+ * (vtkTypeInt32Array), `radius`, `v` (3). In fibres, also `mol` (vtkTypeInt64Array): their number, from 1 on.
  *
- * Output port 2 holds the bonds that BondFactor asks for (vtkPolyData, one line a bond, with two points of
- * its own): from the centre of a grain to that of the other, or to that of its nearest periodic image. Cell arrays
- * are `id1` and the greater `id2` (vtkTypeInt64Array), `btype` (vtkTypeInt32Array, 1), `equilibrium_length`
- * and `length`, which are equal here. The field data are those of the grains. Without bonds it has no cells, and
- * no arrays if none were asked for.
+ * Port 2 holds the bonds that BondFactor asks for (vtkPolyData, one line a bond, with two points of its own),
+ * from a centre to the nearest image of the other, and the same field data. Cell arrays are `id1` and the greater
+ * `id2` (vtkTypeInt64Array), `btype` (vtkTypeInt32Array, 1), `equilibrium_length`, and `length`, which is equal.
  *
  * Grains are wholly inside the box; along periodic axes their centres are, and their periodic images do not
  * overlap grains either. Random grains do not touch one another, those of lattices and fibres of spacing 1 do.
@@ -65,34 +62,20 @@ public:
    * RANDOM, the default; or whole cells of a lattice along the box vectors, in the middle of the box; or a
    * CHAIN, one straight fibre along the first box vector; or a FIBRE_BUNDLE, such fibres side by side in closest
    * packing. Fibres begin a radius inside the low face; one that is longer than the box is an error.
+   * NumberOfGrains: 1000 by default; 0: as many as the box holds, in that arrangement or at the solid fraction.
    */
   vtkSetClampMacro(Arrangement, int, RANDOM, FIBRE_BUNDLE);
   vtkGetMacro(Arrangement, int);
-  ///@}
-
-  ///@{
-  /**
-   * 0: as many as the box holds, on a lattice or at the solid fraction. 1000 by default.
-   */
   vtkSetMacro(NumberOfGrains, vtkTypeInt64);
   vtkGetMacro(NumberOfGrains, vtkTypeInt64);
   ///@}
 
   ///@{
   /**
-   * Off: the box is made for the grains, with its corner at 0 0 0 and not tilted, and BoxOrigin,
-   * BoxLengths and BoxTilts are not used. On by default.
-   */
-  vtkSetMacro(BoxGiven, bool);
-  vtkGetMacro(BoxGiven, bool);
-  vtkBooleanMacro(BoxGiven, bool);
-  ///@}
-
-  ///@{
-  /**
    * The box: its low corner, (0, 0, 0) by default; its lengths lx ly lz, greater than 0, (0.1, 0.1, 0.1)
    * by default; its tilts xy xz yz, (0, 0, 0) by default. The box vectors are (lx, 0, 0), (xy, ly, 0)
-   * and (xz, yz, lz). In the unit of the radii.
+   * and (xz, yz, lz). In the unit of the radii. BoxGiven off: they are not used, and the box is made for the
+   * grains, with its corner at 0 0 0 and not tilted. On by default.
    */
   vtkSetVector3Macro(BoxOrigin, double);
   vtkGetVector3Macro(BoxOrigin, double);
@@ -100,6 +83,9 @@ public:
   vtkGetVector3Macro(BoxLengths, double);
   vtkSetVector3Macro(BoxTilts, double);
   vtkGetVector3Macro(BoxTilts, double);
+  vtkSetMacro(BoxGiven, bool);
+  vtkGetMacro(BoxGiven, bool);
+  vtkBooleanMacro(BoxGiven, bool);
   ///@}
 
   ///@{
@@ -132,61 +118,42 @@ public:
    * SolidFraction: volume of random grains by that of the box, where not both their number and the box are
    * given; greater than 0, 0.2 by default, and up to about 0.3 grains find their places. Spacing: distance
    * of nearest neighbours, of lattices and fibres, by the largest diameter; at least 1, the default, where
-   * they touch.
+   * they touch. GrainsPerFibre: of a FIBRE_BUNDLE, at least 1, 20 by default; the last fibre may have fewer.
    */
   vtkSetMacro(SolidFraction, double);
   vtkGetMacro(SolidFraction, double);
   vtkSetMacro(Spacing, double);
   vtkGetMacro(Spacing, double);
-  ///@}
-
-  ///@{
-  /**
-   * How many grains a fibre of a FIBRE_BUNDLE has, at least 1; the last one may have fewer. 20 by default.
-   */
   vtkSetMacro(GrainsPerFibre, vtkTypeInt64);
   vtkGetMacro(GrainsPerFibre, vtkTypeInt64);
   ///@}
 
-  ///@{
-  /**
-   * 0, the default: no bonds. From 1 to 3: bonds between grains whose centres are no farther apart than this times the
-   * sum of their radii, within rounding; through periodic faces, too, but one at most for a pair. In fibres it is
-   * the consecutive grains of each that are bonded, whatever the factor.
-   */
+  /// 0, the default: no bonds. From 1 to 3: bonds between grains whose centres are no farther apart than this times
+  /// the sum of their radii, within rounding; through periodic faces, too, but one at most for a pair. In
+  /// fibres it is the consecutive grains of each that are bonded, whatever the factor.
   vtkSetMacro(BondFactor, double);
   vtkGetMacro(BondFactor, double);
-  ///@}
 
-  ///@{
-  /**
-   * Speed: standard deviation of each component of the velocities, which are normally distributed around
-   * 0; at least 0, the default: grains at rest. Seed: another one gives other places, sizes and
-   * velocities; 1 by default.
-   */
+  /// Speed: standard deviation of each component of the velocities, which are normally distributed around
+  /// 0; at least 0, the default: grains at rest. Seed: another one gives other places, sizes and
+  /// velocities; 1 by default.
   vtkSetMacro(Speed, double);
   vtkGetMacro(Speed, double);
   vtkSetMacro(Seed, int);
   vtkGetMacro(Seed, int);
-  ///@}
 
   ///@{
   /**
-   * How many threads make grains. 0, the default: the cores of the machine, divided by the processes of
-   * the Controller that run on it. Changes no result. Below 0 is an error and changes nothing.
-   */
-  void SetThreads(int threads);
-  vtkGetMacro(Threads, int);
-  ///@}
-
-  ///@{
-  /**
-   * The processes that make grains together, each of them its piece: all of them must set it, set the
+   * Controller: the processes that make grains together, each of them its piece: all of them must set it, set the
    * same properties, and update the source. What goes wrong on one of them is an error of all. The
-   * global controller by default; null: this process is alone, whatever others do.
+   * global controller by default; null: this process is alone, whatever others do. Threads: how many make grains
+   * in each. 0, the default: the cores of the machine, divided by the processes of the Controller that run on
+   * it. Changes no result. Below 0 is an error and changes nothing.
    */
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
+  void SetThreads(int threads);
+  vtkGetMacro(Threads, int);
   ///@}
 
   /// Has the update that makes grains next, or is making them, stop.
