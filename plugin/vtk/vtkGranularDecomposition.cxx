@@ -40,7 +40,7 @@ public:
     , Inputs(inputs)
     , Output(vtkUnstructuredGrid::GetData(outputs))
     , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
-    , Ranks(Shared.Ranks.Get())
+    , Ranks(self->Ranks->Get())
     , Own(self)
     , Progress(this->Own, this->Ranks)
   {
@@ -332,29 +332,22 @@ int vtkGranularDecomposition::FillInputPortInformation(int port, vtkInformation*
 }
 
 //------------------------------------------------------------------------------
-// Who asks for another piece than that of its process gets it from the whole.
+// Who asks for another piece than that of its process gets it from the whole; with RANKS there is no other.
 int vtkGranularDecomposition::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
-  const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
-  const bool whole = this->Mode != RANKS && !IsOwn(wanted, this->Shared->Ranks.Get());
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  if (this->Mode == RANKS)
   {
-    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      vtkInformation* info = inputVector[port]->GetInformationObject(i);
-      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), whole ? 0 : wanted.Piece);
-      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), whole ? 1 : wanted.Pieces);
-      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    }
+    const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
+    this->AskFor(inputVector, wanted.Piece, wanted.Pieces);
+    return 1;
   }
-  return 1;
+  return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularDecomposition::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkGranularDecomposition::Execute(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   Counter(this, inputs, outputs).Run();
 }

@@ -69,7 +69,8 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void Execute(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkGranularDecomposition(const vtkGranularDecomposition&) = delete;

@@ -4,7 +4,7 @@
 #include "private/decomposition_algorithm.h"
 
 #include "vtkInformation.h"
-#include "vtkInformationVector.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ VoxelForm vtkGranularDecompositionAlgorithm::Internals::MakeForm(
 {
   VoxelForm form;
   form.SharedCorners = self->SharedCorners;
-  form.Threads = ChooseThreads(self->Threads, this->Ranks.Get());
+  form.Threads = ChooseThreads(self->Threads, self->Ranks->Get());
   return form;
 }
 
@@ -104,63 +104,17 @@ int vtkGranularDecompositionAlgorithm::GetNumberOfCuts(int axis)
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::SetThreads(int threads)
+vtkUnstructuredGrid* vtkGranularDecompositionAlgorithm::GetOutput()
 {
-  if (threads < 0)
-  {
-    vtkErrorMacro("Threads must be at least 0, got " << threads);
-    return;
-  }
-  this->Threads = threads; // changes no result: nothing is to be made again
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::SetController(vtkMultiProcessController* controller)
+int vtkGranularDecompositionAlgorithm::FillOutputPortInformation(
+  int vtkNotUsed(port), vtkInformation* info)
 {
-  if (this->Shared->Ranks.SetController(controller))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkMultiProcessController* vtkGranularDecompositionAlgorithm::GetController()
-{
-  return this->Shared->Ranks.GetController();
-}
-
-//------------------------------------------------------------------------------
-// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
-void vtkGranularDecompositionAlgorithm::SetAbortExecute(vtkTypeBool abort)
-{
-  this->AbortExecute = abort;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDecompositionAlgorithm::ComputePipelineMTime(vtkInformation* request,
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
-  vtkMTimeType* mtime)
-{
-  this->Shared->Ranks.BeginUpdate(this);
-  return this->Superclass::ComputePipelineMTime(
-    request, inputVector, outputVector, requestFromOutputPort, mtime);
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDecompositionAlgorithm::RequestInformation(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
   return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDecompositionAlgorithm::RequestData(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  const Outcome outcome =
-    Guard(this, outputVector, [&] { this->Execute(inputVector, outputVector); });
-  return this->Shared->Ranks.EndRequest(this, outcome);
 }
 
 //------------------------------------------------------------------------------
@@ -183,6 +137,4 @@ void vtkGranularDecompositionAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   print("YCuts", this->Shared->Cuts[1]);
   print("ZCuts", this->Shared->Cuts[2]);
   os << indent << "SharedCorners: " << (this->SharedCorners ? "On" : "Off") << "\n";
-  os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "Controller: " << this->GetController() << "\n";
 }

@@ -9,26 +9,28 @@
  * 8p + {0, 4, 2, 6, 1, 5, 3, 7}.
  *
  * A pipeline may ask for any piece of any number: pieces hold equal numbers of subdomains, in their order.
- *
- * After an error the output is empty and GetErrorCode() is not vtkErrorCode::NoError. A request to abort holds for
- * one update: the output is empty then, and the next update starts afresh.
  */
 
 #ifndef vtkGranularDecompositionAlgorithm_h
 #define vtkGranularDecompositionAlgorithm_h
 
+#include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
-#include "vtkUnstructuredGridAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
-class vtkMultiProcessController;
+class vtkUnstructuredGrid;
 
-class VTKGRANULAR_EXPORT vtkGranularDecompositionAlgorithm : public vtkUnstructuredGridAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularDecompositionAlgorithm : public vtkGranularAlgorithm
 {
 public:
-  vtkTypeMacro(vtkGranularDecompositionAlgorithm, vtkUnstructuredGridAlgorithm);
+  vtkTypeMacro(vtkGranularDecompositionAlgorithm, vtkGranularAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The subdomains.
+   */
+  vtkUnstructuredGrid* GetOutput();
 
   ///@{
   /**
@@ -81,49 +83,16 @@ public:
   vtkBooleanMacro(SharedCorners, bool);
   ///@}
 
-  ///@{
-  /**
-   * How many threads work. 0, the default: the cores of the machine, divided by the processes of
-   * the Controller that run on it. Changes no result. Below 0 is an error and changes nothing.
-   */
-  void SetThreads(int threads);
-  vtkGetMacro(Threads, int);
-  ///@}
-
-  ///@{
-  /**
-   * The processes that work together, each on its piece: all of them must set it, set the same properties, and update
-   * this. What goes wrong on one of them is an error of all. The global controller by default; null: this process is
-   * alone, whatever others do.
-   */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
-  /// Has the update that works next, or is working, stop.
-  void SetAbortExecute(vtkTypeBool abort) override;
-
 protected:
   vtkGranularDecompositionAlgorithm();
   ~vtkGranularDecompositionAlgorithm() override;
 
-  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-
-  /**
-   * Fills the output. Called by all processes together; may throw what the core does.
-   */
-  virtual void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
 
   double Bounds[6];
   int NumberOfProcesses = 0;
   int ProcessorGrid[3] = { 1, 1, 1 };
   bool SharedCorners = false;
-  int Threads = 0;
 
   struct Internals;
   std::unique_ptr<Internals> Shared;

@@ -23,7 +23,7 @@ vtkGranularDecompositionSource::vtkGranularDecompositionSource()
 vtkGranularDecompositionSource::~vtkGranularDecompositionSource() = default;
 
 //------------------------------------------------------------------------------
-void vtkGranularDecompositionSource::Execute(
+void vtkGranularDecompositionSource::Execute(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
 {
   const auto work = [&]
@@ -36,7 +36,7 @@ void vtkGranularDecompositionSource::Execute(
       PieceRequest::Of(outputs->GetInformationObject(0)).RangeOf(grid.size());
     auto* output = vtkUnstructuredGrid::GetData(outputs);
     AlgorithmProgress own(this);
-    granular::SharedProgress progress(own, this->Shared->Ranks.Get());
+    granular::SharedProgress progress(own, this->Ranks->Get());
     FillVoxels(output, { grid.subdomains(first, last) }, this->Shared->MakeForm(this), progress);
     granular::FrameHeader header;
     header.box = granular::Box::from_bounds(lo, hi);
@@ -44,7 +44,7 @@ void vtkGranularDecompositionSource::Execute(
     FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
     output->GetFieldData()->RemoveArray("timestep"); // it has none
   };
-  granular::do_together(this->Shared->Ranks.Get(), work);
+  granular::do_together(this->Ranks->Get(), work);
 }
 
 //------------------------------------------------------------------------------

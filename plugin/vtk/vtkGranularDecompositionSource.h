@@ -24,7 +24,8 @@ protected:
   vtkGranularDecompositionSource();
   ~vtkGranularDecompositionSource() override;
 
-  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void Execute(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkGranularDecompositionSource(const vtkGranularDecompositionSource&) = delete;

@@ -52,11 +52,6 @@ std::string TextOf(const char* text)
 }
 }
 
-struct vtkGranularEulerAverage::Internals
-{
-  Processes Ranks;
-};
-
 //------------------------------------------------------------------------------
 /**
  * Does one request. The functions are collective, but for those in the brackets of do_together.
@@ -70,7 +65,7 @@ public:
     , Input(vtkDataObject::GetData(inputs[0]))
     , Info(outputs->GetInformationObject(0))
     , Wanted(PieceRequest::Of(this->Info))
-    , Ranks(self->Shared->Ranks.Get())
+    , Ranks(self->Ranks->Get())
     , Own(self)
     , Shared(this->Own, this->Ranks)
     , Progress(this->Shared)
@@ -331,7 +326,6 @@ private:
 
 //------------------------------------------------------------------------------
 vtkGranularEulerAverage::vtkGranularEulerAverage()
-  : Shared(std::make_unique<Internals>())
 {
   this->SetVelocityArray("v");
   this->SetMassArray("mass");
@@ -359,16 +353,6 @@ int vtkGranularEulerAverage::FillOutputPortInformation(int vtkNotUsed(port), vtk
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject"); // see RequestDataObject
   return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularEulerAverage::ComputePipelineMTime(vtkInformation* request,
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
-  vtkMTimeType* mtime)
-{
-  this->Shared->Ranks.BeginUpdate(this);
-  return this->Superclass::ComputePipelineMTime(
-    request, inputVector, outputVector, requestFromOutputPort, mtime);
 }
 
 //------------------------------------------------------------------------------
@@ -433,63 +417,14 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
       const granular::EulerGrid grid = granular::make_euler_grid(request);
       OfferExtent(info, ExtentOf(grid));
     });
-  return this->Shared->Ranks.EndRequest(this, outcome);
+  return this->Ranks->EndRequest(this, outcome);
 }
 
 //------------------------------------------------------------------------------
-// The piece of the particles that a process has. Who asks for another one than its own gets it from the whole.
-int vtkGranularEulerAverage::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+void vtkGranularEulerAverage::Execute(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
-  vtkInformation* info = inputVector[0]->GetInformationObject(0);
-  const bool own = IsOwn(wanted, this->Shared->Ranks.Get());
-  info->Set(Pipeline::UPDATE_PIECE_NUMBER(), own ? wanted.Piece : 0);
-  info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), own ? wanted.Pieces : 1);
-  info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularEulerAverage::RequestData(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  const Outcome outcome =
-    Guard(this, outputVector, [&] { Averager(this, inputVector, outputVector).Run(); });
-  return this->Shared->Ranks.EndRequest(this, outcome);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerAverage::SetThreads(int threads)
-{
-  if (threads < 0)
-  {
-    vtkErrorMacro("Threads must be at least 0, got " << threads);
-    return;
-  }
-  this->Threads = threads; // changes no result: nothing is to be made again
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerAverage::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Shared->Ranks.SetController(controller))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkMultiProcessController* vtkGranularEulerAverage::GetController()
-{
-  return this->Shared->Ranks.GetController();
-}
-
-//------------------------------------------------------------------------------
-// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
-void vtkGranularEulerAverage::SetAbortExecute(vtkTypeBool abort)
-{
-  this->AbortExecute = abort;
+  Averager(this, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -518,6 +453,4 @@ void vtkGranularEulerAverage::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RadiusArray: " << TextOf(this->RadiusArray) << "\n";
   os << indent << "StressArray: " << TextOf(this->StressArray) << "\n";
   os << indent << "TimeAverage: " << (this->TimeAverage ? "On" : "Off") << "\n";
-  os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "Controller: " << this->GetController() << "\n";
 }

@@ -23,18 +23,14 @@
 #ifndef vtkGranularEulerAverage_h
 #define vtkGranularEulerAverage_h
 
-#include "vtkDataObjectAlgorithm.h"
+#include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
-#include <memory> // for std::unique_ptr
-
-class vtkMultiProcessController;
-
-class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkDataObjectAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkGranularAlgorithm
 {
 public:
   static vtkGranularEulerAverage* New();
-  vtkTypeMacro(vtkGranularEulerAverage, vtkDataObjectAlgorithm);
+  vtkTypeMacro(vtkGranularEulerAverage, vtkGranularAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum OutputTypes
@@ -138,38 +134,16 @@ public:
   vtkGetMacro(TimeAverage, bool);
   ///@}
 
-  ///@{
-  /**
-   * Threads: how many work. 0, the default: the cores of the machine, divided by the processes of the Controller that run
-   * on it. Changes no result. Below 0 is an error and changes nothing. Controller: the processes that average together, each
-   * with its part of the particles: all of them must set it, set the same properties, and update together. What goes wrong
-   * on one of them is an error of all. The global controller by default; null: this process is alone.
-   */
-  void SetThreads(int threads);
-  vtkGetMacro(Threads, int);
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
-  /**
-   * Stops the update that comes next, or that is running, on all processes of the Controller.
-   */
-  void SetAbortExecute(vtkTypeBool abort) override;
-
 protected:
   vtkGranularEulerAverage();
   ~vtkGranularEulerAverage() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
+  void Execute(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
@@ -177,7 +151,6 @@ private:
   void operator=(const vtkGranularEulerAverage&) = delete;
 
   class Averager;
-  struct Internals;
 
   int OutputType = IMAGE_DATA;
   int CellsBy = COUNTS;
@@ -192,9 +165,6 @@ private:
   char* RadiusArray = nullptr;
   char* StressArray = nullptr;
   bool TimeAverage = false;
-  int Threads = 0;
-
-  std::unique_ptr<Internals> Shared;
 };
 
 #endif

@@ -101,11 +101,6 @@ std::span<double> DoublesIn(const granular::Block& block)
 }
 }
 
-struct vtkGranularLocalJoin::Internals
-{
-  Processes Ranks;
-};
-
 //------------------------------------------------------------------------------
 /**
  * Does one request. The functions are collective, but for those in the brackets of do_together.
@@ -118,7 +113,7 @@ public:
     , Inputs{ vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(inputs[1]) }
     , Output(vtkPolyData::GetData(outputs))
     , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
-    , Ranks(self->Shared->Ranks.Get())
+    , Ranks(self->Ranks->Get())
     , Own(self)
     , Shared(this->Own, this->Ranks)
     , Progress(this->Shared)
@@ -471,7 +466,6 @@ private:
 
 //------------------------------------------------------------------------------
 vtkGranularLocalJoin::vtkGranularLocalJoin()
-  : Shared(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetEquilibriumLengthArray("equilibrium_length");
@@ -483,6 +477,12 @@ vtkGranularLocalJoin::~vtkGranularLocalJoin()
   this->SetAverages(nullptr);
   this->SetDifferences(nullptr);
   this->SetEquilibriumLengthArray(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularLocalJoin::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------
@@ -500,80 +500,17 @@ int vtkGranularLocalJoin::FillInputPortInformation(int vtkNotUsed(port), vtkInfo
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularLocalJoin::ComputePipelineMTime(vtkInformation* request,
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
-  vtkMTimeType* mtime)
+int vtkGranularLocalJoin::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
 {
-  this->Shared->Ranks.BeginUpdate(this);
-  return this->Superclass::ComputePipelineMTime(
-    request, inputVector, outputVector, requestFromOutputPort, mtime);
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularLocalJoin::RequestInformation(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
   return 1;
 }
 
 //------------------------------------------------------------------------------
-// The piece of the inputs that a process has. Who asks for another one than its own gets it from the whole.
-int vtkGranularLocalJoin::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+void vtkGranularLocalJoin::Execute(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
-  const bool own = IsOwn(wanted, this->Shared->Ranks.Get());
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    vtkInformation* info = inputVector[port]->GetInformationObject(0);
-    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), own ? wanted.Piece : 0);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), own ? wanted.Pieces : 1);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularLocalJoin::RequestData(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  const Outcome outcome =
-    Guard(this, outputVector, [&] { Joiner(this, inputVector, outputVector).Run(); });
-  return this->Shared->Ranks.EndRequest(this, outcome);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularLocalJoin::SetThreads(int threads)
-{
-  if (threads < 0)
-  {
-    vtkErrorMacro("Threads must be at least 0, got " << threads);
-    return;
-  }
-  this->Threads = threads; // changes no result: nothing is to be made again
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularLocalJoin::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Shared->Ranks.SetController(controller))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkMultiProcessController* vtkGranularLocalJoin::GetController()
-{
-  return this->Shared->Ranks.GetController();
-}
-
-//------------------------------------------------------------------------------
-// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
-void vtkGranularLocalJoin::SetAbortExecute(vtkTypeBool abort)
-{
-  this->AbortExecute = abort;
+  Joiner(this, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -585,6 +522,4 @@ void vtkGranularLocalJoin::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Differences: " << TextOf(this->Differences) << "\n";
   os << indent << "EquilibriumLengthArray: " << TextOf(this->EquilibriumLengthArray) << "\n";
   os << indent << "EquilibriumLength: " << this->EquilibriumLength << "\n";
-  os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "Controller: " << this->GetController() << "\n";
 }

@@ -21,27 +21,29 @@
  * data are those of the particles, but for the Columns, which are the rows'.
  *
  * Warnings, once an update, also tell how many lines are not as long as their array `dist` says, and that the
- * timesteps of both inputs differ. After an error the output is empty and GetErrorCode() is not vtkErrorCode::NoError. A
- * request to abort holds for one update: the output is empty then, and the next update starts afresh.
+ * timesteps of both inputs differ.
  */
 
 #ifndef vtkGranularLocalJoin_h
 #define vtkGranularLocalJoin_h
 
+#include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
-#include "vtkPolyDataAlgorithm.h"
-
-#include <memory> // for std::unique_ptr
 
 class vtkAlgorithmOutput;
-class vtkMultiProcessController;
+class vtkPolyData;
 
-class VTKGRANULAR_EXPORT vtkGranularLocalJoin : public vtkPolyDataAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularLocalJoin : public vtkGranularAlgorithm
 {
 public:
   static vtkGranularLocalJoin* New();
-  vtkTypeMacro(vtkGranularLocalJoin, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkGranularLocalJoin, vtkGranularAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The lines.
+   */
+  vtkPolyData* GetOutput();
 
   enum PeriodicLinesType
   {
@@ -88,36 +90,12 @@ public:
   vtkGetMacro(EquilibriumLength, double);
   ///@}
 
-  ///@{
-  /**
-   * Threads: how many work. 0, the default: the cores of the machine, divided by the processes of the Controller that run
-   * on it. Changes no result. Below 0 is an error and changes nothing. Controller: the processes that join together, each with
-   * its part of the particles and of the rows, in any way: all of them must set it, set the same properties, and update
-   * together. Each gets the lines of its rows. What goes wrong on one of them is an error of all. The global controller by
-   * default; null: this process is alone.
-   */
-  void SetThreads(int threads);
-  vtkGetMacro(Threads, int);
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
-  /**
-   * Stops the update that comes next, or that is running, on all processes of the Controller.
-   */
-  void SetAbortExecute(vtkTypeBool abort) override;
-
 protected:
   vtkGranularLocalJoin();
   ~vtkGranularLocalJoin() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
@@ -125,16 +103,12 @@ private:
   void operator=(const vtkGranularLocalJoin&) = delete;
 
   class Joiner;
-  struct Internals;
 
   int PeriodicLines = MINIMUM_IMAGE;
   char* Averages = nullptr;
   char* Differences = nullptr;
   char* EquilibriumLengthArray = nullptr;
   double EquilibriumLength = 0;
-  int Threads = 0;
-
-  std::unique_ptr<Internals> Shared;
 };
 
 #endif

@@ -45,7 +45,6 @@ struct vtkGranularPackingSource::Internals
 
   std::string Boundary = "ff ff ff";
   VertexCache Vertices; ///< of the request before
-  Processes Ranks;
 
   granular::Box MakeBox(Self* self);
   granular::PackingRequest MakeRequest(Self* self, vtkInformation* output);
@@ -104,7 +103,7 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
   request.piece = wanted.Piece;
   request.pieces = wanted.Pieces;
   request.ranges = true; // whoever shows an array asks for it
-  request.threads = ChooseThreads(self->Threads, this->Ranks.Get());
+  request.threads = ChooseThreads(self->Threads, self->Ranks->Get());
   return request;
 }
 
@@ -139,7 +138,7 @@ void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::Packi
 void vtkGranularPackingSource::Internals::Run(
   Self* self, vtkInformation* request, vtkInformationVector* outputs)
 {
-  granular::Communicator& ranks = this->Ranks.Get();
+  granular::Communicator& ranks = self->Ranks->Get();
   const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
     ? std::max(request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()), 0)
     : 0;
@@ -174,6 +173,12 @@ vtkGranularPackingSource::vtkGranularPackingSource()
 vtkGranularPackingSource::~vtkGranularPackingSource() = default;
 
 //------------------------------------------------------------------------------
+vtkPolyData* vtkGranularPackingSource::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(GRAINS));
+}
+
+//------------------------------------------------------------------------------
 void vtkGranularPackingSource::SetBoundary(const char* boundary)
 {
   const std::string wanted = boundary ? boundary : "";
@@ -191,49 +196,6 @@ const char* vtkGranularPackingSource::GetBoundary()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularPackingSource::SetThreads(int threads)
-{
-  if (threads < 0)
-  {
-    vtkErrorMacro("Threads must be at least 0, got " << threads);
-    return;
-  }
-  this->Threads = threads; // changes no result: nothing is to be made again
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPackingSource::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internal->Ranks.SetController(controller))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkMultiProcessController* vtkGranularPackingSource::GetController()
-{
-  return this->Internal->Ranks.GetController();
-}
-
-//------------------------------------------------------------------------------
-// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
-void vtkGranularPackingSource::SetAbortExecute(vtkTypeBool abort)
-{
-  this->AbortExecute = abort;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularPackingSource::ComputePipelineMTime(vtkInformation* request,
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
-  vtkMTimeType* mtime)
-{
-  this->Internal->Ranks.BeginUpdate(this);
-  return this->Superclass::ComputePipelineMTime(
-    request, inputVector, outputVector, requestFromOutputPort, mtime);
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularPackingSource::FillOutputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == BOX ? "vtkUnstructuredGrid" : "vtkPolyData");
@@ -241,23 +203,10 @@ int vtkGranularPackingSource::FillOutputPortInformation(int port, vtkInformation
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularPackingSource::RequestInformation(vtkInformation* vtkNotUsed(request),
+void vtkGranularPackingSource::Execute(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
-  {
-    outputVector->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularPackingSource::RequestData(vtkInformation* request,
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  const Outcome outcome =
-    Guard(this, outputVector, [&] { this->Internal->Run(this, request, outputVector); });
-  return this->Internal->Ranks.EndRequest(this, outcome);
+  this->Internal->Run(this, request, outputVector);
 }
 
 //------------------------------------------------------------------------------
@@ -283,6 +232,4 @@ void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BondFactor: " << this->BondFactor << "\n";
   os << indent << "Speed: " << this->Speed << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "Controller: " << this->GetController() << "\n";
 }

@@ -18,27 +18,29 @@
  * Each grain follows from the properties and its number: any pieces, threads and ranks give the same.
  * Pieces hold equal numbers of grains, in the order of their ids, and the bonds of these with greater ids, in
  * the order of (id1, id2); the box is in piece 0 alone.
- *
- * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
- * abort holds for one update: the outputs are empty then, and the next update starts afresh.
  */
 
 #ifndef vtkGranularPackingSource_h
 #define vtkGranularPackingSource_h
 
+#include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
-#include "vtkPolyDataAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
-class vtkMultiProcessController;
+class vtkPolyData;
 
-class VTKGRANULAR_EXPORT vtkGranularPackingSource : public vtkPolyDataAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularPackingSource : public vtkGranularAlgorithm
 {
 public:
   static vtkGranularPackingSource* New();
-  vtkTypeMacro(vtkGranularPackingSource, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkGranularPackingSource, vtkGranularAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The grains.
+   */
+  vtkPolyData* GetOutput();
 
   enum ArrangementType
   {
@@ -142,33 +144,12 @@ public:
   vtkSetMacro(Seed, int);
   vtkGetMacro(Seed, int);
 
-  ///@{
-  /**
-   * Controller: the processes that make grains together, each of them its piece: all of them must set it, set the
-   * same properties, and update the source. What goes wrong on one of them is an error of all. The
-   * global controller by default; null: this process is alone, whatever others do. Threads: how many make grains
-   * in each. 0, the default: the cores of the machine, divided by the processes of the Controller that run on
-   * it. Changes no result. Below 0 is an error and changes nothing.
-   */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  void SetThreads(int threads);
-  vtkGetMacro(Threads, int);
-  ///@}
-
-  /// Has the update that makes grains next, or is making them, stop.
-  void SetAbortExecute(vtkTypeBool abort) override;
-
 protected:
   vtkGranularPackingSource();
   ~vtkGranularPackingSource() override;
 
-  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+  void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
@@ -191,7 +172,6 @@ private:
   double BondFactor = 0;
   double Speed = 0;
   int Seed = 1;
-  int Threads = 0;
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -18,7 +18,6 @@
  */
 struct vtkGranularDecompositionAlgorithm::Internals
 {
-  vtkGranularPrivate::Processes Ranks;
   std::array<std::vector<double>, 3> Cuts;
 
   /**

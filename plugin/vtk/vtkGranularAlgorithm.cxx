@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularAlgorithm.h"
+
+#include "private/particles.h"
+#include "private/piece_request.h"
+#include "private/processes.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+using namespace vtkGranularPrivate;
+
+//------------------------------------------------------------------------------
+vtkGranularAlgorithm::vtkGranularAlgorithm()
+  : Ranks(std::make_unique<Processes>())
+{
+}
+
+//------------------------------------------------------------------------------
+vtkGranularAlgorithm::~vtkGranularAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularAlgorithm::SetThreads(int threads)
+{
+  if (threads < 0)
+  {
+    vtkErrorMacro("Threads must be at least 0, got " << threads);
+    return;
+  }
+  this->Threads = threads; // changes no result: nothing is to be made again
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularAlgorithm::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Ranks->SetController(controller))
+  {
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkMultiProcessController* vtkGranularAlgorithm::GetController()
+{
+  return this->Ranks->GetController();
+}
+
+//------------------------------------------------------------------------------
+// Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
+void vtkGranularAlgorithm::SetAbortExecute(vtkTypeBool abort)
+{
+  this->AbortExecute = abort;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularAlgorithm::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int requestFromOutputPort,
+  vtkMTimeType* mtime)
+{
+  this->Ranks->BeginUpdate(this);
+  return this->Superclass::ComputePipelineMTime(
+    request, inputVector, outputVector, requestFromOutputPort, mtime);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularAlgorithm::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  for (int port = 0; port < outputVector->GetNumberOfInformationObjects(); ++port)
+  {
+    outputVector->GetInformationObject(port)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularAlgorithm::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (this->GetNumberOfInputPorts() > 0)
+  {
+    const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
+    const bool own = IsOwn(wanted, this->Ranks->Get());
+    this->AskFor(inputVector, own ? wanted.Piece : 0, own ? wanted.Pieces : 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularAlgorithm::AskFor(vtkInformationVector** inputVector, int piece, int pieces)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputVector[port]->GetInformationObject(i);
+      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), piece);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularAlgorithm::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const Outcome outcome =
+    Guard(this, outputVector, [&] { this->Execute(request, inputVector, outputVector); });
+  return this->Ranks->EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Threads: " << this->Threads << "\n";
+  os << indent << "Controller: " << this->GetController() << "\n";
+}
