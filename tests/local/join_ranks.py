@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Any number of ranks join the same to the bit, wherever particles and bonds are, each the lines of its bonds."""
 import os
+import sys
 
 import numpy
 from paraview.simple import *
@@ -91,4 +92,4 @@ without = ProgrammableSource(OutputDataSetType="vtkTable", Script=script().repla
 lines = GranularLocalJoin(Input=grains, Lines=without)
 lines.UpdatePipeline(1000)
 assert lines.GetDataInformation().GetNumberOfCells() == 0
-print("all there")
+print("all there", file=sys.stderr)  # behind what was said
