@@ -3,6 +3,7 @@
 #include "granular/dump/absolute_positions.h"
 
 #include "granular/base/error.h"
+#include "granular/dump/point_forms.h"
 
 #include <gtest/gtest.h>
 
@@ -115,6 +116,34 @@ TEST(AbsolutePositions, FloatsAndStridedRows)
   const std::vector<double> doubles = { 1, 2, 3, 99, 4, 5, 6, 99 };
   view.points = view_rows("points", ScalarType::Float64, doubles.data(), 4);
   EXPECT_EQ(load(view, false), (std::vector<double>{ 1, 2, 3, 4, 5, 6 }));
+}
+
+// Rows whose first and last are as far apart as if all lay between them, but others do.
+TEST(AbsolutePositions, RowsInAnyOrder)
+{
+  std::vector<double> points;
+  for (int i = 0; i < 24; ++i)
+  {
+    points.push_back(i);
+  }
+  const FrameView view = view_of(points);
+  const AbsolutePositions positions(view, false);
+  std::array<double, 3 * AbsolutePositions::most_rows> buffer;
+  for (const std::vector<std::int64_t>& rows : { std::vector<std::int64_t>{ 0, 5, 2 },
+         std::vector<std::int64_t>{ 3, 7, 6, 6 }, std::vector<std::int64_t>{ 1, 2, 3 } })
+  {
+    positions.load(rows, buffer.data());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      EXPECT_EQ(buffer[3 * i], 3 * static_cast<double>(rows[i]));
+    }
+    double loaded[4];
+    load_numbers(point_values(view, 1), rows, loaded);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      EXPECT_EQ(loaded[i], 3 * static_cast<double>(rows[i]) + 1);
+    }
+  }
 }
 
 TEST(AbsolutePositions, TiltedBoxesAreNotWrapped)

@@ -15,7 +15,7 @@ void copy_values(const ValueSource& source, Rows rows, To* to)
   const auto* from = static_cast<const From*>(source.data);
   const std::int64_t step = source.step;
   const auto count = static_cast<std::int64_t>(rows.size());
-  if (count > 0 && rows.back() - rows.front() == count - 1)
+  if (count > 0 && is_consecutive(rows))
   {
     from += rows.front() * step;
     for (std::int64_t i = 0; i < count; ++i)
@@ -40,6 +40,21 @@ void load_as(const ValueSource& source, Rows rows, To* to)
     copy_values<float, To>, copy_values<double, To> };
   copies[static_cast<std::size_t>(source.type)](source, rows, to);
 }
+}
+
+bool is_consecutive(Rows rows) noexcept
+{
+  const auto count = static_cast<std::int64_t>(rows.size());
+  if (count > 0 && rows.back() - rows.front() != count - 1)
+  {
+    return false;
+  }
+  std::int64_t others = 0; // of rows in no order the ends say nothing
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    others |= rows[static_cast<std::size_t>(i)] ^ (rows.front() + i);
+  }
+  return others == 0;
 }
 
 void load_numbers(const ValueSource& source, Rows rows, double* to)

@@ -13,6 +13,9 @@
 
 namespace granular
 {
+/// Whether rows are one behind the other; true for none.
+bool is_consecutive(std::span<const std::int64_t> rows) noexcept;
+
 /// The values of some rows as numbers of one type, from any type but texts, not multiplied by the factor.
 void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, double* to);
 void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, std::int64_t* to);

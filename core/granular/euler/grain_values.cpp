@@ -65,11 +65,6 @@ std::array<std::optional<ValueSource>, size> find_components(
   return sources;
 }
 
-bool is_consecutive(std::span<const std::int64_t> rows) noexcept
-{
-  return rows.empty() || rows.back() - rows.front() == static_cast<std::int64_t>(rows.size()) - 1;
-}
-
 /// The values of all components, one grain after the other: where they are, if they lie so there, or in the buffer.
 template <std::size_t size>
 const double* load(const std::array<std::optional<ValueSource>, size>& sources, double missing,
