@@ -189,10 +189,17 @@ struct Made
 
 const std::string box_lines = "ITEM: BOX BOUNDS pp pp ff\n0 1\n0 2\n0 3\n";
 
+/// An error has the name of the file without its folder.
 Written write(const FrameView& view, const DumpFormat& format)
 {
   const Folder folder;
-  return write_dump(folder.path("local"), Frames{ view }, format);
+  const std::string path = folder.path("local");
+  Written written = write_dump(path, Frames{ view }, format);
+  if (written.error.starts_with(path + ": "))
+  {
+    written.error = "local: " + written.error.substr(path.size() + 2);
+  }
+  return written;
 }
 
 TEST(WriteLocal, IdsOfTheEndsAreWhole)
@@ -367,7 +374,8 @@ TEST(WriteLocal, WhatRowsAreCalled)
   {
     const Written written = write(made.view(), local(Dialect::Lammps, word));
     EXPECT_EQ(written.error,
-      "expected one word for what the rows are called, as ENTRIES, CONTACTS or BONDS, and not "
+      "local: expected one word for what the rows are called, as ENTRIES, CONTACTS or BONDS, and "
+      "not "
       "that of another section, got '" +
         std::string(word) + "'");
     EXPECT_EQ(written.bytes, "");
@@ -395,7 +403,7 @@ TEST(WriteLocal, Errors)
   format = local(Dialect::Lammps);
   format.binary = true;
   EXPECT_EQ(write(made.view(), format).error,
-    "expected text for local data, got a binary dump: no program reads that");
+    "local: expected text for local data, got a binary dump: no program reads that");
   // other arrays on another rank
   FrameView other = rows_of(made.view(), 1, 2);
   other.arrays.pop_back();

@@ -32,11 +32,12 @@ std::string replace_first(const std::string& path, char mark, const std::string&
 }
 }
 
-void check_format(const DumpFormat& format)
+void check_format(const DumpFormat& format, const std::string& path)
 {
   if (format.binary && format.compression != Compression::None)
   {
-    throw UnsupportedError("expected text to compress, got a binary dump: no program reads that");
+    throw UnsupportedError(
+      "expected text to compress, got a binary dump: no program reads that", { path });
   }
   if (format.style != DumpStyle::Local)
   {
@@ -45,7 +46,7 @@ void check_format(const DumpFormat& format)
   if (format.binary)
   {
     throw UnsupportedError(
-      "expected text for local data, got a binary dump: no program reads that");
+      "expected text for local data, got a binary dump: no program reads that", { path });
   }
   constexpr std::string_view sections[] = { "ATOMS", "BOX", "LABEL", "NUMBER", "TIME", "TIMESTEP",
     "UNITS" };
@@ -57,7 +58,8 @@ void check_format(const DumpFormat& format)
     throw Error(
       "expected one word for what the rows are called, as ENTRIES, CONTACTS or BONDS, and not "
       "that of another section, got '" +
-      word + "'");
+        word + "'",
+      { path });
   }
 }
 

@@ -48,9 +48,9 @@ struct DumpFormat
   std::int64_t chunk_values = (std::int64_t{ 1 } << 31) - 2;
 };
 
-/// Makes sure that there is such a format: local data that are text, and are not called as something else is in a dump.
+/// Makes sure that a file can have such a format: local data that are text, and are not called as something else is in a dump.
 /// Throws Error, UnsupportedError for binary dumps that are compressed or of local data.
-void check_format(const DumpFormat& format);
+void check_format(const DumpFormat& format, const std::string& path);
 
 /// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it, but for the end that
 /// says that it is compressed.

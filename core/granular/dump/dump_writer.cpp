@@ -269,7 +269,7 @@ DumpWriter::DumpWriter(
   , options_(options)
   , ranks_(ranks)
 {
-  check_format(format_);
+  check_format(format_, path_);
   if (!is_name_of_steps(path_))
   {
     file_ = std::make_unique<File>(path_, format_, options_, ranks_);
