@@ -116,7 +116,7 @@ TEST(LocalColumns, TheFrameWithMostRowsDecides)
         "ENTRIES", 1) +
       local_frame(names, { "1 1 1 2 1 1 7 8 0 0 0 5", "2 1 1 3 1 1 8 9 0 0 0 5" },
         "BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10", "ENTRIES", 2));
-  for (const std::size_t frame : { 0, 1, 2 })
+  for (std::size_t frame = 0; frame < 3; ++frame)
   {
     EXPECT_EQ(LocalRun({ path }).found(frame), contacts);
   }
