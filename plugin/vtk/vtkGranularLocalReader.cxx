@@ -127,8 +127,9 @@ Meaning vtkGranularLocalReader::Internals::FindMeaning(
     }
     else if (self->Preset == AUTOMATIC)
     {
-      const granular::LocalSample sample =
-        granular::read_sample(self->Series->Index, kind, progress);
+      const granular::LocalSample sample = granular::say_what_they_are(columns)
+        ? granular::LocalSample()
+        : granular::read_sample(self->Series->Index, kind, progress);
       meaning.Names = granular::find_columns(columns, sample, meaning.Where, meaning.Notices);
     }
     else if (self->Preset == AS_NAMED)
@@ -144,6 +145,7 @@ Meaning vtkGranularLocalReader::Internals::FindMeaning(
   catch (const granular::FormatError& error)
   {
     meaning.Error = error.text();
+    meaning.Where = error.where().path.empty() ? meaning.Where : error.where();
     meaning.Names = granular::name_columns(columns);
   }
   return meaning;

@@ -56,7 +56,9 @@ TEST(LocalColumns, TwelveColumns)
 {
   const std::string names = silent_columns(12);
   EXPECT_EQ(taken(names, { "1 1 1 2 1 1 7 8 0 0 0 5", "2 1 1 3 1 1 8 9 0 0 0 5" }), contacts);
-  EXPECT_EQ(taken(names, { "1 1 1 2 1 1 7 8 1 0 0 5", "2 1 1 3 1 1 8 9 2 0 0 5" }), bonds);
+  EXPECT_EQ(taken(names,
+              { "1 1 1 2 1 1 7 8 1 0 0 5", "2 1 1 3 1 1 8 9 2 0 0 5", "3 1 1 4 1 1 9 10 1 0 0 5" }),
+    bonds);
   EXPECT_EQ(taken(names, { "1 1 1 2 1 1 7 8 1 0 0 5", "2 1 1 3 1 1 8 9 1 0 0 5" }), bonds)
     << "flags that are not those of the box";
   EXPECT_EQ(taken(names, { "1 1 1 9.5 1 1 7 8 1 0 0 5", "1 1 1 3 1 1 7 9 0 0 0 5" }), contacts);
@@ -80,6 +82,44 @@ TEST(LocalColumns, Undecidable)
     taken(silent_columns(3), { "0.5 2 1" }).find("no preset fits the values"), std::string::npos);
   EXPECT_NE(
     taken(silent_columns(5), { "1 2 1 1 1" }).find("no preset has as many"), std::string::npos);
+}
+
+// Two contacts with two walls, or two bonds of two types: few rows do not say which.
+TEST(LocalColumns, FewRowsOfWalls)
+{
+  const std::string both =
+    taken(silent_columns(12), { "1 1 0 1 1 0.5 1 40 7 0 0 5", "2 2 0 2 2 0.5 2 41 8 0 0 5" });
+  EXPECT_NE(both.find("several presets fit the values: BondsForce"), std::string::npos) << both;
+  EXPECT_NE(both.find("WallContactsForce"), std::string::npos);
+}
+
+// What stands where forces should may be contact points.
+TEST(LocalColumns, ForcesThatAreNone)
+{
+  const std::vector<std::string> ends = { "1 1 1 2 1 1 7 8 0 ", "2 1 1 3 1 1 8 9 0 ",
+    "3 1 1 4 1 1 9 10 0 " };
+  const auto with = [&](const std::vector<std::string>& last)
+  {
+    std::vector<std::string> rows;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+    {
+      rows.push_back(ends[i] + last[i]);
+    }
+    return taken(silent_columns(12), rows);
+  };
+  EXPECT_EQ(with({ "0 0 5", "0.5 0 0", "1 2 3.5" }), contacts);
+  EXPECT_EQ(with({ "0 0 0", "0 0 0", "0 0 0" }), contacts) << "no force acts";
+  EXPECT_NE(with({ "1.5 1 1", "2.5 1 1", "3.5 1 1" }).find("no preset fits"), std::string::npos);
+}
+
+// Without a box nobody knows which contacts cross a face: the flag is taken at its word.
+TEST(LocalColumns, WithoutABox)
+{
+  const std::string path = write_text("boxless.dump",
+    local_frame(silent_columns(12),
+      { "1 1 1 9.5 1 1 7 8 1 0 0.5 5", "2 1 1 3 1 1 8 9 0 0 0.5 5", "2 2 1 3 2 1 5 6 0 0 0.5 5" },
+      ""));
+  EXPECT_EQ(LocalRun({ path }).found(), contacts);
 }
 
 TEST(LocalColumns, TypesHaveFewValues)
@@ -137,6 +177,12 @@ TEST(ColumnMap, NamesAndKeywords)
   EXPECT_EQ(join_words(name_columns(many, std::string("pos vel id force torque delta"))), order);
   EXPECT_EQ(join_words(name_columns(many, std::string("delta torque force id vel pos"))), order)
     << "a compute prints in an order of its own";
+  EXPECT_EQ(
+    join_words(name_columns(std::vector<std::string>(4, "c"), std::string("index wall_id"))),
+    "index mesh triangle id2");
+  // a name that the file has, too, is the user's now
+  EXPECT_EQ(join_words(name_columns({ "id1", "id2", "c_x", "c_y" }, std::string("id1=c_x id2=4"))),
+    "id1_file id2_file id1 id2");
   EXPECT_EQ(join_words(name_columns(std::vector<std::string>(6, "c"), std::string("history id"))),
     "id1 id2 periodic history1 history2 history3");
 }

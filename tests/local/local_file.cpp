@@ -140,6 +140,53 @@ TEST(LocalFile, PiecesOfSeveralFramesAreLeftOut)
   EXPECT_EQ(LocalRun({ files[0] }).size(), 3u);
 }
 
+// What one process has written, alone, is said to be that.
+TEST(LocalFile, OneOfSeveralPieces)
+{
+  LocalRun run({ piece_files("3000")[0] });
+  EXPECT_EQ(run.size(), 1u);
+  EXPECT_NE(run.said().find("this has the rows of one process alone"), std::string::npos);
+  LocalRun all(piece_files("3000"));
+  EXPECT_EQ(all.said(), "");
+  LocalRun other({ local_file("contacts.dump") });
+  EXPECT_EQ(other.said(), "");
+}
+
+// A run that was done again, under a name with another number, has the same rows: they do not count twice.
+TEST(LocalFile, FilesWithTheSameRowsAreNoPieces)
+{
+  const std::string text = local_frame("id1 id2 btype", { "1 2 1", "2 3 1" }, "", "BONDS") +
+    local_frame("id1 id2 btype", { "1 2 1", "2 3 1", "3 4 1" }, "", "BONDS", 10);
+  const std::vector<std::string> again = { write_text("again_0.dump", text),
+    write_text("again_1.dump", text), write_text("again_2.dump", text) };
+  LocalRun run(again);
+  ASSERT_EQ(run.size(), 2u);
+  EXPECT_EQ(run.pieces(1), 1u);
+  EXPECT_EQ(run.read(1).table.rows, 3);
+  const auto piece = [](int from)
+  {
+    const std::string a = std::to_string(from) + " " + std::to_string(from + 1) + " 1";
+    return local_frame("id1 id2 btype", { a }, "", "BONDS") +
+      local_frame("id1 id2 btype", { a, "7 8 1" }, "", "BONDS", 10);
+  };
+  LocalRun pieces({ write_text("piece_0.dump", piece(1)), write_text("piece_1.dump", piece(3)) });
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces.read(0).table.rows, 2) << "LAMMPS has a header in each";
+}
+
+TEST(LocalFile, PiecesWithOtherColumns)
+{
+  const std::string head =
+    write_text("other_5.0.dump", local_frame("id1 id2 btype", { "1 2 1" }, "", "BONDS", 5));
+  const std::string rows = write_text("other_5.1.dump", "\n3 4 \n");
+  EXPECT_EQ(opening_error({ head, rows }),
+    rows +
+      ": expected rows of 3 columns, as the file with 0 in its name has, got 2; they are left "
+      "out, and so is what they belong to");
+  LocalRun good({ head, write_text("other_5.1.dump", "\n3 4 1 \n") });
+  EXPECT_EQ(good.read(0).table.rows, 2);
+}
+
 // A header that comes later, and rows that do.
 TEST(LocalFile, PiecesThatGrow)
 {
@@ -246,6 +293,8 @@ TEST(LocalFile, BadInput)
     ":1: expected a complete frame, got the end of the file in its header");
   EXPECT_EQ(text_error("ITEM: TIMESTEP\n0\nITEM: NUMBER OF BONDS\n2\nITEM: BONDS a b\n1 2\n"),
     ":1: expected 2 rows, got 1");
+  EXPECT_EQ(text_error("ITEM: TIMESTEP\n0\nITEM: NUMBER OF BONDS\n-3\n"),
+    ":4: expected a number of rows >= 0, got '-3'");
   EXPECT_EQ(text_error("1 2\n3 4\nITEM: TIMESTEP\n"),
     ":3: expected rows without a header to the end of the file, got 'ITEM: TIMESTEP'");
 }

@@ -232,6 +232,35 @@ TEST(LocalReader, PartsAreTheWhole)
   }
 }
 
+// Pieces that a process reads alone have the numbers of their rows in the frame, too.
+TEST(LocalReader, FirstRowsOfPieces)
+{
+  LocalRun run({ local_file("contacts.dump") });
+  run.found();
+  granular::LocalRequest request;
+  request.lines.periodic = granular::PeriodicLines::Split;
+  std::int64_t before = 0;
+  for (request.piece = 0, request.pieces = 3; request.piece < 3; ++request.piece)
+  {
+    const granular::LocalFrame part = run.read(4, request);
+    EXPECT_EQ(part.first_row, before);
+    before += part.table.rows;
+  }
+  EXPECT_EQ(before, 261);
+}
+
+// Flags that are none: the columns are something else.
+TEST(LocalReader, FlagsThatAreNone)
+{
+  const std::string path = write_text(
+    "flags.dump", local_frame("x1 y1 z1 x2 y2 z2 id1 id2 periodic", { "1 1 1 2 1 1 1 2 7" }));
+  LocalRun run({ path });
+  EXPECT_EQ(error_of([&] { run.read(0); }),
+    path +
+      ":1: expected the flags 0 and 1 in the column that is taken for periodic, got 7: bonds have "
+      "their type there, contacts with walls a particle (wall_id in ColumnMap)");
+}
+
 // %g has six digits: of ids that are printed with an exponent the others are lost.
 TEST(LocalReader, RoundedIdsAreCounted)
 {
@@ -244,10 +273,10 @@ TEST(LocalReader, RoundedIdsAreCounted)
     return text.empty() ? text : text.substr(path.size(), text.find(" ids") - path.size());
   };
   EXPECT_EQ(said({ "1 2", "999999 -999999" }), "");
-  EXPECT_EQ(said({ "1 2", "1e+06 3", "1.23457e+06 1.2345e+09" }), ":1: 3");
+  EXPECT_EQ(said({ "1 2", "1e+06 3", "1.23457e+06 1.2345e+09" }), ":1: column 'id1 and id2': 3");
   EXPECT_EQ(said({ "1 2", "1000000 2000000" }), "") << "printed as they are";
   EXPECT_EQ(said({ "1 2", "1234567 2000000" }), "");
-  EXPECT_EQ(said({ "-1e+06 2" }), ":1: 1");
+  EXPECT_EQ(said({ "-1e+06 2" }), ":1: column 'id1 and id2': 1");
 }
 
 TEST(LocalReader, IdsOfAllSizes)
@@ -280,7 +309,8 @@ TEST(LocalReader, LinesThatAreNotAsLongAsDistSays)
     return run.said().substr(run.said().empty() ? 0 : path.size());
   };
   EXPECT_EQ(said("1 1 1 9.5 1 1 1.5"), "");
-  EXPECT_EQ(said("1 1 1 7 1 1 6"), ":1: 1 of 2 lines are not as long as the column dist says\n");
+  EXPECT_EQ(said("1 1 1 7 1 1 6"),
+    ":1: column 'dist': 1 of 2 lines are not as long as the column dist says\n");
 }
 
 TEST(LocalReader, CompressedFilesAreTheSame)

@@ -22,8 +22,6 @@ void pass(Archive& archive, FrameHeader& header)
   archive.text(header.box.boundary);
   archive.number(header.box.tilted);
   archive.number(header.box.general);
-  archive.text(header.counted);
-  archive.number(header.has_box);
 }
 }
 #endif

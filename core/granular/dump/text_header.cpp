@@ -293,10 +293,11 @@ bool TextHeader::parse_rows(Words words)
     return false;
   }
   const std::string_view word = take_word(line);
-  header_.rows = this->integer(word, "a number of atoms");
+  const std::string number = std::string("a number of ") + (particles ? "atoms" : "rows");
+  header_.rows = this->integer(word, number.c_str());
   if (header_.rows < 0)
   {
-    this->fail("a number of atoms >= 0", word);
+    this->fail(number + " >= 0", word);
   }
   has_rows_ = true;
   return true;

@@ -80,7 +80,8 @@ std::int64_t pass_rows(TextScanner& scanner, std::int64_t most, Progress& progre
   {
     std::int64_t id = 0;
     const std::vector<std::string_view> words = words_of(line);
-    if (!words.empty() && !is_integer(words[0], id))
+    const bool comment = words.empty() && has_words(line);
+    if (comment || (!words.empty() && !is_integer(words[0], id)))
     {
       scanner.put_back();
       break;

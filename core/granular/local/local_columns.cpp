@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_columns.h"
 
+#include "granular/base/error.h"
 #include "granular/base/words.h"
 
 #include <algorithm>
@@ -116,6 +117,7 @@ constexpr std::string_view keywords[][2] = {
   { "pos", "x1 y1 z1 x2 y2 z2" },
   { "vel", "vx1 vy1 vz1 vx2 vy2 vz2" },
   { "id", "id1 id2 periodic" },
+  { "wall_id", "mesh triangle id2" },
   { "force", "forcex forcey forcez" },
   { "force_normal", "force_normalx force_normaly force_normalz" },
   { "force_tangential", "force_tangentialx force_tangentialy force_tangentialz" },
@@ -159,9 +161,19 @@ std::vector<std::string> expand_keywords(std::vector<std::string> words, std::si
   };
   const auto is_keyword = [&](const std::string& word)
   { return place(word) < static_cast<std::ptrdiff_t>(std::size(keywords)); };
+  const auto before = [&](const std::string& a, const std::string& b)
+  { return place(a) < place(b); };
   if (std::ranges::all_of(words, is_keyword))
   {
-    std::ranges::stable_sort(words, {}, place);
+    std::ranges::stable_sort(words, before);
+  }
+  for (std::size_t i = 1; i < words.size(); ++i)
+  {
+    if (is_keyword(words[i - 1]) && is_keyword(words[i]) && before(words[i], words[i - 1]))
+    {
+      throw FormatError("expected keywords in the order in which the compute prints them, '" +
+        words[i] + "' before '" + words[i - 1] + "', or names of single columns (forcex)");
+    }
   }
   std::vector<std::string> names;
   std::ptrdiff_t history = -1;

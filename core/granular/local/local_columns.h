@@ -21,8 +21,9 @@ std::string_view local_name(std::string_view name) noexcept;
 
 /// Names of columns from words that are such names or keywords of the computes of contacts (pair/gran/local,
 /// wall/gran/local): pos vel id force force_normal force_tangential torque torque_normal torque_tangential history contactArea
-/// delta contactPoint ms_id heatFlux. Each stands for what is printed for it, history for as many columns as are left. Where
-/// all words are keywords they are taken in this order, which is that of the file, whatever that of the compute.
+/// delta contactPoint ms_id heatFlux; wall_id is the id of wall/gran/local. Each stands for what is printed for it, history for
+/// as many columns as are left. Where all words are keywords they are taken in this order, which is that of the file, whatever
+/// that of the compute; among others they must be in it. Throws FormatError.
 std::vector<std::string> expand_keywords(std::vector<std::string> words, std::size_t columns);
 
 /// Columns and arrays of local data with these names of the table, or any others. Coordinates of the ends become the arrays

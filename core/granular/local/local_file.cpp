@@ -29,6 +29,8 @@ std::string first_bytes_of(const ByteSource& source)
 /// Whether a text begins with a row of numbers; so does one that is empty, of a process without rows.
 bool is_bare(std::string_view first_bytes)
 {
+  const std::size_t first = first_bytes.find_first_not_of(" \t\r\n");
+  first_bytes.remove_prefix(std::min(first, first_bytes.size()));
   const std::vector<std::string_view> words =
     split_words(first_bytes.substr(0, first_bytes.find('\n')));
   return std::ranges::all_of(words,
@@ -71,10 +73,14 @@ void index_bare(
     std::string_view line;
     FrameKind kind;
     kind.layout = FrameKind::bare;
-    if (scanner.next(line))
+    while (scanner.next(line))
     {
-      kind.schema = unnamed_columns(line);
-      scanner.put_back();
+      if (has_words(line))
+      {
+        kind.schema = unnamed_columns(line);
+        scanner.put_back();
+        break;
+      }
     }
     entry.line = 1;
     entry.kind = index.kinds->share(std::move(kind));
@@ -175,29 +181,94 @@ void leave_out(FileIndex& file)
   file.stamp = {};
 }
 
+/// What is said of rows alone that belong to no header, or whose header has other columns.
+std::string why_left_out(std::size_t columns, std::size_t wanted)
+{
+  if (wanted > 0)
+  {
+    return "expected rows of " + std::to_string(wanted) +
+      " columns, as the file with 0 in its name has, got " + std::to_string(columns) +
+      "; they are left out, and so is what they belong to";
+  }
+  return "expected a header, or rows of one timestep of which the file with 0 in its name has the "
+         "header, got rows alone; they are left out, and so is what they belong to. A name with % "
+         "and * gives each timestep its own files";
+}
+
+/// Whether the file of the next process, which would have 1 where this has 0 in its name, lies beside it, and has rows without a
+/// header.
+bool has_bare_sibling(const std::string& path)
+{
+  const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
+  for (std::size_t at = path.rfind('/') + 1; at < path.size(); ++at)
+  {
+    const bool alone = path[at] == '0' && (at == 0 || !is_digit(path[at - 1])) &&
+      (at + 1 == path.size() || !is_digit(path[at + 1]));
+    if (!alone)
+    {
+      continue;
+    }
+    std::string sibling = path;
+    sibling[at] = '1';
+    try
+    {
+      const std::string bytes = first_bytes_of(*unpack(open_file(sibling)));
+      if (!is_data_with_bonds(bytes) && is_bare(bytes))
+      {
+        return true;
+      }
+    }
+    catch (const Error&)
+    {
+      // there is none, or none that can be read
+    }
+  }
+  return false;
+}
+
+/// Says so where what one process has written is read alone. Only the first file is looked at: there may be many.
+void note_siblings(const std::vector<FileIndex>& files, Notices& notices)
+{
+  const bool together =
+    std::ranges::any_of(files, [](const FileIndex& file) { return is_headless(file); });
+  if (!together && !files.empty() && !files.front().frames.empty() &&
+    has_bare_sibling(files.front().path))
+  {
+    Notice notice;
+    notice.where.path = files.front().path;
+    notice.text = "this has the rows of one process alone: those of the others are in files beside "
+                  "it, with 1, 2 and so on for the 0 in its name; open them all together";
+    notices.push_back(notice);
+  }
+}
+
 /// Gives the files of rows that `%` makes what the file with the header says, and leaves out the others; so are frames that lack
 /// their rows.
 void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
 {
   std::set<std::uint32_t> adopted;
   std::set<std::uint32_t> incomplete;
+  std::map<std::uint32_t, std::size_t> wanted; ///< columns, of files that have others
+  note_siblings(files, notices);
   for_each_group(files,
     [&](std::uint32_t head, const Group& group)
     {
+      const FrameEntry& entry = files[head].frames.front();
       for (const auto& [value, file] : group)
       {
         if (!is_headless(files[file]))
         {
           continue;
         }
-        if (files[head].frames.size() == 1 &&
-          adopt(files[file], files[head].frames.front(), *files[file].kinds))
+        const bool whole = files[head].frames.size() == 1;
+        if (whole && adopt(files[file], entry, *files[file].kinds))
         {
           adopted.insert(file);
         }
         else if (files[file].frames.front().rows > 0)
         {
           incomplete.insert(head);
+          wanted[file] = whole ? entry.kind->schema.columns().size() : 0;
         }
       }
     });
@@ -209,11 +280,7 @@ void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
     {
       Notice notice;
       notice.where.path = file.path;
-      notice.text =
-        "expected a header, or rows of one timestep of which the file with 0 in its name has the "
-        "header, got rows alone; they are left out, and so is what they belong to. A name with % "
-        "and * gives "
-        "each timestep its own files";
+      notice.text = why_left_out(file.frames.front().kind->schema.columns().size(), wanted[number]);
       notices.push_back(notice);
     }
     if (alone || incomplete.contains(number))

@@ -130,7 +130,9 @@ std::vector<std::string> name_by_pairs(
     }
     else if (std::ranges::find(all, names[i]) != all.end())
     {
-      names[i] = columns[i]; // its name is another column's now
+      // its name is another column's now, perhaps also as the file spells it
+      const bool taken = std::ranges::find(all, columns[i]) != all.end();
+      names[i] = columns[i] + (taken ? "_file" : "");
     }
   }
   return names;
@@ -192,14 +194,18 @@ std::vector<std::string> name_columns(
   return names;
 }
 
+bool say_what_they_are(const std::vector<std::string>& columns)
+{
+  const ColumnSchema schema = make_local_schema(name_columns(columns));
+  return has_ids(schema) || has_ends(schema);
+}
+
 std::vector<std::string> find_columns(const std::vector<std::string>& columns,
   const LocalSample& sample, const Where& where, Notices& notices)
 {
-  const std::vector<std::string> by_name = name_columns(columns);
-  const ColumnSchema schema = make_local_schema(by_name);
-  if (sample.rows == 0 || has_ids(schema) || has_ends(schema))
+  if (sample.rows == 0 || say_what_they_are(columns))
   {
-    return by_name;
+    return name_columns(columns);
   }
   std::vector<const LocalPreset*> as_long;
   std::vector<const LocalPreset*> fitting;
@@ -241,7 +247,10 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
     }
     notices.push_back({ where,
       "the columns are not named: taken for the preset " + describe(*fitting[0]) +
-        ", which fits the values, and not for " + join_words(others) });
+        ", which fits the values, and not for " + join_words(others) +
+        (fitting[0]->columns.find("force") != std::string_view::npos
+            ? "; that forces are forces, and not torques, the values do not say: see ColumnMap"
+            : "") });
   }
   return name_columns(columns, *fitting[0]);
 }

@@ -29,12 +29,13 @@ struct LocalSample
   std::size_t rows = 0;
   std::vector<double> values = {}; ///< rows x columns
   Box box = {};
+  bool has_box = true; ///< false: it is not known which places are images of each other
 };
 
 /// Whether rows can be what a preset says: ids are integers from 1 on, and those of the two ends differ; bond types are
 /// integers other than 0; the periodic flag is 1 where the ends are more than half the box apart, else 0; an id is
-/// always at the same place, or an image of it; and meshes, and bond types where there are no places, have few values
-/// (their number squared is at most that of the rows). columns are the columns of the file that the preset names, in its order; of
+/// always at the same place, or an image of it; forces are not all points between the ends; and, where there
+/// are no places, bond types have few values (their number squared is at most that of the rows). columns are the columns of the file that the preset names, in its order; of
 /// `all` in a row.
 bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
   const LocalSample& sample);
@@ -53,6 +54,9 @@ std::vector<std::string> name_columns(
 /// that is given twice, a column that is named twice or not there, and another number of names than columns.
 std::vector<std::string> name_columns(
   const std::vector<std::string>& columns, const std::string& map);
+
+/// Whether the names of columns say where lines are or between which particles: no values are needed to find it out.
+bool say_what_they_are(const std::vector<std::string>& columns);
 
 /// The same, found out: by their names if these say where lines are or between which particles; else by the one
 /// preset that fits the sample, with a notice that says why, if others have as many columns. Without rows columns are as

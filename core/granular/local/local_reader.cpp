@@ -140,6 +140,37 @@ std::int64_t count_misfits(
   return misfits;
 }
 
+/// Throws where a column cannot be what it is taken for.
+void check_flags(const DumpArray* periodic, const Where& where)
+{
+  for (const std::int32_t flag : values_of<std::int32_t>(periodic))
+  {
+    if (flag != 0 && flag != 1)
+    {
+      throw FormatError(
+        "expected the flags 0 and 1 in the column that is taken for periodic, got " +
+          std::to_string(flag) +
+          ": bonds have their type there, contacts with walls a particle (wall_id in ColumnMap)",
+        where);
+    }
+  }
+}
+
+/// The rows of a frame before a part of it.
+std::int64_t rows_before(
+  const std::vector<FramePiece>& pieces, const DumpRequest& request, Progress& progress)
+{
+  DumpRequest before = request;
+  before.ranges = false;
+  before.wanted = [](const ArrayInfo&) { return false; };
+  std::int64_t rows = 0;
+  for (before.piece = 0; before.piece < request.piece; ++before.piece)
+  {
+    rows += decode_dump(pieces, before, true, progress).frame.rows;
+  }
+  return rows;
+}
+
 DumpRequest table_request(const LocalRequest& request, const ColumnSchema& schema)
 {
   DumpRequest table;
@@ -153,7 +184,8 @@ DumpRequest table_request(const LocalRequest& request, const ColumnSchema& schem
   table.wanted = [&](const ArrayInfo& array)
   {
     return is_end_array(array.name) || array.name == "id1" || array.name == "id2" ||
-      array.name == "dist" || !request.wanted || request.wanted(array.name);
+      array.name == "dist" || array.name == "periodic" || !request.wanted ||
+      request.wanted(array.name);
   };
   return table;
 }
@@ -180,11 +212,12 @@ struct Remarks
     misfits += more.misfits;
   }
 
-  void note(const Where& where, Notices& notices) const
+  void note(Where where, Notices& notices) const
   {
     const std::string of_rows = " of " + std::to_string(rows);
     if (rounded > 0)
     {
+      where.column = "id1 and id2";
       notices.push_back({ where,
         std::to_string(rounded) +
           " ids are printed with an exponent and have lost the digits beyond six: lines of them "
@@ -193,6 +226,7 @@ struct Remarks
     }
     if (misfits > 0)
     {
+      where.column = "dist";
       notices.push_back({ where,
         std::to_string(misfits) + of_rows + " lines are not as long as the column dist says" });
     }
@@ -255,6 +289,7 @@ LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress
   sample.rows = static_cast<std::size_t>(part.frame.rows);
   sample.values.resize(sample.rows * names.size());
   sample.box = part.frame.header.box;
+  sample.has_box = part.frame.header.has_box;
   for (std::size_t column = 0; column < names.size(); ++column)
   {
     const auto* const from = static_cast<const double*>(part.frame.arrays[column].block.data());
@@ -293,6 +328,11 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       Remarks remarks;
       forward.set_part(0.8, 1);
       remarks.rows = frame.rows;
+      check_flags(find_array(frame, "periodic"), where);
+      if (request.lines.periodic == PeriodicLines::Split && ranks.size() == 1)
+      {
+        local.first_row = rows_before(pieces, table, forward);
+      }
       remarks.rounded = count_rounded(pieces, table, frame, ranks.size() > 1, forward);
       if (local.has_lines)
       {

@@ -57,7 +57,8 @@ public:
 
   bool keep_rules() const;
   bool ends_differ() const;
-  bool few_values() const;
+  bool few_types() const;
+  bool forces_are_no_points() const;
   bool flags_fit() const;
   bool places_fit() const;
 
@@ -115,30 +116,49 @@ bool PresetRows::ends_differ() const
   return true;
 }
 
-bool PresetRows::few_values() const
+bool PresetRows::few_types() const
 {
-  for (const std::string_view name : { "btype", "mesh" })
+  std::set<double> types;
+  for (std::size_t row = 0; this->has("btype") && !this->has("x1") && row < sample_.rows; ++row)
   {
-    if (!this->has(name) || (name == "btype" && this->has("x1")))
+    types.insert(this->value(row, "btype"));
+  }
+  return types.size() * types.size() <= sample_.rows;
+}
+
+/// Points between the ends are no forces; of few rows that says nothing.
+bool PresetRows::forces_are_no_points() const
+{
+  constexpr std::size_t least_rows = 3;
+  if (!this->has("forcex") || !this->has("x1") || sample_.rows < least_rows)
+  {
+    return true;
+  }
+  for (std::size_t row = 0; row < sample_.rows; ++row)
+  {
+    const Vector3 force = { this->value(row, "forcex"), this->value(row, "forcey"),
+      this->value(row, "forcez") };
+    const Vector3 first = this->place(row, 1);
+    const Vector3 second = this->place(row, 2);
+    double length = 0;
+    double apart = 0; // from the middle
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      continue;
+      const double middle = first[axis] + (second[axis] - first[axis]) / 2;
+      length += (second[axis] - first[axis]) * (second[axis] - first[axis]);
+      apart += (force[axis] - middle) * (force[axis] - middle);
     }
-    std::set<double> distinct;
-    for (std::size_t row = 0; row < sample_.rows; ++row)
+    if (!(4 * apart <= length))
     {
-      distinct.insert(this->value(row, name));
-    }
-    if (distinct.size() * distinct.size() > sample_.rows)
-    {
-      return false;
+      return true;
     }
   }
-  return true;
+  return false;
 }
 
 bool PresetRows::flags_fit() const
 {
-  if (!this->has("periodic") || !this->has("x1") || sample_.box.tilted)
+  if (!this->has("periodic") || !this->has("x1") || !sample_.has_box || sample_.box.tilted)
   {
     return true;
   }
@@ -169,7 +189,7 @@ bool PresetRows::places_fit() const
   constexpr double digits = 2e-5;
   const MinimumImage images(sample_.box);
   std::map<double, Vector3> places;
-  for (std::size_t row = 0; this->has("x1") && row < sample_.rows; ++row)
+  for (std::size_t row = 0; this->has("x1") && sample_.has_box && row < sample_.rows; ++row)
   {
     for (const int end : { 1, 2 })
     {
@@ -204,7 +224,7 @@ bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::
   const LocalSample& sample)
 {
   const PresetRows rows(preset, columns, all, sample);
-  return rows.keep_rules() && rows.ends_differ() && rows.few_values() && rows.flags_fit() &&
-    rows.places_fit();
+  return rows.keep_rules() && rows.ends_differ() && rows.few_types() &&
+    rows.forces_are_no_points() && rows.flags_fit() && rows.places_fit();
 }
 }
