@@ -271,6 +271,8 @@ TEST(LocalFile, DataFiles)
 TEST(LocalFile, DataFilesThatAreNotComplete)
 {
   const std::string head = "title\n\n2 atoms\n1 bonds\n\nAtoms\n\n1 1 1 0 0 0\n2 1 1 0 0 1\n";
+  EXPECT_EQ(text_error("title\n\n2 atoms\n1 bonds"),
+    ":4: expected a header that counts bonds, got the end of the file");
   EXPECT_EQ(text_error(head), ":10: expected a section Bonds with 1 rows, got none");
   EXPECT_EQ(text_error(head + "\nBonds\n\n"), ":12: expected 1 rows in the section Bonds, got 0");
   EXPECT_EQ(
@@ -312,4 +314,8 @@ TEST(LocalFile, BadRows)
   EXPECT_EQ(error("id1 id2 c_d", { "1 2 0.5", "1 3" }), ":11: expected 3 words in a row, got 2");
   EXPECT_EQ(
     error("id1 id2 c_d", { "1 2 0.5", "1 3 x" }), ":11: column 'c_d': expected a number, got 'x'");
+  EXPECT_EQ(error("x1 y1 z1 x2 y2 z2", { "# 1 1 2 2 2", "1 1 1 2 2 2" }),
+    ":10: column 'x1': expected a number, got '#'");
+  EXPECT_EQ(
+    error("id1 id2 dist", { "1 2 far" }), ":10: column 'dist': expected a number, got 'far'");
 }

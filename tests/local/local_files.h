@@ -47,6 +47,7 @@ std::string error_of(const Work& work)
 class LocalRun
 {
 public:
+  LocalRun() = default;
   explicit LocalRun(const std::vector<std::string>& paths) { this->update(paths); }
 
   void update(const std::vector<std::string>& paths)

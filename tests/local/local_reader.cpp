@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <set>
 #include <sstream>
@@ -259,6 +260,46 @@ TEST(LocalReader, FlagsThatAreNone)
     path +
       ":1: expected the flags 0 and 1 in the column that is taken for periodic, got 7: bonds have "
       "their type there, contacts with walls a particle (wall_id in ColumnMap)");
+}
+
+// A large frame, by one thread and by two: the same bits.
+TEST(LocalReader, ThreadsChangeNothing)
+{
+  constexpr int count = 1'000'000;
+  std::string rows; // a thousand, each of them another
+  for (int i = 0; i < 1000; ++i)
+  {
+    rows += std::to_string(i % 10) + "." + std::to_string(i) + " 1.5 2 9." +
+      std::to_string(i % 89) + " 3e-1 4 " + std::to_string(i + 1) + " 77 -0." + std::to_string(i) +
+      " \n";
+  }
+  std::string text = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n" + std::to_string(count) +
+    "\nITEM: BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10\nITEM: ENTRIES x1 y1 z1 x2 y2 z2 id1 id2 c_f \n";
+  for (int i = 0; i < count; i += 1000)
+  {
+    text += rows;
+  }
+  const std::string path = write_text("large.dump", text);
+  LocalRun run({ path });
+  granular::LocalRequest request;
+  request.columns = granular::name_columns(run.columns());
+  request.lines.periodic = granular::PeriodicLines::Split;
+  const granular::LocalFrame one = run.read(0, request);
+  request.lines.threads = 2;
+  const granular::LocalFrame two = run.read(0, request);
+  ASSERT_EQ(one.table.rows, count);
+  EXPECT_GT(one.lines.count, count);
+  EXPECT_EQ(values<std::int64_t>(one, "id1")[count - 1], 1000);
+  EXPECT_EQ(two.lines.rows, one.lines.rows);
+  const auto same = [](const granular::Block& a, const granular::Block& b)
+  { return a.bytes() == b.bytes() && std::memcmp(a.data(), b.data(), a.bytes()) == 0; };
+  EXPECT_TRUE(same(one.lines.points, two.lines.points));
+  EXPECT_TRUE(same(one.lines.lengths, two.lines.lengths));
+  ASSERT_EQ(one.table.arrays.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_TRUE(same(one.table.arrays[i].block, two.table.arrays[i].block));
+  }
 }
 
 // %g has six digits: of ids that are printed with an exponent the others are lost.

@@ -37,11 +37,13 @@ std::string text_of(const Misfit& misfit)
 }
 
 /// Throws if a column must be what it is taken for. Ids of a text must be integers: those of a binary file
-/// are where the user says that they are. Columns that nobody named must, too. The same on all ranks.
+/// are where the user says that they are. Columns that the request knows hold numbers, and columns that nobody named
+/// must be what they are taken for, too. The same on all ranks.
 void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
 {
-  if (schema.columns()[static_cast<std::size_t>(misfit.column)].role == ColumnRole::Id &&
-    kind.is_text())
+  const ColumnInfo& column = schema.columns()[static_cast<std::size_t>(misfit.column)];
+  if ((column.role == ColumnRole::Id && kind.is_text()) ||
+    (column.known && misfit.status == RowStatus::NotANumber))
   {
     throw FormatError(text_of(misfit), misfit.where);
   }

@@ -147,6 +147,9 @@ bool is_data_with_bonds(std::string_view first_bytes)
 void index_data_bonds(const ByteSource& source, FileIndex& index, Progress& progress)
 {
   const auto size = static_cast<double>(std::max<std::int64_t>(index.stamp.size, 1));
+  index.frames.clear(); // the file is read as a whole, whatever was there before
+  index.resume_offset = 0;
+  index.resume_line = 1;
   TextScanner scanner(source, 0, 1);
   DataHeader header;
   const bool found = find_section(scanner, header, progress, size);
@@ -156,6 +159,11 @@ void index_data_bonds(const ByteSource& source, FileIndex& index, Progress& prog
   entry.line = scanner.line();
   const std::int64_t wanted = header.bonds.value_or(0);
   const Where where{ source.path(), entry.line };
+  if (!header.bonds)
+  {
+    set_defect(index, { where, "expected a header that counts bonds, got the end of the file" });
+    return;
+  }
   if (!found && wanted != 0)
   {
     set_defect(index,

@@ -156,21 +156,6 @@ void check_flags(const DumpArray* periodic, const Where& where)
   }
 }
 
-/// The rows of a frame before a part of it.
-std::int64_t rows_before(
-  const std::vector<FramePiece>& pieces, const DumpRequest& request, Progress& progress)
-{
-  DumpRequest before = request;
-  before.ranges = false;
-  before.wanted = [](const ArrayInfo&) { return false; };
-  std::int64_t rows = 0;
-  for (before.piece = 0; before.piece < request.piece; ++before.piece)
-  {
-    rows += decode_dump(pieces, before, true, progress).frame.rows;
-  }
-  return rows;
-}
-
 DumpRequest table_request(const LocalRequest& request, const ColumnSchema& schema)
 {
   DumpRequest table;
@@ -188,6 +173,21 @@ DumpRequest table_request(const LocalRequest& request, const ColumnSchema& schem
       request.wanted(array.name);
   };
   return table;
+}
+
+/// The rows of the parts before one that is read alone, of which nothing else is known.
+std::int64_t count_rows_before(
+  const std::vector<FramePiece>& pieces, const DumpRequest& request, Progress& progress)
+{
+  DumpRequest before = request;
+  before.ranges = false;
+  before.wanted = [](const ArrayInfo&) { return false; };
+  std::int64_t rows = 0;
+  for (before.piece = 0; before.piece < request.piece; ++before.piece)
+  {
+    rows += decode_dump(pieces, before, false, progress).frame.rows;
+  }
+  return rows;
 }
 
 /// Leaves out what was only needed on the way.
@@ -326,13 +326,14 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
     {
       DumpFrame& frame = local.table;
       Remarks remarks;
-      forward.set_part(0.8, 1);
       remarks.rows = frame.rows;
       check_flags(find_array(frame, "periodic"), where);
-      if (request.lines.periodic == PeriodicLines::Split && ranks.size() == 1)
+      forward.set_part(0.8, 0.9);
+      if (local.has_lines && request.lines.periodic == PeriodicLines::Split && ranks.size() == 1)
       {
-        local.first_row = rows_before(pieces, table, forward);
+        local.first_row = count_rows_before(pieces, table, forward);
       }
+      forward.set_part(0.9, 1);
       remarks.rounded = count_rounded(pieces, table, frame, ranks.size() > 1, forward);
       if (local.has_lines)
       {

@@ -1,0 +1,732 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reader from C++: its two outputs, what the columns are, lines across faces, pieces, runs that grow, errors, stopping.
+#include "vtkGranularLocalReader.h"
+
+#include "../dump/reader_helpers.h"
+#include "../support/observer.h"
+#include "local_files.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
+#include "vtkPoints.h"
+#include "vtkTable.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace
+{
+using Texts = std::vector<std::string>;
+using Values = std::vector<double>;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+struct LinesReader : Watched<vtkGranularLocalReader>
+{
+  explicit LinesReader(const Texts& paths)
+  {
+    this->Get->SetController(nullptr);
+    for (const std::string& path : paths)
+    {
+      this->Get->AddFileName(path.c_str());
+    }
+  }
+
+  vtkPolyData* Lines() { return this->Get->GetOutput(); }
+  vtkTable* Rows() { return this->Get->GetRows(); }
+
+  /// The names of the arrays of an output, in order.
+  std::string Names(bool ofRows = false)
+  {
+    vtkFieldData* data = ofRows ? static_cast<vtkFieldData*>(this->Rows()->GetRowData())
+                                : this->Lines()->GetCellData();
+    std::string names;
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      names += (i > 0 ? " " : "") + std::string(data->GetAbstractArray(i)->GetName());
+    }
+    return names;
+  }
+
+  vtkAbstractArray* Cells(const char* name)
+  {
+    return this->Lines()->GetCellData()->GetAbstractArray(name);
+  }
+
+  /// The ends of the lines one after the other.
+  Values Points()
+  {
+    Values points;
+    for (vtkIdType i = 0; i < this->Lines()->GetNumberOfPoints(); ++i)
+    {
+      const double* point = this->Lines()->GetPoint(i);
+      points.insert(points.end(), point, point + 3);
+    }
+    return points;
+  }
+
+  /// Which arrays may be read; those that are off in brackets.
+  std::string Selection()
+  {
+    vtkDataArraySelection* all = this->Get->GetCellDataArraySelection();
+    std::string names;
+    for (int i = 0; i < all->GetNumberOfArrays(); ++i)
+    {
+      const std::string name = all->GetArrayName(i);
+      names += (i > 0 ? " " : "") + (all->GetArraySetting(i) ? name : "(" + name + ")");
+    }
+    return names;
+  }
+
+  Values Times()
+  {
+    this->Get->UpdateInformation();
+    vtkInformation* info = this->Get->GetOutputInformation(0);
+    const double* steps = info->Get(Pipeline::TIME_STEPS());
+    return { steps, steps + info->Length(Pipeline::TIME_STEPS()) };
+  }
+
+  /// What was said since the last call, without the place in the sources that VTK puts before it.
+  Texts Said()
+  {
+    Texts texts;
+    for (std::string text : std::exchange(this->Seen->Said, {}))
+    {
+      const std::size_t start = text.find("): ");
+      text.erase(0, start == std::string::npos ? 0 : start + 3);
+      text.erase(text.find_last_not_of('\n') + 1);
+      texts.push_back(text);
+    }
+    return texts;
+  }
+
+  /// One error, and nothing in the outputs.
+  void ExpectError(const std::string& text)
+  {
+    this->Get->Update();
+    EXPECT_NE(this->Get->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+    EXPECT_EQ(this->Said(), Texts{ text });
+    EXPECT_EQ(this->Lines()->GetNumberOfCells(), 0);
+    EXPECT_EQ(this->Rows()->GetNumberOfRows(), 0);
+    EXPECT_EQ(this->Rows()->GetNumberOfColumns(), 0);
+  }
+};
+
+Values ValuesOf(vtkAbstractArray* array)
+{
+  Values values;
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  EXPECT_TRUE(numbers);
+  for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
+  {
+    for (int component = 0; component < numbers->GetNumberOfComponents(); ++component)
+    {
+      values.push_back(numbers->GetComponent(i, component));
+    }
+  }
+  return values;
+}
+
+Values Field(vtkDataObject* data, const char* name)
+{
+  return ValuesOf(data->GetFieldData()->GetArray(name));
+}
+
+std::string Write(const std::string& columns, const Texts& rows)
+{
+  return WriteFile("lines.dump", local_frame(columns, rows));
+}
+
+const std::string NoBox;
+const std::string Box = "BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10";
+
+constexpr const char* FullNames = "x1 y1 z1 x2 y2 z2 id1 id2 btype forcex forcey forcez torquex "
+                                  "torquey torquez equilibrium_length";
+const Texts FullRows = { "1 2 3 1 2 5 7 8 -1 1 2 3 4 5 6 1.5", "4 4 4 4 8 7 8 9 2 9 8 7 6 5 4 5" };
+}
+
+TEST(LocalReaderVtk, BothOutputs)
+{
+  LinesReader reader({ Write(FullNames, FullRows) });
+  reader->Update();
+  EXPECT_EQ(reader.Said(), Texts{});
+  vtkPolyData* lines = reader.Lines();
+  ASSERT_EQ(lines->GetNumberOfLines(), 2);
+  ASSERT_EQ(lines->GetNumberOfCells(), 2);
+  EXPECT_EQ(lines->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_EQ(reader.Points(), (Values{ 1, 2, 3, 1, 2, 5, 4, 4, 4, 4, 8, 7 }));
+  vtkIdType count = 0;
+  const vtkIdType* ends = nullptr;
+  lines->GetLines()->GetCellAtId(1, count, ends);
+  ASSERT_EQ(count, 2);
+  EXPECT_EQ(ends[0], 2);
+  EXPECT_EQ(ends[1], 3);
+  EXPECT_EQ(reader.Names(), "id1 id2 btype force torque equilibrium_length length");
+  EXPECT_EQ(reader.Names(true), "id1 id2 btype force torque equilibrium_length");
+  EXPECT_EQ(reader.Rows()->GetNumberOfRows(), 2);
+  EXPECT_TRUE(vtkTypeInt64Array::SafeDownCast(reader.Cells("id1")));
+  EXPECT_TRUE(vtkTypeInt64Array::SafeDownCast(reader.Cells("id2")));
+  EXPECT_TRUE(vtkTypeInt32Array::SafeDownCast(reader.Cells("btype")));
+  auto* force = vtkDoubleArray::SafeDownCast(reader.Cells("force"));
+  ASSERT_TRUE(force);
+  ASSERT_EQ(force->GetNumberOfComponents(), 3);
+  EXPECT_EQ(ValuesOf(force), (Values{ 1, 2, 3, 9, 8, 7 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("torque")), (Values{ 4, 5, 6, 6, 5, 4 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 2, 5 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("btype")), (Values{ -1, 2 }));
+  for (int i = 0; i < reader.Rows()->GetNumberOfColumns(); ++i)
+  {
+    vtkAbstractArray* column = reader.Rows()->GetColumn(i);
+    EXPECT_EQ(column, reader.Cells(column->GetName())) << "no copy";
+  }
+}
+
+TEST(LocalReaderVtk, FieldData)
+{
+  LinesReader reader({ WriteFile("a.dump",
+    local_frame("id1 id2", { "1 2" }, "BOX BOUNDS pp fs mm\n-1 9\n0 20\n-5 25", "BONDS", 300)) });
+  reader->SetPointOrigin(1, 2, 3);
+  reader->SetTimestepSize(0.5);
+  reader->Update();
+  EXPECT_EQ(reader.Times(), Values{ 150 });
+  for (vtkDataObject* output :
+    { static_cast<vtkDataObject*>(reader.Lines()), static_cast<vtkDataObject*>(reader.Rows()) })
+  {
+    EXPECT_EQ(Field(output, "BoxOrigin"), (Values{ -1, 0, -5 }));
+    EXPECT_EQ(Field(output, "BoxVectors"), (Values{ 10, 0, 0, 0, 20, 0, 0, 0, 30 }));
+    EXPECT_EQ(Field(output, "PointOrigin"), (Values{ 1, 2, 3 }));
+    EXPECT_EQ(Field(output, "timestep"), Values{ 300 });
+    auto text = [&](const char* name)
+    { return vtkStringArray::SafeDownCast(output->GetFieldData()->GetAbstractArray(name)); };
+    EXPECT_EQ(text("Boundary")->GetValue(0), "pp fs mm");
+    EXPECT_EQ(text("Columns")->GetNumberOfValues(), 2);
+    EXPECT_EQ(text("Columns")->GetValue(0), "id1");
+    EXPECT_EQ(output->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), 150);
+  }
+  // ids alone: rows, and no lines
+  EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
+  EXPECT_EQ(reader.Rows()->GetNumberOfRows(), 1);
+}
+
+TEST(LocalReaderVtk, WithoutABox)
+{
+  LinesReader reader(
+    { WriteFile("a.dump", local_frame("x1 y1 z1 x2 y2 z2", { "0 0 0 0 0 9" }, NoBox)) });
+  for (int periodic = 0; periodic < 3; ++periodic)
+  {
+    reader->SetPeriodicLines(periodic);
+    reader->Update();
+    EXPECT_EQ(ValuesOf(reader.Cells("length")), Values{ 9 });
+    EXPECT_EQ(reader.Points(), (Values{ 0, 0, 0, 0, 0, 9 }));
+    for (const char* name : { "BoxOrigin", "BoxVectors", "BoxBounds", "Boundary" })
+    {
+      EXPECT_FALSE(reader.Lines()->GetFieldData()->GetAbstractArray(name)) << name;
+      EXPECT_FALSE(reader.Rows()->GetFieldData()->GetAbstractArray(name)) << name;
+    }
+  }
+  EXPECT_EQ(reader.Said(), Texts{});
+}
+
+TEST(LocalReaderVtk, EveryPreset)
+{
+  struct Case
+  {
+    int preset;
+    const char* row;
+    const char* table;
+    Values points;
+  };
+  const Values ends = { 1, 2, 3, 1, 2, 5 };
+  const Case cases[] = {
+    { vtkGranularLocalReader::BOND_IDS, "7 8 1", "id1 id2 btype", {} },
+    { vtkGranularLocalReader::BOND_TYPE_IDS, "1 7 8", "btype id1 id2", {} },
+    { vtkGranularLocalReader::BONDS, "1 2 3 1 2 5 7 8 1", "id1 id2 btype", ends },
+    { vtkGranularLocalReader::BONDS_FORCE, "1 2 3 1 2 5 7 8 1 1 2 3", "id1 id2 btype force", ends },
+    { vtkGranularLocalReader::BONDS_FORCE_TORQUE, "1 2 3 1 2 5 7 8 1 1 2 3 4 5 6 2",
+      "id1 id2 btype force torque equilibrium_length", ends },
+    { vtkGranularLocalReader::CONTACTS, "1 2 3 1 2 5 7 8 0", "id1 id2 periodic", ends },
+    { vtkGranularLocalReader::CONTACTS_FORCE, "1 2 3 1 2 5 7 8 0 1 2 3", "id1 id2 periodic force",
+      ends },
+    { vtkGranularLocalReader::WALL_CONTACTS, "1 2 3 1 2 5 0 40 8", "mesh triangle id2", ends },
+    { vtkGranularLocalReader::WALL_CONTACTS_FORCE, "1 2 3 1 2 5 0 40 8 1 2 3",
+      "mesh triangle id2 force", ends },
+    { vtkGranularLocalReader::BOND_IDS_FORCE, "7 8 1 2 -20 1 2 3",
+      "id1 id2 btype dist engpot force", {} },
+    { vtkGranularLocalReader::BOND_TYPE_IDS_FORCE, "1 7 8 2 -20 1 2 3",
+      "btype id1 id2 dist engpot force", {} },
+  };
+  for (const Case& each : cases)
+  {
+    SCOPED_TRACE(each.table);
+    const int count = static_cast<int>(granular::split_words(each.row).size());
+    // a column that says what it is does not count
+    for (const bool index : { false, true })
+    {
+      LinesReader reader({ Write((index ? "index " : "") + silent_columns(count),
+        { (index ? "1 " : "") + std::string(each.row) }) });
+      reader->SetPreset(each.preset);
+      EXPECT_EQ(reader->GetPreset(), each.preset);
+      reader->Update();
+      EXPECT_EQ(reader.Said(), Texts{});
+      EXPECT_EQ(reader.Names(true), (index ? "index " : "") + std::string(each.table));
+      EXPECT_EQ(reader.Points(), each.points);
+      const auto* id2 = vtkTypeInt64Array::SafeDownCast(reader.Rows()->GetColumnByName("id2"));
+      ASSERT_TRUE(id2);
+      EXPECT_EQ(id2->GetValue(0), 8);
+      vtkAbstractArray* force = reader.Rows()->GetColumnByName("force");
+      EXPECT_TRUE(!force || ValuesOf(force) == (Values{ 1, 2, 3 }));
+    }
+  }
+}
+
+TEST(LocalReaderVtk, PresetIsClamped)
+{
+  LinesReader reader({});
+  EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::AUTOMATIC);
+  reader->SetPreset(-5);
+  EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::AUTOMATIC);
+  reader->SetPreset(1000);
+  EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::BOND_TYPE_IDS_FORCE);
+}
+
+TEST(LocalReaderVtk, ColumnMap)
+{
+  const std::string path = Write(silent_columns(9), { "1 2 3 1 2 5 7 8 0" });
+  LinesReader reader({ path });
+  EXPECT_STREQ(reader->GetColumnMap(), "");
+  reader->SetColumnMap("pos id");
+  EXPECT_STREQ(reader->GetColumnMap(), "pos id");
+  reader->Update();
+  EXPECT_EQ(reader.Names(), "id1 id2 periodic length");
+  reader->SetColumnMap("x1 y1 z1, x2 y2 z2, batom1, batom2, mine");
+  reader->Update();
+  EXPECT_EQ(reader.Names(), "id1 id2 mine length");
+  EXPECT_EQ(ValuesOf(reader.Cells("mine")), Values{ 0 });
+  reader->SetColumnMap("id1=c_a[7] id2=8");
+  reader->Update();
+  EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), Values{ 7 });
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id2")), Values{ 8 });
+  EXPECT_EQ(reader.Said(), Texts{});
+  // it goes before the preset, and gives way to it when it is empty
+  reader->SetPreset(vtkGranularLocalReader::WALL_CONTACTS);
+  reader->Update();
+  EXPECT_TRUE(reader.Rows()->GetColumnByName("id1"));
+  reader->SetColumnMap(nullptr);
+  reader->Update();
+  EXPECT_EQ(reader.Names(), "mesh triangle id2 length");
+  EXPECT_EQ(reader.Said(), Texts{});
+}
+
+TEST(LocalReaderVtk, PresetIsChangedAfterwards)
+{
+  LinesReader reader({ Write(silent_columns(3), { "1 2 3", "1 4 5" }) });
+  reader->SetPreset(vtkGranularLocalReader::BOND_TYPE_IDS);
+  reader->Update();
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 2, 4 }));
+  reader->SetPreset(vtkGranularLocalReader::BOND_IDS);
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 2, 4 })) << "not yet";
+  reader->Update();
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 1, 1 }));
+  EXPECT_EQ(reader.Names(true), "id1 id2 btype");
+  reader->SetPreset(vtkGranularLocalReader::AS_NAMED);
+  reader->Update();
+  EXPECT_EQ(reader.Names(true), "c_a");
+  EXPECT_EQ(reader.Rows()->GetColumnByName("c_a") ? 1 : 0, 1);
+  EXPECT_EQ(reader.Said(), Texts{});
+}
+
+TEST(LocalReaderVtk, Errors)
+{
+  const std::string path = Write(silent_columns(3), { "1 2 1", "1 3 1" });
+  LinesReader reader({ path });
+  reader.ExpectError(path +
+    ":1: expected columns whose names say what they hold, got c_a[1] c_a[2] c_a[3]; several "
+    "presets fit the values: BondIds (id1 id2 btype) BondTypeIds (btype id1 id2); set Preset or "
+    "ColumnMap");
+  reader->SetPreset(vtkGranularLocalReader::CONTACTS);
+  reader.ExpectError(path +
+    ":1: expected the 9 columns of the preset Contacts (x1 y1 z1 x2 y2 z2 id1 id2 periodic), got "
+    "3: c_a[1] c_a[2] c_a[3]");
+  reader->SetColumnMap("id1 id2");
+  reader.ExpectError(path +
+    ":1: expected a name for each of 3 columns in the column map, got 2: id1 id2; the columns are "
+    "c_a[1] c_a[2] c_a[3]");
+  reader->SetColumnMap("id1=c_b[1]");
+  reader.ExpectError(path +
+    ":1: expected a column, or its number from 1 to 3, in the column map, got 'c_b[1]'; the "
+    "columns are c_a[1] c_a[2] c_a[3]");
+  reader->SetColumnMap("");
+  reader->SetPreset(vtkGranularLocalReader::BOND_IDS);
+  reader->Update();
+  EXPECT_EQ(reader.Rows()->GetNumberOfRows(), 2);
+  EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(reader.Said(), Texts{});
+}
+
+TEST(LocalReaderVtk, ErrorsOfRows)
+{
+  const auto error = [](const std::string& columns, const Texts& rows, const std::string& text)
+  {
+    const std::string path = Write(columns, rows);
+    LinesReader reader({ path });
+    reader.ExpectError(path + text);
+  };
+  error("id1 id2", { "1 2", "1 2.5" }, ":11: column 'id2': expected an integer, got '2.5'");
+  error("id1 id2", { "1 2", "1 1e20" }, ":11: column 'id2': expected an integer, got '1e20'");
+  error("id1 id2 btype", { "1 2 3", "1 2" }, ":11: expected 3 words in a row, got 2");
+  error("x1 y1 z1 x2 y2 z2", { "1 1 1 2 2 2", "1 1 one 2 2 2" },
+    ":11: column 'z1': expected a number, got 'one'");
+  // where rows tell what the columns are, too
+  error(
+    silent_columns(3), { "1 2 1", "1 x 1" }, ":11: column 'c_a[2]': expected a number, got 'x'");
+}
+
+TEST(LocalReaderVtk, FilesThatAreNone)
+{
+  const std::string gone = WriteFile("gone.dump", "");
+  std::filesystem::remove(gone);
+  LinesReader reader({ gone });
+  reader.ExpectError(gone + ": cannot open: No such file or directory");
+  const std::string grains = Good("grains_1000.dump");
+  LinesReader other({ grains });
+  other.ExpectError(grains +
+    ":3: expected ITEM: NUMBER OF ENTRIES, or of other things than ATOMS, got 'ITEM: NUMBER OF "
+    "ATOMS'");
+  LinesReader none({});
+  none->Update();
+  EXPECT_NE(none->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+}
+
+TEST(LocalReaderVtk, ArraysThatAreRead)
+{
+  LinesReader reader({ Write(FullNames, FullRows) });
+  reader->UpdateInformation();
+  EXPECT_EQ(
+    reader.Selection(), "(position1) (position2) id1 id2 btype force torque equilibrium_length");
+  vtkDataArraySelection* arrays = reader->GetCellDataArraySelection();
+  arrays->DisableAllArrays();
+  arrays->EnableArray("force");
+  arrays->EnableArray("position2");
+  reader->Update();
+  EXPECT_EQ(reader.Names(), "position2 force length");
+  EXPECT_EQ(reader.Names(true), "position2 force");
+  EXPECT_EQ(ValuesOf(reader.Cells("position2")), (Values{ 1, 2, 5, 4, 8, 7 }));
+  arrays->DisableAllArrays();
+  reader->Update();
+  EXPECT_EQ(reader.Names(), "length");
+  EXPECT_EQ(reader.Points().size(), 12u);
+  EXPECT_EQ(reader.Said(), Texts{});
+}
+
+// From 9.5 to 0.5: once around.
+TEST(LocalReaderVtk, PeriodicLines)
+{
+  LinesReader reader({ Write("x1 y1 z1 x2 y2 z2 id1 id2 tag",
+    { "1 1 1 2 1 1 1 2 a", "9.5 1 1 0.5 1 1 2 3 b", "3 3 3 3 3 5 4 5 a" }) });
+  reader->SetPointOrigin(1, 0, 0);
+  reader->Update();
+  EXPECT_EQ(reader.Points(), (Values{ 0, 1, 1, 1, 1, 1, 8.5, 1, 1, 9.5, 1, 1, 2, 3, 3, 2, 3, 5 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 1, 1, 2 }));
+  reader->SetPeriodicLines(vtkGranularLocalReader::SPLIT);
+  reader->Update();
+  EXPECT_EQ(reader.Points(),
+    (Values{ 0, 1, 1, 1, 1, 1, 8.5, 1, 1, 9, 1, 1, -1, 1, 1, -0.5, 1, 1, 2, 3, 3, 2, 3, 5 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("row")), (Values{ 0, 1, 1, 2 }));
+  EXPECT_TRUE(vtkTypeInt64Array::SafeDownCast(reader.Cells("row")));
+  EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 1, 1, 1, 2 })) << "of all parts";
+  EXPECT_EQ(ValuesOf(reader.Cells("id2")), (Values{ 2, 3, 3, 5 }));
+  auto* tags = vtkStringArray::SafeDownCast(reader.Cells("tag"));
+  ASSERT_TRUE(tags && tags->GetNumberOfValues() == 4);
+  EXPECT_EQ(tags->GetValue(2), "b");
+  EXPECT_EQ(tags->GetValue(3), "a");
+  EXPECT_EQ(reader.Rows()->GetNumberOfRows(), 3);
+  reader->SetPeriodicLines(vtkGranularLocalReader::AS_WRITTEN);
+  reader->Update();
+  EXPECT_EQ(reader.Points(), (Values{ 0, 1, 1, 1, 1, 1, 8.5, 1, 1, -0.5, 1, 1, 2, 3, 3, 2, 3, 5 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 1, 9, 2 }));
+  EXPECT_FALSE(reader.Cells("row"));
+  reader->SetPointOrigin(std::numeric_limits<double>::infinity(), 0, 0);
+  reader.Said();
+  reader.ExpectError("PointOrigin must be finite");
+}
+
+// Ends need all of x y z.
+TEST(LocalReaderVtk, EndsThatAreNotComplete)
+{
+  LinesReader reader({ Write("x1 y1 x2 y2 id1 id2", { "1 1 2 2 1 2" }) });
+  reader->Update();
+  EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
+  EXPECT_EQ(reader.Names(true), "x1 y1 x2 y2 id1 id2");
+}
+
+TEST(LocalReaderVtk, FramesWithoutRows)
+{
+  const std::string path = WriteFile("a.dump",
+    local_frame(FullNames, {}, Box, "ENTRIES", 10) +
+      local_frame(FullNames, FullRows, Box, "ENTRIES", 20) +
+      local_frame(FullNames, {}, Box, "ENTRIES", 30));
+  LinesReader reader({ path });
+  EXPECT_EQ(reader.Times(), (Values{ 10, 20, 30 }));
+  for (int periodic = 0; periodic < 3; ++periodic)
+  {
+    reader->SetPeriodicLines(periodic);
+    const std::string row = periodic == vtkGranularLocalReader::SPLIT ? "row " : "";
+    for (const double time : { 10.0, 20.0, 30.0, 10.0 })
+    {
+      reader->UpdateTimeStep(time);
+      EXPECT_EQ(reader.Lines()->GetNumberOfCells(), time == 20 ? 2 : 0);
+      EXPECT_EQ(reader.Names(), "id1 id2 btype force torque equilibrium_length " + row + "length");
+      EXPECT_EQ(Field(reader.Lines(), "timestep"), Values{ time });
+      EXPECT_EQ(reader.Cells("force")->GetNumberOfComponents(), 3);
+    }
+  }
+  EXPECT_EQ(reader.Said(), Texts{});
+}
+
+// What the columns are is seen in the frame with most rows, whichever is shown first.
+TEST(LocalReaderVtk, TheFirstFrameHasTheArraysOfAll)
+{
+  LinesReader reader({ local_file("contacts.dump") });
+  reader->UpdateTimeStep(0);
+  EXPECT_EQ(reader.Names(), "id1 id2 periodic force length");
+  EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
+  const Texts said = reader.Said();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0],
+    local_file("contacts.dump") +
+      ":1: the columns are not named: taken for the preset ContactsForce (x1 y1 z1 x2 y2 z2 id1 "
+      "id2 periodic forcex forcey forcez), which fits the values, and not for BondsForce "
+      "WallContactsForce");
+  for (const double time : { 1000.0, 4000.0, 0.0 })
+  {
+    reader->UpdateTimeStep(time);
+  }
+  EXPECT_EQ(reader.Said(), Texts{}) << "said once";
+}
+
+TEST(LocalReaderVtk, ColumnsThatChange)
+{
+  const std::string path = WriteFile("a.dump",
+    local_frame("id1 id2", { "1 2" }, Box, "ENTRIES", 1) +
+      local_frame("x1 y1 z1 x2 y2 z2 id1 id2 c_f", { "1 1 1 1 1 3 5 6 0.5" }, Box, "ENTRIES", 2) +
+      local_frame(silent_columns(16),
+        { "1 1 1 2 1 1 7 8 1 0 0 5 0 0 0 1", "2 1 1 3 1 1 8 9 2 0 0 5 0 0 0 1" }, Box, "BONDS", 3));
+  LinesReader reader({ path });
+  reader->UpdateTimeStep(1);
+  EXPECT_EQ(reader.Selection(),
+    "(position1) (position2) id1 id2 btype force torque equilibrium_length c_f");
+  EXPECT_EQ(reader.Names(true), "id1 id2");
+  reader->UpdateTimeStep(2);
+  EXPECT_EQ(reader.Names(), "id1 id2 c_f length");
+  reader->UpdateTimeStep(3);
+  EXPECT_EQ(reader.Names(), "id1 id2 btype force torque equilibrium_length length");
+  EXPECT_EQ(reader.Said(), Texts{});
+  // of a preset that is not that of all frames those that it does not fit are errors
+  reader->SetPreset(vtkGranularLocalReader::BONDS_FORCE_TORQUE);
+  reader->UpdateTimeStep(3);
+  EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 2);
+  reader->UpdateTimeStep(2);
+  EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
+  const Texts said = reader.Said();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].rfind(path + ":11: expected the 16 columns of the preset", 0), 0u) << said[0];
+  reader->UpdateTimeStep(3);
+  EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 2);
+}
+
+TEST(LocalReaderVtk, Ids)
+{
+  const Texts ids = { "0", "-1", "2147483648", "9007199254740993", "9223372036854775807" };
+  Texts rows;
+  for (const std::string& id : ids)
+  {
+    rows.push_back(id + " 1e+06");
+  }
+  const std::string path = Write("id1 id2", rows);
+  LinesReader reader({ path });
+  reader->Update();
+  auto* array = vtkTypeInt64Array::SafeDownCast(reader.Rows()->GetColumnByName("id1"));
+  ASSERT_TRUE(array);
+  for (vtkIdType i = 0; i < 5; ++i)
+  {
+    EXPECT_EQ(std::to_string(array->GetValue(i)), ids[static_cast<std::size_t>(i)]);
+  }
+  EXPECT_EQ(reader.Said(), Texts{}) << "ids of more digits were kept: none is rounded";
+  LinesReader rounded({ Write("id1 id2", { "1 1e+06", "1.23457e+06 2" }) });
+  rounded->Update();
+  const Texts said = rounded.Said();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].rfind(path + ":1: 2 ids are printed with an exponent and have lost", 0), 0u)
+    << said[0];
+}
+
+// The parts that a pipeline asks for hold each row once, in order, with the number that it has in the frame.
+TEST(LocalReaderVtk, Pieces)
+{
+  Texts rows;
+  Values numbers;
+  for (int i = 0; i < 50; ++i)
+  {
+    rows.push_back((i % 3 == 0 ? "9.5" : "1") + std::string(" 1 1 0.5 1 1 ") + std::to_string(i));
+    numbers.push_back(i);
+    if (i % 3 == 0)
+    {
+      numbers.push_back(i);
+    }
+  }
+  LinesReader reader({ Write("x1 y1 z1 x2 y2 z2 id1", rows) });
+  reader->SetPeriodicLines(vtkGranularLocalReader::SPLIT);
+  for (const int pieces : { 1, 2, 3, 7, 60 })
+  {
+    Values ids;
+    Values found;
+    for (int piece = 0; piece < pieces; ++piece)
+    {
+      reader->UpdatePiece(piece, pieces, 0);
+      EXPECT_EQ(reader.Names(), "id1 row length");
+      const Values own = ValuesOf(reader.Cells("id1"));
+      ids.insert(ids.end(), own.begin(), own.end());
+      const Values row = ValuesOf(reader.Cells("row"));
+      found.insert(found.end(), row.begin(), row.end());
+    }
+    EXPECT_EQ(ids, numbers) << pieces;
+    EXPECT_EQ(found, numbers) << pieces;
+  }
+  EXPECT_EQ(reader.Said(), Texts{});
+}
+
+TEST(LocalReaderVtk, AGrowingRun)
+{
+  const std::string names = silent_columns(3);
+  const std::string path = WriteFile("a.dump", local_frame(names, {}, Box, "ENTRIES", 0));
+  LinesReader reader({ path });
+  reader->RefreshOnUpdateOn();
+  reader->Update();
+  EXPECT_EQ(reader.Times(), Values{ 0 });
+  EXPECT_EQ(reader.Names(true), "c_a") << "nothing is known yet";
+  const std::string next =
+    local_frame(names, { "1 1 2", "1 2 3", "1 3 4", "2 4 5" }, Box, "ENTRIES", 5);
+  std::ofstream(path, std::ios::app | std::ios::binary) << next.substr(0, next.size() - 4);
+  EXPECT_EQ(reader.Times(), Values{ 0 }) << "not complete";
+  std::ofstream(path, std::ios::app | std::ios::binary) << next.substr(next.size() - 4);
+  EXPECT_EQ(reader.Times(), (Values{ 0, 5 }));
+  for (const double time : { 5.0, 0.0 })
+  {
+    reader->UpdateTimeStep(time);
+    EXPECT_EQ(reader.Names(true), "btype id1 id2");
+    EXPECT_EQ(reader.Rows()->GetNumberOfRows(), time == 5 ? 4 : 0);
+  }
+  std::filesystem::remove(path);
+  WriteFile("a.dump", local_frame("id1 id2", { "1 2" }, Box, "ENTRIES", 7));
+  EXPECT_EQ(reader.Times(), Values{ 7 });
+  reader->Update();
+  EXPECT_EQ(reader.Names(true), "id1 id2");
+}
+
+TEST(LocalReaderVtk, RepeatedSteps)
+{
+  const std::string first =
+    WriteFile("run_1.dump", local_frame("id1 id2", { "1 2" }, Box, "ENTRIES", 5));
+  const std::string second =
+    WriteFile("run_2.dump", local_frame("id1 id2", { "3 4", "5 6" }, Box, "ENTRIES", 5));
+  LinesReader reader({ first, second });
+  reader->SetRepeatedSteps(vtkGranularLocalReader::LAST);
+  reader->Update();
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 3, 5 }));
+  reader->SetRepeatedSteps(vtkGranularLocalReader::MERGE);
+  reader->Update();
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 1, 3, 5 }));
+}
+
+// Rows without headers are found again in the index file, alone and with what was added.
+TEST(LocalReaderVtk, IndexFileOfPieces)
+{
+  const std::string head =
+    WriteFile("run_5.0.dump", local_frame("id1 id2 btype", { "1 2 1" }, NoBox, "BONDS", 5));
+  const std::string rows = WriteFile("run_5.1.dump", "3 4 1 \n5 6 1 \n");
+  const std::string kept = head + ".granular.idx";
+  std::filesystem::remove(kept);
+  const auto ids = [&]
+  {
+    LinesReader reader({ head, rows });
+    reader->SetIndexFile(vtkGranularLocalReader::BESIDE);
+    reader->Update();
+    EXPECT_EQ(reader.Said(), Texts{});
+    EXPECT_TRUE(std::filesystem::exists(kept));
+    EXPECT_EQ(Field(reader.Rows(), "timestep"), Values{ 5 });
+    return ValuesOf(reader.Rows()->GetColumnByName("id1"));
+  };
+  for (int time = 0; time < 3; ++time)
+  {
+    EXPECT_EQ(ids(), (Values{ 1, 3, 5 }));
+  }
+  std::ofstream(rows, std::ios::app | std::ios::binary) << "7 8 2 \n";
+  for (int time = 0; time < 2; ++time)
+  {
+    EXPECT_EQ(ids(), (Values{ 1, 3, 5, 7 }));
+  }
+}
+
+TEST(LocalReaderVtk, IsStopped)
+{
+  Texts rows;
+  for (int i = 0; i < 30000; ++i)
+  {
+    rows.push_back("1 1 1 2 1 1 " + std::to_string(i));
+  }
+  const std::string path = Write("x1 y1 z1 x2 y2 z2 id1", rows);
+  for (std::size_t at = 1;; ++at)
+  {
+    LinesReader reader({ path });
+    reader.Seen->StopAt = at;
+    reader->Update();
+    if (reader.Lines()->GetNumberOfCells() > 0)
+    {
+      EXPECT_GT(at, 3u);
+      break;
+    }
+    EXPECT_EQ(reader.Rows()->GetNumberOfRows(), 0);
+    EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+    reader.Seen->StopAt = 0;
+    reader->Update();
+    EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 30000);
+    EXPECT_EQ(reader.Said(), Texts{});
+  }
+}
+
+TEST(LocalReaderVtk, CanReadFile)
+{
+  for (const char* name : { "contacts.dump", "chain_bonds.dump", "chain.data", "label.dump" })
+  {
+    EXPECT_TRUE(vtkGranularLocalReader::CanReadFile(local_file(name).c_str())) << name;
+  }
+  for (const std::string& path : { Good("grains.dump"), Good("grains.bin"), Good("euler_1000.vtk"),
+         local_file("pieces_3000.2.dump"), std::string("/"), std::string("/no/such") })
+  {
+    EXPECT_FALSE(vtkGranularLocalReader::CanReadFile(path.c_str())) << path;
+  }
+  EXPECT_FALSE(vtkGranularLocalReader::CanReadFile(nullptr));
+}
+
+TEST(LocalReaderVtk, IsPrinted)
+{
+  LinesReader reader({ Write("id1 id2", { "1 2" }) });
+  reader->SetColumnMap("id1 id2");
+  reader->SetPreset(vtkGranularLocalReader::BONDS);
+  reader->SetPointOrigin(1, 2, 3);
+  reader->Update();
+  std::ostringstream text;
+  reader->Print(text);
+  for (const char* line :
+    { "Preset: 4\n", "ColumnMap: id1 id2\n", "PeriodicLines: 0\n", "PointOrigin: 1 2 3\n" })
+  {
+    EXPECT_NE(text.str().find(line), std::string::npos) << line;
+  }
+}
