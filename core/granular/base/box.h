@@ -12,6 +12,16 @@ namespace granular
 using Vector3 = std::array<double, 3>;
 using Twofold3 = std::array<Twofold, 3>;
 
+inline double dot(const Vector3& a, const Vector3& b) noexcept
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Vector3 cross(const Vector3& a, const Vector3& b) noexcept
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
 /// The smallest box along the axes around a box, and its tilts: what the headers of dumps hold.
 struct BoxBounds
 {

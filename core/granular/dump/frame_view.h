@@ -75,7 +75,10 @@ struct FrameView
   static constexpr unsigned char duplicate_row = 1;
 
   /// Whether another process has the row, too.
-  bool is_duplicate(std::int64_t row) const noexcept
+  bool is_duplicate(std::int64_t row) const noexcept { return is_duplicate(ghosts, row); }
+
+  /// The same by ghost values, a value a row, or null.
+  static bool is_duplicate(const unsigned char* ghosts, std::int64_t row) noexcept
   {
     return ghosts && (ghosts[row] & duplicate_row) != 0;
   }

@@ -9,11 +9,6 @@
 
 namespace granular
 {
-inline double dot(const Vector3& a, const Vector3& b) noexcept
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// Whether a vector of a box is one: not zero, and finite.
 bool has_length(const Twofold3& vector) noexcept;
 

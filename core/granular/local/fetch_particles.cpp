@@ -151,7 +151,8 @@ public:
         sorted = sort_by_rank(own.ids.size(), size,
           [&](std::size_t row)
           {
-            const bool left_out = own.ghosts && (own.ghosts[row] & FrameView::duplicate_row) != 0;
+            const bool left_out =
+              FrameView::is_duplicate(own.ghosts, static_cast<std::int64_t>(row));
             return left_out ? size : keeper_of(own.ids[row], size);
           });
         ids = pick(own.ids, sorted.places);

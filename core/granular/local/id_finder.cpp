@@ -28,17 +28,12 @@ struct Range
   std::size_t count = 0;
 };
 
-bool is_left_out(const unsigned char* ghosts, std::size_t place) noexcept
-{
-  return ghosts && (ghosts[place] & FrameView::duplicate_row) != 0;
-}
-
 Range range_of(std::span<const std::int64_t> ids, const unsigned char* ghosts) noexcept
 {
   Range range;
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    if (!is_left_out(ghosts, i))
+    if (!FrameView::is_duplicate(ghosts, static_cast<std::int64_t>(i)))
     {
       range.lowest = std::min(range.lowest, ids[i]);
       range.highest = std::max(range.highest, ids[i]);
@@ -103,11 +98,11 @@ IdFinder::IdFinder(std::span<const std::int64_t> ids, const unsigned char* ghost
   }
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    if (is_left_out(ghosts, i))
+    const auto place = static_cast<std::int64_t>(i);
+    if (FrameView::is_duplicate(ghosts, place))
     {
       continue;
     }
-    const auto place = static_cast<std::int64_t>(i);
     if (direct_.empty())
     {
       table_.prefetch(ids[std::min(i + ahead, ids.size() - 1)]);

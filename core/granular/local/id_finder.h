@@ -78,8 +78,8 @@ public:
 
   IdFinder() noexcept = default;
 
-  /// The place of ids[i] is i; of equal ids the first counts. Left out are those that is_duplicate says of their
-  /// ghost value, a value an id or null. Throws std::bad_alloc.
+  /// The place of ids[i] is i; of equal ids the first counts. Left out are those of which their ghost value, one an
+  /// id or null, says so: FrameView::is_duplicate. Throws std::bad_alloc.
   explicit IdFinder(std::span<const std::int64_t> ids, const unsigned char* ghosts = nullptr);
 
   /// Ids that an earlier one is equal to.

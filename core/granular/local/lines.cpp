@@ -2,7 +2,6 @@
 #include "granular/local/lines.h"
 
 #include "granular/base/executor.h"
-#include "granular/local/box_vectors.h"
 #include "granular/local/minimum_image.h"
 #include "granular/local/split_line.h"
 

@@ -19,16 +19,6 @@ Vector3 rounded(const Twofold3& vector)
   return { vector[0].value(), vector[1].value(), vector[2].value() };
 }
 
-Vector3 cross(const Vector3& a, const Vector3& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double dot(const Vector3& a, const Vector3& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 bool is_side(std::string_view word)
 {
   const bool known = word.find_first_not_of("pfsm") == word.npos;

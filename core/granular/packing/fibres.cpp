@@ -14,11 +14,6 @@ namespace
 /// What a box may lack, relative to it: one that was made for a fibre may have been rounded.
 constexpr double tolerance = 1e-12;
 
-double dot(const Vector3& a, const Vector3& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// The box as it is seen along its first vector, that of one diameter: its lattice has a grain a fibre.
 BoxShape cross_section(const BoxShape& box, double diameter)
 {

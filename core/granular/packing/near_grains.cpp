@@ -12,16 +12,6 @@ namespace granular
 {
 namespace
 {
-Vector3 cross(const Vector3& a, const Vector3& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
-double dot(const Vector3& a, const Vector3& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 std::array<double, 2> radii_of(const PlacedGrains& own, const std::vector<PlacedGrains>& others)
 {
   std::array<double, 2> range = { own.radius[0], own.radius[0] };

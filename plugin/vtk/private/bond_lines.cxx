@@ -10,7 +10,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
-#include <numeric>
 #include <utility>
 
 namespace vtkGranularPrivate
@@ -33,10 +32,7 @@ void FillBonds(vtkPolyData* output, granular::GrainBonds& bonds)
 {
   const auto count = static_cast<vtkIdType>(bonds.count);
   output->SetPoints(TakePoints(bonds.points, 2 * count, false, {}));
-  granular::Block ends(static_cast<std::size_t>(count) * 2 * sizeof(std::int64_t));
-  auto* const first = static_cast<std::int64_t*>(ends.data());
-  std::iota(first, first + 2 * count, 0);
-  output->SetLines(TakeCells(ends, count, 2));
+  output->SetLines(MakeCells(count, 2));
   const auto length =
     TakeValues("equilibrium_length", granular::ValueType::Float64, bonds.equilibrium_length, count);
   vtkNew<vtkDoubleArray> present;
