@@ -311,28 +311,15 @@ private:
     }
   }
 
-  /**
-   * The array has six digits, where particles are has six, too, and more are lost where both are near each other.
-   */
   void CountMisfits()
   {
     if (this->Self->PeriodicLines == AS_WRITTEN || !this->Rows->HasNumbers("dist"))
     {
       return;
     }
-    const std::vector<double> dist = this->Rows->ReadNumbers("dist", this->Joined.rows);
-    const std::span<const double> lengths = DoublesIn(this->Lines.lengths);
-    const std::span<const double> ends = DoublesIn(this->Joined.first);
-    for (std::size_t i = 0; i < dist.size(); ++i)
-    {
-      double largest = 0;
-      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
-      {
-        largest = std::max(largest, std::abs(ends[k]));
-      }
-      const bool fits = std::abs(lengths[i] - dist[i]) <= 1e-4 * std::abs(dist[i]) + 4e-5 * largest;
-      this->All.Misfits += fits ? 0 : 1;
-    }
+    this->All.Misfits = granular::count_misfits(DoublesIn(this->Lines.lengths),
+      this->Rows->ReadNumbers("dist", this->Joined.rows), DoublesIn(this->Joined.first),
+      DoublesIn(this->Joined.second));
   }
 
   /**

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -652,4 +653,24 @@ TEST(Lines, BondsOfLammps)
               written.lengths.begin(), written.lengths.end(), [](double l) { return l > 1.01; }),
     made.moved);
 }
+}
+
+// All were printed with six digits: where an end is near the origin and the other one across the box, the other counts.
+TEST(Lines, LengthsThatAreNotWhatAFileSays)
+{
+  const auto misfits = [](double length, double dist, double first, double second)
+  {
+    const double ends[] = { first, 0, 0, second, 0, 0 };
+    return granular::count_misfits(
+      { &length, 1 }, { &dist, 1 }, { ends, 3 }, { std::begin(ends) + 3, 3 });
+  };
+  EXPECT_EQ(
+    misfits(0.01358456, 0.0135821, 0.00123456, 9.98765), 0); // in a box of 10, from 9.98765249
+  EXPECT_EQ(misfits(0.01358456, 0.0135821, 0.00123456, 0.01481902), 1);
+  EXPECT_EQ(misfits(1, 1.00008, -1, -2), 0);
+  EXPECT_EQ(misfits(1, 1.0002, -1, -2), 1);
+  EXPECT_EQ(misfits(0, 0, 0, 0), 0);
+  EXPECT_EQ(misfits(0, 1e-9, 0, 0), 1);
+  EXPECT_EQ(misfits(nan, 1, 1, 2), 1);
+  EXPECT_EQ(granular::count_misfits({}, {}, {}, {}), 0);
 }

@@ -192,4 +192,22 @@ Lines make_lines(std::span<const double> first, std::span<const double> second, 
 {
   return LineMaker(first, second, box, request).make(progress);
 }
+
+std::int64_t count_misfits(std::span<const double> lengths, std::span<const double> dist,
+  std::span<const double> first, std::span<const double> second) noexcept
+{
+  constexpr double digits = 1e-5;
+  std::int64_t misfits = 0;
+  for (std::size_t row = 0; row < dist.size(); ++row)
+  {
+    double largest = 0;
+    for (std::size_t i = 3 * row; i < 3 * row + 3; ++i)
+    {
+      largest = std::max({ largest, std::abs(first[i]), std::abs(second[i]) });
+    }
+    const double rounding = digits * (2 * std::abs(dist[row]) + 4 * largest);
+    misfits += std::abs(lengths[row] - dist[row]) <= rounding ? 0 : 1;
+  }
+  return misfits;
+}
 }

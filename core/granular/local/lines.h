@@ -47,5 +47,11 @@ struct Lines
 /// std::bad_alloc.
 Lines make_lines(std::span<const double> first, std::span<const double> second, const Box& box,
   const LineRequest& request, Progress& progress);
+
+/// How many lengths are not what a file says of them, `dist`, both of rows: where all were printed with six digits, as
+/// the ends first and second of each, which lose more of them the nearer they are to each other. A length that is no
+/// number is not what it says.
+std::int64_t count_misfits(std::span<const double> lengths, std::span<const double> dist,
+  std::span<const double> first, std::span<const double> second) noexcept;
 }
 #endif

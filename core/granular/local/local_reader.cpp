@@ -5,8 +5,6 @@
 #include "granular/local/local_columns.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -119,25 +117,6 @@ std::int64_t count_rounded(const std::vector<FramePiece>& pieces, const DumpRequ
     count += count_exponents(array);
   }
   return count;
-}
-
-/// Lines whose ends are as far apart as `dist` does not say: both have six digits, and places lose some near each other.
-std::int64_t count_misfits(
-  std::span<const double> dist, const Lines& lines, std::span<const double> ends)
-{
-  constexpr double digits = 1e-5;
-  const std::span lengths(static_cast<const double*>(lines.lengths.data()), dist.size());
-  std::int64_t misfits = 0;
-  for (std::size_t row = 0; row < dist.size(); ++row)
-  {
-    double largest = 0;
-    for (std::size_t i = 3 * row; i < 3 * row + 3; ++i)
-    {
-      largest = std::max(largest, std::abs(ends[i]));
-    }
-    misfits += std::abs(lengths[row] - dist[row]) > digits * (2 * dist[row] + 4 * largest) ? 1 : 0;
-  }
-  return misfits;
 }
 
 /// Throws where a column cannot be what it is taken for.
@@ -341,9 +320,10 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         const auto second = values_of<double>(find_array(frame, end_arrays[1]));
         local.lines = make_lines(first, second, frame.header.box, request.lines, forward);
         const bool as_written = request.lines.periodic == PeriodicLines::AsWritten;
-        remarks.misfits = as_written
-          ? 0
-          : count_misfits(values_of<double>(find_array(frame, "dist")), local.lines, first);
+        const std::span lengths(
+          static_cast<const double*>(local.lines.lengths.data()), first.size() / 3);
+        const auto dist = values_of<double>(find_array(frame, "dist"));
+        remarks.misfits = as_written ? 0 : count_misfits(lengths, dist, first, second);
       }
       drop_unwanted(request, frame);
       pass(packer, remarks);
