@@ -28,7 +28,6 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <array>
@@ -286,17 +285,25 @@ private:
     }
   }
 
+  /**
+   * Of the joined.
+   */
+  std::vector<double> ReadNumbers(const char* name)
+  {
+    return this->Rows->ReadNumbers(name, this->Joined.rows, this->Joined.count);
+  }
+
   void FindElongations()
   {
     const double constant = this->Self->EquilibriumLength;
     std::vector<double> rest;
     if (this->RestKnown)
     {
-      rest = this->Rows->ReadNumbers(this->Self->EquilibriumLengthArray, this->Joined.rows);
+      rest = this->ReadNumbers(this->Self->EquilibriumLengthArray);
     }
     else if (constant > 0)
     {
-      rest.assign(this->Joined.rows.size(), constant);
+      rest.assign(static_cast<std::size_t>(this->Joined.count), constant);
       this->RestKnown = true;
     }
     const std::span<const double> lengths = DoublesIn(this->Lines.lengths);
@@ -318,8 +325,7 @@ private:
       return;
     }
     this->All.Misfits = granular::count_misfits(DoublesIn(this->Lines.lengths),
-      this->Rows->ReadNumbers("dist", this->Joined.rows), DoublesIn(this->Joined.first),
-      DoublesIn(this->Joined.second));
+      this->ReadNumbers("dist"), DoublesIn(this->Joined.first), DoublesIn(this->Joined.second));
   }
 
   /**
@@ -329,13 +335,16 @@ private:
     const std::vector<std::int64_t>& id1, const std::vector<std::int64_t>& id2) const
   {
     const std::vector<std::int64_t>& found = this->Joined.rows;
+    if (this->Joined.count == static_cast<std::int64_t>(id1.size()))
+    {
+      return {};
+    }
     std::size_t row = 0;
     while (row < found.size() && found[row] == static_cast<std::int64_t>(row))
     {
       ++row;
     }
-    return row == id1.size() ? std::string()
-                             : std::to_string(id1[row]) + " and " + std::to_string(id2[row]);
+    return std::to_string(id1[row]) + " and " + std::to_string(id2[row]);
   }
 
   std::string CompareTimesteps() const
@@ -347,20 +356,31 @@ private:
       : "the particles are of timestep " + particles + ", the lines of " + lines;
   }
 
+  /**
+   * What lines have of the input.
+   */
+  void PassRows(vtkCellData* data) const
+  {
+    const std::vector<std::int64_t>& joined = this->Joined.rows;
+    std::vector<std::int64_t> rows = this->Lines.rows;
+    for (std::int64_t& row : rows)
+    {
+      row = joined.empty() ? row : joined[static_cast<std::size_t>(row)];
+    }
+    this->Rows->Pass(rows.empty() ? joined : rows, this->Lines.count, data);
+  }
+
   void Fill()
   {
-    const std::vector<std::int64_t>& of = this->Lines.rows;
-    const auto count = static_cast<std::size_t>(this->Lines.count);
     vtkCellData* data = this->Output->GetCellData();
-    std::vector<std::int64_t> rows(count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      rows[i] = this->Joined.rows[of.empty() ? i : static_cast<std::size_t>(of[i])];
-    }
-    this->Rows->Pass(rows, data);
+    this->PassRows(data);
     for (const char* name : { "elongation", "strain" }) // of the input
     {
       data->RemoveArray(name);
+    }
+    if (this->Rows->HasParts())
+    {
+      data->RemoveArray(PartArray);
     }
     if (this->RestKnown)
     {
@@ -368,10 +388,9 @@ private:
       data->AddArray(TakeRows(this->Strains, this->Lines));
     }
     vtkPointData* points = vtkPointSet::SafeDownCast(this->Inputs[0])->GetPointData();
-    const auto joined = static_cast<vtkIdType>(this->Joined.rows.size());
     for (granular::EndArray& array : this->Joined.arrays)
     {
-      auto made = TakeDoubles(array.name.c_str(), array.values, joined, array.size);
+      auto made = TakeDoubles(array.name.c_str(), array.values, this->Joined.count, array.size);
       const std::string from = array.name.substr(0, array.name.rfind('_'));
       if (vtkAbstractArray* named = points->GetAbstractArray(from.c_str()))
       {
@@ -379,9 +398,9 @@ private:
       }
       data->AddArray(TakeRows(made, this->Lines));
     }
-    if (this->Self->PeriodicLines == SPLIT && !this->Rows->Has(LocalRows::RowArray))
+    if (this->Self->PeriodicLines == SPLIT)
     {
-      this->AddRows(rows, data);
+      AddParts(this->Output, this->Lines, this->FirstRow, this->Joined.rows);
     }
     FillLines(this->Output, this->Lines, nullptr);
     vtkFieldData* fields = this->Output->GetFieldData();
@@ -393,16 +412,6 @@ private:
     }
     this->Progress.set_part(1, 1);
     this->Progress.step(1);
-  }
-
-  void AddRows(const std::vector<std::int64_t>& rows, vtkCellData* data) const
-  {
-    auto numbers = vtkSmartPointer<vtkTypeInt64Array>::New();
-    numbers->SetName(LocalRows::RowArray);
-    numbers->SetNumberOfValues(static_cast<vtkIdType>(rows.size()));
-    std::ranges::transform(
-      rows, numbers->GetPointer(0), [&](vtkTypeInt64 row) { return this->FirstRow + row; });
-    data->AddArray(numbers);
   }
 
   void Tell() const

@@ -23,7 +23,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
-#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,22 +68,6 @@ void pass(Archive& archive, Meaning& meaning)
  * What is known of all kinds, by the columns as the file names them.
  */
 using Meanings = std::map<std::string, Meaning>;
-
-/**
- * The row of each line, from 0 in the frame.
- */
-vtkSmartPointer<vtkAbstractArray> NumberRows(const granular::LocalFrame& frame)
-{
-  auto rows = vtkSmartPointer<vtkTypeInt64Array>::New();
-  rows->SetName("row");
-  rows->SetNumberOfValues(static_cast<vtkIdType>(frame.lines.count));
-  for (vtkIdType line = 0; line < rows->GetNumberOfValues(); ++line)
-  {
-    rows->SetValue(
-      line, frame.first_row + (frame.lines.rows.empty() ? line : frame.lines.rows[line]));
-  }
-  return rows;
-}
 }
 
 //------------------------------------------------------------------------------
@@ -279,7 +262,7 @@ void vtkGranularLocalReader::Internals::FillOutputs(Self* self, vtkInformationVe
   {
     if (request.lines.periodic == granular::PeriodicLines::Split)
     {
-      lines->GetCellData()->AddArray(NumberRows(frame));
+      AddParts(lines, frame.lines, frame.first_row);
     }
     FillLines(lines, frame.lines, self->Series->Pool);
   }

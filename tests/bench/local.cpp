@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -110,7 +111,7 @@ struct Joining
     return join_lines(view, id1, id2, request, alone, progress);
   }
 
-  bool join() const { return joined().rows.size() == id1.size(); }
+  bool join() const { return joined().count == std::ssize(id1); }
 
   bool is_right() const
   {
@@ -125,7 +126,8 @@ struct Joining
         return false;
       }
     }
-    return lines.rows.size() == firsts.size() && lines.missing == 0 && lines.repeated == 0;
+    return lines.count == std::ssize(firsts) && lines.rows.empty() && lines.missing == 0 &&
+      lines.repeated == 0;
   }
 
   std::mt19937_64 random{ 3 };

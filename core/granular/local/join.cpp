@@ -22,14 +22,14 @@ constexpr std::size_t rows_per_chunk = 32 * some;
 
 using Places = std::span<const std::int64_t>;
 
-/// The rows whose two ends were found, and the places of the particles there, chunk by chunk: the first so many
-/// of those that the chunk has room for.
+/// The places of the particles at both ends of the rows where these were found, chunk by chunk: the first so many of those
+/// that the chunk has room for.
 struct FoundEnds
 {
-  std::vector<std::int64_t> rows;
   Block firsts; ///< std::int64_t
   Block seconds;
-  std::vector<std::size_t> counts; ///< of each chunk
+  std::vector<std::size_t> counts;                ///< of each chunk
+  std::vector<std::vector<std::int64_t>> missing; ///< the other rows of each
 };
 
 /// The arrays of one particle array, and where they are written.
@@ -72,7 +72,6 @@ void find_chunk(const IdFinder& finder, Places id1, Places id2, std::size_t chun
   std::array<std::int64_t, some> seconds;
   const std::size_t begin = chunk * rows_per_chunk;
   const std::size_t end = std::min(begin + rows_per_chunk, id1.size());
-  std::int64_t* const rows = ends.rows.data() + begin;
   std::int64_t* const found_firsts = static_cast<std::int64_t*>(ends.firsts.data()) + begin;
   std::int64_t* const found_seconds = static_cast<std::int64_t*>(ends.seconds.data()) + begin;
   std::size_t found = 0;
@@ -83,11 +82,13 @@ void find_chunk(const IdFinder& finder, Places id1, Places id2, std::size_t chun
     finder.find(id2.subspan(row, count), seconds.data());
     for (std::size_t i = 0; i < count; ++i)
     {
-      rows[found] = static_cast<std::int64_t>(row + i);
+      if (firsts[i] == IdFinder::nowhere || seconds[i] == IdFinder::nowhere)
+      {
+        ends.missing[chunk].push_back(static_cast<std::int64_t>(row + i));
+        continue;
+      }
       found_firsts[found] = firsts[i];
-      found_seconds[found] = seconds[i];
-      const bool both = firsts[i] != IdFinder::nowhere && seconds[i] != IdFinder::nowhere;
-      found += both ? 1 : 0;
+      found_seconds[found++] = seconds[i];
     }
   }
   ends.counts[chunk] = found;
@@ -98,32 +99,41 @@ FoundEnds find_ends(const IdFinder& finder, Places id1, Places id2, const JoinRe
 {
   const std::size_t bytes = id1.size() * sizeof(std::int64_t);
   const std::size_t chunks = (id1.size() + rows_per_chunk - 1) / rows_per_chunk;
-  FoundEnds ends{ std::vector<std::int64_t>(id1.size()), Block(bytes, request.pool),
-    Block(bytes, request.pool), std::vector<std::size_t>(chunks) };
+  FoundEnds ends{ Block(bytes, request.pool), Block(bytes, request.pool),
+    std::vector<std::size_t>(chunks), std::vector<std::vector<std::int64_t>>(chunks) };
   executor.parallel_for(
     chunks, [&](std::size_t chunk, std::size_t) { find_chunk(finder, id1, id2, chunk, ends); },
     progress);
   return ends;
 }
 
-/// Brings the rows of the chunks together; returns where those of each begin.
-std::vector<std::size_t> join_chunks(FoundEnds& ends)
+/// Of so many rows those that are not missing, as JoinedLines has them.
+std::vector<std::int64_t> list_rows(const FoundEnds& ends, std::size_t all, std::size_t found)
 {
-  std::vector<std::size_t> begins(ends.counts.size());
-  std::exclusive_scan(ends.counts.begin(), ends.counts.end(), begins.begin(), std::size_t{ 0 });
-  std::size_t count = 0;
-  for (std::size_t chunk = 0; chunk < begins.size(); ++chunk)
+  std::vector<std::int64_t> rows;
+  if (found == all)
   {
-    const auto from = ends.rows.begin() + static_cast<std::ptrdiff_t>(chunk * rows_per_chunk);
-    const auto to = ends.rows.begin() + static_cast<std::ptrdiff_t>(begins[chunk]);
-    count = begins[chunk] + ends.counts[chunk];
-    if (from != to)
+    return rows;
+  }
+  rows.reserve(found);
+  std::int64_t next = 0;
+  const auto add_until = [&](std::int64_t end)
+  {
+    for (; next < end; ++next)
     {
-      std::copy_n(from, ends.counts[chunk], to);
+      rows.push_back(next);
+    }
+  };
+  for (const std::vector<std::int64_t>& missing : ends.missing)
+  {
+    for (const std::int64_t row : missing)
+    {
+      add_until(row);
+      next = row + 1;
     }
   }
-  ends.rows.resize(count);
-  return begins;
+  add_until(static_cast<std::int64_t>(all));
+  return rows;
 }
 
 void gather_points(const ParticleValues& particles, Places places, double* to) noexcept
@@ -162,7 +172,7 @@ void gather_column(const EndColumn& column, Places firsts, Places seconds, std::
 /// Makes the memory of an array of lines, and returns it.
 double* add_array(std::string name, int size, const JoinRequest& request, JoinedLines& lines)
 {
-  const std::size_t numbers = lines.rows.size() * static_cast<std::size_t>(size);
+  const auto numbers = static_cast<std::size_t>(lines.count * size);
   lines.arrays.push_back({ std::move(name), size, Block(numbers * sizeof(double), request.pool) });
   return static_cast<double*>(lines.arrays.back().values.data());
 }
@@ -199,12 +209,15 @@ JoinedLines join_here(const ParticleValues& particles, const IdFinder& finder, P
 {
   const Executor executor(request.threads);
   progress.set_part(0.3, 0.6);
-  FoundEnds ends = find_ends(finder, id1, id2, request, executor, progress);
-  const std::vector<std::size_t> begins = join_chunks(ends);
+  const FoundEnds ends = find_ends(finder, id1, id2, request, executor, progress);
+  std::vector<std::size_t> begins(ends.counts.size());
+  std::exclusive_scan(ends.counts.begin(), ends.counts.end(), begins.begin(), std::size_t{ 0 });
+  const std::size_t count = begins.empty() ? 0 : begins.back() + ends.counts.back();
   JoinedLines lines;
-  lines.rows = std::move(ends.rows);
-  lines.missing = static_cast<std::int64_t>(id1.size() - lines.rows.size());
-  const std::size_t bytes = lines.rows.size() * 3 * sizeof(double);
+  lines.count = static_cast<std::int64_t>(count);
+  lines.rows = list_rows(ends, id1.size(), count);
+  lines.missing = static_cast<std::int64_t>(id1.size() - count);
+  const std::size_t bytes = count * 3 * sizeof(double);
   lines.first = Block(bytes, request.pool);
   lines.second = Block(bytes, request.pool);
   const std::vector<EndColumn> columns = make_arrays(particles, request, lines);
@@ -218,10 +231,10 @@ JoinedLines join_here(const ParticleValues& particles, const IdFinder& finder, P
       for (std::size_t done = 0; done < ends.counts[chunk]; done += some)
       {
         const std::size_t from = chunk * rows_per_chunk + done;
-        const std::size_t count = std::min(some, ends.counts[chunk] - done);
+        const std::size_t now = std::min(some, ends.counts[chunk] - done);
         const std::size_t to = begins[chunk] + done;
-        const Places firsts = places_of(ends.firsts).subspan(from, count);
-        const Places seconds = places_of(ends.seconds).subspan(from, count);
+        const Places firsts = places_of(ends.firsts).subspan(from, now);
+        const Places seconds = places_of(ends.seconds).subspan(from, now);
         gather_points(particles, firsts, static_cast<double*>(lines.first.data()) + 3 * to);
         gather_points(particles, seconds, static_cast<double*>(lines.second.data()) + 3 * to);
         for (const EndColumn& column : columns)

@@ -38,8 +38,10 @@ struct EndArray
 /// Lines, by the rows that name their ends, with what the particles there have.
 struct JoinedLines
 {
-  std::vector<std::int64_t> rows; ///< of this rank, whose two ends were found, in their order
-  Block first;                    ///< x y z of the first end of each
+  std::int64_t count = 0; ///< rows of this rank whose two ends were found
+  std::vector<std::int64_t>
+    rows;      ///< these, in their order; empty: all of the rank, line i is row i
+  Block first; ///< x y z of the first end of each
   Block second;
   std::vector<EndArray> arrays;
   std::int64_t missing = 0;  ///< rows of all ranks that were left out, as an end was not found

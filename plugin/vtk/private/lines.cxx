@@ -11,8 +11,11 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace vtkGranularPrivate
 {
@@ -23,7 +26,7 @@ void FillLines(
   output->SetPoints(TakePoints(lines.points, 2 * count, false, {}));
   output->SetLines(MakeCells(count, 2, pool));
   const auto rows = static_cast<vtkIdType>(lines.lengths.bytes() / sizeof(double));
-  const auto lengths = TakeDoubles("length", lines.lengths, rows, 1);
+  const auto lengths = TakeDoubles(LengthArray, lines.lengths, rows, 1);
   output->GetCellData()->AddArray(TakeRows(lengths, lines));
 }
 
@@ -43,5 +46,28 @@ vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granul
   taken->SetNumberOfTuples(rows->GetNumberOfIds());
   array->GetTuples(rows, taken);
   return taken;
+}
+
+void AddParts(vtkPolyData* output, const granular::Lines& lines, vtkTypeInt64 firstRow,
+  const std::vector<std::int64_t>& rows)
+{
+  vtkNew<vtkTypeInt64Array> numbers;
+  vtkNew<vtkTypeInt32Array> parts;
+  numbers->SetName(RowArray);
+  parts->SetName(PartArray);
+  numbers->SetNumberOfValues(static_cast<vtkIdType>(lines.count));
+  parts->SetNumberOfValues(static_cast<vtkIdType>(lines.count));
+  std::int64_t last = -1;
+  vtkTypeInt32 part = 0;
+  for (vtkIdType line = 0; line < numbers->GetNumberOfValues(); ++line)
+  {
+    const std::int64_t row = lines.rows.empty() ? line : lines.rows[static_cast<std::size_t>(line)];
+    part = row == last ? part + 1 : 0;
+    last = row;
+    numbers->SetValue(line, firstRow + (rows.empty() ? row : rows[static_cast<std::size_t>(row)]));
+    parts->SetValue(line, part);
+  }
+  output->GetCellData()->AddArray(numbers);
+  output->GetCellData()->AddArray(parts);
 }
 }

@@ -5,14 +5,24 @@
 #include "granular/local/lines.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 class vtkAbstractArray;
 class vtkPolyData;
 
 namespace vtkGranularPrivate
 {
+/**
+ * Names of the arrays that lines get here.
+ */
+constexpr const char* LengthArray = "length";
+constexpr const char* RowArray = "row";
+constexpr const char* PartArray = "part";
+
 /**
  * Points and cells of lines, two points each, and their lengths as the cell array `length`. Takes the memory of the lines.
  */
@@ -23,6 +33,14 @@ void FillLines(
  * What the lines have of an array that has a tuple for each row: the array itself where each row is one line.
  */
 vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granular::Lines& lines);
+
+/**
+ * What tells the parts of lines that were split, as cell arrays: `row` (vtkTypeInt64), the number of the row, which is
+ * firstRow for number 0 of these; `part` (vtkTypeInt32), 0 for the part at the first end, 1, 2, ... rows lists the numbers of
+ * those that the lines are made from; empty: they are those.
+ */
+void AddParts(vtkPolyData* output, const granular::Lines& lines, vtkTypeInt64 firstRow,
+  const std::vector<std::int64_t>& rows = {});
 }
 
 #endif

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "local_rows.h"
 
+#include "lines.h"
+
 #include "granular/base/error.h"
 #include "granular/base/executor.h"
-#include "granular/local/id_finder.h"
 #include "granular/local/ids.h"
 #include "granular/local/particle_values.h"
 
@@ -11,15 +12,16 @@
 #include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <iterator>
 
@@ -28,7 +30,7 @@ namespace vtkGranularPrivate
 LocalRows::LocalRows(vtkDataObject* input)
 {
   vtkIdType count = 0;
-  if (auto* lines = vtkPolyData::SafeDownCast(input))
+  if (auto* lines = vtkDataSet::SafeDownCast(input))
   {
     count = lines->GetNumberOfCells();
     this->Data = lines->GetCellData();
@@ -41,40 +43,33 @@ LocalRows::LocalRows(vtkDataObject* input)
   else
   {
     throw granular::UnsupportedError(
-      "expected lines as vtkPolyData, or a vtkTable with a row for each, got " +
+      "expected lines as cells of a vtkDataSet, or a vtkTable with a row for each, got " +
       (input ? std::string("a ") + input->GetClassName() : "nothing") +
       (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it" : ""));
   }
   this->Field = input->GetFieldData();
-  this->FindTuples(count);
+  this->AllTuples = count;
+  this->FindTuples();
 }
 
-void LocalRows::FindTuples(vtkIdType count)
+void LocalRows::FindTuples()
 {
-  this->AllTuples = count;
-  const auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
-    this->Data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
-  if (ghosts)
+  const char* const name = vtkDataSetAttributes::GhostArrayName();
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(this->Data->GetAbstractArray(name));
+  vtkDataArray* parts = this->HasParts() ? this->Data->GetArray(PartArray) : nullptr;
+  for (vtkDataArray* array : { static_cast<vtkDataArray*>(ghosts), parts })
   {
-    this->Arrays.CheckTuples(
-      const_cast<vtkUnsignedCharArray*>(ghosts), vtkDataSetAttributes::GhostArrayName(), count);
+    if (array)
+    {
+      this->Arrays.CheckTuples(array, array->GetName(), this->AllTuples);
+      this->AreAll = false;
+    }
   }
-  const int type =
-    this->HasNumbers(RowArray) ? this->Data->GetArray(RowArray)->GetDataType() : VTK_DOUBLE;
-  const bool split = type != VTK_FLOAT && type != VTK_DOUBLE;
-  granular::Ids numbers;
-  if (split)
-  {
-    granular::Progress progress;
-    numbers = granular::Ids(this->See(RowArray), count, granular::Executor(), progress);
-  }
-  granular::IdTable known;
-  for (vtkIdType tuple = 0; tuple < count; ++tuple)
+  for (vtkIdType tuple = 0; !this->AreAll && tuple < this->AllTuples; ++tuple)
   {
     const bool duplicate =
       ghosts && (ghosts->GetValue(tuple) & vtkDataSetAttributes::DUPLICATECELL) != 0;
-    if (!duplicate &&
-      (!split || known.add(numbers.values()[static_cast<std::size_t>(tuple)], tuple)))
+    if (!duplicate && (!parts || parts->GetComponent(tuple, 0) == 0))
     {
       this->Tuples.push_back(tuple);
     }
@@ -83,8 +78,13 @@ void LocalRows::FindTuples(vtkIdType count)
 
 void LocalRows::Keep(std::pair<vtkTypeInt64, vtkTypeInt64> range)
 {
-  this->Tuples.erase(this->Tuples.begin() + range.second, this->Tuples.end());
-  this->Tuples.erase(this->Tuples.begin(), this->Tuples.begin() + range.first);
+  std::vector<vtkIdType> kept;
+  for (vtkTypeInt64 row = range.first; row < range.second; ++row)
+  {
+    kept.push_back(this->TupleOf(row));
+  }
+  this->AreAll = this->AreAll && std::ssize(kept) == this->AllTuples;
+  this->Tuples = std::move(kept);
 }
 
 bool LocalRows::Has(const char* name) const
@@ -96,6 +96,13 @@ bool LocalRows::HasNumbers(const char* name) const
 {
   vtkDataArray* array = this->Data->GetArray(name);
   return array && array->GetNumberOfComponents() == 1;
+}
+
+bool LocalRows::HasParts() const
+{
+  const int type =
+    this->HasNumbers(PartArray) ? this->Data->GetArray(PartArray)->GetDataType() : VTK_DOUBLE;
+  return type != VTK_FLOAT && type != VTK_DOUBLE;
 }
 
 granular::ArrayView LocalRows::See(const char* name)
@@ -120,38 +127,53 @@ granular::ArrayView LocalRows::See(const char* name)
 std::vector<std::int64_t> LocalRows::ReadIds(const char* name, granular::Progress& progress)
 {
   std::vector<std::int64_t> ids;
-  if (this->Count() > 0)
+  if (this->Count() == 0)
   {
-    const granular::Ids all(this->See(name), this->AllTuples, granular::Executor(), progress);
-    std::ranges::transform(this->Tuples, std::back_inserter(ids),
-      [&](vtkIdType tuple) { return all.values()[static_cast<std::size_t>(tuple)]; });
+    return ids;
   }
+  const granular::Ids all(this->See(name), this->AllTuples, granular::Executor(), progress);
+  if (this->AreAll)
+  {
+    ids.assign(all.values().begin(), all.values().end());
+    return ids;
+  }
+  std::ranges::transform(this->Tuples, std::back_inserter(ids),
+    [&](vtkIdType tuple) { return all.values()[static_cast<std::size_t>(tuple)]; });
   return ids;
 }
 
-std::vector<double> LocalRows::ReadNumbers(const char* name, const std::vector<std::int64_t>& rows)
+std::vector<double> LocalRows::ReadNumbers(
+  const char* name, const std::vector<std::int64_t>& rows, vtkIdType count)
 {
-  std::vector<double> numbers(rows.size());
-  if (!rows.empty())
+  std::vector<double> numbers(static_cast<std::size_t>(count));
+  if (count == 0)
   {
-    std::vector<std::int64_t> tuples;
-    std::ranges::transform(rows, std::back_inserter(tuples),
-      [&](std::int64_t row) { return this->Tuples[static_cast<std::size_t>(row)]; });
-    granular::gather_numbers(this->See(name), 0, tuples, numbers.data());
+    return numbers;
+  }
+  const granular::ArrayView view = this->See(name);
+  std::array<std::int64_t, 1024> tuples; // at once, which stay in the cache
+  for (std::size_t first = 0; first < numbers.size(); first += tuples.size())
+  {
+    const std::size_t some = std::min(tuples.size(), numbers.size() - first);
+    for (std::size_t i = 0; i < some; ++i)
+    {
+      tuples[i] =
+        this->TupleOf(rows.empty() ? static_cast<std::int64_t>(first + i) : rows[first + i]);
+    }
+    granular::gather_numbers(view, 0, { tuples.data(), some }, numbers.data() + first);
   }
   return numbers;
 }
 
-void LocalRows::Pass(const std::vector<std::int64_t>& rows, vtkDataSetAttributes* to) const
+void LocalRows::Pass(
+  const std::vector<std::int64_t>& rows, vtkIdType count, vtkDataSetAttributes* to) const
 {
+  const bool same = this->AreAll && rows.empty() && count == this->AllTuples;
   vtkNew<vtkIdList> tuples;
-  tuples->SetNumberOfIds(static_cast<vtkIdType>(rows.size()));
-  bool same = static_cast<vtkIdType>(rows.size()) == this->AllTuples;
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  tuples->SetNumberOfIds(same ? 0 : count);
+  for (vtkIdType i = 0; i < tuples->GetNumberOfIds(); ++i)
   {
-    const vtkIdType tuple = this->Tuples[static_cast<std::size_t>(rows[i])];
-    tuples->SetId(static_cast<vtkIdType>(i), tuple);
-    same = same && tuple == static_cast<vtkIdType>(i);
+    tuples->SetId(i, this->TupleOf(rows.empty() ? i : rows[static_cast<std::size_t>(i)]));
   }
   for (int i = 0; i < this->Data->GetNumberOfArrays(); ++i)
   {

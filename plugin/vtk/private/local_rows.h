@@ -8,7 +8,9 @@
 
 #include "vtkType.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,24 +23,18 @@ class vtkFieldData;
 namespace vtkGranularPrivate
 {
 /**
- * Rows that name particles at the ends of lines: of a table, or cells of lines. Each counts once: of the parts of a
- * line that was split, which have the same integer in the cell array `row`, the first. Duplicates of ghosts are left
- * out.
+ * Rows that name particles at the ends of lines: of a table, or cells of lines. Each counts once: where there are integers
+ * `part`, as AddParts makes them, those with another one than 0 are left out, and so are duplicates of ghosts.
  */
 class LocalRows
 {
 public:
   /**
-   * The cell array, or column, that tells the parts of a line from others.
-   */
-  static constexpr const char* RowArray = "row";
-
-  /**
-   * Throws UnsupportedError if it is neither a vtkPolyData nor a vtkTable.
+   * Throws UnsupportedError if it is neither a vtkDataSet nor a vtkTable.
    */
   explicit LocalRows(vtkDataObject* input);
 
-  vtkIdType Count() const { return static_cast<vtkIdType>(this->Tuples.size()); }
+  vtkIdType Count() const { return this->AreAll ? this->AllTuples : std::ssize(this->Tuples); }
 
   /**
    * Those of so many from the first: [first, last).
@@ -53,27 +49,40 @@ public:
   bool HasNumbers(const char* name) const;
 
   /**
-   * The ids of each row; the numbers of some. Throws Error if the array is not there, or has others; granular::Cancelled.
+   * Whether there are parts of lines that were split.
    */
-  std::vector<std::int64_t> ReadIds(const char* name, granular::Progress& progress);
-  std::vector<double> ReadNumbers(const char* name, const std::vector<std::int64_t>& rows);
+  bool HasParts() const;
 
   /**
-   * All arrays, with the values of these rows, in any number and order.
+   * The ids of each row; so many numbers, of the rows that are listed, or where no list is, of the first ones. Throws Error if the
+   * array is not there, or has others; granular::Cancelled.
    */
-  void Pass(const std::vector<std::int64_t>& rows, vtkDataSetAttributes* to) const;
+  std::vector<std::int64_t> ReadIds(const char* name, granular::Progress& progress);
+  std::vector<double> ReadNumbers(
+    const char* name, const std::vector<std::int64_t>& rows, vtkIdType count);
+
+  /**
+   * All arrays, with the values of as many rows, in any order.
+   */
+  void Pass(const std::vector<std::int64_t>& rows, vtkIdType count, vtkDataSetAttributes* to) const;
 
   vtkFieldData* GetFieldData() const { return this->Field; }
 
 private:
   granular::ArrayView See(const char* name);
-  void FindTuples(vtkIdType count);
+  void FindTuples();
+
+  vtkIdType TupleOf(std::int64_t row) const
+  {
+    return this->AreAll ? row : this->Tuples[static_cast<std::size_t>(row)];
+  }
 
   vtkDataSetAttributes* Data = nullptr;
   vtkFieldData* Field = nullptr;
   ArrayViews Arrays{ "rows" };
-  std::vector<vtkIdType> Tuples; ///< of the arrays, one a row
   vtkIdType AllTuples = 0;
+  bool AreAll = true;            ///< each is a row
+  std::vector<vtkIdType> Tuples; ///< of the rows, where not all are
 };
 }
 
