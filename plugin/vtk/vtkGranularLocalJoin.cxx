@@ -9,6 +9,7 @@
 #include "private/piece_request.h"
 #include "private/processes.h"
 
+#include "granular/base/archive.h"
 #include "granular/base/number_print.h"
 #include "granular/base/words.h"
 #include "granular/dump/point_forms.h"
@@ -85,6 +86,28 @@ std::vector<std::string> NamesIn(std::string list, const granular::FrameView& pa
     }
   }
   return names;
+}
+
+/**
+ * The names that a process knows, which any others may be: with blanks, too.
+ */
+struct KnownNames
+{
+  bool HasParticles = false;
+  std::vector<std::string> Names;
+};
+
+template <class Archive>
+void pass(Archive& archive, KnownNames& known)
+{
+  archive.number(known.HasParticles);
+  std::size_t count = known.Names.size();
+  archive.number(count);
+  known.Names.resize(count);
+  for (std::string& name : known.Names)
+  {
+    archive.text(name);
+  }
 }
 
 vtkSmartPointer<vtkDoubleArray> MakeEmpty(const char* name)
@@ -206,8 +229,7 @@ private:
       this->Rows->Keep(range);
     }
     this->All.Rows = this->Rows->Count();
-    this->RestKnown =
-      this->All.Rows > 0 && this->Rows->Has(TextOf(this->Self->EquilibriumLengthArray).c_str());
+    this->RestKnown = this->Rows->Has(TextOf(this->Self->EquilibriumLengthArray).c_str());
     const double rest = this->Self->EquilibriumLength;
     if (!(rest >= 0 && rest <= std::numeric_limits<double>::max()))
     {
@@ -226,22 +248,25 @@ private:
     const std::array<const char*, 2> given = { this->Self->Averages, this->Self->Differences };
     for (std::size_t i = 0; i < lists.size(); ++i)
     {
-      std::string own; // whether there are particles, then the names
+      granular::Packer own;
       granular::do_together(ranks,
         [&]
         {
           const granular::FrameView& view = this->Input->View();
-          own =
-            (view.rows > 0 ? "1 " : "0 ") + granular::join_words(NamesIn(TextOf(given[i]), view));
+          KnownNames known{ view.rows > 0, NamesIn(TextOf(given[i]), view) };
+          pass(own, known);
         });
-      const std::vector<std::string> all = ranks.all_gather(own);
+      const std::vector<std::string> all = ranks.all_gather(own.bytes);
       granular::do_together(ranks,
         [&]
         {
-          const auto known =
-            std::ranges::find_if(all, [](const std::string& one) { return one[0] == '1'; });
-          const auto words = granular::split_words(known == all.end() ? all.front() : *known);
-          lists[i]->assign(words.begin() + 1, words.end());
+          KnownNames best;
+          for (std::size_t rank = 0; rank < all.size() && !best.HasParticles; ++rank)
+          {
+            granular::Unpacker unpacker{ all[rank] };
+            pass(unpacker, best);
+          }
+          *lists[i] = std::move(best.Names);
         });
     }
     std::int64_t with = this->RestKnown ? 1 : 0;
