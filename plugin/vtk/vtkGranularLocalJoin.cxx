@@ -13,6 +13,7 @@
 #include "granular/base/number_print.h"
 #include "granular/base/words.h"
 #include "granular/dump/point_forms.h"
+#include "granular/dump/shared_header.h"
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
 
@@ -187,6 +188,7 @@ private:
     granular::JoinRequest request;
     granular::do_together(ranks, [&] { this->ReadRows(); });
     this->ShareNames(request, ranks);
+    this->ShareBox(ranks);
     std::vector<std::int64_t> id1;
     std::vector<std::int64_t> id2;
     granular::do_together(ranks,
@@ -278,6 +280,31 @@ private:
     ranks.sum(counts);
     this->FirstRow +=
       std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::int64_t{ 0 });
+  }
+
+  /**
+   * Where the particles have lost their box it is that of the lines.
+   */
+  void ShareBox(granular::Communicator& ranks)
+  {
+    granular::FrameView& particles = this->Input->View();
+    if (particles.has_box)
+    {
+      return;
+    }
+    granular::FrameView lines;
+    granular::do_together(ranks,
+      [&]
+      {
+        const auto box = FindBox(this->Rows->GetFieldData());
+        lines.rows = this->Rows->Count();
+        lines.has_box = box.has_value();
+        lines.header.box = box.value_or(granular::Box{});
+      });
+    granular::share_header(lines, ranks);
+    this->BoxIsOfLines = lines.has_box;
+    particles.has_box = lines.has_box;
+    std::swap(particles.header.box, lines.header.box);
   }
 
   /**
@@ -428,15 +455,27 @@ private:
       AddParts(this->Output, this->Lines, this->FirstRow, this->Joined.rows);
     }
     FillLines(this->Output, this->Lines, nullptr);
-    vtkFieldData* fields = this->Output->GetFieldData();
-    fields->PassData(this->Inputs[0]->GetFieldData());
-    fields->RemoveArray("Columns"); // of particles
-    if (vtkAbstractArray* columns = this->Rows->GetFieldData()->GetAbstractArray("Columns"))
-    {
-      fields->AddArray(columns);
-    }
+    this->FillFields(this->Output->GetFieldData());
     this->Progress.set_part(1, 1);
     this->Progress.step(1);
+  }
+
+  void FillFields(vtkFieldData* fields) const
+  {
+    fields->PassData(this->Inputs[0]->GetFieldData());
+    fields->RemoveArray("Columns"); // of particles
+    std::vector<const char*> ofLines = { "Columns" };
+    if (this->BoxIsOfLines)
+    {
+      ofLines.insert(ofLines.end(), { "BoxOrigin", "BoxVectors", "BoxBounds", "Boundary" });
+    }
+    for (const char* name : ofLines)
+    {
+      if (vtkAbstractArray* array = this->Rows->GetFieldData()->GetAbstractArray(name))
+      {
+        fields->AddArray(array);
+      }
+    }
   }
 
   void Tell() const
@@ -462,6 +501,10 @@ private:
       std::to_string(this->All.Misfits) + ofRows +
         "are not as long as their array dist says: box or timestep are not those of the particles");
     tell(!this->Remarks[1].empty(), this->Remarks[1]);
+    const bool whole = this->Input->View().has_box || this->Self->PeriodicLines == AS_WRITTEN;
+    tell(!whole && this->All.Rows > this->Joined.missing,
+      "neither the particles nor the lines have a box in their field data (BoxOrigin, "
+      "BoxVectors): lines are as written");
   }
 
   vtkGranularLocalJoin* Self;
@@ -478,6 +521,7 @@ private:
   std::int64_t FirstRow = 0; ///< of these, among all
   granular::JoinedLines Joined;
   granular::Lines Lines; ///< between the joined
+  bool BoxIsOfLines = false;
   bool RestKnown = false;
   vtkSmartPointer<vtkDoubleArray> Elongations = MakeEmpty("elongation"); ///< of the joined
   vtkSmartPointer<vtkDoubleArray> Strains = MakeEmpty("strain");

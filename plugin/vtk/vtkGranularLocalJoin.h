@@ -17,8 +17,9 @@
  * all double, but for `row` (vtkTypeInt64Array).
  *
  * Lines are where the points are shown, whatever these are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled,
- * PointOrigin): from unwrapped points they go to the nearest image of the other end; lengths are never scaled. Field
- * data are those of the particles, but for the Columns, which are the rows'.
+ * PointOrigin): from unwrapped points they go to the nearest image of the other end; lengths are never scaled. The box is that
+ * in the field data of the particles, or where they have none, of the rows. Field data are those of the particles, but for the
+ * Columns, which are the rows'.
  *
  * Warnings, once an update, also tell how many lines are not as long as their array `dist` says, and that the
  * timesteps of both inputs differ.
