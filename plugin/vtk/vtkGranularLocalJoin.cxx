@@ -134,6 +134,7 @@ public:
   Joiner(vtkGranularLocalJoin* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
     : Self(self)
     , Inputs{ vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(inputs[1]) }
+    , LinesHaveTimes(inputs[1]->GetInformationObject(0)->Length(Pipeline::TIME_STEPS()) > 1)
     , Output(vtkPolyData::GetData(outputs))
     , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
     , Ranks(self->Ranks->Get())
@@ -403,7 +404,7 @@ private:
   {
     const std::string particles = TimestepOf(this->Inputs[0]->GetFieldData());
     const std::string lines = TimestepOf(this->Rows->GetFieldData());
-    return particles.empty() || lines.empty() || particles == lines
+    return !this->LinesHaveTimes || particles.empty() || lines.empty() || particles == lines
       ? std::string()
       : "the particles are of timestep " + particles + ", the lines of " + lines;
   }
@@ -509,6 +510,7 @@ private:
 
   vtkGranularLocalJoin* Self;
   std::array<vtkDataObject*, 2> Inputs;
+  bool LinesHaveTimes; ///< or else they are those of all times
   vtkPolyData* Output;
   PieceRequest Wanted;
   granular::Communicator& Ranks;

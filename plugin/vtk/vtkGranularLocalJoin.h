@@ -21,8 +21,8 @@
  * in the field data of the particles, or where they have none, of the rows. Field data are those of the particles, but for the
  * Columns, which are the rows'.
  *
- * Warnings, once an update, also tell how many lines are not as long as their array `dist` says, and that the
- * timesteps of both inputs differ.
+ * Warnings also tell how many lines are not as long as their array `dist` says, and that the timesteps of both inputs differ,
+ * if the rows have several times.
  */
 
 #ifndef vtkGranularLocalJoin_h
