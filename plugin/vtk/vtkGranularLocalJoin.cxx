@@ -19,6 +19,7 @@
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellData.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -479,14 +480,25 @@ private:
     }
   }
 
-  void Tell() const
+  /**
+   * Each thing that is not as it should be once, until it has gone away or another input or property may be why.
+   */
+  void Tell()
   {
+    auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Self->GetExecutive());
+    const vtkMTimeType now = pipeline->GetPipelineMTime();
+    const unsigned told = this->Self->ToldTime == now ? this->Self->Told : 0;
+    this->Self->ToldTime = now;
+    this->Self->Told = 0;
+    unsigned kind = 1;
     const auto tell = [&](bool is, const std::string& text)
     {
-      if (is && (this->Ranks.rank() == 0 || !this->Together))
+      if (is && (told & kind) == 0 && (this->Ranks.rank() == 0 || !this->Together))
       {
         vtkWarningWithObjectMacro(this->Self, << text);
       }
+      this->Self->Told |= is ? kind : 0;
+      kind <<= 1;
     };
     const std::string ofRows = " of " + std::to_string(this->All.Rows) + " lines ";
     tell(this->Joined.missing > 0,

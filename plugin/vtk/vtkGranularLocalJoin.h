@@ -22,7 +22,7 @@
  * Columns, which are the rows'.
  *
  * Warnings also tell how many lines are not as long as their array `dist` says, and that the timesteps of both inputs differ,
- * if the rows have several times.
+ * if the rows have several times. Each is given once: again only when inputs or properties have changed, or when it came back.
  */
 
 #ifndef vtkGranularLocalJoin_h
@@ -110,6 +110,8 @@ private:
   char* Differences = nullptr;
   char* EquilibriumLengthArray = nullptr;
   double EquilibriumLength = 0;
+  vtkMTimeType ToldTime = 0; ///< of the pipeline when warnings were given
+  unsigned Told = 0;         ///< which
 };
 
 #endif
