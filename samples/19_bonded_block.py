@@ -12,13 +12,12 @@ bonds = OutputPort(block, "Bonds")
 sided = Calculator(Input=block, ResultArrayName="side", Function="sign(coordsX - 0.08 + 0.5*(coordsZ - 0.025))")
 told = GranularLocalJoin(Input=sided, Lines=bonds, Differences="side")
 kept = Threshold(Input=told, Scalars=["CELLS", "side_difference"], LowerThreshold=-0.5, UpperThreshold=0.5)
-whole_lines = ExtractSurface(Input=kept)  # lines again: Threshold makes an unstructured grid
 
 # Both halves bend and part. The bonds follow their grains: each line is joined again, by the ids of its ends.
 bent = Calculator(Input=sided, CoordinateResults=1,
                   Function="(coordsX + 0.008*side)*iHat + coordsY*jHat + (coordsZ - 2*(coordsX - 0.08)^2)*kHat")
 before = GranularLocalJoin(Input=sided, Lines=bonds)
-after = GranularLocalJoin(Input=bent, Lines=whole_lines)
+after = GranularLocalJoin(Input=bent, Lines=kept)
 
 LoadPalette("WhiteBackground")
 strip = CreateLayout()

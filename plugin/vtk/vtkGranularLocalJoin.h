@@ -4,17 +4,18 @@
  * @brief   Draws contacts and bonds, which name two particles by id, as lines between the particles of a dump.
  *
  * Port 0 has the particles, a vtkPointSet with the point array `id`; port 1 the rows, each of which names two of them in
- * `id1` and `id2`: cells of a vtkPolyData or rows of a vtkTable. Ids are integers, in arrays of any type. Each row whose two particles are there becomes a line with two points of its own; others are left out,
- * with a warning that counts them. Parts of a row that was split, which have the same number in the array `row`, count
- * once. Of particles with the same id the first is taken, with a warning; duplicates of ghosts are left out.
+ * `id1` and `id2`: cells of a vtkDataSet or rows of a vtkTable. Ids are integers, in arrays of any type. Each row whose two
+ * particles are there becomes a line with two points of its own; others are left out, with a warning that counts them. Of
+ * lines that were split the first part counts, whose integer `part` is 0. Of particles with the same id the first is taken, with a warning; duplicates of ghosts are left out.
  *
  * Cell arrays, besides those of the rows:
  * - `length` of the whole line, the shortest of its images but for AS_WRITTEN [m]
  * - `elongation` = length - l0 [m] and `strain` = elongation / l0 [-], where the equilibrium length l0 is known; nan where it is 0
  * - `A_mean`, `A_difference`: of the array A at both ends (second less first), see SetAverages
- * - `row`, only with SPLIT: the number of the row that a line is a part of
+ * - `row` and `part`, only with SPLIT: the number of the row that a line is a part of, from 0, and which part it is, 0 for that
+ *   at the first end, 1, 2, ...
  *
- * all double, but for `row` (vtkTypeInt64Array).
+ * all double, but for `row` (vtkTypeInt64Array) and `part` (vtkTypeInt32Array).
  *
  * Lines are where the points are shown, whatever these are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled,
  * PointOrigin): from unwrapped points they go to the nearest image of the other end; lengths are never scaled. The box is that

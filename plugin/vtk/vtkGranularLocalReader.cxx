@@ -13,7 +13,6 @@
 #include "granular/local/local_file.h"
 #include "granular/local/local_reader.h"
 
-#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"
@@ -85,7 +84,8 @@ struct vtkGranularLocalReader::Internals
   granular::LocalRequest MakeRequest(Self* self, vtkInformation* output) const;
   std::string FormOf(const granular::LocalRequest& request, std::size_t frame) const;
   void FillOutputs(Self* self, vtkInformationVector* outputs, const granular::LocalRequest& request,
-    granular::LocalFrame& frame, double time) const;
+    granular::LocalFrame& frame, double time, const granular::Where& where,
+    granular::Notices& notices) const;
   void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
 };
 
@@ -244,23 +244,21 @@ std::string vtkGranularLocalReader::Internals::FormOf(
 
 //------------------------------------------------------------------------------
 void vtkGranularLocalReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
-  const granular::LocalRequest& request, granular::LocalFrame& frame, double time) const
+  const granular::LocalRequest& request, granular::LocalFrame& frame, double time,
+  const granular::Where& where, granular::Notices& notices) const
 {
   auto* lines = vtkPolyData::GetData(outputs, 0);
   auto* rows = vtkTable::GetData(outputs, 1);
   const auto count = static_cast<vtkIdType>(frame.table.rows);
   for (granular::DumpArray& from : frame.table.arrays)
   {
-    const auto array = TakeArray(from, count, frame.table.schema.columns());
-    rows->AddColumn(array);
-    if (frame.has_lines)
-    {
-      lines->GetCellData()->AddArray(TakeRows(array, frame.lines));
-    }
+    rows->AddColumn(TakeArray(from, count, frame.table.schema.columns()));
   }
   if (frame.has_lines)
   {
-    if (request.lines.periodic == granular::PeriodicLines::Split)
+    const bool split = request.lines.periodic == granular::PeriodicLines::Split;
+    AddRows(lines, rows, frame.lines, split, where, notices);
+    if (split)
     {
       AddParts(lines, frame.lines, frame.first_row);
     }
@@ -321,7 +319,9 @@ void vtkGranularLocalReader::Internals::Run(
   granular::do_together(ranks,
     [&]
     {
-      this->FillOutputs(self, outputs, wanted, frame, time);
+      const granular::FramePiece& first = pieces.front();
+      this->FillOutputs(self, outputs, wanted, frame, time,
+        granular::where_of(first.file.path, first.entry), notices);
       if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
       {
         self->Series->Tell(self, notices, false);

@@ -14,7 +14,9 @@
  * - three columns x, y, z of a vector become one array: `force`, `torque`, `v1` and so on;
  * - `length` is the length of the line that is drawn, of all its parts where it is split;
  * - `position1` and `position2` are the ends as the file has them, only if they are asked for;
- * - `row`, where lines are split: the number of the row in the frame, from 0.
+ * - `row` and `part`, where lines are split: the number of the row in the frame, from 0 (vtkTypeInt64Array), and which part of
+ *   the line it is, 0 for that at the first end, 1, 2, ... (vtkTypeInt32Array);
+ * - columns of the file that are named `length`, `row` or `part`, too, are `length_2` and so on of the lines.
  *
  * Both outputs carry field data as those of vtkGranularDumpReader: box, PointOrigin, Columns, timestep; the box only if the file has
  * one. A pipeline may ask for any piece of any number: the pieces hold each row once.

@@ -11,11 +11,14 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTable.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
+#include <utility>
 
 namespace vtkGranularPrivate
 {
@@ -46,6 +49,31 @@ vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granul
   taken->SetNumberOfTuples(rows->GetNumberOfIds());
   array->GetTuples(rows, taken);
   return taken;
+}
+
+void AddRows(vtkPolyData* output, vtkTable* rows, const granular::Lines& lines, bool split,
+  const granular::Where& where, granular::Notices& notices)
+{
+  for (vtkIdType i = 0; i < rows->GetNumberOfColumns(); ++i)
+  {
+    vtkSmartPointer<vtkAbstractArray> array = TakeRows(rows->GetColumn(i), lines);
+    const std::string name = array->GetName();
+    if (name == LengthArray || (split && (name == RowArray || name == PartArray)))
+    {
+      int number = 2;
+      while (rows->GetColumnByName((name + "_" + std::to_string(number)).c_str()))
+      {
+        ++number;
+      }
+      const auto ofRows = std::exchange(array, vtk::TakeSmartPointer(array->NewInstance()));
+      array->DeepCopy(ofRows);
+      array->SetName((name + "_" + std::to_string(number)).c_str());
+      notices.push_back({ where,
+        "lines have an array '" + name + "' of their own: that of the file is '" +
+          array->GetName() + "'" });
+    }
+    output->GetCellData()->AddArray(array);
+  }
 }
 
 void AddParts(vtkPolyData* output, const granular::Lines& lines, vtkTypeInt64 firstRow,

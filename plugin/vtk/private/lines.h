@@ -2,6 +2,7 @@
 #ifndef vtkGranularLines_h
 #define vtkGranularLines_h
 
+#include "granular/base/error.h"
 #include "granular/local/lines.h"
 
 #include "vtkSmartPointer.h"
@@ -13,6 +14,7 @@
 
 class vtkAbstractArray;
 class vtkPolyData;
+class vtkTable;
 
 namespace vtkGranularPrivate
 {
@@ -33,6 +35,13 @@ void FillLines(
  * What the lines have of an array that has a tuple for each row: the array itself where each row is one line.
  */
 vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granular::Lines& lines);
+
+/**
+ * Adds what the lines have of the rows of a table. An array that is named like one that lines get here, `row` and `part` if
+ * they are split, is `length_2` or so there, with a notice.
+ */
+void AddRows(vtkPolyData* output, vtkTable* rows, const granular::Lines& lines, bool split,
+  const granular::Where& where, granular::Notices& notices);
 
 /**
  * What tells the parts of lines that were split, as cell arrays: `row` (vtkTypeInt64), the number of the row, which is
