@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpWriter.h"
 
-#include "private/dump_input.h"
-#include "private/writer.h"
+#include "private/rows_file.h"
 
 #include "granular/base/words.h"
-#include "granular/dump/dump_writer.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
@@ -14,9 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
 
 using namespace vtkGranularPrivate;
@@ -52,89 +48,30 @@ void CheckFinite(const double* first, int count)
 /**
  * A dump that is being written.
  */
-class vtkGranularDumpWriter::File : public FrameWriter
+class vtkGranularDumpWriter::File : public RowsFile
 {
 public:
   File(vtkGranularDumpWriter* self, granular::DumpFormat format,
     const granular::WriteOptions& options, granular::Communicator& ranks)
-    : Self(self)
-    , Ranks(ranks)
-    , Writer(self->FileName, std::move(format), options, ranks)
+    : RowsFile(self->FileName, std::move(format), options, ranks)
+    , Self(self)
   {
   }
 
-  void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
-    granular::Progress& progress) override
+protected:
+  std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) override
   {
-    std::optional<DumpInput> data;
-    std::string told;
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        granular::Notices own;
-        auto* points = vtkPointSet::SafeDownCast(input);
-        if (!points)
-        {
-          throw granular::UnsupportedError("expected a vtkPointSet to write, got a " +
-              std::string(input->GetClassName()) +
-              (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
-                                                        : ""),
-            { this->Self->FileName });
-        }
-        data.emplace(points, own);
-        this->Complete(*data, time, own);
-        told = data->View.rows > 0 ? "rows" : "none";
-        for (const granular::Notice& notice : own)
-        {
-          told += '\0' + notice.text;
-        }
-      });
-    this->Gather(told, notices);
-    this->Writer.write(data->View, notices, progress);
-  }
-
-  void Finish() override { this->Writer.finish(); }
-
-private:
-  /**
-   * What any of the processes has to say that has rows, or all of them where none has: who has no rows may have no
-   * field data either.
-   */
-  void Gather(const std::string& own, granular::Notices& notices)
-  {
-    const std::vector<std::string> all = this->Ranks.all_gather(own);
-    const bool any = std::any_of(
-      all.begin(), all.end(), [](const std::string& told) { return told.front() == 'r'; });
-    for (const std::string& told : all)
+    auto* points = vtkPointSet::SafeDownCast(input);
+    if (!points)
     {
-      std::istringstream texts(told);
-      std::string text;
-      std::getline(texts, text, '\0');
-      while ((!any || told.front() == 'r') && std::getline(texts, text, '\0'))
-      {
-        notices.push_back({ {}, text });
-      }
+      throw granular::UnsupportedError("expected a vtkPointSet to write, got a " +
+          std::string(input->GetClassName()) +
+          (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
+                                                    : ""),
+        { this->Path });
     }
-  }
-
-  /**
-   * What the properties, or the pipeline, say beyond the field data.
-   */
-  void Complete(DumpInput& data, const FrameTime& time, granular::Notices& notices)
-  {
-    granular::FrameHeader& header = data.View.header;
-    if (!data.HasTimestep)
-    {
-      header.timestep = time.Step.value_or(time.Frame);
-      granular::Notice notice;
-      notice.text = time.Step ? "the input has no field data 'timestep': its time is taken for it"
-                              : "the input has no field data 'timestep': frames are counted from 0";
-      notices.push_back(notice);
-    }
-    if (!data.HasTime)
-    {
-      header.time = time.Time;
-    }
+    auto data = std::make_unique<DumpInput>(points, notices);
+    granular::FrameHeader& header = data->View.header;
     if (*TextOf(this->Self->Units))
     {
       header.units = this->Self->Units;
@@ -144,17 +81,17 @@ private:
     {
       header.box = MakeBox(this->Self->BoxOrigin, this->Self->BoxVectors);
       header.box.boundary = boundary;
-      data.View.has_box = true;
+      data->View.has_box = true;
     }
     if (*TextOf(this->Self->Boundary))
     {
       header.box.boundary = this->Self->Boundary;
     }
+    return data;
   }
 
+private:
   vtkGranularDumpWriter* Self;
-  granular::Communicator& Ranks;
-  granular::DumpWriter Writer;
 };
 
 //------------------------------------------------------------------------------
@@ -237,7 +174,6 @@ int vtkGranularDumpWriter::FillInputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internals)
 {
-  const std::string path = this->FileName;
   if (*TextOf(this->Boundary))
   {
     granular::parse_boundary(this->Boundary); // a wrong one is told before a file is opened
@@ -259,21 +195,13 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
   {
     internals.Tell(this, "Columns are of the Style Custom: this is Atom");
   }
-  granular::DumpFormat format;
+  granular::DumpFormat format =
+    MakeFormat(this->FileName, this->Dialect == LIGGGHTS, this->Columns, this->NumberFormat);
   format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;
-  format.dialect =
-    this->Dialect == LIGGGHTS ? granular::Dialect::Liggghts : granular::Dialect::Lammps;
-  format.binary = granular::is_binary_name(path);
-  format.compression = granular::compression_of_name(path);
   format.atom = { this->Scaled, this->Image };
-  format.numbers = granular::parse_number_format(TextOf(this->NumberFormat));
   format.units = this->WriteUnits;
   format.time = this->WriteTime;
   format.sort_by_id = this->SortById;
-  for (const std::string_view name : granular::split_words(TextOf(this->Columns)))
-  {
-    format.columns.emplace_back(name);
-  }
   granular::Communicator& ranks = internals.GetRanks();
   granular::WriteOptions options;
   options.mode =

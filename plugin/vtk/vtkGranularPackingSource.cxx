@@ -12,6 +12,7 @@
 #include "granular/packing/packing.h"
 
 #include "vtkDataObject.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -131,6 +132,7 @@ void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::Packi
   {
     FillFieldData(vtkDataObject::GetData(outputs, i)->GetFieldData(), frame, {});
   }
+  vtkDataObject::GetData(outputs, BONDS)->GetFieldData()->RemoveArray("Columns"); // of grains
 }
 
 //------------------------------------------------------------------------------

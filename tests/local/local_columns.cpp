@@ -162,6 +162,24 @@ TEST(LocalColumns, TheFrameWithMostRowsDecides)
   }
 }
 
+TEST(LocalColumns, ComponentsOfArrays)
+{
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(granular::local_component_names("force", 3), (Names{ "forcex", "forcey", "forcez" }));
+  EXPECT_EQ(granular::local_component_names("position2", 3), (Names{ "x2", "y2", "z2" }));
+  EXPECT_EQ(granular::local_component_names("force", 1), Names{});
+  EXPECT_EQ(granular::local_component_names("id1", 1), Names{});
+  EXPECT_EQ(granular::local_component_names("", 1), Names{});
+  // they are read back as the array they are of
+  for (const granular::KnownColumn& column : granular::local_known_columns())
+  {
+    const Names names = granular::local_component_names(column.array, column.components);
+    const granular::ColumnSchema schema = granular::make_local_schema(names);
+    EXPECT_EQ(names.empty(), column.array.empty()) << column.name;
+    EXPECT_EQ(schema.arrays().size(), column.array.empty() ? 0u : 1u) << column.name;
+  }
+}
+
 TEST(ColumnMap, NamesAndKeywords)
 {
   using granular::join_words;

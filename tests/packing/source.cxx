@@ -72,11 +72,12 @@ TEST(PackingSource, GivesWhatADumpWould)
          static_cast<vtkDataObject*>(source.Box()), static_cast<vtkDataObject*>(source.Bonds()) })
   {
     vtkFieldData* data = output->GetFieldData();
-    for (const char* name : { "Coordinates", "PointOrigin", "BoxOrigin", "BoxVectors", "Boundary",
-           "Columns", "timestep" })
+    for (const char* name :
+      { "Coordinates", "PointOrigin", "BoxOrigin", "BoxVectors", "Boundary", "timestep" })
     {
       EXPECT_NE(data->GetAbstractArray(name), nullptr) << name;
     }
+    EXPECT_EQ(data->HasArray("Columns") != 0, output != source.Bonds()); // which are not of grains
   }
 }
 

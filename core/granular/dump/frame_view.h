@@ -39,6 +39,7 @@ struct ArrayView
   ScalarType type = ScalarType::Float64;
   std::vector<const void*> components = {}; ///< the first row's value of each
   std::int64_t step = 1;                    ///< values from one row to the next
+  std::vector<std::string> columns = {};    ///< in local data: what its components are called
 
   int size() const noexcept { return static_cast<int>(components.size()); }
 };

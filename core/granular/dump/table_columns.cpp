@@ -15,6 +15,10 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
 /// What the columns of an array are called.
 std::vector<std::string> names_of(const ArrayView& array)
 {
+  if (!array.columns.empty())
+  {
+    return array.columns;
+  }
   const std::string name = as_word(array.name);
   if (array.size() == 1)
   {

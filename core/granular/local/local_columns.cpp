@@ -203,6 +203,19 @@ ColumnSchema make_local_schema(const std::vector<std::string>& names)
   return ColumnSchema(names, table);
 }
 
+std::vector<std::string> local_component_names(std::string_view array, int components)
+{
+  std::vector<std::string> names;
+  for (const KnownColumn& column : table)
+  {
+    if (!column.array.empty() && column.array == array && column.components == components)
+    {
+      names.emplace_back(column.name);
+    }
+  }
+  return names;
+}
+
 bool has_ends(const ColumnSchema& schema)
 {
   return schema.find_array("position1") >= 0 && schema.find_array("position2") >= 0;

@@ -30,6 +30,9 @@ std::vector<std::string> expand_keywords(std::vector<std::string> words, std::si
 /// `position1` and `position2`.
 ColumnSchema make_local_schema(const std::vector<std::string>& names);
 
+/// What the table calls the columns of an array of so many components: forcex forcey forcez; none if it does not know it.
+std::vector<std::string> local_component_names(std::string_view array, int components);
+
 /// Whether the names say where lines are, and between which particles.
 bool has_ends(const ColumnSchema& schema);
 bool has_ids(const ColumnSchema& schema);

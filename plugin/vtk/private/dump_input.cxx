@@ -118,15 +118,14 @@ std::optional<granular::Box> FindBox(vtkFieldData* data)
   return box;
 }
 
-DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
+RowsInput::RowsInput(vtkDataObject* input, const char* rows)
+  : Arrays(rows)
 {
   this->ReadFieldData(input->GetFieldData());
-  this->View.rows = input->GetNumberOfPoints();
-  if (vtkPoints* points = input->GetPoints())
-  {
-    this->View.points = this->Arrays.See(points->GetData(), "points", this->View.rows);
-  }
-  vtkPointData* data = input->GetPointData();
+}
+
+void RowsInput::SeeArrays(vtkDataSetAttributes* data, granular::Notices& notices)
+{
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
@@ -149,6 +148,17 @@ DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
       notices.push_back(notice);
     }
   }
+}
+
+DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
+  : RowsInput(input, "points")
+{
+  this->View.rows = input->GetNumberOfPoints();
+  if (vtkPoints* points = input->GetPoints())
+  {
+    this->View.points = this->Arrays.See(points->GetData(), "points", this->View.rows);
+  }
+  this->SeeArrays(input->GetPointData(), notices);
   static_assert(granular::FrameView::duplicate_row == vtkDataSetAttributes::DUPLICATEPOINT);
   if (vtkUnsignedCharArray* ghosts = input->GetPointGhostArray())
   {
@@ -157,7 +167,7 @@ DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
   }
 }
 
-void DumpInput::ReadFieldData(vtkFieldData* data)
+void RowsInput::ReadFieldData(vtkFieldData* data)
 {
   granular::FrameHeader& header = this->View.header;
   const auto box = FindBox(data);

@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+class vtkDataObject;
+class vtkDataSetAttributes;
 class vtkFieldData;
 class vtkPointSet;
 
@@ -28,26 +30,48 @@ std::optional<granular::Box> FindBox(vtkFieldData* data);
 granular::Box MakeBox(const double origin[3], const double vectors[9]);
 
 /**
- * What the core sees of a data set: its points, point arrays and field data, where they are. Arrays whose
- * memory is not laid out as VTK's own are copied, and kept until this is gone.
+ * What the core sees of the rows of a data set, where they are. Arrays whose memory is not laid out as VTK's own are
+ * copied, and kept until this is gone.
  */
-class DumpInput
+class RowsInput
 {
 public:
-  /**
-   * Arrays that are no columns, of variants for one, are left out with a notice. Throws Error where an array has
-   * not a value for each point.
-   */
-  DumpInput(vtkPointSet* input, granular::Notices& notices);
+  virtual ~RowsInput() = default;
+  RowsInput(const RowsInput&) = delete;
+  void operator=(const RowsInput&) = delete;
 
   granular::FrameView View;
   bool HasTimestep = false; ///< the field data give the timestep
   bool HasTime = false;     ///< and the time
 
+protected:
+  /**
+   * Reads the field data. What rows are is named in errors: see ArrayViews.
+   */
+  RowsInput(vtkDataObject* input, const char* rows);
+
+  /**
+   * Adds the arrays to the view, but that of ghosts. Those that are no columns, of variants for one, are left out with a
+   * notice. Throws Error where an array has not a value for each row.
+   */
+  void SeeArrays(vtkDataSetAttributes* data, granular::Notices& notices);
+
+  ArrayViews Arrays;
+
 private:
   void ReadFieldData(vtkFieldData* data);
+};
 
-  ArrayViews Arrays{ "points" };
+/**
+ * Points, point arrays and field data.
+ */
+class DumpInput : public RowsInput
+{
+public:
+  /**
+   * Throws what SeeArrays does.
+   */
+  DumpInput(vtkPointSet* input, granular::Notices& notices);
 };
 
 /**

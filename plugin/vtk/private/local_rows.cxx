@@ -24,6 +24,7 @@
 #include <array>
 #include <cstring>
 #include <iterator>
+#include <numeric>
 
 namespace vtkGranularPrivate
 {
@@ -34,6 +35,7 @@ LocalRows::LocalRows(vtkDataObject* input)
   {
     count = lines->GetNumberOfCells();
     this->Data = lines->GetCellData();
+    this->MayBeSplit = true;
   }
   else if (auto* table = vtkTable::SafeDownCast(input))
   {
@@ -76,6 +78,44 @@ void LocalRows::FindTuples()
   }
 }
 
+std::vector<vtkIdType> LocalRows::FindBegins() const
+{
+  if (!this->AreAll)
+  {
+    return this->Tuples;
+  }
+  std::vector<vtkIdType> all(static_cast<std::size_t>(this->AllTuples));
+  std::iota(all.begin(), all.end(), vtkIdType{ 0 });
+  return all;
+}
+
+std::vector<vtkIdType> LocalRows::FindEnds() const
+{
+  std::vector<vtkIdType> ends = this->FindBegins();
+  vtkDataArray* parts = this->HasParts() ? this->Data->GetArray(PartArray) : nullptr;
+  vtkIdType later = 0; // parts but the first of each line
+  for (vtkIdType tuple = 0; parts && tuple < this->AllTuples; ++tuple)
+  {
+    later += parts->GetComponent(tuple, 0) != 0 ? 1 : 0;
+  }
+  for (vtkIdType& end : ends)
+  {
+    while (later > 0 && end + 1 < this->AllTuples &&
+      parts->GetComponent(end + 1, 0) == parts->GetComponent(end, 0) + 1)
+    {
+      ++end;
+      --later;
+    }
+  }
+  if (later > 0)
+  {
+    throw granular::Error("expected the parts of each line one after the other, got " +
+      std::to_string(later) +
+      " of other lines or places: with PeriodicLines MinimumImage lines are whole");
+  }
+  return ends;
+}
+
 void LocalRows::Keep(std::pair<vtkTypeInt64, vtkTypeInt64> range)
 {
   std::vector<vtkIdType> kept;
@@ -100,8 +140,9 @@ bool LocalRows::HasNumbers(const char* name) const
 
 bool LocalRows::HasParts() const
 {
-  const int type =
-    this->HasNumbers(PartArray) ? this->Data->GetArray(PartArray)->GetDataType() : VTK_DOUBLE;
+  const int type = this->MayBeSplit && this->HasNumbers(PartArray)
+    ? this->Data->GetArray(PartArray)->GetDataType()
+    : VTK_DOUBLE;
   return type != VTK_FLOAT && type != VTK_DOUBLE;
 }
 

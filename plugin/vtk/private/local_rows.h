@@ -37,6 +37,13 @@ public:
   vtkIdType Count() const { return this->AreAll ? this->AllTuples : std::ssize(this->Tuples); }
 
   /**
+   * The cells, or tuples of the table, at which each row begins, and at which it ends. Throws Error where the parts of a
+   * line do not follow each other.
+   */
+  std::vector<vtkIdType> FindBegins() const;
+  std::vector<vtkIdType> FindEnds() const;
+
+  /**
    * Those of so many from the first: [first, last).
    */
   void Keep(std::pair<vtkTypeInt64, vtkTypeInt64> range);
@@ -78,6 +85,7 @@ private:
   }
 
   vtkDataSetAttributes* Data = nullptr;
+  bool MayBeSplit = false; ///< they are lines
   vtkFieldData* Field = nullptr;
   ArrayViews Arrays{ "rows" };
   vtkIdType AllTuples = 0;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularLocalWriter
+ * @brief   Writes contacts and bonds as `dump local` of LIGGGHTS and LAMMPS does.
+ *
+ * Writes a row for each line of a vtkPolyData, with its cell arrays and its ends, or for each row of a vtkTable: what
+ * vtkGranularLocalReader, vtkGranularLocalJoin and the bonds of vtkGranularPackingSource are. Text, compressed where the name
+ * ends in `.gz` or `.zst`.
+ *
+ * Columns have the names by which vtkGranularLocalReader knows them again: force becomes forcex forcey forcez, another array A
+ * of n components A[1] .. A[n]. The ends of lines are x1 y1 z1 x2 y2 z2: the arrays position1 and position2 where there are
+ * such, else the points, put right by the field data Coordinates, PointOrigin, BoxOrigin and BoxVectors; unwrapped ones are
+ * written as they are. The parts of a line that was split, one after the other with the same integer in the cell array `row`,
+ * are one row, from the first point of the first to the last point of the last. Integers are written with all their digits, and
+ * so are whole numbers in id1 and id2. Without a box in the field data none is written. Duplicates of ghost cells are left out.
+ *
+ * The bytes do not depend on the number of processes and threads. See vtkGranularWriter for the rest.
+ */
+
+#ifndef vtkGranularLocalWriter_h
+#define vtkGranularLocalWriter_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkGranularWriter.h"
+
+class VTKGRANULAR_EXPORT vtkGranularLocalWriter : public vtkGranularWriter
+{
+public:
+  static vtkGranularLocalWriter* New();
+  vtkTypeMacro(vtkGranularLocalWriter, vtkGranularWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum DialectType
+  {
+    LIGGGHTS = 0,
+    LAMMPS = 1
+  };
+
+  ///@{
+  /**
+   * Whose bytes are written. LIGGGHTS: the box with six digits. LAMMPS, the default: with 17 digits.
+   */
+  void SetDialect(int dialect);
+  vtkGetMacro(Dialect, int);
+  ///@}
+
+  ///@{
+  /**
+   * What rows are called, as by `dump_modify label`: one word that is not that of another section of the file, such as BONDS or
+   * CONTACTS. "ENTRIES" by default.
+   */
+  vtkSetStringMacro(Label);
+  vtkGetStringMacro(Label);
+  ///@}
+
+  ///@{
+  /**
+   * Names of columns, or of arrays, separated by blanks. Empty, the default: the columns of the file that the input was
+   * read from, then those of all arrays that are new, but for the cell arrays `length` and `row`, which are made of lines. Example:
+   * "id1 id2 btype x1 y1 z1 x2 y2 z2 force".
+   */
+  vtkSetStringMacro(Columns);
+  vtkGetStringMacro(Columns);
+  ///@}
+
+  ///@{
+  /**
+   * How real numbers look: "%g", the default, which has six digits, "%.Ng" with N from 1 to 17 digits, or "shortest": as
+   * few digits as read back as the same number.
+   */
+  vtkSetStringMacro(NumberFormat);
+  vtkGetStringMacro(NumberFormat);
+  ///@}
+
+protected:
+  vtkGranularLocalWriter();
+  ~vtkGranularLocalWriter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
+
+  int Dialect = LAMMPS;
+  char* Label = nullptr;
+  char* Columns = nullptr;
+  char* NumberFormat = nullptr;
+
+private:
+  vtkGranularLocalWriter(const vtkGranularLocalWriter&) = delete;
+  void operator=(const vtkGranularLocalWriter&) = delete;
+
+  class File;
+};
+
+#endif
