@@ -12,18 +12,26 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTrivialProducer.h"
+#include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkVariantArray.h"
 
 #include <gtest/gtest.h>
@@ -215,6 +223,8 @@ TEST(LocalJoinFilter, PartsOfSplitLinesHaveAllOfTheirRow)
   EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, 0, 10, 9, 4, 4 }));
   EXPECT_EQ(filter.ValuesOf("row"), (Values{ 0, 1, 1, 2 }));
   EXPECT_NE(vtkTypeInt64Array::SafeDownCast(filter.Cells("row")), nullptr);
+  EXPECT_EQ(filter.ValuesOf("part"), (Values{ 0, 0, 1, 0 }));
+  EXPECT_NE(vtkTypeInt32Array::SafeDownCast(filter.Cells("part")), nullptr);
   EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 2, 2, 0 }));
   EXPECT_EQ(filter.ValuesOf("elongation"), (Values{ 4, 1, 1, -1 }));
   EXPECT_EQ(filter.ValuesOf("radius_mean"), (Values{ 1, 1.5, 1.5, 4 }));
@@ -229,7 +239,7 @@ TEST(LocalJoinFilter, PartsOfSplitLinesHaveAllOfTheirRow)
     EXPECT_EQ(data->GetAbstractArray(name)->GetVariantValue(3).ToString(), "c");
   }
 
-  // what was split once is known by its number, and counts once
+  // what was split once is known by the number of the part, and counts once
   vtkNew<vtkPolyData> split;
   split->DeepCopy(filter.Lines());
   Filter again(MakeParticles(), split);
@@ -238,11 +248,86 @@ TEST(LocalJoinFilter, PartsOfSplitLinesHaveAllOfTheirRow)
   again.ExpectSaid("");
   EXPECT_EQ(again.Xs(), (Values{ 1, 1, 1, -1, 4, 4 }));
   EXPECT_EQ(again.ValuesOf("row"), (Values{ 0, 1, 2 }));
+  EXPECT_FALSE(again.Lines()->GetCellData()->HasArray("part"));
   EXPECT_EQ(again.ValuesOf("length"), (Values{ 5, 2, 0 }));
   EXPECT_FALSE(again.Cells("elongation")); // nothing is known of it now
   again->SetPeriodicLines(vtkGranularLocalJoin::SPLIT);
   again->Update();
   EXPECT_EQ(again.ValuesOf("row"), (Values{ 0, 1, 1, 2 }));
+  EXPECT_EQ(again.ValuesOf("part"), (Values{ 0, 0, 1, 0 }));
+
+  // parts in another order, of other lines with the same numbers, without their others: none is lost, none counts twice
+  vtkNew<vtkPolyData> appended;
+  appended->DeepCopy(filter.Lines());
+  vtkNew<vtkIdList> order;
+  for (const vtkIdType cell : { 2, 1, 1, 0, 3, 0, 2 })
+  {
+    order->InsertNextId(cell);
+  }
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType i = 0; i < order->GetNumberOfIds(); ++i)
+  {
+    cells->InsertNextCell(2);
+    cells->InsertCellPoint(2 * order->GetId(i));
+    cells->InsertCellPoint(2 * order->GetId(i) + 1);
+  }
+  appended->SetLines(cells);
+  appended->GetCellData()->CopyAllocate(split->GetCellData());
+  appended->GetCellData()->CopyData(split->GetCellData(), order);
+  Filter both(MakeParticles(), appended);
+  both->SetPeriodicLines(vtkGranularLocalJoin::SPLIT);
+  both->Update();
+  both.ExpectSaid("");
+  EXPECT_EQ(both.Xs(), (Values{ 1, 0, 10, 9, 1, 0, 10, 9, 1, 1, 4, 4, 1, 1 }));
+  EXPECT_EQ(both.ValuesOf("row"), (Values{ 0, 0, 1, 1, 2, 3, 4 }));
+  EXPECT_EQ(both.ValuesOf("part"), (Values{ 0, 1, 0, 1, 0, 0, 0 }));
+}
+
+/// Arrays of the input with the names of those that tell parts.
+TEST(LocalJoinFilter, RowsAndPartsOfOthers)
+{
+  auto table = MakeTable();
+  table->AddColumn(MakeArray("part", { 0.5, 0, 7 })); // no integers: none of ours
+  table->AddColumn(MakeArray("row", { 5, 5, 5 }));
+  Filter filter(MakeParticles(), table);
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.ValuesOf("part"), (Values{ 0.5, 0, 7 }));
+  EXPECT_EQ(filter.ValuesOf("row"), (Values{ 5, 5, 5 }));
+  filter->SetPeriodicLines(vtkGranularLocalJoin::SPLIT);
+  filter->Update();
+  EXPECT_EQ(filter.ValuesOf("part"), (Values{ 0, 0, 1, 0 }));
+  EXPECT_EQ(filter.ValuesOf("row"), (Values{ 0, 1, 1, 2 }));
+  table->GetRowData()->AddArray(MakeArray<vtkIntArray>("part", { 0 }));
+  filter->Modified();
+  filter->Update();
+  filter.ExpectSaid("expected a value for each of 3 rows, got 1");
+  EXPECT_TRUE(IsEmpty(filter));
+}
+
+/// The cells of any data set name particles, whatever they look like.
+TEST(LocalJoinFilter, CellsOfOtherDataSets)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  grid->SetPoints(points);
+  vtkIdType point = 0;
+  for (int cell = 0; cell < 3; ++cell)
+  {
+    grid->InsertNextCell(VTK_VERTEX, 1, &point);
+  }
+  grid->GetCellData()->PassData(MakeTable()->GetRowData());
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 2, 2);
+  image->GetCellData()->PassData(MakeTable()->GetRowData());
+  for (vtkDataSet* cells : { static_cast<vtkDataSet*>(grid), static_cast<vtkDataSet*>(image) })
+  {
+    Filter filter(MakeParticles(), cells);
+    filter->Update();
+    filter.ExpectSaid("");
+    EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, -1, 4, 4 }));
+  }
 }
 
 TEST(LocalJoinFilter, MeansAndDifferences)
@@ -265,6 +350,15 @@ TEST(LocalJoinFilter, MeansAndDifferences)
   EXPECT_EQ(filter.ValuesOf("v_difference"), (Values{ 3, 3, 3, 6, 6, 6, 0, 0, 0 }));
   EXPECT_EQ(filter.Cells("id_difference"), nullptr);
   EXPECT_EQ(filter.Cells("v_mean"), nullptr);
+
+  auto particles = MakeParticles();
+  particles->GetPointData()->GetArray("radius")->SetName("my radius, doubled");
+  Filter blanks(particles, MakeTable());
+  blanks->SetAverages("*");
+  blanks->Update();
+  blanks.ExpectSaid("");
+  EXPECT_EQ(blanks.ValuesOf("my radius, doubled_mean"), (Values{ 1, 1.5, 4 }));
+  EXPECT_EQ(blanks.ValuesOf("v_mean"), (Values{ 2.5, 3.5, 4.5, 4, 5, 6, 0, 0, 0 }));
 }
 
 TEST(LocalJoinFilter, ElongationAndStrain)
@@ -295,6 +389,18 @@ TEST(LocalJoinFilter, ElongationAndStrain)
   filter->Update();
   filter.ExpectSaid("");
   EXPECT_EQ(filter.ValuesOf("strain"), (Values{ 1.5, 0, -1 }));
+
+  // a frame without rows has the same arrays
+  auto none = MakeTable({}, {});
+  none->AddColumn(MakeArray("equilibrium_length", {}));
+  Filter empty(MakeParticles(), none);
+  empty->Update();
+  empty.ExpectSaid("");
+  for (const char* name : { "elongation", "strain" })
+  {
+    ASSERT_NE(empty.Cells(name), nullptr) << name;
+    EXPECT_EQ(empty.Cells(name)->GetNumberOfTuples(), 0);
+  }
 }
 
 /// Lines lie where the points are, and are as long as in the simulation.
@@ -353,9 +459,37 @@ TEST(LocalJoinFilter, WithoutABoxAsWritten)
   particles->GetFieldData()->Initialize();
   Filter filter(particles, MakeTable());
   filter->Update();
-  filter.ExpectSaid("");
+  filter.ExpectSaid("neither the particles nor the lines have a box in their field data");
   EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, 9, 4, 4 }));
   EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 8, 0 }));
+  filter->SetPeriodicLines(vtkGranularLocalJoin::AS_WRITTEN); // is asked for
+  filter->Update();
+  filter.ExpectSaid("");
+}
+
+TEST(LocalJoinFilter, TheBoxOfTheLinesWhereTheParticlesHaveNone)
+{
+  auto particles = MakeParticles();
+  auto table = MakeTable();
+  table->GetFieldData()->PassData(particles->GetFieldData());
+  particles->GetFieldData()->Initialize();
+  Filter filter(particles, table);
+  filter->Update();
+  filter.ExpectSaid("");
+  EXPECT_EQ(filter.Xs(), (Values{ 1, 1, 1, -1, 4, 4 }));
+  EXPECT_EQ(filter.ValuesOf("length"), (Values{ 5, 2, 0 }));
+  vtkFieldData* fields = filter.Lines()->GetFieldData();
+  EXPECT_TRUE(fields->HasArray("BoxVectors") && fields->HasArray("Boundary"));
+  EXPECT_FALSE(fields->HasArray("timestep"));
+
+  // else that of the particles
+  particles = MakeParticles();
+  table->GetFieldData()->AddArray(MakeArray("BoxVectors", { 100, 0, 0, 0, 100, 0, 0, 0, 100 }, 9));
+  Filter own(particles, table);
+  own->Update();
+  own.ExpectSaid("");
+  EXPECT_EQ(own.ValuesOf("length"), (Values{ 5, 2, 0 }));
+  EXPECT_EQ(own.Lines()->GetFieldData()->GetArray("BoxVectors")->GetComponent(0, 0), 10);
 }
 
 TEST(LocalJoinFilter, WhatIsLeftOutIsTold)
@@ -384,12 +518,93 @@ TEST(LocalJoinFilter, WhatIsLeftOutIsTold)
   table->GetFieldData()->AddArray(MakeArray<vtkTypeInt64Array>("timestep", { 200 }));
   AddText(table->GetFieldData(), "Columns", "id1");
   Filter other(MakeParticles(), table);
-  other->Update();
-  other.ExpectSaid("the particles are of timestep 100, the lines of 200");
+  const double times[] = { 0, 1 };
+  for (const int count : { 0, 1, 2 }) // lines without times, or of one, are those of all
+  {
+    if (count > 0)
+    {
+      other.Inputs[1]->GetOutputInformation(0)->Set(
+        vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times, count);
+    }
+    other->Modified();
+    other->Update();
+    other.ExpectSaid(count > 1 ? "the particles are of timestep 100, the lines of 200" : "");
+  }
   EXPECT_EQ(other.Lines()->GetFieldData()->GetArray("timestep")->GetComponent(0, 0), 100);
   EXPECT_EQ(
     other.Lines()->GetFieldData()->GetAbstractArray("Columns")->GetVariantValue(0).ToString(),
     "id1");
+}
+
+namespace
+{
+/// Lines of a time: of that many rows the first has no particle.
+class Frames : public vtkPolyDataAlgorithm
+{
+public:
+  static Frames* New();
+  vtkTypeMacro(Frames, vtkPolyDataAlgorithm);
+
+protected:
+  Frames() { this->SetNumberOfInputPorts(0); }
+
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    const double times[] = { 0, 1, 2, 3 };
+    vtkInformation* info = outputs->GetInformationObject(0);
+    info->Set(Pipeline::TIME_STEPS(), times, 4);
+    info->Set(Pipeline::TIME_RANGE(), times, 2);
+    return 1;
+  }
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    const double time = outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_TIME_STEP());
+    auto* lines = vtkPolyData::GetData(outputs);
+    vtkNew<vtkPoints> points;
+    points->InsertNextPoint(0, 0, 0);
+    lines->SetPoints(points);
+    vtkNew<vtkCellArray> cells;
+    const vtkIdType ends[] = { 0, 0 };
+    cells->InsertNextCell(2, ends);
+    lines->SetLines(cells);
+    lines->GetCellData()->AddArray(MakeArray("id1", { time == 2 ? 11. : 99 }));
+    lines->GetCellData()->AddArray(MakeArray("id2", { 12 }));
+    return 1;
+  }
+
+private:
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+};
+vtkStandardNewMacro(Frames);
+}
+
+/// What holds for all frames is told of the first, and again when it came back or something may have changed it.
+TEST(LocalJoinFilter, WarningsAreNotToldOfEachFrame)
+{
+  vtkNew<Frames> frames;
+  Filter filter(MakeParticles(), nullptr);
+  filter->SetInputConnection(1, frames->GetOutputPort());
+  const char* const said = "1 of 1 lines are left out: no particle has the id of an end";
+  const auto see = [&](double time, const char* text)
+  {
+    filter->UpdateTimeStep(time);
+    filter.ExpectSaid(text);
+    EXPECT_EQ(filter.Lines()->GetNumberOfCells(), time == 2 ? 1 : 0);
+  };
+  see(0, said);
+  see(1, "");
+  see(2, "");
+  see(3, said);
+  see(1, "");
+  filter->SetAverages("radius");
+  see(1, said);
+  see(0, "");
+  frames->Modified();
+  see(0, said);
+  filter.Inputs[0]->SetOutput(MakeParticles());
+  see(1, said);
 }
 
 TEST(LocalJoinFilter, DuplicatesAreLeftOut)

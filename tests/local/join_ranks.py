@@ -86,6 +86,33 @@ for periodic in (0, 1, 2):
         Delete(lines)
         Delete(rows)
 
+# split lines, whose parts are dealt to other ranks: each counts once
+expected = content(alone(0)).tobytes()
+rows = ProgrammableSource(OutputDataSetType="vtkTable", Script=script("slice(0, 97 if rank == 0 else 0)"))
+split = GranularLocalJoin(Input=grains, Lines=rows, PeriodicLines="Split")
+lines = GranularLocalJoin(Input=grains, Lines=RedistributeDataSet(Input=split), Averages="v type", Differences="*")
+assert content(all_ranks.whole(lines, 1000)).tobytes() == expected
+
+# particles that have lost their field data: the box is that of the lines, of which most ranks have neither
+LOSE = """
+from vtkmodules.vtkCommonDataModel import vtkFieldData
+self.GetOutput().ShallowCopy(self.GetInput())
+if ALL or not self.GetInput().GetNumberOfCells():
+    self.GetOutput().SetFieldData(vtkFieldData())
+"""
+lost = ProgrammableFilter(Input=grains, Script=LOSE.replace("ALL", "True"))
+joined = GranularLocalJoin(Input=grains, Lines=rows)
+some = ProgrammableFilter(Input=joined, Script=LOSE.replace("ALL", "False"))
+lines = GranularLocalJoin(Input=lost, Lines=some, Averages="v type", Differences="*")
+assert content(all_ranks.whole(lines, 1000)).tobytes() == expected
+
+# names with blanks
+doubled = Calculator(Input=grains, Function="2*type", ResultArrayName="type, doubled")
+lines = GranularLocalJoin(Input=doubled, Lines=rows, Averages="*")
+cells = all_ranks.whole(lines, 1000).GetCellData()
+twice, once = (vtk_to_numpy(cells.GetArray(name + "_mean")) for name in ("type, doubled", "type"))
+assert len(once) == 96 and (twice == 2 * once).all()
+
 # without ids on one rank: an error of all, and none waits
 without = ProgrammableSource(OutputDataSetType="vtkTable", Script=script().replace(
     '"id2"', '"id2" if rank < ranks - 1 else "other"'))

@@ -653,7 +653,6 @@ TEST(Lines, BondsOfLammps)
               written.lengths.begin(), written.lengths.end(), [](double l) { return l > 1.01; }),
     made.moved);
 }
-}
 
 // All were printed with six digits: where an end is near the origin and the other one across the box, the other counts.
 TEST(Lines, LengthsThatAreNotWhatAFileSays)
@@ -673,4 +672,5 @@ TEST(Lines, LengthsThatAreNotWhatAFileSays)
   EXPECT_EQ(misfits(0, 1e-9, 0, 0), 1);
   EXPECT_EQ(misfits(nan, 1, 1, 2), 1);
   EXPECT_EQ(granular::count_misfits({}, {}, {}, {}), 0);
+}
 }

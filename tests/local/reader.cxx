@@ -440,6 +440,8 @@ TEST(LocalReaderVtk, PeriodicLines)
     (Values{ 0, 1, 1, 1, 1, 1, 8.5, 1, 1, 9, 1, 1, -1, 1, 1, -0.5, 1, 1, 2, 3, 3, 2, 3, 5 }));
   EXPECT_EQ(ValuesOf(reader.Cells("row")), (Values{ 0, 1, 1, 2 }));
   EXPECT_TRUE(vtkTypeInt64Array::SafeDownCast(reader.Cells("row")));
+  EXPECT_EQ(ValuesOf(reader.Cells("part")), (Values{ 0, 0, 1, 0 }));
+  EXPECT_TRUE(vtkTypeInt32Array::SafeDownCast(reader.Cells("part")));
   EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 1, 1, 1, 2 })) << "of all parts";
   EXPECT_EQ(ValuesOf(reader.Cells("id2")), (Values{ 2, 3, 3, 5 }));
   auto* tags = vtkStringArray::SafeDownCast(reader.Cells("tag"));
@@ -452,9 +454,35 @@ TEST(LocalReaderVtk, PeriodicLines)
   EXPECT_EQ(reader.Points(), (Values{ 0, 1, 1, 1, 1, 1, 8.5, 1, 1, -0.5, 1, 1, 2, 3, 3, 2, 3, 5 }));
   EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 1, 9, 2 }));
   EXPECT_FALSE(reader.Cells("row"));
+  EXPECT_FALSE(reader.Cells("part"));
   reader->SetPointOrigin(std::numeric_limits<double>::infinity(), 0, 0);
   reader.Said();
   reader.ExpectError("PointOrigin must be finite");
+}
+
+// What the lines have of their own is not what the file calls so: that is there, too, and the table has it as it is.
+TEST(LocalReaderVtk, ColumnsNamedLikeArraysOfLines)
+{
+  const std::string path = Write("x1 y1 z1 x2 y2 z2 length length_2 row part",
+    { "1 1 1 2 1 1 10 20 30 a", "9.5 1 1 0.5 1 1 11 21 31 b" });
+  LinesReader reader({ path });
+  reader->Update();
+  const std::string length =
+    path + ":1: lines have an array 'length' of their own: that of the file is 'length_3'";
+  EXPECT_EQ(reader.Said(), Texts{ length });
+  EXPECT_EQ(reader.Names(), "length_3 length_2 row part length");
+  EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 1, 1 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("length_3")), (Values{ 10, 11 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("row")), (Values{ 30, 31 }));
+  reader->SetPeriodicLines(vtkGranularLocalReader::SPLIT);
+  reader->Update();
+  EXPECT_EQ(reader.Said().size(), 1u); // of row and part
+  EXPECT_EQ(reader.Names(), "length_3 length_2 row_2 part_2 row part length");
+  EXPECT_EQ(ValuesOf(reader.Cells("row")), (Values{ 0, 1, 1 }));
+  EXPECT_EQ(ValuesOf(reader.Cells("row_2")), (Values{ 30, 31, 31 }));
+  EXPECT_EQ(reader.Cells("part_2")->GetVariantValue(2).ToString(), "b");
+  EXPECT_EQ(reader.Names(true), "length length_2 row part");
+  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("length")), (Values{ 10, 11 }));
 }
 
 // Ends need all of x y z.
@@ -477,7 +505,7 @@ TEST(LocalReaderVtk, FramesWithoutRows)
   for (int periodic = 0; periodic < 3; ++periodic)
   {
     reader->SetPeriodicLines(periodic);
-    const std::string row = periodic == vtkGranularLocalReader::SPLIT ? "row " : "";
+    const std::string row = periodic == vtkGranularLocalReader::SPLIT ? "row part " : "";
     for (const double time : { 10.0, 20.0, 30.0, 10.0 })
     {
       reader->UpdateTimeStep(time);
@@ -590,7 +618,7 @@ TEST(LocalReaderVtk, Pieces)
     for (int piece = 0; piece < pieces; ++piece)
     {
       reader->UpdatePiece(piece, pieces, 0);
-      EXPECT_EQ(reader.Names(), "id1 row length");
+      EXPECT_EQ(reader.Names(), "id1 row part length");
       const Values own = ValuesOf(reader.Cells("id1"));
       ids.insert(ids.end(), own.begin(), own.end());
       const Values row = ValuesOf(reader.Cells("row"));
