@@ -59,7 +59,7 @@ std::string name_of(const std::string& folder, const Form& form, std::size_t fil
 /// A new file: file systems take their time to write over one.
 std::string put(const std::string& name, const std::string& text)
 {
-  std::filesystem::remove(std::filesystem::path(GRANULAR_OUTPUT) / name);
+  std::filesystem::remove(own_path(name));
   return write_text(name, text);
 }
 

@@ -7,6 +7,8 @@
 #include "granular/local/local_file.h"
 #include "granular/local/local_reader.h"
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -19,10 +21,17 @@ inline std::string local_file(const std::string& name)
   return std::string(GRANULAR_DATA) + "/good/local/" + name;
 }
 
-/// A file of that content in the folder of the test. Returns its path.
+/// In a folder of the test's own: tests may run at the same time.
+inline std::filesystem::path own_path(const std::string& name)
+{
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  return std::filesystem::path(GRANULAR_OUTPUT) / test->test_suite_name() / test->name() / name;
+}
+
+/// A file of that content. Returns its path.
 inline std::string write_text(const std::string& name, const std::string& text)
 {
-  const std::filesystem::path path = std::filesystem::path(GRANULAR_OUTPUT) / name;
+  const std::filesystem::path path = own_path(name);
   std::filesystem::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << text;
   return path.string();
