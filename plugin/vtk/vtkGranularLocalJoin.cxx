@@ -11,6 +11,7 @@
 #include "granular/base/archive.h"
 #include "granular/base/number_print.h"
 #include "granular/base/words.h"
+#include "granular/dump/point_forms.h"
 #include "granular/dump/shared_header.h"
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
@@ -31,7 +32,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
