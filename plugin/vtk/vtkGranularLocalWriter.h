@@ -10,8 +10,8 @@
  * Columns have the names by which vtkGranularLocalReader knows them again: force becomes forcex forcey forcez, another array A
  * of n components A[1] .. A[n]. The ends of lines are x1 y1 z1 x2 y2 z2: the arrays position1 and position2 where there are
  * such, else the points, put right by the field data Coordinates, PointOrigin, BoxOrigin and BoxVectors; unwrapped ones are
- * written as they are. The parts of a line that was split, one after the other with the same integer in the cell array `row`,
- * are one row, from the first point of the first to the last point of the last. Integers are written with all their digits, and
+ * written as they are. The parts of a line that was split, one after the other with the numbers 0, 1, ... in the cell array
+ * `part`, are one row, from the first point of the first to the last point of the last. Integers are written with all their digits, and
  * so are whole numbers in id1 and id2. Without a box in the field data none is written. Duplicates of ghost cells are left out.
  *
  * The bytes do not depend on the number of processes and threads. See vtkGranularWriter for the rest.
@@ -56,7 +56,7 @@ public:
   ///@{
   /**
    * Names of columns, or of arrays, separated by blanks. Empty, the default: the columns of the file that the input was
-   * read from, then those of all arrays that are new, but for the cell arrays `length` and `row`, which are made of lines. Example:
+   * read from, then those of all arrays that are new, but for the cell arrays `length`, `row` and `part`, which are made of lines. Example:
    * "id1 id2 btype x1 y1 z1 x2 y2 z2 force".
    */
   vtkSetStringMacro(Columns);
