@@ -538,7 +538,15 @@ TEST(LocalJoinFilter, WhatIsLeftOutIsTold)
 
 namespace
 {
-/// Lines of a time: of that many rows the first has no particle.
+void HaveTimes(vtkInformation* info)
+{
+  const double times[] = { 0, 1, 2, 3 };
+  const double range[] = { 0, 3 };
+  info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times, 4);
+  info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+}
+
+/// One line, which only at the time 2 has particles at both ends.
 class Frames : public vtkPolyDataAlgorithm
 {
 public:
@@ -551,10 +559,7 @@ protected:
   int RequestInformation(
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
   {
-    const double times[] = { 0, 1, 2, 3 };
-    vtkInformation* info = outputs->GetInformationObject(0);
-    info->Set(Pipeline::TIME_STEPS(), times, 4);
-    info->Set(Pipeline::TIME_RANGE(), times, 2);
+    HaveTimes(outputs->GetInformationObject(0));
     return 1;
   }
 
@@ -586,6 +591,7 @@ TEST(LocalJoinFilter, WarningsAreNotToldOfEachFrame)
   vtkNew<Frames> frames;
   Filter filter(MakeParticles(), nullptr);
   filter->SetInputConnection(1, frames->GetOutputPort());
+  HaveTimes(filter.Inputs[0]->GetOutputInformation(0)); // the times are those of the particles
   const char* const said = "1 of 1 lines are left out: no particle has the id of an end";
   const auto see = [&](double time, const char* text)
   {
