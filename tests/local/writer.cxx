@@ -300,16 +300,32 @@ TEST(LocalWriter, PartsOfSplitLinesAreOneRow)
   auto lines = make();
   AddIds(lines->GetCellData(), "id1", { 4, 4, 5, 5, 5, 6 });
   AddIds(lines->GetCellData(), "row", { 0, 0, 1, 1, 1, 2 });
+  AddIds(lines->GetCellData(), "part", { 0, 1, 0, 1, 2, 0 });
   const Lines expected{ "4 1 5 5 9 6 5", "5 9 4 5 1 8 5", "6 2 2 2 3 3 3" };
   EXPECT_EQ(Written(lines), Frame("id1 x1 y1 z1 x2 y2 z2", expected));
-  EXPECT_EQ(Written(lines, "row id1"), Frame("row id1", { "0 4", "1 5", "2 6" }));
-  // lines of two files, whose rows have the same numbers, are lines of their own
-  AddIds(lines->GetCellData(), "row", { 0, 0, 1, 1, 2, 1 });
-  EXPECT_EQ(Written(lines, "id1 x2"), Frame("id1 x2", { "4 9", "5 10", "5 1", "6 3" }));
+  EXPECT_EQ(Written(lines, "row part id1"), Frame("row part id1", { "0 0 4", "1 0 5", "2 0 6" }));
+  // rows of several files have the same numbers, and are rows of their own
+  AddIds(lines->GetCellData(), "row", { 0, 0, 0, 0, 0, 0 });
+  EXPECT_EQ(Written(lines, "id1 x2"), Frame("id1 x2", { "4 9", "5 1", "6 3" }));
   // numbers that are no integers tell nothing
-  lines = make();
-  AddValues(lines->GetCellData(), "row", std::vector<double>(6, 1));
+  AddValues(lines->GetCellData(), "part", std::vector<double>{ 0, 1, 0, 1, 2, 0 });
   EXPECT_EQ(Written(lines, "x1"), Frame("x1", { "1", "10", "9", "9", "0", "2" }));
+}
+
+TEST(LocalWriterErrors, PartsThatAreNotTogether)
+{
+  auto lines = MakeLines(std::vector<Polyline>(3, { { 0, 0, 0 }, { 1, 0, 0 } }));
+  AddIds(lines->GetCellData(), "part", { 0, 0, 1 });
+  EXPECT_EQ(Written(lines, "part x1"), Frame("part x1", { "0 0", "0 0" }));
+  for (const Integers& parts : { Integers{ 0, 2, 0 }, Integers{ 1, 0, 0 } })
+  {
+    AddIds(lines->GetCellData(), "part", parts);
+    LocalWriter writer(NewName("a.bonds"), lines);
+    writer.ExpectError(vtkErrorCode::UnknownError,
+      "expected the parts of each line one after the other, got 1 of other lines or places: with "
+      "PeriodicLines MinimumImage lines are whole");
+    EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
+  }
 }
 
 TEST(LocalWriter, DuplicatesAreLeftOut)
@@ -447,15 +463,16 @@ TEST(LocalWriter, JoinedLinesAreReadBack)
 TEST(LocalWriterErrors, OtherThanLinesAndTables)
 {
   LocalWriter writer(WriteFile("a.bonds", "the old file"));
-  const std::string expected = "expected lines as vtkPolyData, or a vtkTable with a row for each, ";
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, MakeBonds());
   writer->SetInputDataObject(blocks);
   writer.ExpectUnsupported(
-    expected + "got a vtkMultiBlockDataSet: the filter MergeBlocks makes one of it");
+    "expected lines as cells of a vtkDataSet, or a vtkTable with a row for each, got a "
+    "vtkMultiBlockDataSet: the filter MergeBlocks makes one of it");
   vtkNew<vtkImageData> image;
   writer->SetInputDataObject(image);
-  writer.ExpectUnsupported(expected + "got a vtkImageData");
+  writer.ExpectUnsupported("expected a vtkPolyData with lines, or a vtkTable, to write, got a "
+                           "vtkImageData: the filter ExtractSurface makes lines of it");
   EXPECT_EQ(Content(writer->GetFileName()), "the old file");
   EXPECT_EQ(Beside(writer->GetFileName()), Lines{ "a.bonds" });
 }
@@ -491,10 +508,10 @@ TEST(LocalWriterErrors, Properties)
   for (const char* label : { "MY BONDS", "", "ATOMS" })
   {
     writer->SetLabel(label);
-    expect(word + label + "'");
+    writer.ExpectUnsupported(word + label + "'");
   }
   writer->SetLabel(nullptr);
-  expect(word + "'");
+  writer.ExpectUnsupported(word + "'");
   writer->SetLabel("BONDS");
   writer->SetColumns("id1 id3");
   expect("column 'id3': expected an array to make it from, got none: there are id1, id2, btype, "
@@ -522,9 +539,8 @@ TEST(LocalWriterErrors, Properties)
 TEST(LocalWriterErrors, BinaryNames)
 {
   LocalWriter writer(NewName("a.bin"), MakeBonds());
-  EXPECT_EQ(writer->Write(), 0);
-  EXPECT_EQ(writer.Said->Errors,
-    Lines{ "expected text for local data, got a binary dump: no program reads that" });
+  writer.ExpectUnsupported(
+    "expected text for local data, got a binary dump: no program reads that");
   EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
 }
 
