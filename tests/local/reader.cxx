@@ -531,7 +531,8 @@ TEST(LocalReaderVtk, TheFirstFrameHasTheArraysOfAll)
     local_file("contacts.dump") +
       ":1: the columns are not named: taken for the preset ContactsForce (x1 y1 z1 x2 y2 z2 id1 "
       "id2 periodic forcex forcey forcez), which fits the values, and not for BondsForce "
-      "WallContactsForce");
+      "WallContactsForce; that forces are forces, and not torques, the values do not say: see "
+      "ColumnMap");
   for (const double time : { 1000.0, 4000.0, 0.0 })
   {
     reader->UpdateTimeStep(time);
@@ -591,7 +592,10 @@ TEST(LocalReaderVtk, Ids)
   rounded->Update();
   const Texts said = rounded.Said();
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0].rfind(path + ":1: 2 ids are printed with an exponent and have lost", 0), 0u)
+  EXPECT_EQ(
+    said[0].rfind(
+      path + ":1: column 'id1 and id2': 2 ids are printed with an exponent and have lost", 0),
+    0u)
     << said[0];
 }
 
