@@ -5,7 +5,7 @@
     granular.files("dump_*.%.gz")      the files of a run, for FileNames of a reader
     granular.load_plugin()             the proxies for paraview.simple: GranularDumpReader, ...
     granular.show(reader)              particles as spheres of their radius
-    granular.save(filter, "run.dump")  what a filter shows as a particle dump, decomposition, Euler cells
+    granular.save(filter, "run.dump")  what a filter shows as a particle dump, contacts, decomposition, Euler cells
     granular.set_pool_limit(mib)       how much memory readers keep for the next frame
     granular.write_series(files, dt)   a .series file: one clock for STL, VTK and dump files
 
