@@ -6,6 +6,7 @@
 
 #include "granular/base/byte_source_unpack.h"
 #include "granular/decomposition/decomposition_file.h"
+#include "granular/dump/named_steps.h"
 
 #include <gtest/gtest.h>
 
