@@ -8,7 +8,8 @@ from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
 grains = OpenDataFile(str(data / "settled_grains.dump.gz"))
-contacts = OpenDataFile(str(data / "settled_contacts.dump.gz"))  # a warning says what its columns are taken for
+# The columns are called c_fc[1] and so on. Without a Preset the reader finds out what they are, and says what it took.
+contacts = OpenDataFile(str(data / "settled_contacts.dump.gz"), Preset="ContactsForce")
 
 # Tubes take their radius from an array of points: each line has two of its own, so that nothing is mixed.
 strength = Calculator(Input=contacts, AttributeType="Cell Data", ResultArrayName="strength", Function="mag(force)")

@@ -8,7 +8,8 @@ from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
 beads = OpenDataFile(str(data / "chain.dump"), TimestepSize=0.004)
-bonds = OpenDataFile(str(data / "chain_bonds.dump"), TimestepSize=0.004)  # rows of ids: no lines by themselves
+# Columns in the order of the dump command; rows with ids alone are no lines by themselves.
+bonds = OpenDataFile(str(data / "chain_bonds.dump"), TimestepSize=0.004, Preset="BondTypeIdsForce")
 lines = GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1), Averages="v", EquilibriumLength=1.05)
 
 LoadPalette("WhiteBackground")

@@ -572,7 +572,8 @@ TEST_F(IndexFileTest, TrapKindsThatNoFileHas)
   EXPECT_EQ(with({ "id" }, {}, FrameKind::text), "");
   EXPECT_EQ(with({ "id" }, {}, last), "");
   const std::string layout = "expected a layout of binary dumps, got something else";
-  EXPECT_EQ(with({ "id" }, {}, -2), layout);
+  EXPECT_EQ(with({ "id" }, {}, FrameKind::bare), "");
+  EXPECT_EQ(with({ "id" }, {}, FrameKind::bare - 1), layout);
   EXPECT_EQ(with({ "id" }, {}, last + 1), layout);
   EXPECT_EQ(with({}, {}, 0), "expected a column, got something else");
   EXPECT_EQ(with({ "v_a" }, { Text }, FrameKind::text), "");

@@ -5,8 +5,6 @@ import os
 from paraview.simple import *
 
 texts = {
-    "local.dump": "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS pp pp ff\n"
-                  "0 1\n0 1\n0 1\nITEM: ENTRIES c_1\n1\n",
     "database.dump": "-- PostgreSQL database dump\n",
     "empty.dump": "",
 }
@@ -22,3 +20,10 @@ for name, text in texts.items():
 good = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 assert factory.CanReadFile(good, session)
 assert factory.GetReaderName() == "GranularDumpReader"
+
+# what counts other things than particles is another reader's
+with open("local.dump", "w") as file:
+    file.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS pp pp ff\n"
+               "0 1\n0 1\n0 1\nITEM: ENTRIES c_1\n1\n")
+assert factory.CanReadFile(os.path.abspath("local.dump"), session)
+assert factory.GetReaderName() == "GranularLocalReader"
