@@ -89,8 +89,32 @@ for periodic in (0, 1, 2):
 # split lines, whose parts are dealt to other ranks: each counts once
 expected = content(alone(0)).tobytes()
 rows = ProgrammableSource(OutputDataSetType="vtkTable", Script=script("slice(0, 97 if rank == 0 else 0)"))
-split = GranularLocalJoin(Input=grains, Lines=rows, PeriodicLines="Split")
-lines = GranularLocalJoin(Input=grains, Lines=RedistributeDataSet(Input=split), Averages="v type", Differences="*")
+DEAL = """
+def deal(given, output):
+    from vtkmodules.vtkCommonCore import vtkIdList
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from vtkmodules.vtkFiltersCore import vtkExtractCells
+    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+    controller = vtkMultiProcessController.GetGlobalController()
+    rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+    lines = vtkPolyData()
+    if rank == 0:
+        lines.ShallowCopy(given)
+    if ranks > 1:
+        controller.Broadcast(lines, 0)
+    cells, extract = vtkIdList(), vtkExtractCells()
+    for cell in range(rank, lines.GetNumberOfCells(), ranks):
+        cells.InsertNextId(cell)
+    extract.SetInputData(lines)
+    extract.SetCellList(cells)
+    extract.Update()
+    output.ShallowCopy(extract.GetOutput())
+deal(self.GetInput(), self.GetOutput())
+"""
+parted = GranularLocalJoin(Input=grains, Lines=rows, PeriodicLines="Split")
+assert all_ranks.whole(parted, 1000).GetNumberOfCells() > 96
+dealt = ProgrammableFilter(Input=parted, OutputDataSetType="vtkUnstructuredGrid", Script=DEAL)
+lines = GranularLocalJoin(Input=grains, Lines=dealt, Averages="v type", Differences="*")
 assert content(all_ranks.whole(lines, 1000)).tobytes() == expected
 
 # particles that have lost their field data: the box is that of the lines, of which most ranks have neither
