@@ -274,6 +274,8 @@ TEST(LocalFile, DataFilesThatAreNotComplete)
   EXPECT_EQ(text_error("title\n\n2 atoms\n1 bonds"),
     ":4: expected a header that counts bonds, got the end of the file");
   EXPECT_EQ(text_error(head), ":10: expected a section Bonds with 1 rows, got none");
+  EXPECT_EQ(text_error(head + "\nBonds\n\n1 1 1 2"),
+    ":12: expected 1 rows in the section Bonds, got 0, and a last line without its line feed");
   EXPECT_EQ(text_error(head + "\nBonds\n\n"), ":12: expected 1 rows in the section Bonds, got 0");
   EXPECT_EQ(
     text_error("title\n\n2 atoms\n3 bonds\n\nBonds\n\n1 1 1 2\n2 1 2 1\n\nAtoms\n\n1 1 1 0 0 0\n"),

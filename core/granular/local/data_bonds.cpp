@@ -95,6 +95,19 @@ std::int64_t pass_rows(TextScanner& scanner, std::int64_t most, Progress& progre
   return rows;
 }
 
+/// Whether the text ends in a line that its writer may not be done with.
+bool has_more(const ByteSource& source, TextScanner& scanner)
+{
+  std::string_view line;
+  if (scanner.next(line))
+  {
+    scanner.put_back();
+    return false;
+  }
+  char byte = 0;
+  return source.read(scanner.offset(), &byte, 1) > 0;
+}
+
 /// The lines of a file one after the other, with progress.
 bool find_section(TextScanner& scanner, DataHeader& header, Progress& progress, double size)
 {
@@ -177,7 +190,8 @@ void index_data_bonds(const ByteSource& source, FileIndex& index, Progress& prog
     set_defect(index,
       { where,
         "expected " + std::to_string(wanted) + " rows in the section Bonds, got " +
-          std::to_string(entry.rows) });
+          std::to_string(entry.rows) +
+          (has_more(source, scanner) ? ", and a last line without its line feed" : "") });
     return;
   }
   FrameKind kind;
