@@ -2,6 +2,7 @@
 #include "vtkGranularDumpWriter.h"
 
 #include "private/rows_file.h"
+#include "private/text_of.h"
 
 #include "granular/base/words.h"
 
@@ -21,11 +22,6 @@ vtkStandardNewMacro(vtkGranularDumpWriter);
 
 namespace
 {
-const char* TextOf(const char* text)
-{
-  return text ? text : "";
-}
-
 bool HasBox(const double vectors[9])
 {
   return std::any_of(vectors, vectors + 9, [](double value) { return value != 0; });

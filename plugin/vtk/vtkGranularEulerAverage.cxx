@@ -9,6 +9,7 @@
 #include "private/particles.h"
 #include "private/piece_request.h"
 #include "private/processes.h"
+#include "private/text_of.h"
 
 #include "granular/base/number_print.h"
 #include "granular/euler/average.h"
@@ -46,10 +47,6 @@ bool AreGiven(const double bounds[6])
   return bounds[0] <= bounds[1] && bounds[2] <= bounds[3] && bounds[4] <= bounds[5];
 }
 
-std::string TextOf(const char* text)
-{
-  return text ? text : "";
-}
 }
 
 //------------------------------------------------------------------------------

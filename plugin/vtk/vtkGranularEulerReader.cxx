@@ -63,13 +63,7 @@ void pass(Archive& archive, Form& form)
 {
   archive.text(form.Path);
   archive.number(form.Step);
-  std::size_t count = form.Names.size();
-  archive.number(count);
-  form.Names.resize(count);
-  for (std::string& name : form.Names)
-  {
-    archive.text(name);
-  }
+  granular::pass(archive, form.Names);
   archive.number(form.IsImage);
   archive.number(form.Grid);
 }

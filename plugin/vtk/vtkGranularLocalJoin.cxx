@@ -7,6 +7,7 @@
 #include "private/particles.h"
 #include "private/piece_request.h"
 #include "private/processes.h"
+#include "private/text_of.h"
 
 #include "granular/base/archive.h"
 #include "granular/base/number_print.h"
@@ -47,11 +48,6 @@ vtkStandardNewMacro(vtkGranularLocalJoin);
 namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-std::string TextOf(const char* text)
-{
-  return text ? text : "";
-}
 
 std::string TimestepOf(vtkFieldData* data)
 {
@@ -99,13 +95,7 @@ template <class Archive>
 void pass(Archive& archive, KnownNames& known)
 {
   archive.number(known.HasParticles);
-  std::size_t count = known.Names.size();
-  archive.number(count);
-  known.Names.resize(count);
-  for (std::string& name : known.Names)
-  {
-    archive.text(name);
-  }
+  granular::pass(archive, known.Names);
 }
 
 vtkSmartPointer<vtkDoubleArray> MakeEmpty(const char* name)
@@ -208,9 +198,9 @@ private:
         this->CountMisfits();
         this->Remarks = { this->FindExample(id1, id2), this->CompareTimesteps() };
       });
-    ranks.sum({ &this->All.Rows, 1 });
-    ranks.sum({ &this->All.Misfits, 1 });
-    ranks.sum({ &this->All.WithoutRest, 1 });
+    std::array<std::int64_t, 3> sums = { this->All.Rows, this->All.Misfits, this->All.WithoutRest };
+    ranks.sum(sums);
+    this->All = { sums[0], sums[1], sums[2] };
     for (std::string& remark : this->Remarks)
     {
       const std::vector<std::string> said = ranks.all_gather(remark);
@@ -229,7 +219,7 @@ private:
       this->Rows->Keep(range);
     }
     this->All.Rows = this->Rows->Count();
-    this->RestKnown = this->Rows->Has(TextOf(this->Self->EquilibriumLengthArray).c_str());
+    this->RestKnown = this->Rows->Has(TextOf(this->Self->EquilibriumLengthArray));
     const double rest = this->Self->EquilibriumLength;
     if (!(rest >= 0 && rest <= std::numeric_limits<double>::max()))
     {

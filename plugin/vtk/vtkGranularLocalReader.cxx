@@ -51,13 +51,7 @@ struct Meaning
 template <class Archive>
 void pass(Archive& archive, Meaning& meaning)
 {
-  std::size_t count = meaning.Names.size();
-  archive.number(count);
-  meaning.Names.resize(count);
-  for (std::string& name : meaning.Names)
-  {
-    archive.text(name);
-  }
+  granular::pass(archive, meaning.Names);
   archive.text(meaning.Error);
   granular::pass(archive, meaning.Where);
   granular::pass(archive, meaning.Notices);
@@ -148,10 +142,15 @@ void vtkGranularLocalReader::Internals::Look(Self* self)
   {
     AlgorithmProgress progress(self);
     Meanings found;
+    std::set<const granular::FrameKind*> seen;
     const granular::FrameIndex& index = self->Series->Index;
     for (std::size_t frame = 0; frame < index.size(); ++frame)
     {
       const granular::FramePiece piece = index.first_piece(frame);
+      if (!seen.insert(piece.entry.kind.get()).second)
+      {
+        continue;
+      }
       const std::string columns = piece.entry.kind->schema.text();
       if (found.count(columns) == 0)
       {

@@ -4,6 +4,7 @@
 #include "private/local_input.h"
 #include "private/name_file.h"
 #include "private/rows_file.h"
+#include "private/text_of.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
@@ -13,14 +14,6 @@
 using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularLocalWriter);
-
-namespace
-{
-const char* TextOf(const char* text)
-{
-  return text ? text : "";
-}
-}
 
 //------------------------------------------------------------------------------
 /**

@@ -69,6 +69,12 @@ void pass(Archive& archive, Notice& notice)
   archive.text(notice.text);
 }
 
+template <class Archive>
+void pass(Archive& archive, std::string& text)
+{
+  archive.text(text);
+}
+
 /// A list of things that pass() knows.
 template <class Archive, class Thing>
 void pass(Archive& archive, std::vector<Thing>& things)

@@ -154,16 +154,18 @@ bool is_dump(std::string_view first_bytes)
   return is_text_dump(first_bytes) || is_binary_dump(first_bytes);
 }
 
+std::string first_bytes_of(const ByteSource& source)
+{
+  std::string bytes(65536, '\0');
+  bytes.resize(source.read(0, bytes.data(), bytes.size()));
+  return bytes;
+}
+
 bool is_dump_file(const std::string& path) noexcept
 {
-  // a header of ordinary length is there many times over, and more is not read for a question
-  constexpr std::size_t enough = 65536;
   try
   {
-    const std::unique_ptr<ByteSource> source = unpack(open_file(path));
-    std::string bytes(enough, '\0');
-    bytes.resize(source->read(0, bytes.data(), bytes.size()));
-    return is_dump(bytes);
+    return is_dump(first_bytes_of(*unpack(open_file(path))));
   }
   catch (const std::exception&)
   {

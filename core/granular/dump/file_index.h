@@ -47,6 +47,10 @@ struct FileIndex
 /// index_dump can read.
 bool is_dump(std::string_view first_bytes);
 
+/// The first 64 KiB of a file, uncompressed: headers of ordinary length are there many times over, and more is not read to find
+/// out what a file is.
+std::string first_bytes_of(const ByteSource& source);
+
 /// The same of a file by name, which may be compressed: looks at its first 64 KiB. Never throws:
 /// what cannot be read is no dump.
 bool is_dump_file(const std::string& path) noexcept;

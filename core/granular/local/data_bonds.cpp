@@ -108,7 +108,7 @@ bool has_more(const ByteSource& source, TextScanner& scanner)
   return source.read(scanner.offset(), &byte, 1) > 0;
 }
 
-/// The lines of a file one after the other, with progress.
+/// Goes behind the line that begins the section Bonds, and takes the header on the way. False: there is no such line.
 bool find_section(TextScanner& scanner, DataHeader& header, Progress& progress, double size)
 {
   constexpr std::int64_t often = 1 << 16;

@@ -17,15 +17,6 @@ namespace granular
 {
 namespace
 {
-constexpr std::size_t enough_bytes = 65536; ///< for a header of ordinary length, many times over
-
-std::string first_bytes_of(const ByteSource& source)
-{
-  std::string bytes(enough_bytes, '\0');
-  bytes.resize(source.read(0, bytes.data(), bytes.size()));
-  return bytes;
-}
-
 /// Whether a text begins with a row of numbers; so does one that is empty, of a process without rows.
 bool is_bare(std::string_view first_bytes)
 {

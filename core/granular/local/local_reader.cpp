@@ -101,7 +101,7 @@ std::int64_t count_rounded(const std::vector<FramePiece>& pieces, const DumpRequ
   DumpRequest texts = request;
   texts.ranges = false;
   texts.wanted = [&](const ArrayInfo& array)
-  { return std::ranges::find(ids, array.name) != std::end(ids); };
+  { return std::ranges::find(ids, array.name) != std::end(ids) && request.wanted(array); };
   for (const int end : { 0, 1 })
   {
     const int column = request.schema->find(ColumnRole::Id, end);
@@ -147,8 +147,7 @@ DumpRequest table_request(const LocalRequest& request, const ColumnSchema& schem
   table.pool = request.lines.pool;
   table.wanted = [&](const ArrayInfo& array)
   {
-    return is_end_array(array.name) || array.name == "id1" || array.name == "id2" ||
-      array.name == "dist" || array.name == "periodic" || !request.wanted ||
+    return is_end_array(array.name) || array.name == "periodic" || !request.wanted ||
       request.wanted(array.name);
   };
   return table;

@@ -4,6 +4,7 @@
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationInformationVectorKey.h"
@@ -186,6 +187,17 @@ vtkSmartPointer<vtkDoubleArray> TakeDoubles(
   auto array = TakeBlock<vtkDoubleArray>(block, tuples, components);
   array->SetName(name);
   return array;
+}
+
+vtkSmartPointer<vtkAbstractArray> TakeTuples(vtkAbstractArray* array, vtkIdList* tuples)
+{
+  auto taken = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+  taken->SetName(array->GetName());
+  taken->SetNumberOfComponents(array->GetNumberOfComponents());
+  taken->CopyComponentNames(array);
+  taken->SetNumberOfTuples(tuples->GetNumberOfIds());
+  array->GetTuples(tuples, taken);
+  return taken;
 }
 
 vtkSmartPointer<vtkAbstractArray> MakeDoubles(const char* name, const std::vector<double>& values)

@@ -16,6 +16,7 @@
 class vtkAbstractArray;
 class vtkCellArray;
 class vtkDoubleArray;
+class vtkIdList;
 class vtkPoints;
 
 namespace vtkGranularPrivate
@@ -47,6 +48,11 @@ vtkSmartPointer<vtkAbstractArray> MakeStrings(
  */
 vtkSmartPointer<vtkDoubleArray> TakeDoubles(
   const char* name, granular::Block& block, vtkIdType tuples, int components);
+
+/**
+ * The tuples of an array that are listed, as another one of its kind.
+ */
+vtkSmartPointer<vtkAbstractArray> TakeTuples(vtkAbstractArray* array, vtkIdList* tuples);
 
 /**
  * Cells with so many points of their own each, one after the other; with 32-bit indices where they suffice. None is

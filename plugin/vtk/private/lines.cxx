@@ -42,13 +42,7 @@ vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granul
   vtkNew<vtkIdList> rows;
   rows->SetNumberOfIds(static_cast<vtkIdType>(lines.rows.size()));
   std::copy(lines.rows.begin(), lines.rows.end(), rows->GetPointer(0));
-  auto taken = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
-  taken->SetName(array->GetName());
-  taken->SetNumberOfComponents(array->GetNumberOfComponents());
-  taken->CopyComponentNames(array);
-  taken->SetNumberOfTuples(rows->GetNumberOfIds());
-  array->GetTuples(rows, taken);
-  return taken;
+  return TakeTuples(array, rows);
 }
 
 void AddRows(vtkPolyData* output, vtkTable* rows, const granular::Lines& lines, bool split,

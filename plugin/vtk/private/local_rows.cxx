@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "local_rows.h"
 
+#include "arrays.h"
 #include "lines.h"
 
 #include "granular/base/error.h"
@@ -225,18 +226,7 @@ void LocalRows::Pass(
       continue;
     }
     this->Arrays.CheckTuples(from, name, this->AllTuples);
-    if (same)
-    {
-      to->AddArray(from);
-      continue;
-    }
-    auto copy = vtkSmartPointer<vtkAbstractArray>::Take(from->NewInstance());
-    copy->SetName(name);
-    copy->SetNumberOfComponents(from->GetNumberOfComponents());
-    copy->CopyComponentNames(from);
-    copy->SetNumberOfTuples(tuples->GetNumberOfIds());
-    from->GetTuples(tuples, copy);
-    to->AddArray(copy);
+    to->AddArray(same ? from : TakeTuples(from, tuples).Get());
   }
 }
 }

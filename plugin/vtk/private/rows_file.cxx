@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rows_file.h"
 
+#include "text_of.h"
+
 #include "granular/base/words.h"
 
 #include <algorithm>
@@ -13,11 +15,6 @@ namespace vtkGranularPrivate
 {
 namespace
 {
-std::string TextOf(const char* text)
-{
-  return text ? text : "";
-}
-
 /**
  * What the pipeline says beyond the field data.
  */
