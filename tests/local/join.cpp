@@ -125,6 +125,54 @@ TEST(LocalJoin, OneTouchesAll)
   on_ranks(check_hub);
 }
 
+/// A particle with a million partners, on one process and on three, of which the last has all rows.
+TEST(LocalJoin, AMillionPartners)
+{
+  constexpr std::int64_t partners = 1'000'000;
+  constexpr std::int64_t hub = 500'000;
+  const auto id_of = [](std::int64_t number) { return number * 7919 - 5; };
+  for (const int size : { 1, 3 })
+  {
+    run_ranks(size,
+      [&](Communicator& ranks)
+      {
+        std::vector<std::int64_t> ids;
+        std::vector<double> points;
+        for (std::int64_t i = ranks.rank(); i <= partners; i += size)
+        {
+          ids.push_back(id_of(i));
+          points.insert(points.end(), { static_cast<double>(i), 1, 2 });
+        }
+        FrameView view;
+        view.rows = std::ssize(ids);
+        view.has_box = false;
+        view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+        view.arrays = { view_rows("id", ScalarType::Int64, ids.data()) };
+        const std::int64_t rows = ranks.rank() == size - 1 ? partners + 1 : 0;
+        const std::vector<std::int64_t> id1(static_cast<std::size_t>(rows), id_of(hub));
+        std::vector<std::int64_t> id2;
+        for (std::int64_t i = 0; i < rows; ++i)
+        {
+          id2.push_back(id_of(i));
+        }
+        Progress progress;
+        const JoinedLines lines = join_lines(view, id1, id2, {}, ranks, progress);
+        ASSERT_EQ(lines.count, rows);
+        EXPECT_EQ(lines.missing, 0);
+        EXPECT_EQ(lines.repeated, 0);
+        const auto* const first = static_cast<const double*>(lines.first.data());
+        const auto* const second = static_cast<const double*>(lines.second.data());
+        std::int64_t wrong = 0;
+        for (std::int64_t i = 0; i < rows; ++i)
+        {
+          wrong +=
+            first[3 * i] != static_cast<double>(hub) || second[3 * i] != static_cast<double>(i);
+        }
+        EXPECT_EQ(wrong, 0);
+      });
+  }
+}
+
 /// More than one chunk of rows, of which some are left out.
 TEST(LocalJoin, ManyRows)
 {
