@@ -40,7 +40,7 @@ SYSTEM_HEADERS = (
 )
 
 # Beside base/ and itself. A system that is not here may use dump/ (frames and columns of particles).
-SYSTEM_MAY_USE = {"dump": (), "restart": ("dump", "bonds")}
+SYSTEM_MAY_USE = {"dump": (), "restart": ("dump", "bonds", "local")}
 SYSTEM_MAY_USE_DEFAULT = ("dump",)
 
 SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")

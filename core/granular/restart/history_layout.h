@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_restart_history_layout_h
+#define granular_restart_history_layout_h
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// What the history values of a bond are, by program.
+struct HistoryLayout
+{
+  std::string_view name;                     ///< of the program
+  std::span<const std::string_view> columns; ///< in turn, as make_local_schema takes them
+  int unsigned_from =
+    12; ///< values from here on have no sign, whichever copy of the bond they are of
+};
+
+/// The table: WITH-BONDS (12 values), PFM (13), Flexible_Fibers until 2021 (13), Flexible_Fibers and SEAICE (14).
+std::span<const HistoryLayout> history_layouts() noexcept;
+
+/// Names for so many values of a layout, by its place in the table; -1: of the one with as many values, of two the last;
+/// where there is none, or the layout has another number of values: history[1], history[2], ...
+std::vector<std::string> history_columns(int layout, std::int64_t values);
+}
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_restart_restart_layout_h
+#define granular_restart_restart_layout_h
+
+#include "granular/base/byte_source.h"
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+#include "granular/restart/restart_header.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// A fix that adds to the records of particles.
+struct RestartFix
+{
+  std::string id;
+  std::string style;
+  std::int64_t most = 0; ///< doubles in a record, at most
+};
+
+/// The records of one process.
+struct RestartChunk
+{
+  std::string path; ///< of a file of its own (`%` in the name); empty: in the restart file itself
+  std::int64_t offset = 0; ///< byte of the first record, behind the count
+  std::int64_t doubles = 0;
+};
+
+/// Where things are in a restart file.
+struct RestartLayout
+{
+  RestartHeader header;
+  bool swapped = false; ///< the order of its bytes is not this machine's
+  std::vector<std::string> groups;
+  std::vector<double> masses; ///< of types 1, 2, ...; nan where there is none
+  bool has_fixes = false;     ///< false: what fixes have in records was not found
+  std::vector<RestartFix> fixes;
+  std::vector<RestartChunk> chunks; ///< of processes 0, 1, ..., some without records
+  std::int64_t records = 0;         ///< in all chunks
+};
+
+/// Finds out where things are. The payload of force fields cannot be known: each byte from there on is tried as the beginning of
+/// the particles, and taken if as many chunks of records as there were processes lead to the end of the file (INL, which has
+/// meshes behind: to as many particles as the header says, all in or near the box). Of a file with `base` in its name
+/// which has no particles the chunks are in files with 0, 1, 2, ... there.
+/// Allocates nothing on a file's word. Throws FormatError that says which parts were understood and where the search began, and
+/// what of files of processes is missing; UnsupportedError; IoError; Cancelled.
+RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress);
+}
+#endif
