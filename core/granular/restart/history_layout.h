@@ -23,7 +23,7 @@ struct HistoryLayout
 std::span<const HistoryLayout> history_layouts() noexcept;
 
 /// Names for so many values of a layout, by its place in the table; -1: of the one with as many values, of two the last;
-/// where there is none, or the layout has another number of values: history[1], history[2], ...
+/// where there is none, or the layout has another number of values: history1, history2, ...
 std::vector<std::string> history_columns(int layout, std::int64_t values);
 }
 #endif
