@@ -4,11 +4,11 @@
 #include "private/array_choice.h"
 #include "private/dump_output.h"
 #include "private/euler_cells.h"
+#include "private/look_together.h"
 #include "private/name_file.h"
 #include "private/piece_request.h"
 #include "private/series_reader.h"
 
-#include "granular/base/archive.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"
 
@@ -250,10 +250,8 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
   {
     return *this->Known;
   }
-  granular::Communicator& ranks = self->Series->GetRanks();
   Form form;
-  granular::Packer packer;
-  const auto look = [&]
+  const auto look = [&](granular::Packer& packer)
   {
     const granular::FrameIndex& index = self->Series->Index;
     std::size_t frame = 0;
@@ -282,28 +280,18 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
     }
     pass(packer, form);
   };
-  granular::do_together(ranks,
-    [&]
+  const auto take = [&](granular::Unpacker& unpacker)
+  {
+    pass(unpacker, form);
+    this->Known = std::move(form);
+    this->Arrays.Begin();
+    for (const std::string& name : this->Known->Names)
     {
-      if (ranks.rank() == 0)
-      {
-        look();
-      }
-    });
-  ranks.broadcast(packer.bytes, 0);
-  granular::do_together(ranks,
-    [&]
-    {
-      granular::Unpacker unpacker{ packer.bytes };
-      pass(unpacker, form);
-      this->Known = std::move(form);
-      this->Arrays.Begin();
-      for (const std::string& name : this->Known->Names)
-      {
-        this->Arrays.Add(name, true);
-      }
-      this->Arrays.End();
-    });
+      this->Arrays.Add(name, true);
+    }
+    this->Arrays.End();
+  };
+  LookTogether(self->Series->GetRanks(), look, take);
   return *this->Known;
 }
 

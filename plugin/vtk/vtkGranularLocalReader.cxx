@@ -2,13 +2,12 @@
 #include "vtkGranularLocalReader.h"
 
 #include "private/array_choice.h"
-#include "private/arrays.h"
 #include "private/dump_output.h"
 #include "private/lines.h"
+#include "private/look_together.h"
 #include "private/piece_request.h"
 #include "private/series_reader.h"
 
-#include "granular/base/archive.h"
 #include "granular/local/local_columns.h"
 #include "granular/local/local_file.h"
 #include "granular/local/local_reader.h"
@@ -24,7 +23,6 @@
 #include "vtkTable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -77,7 +75,7 @@ struct vtkGranularLocalReader::Internals
   void Look(Self* self);
   granular::LocalRequest MakeRequest(Self* self, vtkInformation* output) const;
   std::string FormOf(const granular::LocalRequest& request, std::size_t frame) const;
-  void FillOutputs(Self* self, vtkInformationVector* outputs, const granular::LocalRequest& request,
+  void FillOutputs(vtkInformationVector* outputs, const granular::LocalRequest& request,
     granular::LocalFrame& frame, double time, const granular::Where& where,
     granular::Notices& notices) const;
   void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
@@ -136,9 +134,7 @@ void vtkGranularLocalReader::Internals::Look(Self* self)
   {
     return;
   }
-  granular::Communicator& ranks = self->Series->GetRanks();
-  granular::Packer packer;
-  const auto look = [&]
+  const auto look = [&](granular::Packer& packer)
   {
     AlgorithmProgress progress(self);
     Meanings found;
@@ -166,38 +162,28 @@ void vtkGranularLocalReader::Internals::Look(Self* self)
       pass(packer, meaning);
     }
   };
-  granular::do_together(ranks,
-    [&]
+  const auto take = [&](granular::Unpacker& unpacker)
+  {
+    std::size_t count = 0;
+    unpacker.number(count);
+    Meanings found;
+    this->Arrays.Begin();
+    while (found.size() < count)
     {
-      if (ranks.rank() == 0)
+      std::string columns;
+      unpacker.text(columns);
+      Meaning& meaning = found[columns];
+      pass(unpacker, meaning);
+      const granular::ColumnSchema schema = granular::make_local_schema(meaning.Names);
+      for (const granular::ArrayInfo& array : schema.arrays())
       {
-        look();
+        this->Arrays.Add(array.name, !granular::is_end_array(array.name));
       }
-    });
-  ranks.broadcast(packer.bytes, 0);
-  granular::do_together(ranks,
-    [&]
-    {
-      granular::Unpacker unpacker{ packer.bytes };
-      std::size_t count = 0;
-      unpacker.number(count);
-      Meanings found;
-      this->Arrays.Begin();
-      while (found.size() < count)
-      {
-        std::string columns;
-        unpacker.text(columns);
-        Meaning& meaning = found[columns];
-        pass(unpacker, meaning);
-        const granular::ColumnSchema schema = granular::make_local_schema(meaning.Names);
-        for (const granular::ArrayInfo& array : schema.arrays())
-        {
-          this->Arrays.Add(array.name, !granular::is_end_array(array.name));
-        }
-      }
-      this->Arrays.End();
-      this->Known = std::move(found);
-    });
+    }
+    this->Arrays.End();
+    this->Known = std::move(found);
+  };
+  LookTogether(self->Series->GetRanks(), look, take);
 }
 
 //------------------------------------------------------------------------------
@@ -205,15 +191,7 @@ granular::LocalRequest vtkGranularLocalReader::Internals::MakeRequest(
   Self* self, vtkInformation* output) const
 {
   granular::LocalRequest request;
-  request.lines.periodic = static_cast<granular::PeriodicLines>(self->PeriodicLines);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (!std::isfinite(self->PointOrigin[axis]))
-    {
-      throw granular::LimitError("PointOrigin must be finite");
-    }
-    request.lines.point_origin[axis] = self->PointOrigin[axis];
-  }
+  request.lines = MakeLineRequest(self->PeriodicLines, self->PointOrigin);
   request.lines.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
   request.lines.pool = self->Series->Pool;
   request.wanted = [names = this->Arrays.GetWanted()](std::string_view name)
@@ -242,26 +220,16 @@ std::string vtkGranularLocalReader::Internals::FormOf(
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularLocalReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
+void vtkGranularLocalReader::Internals::FillOutputs(vtkInformationVector* outputs,
   const granular::LocalRequest& request, granular::LocalFrame& frame, double time,
   const granular::Where& where, granular::Notices& notices) const
 {
   auto* lines = vtkPolyData::GetData(outputs, 0);
   auto* rows = vtkTable::GetData(outputs, 1);
-  const auto count = static_cast<vtkIdType>(frame.table.rows);
-  for (granular::DumpArray& from : frame.table.arrays)
-  {
-    rows->AddColumn(TakeArray(from, count, frame.table.schema.columns()));
-  }
+  FillRows(rows, frame);
   if (frame.has_lines)
   {
-    const bool split = request.lines.periodic == granular::PeriodicLines::Split;
-    AddRows(lines, rows, frame.lines, split, where, notices);
-    if (split)
-    {
-      AddParts(lines, frame.lines, frame.first_row);
-    }
-    FillLines(lines, frame.lines, self->Series->Pool);
+    FillLines(lines, rows, frame, request.lines, where, notices);
   }
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
@@ -319,7 +287,7 @@ void vtkGranularLocalReader::Internals::Run(
     [&]
     {
       const granular::FramePiece& first = pieces.front();
-      this->FillOutputs(self, outputs, wanted, frame, time,
+      this->FillOutputs(outputs, wanted, frame, time,
         granular::where_of(first.file.path, first.entry), notices);
       if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
       {

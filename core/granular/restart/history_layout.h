@@ -22,8 +22,12 @@ struct HistoryLayout
 /// The table: WITH-BONDS (12 values), PFM (13), Flexible_Fibers until 2021 (13), Flexible_Fibers and SEAICE (14).
 std::span<const HistoryLayout> history_layouts() noexcept;
 
-/// Names for so many values of a layout, by its place in the table; -1: of the one with as many values, of two the last;
-/// where there is none, or the layout has another number of values: history1, history2, ...
+/// Instead of a place in the table: the layout with as many values, of two the last.
+inline constexpr int automatic_history = -1;
+/// Instead of a place in the table: history1, history2, ...
+inline constexpr int numbered_history = -2;
+
+/// Names for so many values of a layout, by its place in the table; numbered where the layout has another number of values.
 std::vector<std::string> history_columns(int layout, std::int64_t values);
 }
 #endif

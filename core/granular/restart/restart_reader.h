@@ -3,6 +3,7 @@
 #define granular_restart_restart_reader_h
 
 #include "granular/local/local_reader.h"
+#include "granular/restart/history_layout.h"
 #include "granular/restart/restart_layout.h"
 
 #include <cstdint>
@@ -26,13 +27,16 @@ struct RestartColumns
 RestartColumns find_restart_columns(
   const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress);
 
+/// The arrays of bonds: id1 id2 btype and the history, see history_columns.
+ColumnSchema make_bond_schema(int history_layout, std::int64_t history_values);
+
 /// What of a restart file is wanted.
 struct RestartRequest
 {
   std::function<bool(std::string_view name)> wanted;       ///< arrays of particles; empty: all
   std::function<bool(std::string_view name)> wanted_bonds; ///< arrays of bonds; empty: all
   bool bonds = true;
-  int history_layout = -1; ///< see history_columns
+  int history_layout = automatic_history;
   LineRequest lines; ///< also what says how many threads there are, and where the memory comes from
   int piece =
     0; ///< the part of the records that is wanted, of `pieces` in all; a bond is where its first particle is

@@ -16,12 +16,49 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
 
 namespace vtkGranularPrivate
 {
+granular::LineRequest MakeLineRequest(int periodicLines, const double pointOrigin[3])
+{
+  granular::LineRequest request;
+  request.periodic = static_cast<granular::PeriodicLines>(periodicLines);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!std::isfinite(pointOrigin[axis]))
+    {
+      throw granular::LimitError("PointOrigin must be finite");
+    }
+    request.point_origin[axis] = pointOrigin[axis];
+  }
+  return request;
+}
+
+void FillRows(vtkTable* rows, granular::LocalFrame& frame)
+{
+  const auto count = static_cast<vtkIdType>(frame.table.rows);
+  for (granular::DumpArray& from : frame.table.arrays)
+  {
+    rows->AddColumn(TakeArray(from, count, frame.table.schema.columns()));
+  }
+}
+
+void FillLines(vtkPolyData* output, vtkTable* rows, granular::LocalFrame& frame,
+  const granular::LineRequest& request, const granular::Where& where, granular::Notices& notices)
+{
+  const bool split = request.periodic == granular::PeriodicLines::Split;
+  AddRows(output, rows, frame.lines, split, where, notices);
+  if (split)
+  {
+    AddParts(output, frame.lines, frame.first_row);
+  }
+  FillLines(output, frame.lines, request.pool);
+}
+
 void FillLines(
   vtkPolyData* output, granular::Lines& lines, const std::shared_ptr<granular::BlockPool>& pool)
 {

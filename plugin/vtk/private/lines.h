@@ -3,7 +3,7 @@
 #define vtkGranularLines_h
 
 #include "granular/base/error.h"
-#include "granular/local/lines.h"
+#include "granular/local/local_reader.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -24,6 +24,22 @@ namespace vtkGranularPrivate
 constexpr const char* LengthArray = "length";
 constexpr const char* RowArray = "row";
 constexpr const char* PartArray = "part";
+
+/**
+ * How lines are to be made, by what users set: PeriodicLines as in the core, and a point that must be finite.
+ */
+granular::LineRequest MakeLineRequest(int periodicLines, const double pointOrigin[3]);
+
+/**
+ * The rows of a frame of local data. Takes their memory.
+ */
+void FillRows(vtkTable* rows, granular::LocalFrame& frame);
+
+/**
+ * The lines of a frame, with what they have of its rows. Takes their memory.
+ */
+void FillLines(vtkPolyData* output, vtkTable* rows, granular::LocalFrame& frame,
+  const granular::LineRequest& request, const granular::Where& where, granular::Notices& notices);
 
 /**
  * Points and cells of lines, two points each, and their lengths as the cell array `length`. Takes the memory of the lines.

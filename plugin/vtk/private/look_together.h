@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularLookTogether_h
+#define vtkGranularLookTogether_h
+
+#include "granular/base/archive.h"
+#include "granular/base/communicator.h"
+
+namespace vtkGranularPrivate
+{
+/**
+ * Has rank 0 look at something, for all: look(packer) there puts what it has found into the packer, take(unpacker) on all ranks takes
+ * it out. Throws on all ranks what one of them throws. Collective.
+ */
+template <typename Look, typename Take>
+void LookTogether(granular::Communicator& ranks, const Look& look, const Take& take)
+{
+  granular::Packer packer;
+  granular::do_together(ranks,
+    [&]
+    {
+      if (ranks.rank() == 0)
+      {
+        look(packer);
+      }
+    });
+  ranks.broadcast(packer.bytes, 0);
+  granular::do_together(ranks,
+    [&]
+    {
+      granular::Unpacker unpacker{ packer.bytes };
+      take(unpacker);
+    });
+}
+}
+
+#endif

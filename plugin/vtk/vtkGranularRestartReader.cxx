@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularRestartReader.h"
+
+#include "private/array_choice.h"
+#include "private/arrays.h"
+#include "private/dump_output.h"
+#include "private/lines.h"
+#include "private/look_together.h"
+#include "private/piece_request.h"
+#include "private/series_reader.h"
+
+#include "granular/restart/history_layout.h"
+#include "granular/restart/restart_file.h"
+#include "granular/restart/restart_reader.h"
+
+#include "vtkCommand.h"
+#include "vtkDataArraySelection.h"
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularRestartReader);
+
+namespace
+{
+/**
+ * The arrays that files have.
+ */
+struct ArrayNames
+{
+  std::vector<std::string> Particles;
+  std::vector<std::string> Bonds;
+};
+
+template <class Archive>
+void pass(Archive& archive, ArrayNames& names)
+{
+  granular::pass(archive, names.Particles);
+  granular::pass(archive, names.Bonds);
+}
+
+/**
+ * Adds what is not there yet, in its order.
+ */
+void AddNames(const granular::ColumnSchema& schema, std::vector<std::string>& names)
+{
+  for (const granular::ArrayInfo& array : schema.arrays())
+  {
+    if (!array.position_form && std::find(names.begin(), names.end(), array.name) == names.end())
+    {
+      names.push_back(array.name);
+    }
+  }
+}
+
+void Offer(ArrayChoice& choice, const std::vector<std::string>& names)
+{
+  choice.Begin();
+  for (const std::string& name : names)
+  {
+    choice.Add(name, true);
+  }
+  choice.End();
+}
+
+/**
+ * The layout in the core's table, as it counts there.
+ */
+int PlaceOf(int layout)
+{
+  constexpr int before = vtkGranularRestartReader::WITH_BONDS; // what is no layout
+  return layout >= before ? layout - before : layout - before + 1;
+}
+static_assert(granular::automatic_history == -1 && granular::numbered_history == -2);
+}
+
+//------------------------------------------------------------------------------
+struct vtkGranularRestartReader::Internals
+{
+  using Self = vtkGranularRestartReader;
+
+  ArrayChoice Points;
+  ArrayChoice Cells;
+  bool Known = false;   ///< somebody has looked which arrays there are
+  VertexCache Vertices; ///< of the frame before
+
+  void Look(Self* self);
+  granular::RestartRequest MakeRequest(Self* self, vtkInformation* output) const;
+  void FillOutputs(Self* self, vtkInformationVector* outputs,
+    const granular::RestartRequest& request, granular::RestartFrame& frame,
+    const granular::Where& where, granular::Notices& notices);
+  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+};
+
+//------------------------------------------------------------------------------
+// Rank 0 looks, for all: at the first file and the last one, as bonds may come with time. Collective.
+void vtkGranularRestartReader::Internals::Look(Self* self)
+{
+  if (this->Known)
+  {
+    return;
+  }
+  const auto look = [&](granular::Packer& packer)
+  {
+    ArrayNames names;
+    AlgorithmProgress progress(self);
+    granular::Notices notices; // are given again where the frame is shown
+    const granular::FrameIndex& index = self->Series->Index;
+    for (const std::size_t frame : std::set<std::size_t>{ 0, index.size() - 1 })
+    {
+      const auto source = granular::open_indexed(index.first_piece(frame).file);
+      const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
+      const granular::RestartColumns columns =
+        granular::find_restart_columns(*source, layout, notices, progress);
+      AddNames(granular::ColumnSchema(columns.particles), names.Particles);
+      if (columns.has_bonds)
+      {
+        AddNames(granular::make_bond_schema(PlaceOf(self->HistoryLayout), columns.history_values),
+          names.Bonds);
+      }
+    }
+    pass(packer, names);
+  };
+  const auto take = [&](granular::Unpacker& unpacker)
+  {
+    ArrayNames names;
+    pass(unpacker, names);
+    Offer(this->Points, names.Particles);
+    Offer(this->Cells, names.Bonds);
+    this->Known = true;
+  };
+  LookTogether(self->Series->GetRanks(), look, take);
+}
+
+//------------------------------------------------------------------------------
+granular::RestartRequest vtkGranularRestartReader::Internals::MakeRequest(
+  Self* self, vtkInformation* output) const
+{
+  granular::RestartRequest request;
+  request.lines = MakeLineRequest(self->PeriodicLines, self->PointOrigin);
+  request.lines.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
+  request.lines.pool = self->Series->Pool;
+  request.history_layout = PlaceOf(self->HistoryLayout);
+  request.wanted = [names = this->Points.GetWanted()](std::string_view name)
+  { return names.count(std::string(name)) != 0; };
+  request.wanted_bonds = [names = this->Cells.GetWanted()](std::string_view name)
+  { return names.count(std::string(name)) != 0; };
+  const PieceRequest wanted = PieceRequest::Of(output);
+  request.piece = wanted.Piece;
+  request.pieces = wanted.Pieces;
+  return request;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularRestartReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
+  const granular::RestartRequest& request, granular::RestartFrame& frame,
+  const granular::Where& where, granular::Notices& notices)
+{
+  const granular::Vector3& origin = request.lines.point_origin;
+  auto* particles = vtkPolyData::GetData(outputs, 0);
+  FillParticles(particles, frame.particles, false, VertexCells::OnePerPoint, this->Vertices,
+    self->Series->Pool);
+
+  auto* lines = vtkPolyData::GetData(outputs, 1);
+  vtkNew<vtkTable> rows;
+  FillRows(rows, frame.bonds);
+  FillLines(lines, rows, frame.bonds, request.lines, where, notices);
+
+  auto* box = vtkUnstructuredGrid::GetData(outputs, 2);
+  if (request.piece == 0 &&
+    !FillBox(box, frame.particles.header.box, granular::Coordinates::Absolute, origin))
+  {
+    notices.push_back({ where, "the box is not finite and not shown" });
+  }
+
+  FillFieldData(particles->GetFieldData(), frame.particles, origin);
+  FillFieldData(lines->GetFieldData(), frame.bonds.table, origin);
+  FillFieldData(box->GetFieldData(), frame.particles, origin);
+}
+
+//------------------------------------------------------------------------------
+// Collective: an error of one rank is one of all. Each reads what its piece needs by itself.
+void vtkGranularRestartReader::Internals::Run(
+  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+{
+  granular::Communicator& ranks = self->Series->GetRanks();
+  AlgorithmProgress own(self);
+  granular::SharedProgress together(own, ranks);
+  granular::PartialProgress progress(together);
+  const auto read = [&]
+  {
+    progress.step(0);
+    granular::Notices notices;
+    self->Series->StartFrame(notices);
+    double time = 0;
+    const std::size_t frame = self->Series->FindFrame(self, request, outputs, time);
+    const granular::FramePiece piece = self->Series->Index.first_piece(frame);
+    this->Points.CheckNames(piece.file.path, notices);
+    this->Cells.CheckNames(piece.file.path, notices);
+    const granular::RestartRequest wanted =
+      this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
+    const auto source = granular::open_indexed(piece.file);
+    progress.set_part(0, 0.1);
+    const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
+    progress.set_part(0.1, 0.95);
+    granular::RestartFrame restart =
+      granular::read_restart(*source, layout, wanted, notices, progress);
+    this->FillOutputs(
+      self, outputs, wanted, restart, granular::where_of(piece.file.path, piece.entry), notices);
+    vtkPolyData::GetData(outputs, 0)
+      ->GetFieldData()
+      ->AddArray(MakeStrings("Groups", layout.groups));
+    for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+    {
+      vtkDataObject::GetData(outputs, port)
+        ->GetInformation()
+        ->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    }
+    if (ranks.rank() == 0)
+    {
+      self->Series->Tell(self, notices, false);
+    }
+    progress.set_part(0.95, 1);
+    progress.step(1);
+  };
+  granular::do_together(ranks, read);
+}
+
+//------------------------------------------------------------------------------
+vtkGranularRestartReader::vtkGranularRestartReader()
+  : Internal(std::make_unique<Internals>())
+{
+  this->SetNumberOfOutputPorts(3);
+  this->RepeatedSteps = LAST; // what is in files of one process each is one file to the index
+  this->Series->Format = &granular::restart_format();
+  for (const ArrayChoice* choice : { &this->Internal->Points, &this->Internal->Cells })
+  {
+    choice->GetSelection()->AddObserver(
+      vtkCommand::ModifiedEvent, this, &vtkGranularRestartReader::Modified);
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkGranularRestartReader::~vtkGranularRestartReader() = default;
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularRestartReader::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularRestartReader::GetBonds()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularRestartReader::SetHistoryLayout(int layout)
+{
+  layout =
+    std::clamp(layout, static_cast<int>(AUTOMATIC), static_cast<int>(FLEXIBLE_FIBERS_DAMAGE));
+  if (this->HistoryLayout != layout)
+  {
+    this->HistoryLayout = layout;
+    this->Internal->Known = false; // arrays have other names
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularRestartReader::GetPointDataArraySelection()
+{
+  return this->Internal->Points.GetSelection();
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularRestartReader::GetCellDataArraySelection()
+{
+  return this->Internal->Cells.GetSelection();
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularRestartReader::CanReadFile(const char* fileName)
+{
+  return granular::is_restart_file(fileName ? fileName : "") ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularRestartReader::ForgetFrames()
+{
+  this->Internal->Known = false;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularRestartReader::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkUnstructuredGrid" : "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularRestartReader::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const int done = this->Superclass::RequestInformation(request, inputVector, outputVector);
+  if (done == 0 || this->Series->Ranks.IsCancelled())
+  {
+    return done;
+  }
+  const Outcome outcome = Guard(this, outputVector, [&] { this->Internal->Look(this); });
+  return this->Series->Ranks.EndRequest(this, outcome);
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularRestartReader::RequestData(vtkInformation* request,
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  return this->Series->Run(this, outputVector,
+    [&]
+    {
+      this->Internal->Look(this);
+      this->Internal->Run(this, request, outputVector);
+    });
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularRestartReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "HistoryLayout: " << this->HistoryLayout << "\n";
+  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
+  os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
+     << this->PointOrigin[2] << "\n";
+  os << indent << "PointArrays:\n";
+  this->Internal->Points.GetSelection()->PrintSelf(os, indent.GetNextIndent());
+  os << indent << "CellArrays:\n";
+  this->Internal->Cells.GetSelection()->PrintSelf(os, indent.GetNextIndent());
+}
