@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @class   vtkSMGranularDumpReaderProxy
+ * @class   vtkSMGranularParticleReaderProxy
  * @brief   Suggests the representation Grains only where it fits.
  *
  * Grains draws the radii of the point array `radius` in the unit of the points. Where that array is
  * not among those to be read, and where the points are scaled coordinates, GetHints() leaves the
  * suggestion out, and ParaView chooses a representation as for any other points.
  *
- * Made for elements GranularDumpReaderProxy of the server manager's XML.
+ * Made for elements GranularParticleReaderProxy of the server manager's XML.
  */
 
-#ifndef vtkSMGranularDumpReaderProxy_h
-#define vtkSMGranularDumpReaderProxy_h
+#ifndef vtkSMGranularParticleReaderProxy_h
+#define vtkSMGranularParticleReaderProxy_h
 
 #include "vtkGranularServerManagerModule.h" // For export macro
 #include "vtkSMSourceProxy.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
-class VTKGRANULARSERVERMANAGER_EXPORT vtkSMGranularDumpReaderProxy : public vtkSMSourceProxy
+class VTKGRANULARSERVERMANAGER_EXPORT vtkSMGranularParticleReaderProxy : public vtkSMSourceProxy
 {
 public:
-  static vtkSMGranularDumpReaderProxy* New();
-  vtkTypeMacro(vtkSMGranularDumpReaderProxy, vtkSMSourceProxy);
+  static vtkSMGranularParticleReaderProxy* New();
+  vtkTypeMacro(vtkSMGranularParticleReaderProxy, vtkSMSourceProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -36,8 +36,8 @@ public:
   void UpdatePipelineInformation() override;
 
 protected:
-  vtkSMGranularDumpReaderProxy();
-  ~vtkSMGranularDumpReaderProxy() override;
+  vtkSMGranularParticleReaderProxy();
+  ~vtkSMGranularParticleReaderProxy() override;
 
   /**
    * Asks for the arrays and what is chosen of them, too: GetHints() speaks of what was read last.
@@ -45,8 +45,8 @@ protected:
   void PostUpdateData(bool usingCache) override;
 
 private:
-  vtkSMGranularDumpReaderProxy(const vtkSMGranularDumpReaderProxy&) = delete;
-  void operator=(const vtkSMGranularDumpReaderProxy&) = delete;
+  vtkSMGranularParticleReaderProxy(const vtkSMGranularParticleReaderProxy&) = delete;
+  void operator=(const vtkSMGranularParticleReaderProxy&) = delete;
 
   bool HasRadii();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkSMGranularDumpReaderProxy.h"
+#include "vtkSMGranularParticleReaderProxy.h"
 
 #include "vtkGranularDumpReader.h"
 #include "vtkObjectFactory.h"
@@ -10,19 +10,19 @@
 #include <set>
 #include <string>
 
-vtkStandardNewMacro(vtkSMGranularDumpReaderProxy);
+vtkStandardNewMacro(vtkSMGranularParticleReaderProxy);
 
-vtkSMGranularDumpReaderProxy::vtkSMGranularDumpReaderProxy() = default;
+vtkSMGranularParticleReaderProxy::vtkSMGranularParticleReaderProxy() = default;
 
-vtkSMGranularDumpReaderProxy::~vtkSMGranularDumpReaderProxy() = default;
+vtkSMGranularParticleReaderProxy::~vtkSMGranularParticleReaderProxy() = default;
 
-void vtkSMGranularDumpReaderProxy::PrintSelf(ostream& os, vtkIndent indent)
+void vtkSMGranularParticleReaderProxy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "HasRadii: " << this->HasRadii() << "\n";
 }
 
-bool vtkSMGranularDumpReaderProxy::HasRadii()
+bool vtkSMGranularParticleReaderProxy::HasRadii()
 {
   const bool quiet = true; // a prototype has no values
   if (vtkSMPropertyHelper(this, "Coordinates", quiet).GetAsInt() == vtkGranularDumpReader::SCALED)
@@ -40,7 +40,7 @@ bool vtkSMGranularDumpReaderProxy::HasRadii()
   return false;
 }
 
-void vtkSMGranularDumpReaderProxy::UpdatePipelineInformation()
+void vtkSMGranularParticleReaderProxy::UpdatePipelineInformation()
 {
   this->Superclass::UpdatePipelineInformation();
   vtkSMPropertyHelper chosen(this, "PointArrayStatus"); // name, "0" or "1", name, ...
@@ -62,7 +62,7 @@ void vtkSMGranularDumpReaderProxy::UpdatePipelineInformation()
   }
 }
 
-void vtkSMGranularDumpReaderProxy::PostUpdateData(bool usingCache)
+void vtkSMGranularParticleReaderProxy::PostUpdateData(bool usingCache)
 {
   this->Superclass::PostUpdateData(usingCache);
   if (vtkSMProperty* arrays = this->GetProperty("PointArrayInfo"))
@@ -71,7 +71,7 @@ void vtkSMGranularDumpReaderProxy::PostUpdateData(bool usingCache)
   }
 }
 
-vtkPVXMLElement* vtkSMGranularDumpReaderProxy::GetHints()
+vtkPVXMLElement* vtkSMGranularParticleReaderProxy::GetHints()
 {
   vtkPVXMLElement* hints = this->Superclass::GetHints();
   if (!hints || this->HasRadii())
