@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Restart files as ParaView's users meet them: names, times, documentation, grains and tubes in a picture."""
+import gzip
+import os
+import shutil
+
+import numpy
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
+samples = os.path.join(os.environ["GRANULAR_DATA"], "..", "..", "samples", "data", "restart")
+fibres = os.path.join(data, "restart", "fibres.restart")
+
+# ---- files open as what they are ------------------------------------------------------------------------
+
+for name in ("restart.1000", "restart.equil", "tmp.restart.2000", "old.rst", "fibres.restart", "tmp.restart1"):
+    shutil.copyfile(fibres, name)
+    reader = OpenDataFile(os.path.abspath(name))
+    assert reader is not None and reader.GetXMLName() == "GranularRestartReader", (name, reader)
+    reader.UpdatePipeline()
+    assert reader.GetDataInformation().GetNumberOfPoints() == 31
+    Delete(reader)
+for name in ("base", "0", "1", "2"):
+    shutil.copyfile(os.path.join(data, "restart", f"parts.{name}.restart"), f"restart.{name}.10000")
+with open(fibres, "rb") as file, gzip.open("fibres.restart.gz", "wb") as packed:
+    packed.write(file.read())
+for name in ("restart.base.10000", "fibres.restart.gz"):
+    reader = OpenDataFile(os.path.abspath(name))
+    assert reader.GetXMLName() == "GranularRestartReader", (name, reader)
+    reader.UpdatePipeline()
+    assert reader.GetDataInformation().GetNumberOfPoints() == 31
+    Delete(reader)
+for name, kind in (("grains.dump", "Dump"), ("grains.bin", "Dump"), ("local/contacts.dump", "Local")):
+    reader = OpenDataFile(os.path.join(data, name))
+    assert reader.GetXMLName() == f"Granular{kind}Reader", (name, reader)
+    Delete(reader)
+
+# ---- names, defaults, words, times -----------------------------------------------------------------------
+
+reader = OpenDataFile([os.path.join(samples, f"fibres.{step}.restart") for step in (40000, 10000, 20000)],
+                      TimestepSize=1e-6)
+defaults = {"HistoryLayout": "Automatic", "PeriodicLines": "MinimumImage", "PointOrigin": [0, 0, 0],
+            "RefreshOnUpdate": 0, "Threads": 0}
+for name, default in defaults.items():
+    found = getattr(reader, name)
+    assert (list(found) if isinstance(default, list) else found) == default, (name, found)
+for name in ("FileNames", "TimestepSize", "PointArrayStatus", "CellArrayStatus", *defaults):
+    words = reader.SMProxy.GetProperty(name).GetDocumentation()
+    assert words and len(words.GetDescription().strip()) > 40, name
+assert numpy.allclose(list(reader.TimestepValues), [0.01, 0.02, 0.04], rtol=1e-12)
+assert {"id", "mask", "radius", "mol"} <= set(reader.PointArrayStatus[:])
+assert {"id1", "id2", "btype", "damage", "torque_tangential"} <= set(reader.CellArrayStatus[:])
+for time, low in ((0.01, -0.0006), (0.02, -0.0015), (0.04, -0.0018)):
+    reader.UpdatePipeline(time)
+    bounds = reader.GetDataInformation().GetBounds()
+    assert reader.GetDataInformation().GetNumberOfPoints() == 87
+    bonds = OutputPort(reader, "Bonds").GetDataInformation()
+    assert bonds.GetNumberOfCells() == 79 and bonds.GetBounds()[4] < 0
+    print(f"{time}: {bounds[4]}")
+reader.HistoryLayout = "Numbered"
+reader.UpdatePipelineInformation()
+assert "history14" in reader.CellArrayStatus.Available and "damage" not in reader.CellArrayStatus.Available
+reader.HistoryLayout = "FlexibleFibersDamage"
+reader.UpdatePipelineInformation()
+assert "damage" in reader.CellArrayStatus.Available
+reader.CellArrayStatus = ["id1", "torque_tangential"]
+reader.UpdatePipeline(0.04)
+assert sorted(array.GetName() for array in OutputPort(reader, 1).CellData[:]) == ["id1", "length", "torque_tangential"]
+
+# ---- in the picture --------------------------------------------------------------------------------------
+
+view = CreateRenderView(ViewSize=[400, 300], OrientationAxesVisibility=0, UseColorPaletteForBackground=0,
+                        Background=[1, 1, 1])
+view.ViewTime = 0.04
+shown = Show(reader, view)
+assert shown.Representation == "Grains", shown.Representation
+Hide(reader, view)
+assert Show(OutputPort(reader, 2), view).Representation == "Wireframe"
+Hide(OutputPort(reader, 2), view)
+tubes = Show(Tube(Input=OutputPort(reader, 1), Radius=0.0005), view)
+ColorBy(tubes, ("CELLS", "torque_tangential", "Magnitude"))
+ResetCamera(view)
+view.ResetActiveCameraToPositiveY()
+SaveScreenshot("fibres.png", view)
+picture = vtkPNGReader()
+picture.SetFileName("fibres.png")
+picture.Update()
+pixels = vtk_to_numpy(picture.GetOutput().GetPointData().GetScalars()).reshape(300, 400, -1)[..., :3]
+drawn = (pixels != 255).any(axis=2)
+assert 0.01 < drawn.mean() < 0.5, drawn.mean()
+assert len(numpy.unique(pixels[drawn], axis=0)) > 100
+print("shown")
