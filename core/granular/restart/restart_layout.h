@@ -25,7 +25,7 @@ struct RestartFix
 struct RestartChunk
 {
   std::string path; ///< of a file of its own (`%` in the name); empty: in the restart file itself
-  std::int64_t offset = 0; ///< byte of the first record, behind the count
+  std::int64_t offset = 0; ///< byte of the first record, behind the count, unpacked
   std::int64_t doubles = 0;
 };
 
@@ -33,13 +33,15 @@ struct RestartChunk
 struct RestartLayout
 {
   RestartHeader header;
-  bool swapped = false; ///< the order of its bytes is not this machine's
-  std::vector<std::string> groups;
-  std::vector<double> masses; ///< of types 1, 2, ...; nan where there is none
-  bool has_fixes = false;     ///< false: what fixes have in records was not found
+  bool swapped = false;            ///< the order of its bytes is not this machine's
+  std::vector<std::string> groups; ///< by their bit in a mask; empty names are free bits
+  std::vector<double> masses;      ///< of types 1, 2, ...; nan if the file has none
+  bool has_fixes = false;          ///< false: what fixes have in records was not found
   std::vector<RestartFix> fixes;
   std::vector<RestartChunk> chunks; ///< of processes 0, 1, ..., some without records
   std::int64_t records = 0;         ///< in all chunks
+  std::int64_t begin = 0; ///< byte of the count of the first chunk; of a `base` file its end
+  std::int64_t size = 0;  ///< bytes of the file, unpacked
 };
 
 /// Finds out where things are. The payload of force fields cannot be known: each byte from there on is tried as the beginning of

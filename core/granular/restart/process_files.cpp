@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/restart/process_files.h"
+
+#include "granular/bonds/bond_record.h"
+#include "granular/restart/record_walker.h"
+#include "granular/restart/restart_bytes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t count_bytes = 4;
+
+/// The file of one process.
+RestartChunk read_process_file(
+  const std::string& path, const RestartLayout& layout, std::int64_t& records, Progress& progress)
+{
+  std::unique_ptr<ByteSource> source = unpack(open_file(path));
+  std::string content;
+  if (source->compressed())
+  {
+    content = read_content(*source, progress);
+    source = open_memory(content, path);
+  }
+  RestartBytes bytes(*source, layout.swapped);
+  const std::int64_t doubles = bytes.int32_at(0, "how many numbers a process has written");
+  if (doubles < 0 || bytes.size() != count_bytes + 8 * doubles)
+  {
+    throw FormatError("expected as many doubles behind the count as it says, got a count of " +
+        std::to_string(doubles) + " and " + std::to_string(bytes.size() - count_bytes) + " bytes",
+      bytes.where(0));
+  }
+  RecordWalker walker(*source, layout.swapped, layout.header, false, progress);
+  constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
+  SearchBudget budget = { any, any };
+  if (!walker.walk(count_bytes, doubles, budget))
+  {
+    throw FormatError("expected the record of a particle, got other numbers (" +
+        std::to_string(walker.records()) + " were before it)",
+      bytes.where(walker.at()));
+  }
+  records += walker.records();
+  return { path, count_bytes, doubles };
+}
+}
+
+bool ProcessNames::match(const std::string& path) const
+{
+  if (path.size() <= before.size() + behind.size() || !path.starts_with(before) ||
+    !path.ends_with(behind))
+  {
+    return false;
+  }
+  return std::all_of(path.begin() + static_cast<std::ptrdiff_t>(before.size()),
+    path.end() - static_cast<std::ptrdiff_t>(behind.size()),
+    [](char one) { return one >= '0' && one <= '9'; });
+}
+
+std::vector<ProcessNames> process_names(const std::string& base_path)
+{
+  constexpr std::string_view base = "base";
+  const std::size_t slash = base_path.rfind('/');
+  const std::size_t folder = slash == base_path.npos ? 0 : slash + 1;
+  std::vector<ProcessNames> names;
+  for (std::size_t at = base_path.size(); at-- > folder;)
+  {
+    if (std::string_view(base_path).substr(at).starts_with(base))
+    {
+      names.push_back({ base_path.substr(0, at), base_path.substr(at + base.size()) });
+    }
+  }
+  return names;
+}
+
+ProcessNames find_process_names(const std::vector<ProcessNames>& candidates)
+{
+  const auto found = std::ranges::find_if(
+    candidates, [](const ProcessNames& names) { return is_there(names.of(0)); });
+  return found == candidates.end() ? candidates.front() : *found;
+}
+
+bool is_there(const std::string& path) noexcept
+{
+  std::error_code code;
+  return std::filesystem::exists(path, code);
+}
+
+std::string read_content(const ByteSource& source, Progress& progress)
+{
+  constexpr std::size_t part = std::size_t{ 1 } << 20;
+  std::string content;
+  for (std::size_t there = part; there == part;)
+  {
+    const std::size_t before = content.size();
+    progress.step(source.fraction(static_cast<std::int64_t>(before)));
+    content.resize(before + part);
+    there = source.read(static_cast<std::int64_t>(before), content.data() + before, part);
+    content.resize(before + there);
+  }
+  return content;
+}
+
+void read_process_files(const ProcessNames& names, RestartLayout& layout, Progress& progress)
+{
+  layout.records = 0;
+  const std::string of_all = " of " + std::to_string(layout.header.processes);
+  for (int process = 0; process < layout.header.processes; ++process)
+  {
+    const std::string path = names.of(process);
+    if (!is_there(path))
+    {
+      throw FormatError("expected the particles of process " + std::to_string(process) + of_all +
+          " (from 0) in a file of their own, got none of this name",
+        { path });
+    }
+    layout.chunks.push_back(read_process_file(path, layout, layout.records, progress));
+  }
+  if (layout.records != layout.header.atoms)
+  {
+    throw FormatError("expected " + std::to_string(layout.header.atoms) +
+        " particles in the files of " + std::to_string(layout.header.processes) +
+        " processes, got " + std::to_string(layout.records),
+      { names.of(0) });
+  }
+}
+
+bool is_process_file(const ByteSource& source)
+{
+  for (const bool swapped : { false, true })
+  {
+    RestartBytes bytes(source, swapped);
+    const std::int64_t doubles = bytes.has(0, count_bytes) ? bytes.int32_at(0, "") : -1;
+    if (doubles == 0 && bytes.has(0, count_bytes) && !bytes.has(count_bytes, 1))
+    {
+      return true;
+    }
+    const std::int64_t end = count_bytes + 8 * doubles;
+    if (doubles < static_cast<std::int64_t>(RecordSlots::common) || !bytes.has(end - 1, 1) ||
+      bytes.has(end, 1))
+    {
+      continue;
+    }
+    const double length = bytes.double_at(count_bytes, "");
+    if (length >= static_cast<double>(RecordSlots::common) &&
+      length <= static_cast<double>(doubles) && length == std::floor(length))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/restart/restart_file.h"
+
+#include "granular/dump/file_index.h"
+#include "granular/restart/process_files.h"
+#include "granular/restart/restart_bytes.h"
+#include "granular/restart/restart_layout.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+constexpr std::string_view part_text = "expected a restart file, got what one of several processes "
+                                       "has written of it: open the file with "
+                                       "'base' in its name";
+
+void leave_out(FileIndex& index, const Notice& notice)
+{
+  set_defect(index, notice);
+  index.notices.push_back(notice);
+  index.notices.back().text += "; the file is left out";
+}
+
+void index_restart(const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
+{
+  if (!index.kinds)
+  {
+    index.kinds = std::make_shared<FrameKinds>();
+  }
+  index.frames.clear();
+  index.defect.reset();
+  index.resume_offset = 0;
+  index.resume_line = 1;
+  if (is_process_file(source))
+  {
+    Notice notice;
+    notice.where.path = source.path();
+    notice.text = part_text;
+    set_defect(index, notice);
+    return;
+  }
+  try
+  {
+    Notices notices; // what is missing of a frame that can be read is told when it is
+    const RestartLayout layout = read_layout(source, notices, progress);
+    FrameEntry entry;
+    entry.timestep = layout.header.timestep;
+    entry.rows = layout.records;
+    entry.end = layout.size;
+    entry.time = layout.header.time.value_or(FrameEntry::no_time);
+    entry.kind = index.kinds->share(FrameKind{});
+    index.frames.push_back(std::move(entry));
+    index.resume_offset = layout.size;
+  }
+  catch (const FormatError& error)
+  {
+    if (error.where().path != source.path())
+    {
+      index.stamp = {}; // it may come, and this file does not change then
+    }
+    leave_out(index, { error.where(), error.text() });
+  }
+  catch (const UnsupportedError& error)
+  {
+    leave_out(index, { error.where(), error.text() });
+  }
+}
+
+/// Files of processes are known by their base, where it is.
+void pass_over_parts(std::vector<FileIndex>& files, Notices& notices)
+{
+  std::vector<std::pair<ProcessNames, const FileIndex*>> bases;
+  for (const FileIndex& file : files)
+  {
+    for (ProcessNames& names : process_names(file.path))
+    {
+      bases.emplace_back(std::move(names), &file);
+    }
+  }
+  std::size_t alone = 0;
+  const FileIndex* first = nullptr;
+  for (FileIndex& file : files)
+  {
+    if (!file.defect || file.defect->text != part_text)
+    {
+      continue;
+    }
+    const auto base = std::ranges::find_if(
+      bases, [&](const auto& candidate) { return candidate.first.match(file.path); });
+    if (base == bases.end())
+    {
+      first = first ? first : &file;
+      ++alone;
+    }
+    else if (base->second->defect)
+    {
+      file.defect = base->second->defect; // if there is no frame at all, it is why
+    }
+  }
+  if (first)
+  {
+    Notice notice = *first->defect;
+    notice.text += "; " + std::to_string(alone) + " such are left out";
+    notices.push_back(std::move(notice));
+  }
+}
+
+bool looks_like_restart(const ByteSource& source)
+{
+  constexpr std::string_view newer = "LammpS RestartT";
+  RestartBytes bytes(source);
+  if (bytes.view(0, newer.size()).starts_with(newer))
+  {
+    return true;
+  }
+  for (const bool swapped : { false, true })
+  {
+    bytes.set_swapped(swapped);
+    const std::int64_t end = bytes.text_end(4);
+    if (end > 0 && bytes.has(end, 8) && bytes.int32_at(0, "") == 0 && bytes.int32_at(end, "") == 1)
+    {
+      const std::int32_t size = bytes.int32_at(end + 4, "");
+      return size == 4 || size == 8;
+    }
+  }
+  return false;
+}
+}
+
+const FileFormat& restart_format() noexcept
+{
+  static constexpr FileFormat format = { "a restart file", &index_restart, &pass_over_parts };
+  return format;
+}
+
+bool is_restart_file(const std::string& path) noexcept
+{
+  try
+  {
+    return looks_like_restart(*unpack(open_file(path)));
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+}

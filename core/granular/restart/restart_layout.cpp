@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/restart/restart_layout.h"
+
+#include "granular/restart/find_chunks.h"
+#include "granular/restart/find_fixes.h"
+#include "granular/restart/process_files.h"
+#include "granular/restart/restart_bytes.h"
+
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Of a file of which the size is known.
+class LayoutReader
+{
+public:
+  LayoutReader(const ByteSource& source, Progress& progress)
+    : bytes_(source)
+    , progress_(progress)
+  {
+  }
+
+  RestartLayout read()
+  {
+    layout_.header = read_header(bytes_);
+    layout_.swapped = bytes_.swapped();
+    layout_.size = bytes_.size();
+    at_ = layout_.header.end;
+    this->read_groups();
+    this->read_masses();
+    progress_.set_part(0, 0.8);
+    ChunkSearch search =
+      find_chunks(bytes_.source(), layout_.swapped, layout_.header, at_, progress_);
+    progress_.set_part(0.8, 1);
+    if (search.found)
+    {
+      layout_.begin = search.begin;
+      layout_.chunks = std::move(search.chunks);
+      layout_.records = search.records;
+      this->take_fixes(layout_.begin);
+    }
+    else
+    {
+      const FixSearch fixes = this->take_fixes(layout_.size);
+      this->read_others(search, fixes);
+    }
+    return std::move(layout_);
+  }
+
+private:
+  /// How many there are, then slots until so many were seen: a count of bytes, 0 of a slot that is free, and the name.
+  void read_groups()
+  {
+    constexpr std::int32_t most = 32; ///< bits of a mask
+    const std::int32_t count = bytes_.int32_at(at_, "the number of groups");
+    if (count < 1 || count > most)
+    {
+      throw FormatError(
+        "expected the number of groups, 1 to 32, got " + std::to_string(count), bytes_.where(at_));
+    }
+    at_ += 4;
+    for (std::int32_t seen = 0; seen < count;)
+    {
+      if (layout_.groups.size() == most)
+      {
+        throw FormatError("expected the names of " + std::to_string(count) +
+            " groups in 32 places, got " + std::to_string(seen),
+          bytes_.where(at_));
+      }
+      const bool is_free = bytes_.int32_at(at_, "the name of a group") == 0;
+      layout_.groups.push_back(is_free ? "" : bytes_.text_at(at_, "the name of a group"));
+      const std::string& name = layout_.groups.back();
+      at_ += 4 + (is_free ? 0 : static_cast<std::int64_t>(name.size()) + 1);
+      seen += is_free ? 0 : 1;
+    }
+  }
+
+  /// A zero and the masses of all types, or nothing; then -1.
+  void read_masses()
+  {
+    constexpr const char* what = "the masses of types (0), or their end (-1)";
+    std::int32_t kind = bytes_.int32_at(at_, what);
+    const auto types = static_cast<std::size_t>(layout_.header.types);
+    layout_.masses.assign(types, std::numeric_limits<double>::quiet_NaN());
+    if (kind == 0)
+    {
+      for (std::size_t type = 0; type < types; ++type)
+      {
+        layout_.masses[type] =
+          bytes_.double_at(at_ + 4 + 8 * static_cast<std::int64_t>(type), "the mass of a type");
+      }
+      at_ += 4 + 8 * static_cast<std::int64_t>(types);
+      kind = bytes_.int32_at(at_, "the end of the masses of types (-1)");
+    }
+    if (kind != -1)
+    {
+      throw FormatError(
+        std::string("expected ") + what + ", got " + std::to_string(kind), bytes_.where(at_));
+    }
+    at_ += 4;
+  }
+
+  /// What is stored of fixes lies right before `end`.
+  FixSearch take_fixes(std::int64_t end)
+  {
+    FixSearch fixes = find_fixes(bytes_.source(), layout_.swapped, at_, end, progress_);
+    layout_.has_fixes = fixes.found;
+    layout_.fixes = fixes.fixes;
+    return fixes;
+  }
+
+  /// The particles are in files of their own, or nowhere.
+  void read_others(const ChunkSearch& search, const FixSearch& fixes)
+  {
+    const std::vector<ProcessNames> names = process_names(bytes_.source().path());
+    if (!names.empty())
+    {
+      const ProcessNames found = find_process_names(names);
+      if (fixes.found || is_there(found.of(0)))
+      {
+        layout_.begin = layout_.size;
+        read_process_files(found, layout_, progress_);
+        return;
+      }
+    }
+    std::string text = "expected " + std::to_string(layout_.header.atoms) + " particles of " +
+      std::to_string(layout_.header.processes) + " processes " +
+      (layout_.header.time ? "" : "up to the end of the file") + ", found none behind byte " +
+      std::to_string(at_) + "; understood: header, groups, masses";
+    if (fixes.found)
+    {
+      text += ", fixes (" + std::to_string(fixes.global) + ")";
+    }
+    if (search.misfit)
+    {
+      text += "; found " + std::to_string(*search.misfit) + " particles where these should be";
+    }
+    if (search.gave_up)
+    {
+      text += "; gave up, as too much of the file looks like particles";
+    }
+    throw FormatError(text, bytes_.where(at_));
+  }
+
+  RestartBytes bytes_;
+  PartialProgress progress_;
+  std::int64_t at_ = 0;
+  RestartLayout layout_;
+};
+}
+
+RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress)
+{
+  if (!source.compressed())
+  {
+    RestartLayout layout = LayoutReader(source, progress).read();
+    if (!layout.has_fixes)
+    {
+      Notice notice;
+      notice.where = { source.path(), 0, layout.begin };
+      notice.text =
+        "expected what fixes have stored before the particles, found nothing: what they "
+        "add to particles has no names";
+      notices.push_back(std::move(notice));
+    }
+    return layout;
+  }
+  {
+    RestartBytes first(source);
+    read_header(first); // what is none is not unpacked
+  }
+  const std::string content = read_content(source, progress);
+  const std::unique_ptr<ByteSource> unpacked = open_memory(content, source.path());
+  return read_layout(*unpacked, notices, progress);
+}
+}
