@@ -22,9 +22,34 @@ constexpr std::size_t scan_window = std::size_t{ 1 } << 17;
 /// A complete file needs one walk over its records, and a hop for each process.
 SearchBudget budget_of(std::int64_t bytes, std::int64_t processes)
 {
-  constexpr std::int64_t times = 4;
-  return { times * (bytes / (8 * least_doubles) + processes) + 1'000'000,
-    times * bytes + (std::int64_t{ 1 } << 28) };
+  return { 4 * (bytes / (8 * least_doubles) + processes) + 1'000'000,
+    2 * bytes + (std::int64_t{ 1 } << 28) };
+}
+
+constexpr std::size_t pair_bytes = 12; ///< of a count and the length of a record
+
+/// The next place from `at` on of a count, not above `most`, and the length of a record that fits into so many doubles; the end of what
+/// can be such a place if there is none. As one loop for each byte order: it goes over all bytes of a file.
+template <bool Swapped>
+std::size_t next_pair(std::string_view bytes, std::size_t at, std::int64_t most) noexcept
+{
+  const std::size_t end = bytes.size() - (pair_bytes - 1);
+  const auto range = static_cast<std::uint64_t>(most - least_doubles);
+  for (; at < end; ++at)
+  {
+    const std::int64_t count = load_number<std::int32_t>(bytes.data() + at, Swapped);
+    if (static_cast<std::uint64_t>(count - least_doubles) > range)
+    {
+      continue;
+    }
+    const double length = load_number<double>(bytes.data() + at + count_bytes, Swapped);
+    if (length >= least_doubles && length <= static_cast<double>(count) &&
+      length == std::floor(length))
+    {
+      return at;
+    }
+  }
+  return end;
 }
 
 /// Where the search is for.
@@ -92,36 +117,25 @@ private:
 
   void scan(Behind behind)
   {
-    constexpr std::size_t pair = 12; ///< a count and the length of a record
-    std::int64_t at = begin_;
-    while (!result_.found && !result_.gave_up && at < size_)
+    const auto next = scan_.swapped() ? &next_pair<true> : &next_pair<false>;
+    for (std::int64_t at = begin_; size_ - at >= 8 * least_doubles;)
     {
       progress_.step(static_cast<double>(at) / static_cast<double>(size_));
       const std::string_view bytes = scan_.view(at, scan_window);
-      if (bytes.size() < pair)
+      if (bytes.size() < pair_bytes)
       {
         return;
       }
-      const auto most = static_cast<std::uint64_t>((size_ - at) / 8);
-      for (std::size_t i = 0; i + pair <= bytes.size(); ++i)
+      const std::size_t end = bytes.size() - (pair_bytes - 1);
+      const std::int64_t most = (size_ - at) / 8;
+      for (std::size_t i = next(bytes, 0, most); i < end; i = next(bytes, i + 1, most))
       {
-        const std::int32_t count = scan_.int32_in(bytes.data() + i);
-        if (count < least_doubles || static_cast<std::uint64_t>(count) > most)
-        {
-          continue;
-        }
-        const double length = scan_.double_in(bytes.data() + i + count_bytes);
-        if (length >= least_doubles && length <= count && length == std::floor(length) &&
-          this->try_at(at + static_cast<std::int64_t>(i), behind))
-        {
-          return;
-        }
-        if (result_.gave_up)
+        if (this->try_at(at + static_cast<std::int64_t>(i), behind) || result_.gave_up)
         {
           return;
         }
       }
-      at += static_cast<std::int64_t>(bytes.size() - pair + 1);
+      at += static_cast<std::int64_t>(end);
     }
   }
 

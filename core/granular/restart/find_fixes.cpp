@@ -14,6 +14,30 @@ namespace granular
 namespace
 {
 constexpr std::size_t scan_window = std::size_t{ 1 } << 17;
+constexpr std::int64_t least_bytes = 16; ///< of a fix
+constexpr std::size_t pair_bytes = 8;    ///< of two counts, the least that there is
+
+/// The next place from `at` on of two counts: of fixes, at most so many, and of the bytes of the first id, or of fixes of the other
+/// kind. The end of what can be such a place if there is none. As one loop for each byte order.
+template <bool Swapped>
+std::size_t next_pair(std::string_view bytes, std::size_t at, std::int64_t most) noexcept
+{
+  const std::size_t end = bytes.size() - (pair_bytes - 1);
+  for (; at < end; ++at)
+  {
+    const std::int64_t first = load_number<std::int32_t>(bytes.data() + at, Swapped);
+    if (first < 0 || first > most)
+    {
+      continue;
+    }
+    const std::int64_t second = load_number<std::int32_t>(bytes.data() + at + 4, Swapped);
+    if (second >= 0 && second <= (first == 0 ? most : RestartBytes::most_text))
+    {
+      return at;
+    }
+  }
+  return end;
+}
 
 class FixFinder
 {
@@ -28,15 +52,23 @@ public:
   FixSearch find(std::int64_t begin, Progress& progress)
   {
     budget_ = { (end_ - begin) / 8 + 1'000'000, 4 * (end_ - begin) + (std::int64_t{ 1 } << 28) };
-    constexpr std::size_t pair = 8; ///< two counts at least
-    for (std::int64_t at = begin; at + static_cast<std::int64_t>(pair) <= end_;)
+    const auto next = scan_.swapped() ? &next_pair<true> : &next_pair<false>;
+    for (std::int64_t at = begin; end_ - at >= static_cast<std::int64_t>(pair_bytes);)
     {
       progress.step(static_cast<double>(at - begin) / static_cast<double>(end_ - begin));
       const std::string_view bytes = scan_.view(at, scan_window);
-      for (std::size_t i = 0; i + pair <= bytes.size(); ++i)
+      if (bytes.size() < pair_bytes)
+      {
+        break;
+      }
+      const std::size_t end = bytes.size() - (pair_bytes - 1);
+      const std::int64_t most = (end_ - at) / least_bytes;
+      for (std::size_t i = next(bytes, 0, most); i < end; i = next(bytes, i + 1, most))
       {
         const std::int64_t place = at + static_cast<std::int64_t>(i);
-        if (this->may_begin(bytes.data() + i, place) && this->read_at(place))
+        const std::int64_t both = scan_.int64_in(bytes.data() + i);
+        const bool is_none = both == 0 && place + static_cast<std::int64_t>(pair_bytes) != end_;
+        if (!is_none && this->read_at(place))
         {
           return std::move(result_);
         }
@@ -45,31 +77,12 @@ public:
           return {};
         }
       }
-      if (bytes.size() < pair)
-      {
-        break;
-      }
-      at += static_cast<std::int64_t>(bytes.size() - pair + 1);
+      at += static_cast<std::int64_t>(end);
     }
     return {};
   }
 
 private:
-  /// Two counts: of fixes, and of the bytes of the first id, or of fixes of the other kind.
-  bool may_begin(const char* bytes, std::int64_t place) const noexcept
-  {
-    const std::int64_t first = scan_.int32_in(bytes);
-    const std::int64_t second = scan_.int32_in(bytes + 4);
-    if (first == 0 && second == 0)
-    {
-      return place + 8 == end_;
-    }
-    constexpr std::int64_t least_bytes = 16; ///< of a fix
-    const std::int64_t most = (end_ - place) / least_bytes;
-    return first >= 0 && first <= most && second >= 0 &&
-      second <= (first == 0 ? most : RestartBytes::most_text);
-  }
-
   bool read_at(std::int64_t place)
   {
     at_ = place;

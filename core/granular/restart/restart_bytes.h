@@ -17,6 +17,19 @@
 
 namespace granular
 {
+/// A number out of bytes, of this machine's order or the other one.
+template <class Number>
+Number load_number(const char* bytes, bool swapped) noexcept
+{
+  std::array<char, sizeof(Number)> own;
+  std::memcpy(own.data(), bytes, own.size());
+  if (swapped)
+  {
+    std::ranges::reverse(own);
+  }
+  return std::bit_cast<Number>(own);
+}
+
 /// Numbers and strings at any byte of a file, in either byte order, through a window on it. The source must outlive it.
 class RestartBytes
 {
@@ -61,27 +74,18 @@ public:
   /// Numbers out of a view.
   std::int32_t int32_in(const char* bytes) const noexcept
   {
-    return this->load<std::int32_t>(bytes);
+    return load_number<std::int32_t>(bytes, swapped_);
   }
   std::int64_t int64_in(const char* bytes) const noexcept
   {
-    return this->load<std::int64_t>(bytes);
+    return load_number<std::int64_t>(bytes, swapped_);
   }
-  double double_in(const char* bytes) const noexcept { return this->load<double>(bytes); }
+  double double_in(const char* bytes) const noexcept
+  {
+    return load_number<double>(bytes, swapped_);
+  }
 
 private:
-  template <class Number>
-  Number load(const char* bytes) const noexcept
-  {
-    std::array<char, sizeof(Number)> own;
-    std::memcpy(own.data(), bytes, own.size());
-    if (swapped_)
-    {
-      std::ranges::reverse(own);
-    }
-    return std::bit_cast<Number>(own);
-  }
-
   /// The bytes, or null if the file ends before.
   const char* find(std::int64_t offset, std::size_t bytes);
   const char* need(std::int64_t offset, std::size_t bytes, std::string_view what);

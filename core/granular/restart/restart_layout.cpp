@@ -45,8 +45,7 @@ public:
     }
     else
     {
-      const FixSearch fixes = this->take_fixes(layout_.size);
-      this->read_others(search, fixes);
+      this->read_others(search);
     }
     return std::move(layout_);
   }
@@ -114,9 +113,13 @@ private:
   }
 
   /// The particles are in files of their own, or nowhere.
-  void read_others(const ChunkSearch& search, const FixSearch& fixes)
+  void read_others(const ChunkSearch& search)
   {
     const std::vector<ProcessNames> names = process_names(bytes_.source().path());
+    // without such a name they are for the message alone
+    constexpr std::int64_t worth = std::int64_t{ 1 } << 20;
+    const bool look = !names.empty() || layout_.size - at_ < worth;
+    const FixSearch fixes = look ? this->take_fixes(layout_.size) : FixSearch{};
     if (!names.empty())
     {
       const ProcessNames found = find_process_names(names);
@@ -128,12 +131,13 @@ private:
       }
     }
     std::string text = "expected " + std::to_string(layout_.header.atoms) + " particles of " +
-      std::to_string(layout_.header.processes) + " processes " +
-      (layout_.header.time ? "" : "up to the end of the file") + ", found none behind byte " +
+      std::to_string(layout_.header.processes) + " processes" +
+      (layout_.header.time ? "" : " up to the end of the file") + ", found none behind byte " +
       std::to_string(at_) + "; understood: header, groups, masses";
-    if (fixes.found)
+    if (fixes.found && fixes.global + static_cast<std::int64_t>(fixes.fixes.size()) > 0)
     {
-      text += ", fixes (" + std::to_string(fixes.global) + ")";
+      text += ", fixes (" + std::to_string(fixes.global) + " and " +
+        std::to_string(fixes.fixes.size()) + ")";
     }
     if (search.misfit)
     {
