@@ -14,6 +14,7 @@ inline constexpr KnownColumn known_column_table[] = {
   // name              type                role                                array         i  n  unit      meaning
   { "id",              ValueType::Int64,   ColumnRole::Id,                      "",           0, 1, "-",      "number of the particle, unique in the run" },
   { "type",            ValueType::Int32,   ColumnRole::Other,                   "",           0, 1, "-",      "type of the particle, from 1" },
+  { "mask",            ValueType::Int32,   ColumnRole::Other,                   "",           0, 1, "-",      "bits of the groups of the particle" },
   { "mol",             ValueType::Int64,   ColumnRole::Other,                   "",           0, 1, "-",      "number of the molecule or agglomerate" },
   { "id_multisphere",  ValueType::Int64,   ColumnRole::Other,                   "",           0, 1, "-",      "number of the multisphere body" },
   { "proc",            ValueType::Int64,   ColumnRole::Other,                   "",           0, 1, "-",      "process that owns the particle" },

@@ -27,7 +27,10 @@ inline constexpr int automatic_history = -1;
 /// Instead of a place in the table: history1, history2, ...
 inline constexpr int numbered_history = -2;
 
-/// Names for so many values of a layout, by its place in the table; numbered where the layout has another number of values.
+/// That of so many values, by its place in the table. Null: there is none, or the layout has another number of values.
+const HistoryLayout* find_history_layout(int layout, std::int64_t values) noexcept;
+
+/// Names for so many values of such a layout; where there is none: history1, history2, ...
 std::vector<std::string> history_columns(int layout, std::int64_t values);
 }
 #endif

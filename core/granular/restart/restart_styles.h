@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_restart_restart_styles_h
+#define granular_restart_restart_styles_h
+
+#include "granular/bonds/bond_record.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace granular
+{
+/// What an atom style has in the record of a particle: what all have (RecordSlots), values, and lists.
+struct StyleLayout
+{
+  static constexpr std::size_t most_lists = 4;
+
+  std::string_view name;
+  std::string_view
+    columns; ///< of the values behind the common ones, as in known_columns; mol is a whole number
+  std::size_t values = 0; ///< doubles up to the first list, or to the end
+  std::array<std::uint8_t, most_lists>
+    lists = {}; ///< doubles an entry; each list begins with the number of its entries; 0: there is none
+  bool bonds = false;   ///< the first list: type and partner
+  bool history = false; ///< behind that of the bonds: see look_at_bonds
+
+  bool has_lists() const noexcept { return lists[0] > 0; }
+
+  /// Doubles that there are at least.
+  std::size_t least() const noexcept;
+};
+
+/// THE table of atom styles. Source: pack_restart of the atom styles of LIGGGHTS-PUBLIC 3.8.0 and its forks; files of 3.8.0.
+std::span<const StyleLayout> style_layouts() noexcept;
+
+/// A style, or null.
+const StyleLayout* find_style(std::string_view name) noexcept;
+
+/// How many doubles the part of a style takes up that begins here: up to the end of its lists. Not of one with history.
+/// Throws FormatError, with the double of the part, where it is more than there are.
+std::size_t measure_lists(std::span<const double> block, const StyleLayout& style);
+}
+#endif
