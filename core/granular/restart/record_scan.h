@@ -92,10 +92,10 @@ private:
   std::vector<RecordBlock> blocks_;
   std::vector<Buffer> buffers_; ///< of each worker
   Turns turns_;
-  std::size_t hopped_ = 0; ///< blocks; those behind one that failed never are
+  std::size_t hopped_ = 0; ///< blocks; those behind one that failed, or was the last, never are
   std::int64_t next_ = 0;  ///< double of the chunk at which the next record begins
   std::int64_t row_ = 0;   ///< of the next record
-  std::atomic<bool> stop_ = false;
+  std::int64_t end_row_ = 0;
 };
 }
 #endif

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/restart/bond_frame.h"
+
+#include "granular/local/local_columns.h"
+#include "granular/restart/history_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// The copies in a block of which the first particle is in some rows, and which count.
+template <class Visit>
+void for_bonds(const BondCopies& copies, std::int64_t first, std::int64_t end, const Visit& visit)
+{
+  const auto rows = static_cast<std::int64_t>(copies.rows());
+  const auto from =
+    static_cast<std::size_t>(std::clamp<std::int64_t>(first - copies.first_row, 0, rows));
+  const auto to =
+    static_cast<std::size_t>(std::clamp<std::int64_t>(end - copies.first_row, 0, rows));
+  for (std::size_t row = from; row < to; ++row)
+  {
+    for (auto i = copies.begins[row]; i < copies.begins[row + 1]; ++i)
+    {
+      if (copies.states[static_cast<std::size_t>(i)] != BondCopies::Left)
+      {
+        visit(copies.first_row + static_cast<std::int64_t>(row), static_cast<std::size_t>(i));
+      }
+    }
+  }
+}
+
+/// A bond that counts.
+struct Bond
+{
+  std::int64_t row;   ///< of the first particle
+  std::int64_t other; ///< of the second
+  std::size_t copy;   ///< in its block
+};
+
+void add_notice(
+  Notices& notices, const Where& where, std::int64_t count, const std::string& of_what)
+{
+  if (count > 0)
+  {
+    Notice notice;
+    notice.where = where;
+    notice.text = std::to_string(count) + of_what;
+    notices.push_back(notice);
+  }
+}
+
+void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
+{
+  add_notice(notices, where, counts.repeated_ids,
+    " particles have the id of another one: bonds end at the first that has it");
+  add_notice(notices, where, counts.without_partner,
+    " bonds are left out: their partner is not in the file");
+  add_notice(notices, where, counts.of_itself, " bonds are between a particle and itself");
+  add_notice(notices, where, counts.differing,
+    " bonds have not the same history at both of their particles: that of the lower id is taken");
+}
+
+class FrameMaker
+{
+public:
+  FrameMaker(BondCollector& bonds, const RestartLayout& layout, const RestartRequest& request,
+    std::int64_t first, std::int64_t end)
+    : bonds_(bonds)
+    , request_(request)
+    , first_row_(first)
+    , end_row_(end)
+    , executor_(request.lines.threads)
+  {
+    FrameHeader& header = local_.table.header;
+    header.timestep = layout.header.timestep;
+    header.time = layout.header.time;
+    header.units = layout.header.units;
+    header.box = layout.header.box;
+    header.counted = "BONDS";
+    local_.has_lines = true;
+  }
+
+  LocalFrame make(Progress& progress)
+  {
+    PartialProgress part(progress);
+    this->count();
+    this->make_arrays();
+    part.set_part(0, 0.5);
+    executor_.parallel_for(
+      bonds_.copies().size(), [&](std::size_t block, std::size_t) { this->fill(block); }, part);
+    part.set_part(0.5, 1);
+    const auto rows = 3 * static_cast<std::size_t>(local_.table.rows);
+    local_.lines = make_lines(std::span(static_cast<const double*>(ends_[0].data()), rows),
+      std::span(static_cast<const double*>(ends_[1].data()), rows), local_.table.header.box,
+      request_.lines, part);
+    return std::move(local_);
+  }
+
+private:
+  /// The rows of each block in the table, and of all.
+  void count()
+  {
+    DumpFrame& table = local_.table;
+    constexpr std::int64_t last = std::numeric_limits<std::int64_t>::max();
+    for (const BondCopies& copies : bonds_.copies())
+    {
+      first_bonds_.push_back(static_cast<std::size_t>(table.rows));
+      for_bonds(copies, first_row_, end_row_, [&](std::int64_t, std::size_t) { ++table.rows; });
+      for_bonds(copies, 0, last, [&](std::int64_t, std::size_t) { ++table.header.rows; });
+      for_bonds(copies, 0, first_row_, [&](std::int64_t, std::size_t) { ++local_.first_row; });
+    }
+  }
+
+  /// Memory for the arrays that are wanted.
+  void make_arrays()
+  {
+    DumpFrame& table = local_.table;
+    const auto values = static_cast<std::int64_t>(bonds_.history_values());
+    const HistoryLayout* const layout = find_history_layout(request_.history_layout, values);
+    unsigned_from_ =
+      layout ? static_cast<std::size_t>(layout->unsigned_from) : bonds_.history_values();
+    std::vector<std::string> names = { "id1", "id2", "btype" };
+    const auto history = history_columns(request_.history_layout, values);
+    names.insert(names.end(), history.begin(), history.end());
+    table.schema = make_local_schema(names);
+    const auto rows = static_cast<std::size_t>(table.rows);
+    for (const ArrayInfo& info : table.schema.arrays())
+    {
+      if (!request_.wanted_bonds || request_.wanted_bonds(info.name))
+      {
+        DumpArray array{ info, {}, {}, {} };
+        array.block = Block(size_of(info.type) * info.columns.size() * rows, request_.lines.pool);
+        table.arrays.push_back(std::move(array));
+      }
+    }
+    for (Block& end : ends_)
+    {
+      end = Block(rows * sizeof(Vector3), request_.lines.pool);
+    }
+  }
+
+  void fill(std::size_t block)
+  {
+    const BondCopies& copies = bonds_.copies()[block];
+    std::vector<Bond> bonds;
+    bonds.reserve(copies.size());
+    for_bonds(copies, first_row_, end_row_,
+      [&](std::int64_t row, std::size_t copy) {
+        bonds.push_back({ row, copies.partners[copy], copy });
+      });
+    const std::size_t first = first_bonds_[block];
+    this->fill_ends(bonds, first);
+    const auto ids = bonds_.ids();
+    const auto id_of = [&](std::int64_t row) { return ids[static_cast<std::size_t>(row)]; };
+    for (const DumpArray& array : local_.table.arrays)
+    {
+      switch (array.info.columns.front())
+      {
+        case 0:
+          put(array, bonds, first, [&](const Bond& bond) { return id_of(bond.row); });
+          break;
+        case 1:
+          put(array, bonds, first, [&](const Bond& bond) { return id_of(bond.other); });
+          break;
+        case 2:
+          put(array, bonds, first, [&](const Bond& bond) { return copies.types[bond.copy]; });
+          break;
+        default:
+          this->fill_history(array, bonds, first, copies);
+      }
+    }
+  }
+
+  void fill_ends(std::span<const Bond> bonds, std::size_t first)
+  {
+    for (const int end : { 0, 1 })
+    {
+      auto* to = static_cast<double*>(ends_[end].data()) + 3 * first;
+      for (const Bond& bond : bonds)
+      {
+        to = std::copy_n(bonds_.point(end == 0 ? bond.row : bond.other), 3, to);
+      }
+    }
+  }
+
+  template <class ValueOf>
+  static void put(
+    const DumpArray& array, std::span<const Bond> bonds, std::size_t first, const ValueOf& value_of)
+  {
+    using Value = decltype(value_of(bonds[0]));
+    auto* to = static_cast<Value*>(array.block.data()) + first;
+    for (const Bond& bond : bonds)
+    {
+      *to++ = value_of(bond);
+    }
+  }
+
+  void fill_history(const DumpArray& array, std::span<const Bond> bonds, std::size_t first,
+    const BondCopies& copies) const
+  {
+    const std::vector<int>& columns = array.info.columns;
+    auto* to = static_cast<double*>(array.block.data()) + first * columns.size();
+    for (const Bond& bond : bonds)
+    {
+      const double* const values = copies.history.get() + bond.copy * bonds_.history_values();
+      for (const int column : columns)
+      {
+        const auto i = static_cast<std::size_t>(column) - 3;
+        *to++ = i < unsigned_from_ ? values[i] : std::abs(values[i]);
+      }
+    }
+  }
+
+  BondCollector& bonds_;
+  const RestartRequest& request_;
+  std::int64_t first_row_;
+  std::int64_t end_row_;
+  Executor executor_;
+  LocalFrame local_;
+  std::size_t unsigned_from_ = 0;
+  std::vector<std::size_t> first_bonds_; ///< of each block in the table
+  Block ends_[2];
+};
+}
+
+LocalFrame make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
+  const RestartRequest& request, std::int64_t first, std::int64_t end, const Where& where,
+  Notices& notices, Progress& progress)
+{
+  PartialProgress part(progress);
+  part.set_part(0, 0.4);
+  add_notices(match_bonds(bonds.copies(), bonds.ids(), layout.header.newton_bond,
+                bonds.history_values(), Executor(request.lines.threads), part),
+    where, notices);
+  part.set_part(0.4, 1);
+  return FrameMaker(bonds, layout, request, first, end).make(part);
+}
+}

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/restart/decode_records.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+using Kind = RecordColumn::Kind;
+
+/// The image of a particle, which some programs write as a value and others as bits, whatever they do with the id.
+std::int64_t load_image(double number) noexcept
+{
+  const bool value = number >= 1 && number < 0x1p63 && std::trunc(number) == number;
+  return value ? static_cast<std::int64_t>(number) : std::bit_cast<std::int64_t>(number);
+}
+
+/// The bits of the groups, of which the last may be the sign.
+std::int32_t load_mask(double number, WholeNumbers form)
+{
+  const std::int64_t mask = to_whole(number, form);
+  if (mask < std::numeric_limits<std::int32_t>::min() ||
+    mask > std::numeric_limits<std::uint32_t>::max())
+  {
+    throw FormatError("expected the bits of 32 groups in double " +
+      std::to_string(RecordSlots::mask) + " of a record, got " + std::to_string(mask));
+  }
+  return static_cast<std::int32_t>(mask);
+}
+
+template <class Value>
+void store_value(char* to, Value value) noexcept
+{
+  std::memcpy(to, &value, sizeof value);
+}
+
+/// Rows of an array, from doubles that lie one behind the other in each record.
+template <std::size_t count>
+void copy_doubles(const double* const* parts, std::size_t stride, std::size_t slot,
+  std::size_t rows, char* to, std::size_t bytes) noexcept
+{
+  for (std::size_t row = 0; row < rows; ++row, parts += stride, to += bytes)
+  {
+    std::memcpy(to, *parts + slot, count * sizeof(double));
+  }
+}
+}
+
+RecordRows::RecordRows(const RecordPlan& plan)
+  : stride(plan.styles() + plan.fixes())
+  , parts(stride * most)
+{
+}
+
+void RecordRows::load_record(const RecordPlan& plan, std::span<const double> record, std::size_t i)
+{
+  plan.find_parts(record, std::span(parts).subspan(i * stride, stride), bonds[i]);
+  const WholeNumbers form = whole_numbers_of(record);
+  ids[i] = to_whole(record[RecordSlots::tag], form);
+  types[i] = static_cast<std::int32_t>(to_whole(record[RecordSlots::type], form));
+  masks[i] = load_mask(record[RecordSlots::mask], form);
+  if (const RecordColumn* const molecule = plan.molecule())
+  {
+    const std::span part(parts[i * stride + molecule->part], molecule->slot + 1);
+    molecules[i] = to_whole(part[molecule->slot], whole_numbers_of(part));
+  }
+}
+
+void RecordRows::load(
+  const RecordPlan& plan, const RecordBatch& batch, std::size_t begin, std::size_t end)
+{
+  first_row = batch.first_row + static_cast<std::int64_t>(begin);
+  count = std::min(end - begin, most);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    try
+    {
+      this->load_record(plan, batch.record(begin + i), i);
+    }
+    catch (const FormatError& error)
+    {
+      refuse_record(batch, begin + i, error.text());
+    }
+  }
+}
+
+ParticleStore::ParticleStore(const RecordPlan& plan, const RestartLayout& layout,
+  const RestartRequest& request, std::int64_t first, std::int64_t end)
+  : point_origin_(request.lines.point_origin)
+  , first_(first)
+  , end_(end)
+  , styles_(plan.styles())
+  , image_bits_(plan.image_bits())
+{
+  const RestartHeader& header = layout.header;
+  frame_.rows = end - first;
+  frame_.header.timestep = header.timestep;
+  frame_.header.time = header.time;
+  frame_.header.units = header.units;
+  frame_.header.rows = layout.records;
+  frame_.header.box = header.box;
+  frame_.points =
+    Block(static_cast<std::size_t>(frame_.rows) * sizeof(Vector3), request.lines.pool);
+  std::vector<std::string> names;
+  for (const RecordColumn& column : plan.columns())
+  {
+    names.push_back(column.name);
+  }
+  frame_.schema = ColumnSchema(names);
+  for (const ArrayInfo& info : frame_.schema.arrays())
+  {
+    if (request.wanted ? request.wanted(info.name) : !info.position_form)
+    {
+      this->add_array(plan, info, request);
+    }
+  }
+}
+
+void ParticleStore::add_array(
+  const RecordPlan& plan, const ArrayInfo& info, const RestartRequest& request)
+{
+  DumpArray array{ info, {}, {}, {} };
+  const std::size_t width = size_of(info.type);
+  const std::size_t bytes = width * info.columns.size();
+  array.block = Block(bytes * static_cast<std::size_t>(frame_.rows), request.lines.pool);
+  auto* to = static_cast<char*>(array.block.data());
+  bool fix = false;
+  std::vector<Doubles> runs;
+  for (const int number : info.columns)
+  {
+    const RecordColumn& column = plan.columns()[static_cast<std::size_t>(number)];
+    fix = fix || column.kind == Kind::OfAFix;
+    if (column.kind == Kind::Double || column.kind == Kind::OfAFix)
+    {
+      const std::size_t part = column.part + (fix ? styles_ : 0);
+      if (!runs.empty() && runs.back().part == part &&
+        runs.back().slot + runs.back().count == column.slot)
+      {
+        ++runs.back().count;
+      }
+      else
+      {
+        runs.push_back({ part, column.slot, 1, to, bytes });
+      }
+    }
+    else
+    {
+      numbers_.push_back({ column, to, bytes });
+    }
+    to += width;
+  }
+  std::vector<Doubles>& all = fix ? of_fixes_ : doubles_;
+  all.insert(all.end(), runs.begin(), runs.end());
+  if (fix)
+  {
+    fix_arrays_.push_back(frame_.arrays.size());
+  }
+  frame_.arrays.push_back(std::move(array));
+}
+
+const std::int64_t* ParticleStore::ids() const noexcept
+{
+  const auto found = std::ranges::find_if(
+    frame_.arrays, [](const DumpArray& array) { return array.info.role == ColumnRole::Id; });
+  return found == frame_.arrays.end() ? nullptr
+                                      : static_cast<const std::int64_t*>(found->block.data());
+}
+
+void ParticleStore::store_doubles(
+  const Doubles& doubles, const RecordRows& rows, std::size_t begin, std::size_t end) const
+{
+  const auto row =
+    static_cast<std::size_t>(rows.first_row - first_ + static_cast<std::int64_t>(begin));
+  const double* const* const parts = rows.parts.data() + begin * rows.stride + doubles.part;
+  char* const to = doubles.to + row * doubles.stride;
+  switch (doubles.count)
+  {
+    case 1:
+      copy_doubles<1>(parts, rows.stride, doubles.slot, end - begin, to, doubles.stride);
+      break;
+    case 3:
+      copy_doubles<3>(parts, rows.stride, doubles.slot, end - begin, to, doubles.stride);
+      break;
+    default:
+      for (std::size_t i = 0; i < end - begin; ++i)
+      {
+        std::memcpy(to + i * doubles.stride, parts[i * rows.stride] + doubles.slot,
+          doubles.count * sizeof(double));
+      }
+  }
+}
+
+void ParticleStore::store_number(
+  const Number& number, const RecordRows& rows, std::size_t begin, std::size_t end) const
+{
+  const auto first =
+    static_cast<std::size_t>(rows.first_row - first_ + static_cast<std::int64_t>(begin));
+  const auto for_rows = [&](const auto& value_of)
+  {
+    char* to = number.to + first * number.stride;
+    for (std::size_t i = begin; i < end; ++i, to += number.stride)
+    {
+      store_value(to, value_of(i));
+    }
+  };
+  switch (number.column.kind)
+  {
+    case Kind::Id:
+      return for_rows([&](std::size_t i) { return rows.ids[i]; });
+    case Kind::Type:
+      return for_rows([&](std::size_t i) { return rows.types[i]; });
+    case Kind::Mask:
+      return for_rows([&](std::size_t i) { return rows.masks[i]; });
+    case Kind::Image:
+      return for_rows(
+        [&](std::size_t i)
+        {
+          const std::int64_t image = load_image(rows.parts[i * rows.stride][RecordSlots::image]);
+          const ImageCounts counts = unpack_image(image, image_bits_);
+          const std::int32_t axes[] = { counts.x, counts.y, counts.z };
+          return axes[number.column.slot];
+        });
+    default:
+      return for_rows([&](std::size_t i) { return rows.molecules[i]; });
+  }
+}
+
+void ParticleStore::store_points(const RecordRows& rows, std::size_t begin, std::size_t end)
+{
+  auto* to = static_cast<double*>(frame_.points.data()) +
+    3 * (rows.first_row - first_ + static_cast<std::int64_t>(begin));
+  const auto [x, y, z] = point_origin_;
+  for (std::size_t i = begin; i < end; ++i, to += 3)
+  {
+    const double* const from = rows.parts[i * rows.stride] + RecordSlots::x;
+    to[0] = from[0] - x;
+    to[1] = from[1] - y;
+    to[2] = from[2] - z;
+  }
+}
+
+std::int64_t ParticleStore::count_misfits(const RecordRows& rows)
+{
+  std::int64_t misfits = 0;
+  for (std::size_t i = 0; !of_fixes_.empty() && i < rows.count; ++i)
+  {
+    misfits += rows.parts[i * rows.stride + styles_] ? 0 : 1;
+  }
+  if (misfits > 0)
+  {
+    misfits_ += misfits;
+  }
+  return misfits;
+}
+
+void ParticleStore::store(const RecordRows& rows)
+{
+  const auto count = static_cast<std::int64_t>(rows.count);
+  const std::int64_t misfits = this->count_misfits(rows);
+  const std::int64_t first = std::clamp<std::int64_t>(first_ - rows.first_row, 0, count);
+  const std::int64_t last = std::clamp<std::int64_t>(end_ - rows.first_row, 0, count);
+  if (first >= last)
+  {
+    return;
+  }
+  const auto begin = static_cast<std::size_t>(first);
+  const auto end = static_cast<std::size_t>(last);
+  this->store_points(rows, begin, end);
+  for (const Doubles& doubles : doubles_)
+  {
+    this->store_doubles(doubles, rows, begin, end);
+  }
+  for (const Number& number : numbers_)
+  {
+    this->store_number(number, rows, begin, end);
+  }
+  if (misfits == 0)
+  {
+    for (const Doubles& doubles : of_fixes_)
+    {
+      this->store_doubles(doubles, rows, begin, end);
+    }
+  }
+}
+
+DumpFrame ParticleStore::take(const Where& where, Notices& notices)
+{
+  if (misfits_ > 0)
+  {
+    Notice notice;
+    notice.where = where;
+    notice.text = "what fixes have of particles is left out: of " + std::to_string(misfits_) +
+      " it is not where it should be";
+    notices.push_back(notice);
+    for (auto i = fix_arrays_.rbegin(); i != fix_arrays_.rend(); ++i)
+    {
+      frame_.arrays.erase(frame_.arrays.begin() + static_cast<std::ptrdiff_t>(*i));
+    }
+  }
+  return std::move(frame_);
+}
+}

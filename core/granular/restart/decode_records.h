@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_restart_decode_records_h
+#define granular_restart_decode_records_h
+
+#include "granular/dump/dump_reader.h"
+#include "granular/restart/record_plan.h"
+#include "granular/restart/record_scan.h"
+#include "granular/restart/restart_reader.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// Some records that are looked at together, while they are in the cache.
+struct RecordRows
+{
+  static constexpr std::size_t most = 128;
+
+  explicit RecordRows(const RecordPlan& plan);
+
+  std::int64_t first_row = 0; ///< of the file
+  std::size_t count = 0;
+  std::size_t stride = 0;
+  std::vector<const double*> parts; ///< of record i from i * stride on: see RecordPlan::find_parts
+  std::array<std::int64_t, most> ids = {};
+  std::array<std::int32_t, most> types = {};
+  std::array<std::int32_t, most> masks = {};
+  std::array<std::int64_t, most> molecules = {};
+  std::array<FoundBonds, most> bonds = {};
+
+  /// Finds what is in the records of a batch from `begin` on, at most so many. Throws FormatError with the record.
+  void load(const RecordPlan& plan, const RecordBatch& batch, std::size_t begin, std::size_t end);
+
+private:
+  void load_record(const RecordPlan& plan, std::span<const double> record, std::size_t i);
+};
+
+/// The particles of a part of the rows, on their way into a frame. Any number of threads store rows of their own.
+class ParticleStore
+{
+public:
+  /// Rows from first to end. Throws std::bad_alloc.
+  ParticleStore(const RecordPlan& plan, const RestartLayout& layout, const RestartRequest& request,
+    std::int64_t first, std::int64_t end);
+
+  /// Those of the rows that are wanted; of others it is only looked at what fixes have.
+  void store(const RecordRows& rows);
+
+  /// Ids of the rows, or null if nobody wanted them.
+  const std::int64_t* ids() const noexcept;
+
+  /// Coordinates of the points.
+  const double* points() const noexcept { return static_cast<const double*>(frame_.points.data()); }
+
+  DumpFrame take(const Where& where, Notices& notices);
+
+private:
+  /// Doubles from one place of each record, one behind the other.
+  struct Doubles
+  {
+    std::size_t part;
+    std::size_t slot;
+    std::size_t count;
+    char* to;
+    std::size_t stride;
+  };
+
+  /// A number that is not stored as it is.
+  struct Number
+  {
+    RecordColumn column;
+    char* to;
+    std::size_t stride;
+  };
+
+  void add_array(const RecordPlan& plan, const ArrayInfo& info, const RestartRequest& request);
+  void store_doubles(
+    const Doubles& doubles, const RecordRows& rows, std::size_t begin, std::size_t end) const;
+  void store_number(
+    const Number& number, const RecordRows& rows, std::size_t begin, std::size_t end) const;
+  std::int64_t count_misfits(const RecordRows& rows);
+  void store_points(const RecordRows& rows, std::size_t begin, std::size_t end);
+
+  DumpFrame frame_;
+  Vector3 point_origin_;
+  std::int64_t first_;
+  std::int64_t end_;
+  std::size_t styles_;
+  int image_bits_;
+  std::vector<Doubles> doubles_;
+  std::vector<Doubles> of_fixes_;
+  std::vector<Number> numbers_;
+  std::vector<std::size_t> fix_arrays_; ///< in the frame
+  std::atomic<std::int64_t> misfits_ =
+    0; ///< records in which the parts of fixes are not as in others
+};
+}
+#endif

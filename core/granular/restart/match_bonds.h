@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_restart_match_bonds_h
+#define granular_restart_match_bonds_h
+
+#include "granular/base/executor.h"
+#include "granular/base/progress.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// The bonds that some particles hold, in rows one behind the other.
+struct BondCopies
+{
+  enum State : unsigned char
+  {
+    Left, ///< out: the partner is not there, or the partner's copy counts
+    Kept,
+    Higher ///< held by the particle with the higher id; as Kept
+  };
+
+  std::int64_t first_row = 0;
+  std::vector<std::int64_t> begins = { 0 }; ///< of the copies of each row, and the end
+  std::vector<std::int64_t> partners;       ///< ids, then rows; -1: not there
+  std::vector<std::int32_t> types;
+  std::unique_ptr<double[]> history; ///< of each copy
+  std::vector<unsigned char> states;
+
+  std::size_t rows() const noexcept { return begins.size() - 1; }
+  std::size_t size() const noexcept { return partners.size(); }
+};
+
+/// What there is to say about bonds.
+struct BondCounts
+{
+  std::int64_t without_partner = 0;
+  std::int64_t of_itself = 0; ///< between a particle and itself
+  std::int64_t differing = 0; ///< copies with another history, but for the sign
+  std::int64_t repeated_ids = 0;
+
+  BondCounts& operator+=(const BondCounts& other) noexcept;
+};
+
+/// Finds the rows of the partners, by ids, those of all rows, and which copies there are of each bond: both (once: each copy is a
+/// bond), or where both particles hold one, that of the lower id. Of several bonds between two particles those of the
+/// same type go together first. In time linear in the number of copies, but for sorting those of one particle.
+BondCounts match_bonds(std::vector<BondCopies>& blocks, std::span<const std::int64_t> ids,
+  bool once, std::size_t history_values, const Executor& executor, Progress& progress);
+}
+#endif

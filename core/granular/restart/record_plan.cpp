@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/restart/record_plan.h"
+
+#include "granular/base/number_print.h"
+#include "granular/base/words.h"
+#include "granular/restart/record_scan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace granular
+{
+namespace
+{
+using Kind = RecordColumn::Kind;
+
+constexpr std::int64_t doubles_at_first = 8192; // of the file, that are looked at for the plan
+
+const RecordColumn common_columns[] = { { "id", Kind::Id, 0, 0 }, { "type", Kind::Type, 0, 0 },
+  { "mask", Kind::Mask, 0, 0 }, { "x", Kind::Double, 0, RecordSlots::x },
+  { "y", Kind::Double, 0, RecordSlots::x + 1 }, { "z", Kind::Double, 0, RecordSlots::x + 2 },
+  { "ix", Kind::Image, 0, 0 }, { "iy", Kind::Image, 0, 1 }, { "iz", Kind::Image, 0, 2 },
+  { "vx", Kind::Double, 0, RecordSlots::v }, { "vy", Kind::Double, 0, RecordSlots::v + 1 },
+  { "vz", Kind::Double, 0, RecordSlots::v + 2 } };
+
+/// A length from least to most, or 0.
+std::size_t length_of(double word, std::size_t least, std::size_t most) noexcept
+{
+  const bool is_length = word >= static_cast<double>(least) && word <= static_cast<double>(most) &&
+    std::trunc(word) == word;
+  return is_length ? static_cast<std::size_t>(word) : 0;
+}
+
+bool has_position_of(std::span<const double> part, std::span<const double> record) noexcept
+{
+  return std::memcmp(
+           part.data() + RecordSlots::x, record.data() + RecordSlots::x, 3 * sizeof(double)) == 0;
+}
+
+/// The type of a particle, in either form; 0: it is none.
+std::int64_t type_of(std::span<const double> part) noexcept
+{
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  const double type = part[RecordSlots::type];
+  const auto bits = std::bit_cast<std::int64_t>(type);
+  const std::int64_t value =
+    type >= 1 && type <= static_cast<double>(most) ? static_cast<std::int64_t>(type) : bits;
+  return value >= 1 && value <= most ? value : 0;
+}
+
+/// Whether the part of a style may begin there.
+bool begins_part(std::span<const double> record, std::size_t at) noexcept
+{
+  if (at > record.size() || record.size() - at < RecordSlots::common)
+  {
+    return false;
+  }
+  const auto part = record.subspan(at);
+  return length_of(part[0], RecordSlots::common, part.size()) > 0 &&
+    has_position_of(part, record) && type_of(part) > 0 && type_of(part) == type_of(record);
+}
+
+/// Calls take(f, begin, length) for the parts of so many fixes. False: there are not so many, up to the end.
+template <class Take>
+bool walk_fixes(std::span<const double> record, std::size_t at, std::size_t fixes, const Take& take)
+{
+  for (std::size_t fix = 0; fix < fixes; ++fix)
+  {
+    const std::size_t length =
+      at < record.size() ? length_of(record[at], 1, record.size() - at) : 0;
+    if (length == 0)
+    {
+      return false;
+    }
+    take(fix, at, length);
+    at += length;
+  }
+  return at == record.size();
+}
+
+constexpr auto take_none = [](std::size_t, std::size_t, std::size_t) {};
+
+[[noreturn]] void refuse_part(const std::string& style, std::size_t least, std::size_t got)
+{
+  throw FormatError("expected at least " + std::to_string(least) +
+    " doubles in the part of style " + style + ", got " + std::to_string(got));
+}
+}
+
+RecordPlan::RecordPlan(
+  const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress)
+  : has_fixes_(layout.has_fixes)
+  , image_bits_(layout.header.image_bits())
+{
+  const Where where{ source.path() };
+  this->find_styles(layout, where, notices);
+  known_fixes_ = has_fixes_ ? layout.fixes.size() : 0;
+  RecordScan scan(source, layout, doubles_at_first);
+  bool first = true;
+  const auto look = [&](std::size_t, std::size_t, const RecordBatch& batch)
+  {
+    for (std::size_t i = 0; i < batch.size() && (first || this->needs_history()); ++i)
+    {
+      try
+      {
+        const auto record = batch.record(i);
+        if (first)
+        {
+          this->look_at(record, where, notices);
+        }
+        this->look_at_history(record);
+        if (first)
+        {
+          this->find_fixes(layout, record, where, notices);
+        }
+        first = false;
+      }
+      catch (const FormatError& error)
+      {
+        refuse_record(batch, i, error.text());
+      }
+    }
+  };
+  scan.run(Executor(), 1, look, progress);
+  if (this->needs_history())
+  {
+    scan.run(Executor(), layout.records, look, progress);
+  }
+  if (layout.records == 0)
+  {
+    this->find_fixes(layout, {}, where, notices);
+  }
+  history_values_ = std::max<std::int64_t>(history_values_, 0);
+  this->add_columns(layout);
+}
+
+void RecordPlan::find_styles(const RestartLayout& layout, const Where& where, Notices& notices)
+{
+  std::vector<RestartStyle> styles = layout.header.styles;
+  if (styles.empty())
+  {
+    styles.push_back({ layout.header.atom_style });
+  }
+  for (const RestartStyle& style : styles)
+  {
+    Part part;
+    part.style = find_style(style.name);
+    part.name = style.name;
+    part.most_bonds =
+      style.bonds_per_atom > 0 ? style.bonds_per_atom : std::numeric_limits<std::int32_t>::max();
+    parts_.push_back(std::move(part));
+    if (!parts_.back().style)
+    {
+      this->give_up(parts_.size() - 1, "nobody has told", where, notices);
+    }
+  }
+  const auto find_bonds = [&](bool StyleLayout::*what)
+  {
+    const auto found = std::ranges::find_if(
+      parts_, [&](const Part& part) { return part.style && part.style->*what; });
+    return static_cast<std::size_t>(found - parts_.begin());
+  };
+  bonds_ = find_bonds(&StyleLayout::history);
+  bonds_ = bonds_ < parts_.size() ? bonds_ : find_bonds(&StyleLayout::bonds);
+}
+
+/// Reads of a style no more than what all have.
+void RecordPlan::give_up(
+  std::size_t part, const std::string& why, const Where& where, Notices& notices)
+{
+  parts_[part].style = nullptr;
+  bonds_ = bonds_ == part ? parts_.size() : bonds_;
+  Notice notice;
+  notice.where = where;
+  notice.text = "what particles of atom style '" + parts_[part].name + "' have in restart files " +
+    why + ": only what all styles have is read of it";
+  notices.push_back(notice);
+}
+
+/// Looks whether the parts of the first record are as long as the table says.
+void RecordPlan::look_at(std::span<const double> record, const Where& where, Notices& notices)
+{
+  const auto other_length = [](const StyleLayout* style, std::size_t length)
+  { return style && !style->has_lists() && style->values != length; };
+  if (parts_.size() == 1)
+  {
+    return;
+  }
+  Part& front = parts_.front();
+  std::size_t at = 0;
+  if (front.style && !front.style->has_lists() && begins_part(record, front.style->values))
+  {
+    at = front.style->values;
+  }
+  else if (!front.style || !front.style->has_lists())
+  {
+    at = search_next(record);
+    front.searched = true;
+    if (front.style)
+    {
+      this->give_up(0, "is not known of this program", where, notices);
+    }
+  }
+  else
+  {
+    this->look_at_history(record);
+    FoundBonds bonds;
+    at = this->end_of_first(record, bonds);
+  }
+  for (std::size_t part = 1; part < parts_.size(); ++part)
+  {
+    const std::size_t length = this->length_of_part(record, at, part);
+    if (other_length(parts_[part].style, length))
+    {
+      this->give_up(part, "is not known of this program", where, notices);
+    }
+    at += length;
+  }
+}
+
+/// Whether what is behind a place of a record is what it should be: the parts of other styles, or of fixes.
+bool RecordPlan::fits(std::span<const double> record, std::size_t end) const
+{
+  if (parts_.size() > 1)
+  {
+    return begins_part(record, end);
+  }
+  return has_fixes_ ? walk_fixes(record, end, known_fixes_, take_none) : end == record.size();
+}
+
+/// Whether bonds may have history, of which is not known how much.
+bool RecordPlan::needs_history() const noexcept
+{
+  return this->has_bonds() && parts_[bonds_].style->history && history_values_ < 0;
+}
+
+/// Finds out how many history values the bonds of a record have.
+void RecordPlan::look_at_history(std::span<const double> record)
+{
+  if (!this->needs_history())
+  {
+    return;
+  }
+  std::size_t at = 0;
+  for (std::size_t part = 0; part < bonds_; ++part)
+  {
+    FoundBonds bonds;
+    at += part == 0 ? this->end_of_first(record, bonds) : this->length_of_part(record, at, part);
+  }
+  const std::int64_t most = parts_[bonds_].most_bonds;
+  if (bonds_ > 0)
+  {
+    const std::size_t length = this->length_of_part(record, at, bonds_);
+    const BondBlock block = look_at_bonds(record.subspan(at, length), false, -1, most);
+    history_values_ =
+      block.bonds > 0 || block.history_values > 0 ? block.history_values : history_values_;
+  }
+  else
+  {
+    const std::int64_t b = look_at_bonds(record, true, 0, most).bonds;
+    const std::size_t none = RecordSlots::first_bond + 2 * static_cast<std::size_t>(b);
+    const std::size_t values = none < record.size() ? length_of(record[none], 1, most_history) : 0;
+    const std::size_t end = none + 1 + values * static_cast<std::size_t>(b);
+    const bool may = values > 0 && end <= record.size();
+    const bool has = may && (this->fits(record, end) || (b > 0 && !this->fits(record, none)));
+    const bool has_none = !has && b > 0;
+    const bool either = b == 0 && this->fits(record, none);
+    history_values_ = has && !either ? static_cast<std::int64_t>(values) : history_values_;
+    history_values_ = has_none ? 0 : history_values_;
+  }
+  if (history_values_ > most_history)
+  {
+    throw FormatError("expected at most " + std::to_string(most_history) +
+      " history values of a bond, got " + std::to_string(history_values_));
+  }
+}
+
+void RecordPlan::add_columns(const RestartLayout& layout)
+{
+  columns_.assign(std::begin(common_columns), std::end(common_columns));
+  const auto add = [&](RecordColumn column)
+  {
+    if (std::ranges::find(columns_, column.name, &RecordColumn::name) == columns_.end())
+    {
+      columns_.push_back(std::move(column));
+    }
+  };
+  for (std::size_t part = 0; part < parts_.size(); ++part)
+  {
+    std::size_t slot = RecordSlots::common;
+    for (const std::string_view name :
+      split_words(parts_[part].style ? parts_[part].style->columns : std::string_view()))
+    {
+      add({ std::string(name), name == "mol" ? Kind::Whole : Kind::Double, part, slot++ });
+    }
+  }
+  for (std::size_t fix = 0; fix < fix_lengths_.size(); ++fix)
+  {
+    const std::string name = "f_" + layout.fixes[fix].id;
+    const std::size_t values = fix_lengths_[fix] == 0 ? 0 : fix_lengths_[fix] - 1;
+    for (std::size_t i = 1; i <= values; ++i)
+    {
+      add({ values == 1 ? name : name + "[" + std::to_string(i) + "]", Kind::OfAFix, fix, i });
+    }
+  }
+}
+
+const RecordColumn* RecordPlan::molecule() const noexcept
+{
+  const auto found = std::ranges::find(columns_, Kind::Whole, &RecordColumn::kind);
+  return found == columns_.end() ? nullptr : &*found;
+}
+
+/// Finds which fixes have columns: those of values that users give to particles (property/atom), which have as many of
+/// all. What is behind the styles in the record must be of the fixes that the file names.
+void RecordPlan::find_fixes(
+  const RestartLayout& layout, std::span<const double> record, const Where& where, Notices& notices)
+{
+  if (known_fixes_ == 0 || (parts_.size() == 1 && !parts_.front().style))
+  {
+    return;
+  }
+  fix_lengths_.assign(known_fixes_, 0);
+  for (std::size_t fix = 0; fix < known_fixes_; ++fix)
+  {
+    const RestartFix& of = layout.fixes[fix];
+    const bool has = of.style.starts_with("property/atom") && of.most > 1 && of.most <= most_values;
+    fix_lengths_[fix] = has ? static_cast<std::size_t>(of.most) : 0;
+  }
+  if (record.empty())
+  {
+    return;
+  }
+  const std::size_t end = this->find_styles_end(record);
+  bool same = true;
+  const bool found = walk_fixes(record, end, known_fixes_,
+    [&](std::size_t fix, std::size_t, std::size_t length)
+    { same = same && (fix_lengths_[fix] == 0 || fix_lengths_[fix] == length); });
+  if (!found || !same)
+  {
+    fix_lengths_.clear();
+    Notice notice;
+    notice.where = where;
+    notice.text = "what fixes have of particles is not where it should be, and is left out";
+    notices.push_back(notice);
+  }
+  if (std::ranges::all_of(fix_lengths_, [](std::size_t length) { return length == 0; }))
+  {
+    fix_lengths_.clear();
+  }
+}
+
+std::size_t RecordPlan::search_next(std::span<const double> record)
+{
+  for (std::size_t at = RecordSlots::common; at + RecordSlots::common <= record.size(); ++at)
+  {
+    if (begins_part(record, at))
+    {
+      return at;
+    }
+  }
+  throw FormatError("expected the position of the particle again where the part of a second atom "
+                    "style begins, got none");
+}
+
+/// Of a part that has a length of its own.
+std::size_t RecordPlan::length_of_part(
+  std::span<const double> record, std::size_t at, std::size_t part) const
+{
+  const auto rest = record.subspan(at);
+  if (rest.size() < RecordSlots::common)
+  {
+    refuse_part(parts_[part].name, RecordSlots::common, rest.size());
+  }
+  const std::size_t length = length_of(rest[0], RecordSlots::common, rest.size());
+  if (length == 0)
+  {
+    throw FormatError("expected the length of the part of style " + parts_[part].name + ", from " +
+      std::to_string(RecordSlots::common) + " to " + std::to_string(rest.size()) + ", in double " +
+      std::to_string(at) + ", got " + to_text(rest[0]));
+  }
+  if (!has_position_of(rest, record))
+  {
+    throw FormatError("expected the position of the particle again behind double " +
+      std::to_string(at) + ", where the part of style " + parts_[part].name +
+      " begins, got another one");
+  }
+  return length;
+}
+
+/// The bonds of a list.
+static FoundBonds look_at_list(std::span<const double> block, const StyleLayout& style)
+{
+  FoundBonds bonds;
+  bonds.form = whole_numbers_of(block);
+  bonds.block.bonds = to_whole(block[style.values], bonds.form);
+  bonds.block.pairs = block.data() + style.values + 1;
+  return bonds;
+}
+
+/// Where the first part ends: its length is that of the whole record.
+std::size_t RecordPlan::end_of_first(std::span<const double> record, FoundBonds& bonds) const
+{
+  const Part& part = parts_.front();
+  if (part.searched)
+  {
+    return search_next(record);
+  }
+  if (!part.style)
+  {
+    return record.size();
+  }
+  if (part.style->history && bonds_ == 0)
+  {
+    bonds.block = look_at_bonds(record, true, history_values_, part.most_bonds);
+    bonds.form = WholeNumbers::Values;
+    return bonds.block.size;
+  }
+  const std::size_t end = measure_lists(record, *part.style);
+  if (part.style->bonds && bonds_ == 0)
+  {
+    bonds = look_at_list(record, *part.style);
+  }
+  return end;
+}
+
+std::size_t RecordPlan::end_of_part(
+  std::span<const double> record, std::size_t at, std::size_t number, FoundBonds& bonds) const
+{
+  const Part& part = parts_[number];
+  const std::size_t length = this->length_of_part(record, at, number);
+  const auto block = record.subspan(at, length);
+  std::size_t end = length;
+  if (part.style && part.style->history)
+  {
+    if (number == bonds_)
+    {
+      bonds.block = look_at_bonds(block, false, history_values_, part.most_bonds);
+      bonds.form = WholeNumbers::Values;
+    }
+  }
+  else if (part.style)
+  {
+    end = measure_lists(block, *part.style);
+    if (part.style->bonds && number == bonds_)
+    {
+      bonds = look_at_list(block, *part.style);
+    }
+  }
+  if (end != length)
+  {
+    throw FormatError("expected " + std::to_string(end) + " doubles in the part of style " +
+      part.name + ", got " + std::to_string(length));
+  }
+  return at + length;
+}
+
+std::size_t RecordPlan::find_styles_end(std::span<const double> record) const
+{
+  FoundBonds bonds;
+  std::size_t at = this->end_of_first(record, bonds);
+  for (std::size_t part = 1; part < parts_.size(); ++part)
+  {
+    at = this->end_of_part(record, at, part, bonds);
+  }
+  return at;
+}
+
+void RecordPlan::find_parts(
+  std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const
+{
+  parts[0] = record.data();
+  std::size_t at = this->end_of_first(record, bonds);
+  for (std::size_t part = 1; part < parts_.size(); ++part)
+  {
+    parts[part] = record.data() + at;
+    at = this->end_of_part(record, at, part, bonds);
+  }
+  if (fix_lengths_.empty())
+  {
+    return;
+  }
+  bool same = true;
+  const auto of_fixes = parts.subspan(parts_.size());
+  const bool found = walk_fixes(record, at, known_fixes_,
+    [&](std::size_t fix, std::size_t begin, std::size_t length)
+    {
+      of_fixes[fix] = record.data() + begin;
+      same = same && (fix_lengths_[fix] == 0 || fix_lengths_[fix] == length);
+    });
+  if (!found || !same)
+  {
+    std::ranges::fill(of_fixes, nullptr);
+  }
+}
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_restart_record_plan_h
+#define granular_restart_record_plan_h
+
+#include "granular/base/byte_source.h"
+#include "granular/base/error.h"
+#include "granular/base/progress.h"
+#include "granular/bonds/bond_record.h"
+#include "granular/restart/restart_layout.h"
+#include "granular/restart/restart_styles.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// What of a record a column is.
+struct RecordColumn
+{
+  enum class Kind : std::uint8_t
+  {
+    Double, ///< of the part of a style
+    Whole,  ///< the same, a whole number
+    Id,
+    Type,
+    Mask,
+    Image, ///< slot: the axis
+    OfAFix ///< part: the fix
+  };
+
+  std::string name;
+  Kind kind = Kind::Double;
+  std::size_t part = 0;
+  std::size_t slot = 0;
+};
+
+/// The bonds of a particle, in a record.
+struct FoundBonds
+{
+  BondBlock block;
+  WholeNumbers form = WholeNumbers::Values; ///< of types and partners
+};
+
+/// Where everything is in the records of a file. A record is a part for each style, one behind the other, each with its own
+/// length, but for the first, and a part for each fix. Source: pack_restart of AtomVecHybrid and the fixes of LIGGGHTS.
+class RecordPlan
+{
+public:
+  static constexpr std::int64_t most_history = 1024; ///< values of a bond
+  static constexpr std::int64_t most_values = 1024;  ///< of a fix
+
+  /// Looks at the styles and the first records: those until it is known whether bonds have history. Throws FormatError,
+  /// IoError, Cancelled.
+  RecordPlan(
+    const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress);
+
+  const std::vector<RecordColumn>& columns() const noexcept { return columns_; }
+  std::size_t styles() const noexcept { return parts_.size(); }
+  std::size_t fixes() const noexcept { return fix_lengths_.size(); } ///< 0 if none has columns
+  bool has_bonds() const noexcept { return bonds_ < parts_.size(); }
+  std::int64_t history_values() const noexcept { return history_values_; }
+  const RecordColumn* molecule() const noexcept; ///< the column of whole numbers, if there is one
+  int image_bits() const noexcept { return image_bits_; }
+
+  /// Finds the parts of a record: where each begins, styles first, then fixes, null if these are not as they should be; and
+  /// its bonds. Throws FormatError with what is wrong.
+  void find_parts(
+    std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const;
+
+private:
+  struct Part
+  {
+    const StyleLayout* style = nullptr; ///< null: nobody knows it
+    std::string name;
+    bool searched = false; ///< the first one, of which the end is where the next begins
+    std::int64_t most_bonds = 0;
+  };
+
+  void find_styles(const RestartLayout& layout, const Where& where, Notices& notices);
+  void give_up(std::size_t part, const std::string& why, const Where& where, Notices& notices);
+  void look_at(std::span<const double> record, const Where& where, Notices& notices);
+  bool fits(std::span<const double> record, std::size_t end) const;
+  bool needs_history() const noexcept;
+  void look_at_history(std::span<const double> record);
+  void find_fixes(const RestartLayout& layout, std::span<const double> record, const Where& where,
+    Notices& notices);
+  void add_columns(const RestartLayout& layout);
+
+  static std::size_t search_next(std::span<const double> record);
+  std::size_t length_of_part(
+    std::span<const double> record, std::size_t at, std::size_t part) const;
+  std::size_t end_of_first(std::span<const double> record, FoundBonds& bonds) const;
+  std::size_t end_of_part(
+    std::span<const double> record, std::size_t at, std::size_t number, FoundBonds& bonds) const;
+  std::size_t find_styles_end(std::span<const double> record) const;
+
+  std::vector<Part> parts_;
+  std::vector<RecordColumn> columns_;
+  std::vector<std::size_t> fix_lengths_; ///< in the record; 0: any. Empty: none has columns
+  std::size_t known_fixes_ = 0;
+  bool has_fixes_ = false;
+  std::size_t bonds_ = 0; ///< the part that has them
+  std::int64_t history_values_ = -1;
+  int image_bits_ = 10;
+};
+}
+#endif
