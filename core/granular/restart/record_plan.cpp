@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/record_plan.h"
 
-#include "granular/base/number_print.h"
 #include "granular/base/words.h"
+#include "granular/restart/record_places.h"
 #include "granular/restart/record_scan.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace granular
@@ -26,68 +23,7 @@ const RecordColumn common_columns[] = { { "id", Kind::Id, 0, 0 }, { "type", Kind
   { "vx", Kind::Double, 0, RecordSlots::v }, { "vy", Kind::Double, 0, RecordSlots::v + 1 },
   { "vz", Kind::Double, 0, RecordSlots::v + 2 } };
 
-/// A length from least to most, or 0.
-std::size_t length_of(double word, std::size_t least, std::size_t most) noexcept
-{
-  const bool is_length = word >= static_cast<double>(least) && word <= static_cast<double>(most) &&
-    std::trunc(word) == word;
-  return is_length ? static_cast<std::size_t>(word) : 0;
-}
-
-bool has_position_of(std::span<const double> part, std::span<const double> record) noexcept
-{
-  return std::memcmp(
-           part.data() + RecordSlots::x, record.data() + RecordSlots::x, 3 * sizeof(double)) == 0;
-}
-
-/// The type of a particle, in either form; 0: it is none.
-std::int64_t type_of(std::span<const double> part) noexcept
-{
-  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  const double type = part[RecordSlots::type];
-  const auto bits = std::bit_cast<std::int64_t>(type);
-  const std::int64_t value =
-    type >= 1 && type <= static_cast<double>(most) ? static_cast<std::int64_t>(type) : bits;
-  return value >= 1 && value <= most ? value : 0;
-}
-
-/// Whether the part of a style may begin there.
-bool begins_part(std::span<const double> record, std::size_t at) noexcept
-{
-  if (at > record.size() || record.size() - at < RecordSlots::common)
-  {
-    return false;
-  }
-  const auto part = record.subspan(at);
-  return length_of(part[0], RecordSlots::common, part.size()) > 0 &&
-    has_position_of(part, record) && type_of(part) > 0 && type_of(part) == type_of(record);
-}
-
-/// Calls take(f, begin, length) for the parts of so many fixes. False: there are not so many, up to the end.
-template <class Take>
-bool walk_fixes(std::span<const double> record, std::size_t at, std::size_t fixes, const Take& take)
-{
-  for (std::size_t fix = 0; fix < fixes; ++fix)
-  {
-    const std::size_t length =
-      at < record.size() ? length_of(record[at], 1, record.size() - at) : 0;
-    if (length == 0)
-    {
-      return false;
-    }
-    take(fix, at, length);
-    at += length;
-  }
-  return at == record.size();
-}
-
 constexpr auto take_none = [](std::size_t, std::size_t, std::size_t) {};
-
-[[noreturn]] void refuse_part(const std::string& style, std::size_t least, std::size_t got)
-{
-  throw FormatError("expected at least " + std::to_string(least) +
-    " doubles in the part of style " + style + ", got " + std::to_string(got));
-}
 }
 
 RecordPlan::RecordPlan(
@@ -350,150 +286,6 @@ void RecordPlan::find_fixes(
   if (std::ranges::all_of(fix_lengths_, [](std::size_t length) { return length == 0; }))
   {
     fix_lengths_.clear();
-  }
-}
-
-std::size_t RecordPlan::search_next(std::span<const double> record)
-{
-  for (std::size_t at = RecordSlots::common; at + RecordSlots::common <= record.size(); ++at)
-  {
-    if (begins_part(record, at))
-    {
-      return at;
-    }
-  }
-  throw FormatError("expected the position of the particle again where the part of a second atom "
-                    "style begins, got none");
-}
-
-/// Of a part that has a length of its own.
-std::size_t RecordPlan::length_of_part(
-  std::span<const double> record, std::size_t at, std::size_t part) const
-{
-  const auto rest = record.subspan(at);
-  if (rest.size() < RecordSlots::common)
-  {
-    refuse_part(parts_[part].name, RecordSlots::common, rest.size());
-  }
-  const std::size_t length = length_of(rest[0], RecordSlots::common, rest.size());
-  if (length == 0)
-  {
-    throw FormatError("expected the length of the part of style " + parts_[part].name + ", from " +
-      std::to_string(RecordSlots::common) + " to " + std::to_string(rest.size()) + ", in double " +
-      std::to_string(at) + ", got " + to_text(rest[0]));
-  }
-  if (!has_position_of(rest, record))
-  {
-    throw FormatError("expected the position of the particle again behind double " +
-      std::to_string(at) + ", where the part of style " + parts_[part].name +
-      " begins, got another one");
-  }
-  return length;
-}
-
-/// The bonds of a list.
-static FoundBonds look_at_list(std::span<const double> block, const StyleLayout& style)
-{
-  FoundBonds bonds;
-  bonds.form = whole_numbers_of(block);
-  bonds.block.bonds = to_whole(block[style.values], bonds.form);
-  bonds.block.pairs = block.data() + style.values + 1;
-  return bonds;
-}
-
-/// Where the first part ends: its length is that of the whole record.
-std::size_t RecordPlan::end_of_first(std::span<const double> record, FoundBonds& bonds) const
-{
-  const Part& part = parts_.front();
-  if (part.searched)
-  {
-    return search_next(record);
-  }
-  if (!part.style)
-  {
-    return record.size();
-  }
-  if (part.style->history && bonds_ == 0)
-  {
-    bonds.block = look_at_bonds(record, true, history_values_, part.most_bonds);
-    bonds.form = WholeNumbers::Values;
-    return bonds.block.size;
-  }
-  const std::size_t end = measure_lists(record, *part.style);
-  if (part.style->bonds && bonds_ == 0)
-  {
-    bonds = look_at_list(record, *part.style);
-  }
-  return end;
-}
-
-std::size_t RecordPlan::end_of_part(
-  std::span<const double> record, std::size_t at, std::size_t number, FoundBonds& bonds) const
-{
-  const Part& part = parts_[number];
-  const std::size_t length = this->length_of_part(record, at, number);
-  const auto block = record.subspan(at, length);
-  std::size_t end = length;
-  if (part.style && part.style->history)
-  {
-    if (number == bonds_)
-    {
-      bonds.block = look_at_bonds(block, false, history_values_, part.most_bonds);
-      bonds.form = WholeNumbers::Values;
-    }
-  }
-  else if (part.style)
-  {
-    end = measure_lists(block, *part.style);
-    if (part.style->bonds && number == bonds_)
-    {
-      bonds = look_at_list(block, *part.style);
-    }
-  }
-  if (end != length)
-  {
-    throw FormatError("expected " + std::to_string(end) + " doubles in the part of style " +
-      part.name + ", got " + std::to_string(length));
-  }
-  return at + length;
-}
-
-std::size_t RecordPlan::find_styles_end(std::span<const double> record) const
-{
-  FoundBonds bonds;
-  std::size_t at = this->end_of_first(record, bonds);
-  for (std::size_t part = 1; part < parts_.size(); ++part)
-  {
-    at = this->end_of_part(record, at, part, bonds);
-  }
-  return at;
-}
-
-void RecordPlan::find_parts(
-  std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const
-{
-  parts[0] = record.data();
-  std::size_t at = this->end_of_first(record, bonds);
-  for (std::size_t part = 1; part < parts_.size(); ++part)
-  {
-    parts[part] = record.data() + at;
-    at = this->end_of_part(record, at, part, bonds);
-  }
-  if (fix_lengths_.empty())
-  {
-    return;
-  }
-  bool same = true;
-  const auto of_fixes = parts.subspan(parts_.size());
-  const bool found = walk_fixes(record, at, known_fixes_,
-    [&](std::size_t fix, std::size_t begin, std::size_t length)
-    {
-      of_fixes[fix] = record.data() + begin;
-      same = same && (fix_lengths_[fix] == 0 || fix_lengths_[fix] == length);
-    });
-  if (!found || !same)
-  {
-    std::ranges::fill(of_fixes, nullptr);
   }
 }
 }
