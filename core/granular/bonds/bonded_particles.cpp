@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/bonds/bonded_particles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t most_row_values = std::int64_t{ 1 } << 40;
+
+/// Memory that is not touched before there are particles in it.
+template <class T>
+void allocate(std::unique_ptr<T[]>& array, std::size_t elements)
+{
+  array = elements > 0 ? std::make_unique_for_overwrite<T[]>(elements) : nullptr;
+}
+
+template <class T>
+constexpr std::size_t element_bytes(const std::unique_ptr<T[]>&) noexcept
+{
+  return sizeof(T);
+}
+
+template <class T>
+void copy(const T* from, std::size_t elements, T* to) noexcept
+{
+  if (elements > 0)
+  {
+    std::memcpy(to, from, elements * sizeof(T));
+  }
+}
+}
+
+BondedParticles::BondedParticles(std::int32_t most_bonds, std::int32_t history_values)
+  : most_bonds_(most_bonds)
+  , history_values_(history_values)
+{
+  if (most_bonds < 1)
+  {
+    throw LimitError(
+      "expected room for at least 1 bond a particle, got " + std::to_string(most_bonds));
+  }
+  if (history_values < 0)
+  {
+    throw LimitError(
+      "expected at least 0 history values a bond, got " + std::to_string(history_values));
+  }
+  if (history_values > most_row_values / most_bonds)
+  {
+    throw LimitError("expected at most " + std::to_string(most_row_values) +
+      " history values a particle, got " + std::to_string(most_bonds) + " times " +
+      std::to_string(history_values));
+  }
+}
+
+/// The one list of what there is.
+template <class Visit>
+void BondedParticles::for_arrays(const Visit& visit) const
+{
+  for (const auto array : { &Arrays::x, &Arrays::v, &Arrays::f, &Arrays::x_mol, &Arrays::v_mol })
+  {
+    visit(array, 1);
+  }
+  visit(&Arrays::tag, 1);
+  visit(&Arrays::molecule, 1);
+  visit(&Arrays::type, 1);
+  visit(&Arrays::mask, 1);
+  visit(&Arrays::image, 1);
+  visit(&Arrays::bonds, 1);
+  visit(&Arrays::bond_types, this->width());
+  visit(&Arrays::partners, this->width());
+  visit(&Arrays::history, this->history_width());
+}
+
+std::size_t BondedParticles::row_bytes() const noexcept
+{
+  std::size_t bytes = 0;
+  this->for_arrays(
+    [&](auto array, std::size_t width) { bytes += width * element_bytes(arrays_.*array); });
+  return bytes;
+}
+
+void BondedParticles::expect_particle(std::size_t i) const
+{
+  if (i >= size_)
+  {
+    throw LimitError(
+      "expected a particle below " + std::to_string(size_) + ", got " + std::to_string(i));
+  }
+}
+
+void BondedParticles::grow(std::size_t capacity)
+{
+  const std::size_t most =
+    static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / this->row_bytes();
+  if (capacity == 0)
+  {
+    capacity = capacity_ + growth;
+  }
+  if (capacity < size_ || capacity > most)
+  {
+    throw LimitError("expected room for " + std::to_string(size_) + " to " + std::to_string(most) +
+      " particles, got " + std::to_string(capacity));
+  }
+  Arrays grown;
+  this->for_arrays(
+    [&](auto array, std::size_t width) { allocate(grown.*array, capacity * width); });
+  this->for_arrays([&](auto array, std::size_t width)
+    { copy((arrays_.*array).get(), size_ * width, (grown.*array).get()); });
+  arrays_ = std::move(grown);
+  capacity_ = capacity;
+}
+
+void BondedParticles::resize(std::size_t size)
+{
+  if (size > capacity_)
+  {
+    const std::size_t steps = (size - capacity_ - 1) / growth + 1;
+    this->grow(
+      std::max(size, capacity_ + steps * growth)); // the sum may have left the range of numbers
+  }
+  if (size > size_)
+  {
+    const std::size_t added = size - size_;
+    for (const auto array : { &Arrays::x, &Arrays::v, &Arrays::f, &Arrays::x_mol, &Arrays::v_mol })
+    {
+      std::fill_n((arrays_.*array).get() + size_, added, Vector3{});
+    }
+    std::fill_n(arrays_.tag.get() + size_, added, 0);
+    std::fill_n(arrays_.molecule.get() + size_, added, 0);
+    std::fill_n(arrays_.type.get() + size_, added, 0);
+    std::fill_n(arrays_.mask.get() + size_, added, 1);
+    std::fill_n(arrays_.image.get() + size_, added, ImageCounts{});
+    std::fill_n(arrays_.bonds.get() + size_, added, 0);
+  }
+  size_ = size;
+}
+
+std::size_t BondedParticles::add(std::int32_t type, const Vector3& x)
+{
+  const Vector3 place = x; // may be of this object
+  this->resize(size_ + 1);
+  arrays_.type[size_ - 1] = type;
+  arrays_.x[size_ - 1] = place;
+  return size_ - 1;
+}
+
+void BondedParticles::add_bond(
+  std::size_t i, std::int32_t type, std::int64_t partner, std::span<const double> history)
+{
+  this->expect_particle(i);
+  if (history.size() != this->values())
+  {
+    throw LimitError("expected " + std::to_string(history_values_) +
+      " history values of a bond, got " + std::to_string(history.size()));
+  }
+  const std::size_t bond = this->count(i);
+  this->set_bonds(i, bond + 1);
+  this->bond_types(i)[bond] = type;
+  this->partners(i)[bond] = partner;
+  copy(history.data(), history.size(), this->history(i).data() + bond * this->values());
+}
+
+void BondedParticles::set_bonds(std::size_t i, std::size_t count)
+{
+  this->expect_particle(i);
+  if (count > this->width())
+  {
+    throw LimitError("expected at most " + std::to_string(most_bonds_) + " bonds of particle " +
+      std::to_string(i) + ", got " + std::to_string(count));
+  }
+  const std::size_t old = this->count(i);
+  arrays_.bonds[i] = static_cast<std::int32_t>(count);
+  if (count > old)
+  {
+    std::fill_n(this->bond_types(i).data() + old, count - old, 0);
+    std::fill_n(this->partners(i).data() + old, count - old, 0);
+    std::fill_n(
+      this->history(i).data() + old * this->values(), (count - old) * this->values(), 0.0);
+  }
+}
+
+void BondedParticles::remove(std::size_t i)
+{
+  this->expect_particle(i);
+  const std::size_t last = size_ - 1;
+  if (i < last)
+  {
+    this->for_arrays(
+      [&](auto array, std::size_t width)
+      {
+        auto* const rows = (arrays_.*array).get();
+        copy(rows + last * width, width, rows + i * width);
+      });
+  }
+  size_ = last;
+}
+
+BondedMemory BondedParticles::memory() const noexcept
+{
+  const std::size_t vectors = 5 * sizeof(Vector3);
+  const std::size_t integers = (4 + this->width()) * sizeof(std::int32_t);
+  const std::size_t history = this->history_width() * sizeof(double);
+  return { capacity_ * (vectors + integers + history), capacity_ * this->row_bytes() };
+}
+}

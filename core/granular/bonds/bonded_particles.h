@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_bonds_bonded_particles_h
+#define granular_bonds_bonded_particles_h
+
+#include "granular/base/box.h"
+#include "granular/bonds/bond_record.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace granular
+{
+/// Bytes that particles take.
+struct BondedMemory
+{
+  std::size_t described = 0; ///< n_max (5 x 24 + 4 (4 + B) + 8 B n_h), as bond/gran estimates it
+  std::size_t allocated = 0; ///< by this object, all of it
+};
+
+/// Particles with bonds, as the atom style bond/gran of LIGGGHTS' forks holds them: one array for each quantity, with a row for
+/// each particle. Spans are good until the object grows, and tell of the particles that there are, not of the capacity.
+///
+/// A particle holds at most B bonds: each has a type, the global id of its partner, and n_h history values (see history_layouts).
+/// A bond is usually with both of its particles. Types and ids may have any value; what holds a bond twice or with itself is kept.
+class BondedParticles
+{
+public:
+  /// What grow(0) adds.
+  static constexpr std::size_t growth = 10000;
+
+  /// B and n_h. Throws LimitError if B < 1, n_h < 0 or B n_h > 2^40.
+  BondedParticles(std::int32_t most_bonds, std::int32_t history_values);
+
+  std::int32_t most_bonds() const noexcept { return most_bonds_; }
+  std::int32_t history_values() const noexcept { return history_values_; }
+  std::size_t size() const noexcept { return size_; }
+  std::size_t capacity() const noexcept { return capacity_; }
+
+  /// Makes room for so many particles, 0: for 10,000 more. Keeps the particles. Throws LimitError if there are more particles than
+  /// that, or if no memory could be as large; std::bad_alloc; then all is as it was.
+  void grow(std::size_t capacity = 0);
+
+  /// Makes it so many particles, and room for them in steps of 10,000. Those that come are as add makes them, of type 0 at the origin.
+  void resize(std::size_t size);
+
+  /// Adds a particle without bonds and returns its row: tag 0, mask 1, molecule 0, image 0; v, f, x_mol and v_mol are zero.
+  std::size_t add(std::int32_t type, const Vector3& x);
+
+  /// Adds a bond to a particle. Throws LimitError if there is no such particle, if it holds B bonds, or if there are not
+  /// n_h values.
+  void add_bond(
+    std::size_t i, std::int32_t type, std::int64_t partner, std::span<const double> history);
+
+  /// Sets how many bonds a particle holds. Those that come have type, partner and history 0. Throws LimitError.
+  void set_bonds(std::size_t i, std::size_t count);
+
+  /// Removes a particle: the last one takes its row. Throws LimitError if there is no such particle.
+  void remove(std::size_t i);
+
+  /// Removes all particles; the room stays.
+  void clear() noexcept { size_ = 0; }
+
+  std::span<Vector3> x() noexcept { return { arrays_.x.get(), size_ }; }
+  std::span<const Vector3> x() const noexcept { return { arrays_.x.get(), size_ }; }
+  std::span<Vector3> v() noexcept { return { arrays_.v.get(), size_ }; }
+  std::span<const Vector3> v() const noexcept { return { arrays_.v.get(), size_ }; }
+  std::span<Vector3> f() noexcept { return { arrays_.f.get(), size_ }; }
+  std::span<const Vector3> f() const noexcept { return { arrays_.f.get(), size_ }; }
+
+  /// Of what a particle is part of.
+  std::span<Vector3> x_mol() noexcept { return { arrays_.x_mol.get(), size_ }; }
+  std::span<const Vector3> x_mol() const noexcept { return { arrays_.x_mol.get(), size_ }; }
+  std::span<Vector3> v_mol() noexcept { return { arrays_.v_mol.get(), size_ }; }
+  std::span<const Vector3> v_mol() const noexcept { return { arrays_.v_mol.get(), size_ }; }
+
+  std::span<std::int64_t> tag() noexcept { return { arrays_.tag.get(), size_ }; }
+  std::span<const std::int64_t> tag() const noexcept { return { arrays_.tag.get(), size_ }; }
+  std::span<std::int64_t> molecule() noexcept { return { arrays_.molecule.get(), size_ }; }
+  std::span<const std::int64_t> molecule() const noexcept
+  {
+    return { arrays_.molecule.get(), size_ };
+  }
+  std::span<std::int32_t> type() noexcept { return { arrays_.type.get(), size_ }; }
+  std::span<const std::int32_t> type() const noexcept { return { arrays_.type.get(), size_ }; }
+
+  /// A bit for each group that a particle is in.
+  std::span<std::int32_t> mask() noexcept { return { arrays_.mask.get(), size_ }; }
+  std::span<const std::int32_t> mask() const noexcept { return { arrays_.mask.get(), size_ }; }
+
+  /// How often a particle has crossed the periodic box.
+  std::span<ImageCounts> image() noexcept { return { arrays_.image.get(), size_ }; }
+  std::span<const ImageCounts> image() const noexcept { return { arrays_.image.get(), size_ }; }
+
+  /// How many bonds each particle holds: b, 0 to B.
+  std::span<const std::int32_t> bonds() const noexcept { return { arrays_.bonds.get(), size_ }; }
+
+  /// Of the bonds of a particle, which must be there: b types, b partners, and n_h values of the first, of the second, ...
+  std::span<std::int32_t> bond_types(std::size_t i) noexcept
+  {
+    return { arrays_.bond_types.get() + i * this->width(), this->count(i) };
+  }
+  std::span<const std::int32_t> bond_types(std::size_t i) const noexcept
+  {
+    return { arrays_.bond_types.get() + i * this->width(), this->count(i) };
+  }
+  std::span<std::int64_t> partners(std::size_t i) noexcept
+  {
+    return { arrays_.partners.get() + i * this->width(), this->count(i) };
+  }
+  std::span<const std::int64_t> partners(std::size_t i) const noexcept
+  {
+    return { arrays_.partners.get() + i * this->width(), this->count(i) };
+  }
+  std::span<double> history(std::size_t i) noexcept
+  {
+    return { arrays_.history.get() + i * this->history_width(), this->count(i) * this->values() };
+  }
+  std::span<const double> history(std::size_t i) const noexcept
+  {
+    return { arrays_.history.get() + i * this->history_width(), this->count(i) * this->values() };
+  }
+
+  BondedMemory memory() const noexcept;
+
+private:
+  struct Arrays
+  {
+    std::unique_ptr<Vector3[]> x, v, f, x_mol, v_mol;
+    std::unique_ptr<std::int64_t[]> tag, molecule;
+    std::unique_ptr<std::int32_t[]> type, mask;
+    std::unique_ptr<ImageCounts[]> image;
+    std::unique_ptr<std::int32_t[]> bonds;
+    std::unique_ptr<std::int32_t[]> bond_types;
+    std::unique_ptr<std::int64_t[]> partners;
+    std::unique_ptr<double[]> history;
+  };
+
+  std::size_t count(std::size_t i) const noexcept
+  {
+    return static_cast<std::size_t>(arrays_.bonds[i]);
+  }
+  std::size_t values() const noexcept { return static_cast<std::size_t>(history_values_); }
+  std::size_t width() const noexcept { return static_cast<std::size_t>(most_bonds_); }
+  std::size_t history_width() const noexcept { return this->width() * this->values(); }
+
+  /// Calls visit(array, elements of a particle) for each.
+  template <class Visit>
+  void for_arrays(const Visit& visit) const;
+
+  std::size_t row_bytes() const noexcept;
+  void expect_particle(std::size_t i) const;
+
+  std::int32_t most_bonds_;
+  std::int32_t history_values_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+  Arrays arrays_;
+};
+}
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_bonds_id_numbers_h
+#define granular_bonds_id_numbers_h
+
+#include <bit>
+#include <cstdint>
+
+namespace granular
+{
+/// Ids of this size and below are doubles of the same value: 2^53.
+inline constexpr std::int64_t largest_id_value = std::int64_t{ 1 } << 53;
+
+constexpr bool is_id_value(std::int64_t id) noexcept
+{
+  return id >= -largest_id_value && id <= largest_id_value;
+}
+
+/// Whether a double is what an id of 2^53 at most becomes: a whole number, and not the negative zero.
+constexpr bool is_id_value(double number) noexcept
+{
+  constexpr auto largest = static_cast<double>(largest_id_value);
+  // the comparison is false of what is not a number, and the conversion then never done
+  return number >= -largest && number <= largest &&
+    std::bit_cast<std::uint64_t>(static_cast<double>(static_cast<std::int64_t>(number))) ==
+    std::bit_cast<std::uint64_t>(number);
+}
+
+/// An id as a double for a buffer: of 2^53 at most as its value, which is what codes with 32-bit ids send; beyond as its bits.
+///
+/// Some large ids have the bits of a double that is the value of a small one: 4607182418800017408 those of 1. Such an id changes
+/// places with the small one: it has the bits of the integer 1, which no id has otherwise. So each of the 2^64 ids is a double of
+/// its own and comes back from it, and each double is an id. The double may be a signalling nan: copy it, do not calculate.
+constexpr double id_to_number(std::int64_t id) noexcept
+{
+  if (is_id_value(id))
+  {
+    return static_cast<double>(id);
+  }
+  const auto number = std::bit_cast<double>(id);
+  return is_id_value(number) ? std::bit_cast<double>(static_cast<std::int64_t>(number)) : number;
+}
+
+/// The id that became this double.
+constexpr std::int64_t number_to_id(double number) noexcept
+{
+  if (is_id_value(number))
+  {
+    return static_cast<std::int64_t>(number);
+  }
+  const auto bits = std::bit_cast<std::int64_t>(number);
+  return is_id_value(bits) ? std::bit_cast<std::int64_t>(static_cast<double>(bits)) : bits;
+}
+}
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_bonds_pack_fields_h
+#define granular_bonds_pack_fields_h
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace granular
+{
+/// What a particle is, in a buffer.
+enum class PackField : std::uint8_t
+{
+  X,
+  V,
+  F,
+  XMol,
+  VMol,
+  Tag,
+  Type,
+  Mask,
+  Image,
+  Molecule
+};
+
+constexpr bool is_vector(PackField field) noexcept
+{
+  return field <= PackField::VMol;
+}
+
+constexpr std::size_t doubles_of(PackField field) noexcept
+{
+  return is_vector(field) ? 3 : 1;
+}
+
+constexpr std::size_t doubles_of(std::span<const PackField> fields) noexcept
+{
+  std::size_t doubles = 0;
+  for (const PackField field : fields)
+  {
+    doubles += doubles_of(field);
+  }
+  return doubles;
+}
+
+/// The tables: what each routine of the atom style bond/gran sends of a particle, in turn. Two dialects: that of PFM, whose particles
+/// are part of something that moves, and that of WITH-BONDS and Flexible_Fibers (`plain`). Their pack_comm, pack_comm_vel,
+/// pack_border, pack_border_vel, pack_border_hybrid, pack_reverse and pack_exchange. Where PFM packs x x_mol v v_mol, which is in
+/// one case of a moving periodic box, these are what it unpacks.
+namespace pack_tables
+{
+using enum PackField;
+
+inline constexpr std::array comm_pfm{ X, XMol, VMol };
+inline constexpr std::array comm_plain{ X };
+inline constexpr std::array comm_velocity_pfm{ X, V, XMol, VMol };
+inline constexpr std::array comm_velocity_plain{ X, V };
+inline constexpr std::array border_pfm{ X, Tag, Type, Mask, Molecule, XMol, VMol };
+inline constexpr std::array border_plain{ X, Tag, Type, Mask, Molecule };
+inline constexpr std::array border_velocity_pfm{ X, Tag, Type, Mask, Molecule, V, XMol, VMol };
+inline constexpr std::array border_velocity_plain{ X, Tag, Type, Mask, Molecule, V };
+inline constexpr std::array border_hybrid{ Molecule };
+inline constexpr std::array reverse{ F };
+
+/// Between the length of the record and the number of bonds.
+inline constexpr std::array exchange_pfm{ X, V, Tag, Type, Mask, Image, Molecule, XMol, VMol };
+inline constexpr std::array exchange_plain{ X, V, Tag, Type, Mask, Image, Molecule };
+}
+}
+#endif
