@@ -125,10 +125,7 @@ private:
     const HistoryLayout* const layout = find_history_layout(request_.history_layout, values);
     unsigned_from_ =
       layout ? static_cast<std::size_t>(layout->unsigned_from) : bonds_.history_values();
-    std::vector<std::string> names = { "id1", "id2", "btype" };
-    const auto history = history_columns(request_.history_layout, values);
-    names.insert(names.end(), history.begin(), history.end());
-    table.schema = make_local_schema(names);
+    table.schema = make_bond_schema(request_.history_layout, values);
     const auto rows = static_cast<std::size_t>(table.rows);
     for (const ArrayInfo& info : table.schema.arrays())
     {
@@ -227,6 +224,14 @@ private:
   std::vector<std::size_t> first_bonds_; ///< of each block in the table
   Block ends_[2];
 };
+}
+
+ColumnSchema make_bond_schema(int history_layout, std::int64_t history_values)
+{
+  std::vector<std::string> names = { "id1", "id2", "btype" };
+  const auto history = history_columns(history_layout, history_values);
+  names.insert(names.end(), history.begin(), history.end());
+  return make_local_schema(names);
 }
 
 LocalFrame make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
