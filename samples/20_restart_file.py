@@ -19,7 +19,7 @@ for place, time in ((1, 0.01), (2, 0.04)):
     AssignViewToLayout(view, strip, place)
     view.ViewTime = time
     grains = Show(fibres, view, AmbientColor=[0.85] * 3, DiffuseColor=[0.85] * 3, Opacity=0.25)
-    ColorBy(grains, None)
+    ColorBy(grains, ("POINTS", ""))
     # The history says what bends each bond: the moment across it.
     moment = Calculator(Input=bonds, AttributeType="Cell Data", ResultArrayName="bending moment [N m]",
                         Function="mag(torque_tangential)")
@@ -38,7 +38,7 @@ SaveScreenshot("restart_file.png", strip, SeparatorWidth=0)
 
 for time in 0.01, 0.02, 0.04:
     fibres.UpdatePipeline(time)
-    particles, lines = servermanager.Fetch(fibres, 0), servermanager.Fetch(bonds, 1)
+    particles, lines = (servermanager.Fetch(fibres, idx=port) for port in (0, 1))
     positions = {int(number): np.array(particles.GetPoint(row))
                  for row, number in enumerate(np.array(particles.GetPointData().GetArray("id")))}
     arrays = {name: np.array(lines.GetCellData().GetArray(name))

@@ -135,7 +135,7 @@ assert (split.cells("part") == (split.cells("row") == numpy.roll(split.cells("ro
 # what is known of the whole
 field = read.particles.GetFieldData()
 assert vtk_to_numpy(field.GetArray("timestep"))[0] == 10000
-assert list(vtk_to_numpy(field.GetArray("BoxBounds"))) == [-0.002, 0.022, -0.006, 0.008, -0.012, 0.012]
+assert vtk_to_numpy(field.GetArray("BoxBounds")).ravel().tolist() == [-0.002, 0.022, -0.006, 0.008, -0.012, 0.012]
 assert field.GetAbstractArray("Boundary").GetValue(0) == "ff pp ff"
 assert field.GetAbstractArray("units").GetValue(0) == "si"
 groups = field.GetAbstractArray("Groups")
@@ -152,7 +152,7 @@ check_particles(parts, records)
 check_bonds(parts, records, (*HISTORY, "equilibrium_length", "damage"))
 everything = Read(*(good(f"parts.{part}.restart") for part in ("0", "1", "2", "base")))
 assert (everything.points() == parts.points()).all()
-assert everything.said == parts.said == read.said, everything.said
+assert read.said == parts.said == everything.said == [], (read.said, everything.said)
 
 # ---- names of the history, what is read, where points are ------------------------------------------------
 
@@ -174,7 +174,7 @@ assert (vtk_to_numpy(reader.GetBonds().GetPoints().GetData()) == ends.reshape(-1
 moved = Read(good("fibres.restart"), PointOrigin=(0.5, 0.25, -2.0))
 assert (moved.points() == read.points() - [0.5, 0.25, -2]).all()
 assert numpy.allclose(moved.ends(), ends - [0.5, 0.25, -2], rtol=0, atol=1e-15)
-assert list(vtk_to_numpy(moved.lines.GetFieldData().GetArray("PointOrigin"))) == [0.5, 0.25, -2]
+assert vtk_to_numpy(moved.lines.GetFieldData().GetArray("PointOrigin")).ravel().tolist() == [0.5, 0.25, -2]
 
 # ---- pieces ----------------------------------------------------------------------------------------------
 
@@ -191,7 +191,7 @@ for pieces in (2, 3, 5, 40):
         assert set(own[:, 0]) <= set(points[-1])
         cells.append(own)
         assert reader.GetOutputDataObject(2).GetNumberOfCells() == (piece == 0)
-    assert (numpy.concatenate(points) == read.points("id")).all()
+    assert numpy.concatenate(points).tolist() == list(places)
     assert numpy.concatenate(cells).tolist() == [list(pair) for pair in pairs]
 
 # ---- grains without bonds, and bonds with twelve values, of other programs -------------------------------

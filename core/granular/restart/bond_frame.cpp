@@ -50,7 +50,7 @@ void add_notice(
   {
     Notice notice;
     notice.where = where;
-    notice.text = std::to_string(count) + of_what;
+    notice.text = of_what + ": " + std::to_string(count);
     notices.push_back(notice);
   }
 }
@@ -58,12 +58,13 @@ void add_notice(
 void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
 {
   add_notice(notices, where, counts.repeated_ids,
-    " particles have the id of another one: bonds end at the first that has it");
+    "particles that have the id of another one, where bonds end at the first that has it");
   add_notice(notices, where, counts.without_partner,
-    " bonds are left out: their partner is not in the file");
-  add_notice(notices, where, counts.of_itself, " bonds are between a particle and itself");
+    "bonds that are left out, as their partner is not in the file");
+  add_notice(notices, where, counts.of_itself, "bonds of a particle with itself");
   add_notice(notices, where, counts.differing,
-    " bonds have not the same history at both of their particles: that of the lower id is taken");
+    "bonds whose two particles do not hold the same history, of which that of the lower id is "
+    "taken");
 }
 
 class FrameMaker

@@ -4,25 +4,26 @@
 #include "granular/local/id_finder.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <tuple>
 
 namespace granular
 {
 namespace
 {
-constexpr std::uint64_t no_sign = ~std::uint64_t{ 0 } >> 1;
+/// What copies of a history value may differ by, in parts of it: programs compute both where a bond crosses a periodic face.
+constexpr double rounding = 1e-6;
 
-/// Whether numbers are the same but for their signs.
+/// Whether numbers are the same but for their signs and for rounding.
 bool same_values(const double* a, const double* b, std::size_t count) noexcept
 {
-  std::uint64_t differing = 0;
-  for (std::size_t i = 0; i < count; ++i)
+  const auto same = [](double one, double other)
   {
-    differing |=
-      (std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i])) & no_sign;
-  }
-  return differing == 0;
+    const double size = std::max(std::abs(one), std::abs(other));
+    return std::abs(std::abs(one) - std::abs(other)) <= rounding * size ||
+      std::abs(one) == std::abs(other) || (std::isnan(one) && std::isnan(other));
+  };
+  return std::equal(a, a + count, b, same);
 }
 
 /// A copy of a bond, seen from the particle with the lower id.

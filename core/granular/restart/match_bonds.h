@@ -39,7 +39,7 @@ struct BondCounts
 {
   std::int64_t without_partner = 0;
   std::int64_t of_itself = 0; ///< between a particle and itself
-  std::int64_t differing = 0; ///< copies with another history, but for the sign
+  std::int64_t differing = 0; ///< copies with another history, but for sign and rounding
   std::int64_t repeated_ids = 0;
 
   BondCounts& operator+=(const BondCounts& other) noexcept;

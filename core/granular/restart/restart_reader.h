@@ -55,7 +55,7 @@ struct RestartFrame
 /// A bond that both particles hold is one: that of the particle with the lower id, with its history, whatever the sign of the
 /// other copy. One that only one of them holds is that one. Where several are held between two particles each is one. Those of which a
 /// particle is not in the file have no line and no row; these, bonds of a particle to itself and copies whose history is
-/// not the same but for the sign are counted in notices.
+/// not the same, but for the sign and rounding to 1e-6, are counted in notices.
 ///
 /// Reads the records once, on several threads. Throws FormatError that names the record (from 1), the particle's id where it is known,
 /// and the byte; IoError; Cancelled; std::bad_alloc.
