@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Restart files in the list of a run, and which files are some.
+#include "granular/restart/restart_file.h"
+
+#include "restart_files.h"
+
+#include "../base/byte_source_packing.h"
+#include "../dump/dumps.h"
+
+#include "granular/dump/frame_index.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+using restart_builder::RestartBuilder;
+
+/// An index of restart files, and what it says.
+struct Indexed
+{
+  granular::FrameIndex index;
+  std::string said;
+
+  void update(const std::vector<std::string>& files)
+  {
+    granular::Notices notices;
+    granular::Progress progress;
+    granular::IndexOptions options;
+    options.format = &granular::restart_format();
+    said.clear();
+    try
+    {
+      index.update(files, options, notices, progress);
+    }
+    catch (const granular::Error& error)
+    {
+      said = std::string("error: ") + error.what() + "\n";
+    }
+    for (const granular::Notice& notice : notices)
+    {
+      said += to_string(notice) + "\n";
+    }
+  }
+};
+
+TEST(RestartFile, OneFrameEach)
+{
+  const Folder folder;
+  RestartBuilder file = small_file();
+  std::vector<std::string> files;
+  for (const std::int64_t step : { 300, 100, 200 })
+  {
+    file.timestep = step;
+    file.time = static_cast<double>(step) / 1000;
+    files.push_back(folder.write("run." + std::to_string(step) + ".restart", file.file()));
+  }
+  files.push_back(folder.write("packed.restart.gz", packing::gzip(small_file().file())));
+  Indexed all;
+  all.update(files);
+  EXPECT_EQ(all.said, "");
+  ASSERT_EQ(all.index.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const granular::FileIndex& one = all.index.files()[i];
+    ASSERT_EQ(one.frames.size(), 1u);
+    EXPECT_EQ(one.frames[0].rows, 5);
+    EXPECT_EQ(one.frames[0].offset, 0);
+    EXPECT_TRUE(one.frames[0].kind);
+  }
+  const granular::FileIndex& first = all.index.files()[0];
+  EXPECT_EQ(first.frames[0].timestep, 300);
+  EXPECT_EQ(first.frames[0].time, 0.3);
+  EXPECT_EQ(first.frames[0].end, static_cast<std::int64_t>(file.file().size()));
+  const granular::FrameEntry& packed = all.index.files()[3].frames[0];
+  EXPECT_EQ(packed.timestep, 1234);
+  EXPECT_TRUE(std::isnan(packed.time));
+  EXPECT_EQ(packed.end, static_cast<std::int64_t>(small_file().file().size()));
+}
+
+TEST(RestartFile, HalfWritten)
+{
+  const Folder folder;
+  const std::string good = folder.write("a.restart", small_file().file());
+  RestartBuilder later = small_file();
+  later.timestep = 5000;
+  const std::string cut = folder.write("b.restart", later.file().substr(0, 1200));
+  Indexed all;
+  all.update({ good, cut });
+  EXPECT_EQ(all.index.size(), 1u);
+  EXPECT_NE(all.said.find(cut + "@"), std::string::npos) << all.said;
+  EXPECT_NE(
+    all.said.find("understood: header, groups, masses; the file is left out"), std::string::npos)
+    << all.said;
+  folder.write("b.restart", later.file());
+  all.update({ good, cut });
+  EXPECT_EQ(all.index.size(), 2u);
+  EXPECT_EQ(all.said, "");
+}
+
+TEST(RestartFile, FilesOfProcessesBesideTheirBase)
+{
+  const Folder folder;
+  const RestartBuilder file = small_file();
+  const std::string first = folder.write("r0.restart", file.part(0));
+  const std::string second = folder.path("r1.restart");
+  const std::string base = folder.write("rbase.restart", file.base());
+  Indexed all;
+  all.update({ first, base });
+  EXPECT_EQ(all.index.size(), 0u);
+  EXPECT_NE(all.said.find("error: " + second + ": expected the particles of process 1 of 2"),
+    std::string::npos)
+    << all.said;
+
+  folder.write("r1.restart", file.part(1)); // the base is as it was
+  all.update({ first, second, base });
+  EXPECT_EQ(all.said, "");
+  ASSERT_EQ(all.index.size(), 1u);
+  EXPECT_EQ(all.index.files()[2].frames[0].rows, 5);
+  EXPECT_EQ(all.index.files()[2].frames[0].timestep, 1234);
+  EXPECT_TRUE(all.index.files()[0].frames.empty());
+
+  Indexed alone;
+  alone.update({ first });
+  EXPECT_EQ(alone.index.size(), 0u);
+  EXPECT_EQ(alone.said,
+    "error: " + first +
+      ": expected a restart file, got what one of several processes has written of it: open the "
+      "file with 'base' in its name\n");
+}
+
+TEST(RestartFile, FilesOfProcessesWithoutTheirBase)
+{
+  const Folder folder;
+  const std::string other = folder.write("other.restart", small_file().file());
+  const std::string part = folder.write("r1.restart", small_file().part(1));
+  Indexed all;
+  all.update({ other, part });
+  EXPECT_EQ(all.index.size(), 1u);
+  EXPECT_EQ(all.said,
+    part +
+      ": expected a restart file, got what one of several processes has written of it: open the "
+      "file with 'base' in its name; 1 such are left out\n");
+}
+
+TEST(RestartFile, FilesOfLammps)
+{
+  const Folder folder;
+  const std::string path =
+    folder.write("lmp.restart", std::string("LammpS RestartT\0\1\0\0\0\2\0\0\0", 24));
+  EXPECT_TRUE(granular::is_restart_file(path));
+  Indexed all;
+  all.update({ path });
+  EXPECT_NE(
+    all.said.find("error: " + path + "@0: expected a restart file of LIGGGHTS, got one of LAMMPS"),
+    std::string::npos)
+    << all.said;
+}
+
+TEST(RestartFile, WhichFilesAreSome)
+{
+  const Folder folder;
+  RestartBuilder file = small_file();
+  for (const bool swapped : { false, true })
+  {
+    file.swapped = swapped;
+    const std::string bytes = file.file();
+    EXPECT_TRUE(granular::is_restart_file(folder.write("a", bytes)));
+    EXPECT_TRUE(granular::is_restart_file(folder.write("b", packing::gzip(bytes))));
+    EXPECT_TRUE(granular::is_restart_file(folder.write("c", packing::zstd(bytes))));
+    EXPECT_TRUE(granular::is_restart_file(folder.write("d", bytes.substr(0, 60))));
+    EXPECT_FALSE(granular::is_restart_file(folder.write("e", bytes.substr(0, 40))));
+    EXPECT_FALSE(granular::is_restart_file(folder.write("f", bytes.substr(1))));
+    EXPECT_FALSE(granular::is_restart_file(folder.write("g", file.part(0))));
+  }
+  EXPECT_FALSE(granular::is_restart_file(folder.write("h", "")));
+  EXPECT_FALSE(granular::is_restart_file(folder.write("i", std::string(100, '\0'))));
+  EXPECT_FALSE(granular::is_restart_file(folder.path("none")));
+  EXPECT_FALSE(granular::is_restart_file(folder.path("")));
+}
+
+TEST(RestartFile, AllOfTheTestData)
+{
+  int restarts = 0;
+  int others = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(GRANULAR_DATA "/good"))
+  {
+    const std::string path = entry.path().string();
+    if (!entry.is_regular_file())
+    {
+      continue;
+    }
+    const std::string name = entry.path().filename().string();
+    const bool expected = entry.path().extension() == ".restart" &&
+      (!name.starts_with("parts_") || name.starts_with("parts_base"));
+    EXPECT_EQ(granular::is_restart_file(path), expected) << path;
+    ++(expected ? restarts : others);
+  }
+  EXPECT_GE(restarts, 6);
+  EXPECT_GE(others, 100);
+}
+}
