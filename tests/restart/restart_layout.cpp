@@ -357,7 +357,7 @@ TEST(RestartLayout, MeshesBehind)
   RestartBuilder file = small_file();
   file.time = 0.5;
   for (const std::string& behind : { std::string(), std::string("mesh"), std::string(100, '\0'),
-         file.part(0), std::string(200'000, '\xee') })
+         file.part(1), std::string(200'000, '\xee') })
   {
     file.behind = behind;
     const RestartLayout layout = layout_of(file.file());

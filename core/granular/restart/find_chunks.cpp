@@ -171,7 +171,7 @@ private:
     }
     if (walker_.records() != header_.atoms)
     {
-      result_.misfit = walker_.records();
+      result_.misfit = std::max(result_.misfit.value_or(0), walker_.records());
       return false;
     }
     this->take(first, size_);

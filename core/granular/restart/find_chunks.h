@@ -21,7 +21,7 @@ struct ChunkSearch
   std::vector<RestartChunk> chunks;
   std::int64_t records = 0;
   std::optional<std::int64_t>
-    misfit; ///< records of chunks that were right but for this not being the header's number
+    misfit;             ///< the most records of chunks that were right but for this number
   bool gave_up = false; ///< too many places looked like chunks
 };
 

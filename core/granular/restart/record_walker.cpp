@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace granular
 {
@@ -12,15 +13,23 @@ namespace
 {
 constexpr auto least_doubles = static_cast<std::int64_t>(RecordSlots::common);
 constexpr std::int64_t records_a_report = 65536;
+constexpr std::int64_t most_int = std::numeric_limits<std::int32_t>::max();
 
 const char* slot(const char* record, std::size_t number) noexcept
 {
   return record + number * sizeof(double);
 }
 
-bool is_whole(double number) noexcept
+bool in_range(std::int64_t number, std::int64_t low, std::int64_t high) noexcept
 {
-  return number == std::floor(number) && std::abs(number) < 0x1p63;
+  return number >= low && number <= high;
+}
+
+/// All of these have doubles of their own.
+bool is_whole_in(double number, std::int64_t low, std::int64_t high) noexcept
+{
+  return number >= static_cast<double>(low) && number <= static_cast<double>(high) &&
+    number == std::floor(number);
 }
 }
 
@@ -60,8 +69,7 @@ bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles, SearchBudget&
       return false;
     }
     const double length = bytes_.double_in(slot(record.data(), RecordSlots::length));
-    if (!(length >= least_doubles && length <= static_cast<double>(left)) || !is_whole(length) ||
-      !this->is_record(record.data()))
+    if (!is_whole_in(length, least_doubles, left) || !this->is_record(record.data()))
     {
       return false;
     }
@@ -77,15 +85,18 @@ bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles, SearchBudget&
 /// Whole numbers are bits, or values: the type, which is at least 1, tells.
 bool RecordWalker::is_record(const char* record) const noexcept
 {
+  const std::int64_t most_tag = header_.tag_bytes == 4 ? most_int : std::int64_t{ 1 } << 53;
+  const char* const tag = slot(record, RecordSlots::tag);
+  const char* const mask = slot(record, RecordSlots::mask);
   const std::int64_t type_bits = bytes_.int64_in(slot(record, RecordSlots::type));
   if (type_bits >= 1 && type_bits <= header_.types)
   {
-    return bytes_.int64_in(slot(record, RecordSlots::tag)) >= 0 && this->near_box(record);
+    return in_range(bytes_.int64_in(tag), 0, most_tag) &&
+      in_range(bytes_.int64_in(mask), -most_int - 1, most_int) && this->near_box(record);
   }
-  const double type = bytes_.double_in(slot(record, RecordSlots::type));
-  const double tag = bytes_.double_in(slot(record, RecordSlots::tag));
-  return type >= 1 && type <= header_.types && is_whole(type) && tag >= 0 && is_whole(tag) &&
-    is_whole(bytes_.double_in(slot(record, RecordSlots::mask))) && this->near_box(record);
+  return is_whole_in(bytes_.double_in(slot(record, RecordSlots::type)), 1, header_.types) &&
+    is_whole_in(bytes_.double_in(tag), 0, most_tag) &&
+    is_whole_in(bytes_.double_in(mask), -most_int - 1, most_int) && this->near_box(record);
 }
 
 bool RecordWalker::near_box(const char* record) const noexcept

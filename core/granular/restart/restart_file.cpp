@@ -106,7 +106,7 @@ void pass_over_parts(std::vector<FileIndex>& files, Notices& notices)
   if (first)
   {
     Notice notice = *first->defect;
-    notice.text += "; " + std::to_string(alone) + " such are left out";
+    notice.text += alone > 1 ? "; " + std::to_string(alone) + " such files are left out" : "";
     notices.push_back(std::move(notice));
   }
 }
