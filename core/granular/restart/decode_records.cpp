@@ -56,6 +56,7 @@ void copy_doubles(const double* const* parts, std::size_t stride, std::size_t sl
 RecordRows::RecordRows(const RecordPlan& plan)
   : stride(plan.styles() + plan.fixes())
   , parts(stride * most)
+  , molecule_(plan.molecule())
 {
 }
 
@@ -66,10 +67,11 @@ void RecordRows::load_record(const RecordPlan& plan, std::span<const double> rec
   ids[i] = to_whole(record[RecordSlots::tag], form);
   types[i] = static_cast<std::int32_t>(to_whole(record[RecordSlots::type], form));
   masks[i] = load_mask(record[RecordSlots::mask], form);
-  if (const RecordColumn* const molecule = plan.molecule())
+  images[i] = unpack_image(load_image(record[RecordSlots::image]), plan.image_bits());
+  if (molecule_)
   {
-    const std::span part(parts[i * stride + molecule->part], molecule->slot + 1);
-    molecules[i] = to_whole(part[molecule->slot], whole_numbers_of(part));
+    const std::span part(parts[i * stride + molecule_->part], molecule_->slot + 1);
+    molecules[i] = to_whole(part[molecule_->slot], whole_numbers_of(part));
   }
 }
 
@@ -97,7 +99,6 @@ ParticleStore::ParticleStore(const RecordPlan& plan, const RestartLayout& layout
   , first_(first)
   , end_(end)
   , styles_(plan.styles())
-  , image_bits_(plan.image_bits())
 {
   const RestartHeader& header = layout.header;
   frame_.rows = end - first;
@@ -219,14 +220,12 @@ void ParticleStore::store_number(
     case Kind::Mask:
       return for_rows([&](std::size_t i) { return rows.masks[i]; });
     case Kind::Image:
-      return for_rows(
-        [&](std::size_t i)
-        {
-          const std::int64_t image = load_image(rows.parts[i * rows.stride][RecordSlots::image]);
-          const ImageCounts counts = unpack_image(image, image_bits_);
-          const std::int32_t axes[] = { counts.x, counts.y, counts.z };
-          return axes[number.column.slot];
-        });
+    {
+      constexpr std::int32_t ImageCounts::*axes[] = { &ImageCounts::x, &ImageCounts::y,
+        &ImageCounts::z };
+      const auto axis = axes[number.column.slot];
+      return for_rows([&](std::size_t i) { return rows.images[i].*axis; });
+    }
     default:
       return for_rows([&](std::size_t i) { return rows.molecules[i]; });
   }

@@ -29,6 +29,7 @@ struct RecordRows
   std::array<std::int64_t, most> ids = {};
   std::array<std::int32_t, most> types = {};
   std::array<std::int32_t, most> masks = {};
+  std::array<ImageCounts, most> images = {};
   std::array<std::int64_t, most> molecules = {};
   std::array<FoundBonds, most> bonds = {};
 
@@ -37,6 +38,8 @@ struct RecordRows
 
 private:
   void load_record(const RecordPlan& plan, std::span<const double> record, std::size_t i);
+
+  const RecordColumn* molecule_;
 };
 
 /// The particles of a part of the rows, on their way into a frame. Any number of threads store rows of their own.
@@ -90,7 +93,6 @@ private:
   std::int64_t first_;
   std::int64_t end_;
   std::size_t styles_;
-  int image_bits_;
   std::vector<Doubles> doubles_;
   std::vector<Doubles> of_fixes_;
   std::vector<Number> numbers_;
