@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bonds/exchange_packing.h"
 
-#include "granular/base/number_print.h"
 #include "granular/bonds/pack_values.h"
 
 #include <algorithm>
@@ -56,6 +55,9 @@ void add_to(double* to, const Vector3& change) noexcept
   }
 }
 
+/// Particles that are packed and unpacked before it is asked whether all is well.
+constexpr std::size_t rows_a_block = 128;
+
 /// The loops of a table.
 template <const auto& fields>
 struct Packer : PackTable<fields>
@@ -64,6 +66,16 @@ struct Packer : PackTable<fields>
 
   /// An array that is sent as it is.
   static constexpr bool is_array = Table::size == 1 && is_vector(fields[0]);
+
+  template <class Rows, class Numbers>
+  static void put_rows(const auto& arrays, const Rows& rows, std::size_t begin, std::size_t end,
+    double* to, Numbers& numbers)
+  {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      Table::put(arrays, rows[i], to + i * Table::doubles, numbers);
+    }
+  }
 
   template <class Rows>
   static void pack(const BondedParticles& particles, const Rows& rows, double* to)
@@ -77,69 +89,84 @@ struct Packer : PackTable<fields>
       }
       return;
     }
-    for (std::size_t i = 0; i < rows.size(); ++i, to += Table::doubles)
+    for (std::size_t i = 0; i < rows.size(); i += rows_a_block)
     {
-      Table::put(arrays, rows[i], to);
+      const std::size_t end = std::min(i + rows_a_block, rows.size());
+      FastNumbers fast;
+      put_rows(arrays, rows, i, end, to, fast);
+      if (fast.doubts != 0)
+      {
+        ExactNumbers exact;
+        put_rows(arrays, rows, i, end, to, exact);
+      }
     }
   }
 
+  /// Moves what has been packed.
   template <class Rows>
-  static void pack_moved(
+  static void move(
     const BondedParticles& particles, const Rows& rows, const Displacement& change, double* to)
   {
-    const auto arrays = Table::arrays_of(particles);
     const auto* const masks = particles.mask().data();
     for (std::size_t i = 0; i < rows.size(); ++i, to += Table::doubles)
     {
-      Table::put(arrays, rows[i], to);
       Table::for_each(
         [&](auto k)
         {
           if constexpr (fields[k] == PackField::X)
           {
-            add_to(to + Table::offset_of(k), change.x);
+            add_to(to + Table::template offset<k>, change.x);
           }
           if constexpr (fields[k] == PackField::V)
           {
             if ((masks[rows[i]] & change.moving_groups) != 0)
             {
-              add_to(to + Table::offset_of(k), change.v);
+              add_to(to + Table::template offset<k>, change.v);
             }
           }
         });
     }
   }
 
-  static void check(std::span<const double> buffer)
+  /// Throws FormatError at the first fault of some particles.
+  static void check(std::span<const double> buffer, ParticleRange some)
   {
-    for (std::size_t i = 0; i < buffer.size() / Table::doubles; ++i)
+    for (std::size_t i = 0; i < some.size(); ++i)
     {
-      Table::check(buffer, i * Table::doubles, i);
+      Table::check(buffer, some[i] * Table::doubles, some[i]);
     }
   }
 
-  template <class Rows>
-  static void unpack(const double* from, const Rows& rows, BondedParticles& particles)
+  template <class Numbers>
+  static void get_rows(const double* from, const auto& arrays, ParticleRange rows, Numbers& numbers)
+  {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      Table::get(from + i * Table::doubles, arrays, rows[i], numbers);
+    }
+  }
+
+  /// Some particles of a buffer, into rows that are there. Throws FormatError.
+  static void unpack(std::span<const double> buffer, ParticleRange some, BondedParticles& particles,
+    std::size_t first)
   {
     const auto arrays = Table::arrays_of(particles);
-    if constexpr (is_array && fields[0] != PackField::F)
+    const double* const from = buffer.data() + some.first * Table::doubles;
+    if constexpr (is_array)
     {
-      if (rows.count > 0)
+      if (some.count > 0)
       {
-        std::memcpy(std::get<0>(arrays) + rows.first, from, rows.count * sizeof(Vector3));
+        std::memcpy(std::get<0>(arrays) + first, from, some.count * sizeof(Vector3));
       }
       return;
     }
-    for (std::size_t i = 0; i < rows.size(); ++i, from += Table::doubles)
+    FastNumbers fast;
+    get_rows(from, arrays, { first, some.count }, fast);
+    if (fast.doubts != 0)
     {
-      if constexpr (fields[0] == PackField::F)
-      {
-        add_to(std::get<0>(arrays)[rows[i]].data(), { from[0], from[1], from[2] });
-      }
-      else
-      {
-        Table::get(from, arrays, rows[i]);
-      }
+      check(buffer, some);
+      ExactNumbers exact;
+      get_rows(from, arrays, { first, some.count }, exact);
     }
   }
 };
@@ -149,26 +176,24 @@ struct Routine
 {
   std::span<const PackField> fields;
   std::size_t doubles;
-  bool border;
   void (*pack)(const BondedParticles&, const ParticleRows&, double*);
-  void (*pack_moved)(const BondedParticles&, const ParticleRows&, const Displacement&, double*);
-  void (*check)(std::span<const double>);
-  void (*unpack)(const double*, const ParticleRange&, BondedParticles&);
+  void (*move)(const BondedParticles&, const ParticleRows&, const Displacement&, double*);
+  void (*check)(std::span<const double>, ParticleRange);
+  void (*unpack)(std::span<const double>, ParticleRange, BondedParticles&, std::size_t);
 };
 
 template <const auto& fields>
-constexpr Routine routine_of(bool border) noexcept
+constexpr Routine routine_of() noexcept
 {
-  return { fields, Packer<fields>::doubles, border,
+  return { fields, Packer<fields>::doubles,
     [](const BondedParticles& particles, const ParticleRows& rows, double* to)
     { std::visit([&](const auto& some) { Packer<fields>::pack(particles, some, to); }, rows); },
     [](const BondedParticles& particles, const ParticleRows& rows, const Displacement& change,
-      double* to)
-    {
+      double* to) {
       std::visit(
-        [&](const auto& some) { Packer<fields>::pack_moved(particles, some, change, to); }, rows);
+        [&](const auto& some) { Packer<fields>::move(particles, some, change, to); }, rows);
     },
-    &Packer<fields>::check, &Packer<fields>::template unpack<ParticleRange> };
+    &Packer<fields>::check, &Packer<fields>::unpack };
 }
 
 /// By routine, then by dialect.
@@ -176,12 +201,12 @@ const Routine& find(PackRoutine routine, PackDialect dialect) noexcept
 {
   using namespace pack_tables;
   static constexpr std::array<std::array<Routine, 2>, 6> routines{ {
-    { routine_of<comm_pfm>(false), routine_of<comm_plain>(false) },
-    { routine_of<comm_velocity_pfm>(false), routine_of<comm_velocity_plain>(false) },
-    { routine_of<border_pfm>(true), routine_of<border_plain>(true) },
-    { routine_of<border_velocity_pfm>(true), routine_of<border_velocity_plain>(true) },
-    { routine_of<border_hybrid>(true), routine_of<border_hybrid>(true) },
-    { routine_of<reverse>(false), routine_of<reverse>(false) },
+    { routine_of<comm_pfm>(), routine_of<comm_plain>() },
+    { routine_of<comm_velocity_pfm>(), routine_of<comm_velocity_plain>() },
+    { routine_of<border_pfm>(), routine_of<border_plain>() },
+    { routine_of<border_velocity_pfm>(), routine_of<border_velocity_plain>() },
+    { routine_of<border_hybrid>(), routine_of<border_hybrid>() },
+    { routine_of<reverse>(), routine_of<reverse>() },
   } };
   return routines[static_cast<std::size_t>(routine)][static_cast<std::size_t>(dialect)];
 }
@@ -190,48 +215,21 @@ std::size_t size_of(const ParticleRows& rows) noexcept
 {
   return std::visit([](const auto& some) { return some.size(); }, rows);
 }
+
+bool is_border(PackRoutine routine) noexcept
+{
+  return routine == PackRoutine::Border || routine == PackRoutine::BorderVelocity;
 }
 
-void refuse_number(const std::string& expected, std::size_t particle, std::size_t at, double got)
+/// Adds what came, from a row on.
+template <class Rows>
+void add_forces(std::span<const double> buffer, const Rows& rows, std::span<Vector3> forces)
 {
-  throw FormatError(
-    "expected " + expected + " " + buffer_place(particle, at) + ", got " + to_text(got));
-}
-
-std::string buffer_place(std::size_t particle, std::size_t at)
-{
-  return "in double " + std::to_string(at) + " of the buffer, of its particle " +
-    std::to_string(particle);
-}
-
-void expect_rows(const BondedParticles& particles, const ParticleRows& rows)
-{
-  if (const auto* const range = std::get_if<ParticleRange>(&rows))
+  for (std::size_t i = 0; i < rows.size(); ++i)
   {
-    if (range->first > particles.size() || range->count > particles.size() - range->first)
-    {
-      throw LimitError("expected rows of " + std::to_string(particles.size()) + " particles, got " +
-        std::to_string(range->count) + " from " + std::to_string(range->first) + " on");
-    }
-    return;
-  }
-  for (const std::size_t row : std::get<ParticleList>(rows))
-  {
-    if (row >= particles.size())
-    {
-      throw LimitError("expected rows of " + std::to_string(particles.size()) +
-        " particles, got row " + std::to_string(row));
-    }
+    add_to(forces[rows[i]].data(), { buffer[3 * i], buffer[3 * i + 1], buffer[3 * i + 2] });
   }
 }
-
-void expect_size(std::size_t needed, std::size_t size)
-{
-  if (size != needed)
-  {
-    throw LimitError(
-      "expected a buffer of " + std::to_string(needed) + " doubles, got " + std::to_string(size));
-  }
 }
 
 std::span<const PackField> fields_of(PackRoutine routine, PackDialect dialect) noexcept
@@ -250,12 +248,11 @@ void pack(const BondedParticles& particles, PackRoutine routine, PackDialect dia
   const Routine& found = find(routine, dialect);
   expect_rows(particles, rows);
   expect_size(size_of(rows) * found.doubles, buffer.size());
-  if (shift.is_none())
+  found.pack(particles, rows, buffer.data());
+  if (!shift.is_none())
   {
-    found.pack(particles, rows, buffer.data());
-    return;
+    found.move(particles, rows, displacement_of(shift, is_border(routine)), buffer.data());
   }
-  found.pack_moved(particles, rows, displacement_of(shift, found.border), buffer.data());
 }
 
 void unpack(BondedParticles& particles, PackRoutine routine, PackDialect dialect,
@@ -272,15 +269,31 @@ void unpack(BondedParticles& particles, PackRoutine routine, PackDialect dialect
     throw LimitError("expected a first row of at most " + std::to_string(particles.size()) +
       ", got " + std::to_string(rows.first));
   }
-  found.check(buffer);
-  particles.resize(std::max(particles.size(), rows.first + rows.count));
-  found.unpack(buffer.data(), rows, particles);
+  const std::size_t old = particles.size();
+  if (rows.first < old || rows.count > particles.capacity() - old)
+  {
+    found.check(buffer, { 0, rows.count }); // there is no way back later
+  }
+  try
+  {
+    for (std::size_t i = 0; i < rows.count; i += rows_a_block)
+    {
+      const std::size_t count = std::min(rows_a_block, rows.count - i);
+      particles.resize(std::max(particles.size(), rows[i] + count));
+      found.unpack(buffer, { i, count }, particles, rows[i]);
+    }
+  }
+  catch (const FormatError&)
+  {
+    particles.resize(old);
+    throw;
+  }
 }
 
 void unpack_reverse(BondedParticles& particles, ParticleList rows, std::span<const double> buffer)
 {
   expect_rows(particles, rows);
-  expect_size(rows.size() * Packer<pack_tables::reverse>::doubles, buffer.size());
-  Packer<pack_tables::reverse>::unpack(buffer.data(), rows, particles);
+  expect_size(rows.size() * packed_doubles(PackRoutine::Reverse, PackDialect::Pfm), buffer.size());
+  add_forces(buffer, rows, particles.f());
 }
 }

@@ -71,12 +71,13 @@ struct Records
   static void pack(const BondedParticles& particles, const Rows& rows, double* to)
   {
     const auto arrays = Table::arrays_of(particles);
+    ExactNumbers numbers;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       const std::size_t row = rows[i];
       try
       {
-        Table::put(arrays, row, to + 1);
+        Table::put(arrays, row, to + 1, numbers);
       }
       catch (const LimitError& error)
       {
@@ -189,10 +190,11 @@ struct Records
     const std::size_t first = particles.size();
     particles.resize(first + count);
     const auto arrays = Table::arrays_of(particles);
+    ExactNumbers numbers;
     const double* from = buffer.data();
     for (std::size_t row = first; row < first + count; ++row)
     {
-      Table::get(from + 1, arrays, row);
+      Table::get(from + 1, arrays, row, numbers);
       from = get_bonds(from + bonds_at, particles, row);
     }
     return count;

@@ -5,8 +5,9 @@
 #include "granular/bonds/exchange_packing.h"
 #include "granular/bonds/id_numbers.h"
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -74,41 +75,87 @@ auto* array_of(Particles& particles) noexcept
   }
 }
 
-/// Bits of an image count in a buffer.
-inline constexpr int buffer_image_bits = 21;
+/// Added to this, a number becomes one whose last bits are those of the nearest integer: a conversion that is defined for all
+/// doubles, and without a branch.
+inline constexpr double integer_bias = 0x1.8p52;
 
-inline double to_number(std::int64_t id) noexcept
+/// A double of an integer of 32 bits as that integer; of any other double some integer.
+inline std::int32_t low_integer(double number) noexcept
 {
-  return id_to_number(id);
-}
-inline double to_number(std::int32_t value) noexcept
-{
-  return value;
-}
-inline double to_number(const ImageCounts& counts)
-{
-  return id_to_number(pack_image(counts, buffer_image_bits));
-}
-
-inline void from_number(double number, std::int64_t& id) noexcept
-{
-  id = number_to_id(number);
-}
-inline void from_number(double number, std::int32_t& value) noexcept
-{
-  value = static_cast<std::int32_t>(number);
-}
-inline void from_number(double number, ImageCounts& counts) noexcept
-{
-  counts = unpack_image(number_to_id(number), buffer_image_bits);
+  return static_cast<std::int32_t>(
+    static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + integer_bias)));
 }
 
 inline bool is_int32(double number) noexcept
 {
-  return number >= std::numeric_limits<std::int32_t>::min() &&
-    number <= std::numeric_limits<std::int32_t>::max() &&
-    static_cast<double>(static_cast<std::int32_t>(number)) == number;
+  return static_cast<double>(low_integer(number)) == number;
 }
+
+inline std::uint64_t difference(double a, double b) noexcept
+{
+  return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
+}
+
+/// Bits of an image count in a buffer.
+inline constexpr int buffer_image_bits = 21;
+
+/// For the values that nearly all have, without a branch: what they add to `doubts` is 0. Else the result may be wrong, and all is
+/// done again by the exact ones.
+struct FastNumbers
+{
+  std::uint64_t doubts = 0;
+
+  double to_number(std::int64_t id) noexcept
+  {
+    constexpr std::int64_t limit = std::int64_t{ 1 } << 52;
+    doubts |= (static_cast<std::uint64_t>(id) + limit) >> 53;
+    return static_cast<double>(id);
+  }
+  double to_number(std::int32_t value) noexcept { return value; }
+  double to_number(const ImageCounts& counts)
+  {
+    return id_to_number(pack_image(counts, buffer_image_bits));
+  }
+
+  void from_number(double number, std::int64_t& id) noexcept
+  {
+    const double biased = number + integer_bias;
+    const auto bits = std::bit_cast<std::uint64_t>(biased);
+    constexpr auto bias = std::bit_cast<std::uint64_t>(integer_bias);
+    doubts |= difference(biased - integer_bias, number) | (bits ^ bias) >> 52;
+    id = static_cast<std::int64_t>(bits - bias);
+  }
+  void from_number(double number, std::int32_t& value) noexcept
+  {
+    value = low_integer(number);
+    doubts |= difference(value, number);
+  }
+  void from_number(double number, ImageCounts& counts) noexcept
+  {
+    counts = unpack_image(number_to_id(number), buffer_image_bits);
+  }
+};
+
+/// For all values.
+struct ExactNumbers
+{
+  static double to_number(std::int64_t id) noexcept { return id_to_number(id); }
+  static double to_number(std::int32_t value) noexcept { return value; }
+  static double to_number(const ImageCounts& counts)
+  {
+    return id_to_number(pack_image(counts, buffer_image_bits));
+  }
+
+  static void from_number(double number, std::int64_t& id) noexcept { id = number_to_id(number); }
+  static void from_number(double number, std::int32_t& value) noexcept
+  {
+    value = low_integer(number);
+  }
+  static void from_number(double number, ImageCounts& counts) noexcept
+  {
+    counts = unpack_image(number_to_id(number), buffer_image_bits);
+  }
+};
 
 /// What is wrong with the number of a field; null: nothing.
 template <PackField field>
@@ -155,42 +202,41 @@ struct PackTable
   }
 
   /// Where the doubles of a field are.
-  static constexpr std::size_t offset_of(std::size_t k) noexcept
-  {
-    return doubles_of(std::span<const PackField>(fields).first(k));
-  }
+  template <std::size_t k>
+  static constexpr std::size_t offset = doubles_of(std::span<const PackField>(fields).first(k));
 
-  template <class Arrays>
-  static void put(const Arrays& arrays, std::size_t row, double* to)
+  template <class Arrays, class Numbers>
+  static void put(const Arrays& arrays, std::size_t row, double* to, Numbers& numbers)
   {
     for_each(
       [&](auto k)
       {
         if constexpr (is_vector(fields[k]))
         {
-          std::memcpy(to + offset_of(k), &std::get<k>(arrays)[row], sizeof(Vector3));
+          std::memcpy(to + offset<k>, &std::get<k>(arrays)[row], sizeof(Vector3));
         }
         else
         {
-          to[offset_of(k)] = to_number(std::get<k>(arrays)[row]);
+          to[offset<k>] = numbers.to_number(std::get<k>(arrays)[row]);
         }
       });
   }
 
   /// What is there has no fault.
-  template <class Arrays>
-  static void get(const double* from, const Arrays& arrays, std::size_t row) noexcept
+  template <class Arrays, class Numbers>
+  static void get(
+    const double* from, const Arrays& arrays, std::size_t row, Numbers& numbers) noexcept
   {
     for_each(
       [&](auto k)
       {
         if constexpr (is_vector(fields[k]))
         {
-          std::memcpy(&std::get<k>(arrays)[row], from + offset_of(k), sizeof(Vector3));
+          std::memcpy(&std::get<k>(arrays)[row], from + offset<k>, sizeof(Vector3));
         }
         else
         {
-          from_number(from[offset_of(k)], std::get<k>(arrays)[row]);
+          numbers.from_number(from[offset<k>], std::get<k>(arrays)[row]);
         }
       });
   }
@@ -203,10 +249,10 @@ struct PackTable
       {
         if constexpr (!is_vector(fields[k]))
         {
-          const double number = buffer[place + offset_of(k)];
+          const double number = buffer[place + offset<k>];
           if (const char* const expected = fault_of<fields[k]>(number)) [[unlikely]]
           {
-            refuse_number(expected, particle, place + offset_of(k), number);
+            refuse_number(expected, particle, place + offset<k>, number);
           }
         }
       });
