@@ -10,7 +10,7 @@ data = os.path.join(os.environ["GRANULAR_DATA"], "good", "restart")
 fibres = os.path.join(data, "fibres.restart")
 with open(fibres, "rb") as file:
     whole = file.read()
-record = whole.index(struct.pack("<d", 73.0))  # of a particle with two bonds
+record = whole.index(struct.pack("<d", 65.0))  # of a particle with two bonds
 bonds = record + 8 * (17 + 12)
 assert struct.unpack_from("<d", whole, bonds)[0] == 2
 files = {"restart.cut": whole[:-100],

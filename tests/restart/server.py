@@ -24,7 +24,7 @@ with connected() as server:
     reader.FileNames = [os.path.abspath("restart.cut")]
     reader.UpdatePipeline()
     assert reader.GetDataInformation().GetNumberOfPoints() == 0
-    server.wait_for(r"restart.cut.*expected the particles of 3 processes")
+    server.wait_for(r"restart.cut.*expected 31 particles of 3 processes")
     reader.FileNames = [fibres]
     reader.PeriodicLines = "Split"
     reader.UpdatePipeline()

@@ -119,7 +119,7 @@ void read_process_files(const ProcessNames& names, RestartLayout& layout, Progre
     if (!is_there(path))
     {
       throw FormatError("expected the particles of process " + std::to_string(process) + of_all +
-          " (from 0) in a file of their own, got none of this name",
+          " in a file of their own, got none of this name",
         { path });
     }
     layout.chunks.push_back(read_process_file(path, layout, layout.records, progress));
