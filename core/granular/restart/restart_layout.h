@@ -38,17 +38,21 @@ struct RestartLayout
   std::vector<double> masses;      ///< of types 1, 2, ...; nan if the file has none
   bool has_fixes = false;          ///< false: what fixes have in records was not found
   std::vector<RestartFix> fixes;
-  std::vector<RestartChunk> chunks; ///< of processes 0, 1, ..., some without records
-  std::int64_t records = 0;         ///< in all chunks
-  std::int64_t begin = 0; ///< byte of the count of the first chunk; of a `base` file its end
-  std::int64_t size = 0;  ///< bytes of the file, unpacked
+  std::vector<RestartChunk>
+    chunks; ///< of processes 0, 1, ..., some without records; none if there are no particles and meshes follow
+  std::int64_t records = 0; ///< in all chunks
+  std::int64_t begin = 0;   ///< byte of the count of the first chunk; of a `base` file its end
+  std::int64_t size = 0;    ///< bytes of the file, unpacked
 };
 
 /// Finds out where things are. The payload of force fields cannot be known: each byte from there on is tried as the beginning of
 /// the particles, and taken if as many chunks of records as there were processes lead to the end of the file (INL, which has
 /// meshes behind: to as many particles as the header says, all in or near the box). Of a file with `base` in its name
 /// which has no particles the chunks are in files with 0, 1, 2, ... there.
-/// Allocates nothing on a file's word. Throws FormatError that says which parts were understood and where the search began, and
+/// What fixes have stored is right before the particles, and found by what it is made of; a notice says so where it is not.
+/// All records are walked once, from length to length. Content that is packed is held in memory meanwhile.
+/// Allocates nothing on a file's word, but for the masses of at most a million types; what a search may read is a few times the size of
+/// the file. Throws FormatError that says which parts were understood and where the search began, and
 /// what of files of processes is missing; UnsupportedError; IoError; Cancelled.
 RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress);
 }
