@@ -63,7 +63,7 @@ ValueType type_of(const std::string& name)
 TEST(KnownColumns, EveryWordOfDumpCustomIsThere)
 {
   // LIGGGHTS 3.8.0 dump_custom.cpp, LIGGGHTS-PFM, LAMMPS
-  for (const char* name : { "id", "mol", "id_multisphere", "type", "element", "mass", "x", "y", "z",
+  for (const char* name : { "id", "mask", "mol", "id_multisphere", "type", "element", "mass", "x", "y", "z",
          "xs", "ys", "zs", "xu", "yu", "zu", "xsu", "ysu", "zsu", "ix", "iy", "iz", "vx", "vy",
          "vz", "fx", "fy", "fz", "q", "density", "p", "rho", "mux", "muy", "muz", "mu", "radius",
          "diameter", "omegax", "omegay", "omegaz", "angmomx", "angmomy", "angmomz", "tqx", "tqy",
@@ -96,6 +96,7 @@ TEST(KnownColumns, Types)
 {
   EXPECT_EQ(type_of("id"), ValueType::Int64);
   EXPECT_EQ(type_of("type"), ValueType::Int32);
+  EXPECT_EQ(type_of("mask"), ValueType::Int32);
   for (const char* name :
     { "mol", "id_multisphere", "proc", "procp1", "thread", "spin", "i_any", "i2_a[1]" })
   {

@@ -2,6 +2,7 @@
 // Bonds out of restart files: each once, whoever holds it.
 #include "restart_runs.h"
 
+#include "granular/local/local_columns.h"
 #include "granular/restart/history_layout.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -166,6 +168,17 @@ TEST(RestartBonds, Layouts)
   EXPECT_EQ(last(99, 12), "history12");
   EXPECT_EQ(last(-1, 0), "");
   EXPECT_EQ(granular::history_layouts().size(), 4u);
+  for (const granular::HistoryLayout& layout : granular::history_layouts())
+  {
+    for (const std::string_view name : layout.columns)
+    {
+      const granular::KnownColumn* const known =
+        granular::find_known_column(name, granular::local_known_columns());
+      ASSERT_NE(known, nullptr) << name;
+      EXPECT_EQ(known->type, granular::ValueType::Float64) << name;
+      EXPECT_NE(known->unit, "") << name;
+    }
+  }
 }
 
 TEST(RestartBonds, AnyIds)

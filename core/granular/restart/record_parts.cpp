@@ -27,7 +27,7 @@ FoundBonds look_at_list(std::span<const double> block, const StyleLayout& style)
 }
 }
 
-std::size_t RecordPlan::search_next(std::span<const double> record)
+std::size_t RecordPlan::find_next(std::span<const double> record) noexcept
 {
   for (std::size_t at = RecordSlots::common; at + RecordSlots::common <= record.size(); ++at)
   {
@@ -36,8 +36,18 @@ std::size_t RecordPlan::search_next(std::span<const double> record)
       return at;
     }
   }
-  throw FormatError("expected the position of the particle again where the part of a second atom "
-                    "style begins, got none");
+  return 0;
+}
+
+std::size_t RecordPlan::search_next(std::span<const double> record)
+{
+  const std::size_t at = find_next(record);
+  if (at == 0)
+  {
+    throw FormatError("expected the position of the particle again where the part of a second "
+                      "atom style begins, got none");
+  }
+  return at;
 }
 
 /// Of a part that has a length of its own.

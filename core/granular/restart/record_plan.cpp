@@ -126,12 +126,19 @@ void RecordPlan::look_at(std::span<const double> record, const Where& where, Not
     return;
   }
   Part& front = parts_.front();
+  const bool fixed = front.style && !front.style->has_lists();
+  whole_numbers_of(record);
   std::size_t at = 0;
-  if (front.style && !front.style->has_lists() && begins_part(record, front.style->values))
+  if (fixed && begins_part(record, front.style->values))
   {
     at = front.style->values;
   }
-  else if (!front.style || !front.style->has_lists())
+  else if (fixed && find_next(record) == 0)
+  {
+    at = std::min(front.style->values, record.size());
+    this->length_of_part(record, at, 1); // says what is wrong
+  }
+  else if (fixed || !front.style)
   {
     at = search_next(record);
     front.searched = true;

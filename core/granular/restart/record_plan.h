@@ -89,6 +89,7 @@ private:
     Notices& notices);
   void add_columns(const RestartLayout& layout);
 
+  static std::size_t find_next(std::span<const double> record) noexcept;
   static std::size_t search_next(std::span<const double> record);
   std::size_t length_of_part(
     std::span<const double> record, std::size_t at, std::size_t part) const;

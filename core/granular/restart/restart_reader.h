@@ -47,15 +47,16 @@ struct RestartRequest
 struct RestartFrame
 {
   DumpFrame particles; ///< in the order of the file, with points; header.rows are all of the file
-  LocalFrame bonds;    ///< each once, with lines
+  LocalFrame bonds;    ///< each once, with lines, in the order of the file; has_lines: the styles have bonds, which were wanted
 };
 
 /// Decodes the particles of a restart file in full precision, and its bonds.
 ///
 /// A bond that both particles hold is one: that of the particle with the lower id, with its history, whatever the sign of the
-/// other copy. One that only one of them holds is that one. Where several are held between two particles each is one. Those of which a
+/// other copy. One that only one of them holds is that one. Where several are held between two particles each is one: as many as
+/// that particle holds which holds more. Where newton_bond says that bonds are stored once every copy is one. Bonds of which a
 /// particle is not in the file have no line and no row; these, bonds of a particle to itself and copies whose history is
-/// not the same, but for the sign and rounding to 1e-6, are counted in notices.
+/// not the same, but for the sign and rounding to 1e-6, are counted in notices, those of the whole file, whatever the piece.
 ///
 /// Reads the records once, on several threads. Throws FormatError that names the record (from 1), the particle's id where it is known,
 /// and the byte; IoError; Cancelled; std::bad_alloc.
