@@ -413,13 +413,13 @@ TEST(RestartLayout, FilesOfProcesses)
   const auto said = [&] { return error_of([&] { layout_of_file(base); }); };
   EXPECT_EQ(said(),
     folder.path(part(0)) +
-      ": expected the particles of process 0 of 2 (from 0) in a file of their own, got none of "
+      ": expected the particles of process 0 of 2 in a file of their own, got none of "
       "this "
       "name");
   folder.write(part(0), file.part(0));
   EXPECT_EQ(said(),
     folder.path(part(1)) +
-      ": expected the particles of process 1 of 2 (from 0) in a file of their own, got none of "
+      ": expected the particles of process 1 of 2 in a file of their own, got none of "
       "this "
       "name");
   folder.write(part(1), file.part(1).substr(0, 100));

@@ -55,6 +55,16 @@ void add_to(double* to, const Vector3& change) noexcept
   }
 }
 
+/// Adds what came to the forces on particles.
+template <class Rows>
+void add_forces(std::span<const double> buffer, const Rows& rows, std::span<Vector3> forces)
+{
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    add_to(forces[rows[i]].data(), { buffer[3 * i], buffer[3 * i + 1], buffer[3 * i + 2] });
+  }
+}
+
 /// Particles that are packed and unpacked before it is asked whether all is well.
 constexpr std::size_t rows_a_block = 128;
 
@@ -152,7 +162,13 @@ struct Packer : PackTable<fields>
   {
     const auto arrays = Table::arrays_of(particles);
     const double* const from = buffer.data() + some.first * Table::doubles;
-    if constexpr (is_array)
+    if constexpr (fields[0] == PackField::F)
+    {
+      add_forces(
+        { from, some.count * Table::doubles }, ParticleRange{ first, some.count }, particles.f());
+      return;
+    }
+    else if constexpr (is_array)
     {
       if (some.count > 0)
       {
@@ -219,16 +235,6 @@ std::size_t size_of(const ParticleRows& rows) noexcept
 bool is_border(PackRoutine routine) noexcept
 {
   return routine == PackRoutine::Border || routine == PackRoutine::BorderVelocity;
-}
-
-/// Adds what came, from a row on.
-template <class Rows>
-void add_forces(std::span<const double> buffer, const Rows& rows, std::span<Vector3> forces)
-{
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    add_to(forces[rows[i]].data(), { buffer[3 * i], buffer[3 * i + 1], buffer[3 * i + 2] });
-  }
 }
 }
 
