@@ -46,11 +46,6 @@ granular::BondedParticles make_fibres()
   return particles;
 }
 
-int owner_of(double x, int size)
-{
-  return static_cast<int>(x / box_length * size);
-}
-
 /// Moves all by one step, and gives the rows of those that left the slab.
 std::vector<std::size_t> move(granular::BondedParticles& particles, int rank, int size)
 {
@@ -64,7 +59,7 @@ std::vector<std::size_t> move(granular::BondedParticles& particles, int rank, in
       x -= box_length;
       ++particles.image()[i].x;
     }
-    if (owner_of(x, size) != rank)
+    if (int(x / box_length * size) != rank)
     {
       left.push_back(i);
     }
@@ -124,7 +119,7 @@ int main(int argc, char** argv)
     granular::BondedParticles particles = make_fibres();
     for (std::size_t i = particles.size(); i-- > 0;)
     {
-      if (owner_of(particles.x()[i][0], ranks.size()) != rank)
+      if (int(particles.x()[i][0] / box_length * ranks.size()) != rank)
       {
         particles.remove(i);
       }

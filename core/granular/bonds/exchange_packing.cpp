@@ -104,7 +104,7 @@ struct Packer : PackTable<fields>
       const std::size_t end = std::min(i + rows_a_block, rows.size());
       FastNumbers fast;
       put_rows(arrays, rows, i, end, to, fast);
-      if (fast.doubts != 0)
+      if (fast.doubtful())
       {
         ExactNumbers exact;
         put_rows(arrays, rows, i, end, to, exact);
@@ -141,7 +141,13 @@ struct Packer : PackTable<fields>
   /// Throws FormatError at the first fault of some particles.
   static void check(std::span<const double> buffer, ParticleRange some)
   {
+    std::uint64_t doubts = 0;
+    const double* const from = buffer.data() + some.first * Table::doubles;
     for (std::size_t i = 0; i < some.size(); ++i)
+    {
+      doubts |= Table::look_at_integers(from + i * Table::doubles);
+    }
+    for (std::size_t i = 0; doubts != 0 && i < some.size(); ++i)
     {
       Table::check(buffer, some[i] * Table::doubles, some[i]);
     }
@@ -178,7 +184,7 @@ struct Packer : PackTable<fields>
     }
     FastNumbers fast;
     get_rows(from, arrays, { first, some.count }, fast);
-    if (fast.doubts != 0)
+    if (fast.doubtful())
     {
       check(buffer, some);
       ExactNumbers exact;

@@ -3,9 +3,8 @@
 #define granular_bonds_pack_values_h
 
 #include "granular/bonds/exchange_packing.h"
-#include "granular/bonds/id_numbers.h"
+#include "granular/bonds/pack_numbers.h"
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -27,149 +26,14 @@ void expect_rows(const BondedParticles& particles, const ParticleRows& rows);
 /// Throws LimitError if a buffer is not of the size that is needed.
 void expect_size(std::size_t needed, std::size_t size);
 
-/// The array that a field is of.
-template <PackField field, class Particles>
-auto* array_of(Particles& particles) noexcept
+/// The arrays of all fields, in the order of PackField.
+template <class Particles>
+auto arrays_of(Particles& particles) noexcept
 {
-  using enum PackField;
-  if constexpr (field == X)
-  {
-    return particles.x().data();
-  }
-  else if constexpr (field == V)
-  {
-    return particles.v().data();
-  }
-  else if constexpr (field == F)
-  {
-    return particles.f().data();
-  }
-  else if constexpr (field == XMol)
-  {
-    return particles.x_mol().data();
-  }
-  else if constexpr (field == VMol)
-  {
-    return particles.v_mol().data();
-  }
-  else if constexpr (field == Tag)
-  {
-    return particles.tag().data();
-  }
-  else if constexpr (field == Type)
-  {
-    return particles.type().data();
-  }
-  else if constexpr (field == Mask)
-  {
-    return particles.mask().data();
-  }
-  else if constexpr (field == Image)
-  {
-    return particles.image().data();
-  }
-  else
-  {
-    static_assert(field == Molecule);
-    return particles.molecule().data();
-  }
-}
-
-/// Added to this, a number becomes one whose last bits are those of the nearest integer: a conversion that is defined for all
-/// doubles, and without a branch.
-inline constexpr double integer_bias = 0x1.8p52;
-
-/// A double of an integer of 32 bits as that integer; of any other double some integer.
-inline std::int32_t low_integer(double number) noexcept
-{
-  return static_cast<std::int32_t>(
-    static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + integer_bias)));
-}
-
-inline bool is_int32(double number) noexcept
-{
-  return static_cast<double>(low_integer(number)) == number;
-}
-
-inline std::uint64_t difference(double a, double b) noexcept
-{
-  return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
-}
-
-/// Bits of an image count in a buffer.
-inline constexpr int buffer_image_bits = 21;
-
-/// For the values that nearly all have, without a branch: what they add to `doubts` is 0. Else the result may be wrong, and all is
-/// done again by the exact ones.
-struct FastNumbers
-{
-  std::uint64_t doubts = 0;
-
-  double to_number(std::int64_t id) noexcept
-  {
-    constexpr std::int64_t limit = std::int64_t{ 1 } << 52;
-    doubts |= (static_cast<std::uint64_t>(id) + limit) >> 53;
-    return static_cast<double>(id);
-  }
-  double to_number(std::int32_t value) noexcept { return value; }
-  double to_number(const ImageCounts& counts)
-  {
-    return id_to_number(pack_image(counts, buffer_image_bits));
-  }
-
-  void from_number(double number, std::int64_t& id) noexcept
-  {
-    const double biased = number + integer_bias;
-    const auto bits = std::bit_cast<std::uint64_t>(biased);
-    constexpr auto bias = std::bit_cast<std::uint64_t>(integer_bias);
-    doubts |= difference(biased - integer_bias, number) | (bits ^ bias) >> 52;
-    id = static_cast<std::int64_t>(bits - bias);
-  }
-  void from_number(double number, std::int32_t& value) noexcept
-  {
-    value = low_integer(number);
-    doubts |= difference(value, number);
-  }
-  void from_number(double number, ImageCounts& counts) noexcept
-  {
-    counts = unpack_image(number_to_id(number), buffer_image_bits);
-  }
-};
-
-/// For all values.
-struct ExactNumbers
-{
-  static double to_number(std::int64_t id) noexcept { return id_to_number(id); }
-  static double to_number(std::int32_t value) noexcept { return value; }
-  static double to_number(const ImageCounts& counts)
-  {
-    return id_to_number(pack_image(counts, buffer_image_bits));
-  }
-
-  static void from_number(double number, std::int64_t& id) noexcept { id = number_to_id(number); }
-  static void from_number(double number, std::int32_t& value) noexcept
-  {
-    value = low_integer(number);
-  }
-  static void from_number(double number, ImageCounts& counts) noexcept
-  {
-    counts = unpack_image(number_to_id(number), buffer_image_bits);
-  }
-};
-
-/// What is wrong with the number of a field; null: nothing.
-template <PackField field>
-const char* fault_of(double number) noexcept
-{
-  if constexpr (field == PackField::Type || field == PackField::Mask)
-  {
-    return is_int32(number) ? nullptr : "a whole number of 32 bits";
-  }
-  else if constexpr (field == PackField::Image)
-  {
-    return number_to_id(number) >= 0 ? nullptr : "an image of three counts of 21 bits";
-  }
-  return nullptr;
+  return std::tuple(particles.x().data(), particles.v().data(), particles.f().data(),
+    particles.x_mol().data(), particles.v_mol().data(), particles.tag().data(),
+    particles.type().data(), particles.mask().data(), particles.image().data(),
+    particles.molecule().data());
 }
 
 /// A table of fields that is known when this is compiled, so that loops over it are none.
@@ -194,9 +58,10 @@ struct PackTable
   template <class Particles>
   static auto arrays_of(Particles& particles) noexcept
   {
+    const auto all = granular::arrays_of(particles);
     return [&]<std::size_t... k>(std::index_sequence<k...>)
     {
-      return std::tuple(array_of<fields[k]>(particles)...);
+      return std::tuple(std::get<static_cast<std::size_t>(fields[k])>(all)...);
     }
     (std::make_index_sequence<size>{});
   }
@@ -239,6 +104,21 @@ struct PackTable
           numbers.from_number(from[offset<k>], std::get<k>(arrays)[row]);
         }
       });
+  }
+
+  /// Whether types and masks may have a fault: bits that say so.
+  static std::uint64_t look_at_integers(const double* from) noexcept
+  {
+    std::uint64_t doubts = 0;
+    for_each(
+      [&](auto k)
+      {
+        if constexpr (fields[k] == PackField::Type || fields[k] == PackField::Mask)
+        {
+          doubts |= difference(low_integer(from[offset<k>]), from[offset<k>]);
+        }
+      });
+    return doubts;
   }
 
   /// Throws FormatError at the first fault of a particle whose doubles begin at a place of the buffer.

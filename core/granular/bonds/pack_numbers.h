@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_bonds_pack_numbers_h
+#define granular_bonds_pack_numbers_h
+
+#include "granular/bonds/bond_record.h"
+#include "granular/bonds/id_numbers.h"
+#include "granular/bonds/pack_fields.h"
+
+#include <bit>
+#include <cstdint>
+
+namespace granular
+{
+/// Added to this, a number becomes one whose last bits are those of the nearest integer: a conversion that is defined for all
+/// doubles, and without a branch.
+inline constexpr double integer_bias = 0x1.8p52;
+
+/// A double of an integer of 32 bits as that integer; of any other double some integer.
+inline std::int32_t low_integer(double number) noexcept
+{
+  return static_cast<std::int32_t>(
+    static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + integer_bias)));
+}
+
+inline bool is_int32(double number) noexcept
+{
+  return static_cast<double>(low_integer(number)) == number;
+}
+
+inline std::uint64_t difference(double a, double b) noexcept
+{
+  return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
+}
+
+/// Bits of an image count in a buffer.
+inline constexpr int buffer_image_bits = 21;
+
+/// Values as doubles, and back from doubles that have no fault.
+struct ExactNumbers
+{
+  static double to_number(std::int64_t id) noexcept { return id_to_number(id); }
+  static double to_number(std::int32_t value) noexcept { return value; }
+  static double to_number(const ImageCounts& counts)
+  {
+    return id_to_number(pack_image(counts, buffer_image_bits));
+  }
+
+  static void from_number(double number, std::int64_t& id) noexcept { id = number_to_id(number); }
+  static void from_number(double number, std::int32_t& value) noexcept
+  {
+    value = low_integer(number);
+  }
+  static void from_number(double number, ImageCounts& counts) noexcept
+  {
+    counts = unpack_image(number_to_id(number), buffer_image_bits);
+  }
+};
+
+/// The same for ids below 2^51 and all else that nearly all particles have, without a branch: if doubtful() then says so, what was
+/// made may be wrong, and is to be made again by ExactNumbers.
+class FastNumbers
+{
+public:
+  double to_number(std::int64_t id) noexcept
+  {
+    ranges_ |= static_cast<std::uint64_t>(id) + limit;
+    return static_cast<double>(id);
+  }
+  double to_number(std::int32_t value) noexcept { return value; }
+
+  void from_number(double number, std::int64_t& id) noexcept
+  {
+    const double biased = number + integer_bias;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(biased) - bias;
+    differences_ |= difference(biased - integer_bias, number);
+    ranges_ |= bits + limit;
+    id = static_cast<std::int64_t>(bits);
+  }
+  void from_number(double number, std::int32_t& value) noexcept
+  {
+    value = low_integer(number);
+    differences_ |= difference(value, number);
+  }
+
+  bool doubtful() const noexcept { return differences_ != 0 || ranges_ >= 2 * limit; }
+
+private:
+  static constexpr std::uint64_t bias = std::bit_cast<std::uint64_t>(integer_bias);
+  static constexpr std::uint64_t limit = std::uint64_t{ 1 } << 51;
+
+  std::uint64_t differences_ = 0;
+  std::uint64_t ranges_ = 0;
+};
+
+/// What is wrong with the number of a field; null: nothing.
+template <PackField field>
+const char* fault_of(double number) noexcept
+{
+  if constexpr (field == PackField::Type || field == PackField::Mask)
+  {
+    return is_int32(number) ? nullptr : "a whole number of 32 bits";
+  }
+  else if constexpr (field == PackField::Image)
+  {
+    return number_to_id(number) >= 0 ? nullptr : "an image of three counts of 21 bits";
+  }
+  return nullptr;
+}
+}
+#endif
