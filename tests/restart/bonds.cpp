@@ -190,10 +190,7 @@ TEST(RestartBonds, AnyIds)
   {
     auto builder = bonded_file({ { high, { { 1, low } } }, { low, { { 1, high } } } });
     builder.tag_bytes = 8;
-    // the layout is that of a file with ids that programs have
-    auto usual = bonded_file({ { 2, { { 1, 1 } } }, { 1, { { 1, 2 } } } });
-    usual.tag_bytes = 8;
-    const RestartRun run = read_as(usual.file(), builder.file());
+    const RestartRun run = read_run(builder);
     EXPECT_EQ(bonds_of(run.frame), (std::vector<Bond>{ { low, high, 1 } })) << low << " " << high;
     EXPECT_EQ(
       values_of<std::int64_t>(run.frame.particles, "id"), (std::vector<std::int64_t>{ high, low }));

@@ -85,17 +85,17 @@ bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles, SearchBudget&
 /// Whole numbers are bits, or values: the type, which is at least 1, tells.
 bool RecordWalker::is_record(const char* record) const noexcept
 {
-  const std::int64_t most_tag = header_.tag_bytes == 4 ? most_int : std::int64_t{ 1 } << 53;
+  constexpr std::int64_t most_value = std::int64_t{ 1 } << 53;
   const char* const tag = slot(record, RecordSlots::tag);
   const char* const mask = slot(record, RecordSlots::mask);
   const std::int64_t type_bits = bytes_.int64_in(slot(record, RecordSlots::type));
   if (type_bits >= 1 && type_bits <= header_.types)
   {
-    return in_range(bytes_.int64_in(tag), 0, most_tag) &&
+    return (header_.tag_bytes == 8 || in_range(bytes_.int64_in(tag), -most_int - 1, most_int)) &&
       in_range(bytes_.int64_in(mask), -most_int - 1, most_int) && this->near_box(record);
   }
   return is_whole_in(bytes_.double_in(slot(record, RecordSlots::type)), 1, header_.types) &&
-    is_whole_in(bytes_.double_in(tag), 0, most_tag) &&
+    is_whole_in(bytes_.double_in(tag), -most_value, most_value) &&
     is_whole_in(bytes_.double_in(mask), -most_int - 1, most_int) && this->near_box(record);
 }
 
