@@ -465,6 +465,17 @@ PARTS = (
                            Column("2 threads ns/grain", "2 threads:ns/grain", ".0f"),
                            Column("speed of 2 threads", "speed of 2 threads:1", ".2f"),
                            Column("spread", "spread:1", ".0%"))]),
+    Part("bonds", "Bonded particles into buffers",
+         """pack and unpack of rows one after the other, against memcpy of as many bytes from buffer to buffer in turns;
+         numbers behind the routines are particles. border_new adds rows, which have more fields than are sent;
+         exchange has two bonds of twelve history values. --large goes to 10^7.""",
+         [cases_by_metrics(r"",
+                           Column("pack ns/particle", "pack:ns/particle", ".2f"),
+                           Column("against memcpy", "speed of pack against memcpy:1", ".2f"),
+                           Column("spread", "spread of pack:1", ".0%"),
+                           Column("unpack ns/particle", "unpack:ns/particle", ".2f"),
+                           Column("against memcpy", "speed of unpack against memcpy:1", ".2f"),
+                           Column("spread", "spread of unpack:1", ".0%"))]),
     Part("voxels", "Voxels: subdomains as cells",
          """make_voxels, 10^6 subdomains: of a grid, and as a random recursive bisection makes them; time on the
          wall, against filling arrays of the same size with one value, in new memory and in that of a frame

@@ -153,13 +153,29 @@ struct Packer : PackTable<fields>
     }
   }
 
+  /// Vectors row by row, then numbers field by field: a loop of one field is done several rows at a time.
   template <class Numbers>
   static void get_rows(const double* from, const auto& arrays, ParticleRange rows, Numbers& numbers)
   {
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < rows.count; ++i)
     {
-      Table::get(from + i * Table::doubles, arrays, rows[i], numbers);
+      Table::get_vectors(from + i * Table::doubles, arrays, rows[i]);
     }
+    Table::for_each(
+      [&](auto k)
+      {
+        if constexpr (!is_vector(fields[k]))
+        {
+          auto* const to = std::get<k>(arrays) + rows.first;
+          const double* const field = from + Table::template offset<k>;
+          Numbers own; // in registers
+          for (std::size_t i = 0; i < rows.count; ++i)
+          {
+            own.from_number(field[i * Table::doubles], to[i]);
+          }
+          numbers.join(own);
+        }
+      });
   }
 
   /// Some particles of a buffer, into rows that are there. Throws FormatError.

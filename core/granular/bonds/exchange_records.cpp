@@ -190,11 +190,10 @@ struct Records
     const std::size_t first = particles.size();
     particles.resize(first + count);
     const auto arrays = Table::arrays_of(particles);
-    ExactNumbers numbers;
     const double* from = buffer.data();
     for (std::size_t row = first; row < first + count; ++row)
     {
-      Table::get(from + 1, arrays, row, numbers);
+      Table::get(from + 1, arrays, row);
       from = get_bonds(from + bonds_at, particles, row);
     }
     return count;

@@ -38,6 +38,8 @@ inline constexpr int buffer_image_bits = 21;
 /// Values as doubles, and back from doubles that have no fault.
 struct ExactNumbers
 {
+  static void join(const ExactNumbers&) noexcept {}
+
   static double to_number(std::int64_t id) noexcept { return id_to_number(id); }
   static double to_number(std::int32_t value) noexcept { return value; }
   static double to_number(const ImageCounts& counts)
@@ -78,18 +80,34 @@ public:
   }
   void from_number(double number, std::int32_t& value) noexcept
   {
-    value = low_integer(number);
-    differences_ |= difference(value, number);
+    const double biased = number + integer_bias;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(biased) - bias;
+    differences_ |= difference(biased - integer_bias, number);
+    small_ranges_ |= bits + small_limit;
+    value = static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
   }
 
-  bool doubtful() const noexcept { return differences_ != 0 || ranges_ >= 2 * limit; }
+  /// Adds the doubts of another one.
+  void join(const FastNumbers& other) noexcept
+  {
+    differences_ |= other.differences_;
+    ranges_ |= other.ranges_;
+    small_ranges_ |= other.small_ranges_;
+  }
+
+  bool doubtful() const noexcept
+  {
+    return differences_ != 0 || ranges_ >= 2 * limit || small_ranges_ >= 2 * small_limit;
+  }
 
 private:
   static constexpr std::uint64_t bias = std::bit_cast<std::uint64_t>(integer_bias);
   static constexpr std::uint64_t limit = std::uint64_t{ 1 } << 51;
+  static constexpr std::uint64_t small_limit = std::uint64_t{ 1 } << 31;
 
   std::uint64_t differences_ = 0;
   std::uint64_t ranges_ = 0;
+  std::uint64_t small_ranges_ = 0;
 };
 
 /// What is wrong with the number of a field; null: nothing.

@@ -87,10 +87,8 @@ struct PackTable
       });
   }
 
-  /// What is there has no fault.
-  template <class Arrays, class Numbers>
-  static void get(
-    const double* from, const Arrays& arrays, std::size_t row, Numbers& numbers) noexcept
+  template <class Arrays>
+  static void get_vectors(const double* from, const Arrays& arrays, std::size_t row) noexcept
   {
     for_each(
       [&](auto k)
@@ -99,9 +97,20 @@ struct PackTable
         {
           std::memcpy(&std::get<k>(arrays)[row], from + offset<k>, sizeof(Vector3));
         }
-        else
+      });
+  }
+
+  /// What is there has no fault.
+  template <class Arrays>
+  static void get(const double* from, const Arrays& arrays, std::size_t row) noexcept
+  {
+    get_vectors(from, arrays, row);
+    for_each(
+      [&](auto k)
+      {
+        if constexpr (!is_vector(fields[k]))
         {
-          numbers.from_number(from[offset<k>], std::get<k>(arrays)[row]);
+          ExactNumbers::from_number(from[offset<k>], std::get<k>(arrays)[row]);
         }
       });
   }
