@@ -476,6 +476,20 @@ PARTS = (
                            Column("unpack ns/particle", "unpack:ns/particle", ".2f"),
                            Column("against memcpy", "speed of unpack against memcpy:1", ".2f"),
                            Column("spread", "spread of unpack:1", ".0%"))]),
+    Part("restart", "Restart files",
+         """read_restart against reading the bytes of the file, into memory that holds all of it and into a MiB that is used
+         again and again; time on the wall, files in the page cache, outputs in memory of a frame before. find is read_layout, which looks
+         for the particles. grains have 31 doubles, fibres up to 75, with nine bonds of 14 history values to ten grains.""",
+         [cases_by_metrics(r"",
+                           Column("file MiB", "file:MiB", ".0f"),
+                           Column("find s", "find:s", ".3f"),
+                           Column("read GB/s", "read:GB/s", ".2f"),
+                           Column("ns/particle", "ns:ns/particle", ".0f"),
+                           Column("whole file GB/s", "whole:GB/s", ".2f"),
+                           Column("against that", "read against whole:1", ".2f"),
+                           Column("reused MiB GB/s", "reused:GB/s", ".2f"),
+                           Column("against that", "read against reused:1", ".2f"))],
+         [Target(r"", "read against whole:1", ">=", 0.3), Target(r"", "find:s", "<=", 2)]),
     Part("voxels", "Voxels: subdomains as cells",
          """make_voxels, 10^6 subdomains: of a grid, and as a random recursive bisection makes them; time on the
          wall, against filling arrays of the same size with one value, in new memory and in that of a frame
