@@ -496,22 +496,11 @@ int vtkGranularEulerReader::RequestDataObject(vtkInformation* vtkNotUsed(request
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularEulerReader::RequestInformation(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkGranularEulerReader::InspectFrames(vtkInformationVector* outputVector)
 {
-  const int done = this->Superclass::RequestInformation(request, inputVector, outputVector);
-  if (done == 0 || this->Series->Ranks.IsCancelled())
-  {
-    return done;
-  }
-  const Outcome outcome = Guard(this, outputVector,
-    [&]
-    {
-      this->Internal->Look(this);
-      granular::do_together(this->Series->GetRanks(),
-        [&] { this->Internal->Tell(this, outputVector->GetInformationObject(0)); });
-    });
-  return this->Series->Ranks.EndRequest(this, outcome);
+  this->Internal->Look(this);
+  granular::do_together(this->Series->GetRanks(),
+    [&] { this->Internal->Tell(this, outputVector->GetInformationObject(0)); });
 }
 
 //------------------------------------------------------------------------------

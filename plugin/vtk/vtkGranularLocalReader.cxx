@@ -287,8 +287,8 @@ void vtkGranularLocalReader::Internals::Run(
     [&]
     {
       const granular::FramePiece& first = pieces.front();
-      this->FillOutputs(outputs, wanted, frame, time,
-        granular::where_of(first.file.path, first.entry), notices);
+      this->FillOutputs(
+        outputs, wanted, frame, time, granular::where_of(first.file.path, first.entry), notices);
       if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
       {
         self->Series->Tell(self, notices, false);
@@ -377,16 +377,9 @@ int vtkGranularLocalReader::FillOutputPortInformation(int port, vtkInformation* 
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularLocalReader::RequestInformation(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkGranularLocalReader::InspectFrames(vtkInformationVector* vtkNotUsed(outputVector))
 {
-  const int done = this->Superclass::RequestInformation(request, inputVector, outputVector);
-  if (done == 0 || this->Series->Ranks.IsCancelled())
-  {
-    return done;
-  }
-  const Outcome outcome = Guard(this, outputVector, [&] { this->Internal->Look(this); });
-  return this->Series->Ranks.EndRequest(this, outcome);
+  this->Internal->Look(this);
 }
 
 //------------------------------------------------------------------------------

@@ -317,16 +317,9 @@ int vtkGranularRestartReader::FillOutputPortInformation(int port, vtkInformation
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularRestartReader::RequestInformation(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkGranularRestartReader::InspectFrames(vtkInformationVector* vtkNotUsed(outputVector))
 {
-  const int done = this->Superclass::RequestInformation(request, inputVector, outputVector);
-  if (done == 0 || this->Series->Ranks.IsCancelled())
-  {
-    return done;
-  }
-  const Outcome outcome = Guard(this, outputVector, [&] { this->Internal->Look(this); });
-  return this->Series->Ranks.EndRequest(this, outcome);
+  this->Internal->Look(this);
 }
 
 //------------------------------------------------------------------------------

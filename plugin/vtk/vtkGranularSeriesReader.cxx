@@ -289,6 +289,11 @@ int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
 }
 
 //------------------------------------------------------------------------------
+void vtkGranularSeriesReader::InspectFrames(vtkInformationVector* vtkNotUsed(outputVector))
+{
+}
+
+//------------------------------------------------------------------------------
 int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
@@ -324,6 +329,7 @@ int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(reque
           });
       };
       granular::do_together(this->Series->GetRanks(), tell);
+      this->InspectFrames(outputVector);
     });
   return this->Series->Ranks.EndRequest(this, outcome);
 }

@@ -153,6 +153,12 @@ protected:
    */
   virtual void FramesChanged() {}
 
+  /**
+   * Called when the times are known, before data are asked for: to find out what frames have, and to tell the pipeline of the outputs.
+   * Collective; may throw.
+   */
+  virtual void InspectFrames(vtkInformationVector* outputVector);
+
   bool RefreshOnUpdate = false;
   int RepeatedSteps = AUTO;
   int IndexFile = NEVER;
