@@ -26,8 +26,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -70,14 +69,31 @@ void AddNames(const granular::ColumnSchema& schema, std::vector<std::string>& na
   }
 }
 
+/**
+ * Names that are new are on, but where the user has left out some: of those that had other names before.
+ */
 void Offer(ArrayChoice& choice, const std::vector<std::string>& names)
 {
+  const bool on = choice.AreAllOn();
   choice.Begin();
   for (const std::string& name : names)
   {
-    choice.Add(name, true);
+    choice.Add(name, on);
   }
   choice.End();
+}
+
+/**
+ * What the user has chosen; an array that neither the first nor the last file has is on where all others are.
+ */
+std::function<bool(std::string_view)> Wanted(const ArrayChoice& choice)
+{
+  return [names = choice.GetWanted(), all = choice.AreAllOn(), &choice](std::string_view name)
+  {
+    const std::string array(name);
+    return names.count(array) != 0 ||
+      (all && choice.GetSelection()->ArrayExists(array.c_str()) == 0);
+  };
 }
 
 /**
@@ -132,7 +148,8 @@ void vtkGranularRestartReader::Internals::Look(Self* self)
       AddNames(granular::ColumnSchema(columns.particles), names.Particles);
       if (columns.has_bonds)
       {
-        AddNames(granular::make_bond_schema(PlaceOf(self->HistoryLayout), columns.history_values),
+        AddNames(granular::make_bond_schema(
+                   PlaceOf(self->HistoryLayout), layout.header.version, columns.history_values),
           names.Bonds);
       }
     }
@@ -158,10 +175,8 @@ granular::RestartRequest vtkGranularRestartReader::Internals::MakeRequest(
   request.lines.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
   request.lines.pool = self->Series->Pool;
   request.history_layout = PlaceOf(self->HistoryLayout);
-  request.wanted = [names = this->Points.GetWanted()](std::string_view name)
-  { return names.count(std::string(name)) != 0; };
-  request.wanted_bonds = [names = this->Cells.GetWanted()](std::string_view name)
-  { return names.count(std::string(name)) != 0; };
+  request.wanted = Wanted(this->Points);
+  request.wanted_bonds = Wanted(this->Cells);
   const PieceRequest wanted = PieceRequest::Of(output);
   request.piece = wanted.Piece;
   request.pieces = wanted.Pieces;
@@ -212,8 +227,6 @@ void vtkGranularRestartReader::Internals::Run(
     double time = 0;
     const std::size_t frame = self->Series->FindFrame(self, request, outputs, time);
     const granular::FramePiece piece = self->Series->Index.first_piece(frame);
-    this->Points.CheckNames(piece.file.path, notices);
-    this->Cells.CheckNames(piece.file.path, notices);
     const granular::RestartRequest wanted =
       this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
     const auto source = granular::open_indexed(piece.file);
@@ -222,6 +235,11 @@ void vtkGranularRestartReader::Internals::Run(
     progress.set_part(0.1, 0.95);
     granular::RestartFrame restart =
       granular::read_restart(*source, layout, wanted, notices, progress);
+    std::vector<std::string> there;
+    AddNames(restart.particles.schema, there);
+    this->Points.CheckNames(piece.file.path, notices, there);
+    AddNames(restart.bonds.table.schema, there);
+    this->Cells.CheckNames(piece.file.path, notices, there);
     this->FillOutputs(
       self, outputs, wanted, restart, granular::where_of(piece.file.path, piece.entry), notices);
     vtkPolyData::GetData(outputs, 0)

@@ -16,7 +16,8 @@
  *
  * Output port 1 holds the bonds as lines (vtkPolyData), each once, between the particles that it holds together, with the arrays `id1`,
  * `id2`, `btype` and `length` of their cells, and the history of the bond, named as SetHistoryLayout says. `id1` is the lower id where both particles
- * hold the bond, and the history is that which its copy has: forces are those on the particle id1. Bonds of which a particle is not there have no line.
+ * hold the bond, and the history is that which its copy has: forces are those on the particle id1. (Old programs store both copies
+ * with the same sign; then the file does not say on which of the two they act.) Bonds of which a particle is not there have no line.
  *
  * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid).
  *
@@ -71,8 +72,8 @@ public:
   ///@{
   /**
    * Which program wrote the history of bonds, which says what its values are. AUTOMATIC, the default: the one that has as many
-   * values, FLEXIBLE_FIBERS for 13. NUMBERED: history1, history2, ... , which is also what values are if their number is not
-   * that of the layout.
+   * values; for 13 PFM if the header of the file says so, else FLEXIBLE_FIBERS. NUMBERED: history1, history2, ... , which is also
+   * what values are, with a warning, if their number is not that of the layout.
    * - WITH_BONDS, 12 values: force_normal, force_tangential, torque_normal, torque_tangential, three each;
    * - PFM, 13: these and initial_length, which the program keeps, but does not use;
    * - FLEXIBLE_FIBERS, 13 (until May 2021): these and equilibrium_length;
@@ -103,7 +104,9 @@ public:
 
   ///@{
   /**
-   * Which arrays of particles and of bonds are read. Filled by UpdateInformation() with those of the first and the last file: all on.
+   * Which arrays of particles and of bonds are read. Filled by UpdateInformation() with those of the first and the last file: all on; where some were
+   * switched off, others that come with another HistoryLayout or other files are off. Arrays that only other files have are read
+   * where none is off.
    */
   virtual vtkDataArraySelection* GetPointDataArraySelection();
   virtual vtkDataArraySelection* GetCellDataArraySelection();

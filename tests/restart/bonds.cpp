@@ -149,18 +149,23 @@ TEST(RestartBonds, HistoryWithoutSign)
   const RestartRun unnamed = read_run(builder, request);
   EXPECT_EQ(values_of<double>(unnamed.frame.bonds.table, "history13"), std::vector<double>{ -8 });
   EXPECT_EQ(array_of(unnamed.frame.bonds.table, "damage"), nullptr);
+  EXPECT_NE(unnamed.said().find("expected 13 history values of a bond, as PFM has them, got 14"),
+    std::string::npos);
 }
 
 TEST(RestartBonds, Layouts)
 {
-  const auto last = [](int layout, std::int64_t values)
+  const auto last = [](int layout, std::int64_t values, std::string_view version = "LIGGGHTS 3.8")
   {
-    const auto names = granular::history_columns(layout, values);
+    const auto names = granular::history_columns(layout, version, values);
     EXPECT_EQ(static_cast<std::int64_t>(names.size()), values);
     return names.empty() ? "" : names.back();
   };
   EXPECT_EQ(last(-1, 12), "torque_tangentialz");
   EXPECT_EQ(last(-1, 13), "equilibrium_length");
+  EXPECT_EQ(last(-1, 13, "Version LIGGGHTS-PFM 24.01, compiled"), "initial_length");
+  EXPECT_EQ(last(-1, 14, "Version LIGGGHTS-PFM 24.01, compiled"), "damage");
+  EXPECT_EQ(last(2, 13, "Version LIGGGHTS-PFM 24.01, compiled"), "equilibrium_length");
   EXPECT_EQ(last(1, 13), "initial_length");
   EXPECT_EQ(last(2, 13), "equilibrium_length");
   EXPECT_EQ(last(-1, 14), "damage");

@@ -3,6 +3,7 @@
 import gzip
 import os
 import shutil
+import struct
 
 import numpy
 from paraview.simple import *
@@ -68,6 +69,40 @@ assert "damage" in reader.CellArrayStatus.Available
 reader.CellArrayStatus = ["id1", "torque_tangential"]
 reader.UpdatePipeline(0.04)
 assert sorted(array.GetName() for array in OutputPort(reader, 1).CellData[:]) == ["id1", "length", "torque_tangential"]
+
+# what was chosen stays, whatever the names are meanwhile
+reader.CellArrayStatus = ["id1", "damage"]
+for layout, expected in (("Numbered", ["id1", "length"]), ("Automatic", ["damage", "id1", "length"])):
+    reader.HistoryLayout = layout
+    reader.UpdatePipeline(0.04)
+    found = sorted(array.GetName() for array in OutputPort(reader, 1).CellData[:])
+    assert found == expected, (layout, found)
+chosen = GranularRestartReader(FileNames=[fibres], HistoryLayout="Numbered", CellArrayStatus=["id1", "history13"])
+chosen.UpdatePipeline()
+assert sorted(array.GetName() for array in OutputPort(chosen, 1).CellData[:]) == ["history13", "id1", "length"]
+Delete(chosen)
+pfm = OpenDataFile(os.path.join(data, "restart", "pfm.restart"))
+assert "initial_length" in pfm.CellArrayStatus.Available and "equilibrium_length" not in pfm.CellArrayStatus.Available
+Delete(pfm)
+
+# ---- files that change -----------------------------------------------------------------------------------
+
+# A run that writes the same names again: the base first, then the files of the processes.
+for name in ("base", "0", "1", "2"):
+    shutil.copyfile(os.path.join(data, "restart", f"parts.{name}.restart"), f"again.{name}.restart")
+again = OpenDataFile(os.path.abspath("again.base.restart"), RefreshOnUpdate=1)
+again.UpdatePipeline()
+assert again.PointData["radius"].GetRange(0)[0] == 0.001
+with open("again.1.restart", "rb") as file:
+    content = file.read()
+with open("again.1.restart", "wb") as file:
+    file.write(content.replace(struct.pack("<d", 0.001), struct.pack("<d", 0.0005)))
+again.UpdatePipelineInformation()
+again.UpdatePipeline(10000)
+assert again.PointData["radius"].GetRange(0)[0] == 0.0005, again.PointData["radius"].GetRange(0)
+Delete(again)
+reader = OpenDataFile([os.path.join(samples, f"fibres.{step}.restart") for step in (40000, 10000, 20000)],
+                      TimestepSize=1e-6)
 
 # ---- in the picture --------------------------------------------------------------------------------------
 

@@ -18,7 +18,8 @@ struct FileFormat
 {
   const char* name; ///< for messages: "a dump"
 
-  /// Finds the frames from index.resume_offset to the end of the source, see index_dump.
+  /// Finds the frames from index.resume_offset to the end of the source, see index_dump; lists in index.beside which other files it
+  /// has looked at.
   void (*index)(
     const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead);
 

@@ -23,6 +23,12 @@ bool only_grew(const ByteSource& packed, const FileStamp& now, const FileIndex& 
     before.size > 0 && hash_ends(packed, before.size) == index.ends_hash;
 }
 
+bool others_changed(const FileIndex& index)
+{
+  return std::ranges::any_of(
+    index.beside, [](const KnownFile& file) { return !(stamp_of(file.path) == file.stamp); });
+}
+
 /// An index that was kept in a file is good for a file of the same size, time and ends: a copy has
 /// another inode.
 void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
@@ -92,11 +98,12 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
     adopt(index, *packed, stamp);
   }
   const bool renamed = (index.unnamed || index.error) && index.column_names != column_names;
-  if (index.stamp == stamp && !renamed)
+  const bool anew = renamed || others_changed(index);
+  if (index.stamp == stamp && !anew)
   {
     return false;
   }
-  if (renamed || !only_grew(*packed, stamp, index))
+  if (anew || !only_grew(*packed, stamp, index))
   {
     index = blank(index);
   }
@@ -220,6 +227,11 @@ bool update_file_index(FileIndex& index, const std::vector<std::string>& column_
     index = blank(index); // half of it would pass for all
     throw;
   }
+}
+
+bool is_changed(const FileIndex& index)
+{
+  return !(stamp_of(index.path) == index.stamp) || others_changed(index);
 }
 
 FileStamp stamp_of(const std::string& path)

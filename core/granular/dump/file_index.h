@@ -19,6 +19,13 @@
 
 namespace granular
 {
+/// A file as it was when it was looked at; the stamp of one that is not there is that of no file.
+struct KnownFile
+{
+  std::string path;
+  FileStamp stamp;
+};
+
 /// What is known of one dump: its frames, and how to go on when it has grown.
 struct FileIndex
 {
@@ -26,6 +33,8 @@ struct FileIndex
   FileStamp stamp;             ///< when it was indexed
   std::uint64_t ends_hash = 0; ///< of its first and last bytes then: see hash_ends
   std::vector<FrameEntry> frames;
+  std::vector<KnownFile>
+    beside; ///< other files that what is known depends on; set by FileFormat::index
   std::int64_t resume_offset = 0; ///< end of the last complete frame: where to go on
   std::int64_t resume_line = 1;
   std::string units;    ///< of the last ITEM: UNITS; it is printed once a file
@@ -62,11 +71,14 @@ void index_dump(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
 
 /// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
-/// goes on if it only grew, and else starts anew. Errors end in index.error; data packed in other ways are one.
+/// goes on if it only grew, and else, or if a file beside it changed, starts anew. Errors end in index.error; data packed in other ways are one.
 /// Throws Cancelled.
 /// Returns whether anything was read.
 bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
   Progress& progress, const ScanAhead& ahead = {});
+
+/// Whether the file, or one beside it, is not what it was when it was indexed.
+bool is_changed(const FileIndex& index);
 
 /// The state of a file now; of one that cannot be opened, a state that no file has.
 FileStamp stamp_of(const std::string& path);

@@ -143,8 +143,7 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
 
 bool FrameIndex::changed() const
 {
-  return std::ranges::any_of(
-    files_, [](const FileIndex& file) { return !(stamp_of(file.path) == file.stamp); });
+  return std::ranges::any_of(files_, [](const FileIndex& file) { return is_changed(file); });
 }
 
 FramePiece FrameIndex::first_piece(std::size_t frame) const

@@ -101,6 +101,12 @@ void visit_file(Archive& archive, File& file)
   archive.perhaps(file.defect, notice);
   archive.flag(file.unnamed);
   archive.list(file.column_names, [&](auto& name) { archive.text(name); });
+  archive.list(file.beside,
+    [&](auto& known)
+    {
+      archive.path(known.path);
+      archive.number(known.stamp);
+    });
   archive.perhaps(file.points, [&](auto& points) { visit_points(archive, points); });
 }
 
@@ -238,8 +244,7 @@ bool plausible(const FrameRecord& frame, const FrameKind& kind)
     return false;
   }
   // a row of text has a line feed at least
-  const std::size_t row_bytes =
-    kind.is_text() ? 1 : kind.schema.columns().size() * sizeof(double);
+  const std::size_t row_bytes = kind.is_text() ? 1 : kind.schema.columns().size() * sizeof(double);
   return static_cast<std::uint64_t>(frame.rows) <=
     static_cast<std::uint64_t>(frame.end - frame.offset) / row_bytes;
 }

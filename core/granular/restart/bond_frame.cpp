@@ -67,6 +67,26 @@ void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
     "taken");
 }
 
+/// A layout that was asked for, and is not that of the file.
+void check_layout(int asked, std::int64_t values, const Where& where, Notices& notices)
+{
+  const auto layouts = history_layouts();
+  if (asked < 0 || static_cast<std::size_t>(asked) >= layouts.size() || values == 0)
+  {
+    return;
+  }
+  const HistoryLayout& layout = layouts[static_cast<std::size_t>(asked)];
+  if (static_cast<std::int64_t>(layout.columns.size()) != values)
+  {
+    Notice notice;
+    notice.where = where;
+    notice.text = "expected " + std::to_string(layout.columns.size()) +
+      " history values of a bond, as " + std::string(layout.name) + " has them, got " +
+      std::to_string(values) + ": they are named history1, history2, ...";
+    notices.push_back(notice);
+  }
+}
+
 class FrameMaker
 {
 public:
@@ -74,6 +94,7 @@ public:
     std::int64_t first, std::int64_t end)
     : bonds_(bonds)
     , request_(request)
+    , version_(layout.header.version)
     , first_row_(first)
     , end_row_(end)
     , executor_(request.lines.threads)
@@ -123,10 +144,11 @@ private:
   {
     DumpFrame& table = local_.table;
     const auto values = static_cast<std::int64_t>(bonds_.history_values());
-    const HistoryLayout* const layout = find_history_layout(request_.history_layout, values);
+    const HistoryLayout* const layout =
+      find_history_layout(request_.history_layout, version_, values);
     unsigned_from_ =
       layout ? static_cast<std::size_t>(layout->unsigned_from) : bonds_.history_values();
-    table.schema = make_bond_schema(request_.history_layout, values);
+    table.schema = make_bond_schema(request_.history_layout, version_, values);
     const auto rows = static_cast<std::size_t>(table.rows);
     for (const ArrayInfo& info : table.schema.arrays())
     {
@@ -217,6 +239,7 @@ private:
 
   BondCollector& bonds_;
   const RestartRequest& request_;
+  const std::string& version_; ///< of the program
   std::int64_t first_row_;
   std::int64_t end_row_;
   Executor executor_;
@@ -227,10 +250,11 @@ private:
 };
 }
 
-ColumnSchema make_bond_schema(int history_layout, std::int64_t history_values)
+ColumnSchema make_bond_schema(
+  int history_layout, std::string_view version, std::int64_t history_values)
 {
   std::vector<std::string> names = { "id1", "id2", "btype" };
-  const auto history = history_columns(history_layout, history_values);
+  const auto history = history_columns(history_layout, version, history_values);
   names.insert(names.end(), history.begin(), history.end());
   return make_local_schema(names);
 }
@@ -244,6 +268,8 @@ LocalFrame make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
   add_notices(match_bonds(bonds.copies(), bonds.ids(), layout.header.newton_bond,
                 bonds.history_values(), Executor(request.lines.threads), part),
     where, notices);
+  check_layout(
+    request.history_layout, static_cast<std::int64_t>(bonds.history_values()), where, notices);
   part.set_part(0.4, 1);
   return FrameMaker(bonds, layout, request, first, end).make(part);
 }

@@ -19,10 +19,10 @@ constexpr std::string_view fibers[most_values] = { pfm[0], pfm[1], pfm[2], pfm[3
   pfm[6], pfm[7], pfm[8], pfm[9], pfm[10], pfm[11], "equilibrium_length", "damage" };
 
 constexpr HistoryLayout layouts[] = {
-  { "WITH-BONDS", std::span(pfm).first(12) },
-  { "PFM", pfm },
-  { "FlexibleFibers", std::span(fibers).first(13) },
-  { "FlexibleFibersDamage", fibers },
+  { "WITH-BONDS", "", std::span(pfm).first(12) },
+  { "PFM", "LIGGGHTS-PFM", pfm },
+  { "FlexibleFibers", "", std::span(fibers).first(13) },
+  { "FlexibleFibersDamage", "", fibers },
 };
 
 bool has_values(const HistoryLayout& layout, std::int64_t values) noexcept
@@ -36,28 +36,31 @@ std::span<const HistoryLayout> history_layouts() noexcept
   return layouts;
 }
 
-const HistoryLayout* find_history_layout(int layout, std::int64_t values) noexcept
+const HistoryLayout* find_history_layout(
+  int layout, std::string_view version, std::int64_t values) noexcept
 {
   const HistoryLayout* found = nullptr;
   int place = 0;
   for (const HistoryLayout& candidate : layouts)
   {
     const bool asked = layout == automatic_history || layout == place++;
-    found = asked && has_values(candidate, values) ? &candidate : found;
+    const bool says_so =
+      found && !found->version.empty() && version.find(found->version) != version.npos;
+    found = asked && has_values(candidate, values) && !says_so ? &candidate : found;
   }
   return found;
 }
 
-std::vector<std::string> history_columns(int layout, std::int64_t values)
+std::vector<std::string> history_columns(int layout, std::string_view version, std::int64_t values)
 {
-  std::vector<std::string> names;
-  if (const HistoryLayout* const found = find_history_layout(layout, values))
+  if (const HistoryLayout* const found = find_history_layout(layout, version, values))
   {
-    names.assign(found->columns.begin(), found->columns.end());
+    return { found->columns.begin(), found->columns.end() };
   }
-  for (auto i = static_cast<std::int64_t>(names.size()); i < values; ++i)
+  std::vector<std::string> names;
+  for (std::int64_t i = 1; i <= values; ++i)
   {
-    names.push_back("history" + std::to_string(i + 1));
+    names.push_back("history" + std::to_string(i));
   }
   return names;
 }

@@ -13,7 +13,9 @@ namespace granular
 /// What the history values of a bond are, by program.
 struct HistoryLayout
 {
-  std::string_view name;                     ///< of the program
+  std::string_view name; ///< of the program
+  std::string_view
+    version; ///< a word in the header of its files that no others have; empty: there is none
   std::span<const std::string_view> columns; ///< in turn, as make_local_schema takes them
   int unsigned_from =
     12; ///< values from here on have no sign, whichever copy of the bond they are of
@@ -22,15 +24,17 @@ struct HistoryLayout
 /// The table: WITH-BONDS (12 values), PFM (13), Flexible_Fibers until 2021 (13), Flexible_Fibers and SEAICE (14).
 std::span<const HistoryLayout> history_layouts() noexcept;
 
-/// Instead of a place in the table: the layout with as many values, of two the last.
+/// Instead of a place in the table: the layout with as many values, of two that whose word is in the version, else the last.
 inline constexpr int automatic_history = -1;
 /// Instead of a place in the table: history1, history2, ...
 inline constexpr int numbered_history = -2;
 
-/// That of so many values, by its place in the table. Null: there is none, or the layout has another number of values.
-const HistoryLayout* find_history_layout(int layout, std::int64_t values) noexcept;
+/// That of so many values, by its place in the table; version is that of the program in the header of the file. Null: there is none, or
+/// the layout has another number of values.
+const HistoryLayout* find_history_layout(
+  int layout, std::string_view version, std::int64_t values) noexcept;
 
 /// Names for so many values of such a layout; where there is none: history1, history2, ...
-std::vector<std::string> history_columns(int layout, std::int64_t values);
+std::vector<std::string> history_columns(int layout, std::string_view version, std::int64_t values);
 }
 #endif

@@ -13,6 +13,7 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace granular
 {
@@ -24,7 +25,9 @@ constexpr std::int64_t count_bytes = 4;
 RestartChunk read_process_file(
   const std::string& path, const RestartLayout& layout, std::int64_t& records, Progress& progress)
 {
-  std::unique_ptr<ByteSource> source = unpack(open_file(path));
+  std::unique_ptr<ByteSource> source = open_file(path);
+  const FileStamp stamp = source->stamp();
+  source = unpack(std::move(source));
   std::string content;
   if (source->compressed())
   {
@@ -49,7 +52,7 @@ RestartChunk read_process_file(
       bytes.where(walker.at()));
   }
   records += walker.records();
-  return { path, count_bytes, doubles };
+  return { path, count_bytes, doubles, stamp };
 }
 }
 

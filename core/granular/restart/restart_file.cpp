@@ -34,6 +34,7 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
     index.kinds = std::make_shared<FrameKinds>();
   }
   index.frames.clear();
+  index.beside.clear();
   index.defect.reset();
   index.resume_offset = 0;
   index.resume_line = 1;
@@ -57,12 +58,20 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
     entry.kind = index.kinds->share(FrameKind{});
     index.frames.push_back(std::move(entry));
     index.resume_offset = layout.size;
+    for (const RestartChunk& chunk : layout.chunks)
+    {
+      if (!chunk.path.empty())
+      {
+        index.beside.push_back({ chunk.path, chunk.stamp });
+      }
+    }
   }
   catch (const FormatError& error)
   {
     if (error.where().path != source.path())
     {
-      index.stamp = {}; // it may come, and this file does not change then
+      // it may come, or be completed, and this file does not change then
+      index.beside.push_back({ error.where().path, stamp_of(error.where().path) });
     }
     leave_out(index, { error.where(), error.text() });
   }
@@ -111,6 +120,30 @@ void pass_over_parts(std::vector<FileIndex>& files, Notices& notices)
   }
 }
 
+/// Whether a file that could be of a process is beside its base: one name in the folder has `base` in place of the number.
+bool has_base(const std::string& path)
+{
+  const std::size_t slash = path.rfind('/');
+  std::size_t end = path.size();
+  constexpr std::string_view digits = "0123456789";
+  while (
+    (end = path.find_last_of(digits, end - 1)) != path.npos && (slash == path.npos || end > slash))
+  {
+    const std::size_t before = path.find_last_not_of(digits, end);
+    const std::size_t begin = before == path.npos ? 0 : before + 1;
+    if (is_there(path.substr(0, begin) + "base" + path.substr(end + 1)))
+    {
+      return true;
+    }
+    if (begin == 0)
+    {
+      break;
+    }
+    end = begin;
+  }
+  return false;
+}
+
 bool looks_like_restart(const ByteSource& source)
 {
   constexpr std::string_view newer = "LammpS RestartT";
@@ -143,7 +176,8 @@ bool is_restart_file(const std::string& path) noexcept
 {
   try
   {
-    return looks_like_restart(*unpack(open_file(path)));
+    const std::unique_ptr<ByteSource> source = unpack(open_file(path));
+    return looks_like_restart(*source) || (is_process_file(*source) && has_base(path));
   }
   catch (const std::exception&)
   {

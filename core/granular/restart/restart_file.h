@@ -12,8 +12,8 @@ namespace granular
 /// is left out with a notice that says what was understood. Files of processes beside their base are passed over.
 const FileFormat& restart_format() noexcept;
 
-/// Whether a file is one of these, by content: the first words of the header, in either byte order; also those of LAMMPS, so that
-/// the user hears why it cannot be read. Never throws: what cannot be read is none.
+/// Whether a file is one of these, by content: the first words of the header, in either byte order; also those of LAMMPS, and the files
+/// of processes beside their base, so that the user hears why these cannot be read. Never throws: what cannot be read is none.
 bool is_restart_file(const std::string& path) noexcept;
 }
 #endif

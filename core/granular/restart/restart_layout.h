@@ -27,6 +27,7 @@ struct RestartChunk
   std::string path; ///< of a file of its own (`%` in the name); empty: in the restart file itself
   std::int64_t offset = 0; ///< byte of the first record, behind the count, unpacked
   std::int64_t doubles = 0;
+  FileStamp stamp = {}; ///< of a file of its own, when it was opened
 };
 
 /// Where things are in a restart file.

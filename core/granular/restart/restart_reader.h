@@ -28,7 +28,8 @@ RestartColumns find_restart_columns(
   const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress);
 
 /// The arrays of bonds: id1 id2 btype and the history, see history_columns.
-ColumnSchema make_bond_schema(int history_layout, std::int64_t history_values);
+ColumnSchema make_bond_schema(
+  int history_layout, std::string_view version, std::int64_t history_values);
 
 /// What of a restart file is wanted.
 struct RestartRequest
@@ -47,7 +48,8 @@ struct RestartRequest
 struct RestartFrame
 {
   DumpFrame particles; ///< in the order of the file, with points; header.rows are all of the file
-  LocalFrame bonds;    ///< each once, with lines, in the order of the file; has_lines: the styles have bonds, which were wanted
+  LocalFrame
+    bonds; ///< each once, with lines, in the order of the file; has_lines: the styles have bonds, which were wanted
 };
 
 /// Decodes the particles of a restart file in full precision, and its bonds.

@@ -3,6 +3,8 @@
 
 #include "vtkDataArraySelection.h"
 
+#include <algorithm>
+
 namespace vtkGranularPrivate
 {
 ArrayChoice::ArrayChoice() = default;
@@ -12,7 +14,8 @@ void ArrayChoice::Add(const std::string& name, bool on)
 {
   if (this->Names.insert(name).second)
   {
-    this->Selection->AddArray(name.c_str(), on);
+    const auto before = this->Gone.find(name);
+    this->Selection->AddArray(name.c_str(), before == this->Gone.end() ? on : before->second);
   }
 }
 
@@ -20,11 +23,19 @@ void ArrayChoice::End()
 {
   for (int i = this->Selection->GetNumberOfArrays() - 1; i >= 0; --i)
   {
-    if (this->Names.count(this->Selection->GetArrayName(i)) == 0)
+    const std::string name = this->Selection->GetArrayName(i);
+    if (this->Names.count(name) == 0)
     {
+      this->Gone[name] = this->Selection->GetArraySetting(i) != 0;
       this->Selection->RemoveArrayByIndex(i);
     }
   }
+}
+
+bool ArrayChoice::AreAllOn() const
+{
+  return std::all_of(this->Names.begin(), this->Names.end(),
+    [this](const std::string& name) { return this->Selection->ArrayIsEnabled(name.c_str()) != 0; });
 }
 
 std::set<std::string> ArrayChoice::GetWanted() const
@@ -40,11 +51,13 @@ std::set<std::string> ArrayChoice::GetWanted() const
   return names;
 }
 
-void ArrayChoice::CheckNames(const std::string& path, granular::Notices& notices) const
+void ArrayChoice::CheckNames(
+  const std::string& path, granular::Notices& notices, const std::vector<std::string>& others) const
 {
   for (const std::string& name : this->GetWanted())
   {
-    if (this->Names.count(name) == 0)
+    if (this->Names.count(name) == 0 &&
+      std::find(others.begin(), others.end(), name) == others.end())
     {
       granular::Notice notice;
       notice.where.path = path;

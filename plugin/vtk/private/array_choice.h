@@ -6,8 +6,10 @@
 
 #include "vtkNew.h"
 
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 class vtkDataArraySelection;
 
@@ -25,12 +27,17 @@ public:
   vtkDataArraySelection* GetSelection() const { return this->Selection; }
 
   /**
-   * Begins to list the arrays that there are now; Add names them, End forgets those that are no more. What was chosen
-   * before stays.
+   * Begins to list the arrays that there are now; Add names them, End takes away those that are no more. What was chosen
+   * before stays, also for arrays that come back.
    */
   void Begin() { this->Names.clear(); }
   void Add(const std::string& name, bool on);
   void End();
+
+  /**
+   * Whether all are on that were listed.
+   */
+  bool AreAllOn() const;
 
   /**
    * The names of those that are on.
@@ -38,13 +45,16 @@ public:
   std::set<std::string> GetWanted() const;
 
   /**
-   * A name that is asked for and that no frame has is a slip of the pen: without a word, a column is missing.
+   * A name that is asked for and that no frame has is a slip of the pen: without a word, a column is missing. others: names that
+   * are there, too, though they were not listed.
    */
-  void CheckNames(const std::string& path, granular::Notices& notices) const;
+  void CheckNames(const std::string& path, granular::Notices& notices,
+    const std::vector<std::string>& others = {}) const;
 
 private:
   vtkNew<vtkDataArraySelection> Selection;
-  std::set<std::string> Names; ///< of all frames
+  std::set<std::string> Names;      ///< of all frames
+  std::map<std::string, bool> Gone; ///< what was chosen of those that are no more
 };
 }
 
