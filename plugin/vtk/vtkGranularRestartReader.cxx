@@ -40,47 +40,59 @@ vtkStandardNewMacro(vtkGranularRestartReader);
 namespace
 {
 /**
- * The arrays that files have.
+ * An array that files have.
  */
-struct ArrayNames
+struct ArrayName
 {
-  std::vector<std::string> Particles;
-  std::vector<std::string> Bonds;
+  std::string Name;
+  bool IsUsual = true; ///< false: no more than the points say
 };
 
+using ArrayNames = std::vector<ArrayName>;
+
 template <class Archive>
-void pass(Archive& archive, ArrayNames& names)
+void pass(Archive& archive, ArrayName& array)
 {
-  granular::pass(archive, names.Particles);
-  granular::pass(archive, names.Bonds);
+  archive.text(array.Name);
+  archive.number(array.IsUsual);
 }
 
 /**
  * Adds what is not there yet, in its order.
  */
-void AddNames(const granular::ColumnSchema& schema, std::vector<std::string>& names)
+void AddNames(const granular::ColumnSchema& schema, ArrayNames& names)
 {
   for (const granular::ArrayInfo& array : schema.arrays())
   {
-    if (!array.position_form && std::find(names.begin(), names.end(), array.name) == names.end())
+    if (std::none_of(names.begin(), names.end(),
+          [&](const ArrayName& other) { return other.Name == array.name; }))
     {
-      names.push_back(array.name);
+      names.push_back({ array.name, !array.position_form });
     }
   }
 }
 
 /**
- * Names that are new are on, but where the user has left out some: of those that had other names before.
+ * A history that gets other names is off where parts of it were.
  */
-void Offer(ArrayChoice& choice, const std::vector<std::string>& names)
+void Offer(ArrayChoice& choice, const ArrayNames& names)
 {
-  const bool on = choice.AreAllOn();
-  choice.Begin();
-  for (const std::string& name : names)
+  choice.Begin(true);
+  for (const ArrayName& array : names)
   {
-    choice.Add(name, on);
+    choice.Add(array.Name, array.IsUsual);
   }
   choice.End();
+}
+
+std::vector<std::string> NamesOf(const granular::ColumnSchema& schema)
+{
+  std::vector<std::string> names;
+  for (const granular::ArrayInfo& array : schema.arrays())
+  {
+    names.push_back(array.name);
+  }
+  return names;
 }
 
 /**
@@ -97,14 +109,9 @@ std::function<bool(std::string_view)> Wanted(const ArrayChoice& choice)
 }
 
 /**
- * The layout in the core's table, as it counts there.
+ * The layout as the core counts, by HistoryLayoutType.
  */
-int PlaceOf(int layout)
-{
-  constexpr int before = vtkGranularRestartReader::WITH_BONDS; // what is no layout
-  return layout >= before ? layout - before : layout - before + 1;
-}
-static_assert(granular::automatic_history == -1 && granular::numbered_history == -2);
+constexpr int Layouts[] = { granular::automatic_history, granular::numbered_history, 0, 1, 2, 3 };
 }
 
 //------------------------------------------------------------------------------
@@ -135,7 +142,8 @@ void vtkGranularRestartReader::Internals::Look(Self* self)
   }
   const auto look = [&](granular::Packer& packer)
   {
-    ArrayNames names;
+    ArrayNames particles;
+    ArrayNames bonds;
     AlgorithmProgress progress(self);
     granular::Notices notices; // are given again where the frame is shown
     const granular::FrameIndex& index = self->Series->Index;
@@ -145,22 +153,24 @@ void vtkGranularRestartReader::Internals::Look(Self* self)
       const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
       const granular::RestartColumns columns =
         granular::find_restart_columns(*source, layout, notices, progress);
-      AddNames(granular::ColumnSchema(columns.particles), names.Particles);
+      AddNames(granular::ColumnSchema(columns.particles), particles);
       if (columns.has_bonds)
       {
         AddNames(granular::make_bond_schema(
-                   PlaceOf(self->HistoryLayout), layout.header.version, columns.history_values),
-          names.Bonds);
+                   Layouts[self->HistoryLayout], layout.header.version, columns.history_values),
+          bonds);
       }
     }
-    pass(packer, names);
+    granular::pass(packer, particles);
+    granular::pass(packer, bonds);
   };
   const auto take = [&](granular::Unpacker& unpacker)
   {
     ArrayNames names;
-    pass(unpacker, names);
-    Offer(this->Points, names.Particles);
-    Offer(this->Cells, names.Bonds);
+    granular::pass(unpacker, names);
+    Offer(this->Points, names);
+    granular::pass(unpacker, names);
+    Offer(this->Cells, names);
     this->Known = true;
   };
   LookTogether(self->Series->GetRanks(), look, take);
@@ -174,7 +184,7 @@ granular::RestartRequest vtkGranularRestartReader::Internals::MakeRequest(
   request.lines = MakeLineRequest(self->PeriodicLines, self->PointOrigin);
   request.lines.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
   request.lines.pool = self->Series->Pool;
-  request.history_layout = PlaceOf(self->HistoryLayout);
+  request.history_layout = Layouts[self->HistoryLayout];
   request.wanted = Wanted(this->Points);
   request.wanted_bonds = Wanted(this->Cells);
   const PieceRequest wanted = PieceRequest::Of(output);
@@ -235,11 +245,8 @@ void vtkGranularRestartReader::Internals::Run(
     progress.set_part(0.1, 0.95);
     granular::RestartFrame restart =
       granular::read_restart(*source, layout, wanted, notices, progress);
-    std::vector<std::string> there;
-    AddNames(restart.particles.schema, there);
-    this->Points.CheckNames(piece.file.path, notices, there);
-    AddNames(restart.bonds.table.schema, there);
-    this->Cells.CheckNames(piece.file.path, notices, there);
+    this->Points.CheckNames(piece.file.path, notices, NamesOf(restart.particles.schema));
+    this->Cells.CheckNames(piece.file.path, notices, NamesOf(restart.bonds.table.schema));
     this->FillOutputs(
       self, outputs, wanted, restart, granular::where_of(piece.file.path, piece.entry), notices);
     vtkPolyData::GetData(outputs, 0)

@@ -104,6 +104,22 @@ Delete(again)
 reader = OpenDataFile([os.path.join(samples, f"fibres.{step}.restart") for step in (40000, 10000, 20000)],
                       TimestepSize=1e-6)
 
+# arrays that only a file in the middle has are shown, where nobody has left out others
+with open(os.path.join(data, "restart", "style_charge.restart"), "rb") as file:
+    content = file.read()
+flag = 5
+with open("charge.restart", "wb") as file:
+    file.write(content.replace(struct.pack("<iq", flag, 0), struct.pack("<iq", flag, 15000)))
+mixed = OpenDataFile([os.path.join(samples, "fibres.10000.restart"), os.path.abspath("charge.restart"),
+                      os.path.join(samples, "fibres.20000.restart")])
+assert list(mixed.TimestepValues) == [10000, 15000, 20000]
+mixed.UpdatePipeline(15000)
+assert "q" in [array.GetName() for array in mixed.PointData[:]]
+mixed.PointArrayStatus = ["id"]
+mixed.UpdatePipeline(15000)
+assert [array.GetName() for array in mixed.PointData[:]] == ["id"]
+Delete(mixed)
+
 # ---- in the picture --------------------------------------------------------------------------------------
 
 view = CreateRenderView(ViewSize=[400, 300], OrientationAxesVisibility=0, UseColorPaletteForBackground=0,

@@ -10,12 +10,20 @@ namespace vtkGranularPrivate
 ArrayChoice::ArrayChoice() = default;
 ArrayChoice::~ArrayChoice() = default;
 
+void ArrayChoice::Begin(bool follow)
+{
+  this->Follow = follow;
+  this->Chosen = !this->AreAllOn();
+  this->Names.clear();
+}
+
 void ArrayChoice::Add(const std::string& name, bool on)
 {
-  if (this->Names.insert(name).second)
+  if (this->Names.emplace(name, on).second)
   {
     const auto before = this->Gone.find(name);
-    this->Selection->AddArray(name.c_str(), before == this->Gone.end() ? on : before->second);
+    const bool isOn = on && !(this->Follow && this->Chosen);
+    this->Selection->AddArray(name.c_str(), before == this->Gone.end() ? isOn : before->second);
   }
 }
 
@@ -26,7 +34,11 @@ void ArrayChoice::End()
     const std::string name = this->Selection->GetArrayName(i);
     if (this->Names.count(name) == 0)
     {
-      this->Gone[name] = this->Selection->GetArraySetting(i) != 0;
+      this->Gone.erase(name);
+      if (this->Chosen)
+      {
+        this->Gone[name] = this->Selection->GetArraySetting(i) != 0;
+      }
       this->Selection->RemoveArrayByIndex(i);
     }
   }
@@ -35,7 +47,8 @@ void ArrayChoice::End()
 bool ArrayChoice::AreAllOn() const
 {
   return std::all_of(this->Names.begin(), this->Names.end(),
-    [this](const std::string& name) { return this->Selection->ArrayIsEnabled(name.c_str()) != 0; });
+    [this](const auto& name)
+    { return !name.second || this->Selection->ArrayIsEnabled(name.first.c_str()) != 0; });
 }
 
 std::set<std::string> ArrayChoice::GetWanted() const

@@ -28,14 +28,14 @@ public:
 
   /**
    * Begins to list the arrays that there are now; Add names them, End takes away those that are no more. What was chosen
-   * before stays, also for arrays that come back.
+   * before stays, also for arrays that come back. follow: new ones are off where the user has left out others.
    */
-  void Begin() { this->Names.clear(); }
+  void Begin(bool follow = false);
   void Add(const std::string& name, bool on);
   void End();
 
   /**
-   * Whether all are on that were listed.
+   * Whether all are on that were listed, but for those that are off if nobody chooses.
    */
   bool AreAllOn() const;
 
@@ -53,8 +53,10 @@ public:
 
 private:
   vtkNew<vtkDataArraySelection> Selection;
-  std::set<std::string> Names;      ///< of all frames
-  std::map<std::string, bool> Gone; ///< what was chosen of those that are no more
+  std::map<std::string, bool> Names; ///< of all frames, and whether they are on if nobody chooses
+  bool Chosen = false;               ///< some were left out when Begin was called
+  bool Follow = false;               ///< as Begin was told
+  std::map<std::string, bool> Gone;  ///< what was chosen of those that are no more
 };
 }
 
