@@ -59,6 +59,10 @@ RecordPlan::RecordPlan(
         refuse_record(batch, i, error.text());
       }
     }
+    if (!this->needs_history())
+    {
+      scan.stop();
+    }
   };
   scan.run(Executor(), 1, look, progress);
   if (this->needs_history())

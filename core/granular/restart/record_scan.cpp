@@ -101,6 +101,7 @@ void RecordScan::run(
 {
   buffers_ = std::vector<Buffer>(executor.workers(blocks_.size()));
   turns_.restart();
+  stopped_ = false;
   hopped_ = 0;
   next_ = row_ = 0;
   end_row_ = end_row;
@@ -185,12 +186,18 @@ void RecordScan::hop(std::size_t number, RecordBatch& batch, Buffer& buffer)
   }
   buffer.starts.push_back(static_cast<std::size_t>(at - block.first));
   next_ = at;
-  hopped_ = row_ < end_row_ || number + 1 == blocks_.size() ? number + 1 : nowhere;
+  const bool last = row_ >= end_row_ && number + 1 < blocks_.size();
+  hopped_ = last ? nowhere : number + 1;
+  stopped_ = stopped_ || last;
 }
 
 /// Reads a block, and what its last record has behind it. False: there is nothing to be seen.
 bool RecordScan::read_block(std::size_t number, Buffer& buffer, Turn& turn, RecordBatch& batch)
 {
+  if (stopped_)
+  {
+    return false; // before anything is read: all that is wanted may be the first of many blocks
+  }
   const RecordBlock& block = blocks_[number];
   const RestartChunk& chunk = layout_.chunks[block.chunk];
   const bool in_turn = chunk.path.empty() ? !source_.concurrent() : false;
@@ -245,9 +252,17 @@ void RecordScan::do_block(std::size_t number, std::size_t worker, const Visit& v
 {
   Turn turn(turns_, number);
   RecordBatch batch;
-  if (this->read_block(number, buffers_[worker], turn, batch))
+  try
   {
-    visit(worker, number, batch);
+    if (this->read_block(number, buffers_[worker], turn, batch))
+    {
+      visit(worker, number, batch);
+    }
+  }
+  catch (...)
+  {
+    stopped_ = true; // its turn has come: nothing before it is left to be read
+    throw;
   }
 }
 }

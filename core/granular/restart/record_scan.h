@@ -7,6 +7,7 @@
 #include "granular/base/progress.h"
 #include "granular/restart/restart_layout.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -65,7 +66,11 @@ public:
 
   /// Up to the block in which the records before end_row end. Throws FormatError, of lengths of records, and what visit throws:
   /// that of the first block; IoError; Cancelled.
+  /// Blocks behind that are not read, but for one of each other thread.
   void run(const Executor& executor, std::int64_t end_row, const Visit& visit, Progress& progress);
+
+  /// For a visit that has seen enough: no more blocks are read in this run.
+  void stop() noexcept { stopped_ = true; }
 
 private:
   /// Of a thread.
@@ -92,6 +97,7 @@ private:
   std::vector<RecordBlock> blocks_;
   std::vector<Buffer> buffers_; ///< of each worker
   Turns turns_;
+  std::atomic<bool> stopped_ = false; ///< what is not read yet nobody needs
   std::size_t hopped_ = 0; ///< blocks; those behind one that failed, or was the last, never are
   std::int64_t next_ = 0;  ///< double of the chunk at which the next record begins
   std::int64_t row_ = 0;   ///< of the next record

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of a restart file is read for what is wanted of it.
+#include "restart_runs.h"
+
+#include "granular/base/byte_source.h"
+#include "granular/restart/restart_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace
+{
+using restart_builder::RestartBuilder;
+
+constexpr std::int64_t mib = std::int64_t{ 1 } << 20;
+
+/// Bytes in memory, and how many of them were read.
+class CountingSource final : public granular::ByteSource
+{
+public:
+  explicit CountingSource(std::string_view bytes)
+    : bytes_(granular::open_memory(bytes))
+  {
+  }
+
+  const std::string& path() const override { return bytes_->path(); }
+  granular::FileStamp stamp() const override { return bytes_->stamp(); }
+  bool concurrent() const override { return true; }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const std::size_t there = bytes_->read(offset, buffer, bytes);
+    count_ += static_cast<std::int64_t>(there);
+    return there;
+  }
+
+  std::int64_t count() const { return count_; }
+
+private:
+  std::unique_ptr<granular::ByteSource> bytes_;
+  mutable std::atomic<std::int64_t> count_ = 0;
+};
+
+/// Grains in a box of their own, some 17 MiB.
+RestartBuilder many_grains()
+{
+  RestartBuilder builder;
+  builder.chunks = { {}, {} };
+  builder.grid = { 2, 1, 1 };
+  for (std::int64_t id = 1; id <= 130'000; ++id)
+  {
+    restart_builder::Grain grain;
+    grain.tag = id;
+    builder.chunks[id % 3 == 0 ? 1 : 0].push_back(restart_builder::granular_record(grain));
+  }
+  return builder;
+}
+
+/// A chain, some 17 MiB.
+RestartBuilder many_bonds()
+{
+  std::vector<BondedGrain> grains;
+  for (std::int64_t id = 1; id <= 36'000; ++id)
+  {
+    grains.push_back({ id, {}, 0.5 });
+    if (id % 2 == 0)
+    {
+      grains.back().bonds.push_back({ 1, id - 1, std::vector<double>(12, 0.5) });
+    }
+    if (id > 2)
+    {
+      grains.back().bonds.push_back({ 1, 1, std::vector<double>(12, 0.5) });
+    }
+  }
+  return bonded_file(grains, 12);
+}
+
+struct Read
+{
+  std::int64_t size = 0;
+  std::int64_t bytes = 0;
+  std::int64_t rows = 0;
+};
+
+/// What is read of a file for its columns, or for a piece of it.
+Read read_of(const std::string& bytes, const granular::RestartRequest* request)
+{
+  granular::Notices notices;
+  granular::Progress progress;
+  const granular::RestartLayout layout =
+    granular::read_layout(*granular::open_memory(bytes), notices, progress);
+  const CountingSource source(bytes);
+  std::int64_t rows = 0;
+  if (request)
+  {
+    rows = granular::read_restart(source, layout, *request, notices, progress).particles.rows;
+  }
+  else
+  {
+    granular::find_restart_columns(source, layout, notices, progress);
+  }
+  return { static_cast<std::int64_t>(bytes.size()), source.count(), rows };
+}
+}
+
+TEST(RestartReading, ColumnsOfTheFirstRecords)
+{
+  for (const RestartBuilder& builder : { many_grains(), many_bonds() })
+  {
+    const Read read = read_of(builder.file(), nullptr);
+    ASSERT_GT(read.size, 12 * mib);
+    EXPECT_LT(read.bytes, 2 * mib);
+  }
+}
+
+TEST(RestartReading, AllOnce)
+{
+  for (const RestartBuilder& builder : { many_grains(), many_bonds() })
+  {
+    const std::string bytes = builder.file();
+    for (const int threads : { 1, 3 })
+    {
+      granular::RestartRequest request;
+      request.lines.threads = threads;
+      const Read read = read_of(bytes, &request);
+      EXPECT_EQ(read.rows, builder.records());
+      EXPECT_LT(read.bytes, read.size + read.size / 10 + 2 * mib) << threads;
+    }
+  }
+}
+
+// Those behind are not read, but for one block of each thread.
+TEST(RestartReading, TheFirstPiece)
+{
+  const std::string bytes = many_grains().file();
+  for (const int threads : { 1, 3 })
+  {
+    granular::RestartRequest request;
+    request.lines.threads = threads;
+    request.pieces = 100;
+    const Read read = read_of(bytes, &request);
+    EXPECT_EQ(read.rows, 1300);
+    EXPECT_LT(read.bytes, (2 + threads) * mib) << threads;
+  }
+}
