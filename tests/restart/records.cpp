@@ -299,7 +299,7 @@ TEST(RestartRecords, WholeNumbers)
   }
 }
 
-// The image on its own: a value or bits, in fields of 10 or 21.
+// Beside ids that are values the image is a value or bits, in fields of 10 or 21; beside ids that are bits it is bits.
 TEST(RestartRecords, Images)
 {
   for (const int bits : { 10, 21 })
@@ -314,7 +314,9 @@ TEST(RestartRecords, Images)
           continue; // a double has not so many
         }
         const std::int64_t image = restart_builder::image_of(1, count, count, bits);
-        Record record = restart_builder::granular_record({});
+        Grain values;
+        values.bits = false;
+        Record record = restart_builder::granular_record(values);
         record[7] = as_bits ? restart_builder::bits_of(image) : static_cast<double>(image);
         RestartBuilder builder = file_of("granular", { record });
         builder.tag_bytes = bits == 21 ? 8 : 4;
@@ -324,6 +326,24 @@ TEST(RestartRecords, Images)
           << bits << " " << as_bits;
       }
     }
+  }
+}
+
+// The bits of a count of 52224 and more along z are a double of 2^52 and more, which is whole.
+TEST(RestartRecords, LargeImages)
+{
+  constexpr std::int32_t half = 1 << 20;
+  for (const granular::ImageCounts& counts :
+    { granular::ImageCounts{ 5, -7, 60000 }, granular::ImageCounts{ -half, -half, -half },
+      granular::ImageCounts{ half - 1, half - 1, half - 1 }, granular::ImageCounts{ 0, 0, 52223 },
+      granular::ImageCounts{ 1, 2, 52224 }, granular::ImageCounts{ -1, half - 1, 65536 } })
+  {
+    Grain grain;
+    grain.image = restart_builder::image_of(counts.x, counts.y, counts.z, 21);
+    RestartBuilder builder = file_of("granular", { restart_builder::granular_record(grain) });
+    builder.tag_bytes = 8;
+    EXPECT_EQ(values_of<std::int32_t>(read_run(builder).frame.particles, "image"),
+      (std::vector<std::int32_t>{ counts.x, counts.y, counts.z }));
   }
 }
 

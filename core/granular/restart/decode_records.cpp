@@ -15,10 +15,12 @@ namespace
 {
 using Kind = RecordColumn::Kind;
 
-/// The image of a particle, which some programs write as a value and others as bits, whatever they do with the id.
-std::int64_t load_image(double number) noexcept
+/// The image of a particle. Where ids are values some programs write it as a value and others as bits; where they are bits it is
+/// these, too: the bits of a large count along z are a whole number of 2^52 and more, as a value could be.
+std::int64_t load_image(double number, WholeNumbers form) noexcept
 {
-  const bool value = number >= 1 && number < 0x1p63 && std::trunc(number) == number;
+  const bool value =
+    form == WholeNumbers::Values && number >= 1 && number < 0x1p63 && std::trunc(number) == number;
   return value ? static_cast<std::int64_t>(number) : std::bit_cast<std::int64_t>(number);
 }
 
@@ -67,7 +69,7 @@ void RecordRows::load_record(const RecordPlan& plan, std::span<const double> rec
   ids[i] = to_whole(record[RecordSlots::tag], form);
   types[i] = static_cast<std::int32_t>(to_whole(record[RecordSlots::type], form));
   masks[i] = load_mask(record[RecordSlots::mask], form);
-  images[i] = unpack_image(load_image(record[RecordSlots::image]), plan.image_bits());
+  images[i] = unpack_image(load_image(record[RecordSlots::image], form), plan.image_bits());
   if (molecule_)
   {
     const std::span part(parts[i * stride + molecule_->part], molecule_->slot + 1);
