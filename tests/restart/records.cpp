@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles out of restart files: against the dumps that the programs wrote beside them, and files made by hand.
 #include "restart_runs.h"
+#include "shared_file.h"
 
 #include "granular/dump/dump_reader.h"
 #include "granular/restart/restart_styles.h"

@@ -7,7 +7,6 @@
 
 #include "restart_builder.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -26,17 +25,6 @@ inline granular::RestartLayout layout_of_file(const std::string& path)
   granular::Notices notices;
   granular::Progress progress;
   return granular::read_layout(*granular::unpack(granular::open_file(path)), notices, progress);
-}
-
-/// A file that is not part of the project, in the folder that the environment variable GRANULAR_SHARED names, or beside the source tree;
-/// empty where there is none.
-inline std::string shared_file(const std::string& name)
-{
-  const char* const folder = std::getenv("GRANULAR_SHARED");
-  const std::string path =
-    (folder ? std::string(folder) : std::string(GRANULAR_DATA "/../../../shared/data")) + "/" +
-    name;
-  return std::filesystem::exists(path) ? path : "";
 }
 
 /// Grains with ids from `first` on, in the box from 0 to 1.

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -128,21 +127,6 @@ inline std::string bytes_of(const granular::RestartFrame& frame)
   const granular::Lines& lines = frame.bonds.lines;
   bytes.append(static_cast<const char*>(lines.points.data()), lines.points.bytes());
   return bytes.append(static_cast<const char*>(lines.lengths.data()), lines.lengths.bytes());
-}
-
-/// A file that lies in a folder `shared` beside the project or above it, or "": not everybody has it.
-inline std::string shared_file(const std::string& name)
-{
-  for (std::filesystem::path folder = GRANULAR_DATA; folder != folder.root_path();
-       folder = folder.parent_path())
-  {
-    const std::filesystem::path path = folder / "shared" / "data" / name;
-    if (std::filesystem::exists(path))
-    {
-      return path.string();
-    }
-  }
-  return "";
 }
 
 /// A bond that a particle holds.
