@@ -134,6 +134,53 @@ TEST(RestartBonds, CopiesThatDiffer)
     std::string::npos);
 }
 
+// Zero may be another number in the other copy, small beside all of its kind in the file, whichever bond has it.
+TEST(RestartBonds, CopiesThatAreRounded)
+{
+  using Change = std::vector<std::pair<std::size_t, double>>;
+  const auto differing = [](int values, const Change& lower, const Change& higher)
+  {
+    const auto change = [&](const Change& numbers)
+    {
+      std::vector<double> changed(static_cast<std::size_t>(values));
+      for (const auto& [i, number] : numbers)
+      {
+        changed[i] = number;
+      }
+      return changed;
+    };
+    // forces up to 8, torques up to 2^-10, all others 1
+    std::vector<double> large(static_cast<std::size_t>(values), 1);
+    std::fill_n(large.begin(), std::min(values, 12), 0x1p-10);
+    large[values < 12 ? 0 : 5] = -8;
+    const std::string said =
+      read_run(bonded_file({ { 1, { { 1, 2, change(lower) } }, 0.1 },
+                             { 2, { { 1, 1, change(higher) } }, 0.2 }, { 3, { { 1, 4, large } } },
+                             { 4, { { 1, 3, large } } } },
+                 values))
+        .said();
+    EXPECT_EQ(said.find("history") == said.npos, said.empty()) << said;
+    return !said.empty();
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(differing(12, { { 0, -4e-16 } }, {}));
+  EXPECT_FALSE(differing(12, {}, { { 0, 7.9e-6 }, { 1, -7.9e-6 }, { 11, 9e-10 } }));
+  EXPECT_FALSE(differing(12, { { 0, nan } }, { { 0, nan } }));
+  EXPECT_FALSE(differing(14, { { 12, 0.9e-6 } }, { { 13, 0.9e-6 } }));
+  // more than rounding
+  EXPECT_TRUE(differing(12, { { 0, 8.1e-6 } }, {}));
+  EXPECT_TRUE(differing(12, {}, { { 11, 1e-9 } }));
+  EXPECT_TRUE(differing(14, { { 12, 1.1e-6 } }, {}));
+  EXPECT_TRUE(differing(14, {}, { { 13, 1.1e-6 } }));
+  EXPECT_TRUE(differing(12, { { 0, nan } }, {}));
+  EXPECT_TRUE(differing(12, { { 0, infinity } }, { { 0, 1 } }));
+  EXPECT_FALSE(differing(12, { { 0, infinity } }, { { 0, -infinity } }));
+  // of fewer nobody knows which are forces
+  EXPECT_FALSE(differing(11, { { 0, 7.9e-6 } }, {}));
+  EXPECT_TRUE(differing(11, { { 1, 7.9e-6 } }, {}));
+}
+
 TEST(RestartBonds, HistoryWithoutSign)
 {
   const auto builder = bonded_file(

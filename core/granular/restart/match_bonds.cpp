@@ -11,19 +11,53 @@ namespace granular
 {
 namespace
 {
-/// What copies of a history value may differ by, in parts of it: programs compute both where a bond crosses a periodic face.
+/// What copies of a history value may differ by, in parts of it: programs compute both where a bond crosses a periodic face or one
+/// between processes.
 constexpr double rounding = 1e-6;
 
-/// Whether numbers are the same but for their signs and for rounding.
+/// Whether numbers are the same but for their signs, and for rounding of numbers of that size.
+bool same_value(double one, double other, double size) noexcept
+{
+  const double difference = std::abs(std::abs(one) - std::abs(other));
+  return (std::isfinite(difference) && difference <= rounding * size) ||
+    std::abs(one) == std::abs(other) || (std::isnan(one) && std::isnan(other));
+}
+
 bool same_values(const double* a, const double* b, std::size_t count) noexcept
 {
   const auto same = [](double one, double other)
-  {
-    const double size = std::max(std::abs(one), std::abs(other));
-    return std::abs(std::abs(one) - std::abs(other)) <= rounding * size ||
-      std::abs(one) == std::abs(other) || (std::isnan(one) && std::isnan(other));
-  };
+  { return same_value(one, other, std::max(std::abs(one), std::abs(other))); };
   return std::equal(a, a + count, b, same);
+}
+
+/// The kind of a history value: numbers of which the sizes can be compared.
+std::size_t kind_of(std::size_t value, std::size_t count) noexcept
+{
+  constexpr std::size_t forces = 6;
+  constexpr std::size_t known = 12; // with the torques
+  return count < known || value >= known ? value : value / forces;
+}
+
+/// Two copies of a bond that are not the same by themselves: numbers near zero may have been rounded to others.
+struct Doubtful
+{
+  const double* lower;
+  const double* higher;
+};
+
+bool differs(const Doubtful& copies, std::span<const double> largest) noexcept
+{
+  for (std::size_t i = 0; i < largest.size(); ++i)
+  {
+    const double one = copies.lower[i];
+    const double other = copies.higher[i];
+    if (!same_value(one, other, std::max(std::abs(one), std::abs(other))) &&
+      !same_value(one, other, largest[kind_of(i, largest.size())]))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// A copy of a bond, seen from the particle with the lower id.
@@ -86,19 +120,29 @@ public:
     // each begin has become the end, that is the next one's begin
   }
 
-  std::int64_t match(const Executor& executor, Progress& progress)
+  void match(const Executor& executor, Progress& progress)
   {
-    std::vector<std::int64_t> differing(blocks_.size());
-    std::vector<Scratch> scratch(executor.workers(blocks_.size()));
+    scratch_.resize(executor.workers(blocks_.size()));
     executor.parallel_for(
       blocks_.size(),
-      [&](std::size_t block, std::size_t worker)
-      { differing[block] = this->match_block(block, scratch[worker]); },
+      [&](std::size_t block, std::size_t worker) { this->match_block(block, scratch_[worker]); },
       progress);
-    std::int64_t sum = 0;
-    for (const std::int64_t of_block : differing)
+  }
+
+  /// Of the bonds that were matched, how many have copies that differ.
+  std::int64_t count_differing(const Executor& executor, Progress& progress) const
+  {
+    const auto has = [](const Scratch& scratch) { return !scratch.doubtful.empty(); };
+    if (std::ranges::none_of(scratch_, has))
     {
-      sum += of_block;
+      return 0;
+    }
+    const std::vector<double> largest = this->find_largest(executor, progress);
+    std::int64_t sum = 0;
+    for (const Scratch& scratch : scratch_)
+    {
+      sum += std::ranges::count_if(
+        scratch.doubtful, [&](const Doubtful& copies) { return differs(copies, largest); });
     }
     return sum;
   }
@@ -106,11 +150,40 @@ public:
 private:
   struct Scratch
   {
+    std::vector<Doubtful> doubtful; ///< at most one of each bond
     std::vector<Copy> lower;
     std::vector<Copy> left[2]; ///< of a pair of particles, without one of the same type
   };
 
   static std::size_t index(std::int64_t row) noexcept { return static_cast<std::size_t>(row); }
+
+  /// The largest size of each kind of history value in all copies.
+  std::vector<double> find_largest(const Executor& executor, Progress& progress) const
+  {
+    using Sizes = std::vector<double>;
+    std::vector<Sizes> largest(executor.workers(blocks_.size()), Sizes(history_values_));
+    executor.parallel_for(
+      blocks_.size(),
+      [&](std::size_t block, std::size_t worker)
+      {
+        const double* number = blocks_[block].history.get();
+        for (std::size_t copy = 0; copy < blocks_[block].size(); ++copy)
+        {
+          for (std::size_t value = 0; value < history_values_; ++value, ++number)
+          {
+            double& size = largest[worker][kind_of(value, history_values_)];
+            size = std::isfinite(*number) ? std::max(size, std::abs(*number)) : size;
+          }
+        }
+      },
+      progress);
+    for (const Sizes& sizes : largest)
+    {
+      std::ranges::transform(sizes, largest.front(), largest.front().begin(),
+        [](double one, double other) { return std::max(one, other); });
+    }
+    return largest.front();
+  }
 
   BondCounts find_partners(BondCopies& copies, const IdFinder& finder, bool once) const
   {
@@ -156,10 +229,9 @@ private:
     }
   }
 
-  std::int64_t match_block(std::size_t block, Scratch& scratch)
+  void match_block(std::size_t block, Scratch& scratch)
   {
     const BondCopies& copies = blocks_[block];
-    std::int64_t differing = 0;
     for (std::size_t row = 0; row < copies.rows(); ++row)
     {
       const std::size_t of_all = index(copies.first_row) + row;
@@ -182,9 +254,8 @@ private:
       }
       std::sort(scratch.lower.begin(), scratch.lower.end());
       std::sort(higher.begin(), higher.end());
-      differing += this->match_row(scratch, higher);
+      this->match_row(scratch, higher);
     }
-    return differing;
   }
 
   /// The end of the copies between the same particles, from a place on.
@@ -198,10 +269,9 @@ private:
     return end;
   }
 
-  std::int64_t match_row(Scratch& scratch, std::span<const Copy> higher)
+  void match_row(Scratch& scratch, std::span<const Copy> higher)
   {
     const std::span<const Copy> lower = scratch.lower;
-    std::int64_t differing = 0;
     for (std::size_t i = 0, j = 0; i < lower.size() && j < higher.size();)
     {
       if (lower[i].other != higher[j].other)
@@ -211,25 +281,22 @@ private:
       }
       const std::size_t i_end = end_of_pair(lower, i);
       const std::size_t j_end = end_of_pair(higher, j);
-      differing +=
-        this->match_pair(scratch, lower.subspan(i, i_end - i), higher.subspan(j, j_end - j));
+      this->match_pair(scratch, lower.subspan(i, i_end - i), higher.subspan(j, j_end - j));
       i = i_end;
       j = j_end;
     }
-    return differing;
   }
 
   /// Of two particles.
-  std::int64_t match_pair(
-    Scratch& scratch, std::span<const Copy> lower, std::span<const Copy> higher)
+  void match_pair(Scratch& scratch, std::span<const Copy> lower, std::span<const Copy> higher)
   {
     if (lower.size() == 1 && higher.size() == 1)
     {
-      return this->take(lower[0], higher[0]);
+      this->take(scratch, lower[0], higher[0]);
+      return;
     }
     scratch.left[0].clear();
     scratch.left[1].clear();
-    std::int64_t differing = 0;
     std::size_t i = 0;
     std::size_t j = 0;
     while (i < lower.size() || j < higher.size())
@@ -237,7 +304,7 @@ private:
       const bool both = i < lower.size() && j < higher.size();
       if (both && lower[i].type == higher[j].type)
       {
-        differing += this->take(lower[i++], higher[j++]);
+        this->take(scratch, lower[i++], higher[j++]);
       }
       else if (j == higher.size() || (both && lower[i].type < higher[j].type))
       {
@@ -251,20 +318,21 @@ private:
     const std::size_t pairs = std::min(scratch.left[0].size(), scratch.left[1].size());
     for (std::size_t pair = 0; pair < pairs; ++pair)
     {
-      differing += this->take(scratch.left[0][pair], scratch.left[1][pair]);
+      this->take(scratch, scratch.left[0][pair], scratch.left[1][pair]);
     }
-    return differing;
   }
 
-  /// Two copies of one bond. Returns whether they differ.
-  std::int64_t take(const Copy& lower, const Copy& higher)
+  /// Two copies of one bond.
+  void take(Scratch& scratch, const Copy& lower, const Copy& higher)
   {
     BondCopies& left = blocks_[higher.block];
     left.states[higher.place] = BondCopies::Left;
-    return same_values(blocks_[lower.block].history.get() + lower.place * history_values_,
-             left.history.get() + higher.place * history_values_, history_values_)
-      ? 0
-      : 1;
+    const Doubtful copies = { blocks_[lower.block].history.get() + lower.place * history_values_,
+      left.history.get() + higher.place * history_values_ };
+    if (!same_values(copies.lower, copies.higher, history_values_))
+    {
+      scratch.doubtful.push_back(copies);
+    }
   }
 
   std::vector<BondCopies>& blocks_;
@@ -272,6 +340,7 @@ private:
   std::size_t history_values_;
   std::vector<std::size_t> begins_; ///< in higher_, of each row
   std::vector<Copy> higher_;
+  std::vector<Scratch> scratch_; ///< of each worker
 };
 }
 
@@ -294,8 +363,10 @@ BondCounts match_bonds(std::vector<BondCopies>& blocks, std::span<const std::int
   if (!once)
   {
     matcher.sort_higher();
-    part.set_part(0.5, 1);
-    counts.differing = matcher.match(executor, part);
+    part.set_part(0.5, 0.9);
+    matcher.match(executor, part);
+    part.set_part(0.9, 1);
+    counts.differing = matcher.count_differing(executor, part);
   }
   return counts;
 }

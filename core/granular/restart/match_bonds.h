@@ -47,7 +47,10 @@ struct BondCounts
 
 /// Finds the rows of the partners, by ids, those of all rows, and which copies there are of each bond: both (once: each copy is a
 /// bond), or where both particles hold one, that of the lower id. Of several bonds between two particles those of the
-/// same type go together first. In time linear in the number of copies, but for sorting those of one particle.
+/// same type go together first. Two copies differ where the sizes of a value differ by more than 1e-6 of that value, and by more than
+/// 1e-6 of the largest there is of its kind in all copies: near zero they are rounded to something else. Of 12 values and more the
+/// first six are one kind (forces), the next six another (torques); each other value is a kind of its own. nan is as nan. In time
+/// linear in the number of copies, but for sorting those of one particle.
 BondCounts match_bonds(std::vector<BondCopies>& blocks, std::span<const std::int64_t> ids,
   bool once, std::size_t history_values, const Executor& executor, Progress& progress);
 }
