@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where things are in restart files: real ones, of which the places were found by hand, and ones made by hand.
 #include "restart_files.h"
+#include "shared_file.h"
 
 #include "../base/byte_source_packing.h"
 #include "../dump/dumps.h"
@@ -441,6 +442,64 @@ TEST(RestartLayout, FilesOfProcesses)
   EXPECT_EQ(fixes(layout).size(), 2u);
   EXPECT_EQ(layout.chunks[0].path, folder.path(part(0)));
   EXPECT_EQ(places(layout), (Places{ { 4, 51 }, { 4, 34 } }));
+}
+
+// The counts of fixes, two zeros, are not those of one or two processes without particles.
+TEST(RestartLayout, FilesOfProcessesWithoutParticles)
+{
+  for (const std::size_t processes : { std::size_t{ 1 }, std::size_t{ 2 }, std::size_t{ 3 } })
+  {
+    RestartBuilder file;
+    file.chunks.assign(processes, {});
+    file.grid = { static_cast<std::int32_t>(processes), 1, 1 };
+    for (const bool has_fix : { false, true })
+    {
+      if (has_fix)
+      {
+        file.peratom_fixes = { { "pa", "property/atom", 4 } };
+      }
+      const Folder folder;
+      const std::string base = folder.write("a.base", file.base());
+      for (std::size_t process = 0; process < processes; ++process)
+      {
+        folder.write("a." + std::to_string(process), file.part(process));
+      }
+      granular::Notices notices;
+      granular::Progress progress;
+      const auto layout = granular::read_layout(*granular::open_file(base), notices, progress);
+      EXPECT_EQ(layout.records, 0);
+      EXPECT_EQ(places(layout), Places(processes, { 4, 0 }));
+      EXPECT_EQ(layout.chunks.back().path, folder.path("a." + std::to_string(processes - 1)));
+      EXPECT_EQ(layout.begin, layout.size);
+      EXPECT_EQ(layout.fixes.size(), has_fix ? 1u : 0u);
+      EXPECT_TRUE(notices.empty());
+    }
+  }
+  // all in one file
+  RestartBuilder file;
+  const Folder folder;
+  granular::Notices notices;
+  granular::Progress progress;
+  const std::string base = folder.write("a.base", file.file());
+  const auto layout = granular::read_layout(*granular::open_file(base), notices, progress);
+  EXPECT_EQ(places(layout), (Places{ { static_cast<std::int64_t>(file.file().size()), 0 } }));
+  EXPECT_TRUE(notices.empty());
+}
+
+// What was not found is said where it is missed.
+TEST(RestartLayout, FixesOfNoParticles)
+{
+  RestartBuilder file;
+  for (const bool particles : { false, true })
+  {
+    file.peratom_fixes = { { "p\x01", "property/atom", 4 } };
+    file.chunks = { grains(1, particles ? 1 : 0) };
+    granular::Notices notices;
+    granular::Progress progress;
+    const std::string bytes = file.file();
+    EXPECT_FALSE(granular::read_layout(*granular::open_memory(bytes), notices, progress).has_fixes);
+    EXPECT_EQ(notices.size(), particles ? 1u : 0u);
+  }
 }
 
 /// Notes how far a task is, and stops it at some point.

@@ -33,6 +33,14 @@ public:
     this->read_groups();
     this->read_masses();
     progress_.set_part(0, 0.8);
+    const std::vector<ProcessNames> names = process_names(bytes_.source().path());
+    if (layout_.header.atoms == 0 && !names.empty() && is_there(find_process_names(names).of(0)))
+    {
+      // before the zeros at the end of the file, which may be counts of fixes
+      this->take_fixes(layout_.size);
+      this->read_files(find_process_names(names));
+      return std::move(layout_);
+    }
     ChunkSearch search =
       find_chunks(bytes_.source(), layout_.swapped, layout_.header, at_, progress_);
     progress_.set_part(0.8, 1);
@@ -45,7 +53,7 @@ public:
     }
     else
     {
-      this->read_others(search);
+      this->read_others(search, names);
     }
     return std::move(layout_);
   }
@@ -112,10 +120,16 @@ private:
     return fixes;
   }
 
-  /// The particles are in files of their own, or nowhere.
-  void read_others(const ChunkSearch& search)
+  /// The particles are in files of their own.
+  void read_files(const ProcessNames& names)
   {
-    const std::vector<ProcessNames> names = process_names(bytes_.source().path());
+    layout_.begin = layout_.size;
+    read_process_files(names, layout_, progress_);
+  }
+
+  /// They are there, or nowhere.
+  void read_others(const ChunkSearch& search, const std::vector<ProcessNames>& names)
+  {
     // without such a name they are for the message alone
     constexpr std::int64_t worth = std::int64_t{ 1 } << 20;
     const bool look = !names.empty() || layout_.size - at_ < worth;
@@ -125,8 +139,7 @@ private:
       const ProcessNames found = find_process_names(names);
       if (fixes.found || is_there(found.of(0)))
       {
-        layout_.begin = layout_.size;
-        read_process_files(found, layout_, progress_);
+        this->read_files(found);
         return;
       }
     }
@@ -162,7 +175,7 @@ RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& 
   if (!source.compressed())
   {
     RestartLayout layout = LayoutReader(source, progress).read();
-    if (!layout.has_fixes)
+    if (!layout.has_fixes && layout.records > 0)
     {
       Notice notice;
       notice.where = { source.path(), 0, layout.begin };

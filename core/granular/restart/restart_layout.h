@@ -49,8 +49,8 @@ struct RestartLayout
 /// Finds out where things are. The payload of force fields cannot be known: each byte from there on is tried as the beginning of
 /// the particles, and taken if as many chunks of records as there were processes lead to the end of the file (INL, which has
 /// meshes behind: to as many particles as the header says, all in or near the box). Of a file with `base` in its name
-/// which has no particles the chunks are in files with 0, 1, 2, ... there.
-/// What fixes have stored is right before the particles, and found by what it is made of; a notice says so where it is not.
+/// which has no particles the chunks are in files with 0, 1, 2, ... there; where there are none at all these are looked for first.
+/// What fixes have stored is right before the particles, and found by what it is made of; a notice says so where it is not and there are particles.
 /// All records are walked once, from length to length. Content that is packed is held in memory meanwhile.
 /// Allocates nothing on a file's word, but for the masses of at most a million types; what a search may read is a few times the size of
 /// the file. Throws FormatError that says which parts were understood and where the search began, and
