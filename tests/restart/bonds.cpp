@@ -311,6 +311,37 @@ TEST(RestartBonds, WithoutAnotherStyle)
     (std::vector<double>{ 0.1, 0.1, 0.1 }));
 }
 
+// Records that are longer than what is known of the style, from the first with bonds on.
+TEST(RestartBonds, LongerThanTheTable)
+{
+  for (const bool first_has : { true, false })
+  {
+    const std::vector<HeldBond> held = { { 4, 2, history(1) } };
+    RestartBuilder builder = bonded_file(
+      { { 1, first_has ? held : std::vector<HeldBond>{} }, { 2, { { 4, 1, history(1) } } } }, 12);
+    builder.atom_style = "bond/gran";
+    builder.styles.clear();
+    for (auto& record : builder.chunks[0])
+    {
+      record = { record.begin() + 17, record.end() };
+    }
+    EXPECT_EQ(bonds_of(builder).size(), 1u);
+    EXPECT_EQ(read_run(builder).said(), "");
+    for (auto& record : builder.chunks[0])
+    {
+      restart_builder::append(record, { 7.5, 8.5 });
+    }
+    const RestartRun run = read_run(builder);
+    EXPECT_NE(run.said().find("'bond/gran' have in restart files is not known of this program"),
+      std::string::npos)
+      << run.said();
+    EXPECT_FALSE(run.frame.bonds.has_lines);
+    EXPECT_EQ(array_of(run.frame.particles, "mol"), nullptr);
+    EXPECT_EQ(
+      values_of<std::int64_t>(run.frame.particles, "id"), (std::vector<std::int64_t>{ 1, 2 }));
+  }
+}
+
 // Against all copies, counted by pair.
 TEST(RestartBonds, LikeBruteForce)
 {

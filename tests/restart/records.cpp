@@ -18,6 +18,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -497,7 +498,7 @@ TEST(RestartRecords, WhatFixesHave)
   // lengths that lie: none, and all else
   for (const std::vector<std::vector<double>>& behind :
     std::vector<std::vector<std::vector<double>>>{
-      { { 3, 5, 6, 2, 0, 4, 1, 2, 3 }, { 2, 6, 2, 0, 4, 1, 2, 3 } },
+      { { 3, 5, 6, 3, 0, 0, 4, 1, 2, 3 }, { 2, 6, 2, 0, 4, 1, 2, 3 } },
       { { 2, 6, 2, 0, 4, 1, 2, 3 }, { 2, 6, 2, 0, 5, 1, 2, 3 } },
       { { 2, 6, 2, 0, 4, 1, 2, 3 }, { 2, 6, 2, 0 } },
       { { 2, 6, 2, 0, 4, 1, 2, 3 }, { 3, 6, 7, 2, 0, 4, 1, 2, 3 } } })
@@ -513,6 +514,76 @@ TEST(RestartRecords, WhatFixesHave)
       EXPECT_EQ(values_of<double>(lie.frame.particles, "radius"), std::vector<double>{ 0.1 });
       EXPECT_EQ(lie.notices.size(), 1u);
     }
+  }
+}
+
+// As LIGGGHTS writes them when a fix was defined again: its part is the last of the records, in the list it stays where it was.
+TEST(RestartRecords, FixesInAnotherOrder)
+{
+  using Fixes = std::vector<restart_builder::PeratomFix>;
+  const auto run = [](const Fixes& fixes, const std::vector<double>& behind)
+  {
+    Record record = restart_builder::granular_record({});
+    restart_builder::append(record, behind);
+    RestartBuilder builder = file_of("granular", { record });
+    builder.peratom_fixes = fixes;
+    return read_run(builder);
+  };
+  const Fixes fixes = { { "a", "property/atom", 3 }, { "b", "property/atom", 5 },
+    { "contacts", "contacthistory", 2 }, { "c", "property/atom", 4 }, { "hold", "other", 9 } };
+  const RestartRun all =
+    run(fixes, { 5, 1, 2, 3, 4, 2, 0, 7, 1, 1, 1, 1, 1, 1, 4, 7, 8, 9, 3, 5, 6 });
+  EXPECT_EQ(all.said(), "");
+  EXPECT_EQ(values_of<double>(all.frame.particles, "f_a"), (std::vector<double>{ 5, 6 }));
+  EXPECT_EQ(values_of<double>(all.frame.particles, "f_b"), (std::vector<double>{ 1, 2, 3, 4 }));
+  EXPECT_EQ(values_of<double>(all.frame.particles, "f_c"), (std::vector<double>{ 7, 8, 9 }));
+  // more than one way, and none: two fixes as long, a part as long of a fix without columns, one that is too long
+  for (const auto& [of, behind] :
+    std::vector<std::pair<Fixes, std::vector<double>>>{
+      { { { "a", "property/atom", 2 }, { "b", "property/atom", 2 }, { "c", "property/atom", 4 } },
+        { 2, 5, 4, 7, 8, 9, 2, 6 } },
+      { { { "a", "property/atom", 2 }, { "c", "property/atom", 4 },
+          { "contacts", "contacthistory", 2 } },
+        { 4, 7, 8, 9, 2, 5, 2, 0 } },
+      { { { "contacts", "contacthistory", 2 }, { "c", "property/atom", 4 } },
+        { 4, 7, 8, 9, 3, 0, 0 } } })
+  {
+    const RestartRun none = run(of, behind);
+    EXPECT_EQ(array_of(none.frame.particles, "f_a"), nullptr);
+    EXPECT_EQ(array_of(none.frame.particles, "f_c"), nullptr);
+    EXPECT_NE(none.said().find("what fixes have of particles is not where it should be"),
+      std::string::npos);
+    EXPECT_EQ(values_of<double>(none.frame.particles, "radius"), std::vector<double>{ 0.1 });
+  }
+}
+
+// A style of which the records are longer than the table says, with no fix that could have made them so.
+TEST(RestartRecords, LongerThanTheTable)
+{
+  Grain grain;
+  grain.v = { 1, 2, 3 };
+  const Record longer = part_of(grain, { 0.5, 4, 5, 7, 7, 7, 1, 2, 3 });
+  RestartBuilder builder = file_of("granular", { longer, longer });
+  for (const bool has_fix : { false, true })
+  {
+    if (has_fix)
+    {
+      builder.peratom_fixes = { { "one", "property/atom", 2 } };
+      for (Record& record : builder.chunks[0])
+      {
+        restart_builder::append(record, { 2, 9 });
+      }
+    }
+    const RestartRun run = read_run(builder);
+    EXPECT_NE(run.said().find("'granular' have in restart files is not known of this program"),
+      std::string::npos)
+      << run.said();
+    EXPECT_EQ(run.notices.size(), 1u);
+    EXPECT_EQ(array_of(run.frame.particles, "omega"), nullptr);
+    EXPECT_EQ(array_of(run.frame.particles, "radius"), nullptr);
+    EXPECT_EQ(array_of(run.frame.particles, "f_one"), nullptr);
+    EXPECT_EQ(
+      values_of<double>(run.frame.particles, "v"), (std::vector<double>{ 1, 2, 3, 1, 2, 3 }));
   }
 }
 

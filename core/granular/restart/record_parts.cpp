@@ -160,8 +160,9 @@ void RecordPlan::find_parts(
   bool same = true;
   const auto of_fixes = parts.subspan(parts_.size());
   const bool found = walk_fixes(record, at, known_fixes_,
-    [&](std::size_t fix, std::size_t begin, std::size_t length)
+    [&](std::size_t part, std::size_t begin, std::size_t length)
     {
+      const std::size_t fix = fix_order_[part];
       of_fixes[fix] = record.data() + begin;
       same = same && (fix_lengths_[fix] == 0 || fix_lengths_[fix] == length);
     });

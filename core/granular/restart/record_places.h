@@ -51,7 +51,7 @@ inline bool begins_part(std::span<const double> record, std::size_t at) noexcept
     has_position_of(part, record) && type_of(part) > 0 && type_of(part) == type_of(record);
 }
 
-/// Calls take(f, begin, length) for the parts of so many fixes. False: there are not so many, up to the end.
+/// Calls take(part, begin, length) for the parts of so many fixes. False: there are not so many, up to the end.
 template <class Take>
 bool walk_fixes(std::span<const double> record, std::size_t at, std::size_t fixes, const Take& take)
 {

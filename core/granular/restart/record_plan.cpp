@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace granular
 {
@@ -24,6 +25,60 @@ const RecordColumn common_columns[] = { { "id", Kind::Id, 0, 0 }, { "type", Kind
   { "vz", Kind::Double, 0, RecordSlots::v + 2 } };
 
 constexpr auto take_none = [](std::size_t, std::size_t, std::size_t) {};
+
+/// Whether a part may be that of a fix, which has columns if it has a length.
+bool fits_fix(const RestartFix& fix, std::size_t fix_length, std::size_t length) noexcept
+{
+  return fix_length > 0 ? length == fix_length : static_cast<std::int64_t>(length) <= fix.most;
+}
+
+/// Whose the parts of a record are, by their lengths: in the order of the fixes, or if they do not fit, in the only other one that
+/// gives columns to the fixes that have some. Empty: there is none, or more than one.
+std::vector<std::size_t> order_fixes(const std::vector<RestartFix>& fixes,
+  const std::vector<std::size_t>& fix_lengths, const std::vector<std::size_t>& parts)
+{
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto fits = [&](std::size_t part)
+  { return fits_fix(fixes[order[part]], fix_lengths[order[part]], parts[part]); };
+  if (std::ranges::all_of(order, fits))
+  {
+    return order;
+  }
+  // parts that are as long could be swapped: of each length that has columns there must be one, and all others fit
+  // if the longest goes to the fix that may have most
+  std::vector<bool> of_columns(static_cast<std::size_t>(RecordPlan::most_values) + 1);
+  for (const std::size_t length : fix_lengths)
+  {
+    of_columns[length] = true;
+  }
+  const auto longer_part = [&](std::size_t a, std::size_t b)
+  {
+    const auto has = [&](std::size_t part)
+    { return parts[part] < of_columns.size() && of_columns[parts[part]]; };
+    return has(a) != has(b) ? has(a) : parts[a] > parts[b];
+  };
+  const auto longer_fix = [&](std::size_t a, std::size_t b)
+  {
+    return fix_lengths[a] != fix_lengths[b] ? fix_lengths[a] > fix_lengths[b]
+                                            : fixes[a].most > fixes[b].most;
+  };
+  std::vector<std::size_t> by_length = order;
+  std::ranges::sort(by_length, longer_part);
+  std::vector<std::size_t> by_most = order;
+  std::ranges::sort(by_most, longer_fix);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    order[by_length[i]] = by_most[i];
+    const bool twice =
+      i > 0 && fix_lengths[by_most[i - 1]] > 0 && parts[by_length[i]] == parts[by_length[i - 1]];
+    if (twice || !fits(by_length[i]))
+    {
+      return {};
+    }
+  }
+  return order;
+}
 }
 
 RecordPlan::RecordPlan(
@@ -48,6 +103,7 @@ RecordPlan::RecordPlan(
           this->look_at(record, where, notices);
         }
         this->look_at_history(record);
+        this->look_at_end(record, where, notices);
         if (first)
         {
           this->find_fixes(layout, record, where, notices);
@@ -112,6 +168,7 @@ void RecordPlan::give_up(
   std::size_t part, const std::string& why, const Where& where, Notices& notices)
 {
   parts_[part].style = nullptr;
+  history_values_ = bonds_ == part ? 0 : history_values_;
   bonds_ = bonds_ == part ? parts_.size() : bonds_;
   Notice notice;
   notice.where = where;
@@ -165,6 +222,23 @@ void RecordPlan::look_at(std::span<const double> record, const Where& where, Not
       this->give_up(part, "is not known of this program", where, notices);
     }
     at += length;
+  }
+}
+
+/// Of a style alone: what is behind its part must be of the fixes that the file names, or nobody knows where its values are.
+void RecordPlan::look_at_end(std::span<const double> record, const Where& where, Notices& notices)
+{
+  if (end_known_ || parts_.size() > 1 || !has_fixes_ || !parts_.front().style ||
+    this->needs_history())
+  {
+    return;
+  }
+  end_known_ = true;
+  FoundBonds bonds;
+  if (!this->fits(record, this->end_of_first(record, bonds)))
+  {
+    this->give_up(0, "is not known of this program", where, notices);
+    fix_lengths_.clear();
   }
 }
 
@@ -282,11 +356,16 @@ void RecordPlan::find_fixes(
     return;
   }
   const std::size_t end = this->find_styles_end(record);
-  bool same = true;
+  std::vector<std::size_t> lengths;
   const bool found = walk_fixes(record, end, known_fixes_,
-    [&](std::size_t fix, std::size_t, std::size_t length)
-    { same = same && (fix_lengths_[fix] == 0 || fix_lengths_[fix] == length); });
-  if (!found || !same)
+    [&](std::size_t, std::size_t, std::size_t length) { lengths.push_back(length); });
+  const auto has_columns = [](std::size_t length) { return length > 0; };
+  const bool wanted = std::ranges::any_of(fix_lengths_, has_columns);
+  if (found && wanted)
+  {
+    fix_order_ = order_fixes(layout.fixes, fix_lengths_, lengths);
+  }
+  if (!found || (wanted && fix_order_.empty()))
   {
     fix_lengths_.clear();
     Notice notice;
@@ -294,7 +373,7 @@ void RecordPlan::find_fixes(
     notice.text = "what fixes have of particles is not where it should be, and is left out";
     notices.push_back(notice);
   }
-  if (std::ranges::all_of(fix_lengths_, [](std::size_t length) { return length == 0; }))
+  if (!wanted)
   {
     fix_lengths_.clear();
   }

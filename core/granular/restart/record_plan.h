@@ -82,6 +82,7 @@ private:
   void find_styles(const RestartLayout& layout, const Where& where, Notices& notices);
   void give_up(std::size_t part, const std::string& why, const Where& where, Notices& notices);
   void look_at(std::span<const double> record, const Where& where, Notices& notices);
+  void look_at_end(std::span<const double> record, const Where& where, Notices& notices);
   bool fits(std::span<const double> record, std::size_t end) const;
   bool needs_history() const noexcept;
   void look_at_history(std::span<const double> record);
@@ -101,7 +102,9 @@ private:
   std::vector<Part> parts_;
   std::vector<RecordColumn> columns_;
   std::vector<std::size_t> fix_lengths_; ///< in the record; 0: any. Empty: none has columns
+  std::vector<std::size_t> fix_order_;   ///< whose the parts of a record are
   std::size_t known_fixes_ = 0;
+  bool end_known_ = false; ///< of a style alone it was looked whether only fixes are behind it
   bool has_fixes_ = false;
   std::size_t bonds_ = 0; ///< the part that has them
   std::int64_t history_values_ = -1;

@@ -38,6 +38,8 @@ struct RestartLayout
   std::vector<std::string> groups; ///< by their bit in a mask; empty names are free bits
   std::vector<double> masses;      ///< of types 1, 2, ...; nan if the file has none
   bool has_fixes = false;          ///< false: what fixes have in records was not found
+  /// In the order of the file. LIGGGHTS writes what they add to records in another order once a fix of the same id was defined again:
+  /// where these parts do not fit, their lengths tell whose they are if they can; of fixes that add as many doubles nobody can.
   std::vector<RestartFix> fixes;
   std::vector<RestartChunk>
     chunks; ///< of processes 0, 1, ..., some without records; none if there are no particles and meshes follow
