@@ -12,7 +12,8 @@
  * - `id`, `type`, `mask` (a bit for each group), `image` and `v` of all atom styles;
  * - what the style adds: `radius`, `mass`, `density`, `omega` of granular and sphere, `mol` of bond/gran, and so on; of a style that is not known
  *   only the above is read, with a warning;
- * - what fix property/atom stores, as `f_ID`.
+ * - what fix property/atom stores, as `f_ID`. (Of fixes of the same size the file does not say which is which where one was defined
+ *   again during the run: their values may be exchanged.)
  *
  * Output port 1 holds the bonds as lines (vtkPolyData), each once, between the particles that it holds together, with the arrays `id1`,
  * `id2`, `btype` and `length` of their cells, and the history of the bond, named as SetHistoryLayout says. `id1` is the lower id where both particles
