@@ -41,6 +41,12 @@ constexpr Case cases[] = {
   { "border_velocity", PackRoutine::BorderVelocity, PackDialect::Pfm },
 };
 
+constexpr Case new_cases[] = {
+  { "border_new", PackRoutine::Border, PackDialect::Pfm },
+  { "border_new_plain", PackRoutine::Border, PackDialect::WithBonds },
+  { "border_velocity_new", PackRoutine::BorderVelocity, PackDialect::Pfm },
+};
+
 /// Two bonds with twelve history values a particle, as in a chain.
 BondedParticles make_chain(std::size_t count, bool bonds)
 {
@@ -119,9 +125,8 @@ void one_routine(benchmark::State& state, const Case& each, std::size_t count)
 }
 
 /// New copies of particles, behind those that there are: what setting up a border does.
-void new_copies(benchmark::State& state, std::size_t count)
+void new_copies(benchmark::State& state, const Case& each, std::size_t count)
 {
-  const Case& each = cases[4];
   BondedParticles particles = make_chain(count, false);
   particles.grow(2 * count);
   std::vector<double> buffer(count * granular::packed_doubles(each.routine, each.dialect));
@@ -181,8 +186,11 @@ void add_benchmarks(const Size& size)
       add(std::string("bonds/pack_") + each.name + suffix, rounds,
         [&each, particles](benchmark::State& state) { one_routine(state, each, particles); });
     }
-    add("bonds/pack_border_new" + suffix, rounds,
-      [particles](benchmark::State& state) { new_copies(state, particles); });
+    for (const Case& each : new_cases)
+    {
+      add(std::string("bonds/pack_") + each.name + suffix, rounds,
+        [&each, particles](benchmark::State& state) { new_copies(state, each, particles); });
+    }
     add("bonds/pack_exchange" + suffix, rounds,
       [particles](benchmark::State& state) { exchange(state, particles); });
   }

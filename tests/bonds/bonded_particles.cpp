@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace
 {
@@ -144,15 +147,86 @@ TEST(BondedParticles, grows_as_the_style)
   EXPECT_EQ(particles.capacity(), 10012U);
   EXPECT_EQ(particles.size(), 0U);
 
-  particles.resize(10013);
-  EXPECT_EQ(particles.capacity(), 20012U);
-  particles.resize(45000); // steps of 10,000
-  EXPECT_EQ(particles.capacity(), 50012U);
-  EXPECT_EQ(
-    limit_of([&] { particles.grow(44999); }).substr(0, 27), "expected room for 45000 to ");
-  EXPECT_EQ(particles.capacity(), 50012U);
+  particles.resize(45000);
+  EXPECT_EQ(limit_of([&] { particles.grow(44999); }).substr(0, 27), "expected room for 45000 to ");
+  EXPECT_EQ(particles.capacity(), 45000U);
+  particles.grow();
+  EXPECT_EQ(particles.capacity(), 55000U);
   particles.grow(45000);
   EXPECT_EQ(particles.capacity(), particles.size());
+}
+
+TEST(BondedParticles, reserve_makes_half_as_much_again)
+{
+  BondedParticles particles(3, 2);
+  for (const auto& [size, capacity] : std::initializer_list<std::pair<std::size_t, std::size_t>>{
+         { 0, 0 }, { 1, 10000 }, { 10000, 10000 }, { 10001, 20000 }, { 20001, 30000 },
+         { 30001, 45000 }, { 45001, 67500 }, { 67501, 101250 }, { 200000, 200000 }, { 7, 200000 } })
+  {
+    particles.reserve(size);
+    EXPECT_EQ(particles.capacity(), capacity);
+    EXPECT_EQ(particles.size(), 0U);
+  }
+  BondedParticles others(3, 2);
+  others.resize(10000);
+  others.resize(10001);
+  EXPECT_EQ(others.capacity(), 20000U);
+  others.resize(90000);
+  EXPECT_EQ(others.capacity(), 90000U);
+}
+
+TEST(BondedParticles, a_million_one_by_one_move_seldom)
+{
+  BondedParticles particles(1, 0);
+  int moves = 0;
+  std::size_t copied = 0;
+  for (std::size_t i = 0; i < 1'000'000; ++i)
+  {
+    const std::size_t capacity = particles.capacity();
+    particles.add(1, {});
+    moves += particles.capacity() != capacity ? 1 : 0;
+    copied += particles.capacity() != capacity ? i : 0;
+  }
+  EXPECT_EQ(particles.size(), 1'000'000U);
+  EXPECT_LE(moves, 60);
+  EXPECT_LE(copied, 3'000'000U); // of a ratio of 3/2: twice the number that there is room for
+}
+
+TEST(BondedParticles, what_was_moved_from_is_empty)
+{
+  static_assert(!std::is_copy_constructible_v<BondedParticles>);
+  static_assert(!std::is_copy_assignable_v<BondedParticles>);
+  BondedParticles first = made_particles::make(30, 3, 2, 4);
+  const auto all = bits_of(first);
+  const std::size_t capacity = first.capacity();
+  const auto expect_empty = [](const BondedParticles& particles)
+  {
+    EXPECT_EQ(particles.size(), 0U);
+    EXPECT_EQ(particles.capacity(), 0U);
+    EXPECT_EQ(particles.memory().allocated, 0U);
+    EXPECT_TRUE(particles.x().empty() && particles.bonds().empty());
+    EXPECT_EQ(particles.most_bonds(), 3);
+    EXPECT_EQ(particles.history_values(), 2);
+  };
+  BondedParticles second(std::move(first));
+  EXPECT_EQ(bits_of(second), all);
+  EXPECT_EQ(second.capacity(), capacity);
+  expect_empty(first);
+  EXPECT_EQ(first.add(7, {}), 0U); // and may be used
+  EXPECT_EQ(first.type()[0], 7);
+
+  BondedParticles third(1, 0);
+  third.add(1, {});
+  third = std::move(second);
+  EXPECT_EQ(bits_of(third), all);
+  EXPECT_EQ(third.capacity(), capacity);
+  EXPECT_EQ(third.most_bonds(), 3);
+  EXPECT_EQ(third.history_values(), 2);
+  expect_empty(second);
+
+  BondedParticles& same = third;
+  third = std::move(same);
+  EXPECT_EQ(bits_of(third), all);
 }
 
 TEST(BondedParticles, add_gives_the_defaults)
@@ -261,6 +335,7 @@ TEST(BondedParticles, limits)
   BondedParticles particles(most, 512);
   EXPECT_NE(limit_of([&] { particles.grow(1 << 20); }), "");
   EXPECT_NE(limit_of([&] { particles.resize(std::numeric_limits<std::size_t>::max()); }), "");
+  EXPECT_NE(limit_of([&] { particles.reserve(1 << 20); }), "");
   EXPECT_EQ(particles.capacity(), 0U);
 }
 

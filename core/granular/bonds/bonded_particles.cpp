@@ -58,6 +58,25 @@ BondedParticles::BondedParticles(std::int32_t most_bonds, std::int32_t history_v
   }
 }
 
+BondedParticles::BondedParticles(BondedParticles&& other) noexcept
+  : most_bonds_(other.most_bonds_)
+  , history_values_(other.history_values_)
+  , size_(std::exchange(other.size_, 0))
+  , capacity_(std::exchange(other.capacity_, 0))
+  , arrays_(std::move(other.arrays_))
+{
+}
+
+BondedParticles& BondedParticles::operator=(BondedParticles&& other) noexcept
+{
+  most_bonds_ = other.most_bonds_;
+  history_values_ = other.history_values_;
+  size_ = std::exchange(other.size_, 0); // of its own: 0, then what it was
+  capacity_ = std::exchange(other.capacity_, 0);
+  arrays_ = std::move(other.arrays_);
+  return *this;
+}
+
 /// The one list of what there is.
 template <class Visit>
 void BondedParticles::for_arrays(const Visit& visit) const
@@ -94,10 +113,14 @@ void BondedParticles::expect_particle(std::size_t i) const
   }
 }
 
+std::size_t BondedParticles::most_particles() const noexcept
+{
+  return static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / this->row_bytes();
+}
+
 void BondedParticles::grow(std::size_t capacity)
 {
-  const std::size_t most =
-    static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / this->row_bytes();
+  const std::size_t most = this->most_particles();
   if (capacity == 0)
   {
     capacity = capacity_ + growth;
@@ -116,14 +139,18 @@ void BondedParticles::grow(std::size_t capacity)
   capacity_ = capacity;
 }
 
-void BondedParticles::resize(std::size_t size)
+void BondedParticles::reserve(std::size_t size)
 {
   if (size > capacity_)
   {
-    const std::size_t steps = (size - capacity_ - 1) / growth + 1;
-    this->grow(
-      std::max(size, capacity_ + steps * growth)); // the sum may have left the range of numbers
+    const std::size_t more = capacity_ + std::max(growth, capacity_ / 2);
+    this->grow(std::max(size, std::min(more, this->most_particles())));
   }
+}
+
+void BondedParticles::resize(std::size_t size)
+{
+  this->reserve(size);
   if (size > size_)
   {
     const std::size_t added = size - size_;

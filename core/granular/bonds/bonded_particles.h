@@ -27,11 +27,18 @@ struct BondedMemory
 class BondedParticles
 {
 public:
-  /// What grow(0) adds.
+  /// What grow(0) adds, and reserve at least.
   static constexpr std::size_t growth = 10000;
 
   /// B and n_h. Throws LimitError if B < 1, n_h < 0 or B n_h > 2^40.
   BondedParticles(std::int32_t most_bonds, std::int32_t history_values);
+
+  /// What was moved from keeps B and n_h, and has neither particles nor room.
+  BondedParticles(BondedParticles&& other) noexcept;
+  BondedParticles& operator=(BondedParticles&& other) noexcept;
+  BondedParticles(const BondedParticles&) = delete;
+  BondedParticles& operator=(const BondedParticles&) = delete;
+  ~BondedParticles() = default;
 
   std::int32_t most_bonds() const noexcept { return most_bonds_; }
   std::int32_t history_values() const noexcept { return history_values_; }
@@ -39,10 +46,16 @@ public:
   std::size_t capacity() const noexcept { return capacity_; }
 
   /// Makes room for so many particles, 0: for 10,000 more. Keeps the particles. Throws LimitError if there are more particles than
-  /// that, or if no memory could be as large; std::bad_alloc; then all is as it was.
+  /// that, or if no memory could be as large; std::bad_alloc; then all is as it was. This is how the style grows, step by step:
+  /// each step copies all there is, so what adds many particles one by one calls reserve, as resize and add do.
   void grow(std::size_t capacity = 0);
 
-  /// Makes it so many particles, and room for them in steps of 10,000. Those that come are as add makes them, of type 0 at the origin.
+  /// Makes room for so many particles if there is less: then for half as many again as there was room for, and for 10,000
+  /// more at least, so that each particle is copied a few times only, however many are added. Throws as grow does.
+  void reserve(std::size_t size);
+
+  /// Makes it so many particles, with room as reserve makes it. Those that come are as add makes them, of type 0 at the origin.
+  /// Throws as grow does.
   void resize(std::size_t size);
 
   /// Adds a particle without bonds and returns its row: tag 0, mask 1, molecule 0, image 0; v, f, x_mol and v_mol are zero.
@@ -150,6 +163,7 @@ private:
   void for_arrays(const Visit& visit) const;
 
   std::size_t row_bytes() const noexcept;
+  std::size_t most_particles() const noexcept;
   void expect_particle(std::size_t i) const;
 
   std::int32_t most_bonds_;

@@ -298,7 +298,8 @@ void unpack(BondedParticles& particles, PackRoutine routine, PackDialect dialect
       ", got " + std::to_string(rows.first));
   }
   const std::size_t old = particles.size();
-  if (rows.first < old || rows.count > particles.capacity() - old)
+  particles.reserve(rows.first + rows.count);
+  if (rows.first < old)
   {
     found.check(buffer, { 0, rows.count }); // there is no way back later
   }

@@ -78,9 +78,9 @@ void pack(const BondedParticles& particles, PackRoutine routine, PackDialect dia
   const ParticleRows& rows, const PeriodicShift& shift, std::span<double> buffer);
 
 /// Unpacks a buffer of exactly so many particles into rows from `first` on, which is at most size(); where they end behind the
-/// last one the object grows. What is not sent stays as it is, and is as add() makes it in new particles.
-/// Throws LimitError if there is no such row; FormatError that names the particle, from 0, and the double of the buffer; then
-/// the object is as it was.
+/// last one the object grows, once. What is not sent stays as it is, and is as add() makes it in new particles.
+/// Throws LimitError if there is no such row, and as BondedParticles::reserve does; FormatError that names the particle, from 0,
+/// and the double of the buffer; then the object is as it was, but may have more room.
 void unpack(BondedParticles& particles, PackRoutine routine, PackDialect dialect,
   ParticleRange rows, std::span<const double> buffer);
 
