@@ -112,8 +112,7 @@ TEST(RestartRecord, every_bit_comes_back)
       std::size_t place = 0;
       for (std::size_t i = 0; i < particles.size(); ++i)
       {
-        const auto known = static_cast<std::ptrdiff_t>(i % 3);
-        const auto read = granular::read_record(chunk, place, form, i < 30 ? -1 : known, others);
+        const auto read = granular::read_record(chunk, place, form, i % 3, others);
         EXPECT_EQ(read.fixes.size(), i % 3);
         EXPECT_TRUE(read.fixes.empty() || read.fixes[0] == 77);
         place += read.size;
@@ -185,7 +184,7 @@ TEST(RestartRecord, what_no_record_can_hold)
 }
 
 /// Reads a record behind two other doubles; the object must be as it was if that is refused.
-std::string reading(const Numbers& record, std::ptrdiff_t fixes = 0)
+std::string reading(const Numbers& record, std::size_t fixes = 0)
 {
   Numbers chunk = { 99, 99 };
   chunk.insert(chunk.end(), record.begin(), record.end());
@@ -196,6 +195,44 @@ std::string reading(const Numbers& record, std::ptrdiff_t fixes = 0)
     text_of<FormatError>([&] { granular::read_record(chunk, 2, {}, fixes, particles); });
   EXPECT_TRUE(text.empty() || bits_of(particles) == before);
   return text;
+}
+
+/// Whether doubles behind the bonds are n_h and history or of fixes: only their number tells.
+TEST(RestartRecord, what_is_of_fixes)
+{
+  // no bonds, then these; n_h is 12 and need not be there
+  const auto fixes_of = [](const Numbers& behind, std::size_t count)
+  {
+    Numbers record = { 13, 0, 0, 0, 1, 1, 1, 537395712, 0, 0, 0, 0, 0 };
+    record.insert(record.end(), behind.begin(), behind.end());
+    record[0] = static_cast<double>(record.size());
+    BondedParticles particles(2, 12);
+    const auto fixes = granular::read_record(record, 0, {}, count, particles).fixes;
+    return Numbers(fixes.begin(), fixes.end());
+  };
+  EXPECT_EQ(fixes_of({}, 0), Numbers{});
+  EXPECT_EQ(fixes_of({ 12 }, 0), Numbers{});
+  EXPECT_EQ(fixes_of({ 12 }, 1), Numbers{ 12 });
+  EXPECT_EQ(fixes_of({ 12, 5 }, 1), Numbers{ 5 });
+  EXPECT_EQ(fixes_of({ 12, 5 }, 2), (Numbers{ 12, 5 }));
+  EXPECT_EQ(fixes_of({ 12, 12 }, 1), Numbers{ 12 });
+  EXPECT_THROW(fixes_of({ 12, 5 }, 0), FormatError);
+  EXPECT_THROW(fixes_of({ 11, 5 }, 1), FormatError);
+  EXPECT_THROW(fixes_of({ 12, 5, 5 }, 1), FormatError);
+
+  // a history that the object does not have is not of fixes, unless it is said to be
+  BondedParticles particles(3, 0);
+  for (std::size_t fixes = 0; fixes < 10; ++fixes)
+  {
+    if (fixes == 5)
+    {
+      EXPECT_EQ(granular::read_record(by_hand, 0, {}, fixes, particles).fixes.size(), fixes);
+      continue;
+    }
+    EXPECT_THROW(granular::read_record(by_hand, 0, {}, fixes, particles), FormatError) << fixes;
+  }
+  EXPECT_EQ(particles.size(), 1U);
+  EXPECT_NE(reading(by_hand, std::numeric_limits<std::size_t>::max()), "");
 }
 
 TEST(RestartRecord, errors_by_hand)
@@ -241,7 +278,9 @@ TEST(RestartRecord, every_truncation_and_changed_double)
       Numbers bad = by_hand;
       bad[at] = value;
       refused += reading(bad).empty() ? 0 : 1;
-      refused += reading(bad, -1).empty() ? 0 : 1;
+      bad.insert(bad.end(), { 3, 0.5 });
+      bad[0] += 2;
+      refused += reading(bad, 2).empty() ? 0 : 1;
     }
   }
   EXPECT_GT(refused, 100);

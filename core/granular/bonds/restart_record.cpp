@@ -128,15 +128,14 @@ std::span<const double> find_record(std::span<const double> chunk, std::size_t p
 }
 
 RecordRead add_record(std::span<const double> record, const RecordForm& form,
-  std::ptrdiff_t fix_doubles, BondedParticles& particles)
+  std::size_t fix_doubles, BondedParticles& particles)
 {
-  const std::size_t fixes = static_cast<std::size_t>(std::max<std::ptrdiff_t>(fix_doubles, 0));
-  if (fixes > record.size())
+  if (fix_doubles > record.size())
   {
-    throw FormatError("expected " + std::to_string(fixes) + " doubles of fixes in a record of " +
-      std::to_string(record.size()));
+    throw FormatError("expected " + std::to_string(fix_doubles) +
+      " doubles of fixes in a record of " + std::to_string(record.size()));
   }
-  const BondBlock bonds = look_at_bonds(record.first(record.size() - fixes), fix_doubles < 0,
+  const BondBlock bonds = look_at_bonds(record.first(record.size() - fix_doubles), false,
     particles.history_values(), particles.most_bonds());
   const Head head = read_head(record, form);
   const std::vector<BondPair> pairs = read_pairs(bonds);
@@ -202,7 +201,7 @@ void append_record(const BondedParticles& particles, std::size_t i, const Record
 }
 
 RecordRead read_record(std::span<const double> chunk, std::size_t place, const RecordForm& form,
-  std::ptrdiff_t fix_doubles, BondedParticles& particles)
+  std::size_t fix_doubles, BondedParticles& particles)
 {
   try
   {

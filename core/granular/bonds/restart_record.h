@@ -39,10 +39,12 @@ struct RecordRead
 };
 
 /// Adds the particle of the record that begins at a place of a chunk of records; x_mol, v_mol and f are zero. Reads the form of
-/// tag, type and mask from the record; form.numbers is not used. fix_doubles is how many doubles fixes have, -1: any.
+/// tag, type and mask from the record; form.numbers is not used. fix_doubles is how many doubles fixes have: nothing in a record
+/// says so, and without it they can not be told from n_h and the history, which may be missing (see look_at_bonds). With it, a
+/// record of other n_h than the object's is refused, but one without bonds may have n_h or not.
 /// Throws FormatError that names the particle, by its place in the object, and the double of the chunk where its record begins: a length
 /// that is none or ends behind the chunk, what look_at_bonds refuses, a number that is none; then the object is as it was.
 RecordRead read_record(std::span<const double> chunk, std::size_t place, const RecordForm& form,
-  std::ptrdiff_t fix_doubles, BondedParticles& particles);
+  std::size_t fix_doubles, BondedParticles& particles);
 }
 #endif
