@@ -189,7 +189,7 @@ TEST(BondedParticles, a_million_one_by_one_move_seldom)
   }
   EXPECT_EQ(particles.size(), 1'000'000U);
   EXPECT_LE(moves, 60);
-  EXPECT_LE(copied, 3'000'000U); // of a ratio of 3/2: twice the number that there is room for
+  EXPECT_LE(copied, 3'000'000U); // 1 + 2/3 + 4/9 + ... = 3 times as many
 }
 
 TEST(BondedParticles, what_was_moved_from_is_empty)
@@ -254,6 +254,36 @@ TEST(BondedParticles, add_gives_the_defaults)
   EXPECT_EQ(particles.molecule()[0], 0);
   EXPECT_EQ(particles.bonds()[0], 0);
   EXPECT_TRUE(particles.history(0).empty());
+}
+
+/// What is not said to be written has its default, also where something else has been.
+TEST(BondedParticles, resize_leaves_out_what_is_written)
+{
+  using granular::PackField;
+  using Reset = void (*)(BondedParticles&);
+  const std::initializer_list<std::pair<PackField, Reset>> fields = {
+    { PackField::X, [](BondedParticles& particles) { particles.x()[2] = {}; } },
+    { PackField::V, [](BondedParticles& particles) { particles.v()[2] = {}; } },
+    { PackField::F, [](BondedParticles& particles) { particles.f()[2] = {}; } },
+    { PackField::XMol, [](BondedParticles& particles) { particles.x_mol()[2] = {}; } },
+    { PackField::VMol, [](BondedParticles& particles) { particles.v_mol()[2] = {}; } },
+    { PackField::Tag, [](BondedParticles& particles) { particles.tag()[2] = 0; } },
+    { PackField::Type, [](BondedParticles& particles) { particles.type()[2] = 0; } },
+    { PackField::Mask, [](BondedParticles& particles) { particles.mask()[2] = 1; } },
+    { PackField::Image, [](BondedParticles& particles) { particles.image()[2] = {}; } },
+    { PackField::Molecule, [](BondedParticles& particles) { particles.molecule()[2] = 0; } },
+  };
+  BondedParticles expected = made_particles::make(2, 3, 2, 6);
+  expected.add(0, {});
+  for (const auto& [field, reset] : fields)
+  {
+    BondedParticles particles = made_particles::make(5, 3, 2, 6);
+    particles.tag()[2] = 77;
+    particles.resize(2);
+    particles.resize(3, granular::set_of(field));
+    reset(particles);
+    EXPECT_EQ(bits_of(particles), bits_of(expected)) << static_cast<int>(field);
+  }
 }
 
 TEST(BondedParticles, add_of_its_own_place_while_growing)

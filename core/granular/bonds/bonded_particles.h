@@ -4,6 +4,7 @@
 
 #include "granular/base/box.h"
 #include "granular/bonds/bond_record.h"
+#include "granular/bonds/pack_fields.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -55,8 +56,8 @@ public:
   void reserve(std::size_t size);
 
   /// Makes it so many particles, with room as reserve makes it. Those that come are as add makes them, of type 0 at the origin.
-  /// Throws as grow does.
-  void resize(std::size_t size);
+  /// Throws as grow does. Who writes fields of all that come says so: these may then have any value.
+  void resize(std::size_t size, PackFieldSet written = 0);
 
   /// Adds a particle without bonds and returns its row: tag 0, mask 1, molecule 0, image 0; v, f, x_mol and v_mol are zero.
   std::size_t add(std::int32_t type, const Vector3& x);
@@ -162,6 +163,7 @@ private:
   template <class Visit>
   void for_arrays(const Visit& visit) const;
 
+  void set_defaults(std::size_t first, std::size_t end, PackFieldSet written) noexcept;
   std::size_t row_bytes() const noexcept;
   std::size_t most_particles() const noexcept;
   void expect_particle(std::size_t i) const;

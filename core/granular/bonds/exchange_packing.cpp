@@ -213,6 +213,7 @@ struct Packer : PackTable<fields>
 struct Routine
 {
   std::span<const PackField> fields;
+  PackFieldSet written; ///< by unpack: not forces, which are added
   std::size_t doubles;
   void (*pack)(const BondedParticles&, const ParticleRows&, double*);
   void (*move)(const BondedParticles&, const ParticleRows&, const Displacement&, double*);
@@ -223,7 +224,8 @@ struct Routine
 template <const auto& fields>
 constexpr Routine routine_of() noexcept
 {
-  return { fields, Packer<fields>::doubles,
+  return { fields, set_of(std::span<const PackField>(fields)) & ~set_of(PackField::F),
+    Packer<fields>::doubles,
     [](const BondedParticles& particles, const ParticleRows& rows, double* to)
     { std::visit([&](const auto& some) { Packer<fields>::pack(particles, some, to); }, rows); },
     [](const BondedParticles& particles, const ParticleRows& rows, const Displacement& change,
@@ -298,17 +300,16 @@ void unpack(BondedParticles& particles, PackRoutine routine, PackDialect dialect
       ", got " + std::to_string(rows.first));
   }
   const std::size_t old = particles.size();
-  particles.reserve(rows.first + rows.count);
   if (rows.first < old)
   {
     found.check(buffer, { 0, rows.count }); // there is no way back later
   }
   try
   {
+    particles.resize(std::max(old, rows.first + rows.count), found.written);
     for (std::size_t i = 0; i < rows.count; i += rows_a_block)
     {
       const std::size_t count = std::min(rows_a_block, rows.count - i);
-      particles.resize(std::max(particles.size(), rows[i] + count));
       found.unpack(buffer, { i, count }, particles, rows[i]);
     }
   }

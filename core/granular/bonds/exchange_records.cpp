@@ -188,7 +188,7 @@ struct Records
       place = check(particles, buffer, place, count);
     }
     const std::size_t first = particles.size();
-    particles.resize(first + count);
+    particles.resize(first + count, set_of(std::span<const PackField>(fields)));
     const auto arrays = Table::arrays_of(particles);
     const double* from = buffer.data();
     for (std::size_t row = first; row < first + count; ++row)

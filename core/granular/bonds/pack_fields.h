@@ -44,6 +44,24 @@ constexpr std::size_t doubles_of(std::span<const PackField> fields) noexcept
   return doubles;
 }
 
+/// Fields, as bits.
+using PackFieldSet = std::uint32_t;
+
+constexpr PackFieldSet set_of(PackField field) noexcept
+{
+  return PackFieldSet{ 1 } << static_cast<unsigned>(field);
+}
+
+constexpr PackFieldSet set_of(std::span<const PackField> fields) noexcept
+{
+  PackFieldSet set = 0;
+  for (const PackField field : fields)
+  {
+    set |= set_of(field);
+  }
+  return set;
+}
+
 /// The tables: what each routine of the atom style bond/gran sends of a particle, in turn. Two dialects: that of PFM, whose particles
 /// are part of something that moves, and that of WITH-BONDS and Flexible_Fibers (`plain`). Their pack_comm, pack_comm_vel,
 /// pack_border, pack_border_vel, pack_border_hybrid, pack_reverse and pack_exchange. Where PFM packs x x_mol v v_mol, which is in
