@@ -90,8 +90,12 @@ template <typename Archive, typename File>
 void visit_file(Archive& archive, File& file)
 {
   const auto notice = [&](auto& said) { visit_notice(archive, said); };
-  archive.path(file.path);
-  archive.number(file.stamp);
+  const auto known = [&](auto& one)
+  {
+    archive.path(one.path);
+    archive.number(one.stamp);
+  };
+  known(file);
   archive.number(file.ends_hash);
   archive.number(file.resume_offset);
   archive.number(file.resume_line);
@@ -101,12 +105,7 @@ void visit_file(Archive& archive, File& file)
   archive.perhaps(file.defect, notice);
   archive.flag(file.unnamed);
   archive.list(file.column_names, [&](auto& name) { archive.text(name); });
-  archive.list(file.beside,
-    [&](auto& known)
-    {
-      archive.path(known.path);
-      archive.number(known.stamp);
-    });
+  archive.list(file.beside, known);
   archive.perhaps(file.points, [&](auto& points) { visit_points(archive, points); });
 }
 
@@ -378,11 +377,8 @@ std::string encode_index(const std::vector<FileIndex>& files)
 
 std::string encode_files(const std::vector<FileIndex>& files)
 {
-  std::vector<const FileIndex*> all;
-  for (const FileIndex& file : files)
-  {
-    all.push_back(&file);
-  }
+  std::vector<const FileIndex*> all(files.size());
+  std::ranges::transform(files, all.begin(), [](const FileIndex& file) { return &file; });
   return encode(all, "");
 }
 
