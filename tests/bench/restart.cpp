@@ -35,6 +35,7 @@ struct Case
 };
 
 constexpr std::int64_t grains_a_fibre = 10;
+constexpr int contact_history = 14; ///< doubles that a fix adds to a grain
 
 /// A record as programs write it: of fibres, or of a grain with some contact history.
 restart_builder::Record make_record(std::int64_t i, bool bonds)
@@ -61,7 +62,8 @@ restart_builder::Record make_record(std::int64_t i, bool bonds)
   }
   else
   {
-    record.insert(record.end(), 14, 0.25);
+    record.push_back(contact_history);
+    record.insert(record.end(), contact_history - 1, 0.25);
   }
   record[0] = static_cast<double>(record.size());
   return record;
@@ -83,6 +85,10 @@ public:
       builder.atom_style = "hybrid";
       builder.styles = { "granular", "bond/gran" };
       builder.bond_styles = { { 1, 2 } };
+    }
+    else
+    {
+      builder.peratom_fixes = { { "contacthistory", "contacthistory", contact_history } };
     }
     std::ofstream out(path_, std::ios::binary);
     std::string head = builder.base();
