@@ -190,8 +190,10 @@ void add_benchmarks(const Size& size)
 {
   const std::int64_t most = size.pick(1'000'000, 1'000);
   const Case cases[] = {
+    { "grains, 10^4", size.pick(10'000, 100), false, 1, 0 },
     { "grains", most, false, 1, 0 },
     { "grains, 2 threads", most, false, 2, 0 },
+    { "fibres, 10^4", size.pick(10'000, 100), true, 1, 0 },
     { "fibres", most / 2, true, 1, 0 },
     { "fibres, 2 threads", most / 2, true, 2, 0 },
     { "fibres behind 200 MB", most / 2, true, 1,
