@@ -6,6 +6,7 @@ import os
 import numpy
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
+from said import said_by
 from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_VOXEL, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
@@ -58,16 +59,9 @@ def write_xml(name, grid, mode):
 
 def read(name, **properties):
     """The output, and all that was said."""
-    said = []
     reader = granular.vtkGranularDecompositionReader()
     reader.SetController(None)
-    for event in ("WarningEvent", "ErrorEvent"):
-        def keep(caller, kind, text):
-            said.append(text)
-        keep.CallDataType = "string0"
-        reader.AddObserver(event, keep)
-    executive = reader.GetExecutive()
-    executive.AddObserver("ErrorEvent", lambda *_: None)
+    said = said_by(reader)
     reader.AddFileName(name)
     for key, value in properties.items():
         getattr(reader, f"Set{key}")(value)

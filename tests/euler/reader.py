@@ -8,6 +8,7 @@ import numpy
 import plain_euler
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from said import said_by
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
@@ -19,15 +20,9 @@ data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 
 def read(*names, output=0, **properties):
     """The output, and all that was said."""
-    said = []
     reader = granular.vtkGranularEulerReader()
     reader.SetController(None)
-    for event in ("WarningEvent", "ErrorEvent"):
-        def keep(caller, kind, text):
-            said.append(text)
-        keep.CallDataType = "string0"
-        reader.AddObserver(event, keep)
-    reader.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+    said = said_by(reader)
     for name in names:
         reader.AddFileName(os.path.abspath(name))
     reader.SetOutputType(output)

@@ -5,6 +5,7 @@ import os
 import numpy
 import plain_restart
 from paraview.vtk.util.numpy_support import vtk_to_numpy
+from said import said_by
 
 import granular
 
@@ -18,15 +19,9 @@ class Read:
     """The outputs, and all that was said."""
 
     def __init__(self, *names, time=None, **properties):
-        self.said = []
         reader = granular.vtkGranularRestartReader()
         reader.SetController(None)
-        for event in ("WarningEvent", "ErrorEvent"):
-            def keep(caller, kind, text):
-                self.said.append(text)
-            keep.CallDataType = "string0"
-            reader.AddObserver(event, keep)
-        reader.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        self.said = said_by(reader)
         for name in names:
             reader.AddFileName(os.path.abspath(name))
         for key, value in properties.items():
