@@ -90,6 +90,17 @@ std::int64_t to_whole(double number, WholeNumbers form)
   return static_cast<std::int64_t>(number);
 }
 
+std::int32_t to_int32(double number, WholeNumbers form, const char* name)
+{
+  const std::int64_t value = to_whole(number, form);
+  if (value != static_cast<std::int32_t>(value))
+  {
+    throw FormatError(
+      "expected " + std::string(name) + " of 32 bits, got " + std::to_string(value));
+  }
+  return static_cast<std::int32_t>(value);
+}
+
 ImageCounts unpack_image(std::int64_t image, int field_bits) noexcept
 {
   const std::int64_t range = std::int64_t{ 1 } << field_bits;

@@ -43,6 +43,9 @@ WholeNumbers whole_numbers_of(std::span<const double> block);
 /// A whole number out of a double. Throws FormatError if it is none, or no 64-bit integer.
 std::int64_t to_whole(double number, WholeNumbers form);
 
+/// The same of 32 bits; name is for the error: "a bond type". Throws FormatError.
+std::int32_t to_int32(double number, WholeNumbers form, const char* name);
+
 /// The counts of an image: fields of so many bits (10 where ids have 4 bytes, 21 where they have 8), biased by half of their
 /// range, x lowest; the third has the bits that are left.
 struct ImageCounts

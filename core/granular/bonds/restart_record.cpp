@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <string>
 
 namespace granular
@@ -48,17 +47,6 @@ void append_bonds(const BondedParticles& particles, std::size_t i, std::vector<d
     record.push_back(particles.history_values());
     record.insert(record.end(), history.begin(), history.end());
   }
-}
-
-std::int32_t to_int32(double number, WholeNumbers form, const char* name)
-{
-  const std::int64_t value = to_whole(number, form);
-  if (value != static_cast<std::int32_t>(value))
-  {
-    throw FormatError(
-      "expected " + std::string(name) + " of 32 bits, got " + std::to_string(value));
-  }
-  return static_cast<std::int32_t>(value);
 }
 
 /// What stands in a record other than bonds.

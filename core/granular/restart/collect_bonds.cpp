@@ -3,26 +3,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <string>
 
 namespace granular
 {
-namespace
-{
-std::int32_t load_type(double number, WholeNumbers form)
-{
-  const std::int64_t type = to_whole(number, form);
-  if (type < std::numeric_limits<std::int32_t>::min() ||
-    type > std::numeric_limits<std::int32_t>::max())
-  {
-    throw FormatError("expected the type of a bond, got " + std::to_string(type));
-  }
-  return static_cast<std::int32_t>(type);
-}
-
-}
-
 BondCollector::BondCollector(const RecordPlan& plan, std::int64_t rows, std::size_t blocks,
   const std::int64_t* ids, const double* points, const std::shared_ptr<BlockPool>& pool)
   : history_values_(static_cast<std::size_t>(plan.history_values()))
@@ -72,7 +56,7 @@ void BondCollector::collect(std::size_t block, const RecordBatch& batch, const R
     {
       for (std::size_t bond = 0; bond < count; ++bond)
       {
-        copies.types.push_back(load_type(found.block.pairs[2 * bond], found.form));
+        copies.types.push_back(to_int32(found.block.pairs[2 * bond], found.form, "a bond type"));
         copies.partners.push_back(to_whole(found.block.pairs[2 * bond + 1], found.form));
       }
     }
@@ -88,5 +72,4 @@ void BondCollector::collect(std::size_t block, const RecordBatch& batch, const R
     copies.begins.push_back(static_cast<std::int64_t>(copies.size()));
   }
 }
-
 }

@@ -3,10 +3,10 @@
 
 #include "granular/base/number_print.h"
 #include "granular/bonds/bond_record.h"
+#include "granular/restart/restart_bytes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <limits>
 
@@ -22,10 +22,7 @@ void swap_doubles(double* doubles, std::size_t count) noexcept
 {
   for (std::size_t i = 0; i < count; ++i)
   {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, doubles + i, sizeof bits);
-    bits = __builtin_bswap64(bits);
-    std::memcpy(doubles + i, &bits, sizeof bits);
+    doubles[i] = load_number<double>(reinterpret_cast<const char*>(doubles + i), true);
   }
 }
 

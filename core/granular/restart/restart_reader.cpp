@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/restart_reader.h"
 
+#include "granular/dump/exchange_rows.h"
 #include "granular/restart/bond_frame.h"
 #include "granular/restart/collect_bonds.h"
 #include "granular/restart/decode_records.h"
@@ -16,13 +17,6 @@ namespace granular
 {
 namespace
 {
-/// The first row of a part, rows * part / parts without a product that leaves the range.
-std::int64_t begin_of(std::int64_t rows, int part, int parts) noexcept
-{
-  const std::int64_t whole = rows / parts;
-  return whole * part + rows % parts * part / parts;
-}
-
 /// Decodes the records of a file.
 class FrameReader
 {
@@ -31,8 +25,8 @@ public:
     const RecordPlan& plan)
     : plan_(plan)
     , records_(layout.records)
-    , first_(begin_of(layout.records, request.piece, request.pieces))
-    , end_(begin_of(layout.records, request.piece + 1, request.pieces))
+    , first_(begin_of_part(layout.records, request.piece, request.pieces))
+    , end_(begin_of_part(layout.records, request.piece + 1, request.pieces))
     , executor_(request.lines.threads)
     , scan_(source, layout)
     , particles_(plan, layout, request, first_, end_)
