@@ -115,6 +115,8 @@ mixed = OpenDataFile([os.path.join(samples, "fibres.10000.restart"), os.path.abs
 assert list(mixed.TimestepValues) == [10000, 15000, 20000]
 mixed.UpdatePipeline(15000)
 assert "q" in [array.GetName() for array in mixed.PointData[:]]
+none = servermanager.Fetch(mixed, idx=1)
+assert none.GetNumberOfCells() == 0 and none.GetFieldData().GetArray("timestep").GetValue(0) == 15000
 mixed.PointArrayStatus = ["id"]
 mixed.UpdatePipeline(15000)
 assert [array.GetName() for array in mixed.PointData[:]] == ["id"]

@@ -72,6 +72,12 @@ public:
         make_bond_frame(*bonds_, layout, request, first_, end_, where, notices, progress);
     }
     frame.particles = particles_.take(where, notices);
+    if (!bonds_)
+    {
+      frame.bonds.table.header = frame.particles.header;
+      frame.bonds.table.header.rows = 0;
+      frame.bonds.table.header.counted = "BONDS";
+    }
     return frame;
   }
 
