@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Warnings per layer, and sanitizers for the whole of a core-only build.
+# How everything rounds, warnings per layer, and sanitizers for the whole of a core-only build.
 
 set(granular_warnings_vtk -Wall -Wextra)
 set(granular_warnings_core -Wall -Wextra)
@@ -21,6 +21,11 @@ function(granular_warnings target layer)
   target_compile_options(${target} PRIVATE
     "$<$<COMPILE_LANGUAGE:CXX>:${granular_warnings_${layer}}>")
 endfunction()
+
+# Results are the same on all machines: the compiler must not join a product and a sum into one
+# rounding where the processor could. std::fma is written where that is wanted. Plugin and tests
+# compile inline functions of the core, so the option is for all.
+add_compile_options("$<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>")
 
 if(GRANULAR_SANITIZE)
   add_compile_options(

@@ -50,11 +50,11 @@ assert np.allclose(points["Unwrapped"], low + (s + image) @ box, atol=1e-13)
 assert np.array_equal(points["Scaled"], s) and np.allclose(corners[6], low + box.sum(axis=0))
 print(f"{len(s)} atoms in the box, {np.sum(image.any(axis=1))} have crossed a face; see forms.png")
 
-# A million lengths away, single precision will do only for points relative to a place near them.
+# A million lengths away, single precision will do only for points relative to a place near them: without PointOrigin they
+# move by 0.03, and the reader warns.
 away = [f"{lo!r} {hi!r} {tilt!r}\n" for lo, hi, tilt in (hull + [1e6, 1e6, 0]).tolist()]
 Path("far.dump").write_text(text.replace(bounds, "".join(away)))
-for origin, limit in (0, 0.05), (1e6, 1e-6):
-    single = OpenDataFile("far.dump", PointPrecision="Single", PointOrigin=[origin] * 3)
-    error = abs(points_of(single) + (origin - 1e6) - points["Absolute"]).max()
-    print(f"far away in single precision, PointOrigin {origin:g}: largest error {error:.1g}")
-    assert 0.01 * limit < error < limit
+single = OpenDataFile("far.dump", PointPrecision="Single", PointOrigin=[1e6] * 3)
+error = abs(points_of(single) - points["Absolute"]).max()
+print(f"far away in single precision, PointOrigin 1e+06: largest error {error:.1g}")
+assert 1e-8 < error < 1e-6

@@ -2,24 +2,162 @@
 #include "vtkGranularGrainsRepresentation.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCamera.h"
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLActor.h"
+#include "vtkOpenGLPointGaussianMapper.h"
 #include "vtkPVRenderView.h"
 #include "vtkPointData.h"
-#include "vtkPointGaussianMapper.h"
+#include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace
 {
+using Place = std::array<double, 3>;
+
+// Returns a place near what the camera looks at, from which points are counted before they become floats.
+// It depends on the camera alone, so that all ranks find the same one. It lies on a lattice with a spacing of
+// 32 to 256 times half the height of the view. So it seldom changes, and a float holds points in view, up to
+// 2^8 such halves away, to 2^-16 of a half: some hundredths of a pixel. The focal point counts only where it
+// is between the clipping planes: it may be anywhere on the line of sight.
+Place PlaceInView(vtkCamera* camera)
+{
+  Place position;
+  Place place;
+  camera->GetPosition(position.data());
+  camera->GetFocalPoint(place.data());
+  const double distance = std::clamp(
+    camera->GetDistance(), camera->GetClippingRange()[0], camera->GetClippingRange()[1]);
+  const double half = camera->GetParallelProjection()
+    ? camera->GetParallelScale()
+    : distance * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  int exponent = 0;
+  std::frexp(32.0 * half, &exponent);
+  const double spacing = std::ldexp(1.0, 3 * static_cast<int>(std::ceil(exponent / 3.0)));
+  const double along = distance / camera->GetDistance();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = position[axis] + along * (place[axis] - position[axis]);
+    place[axis] = spacing * std::round(place[axis] / spacing);
+    if (!std::isfinite(place[axis]))
+    {
+      return Place{};
+    }
+  }
+  return place;
+}
+
+// Returns where a place is in the coordinates of the data that an actor moves.
+Place InData(const Place& place, vtkActor* actor)
+{
+  if (actor->vtkProp3D::GetIsIdentity())
+  {
+    return place;
+  }
+  vtkNew<vtkMatrix4x4> inverse;
+  vtkMatrix4x4::Invert(actor->GetMatrix(), inverse);
+  double moved[4] = { place[0], place[1], place[2], 1.0 };
+  inverse->MultiplyPoint(moved, moved);
+  return { moved[0], moved[1], moved[2] };
+}
+
+vtkSmartPointer<vtkPolyData> CountedFrom(const Place& place, vtkPolyData* data)
+{
+  auto moved = vtkSmartPointer<vtkPolyData>::New();
+  moved->ShallowCopy(data);
+  if (vtkPoints* points = data->GetPoints())
+  {
+    vtkNew<vtkPoints> differences;
+    differences->SetDataTypeToFloat();
+    differences->SetNumberOfPoints(points->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+    {
+      double point[3];
+      points->GetPoint(i, point);
+      differences->SetPoint(i, point[0] - place[0], point[1] - place[1], point[2] - place[2]);
+    }
+    moved->SetPoints(differences);
+  }
+  return moved;
+}
+
+// Returns the data with points counted from a place, block by block.
+vtkSmartPointer<vtkDataObject> CountedFrom(const Place& place, vtkDataObject* data)
+{
+  auto* blocks = vtkCompositeDataSet::SafeDownCast(data);
+  auto* single = vtkPolyData::SafeDownCast(data);
+  if (place == Place{} || !(blocks || single))
+  {
+    return data;
+  }
+  if (single)
+  {
+    return CountedFrom(place, single);
+  }
+  auto moved = vtk::TakeSmartPointer(blocks->NewInstance());
+  moved->CopyStructure(blocks);
+  auto each = vtk::TakeSmartPointer(blocks->NewIterator());
+  for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem())
+  {
+    moved->SetDataSet(each, CountedFrom(place, each->GetCurrentDataObject()));
+  }
+  return moved;
+}
+
+// A mapper that is right where floats are not: vtkOpenGLPointGaussianMapper makes floats of coordinates as they
+// are, here they are first counted from a place in view, in doubles. The actor adds the place again.
+class GrainsMapper : public vtkOpenGLPointGaussianMapper
+{
+public:
+  static GrainsMapper* New();
+  vtkTypeMacro(GrainsMapper, vtkOpenGLPointGaussianMapper);
+
+  using Superclass::SetInputDataObject;
+  void SetInputDataObject(int port, vtkDataObject* data) override
+  {
+    if (data != this->Grains || (data && this->Time < data->GetMTime()))
+    {
+      this->Grains = data;
+      this->Time = data ? data->GetMTime() : 0;
+      this->Superclass::SetInputDataObject(port, CountedFrom(this->From, data));
+    }
+  }
+
+  void Render(vtkRenderer* renderer, vtkActor* actor) override
+  {
+    const Place place = InData(PlaceInView(renderer->GetActiveCamera()), actor);
+    if (place != this->From)
+    {
+      this->From = place;
+      this->Superclass::SetInputDataObject(0, CountedFrom(place, this->Grains));
+    }
+    this->Superclass::Render(renderer, actor);
+  }
+
+  vtkDataObject* GetGrains() { return this->Grains; } // where they are
+  const Place& GetFrom() { return this->From; }
+
+private:
+  vtkSmartPointer<vtkDataObject> Grains;
+  vtkMTimeType Time = 0;
+  Place From{};
+};
+vtkStandardNewMacro(GrainsMapper);
+
 // From each sphere, not from all centres and the largest radius: how the points are dealt to ranks
 // must not show in where the camera is put.
 void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
@@ -28,7 +166,7 @@ void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
   const char* name = mapper->GetScaleArray();
   vtkDataArray* radii = name ? data->GetPointData()->GetArray(name) : nullptr;
   const double factor = mapper->GetScaleFactor();
-  vtkMatrix4x4* matrix = actor->GetIsIdentity() ? nullptr : actor->GetMatrix();
+  vtkMatrix4x4* matrix = actor->vtkProp3D::GetIsIdentity() ? nullptr : actor->GetMatrix();
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     double centre[4] = { 0.0, 0.0, 0.0, 1.0 };
@@ -77,7 +215,8 @@ private:
   vtkMTimeType Time = 0;
 };
 
-// An actor whose bounds hold the spheres, not their centres alone: cullers and IceT go by them.
+// An actor whose bounds hold the spheres, not their centres alone: cullers and IceT go by them. It draws what its
+// mapper counts from a place where that belongs.
 class GrainsActor : public vtkOpenGLActor
 {
 public:
@@ -86,12 +225,38 @@ public:
 
   double* GetBounds() override
   {
-    return this->Drawn.Of(this, this->Mapper->GetInputDataObject(0, 0));
+    return this->Drawn.Of(this, this->GetGrainsMapper()->GetGrains());
   }
 
   double* GetBoundsOf(vtkDataObject* data) { return this->Read.Of(this, data); }
 
+  int GetIsIdentity() override
+  {
+    return this->GetGrainsMapper()->GetFrom() == Place{} && this->Superclass::GetIsIdentity();
+  }
+
+  // The matrices of OpenGL: they are applied to rows.
+  void GetKeyMatrices(vtkMatrix4x4*& matrix, vtkMatrix3x3*& normals) override
+  {
+    this->Superclass::GetKeyMatrices(matrix, normals);
+    const Place& from = this->GetGrainsMapper()->GetFrom();
+    const double place[4] = { from[0], from[1], from[2], 1.0 };
+    this->FromPlace->DeepCopy(matrix);
+    this->FromPlace->Transpose();
+    double moved[4];
+    this->FromPlace->MultiplyPoint(place, moved);
+    this->FromPlace->DeepCopy(matrix);
+    for (int i = 0; i < 4; ++i)
+    {
+      this->FromPlace->SetElement(3, i, moved[i]);
+    }
+    matrix = this->FromPlace;
+  }
+
 private:
+  GrainsMapper* GetGrainsMapper() { return static_cast<GrainsMapper*>(this->Mapper); }
+
+  vtkNew<vtkMatrix4x4> FromPlace;
   SphereBounds Drawn; // what this rank draws
   SphereBounds Read;  // what was read on this rank, before it is sent anywhere
 };
@@ -102,6 +267,7 @@ vtkStandardNewMacro(vtkGranularGrainsRepresentation);
 
 vtkGranularGrainsRepresentation::vtkGranularGrainsRepresentation()
 {
+  this->Mapper = vtkSmartPointer<GrainsMapper>::New();
   this->Actor = vtkSmartPointer<GrainsActor>::New();
   this->Actor->SetMapper(this->Mapper);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularGrainsRepresentation
- * @brief   Point Gaussian for grains: whole on any number of ranks.
+ * @brief   Point Gaussian for grains: whole on any number of ranks, and right far from the origin.
  *
  * vtkPointGaussianRepresentation tells ParaView where the points are, not the spheres. Three things
  * follow from that, and are put right here:
@@ -14,6 +14,10 @@
  *   the rank where it is nearest, as for surfaces, unless the grains are translucent: then the order
  *   of regions is the best there is.
  * - For that order points are sent from rank to rank. Here opaque grains stay where they were read.
+ *
+ * Its mapper makes floats of the coordinates as they are: spheres of 5e-4 at 1024 lie on a lattice of a quarter of
+ * their radius, and at 2^20 nothing is seen of them. Here a place near the centre of the view is subtracted in doubles first. It depends on
+ * the camera alone and seldom changes; near the origin it is the origin, and points are passed on as they are.
  *
  * Made for the preset Sphere and radii without a transfer function, as the XML sets them.
  */

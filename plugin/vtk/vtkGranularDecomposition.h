@@ -5,7 +5,7 @@
  *
  * Which subdomains: see SetMode. Each particle counts once: of subdomains that do not overlap it belongs to the
  * one with lo <= x < hi along each axis, at the upper end of the box x <= hi. Particles beyond periodic faces are where
- * their images in the box are. Those outside of all subdomains are counted, with a warning. Duplicates of
+ * their images in the box are, on the same side of every face as the exact image. Those outside of all subdomains are counted, with a warning. Duplicates of
  * ghosts are left out.
  *
  * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled,

@@ -206,6 +206,7 @@ void vtkGranularDumpReader::Internals::FillOutputs(Self* self, vtkInformationVec
   {
     vtkDataObject* output = vtkDataObject::GetData(outputs, port);
     FillFieldData(output->GetFieldData(), frame, task.Request.point_origin);
+    FillLeftOut(output->GetFieldData(), task.Request);
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), task.Time);
   }
 }

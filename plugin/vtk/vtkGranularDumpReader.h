@@ -24,7 +24,7 @@
  * are), `PointOrigin` (3), `BoxOrigin` (3), `BoxVectors` (9: a, b, c), `BoxBounds`
  * (the header's own numbers: xlo xhi ylo yhi zlo zhi, and xy xz yz of a tilted box), `Boundary` (such as
  * "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and `label`, `units`
- * and `time` where the file has them.
+ * and `time` where the file has them. Where Stride or RegionOfInterest leave out particles, `ParticlesLeftOut` names them.
  *
  * Only what is asked for is read: the frame shown, the arrays switched on, the rows of Stride and
  * RegionOfInterest.

@@ -13,6 +13,7 @@
 
 #include "granular/base/number_print.h"
 #include "granular/euler/average.h"
+#include "granular/euler/time_average.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -123,6 +124,7 @@ private:
     this->Grains.emplace(input, this->Ranks);
     granular::EulerAverages averages;
     granular::Notices notices;
+    granular::do_together(this->Ranks, [&] { CheckAllThere(input, notices); });
     if (this->Together)
     {
       averages = this->Average(this->Ranks, notices);
@@ -184,6 +186,18 @@ private:
     this->Grid = request.grid;
     const granular::Executor executor(ChooseThreads(this->Self->Threads, this->Ranks));
     return granular::average_in_cells(view, request, ranks, executor, notices, this->Progress);
+  }
+
+  static void CheckAllThere(vtkDataObject* input, granular::Notices& notices)
+  {
+    const std::string leftOut = FindLeftOut(input->GetFieldData());
+    if (!leftOut.empty())
+    {
+      granular::Notice notice;
+      notice.text = "particles are missing that the reader left out (" + leftOut +
+        "): averages count the particles that are there, volume fraction and stress are too small";
+      notices.push_back(notice);
+    }
   }
 
   void CheckTilt(const granular::FrameView& view, granular::Notices& notices) const

@@ -11,13 +11,15 @@
  *   stress itself, `sigma` (xx yy zz) and `tau` (xy xz yz). Without one it is the part of the fluctuations of velocity alone: the
  *   contacts' is missing.
  *
- * as fix ave/euler of LIGGGHTS has it, where w is 1 or 0. Empty cells are 0. These are averages over space at one moment; see
- * SetTimeAverage. Sums are correctly rounded: the result is the same, to the bit, for any order of particles and any number of
+ * as fix ave/euler of LIGGGHTS has it, where w is 1 or 0. Empty cells are 0. Where two particles overlap each other, their common
+ * volume counts twice in volumefraction. Particles of one velocity have a pressure of 0: what rounding of v_avg may make is no
+ * fluctuation. These are averages over space at one moment; see SetTimeAverage. Sums are correctly rounded: the result is the same, to the bit, for any order of particles and any number of
  * threads and processes.
  *
  * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled, PointOrigin);
  * the output has the same PointOrigin. Duplicates of ghosts are left out, and, with a warning that counts them, particles
- * outside of all cells, with a number that is nan or infinite, or with a negative mass or radius.
+ * that touch no cell, with a number that is nan or infinite, or with a negative mass or radius. Another warning says that the reader
+ * left out particles by Stride or RegionOfInterest, where the field data `ParticlesLeftOut` of the input name them.
  */
 
 #ifndef vtkGranularEulerAverage_h
@@ -127,8 +129,10 @@ public:
 
   ///@{
   /**
-   * On: the average over all time steps of the input: v_avg = sum of momenta / sum of masses, all else the mean over frames. Off
-   * by default. The output has no time then; cells must not change with time.
+   * On: the average over all time steps of the input: sums above are over the particles of all of them, and V is the volume of the cell
+   * times the number of time steps, those among them in which it is empty. v_avg is that of all time steps, so that stress and pressure
+   * hold what the mean velocity of a cell changes over time, too. Off by default. The output has no time then; cells must not
+   * change with time.
    */
   vtkSetMacro(TimeAverage, bool);
   vtkGetMacro(TimeAverage, bool);

@@ -10,6 +10,7 @@
 
 #include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"
+#include "granular/packing/packing_plan.h"
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -22,6 +23,7 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <string>
 
 using namespace vtkGranularPrivate;
@@ -47,15 +49,16 @@ struct vtkGranularPackingSource::Internals
   std::string Boundary = "ff ff ff";
   VertexCache Vertices; ///< of the request before
 
-  granular::Box MakeBox(Self* self);
+  std::optional<granular::Box> MakeBox(Self* self);
   granular::PackingRequest MakeRequest(Self* self, vtkInformation* output);
-  void Fill(Self* self, const granular::PackingRequest& wanted, vtkInformationVector* outputs,
+  void Fill(Self* self, const granular::PackingPlan& plan, vtkInformationVector* outputs,
     granular::Progress& progress);
   void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
 };
 
 //------------------------------------------------------------------------------
-granular::Box vtkGranularPackingSource::Internals::MakeBox(Self* self)
+// None, if it is to be made for the grains.
+std::optional<granular::Box> vtkGranularPackingSource::Internals::MakeBox(Self* self)
 {
   const auto vector = [](double x, double y, double z) -> granular::Twofold3 {
     return { granular::Twofold{ x, 0 }, granular::Twofold{ y, 0 }, granular::Twofold{ z, 0 } };
@@ -63,6 +66,15 @@ granular::Box vtkGranularPackingSource::Internals::MakeBox(Self* self)
   const double* origin = self->BoxOrigin;
   const double* lengths = self->BoxLengths;
   const double* tilts = self->BoxTilts;
+  const auto isZero = [](double number) { return number == 0; };
+  if (std::all_of(lengths, lengths + 3, isZero))
+  {
+    if (!std::all_of(tilts, tilts + 3, isZero))
+    {
+      throw granular::LimitError("expected BoxLengths of the box that BoxTilts are of, got none");
+    }
+    return {};
+  }
   granular::Box box;
   box.origin = vector(origin[0], origin[1], origin[2]);
   box.vectors = { vector(lengths[0], 0, 0), vector(tilts[0], lengths[1], 0),
@@ -85,11 +97,11 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
 {
   granular::PackingRequest request;
   request.arrangement = static_cast<granular::Arrangement>(self->Arrangement);
-  request.grains = self->NumberOfGrains;
-  if (self->BoxGiven)
-  {
-    request.box = this->MakeBox(self);
-  }
+  request.box = this->MakeBox(self);
+  std::copy_n(self->BoxOrigin, 3, request.corner.begin());
+  constexpr vtkTypeInt64 grainsWithoutBox = 1000;
+  request.grains =
+    self->NumberOfGrains == 0 && !request.box ? grainsWithoutBox : self->NumberOfGrains;
   request.boundary = this->Boundary;
   request.radii.kind = static_cast<granular::RadiusChoice::Kind>(self->Radii);
   request.radii.first = self->Radius;
@@ -109,22 +121,22 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::PackingRequest& wanted,
+void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::PackingPlan& plan,
   vtkInformationVector* outputs, granular::Progress& progress)
 {
   const bool bonded = self->BondFactor != 0;
   granular::PartialProgress part(progress);
   part.set_part(0, bonded ? 0.5 : 1);
-  granular::DumpFrame frame = granular::make_packing(wanted, part);
+  granular::DumpFrame frame = granular::make_packing(plan, part);
   if (bonded)
   {
     part.set_part(0.5, 1);
-    granular::GrainBonds bonds = granular::make_bonds(wanted, frame, self->BondFactor, part);
+    granular::GrainBonds bonds = granular::make_bonds(plan, frame, self->BondFactor, part);
     FillBonds(vtkPolyData::GetData(outputs, BONDS), bonds);
   }
   FillParticles(vtkPolyData::GetData(outputs, GRAINS), frame, false, VertexCells::OnePerPoint,
     this->Vertices, nullptr);
-  if (wanted.piece == 0)
+  if (plan.request.piece == 0)
   {
     FillBox(vtkUnstructuredGrid::GetData(outputs, BOX), frame.header.box, frame.coordinates, {});
   }
@@ -136,7 +148,7 @@ void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::Packi
 }
 
 //------------------------------------------------------------------------------
-// Collective: an error of one rank is one of all. The ranks need nothing else of each other.
+// Collective: an error of one rank is one of all.
 void vtkGranularPackingSource::Internals::Run(
   Self* self, vtkInformation* request, vtkInformationVector* outputs)
 {
@@ -146,21 +158,22 @@ void vtkGranularPackingSource::Internals::Run(
     : 0;
   AlgorithmProgress own(self);
   granular::SharedProgress progress(own, ranks);
-  granular::do_together(ranks,
-    [&]
-    {
-      try
-      {
-        this->Fill(
-          self, this->MakeRequest(self, outputs->GetInformationObject(port)), outputs, progress);
-      }
-      catch (const std::bad_alloc&)
-      {
-        throw granular::LimitError(
-          "not enough memory for so many grains and bonds: ask for fewer, or use more "
-          "processes on more machines");
-      }
-    });
+  granular::PartialProgress part(progress);
+  granular::PackingRequest wanted;
+  granular::do_together(
+    ranks, [&] { wanted = this->MakeRequest(self, outputs->GetInformationObject(port)); });
+  try
+  {
+    part.set_part(0, 0.6);
+    const granular::PackingPlan plan(wanted, ranks, part);
+    part.set_part(0.6, 1);
+    granular::do_together(ranks, [&] { this->Fill(self, plan, outputs, part); });
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw granular::LimitError("not enough memory for so many grains and bonds: ask for fewer, or "
+                               "use more processes on more machines");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -219,7 +232,6 @@ void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
   { os << indent << name << ": " << values[0] << " " << values[1] << " " << values[2] << "\n"; };
   os << indent << "Arrangement: " << this->Arrangement << "\n";
   os << indent << "NumberOfGrains: " << this->NumberOfGrains << "\n";
-  os << indent << "BoxGiven: " << (this->BoxGiven ? "On" : "Off") << "\n";
   numbers("BoxOrigin", this->BoxOrigin);
   numbers("BoxLengths", this->BoxLengths);
   numbers("BoxTilts", this->BoxTilts);

@@ -64,7 +64,8 @@ public:
    * RANDOM, the default; or whole cells of a lattice along the box vectors, in the middle of the box; or a
    * CHAIN, one straight fibre along the first box vector; or a FIBRE_BUNDLE, such fibres side by side in closest
    * packing. Fibres begin a radius inside the low face; one that is longer than the box is an error.
-   * NumberOfGrains: 1000 by default; 0: as many as the box holds, in that arrangement or at the solid fraction.
+   * NumberOfGrains: 0, the default: as many as the box holds, in that arrangement or at the solid fraction, and 1000
+   * where no box is given.
    */
   vtkSetClampMacro(Arrangement, int, RANDOM, FIBRE_BUNDLE);
   vtkGetMacro(Arrangement, int);
@@ -74,10 +75,9 @@ public:
 
   ///@{
   /**
-   * The box: its low corner, (0, 0, 0) by default; its lengths lx ly lz, greater than 0, (0.1, 0.1, 0.1)
-   * by default; its tilts xy xz yz, (0, 0, 0) by default. The box vectors are (lx, 0, 0), (xy, ly, 0)
-   * and (xz, yz, lz). In the unit of the radii. BoxGiven off: they are not used, and the box is made for the
-   * grains, with its corner at 0 0 0 and not tilted. On by default.
+   * The box: its low corner, (0, 0, 0) by default; its lengths lx ly lz, greater than 0, or (0, 0, 0), the default: then
+   * a box is made for the grains; its tilts xy xz yz, (0, 0, 0) by default, of a box whose lengths are given. The
+   * box vectors are (lx, 0, 0), (xy, ly, 0) and (xz, yz, lz). In the unit of the radii.
    */
   vtkSetVector3Macro(BoxOrigin, double);
   vtkGetVector3Macro(BoxOrigin, double);
@@ -85,9 +85,6 @@ public:
   vtkGetVector3Macro(BoxLengths, double);
   vtkSetVector3Macro(BoxTilts, double);
   vtkGetVector3Macro(BoxTilts, double);
-  vtkSetMacro(BoxGiven, bool);
-  vtkGetMacro(BoxGiven, bool);
-  vtkBooleanMacro(BoxGiven, bool);
   ///@}
 
   ///@{
@@ -157,10 +154,9 @@ private:
   void operator=(const vtkGranularPackingSource&) = delete;
 
   int Arrangement = RANDOM;
-  vtkTypeInt64 NumberOfGrains = 1000;
-  bool BoxGiven = true;
+  vtkTypeInt64 NumberOfGrains = 0;
   double BoxOrigin[3] = { 0, 0, 0 };
-  double BoxLengths[3] = { 0.1, 0.1, 0.1 };
+  double BoxLengths[3] = { 0, 0, 0 };
   double BoxTilts[3] = { 0, 0, 0 };
   int Radii = TWO;
   double Radius = 0.003;

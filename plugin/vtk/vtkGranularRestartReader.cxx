@@ -58,17 +58,13 @@ void pass(Archive& archive, ArrayName& array)
 }
 
 /**
- * Adds what is not there yet, in its order.
+ * Adds the names of all arrays, whether they are there or not: ArrayChoice takes each once.
  */
 void AddNames(const granular::ColumnSchema& schema, ArrayNames& names)
 {
   for (const granular::ArrayInfo& array : schema.arrays())
   {
-    if (std::none_of(names.begin(), names.end(),
-          [&](const ArrayName& other) { return other.Name == array.name; }))
-    {
-      names.push_back({ array.name, !array.position_form });
-    }
+    names.push_back({ array.name, !array.position_form });
   }
 }
 

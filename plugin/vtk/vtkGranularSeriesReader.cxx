@@ -84,7 +84,9 @@ void vtkGranularSeriesReader::Internals::Tell(
     // what is said of a column, or of all rows, holds for the next frames too; what is said of
     // frames is new for each
     const std::string about = ofFrames ? std::to_string(notice.where.line) : notice.where.column;
-    const std::string what = ofFrames || about.empty() ? notice.text : "";
+    const std::string what = !notice.topic.empty() ? notice.topic
+      : ofFrames || about.empty()                  ? notice.text
+                                                   : "";
     if (this->Told.insert(path + "\n" + about + "\n" + what).second && ++counts[path] <= most)
     {
       std::string& joined = texts[path];
@@ -318,7 +320,12 @@ int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(reque
       this->Series->Update(this);
       const auto tell = [&]
       {
-        const std::vector<double> times = this->Series->Index.times(this->TimestepSize);
+        granular::Notices notices;
+        const std::vector<double> times = this->Series->Index.times(this->TimestepSize, notices);
+        if (this->Series->GetRanks().rank() == 0)
+        {
+          this->Series->Tell(this, notices, true);
+        }
         const double range[] = { times.front(), times.back() };
         const auto count = static_cast<int>(times.size());
         forEachPort(

@@ -11,7 +11,9 @@
  * Frames of the same timestep in several files are pieces of one (one file a process, `%` in the
  * name of a dump), or repetitions of a restarted run: see SetRepeatedSteps.
  *
- * Time is ITEM: TIME if every frame has it and it strictly increases, else timestep x TimestepSize.
+ * Time is ITEM: TIME if every frame has it and it strictly increases, else timestep x TimestepSize: the double nearest to
+ * the product of the decimal numbers, so that 3 x 1e-5 is 3e-05. An ITEM: TIME that is such a product but for its rounding
+ * is that double, too. Timesteps from 2^53 on that would share a time are at the next doubles, with a warning.
  * A request for a time shows the last frame at or before it, or the first.
  *
  * The files are looked at when FileNames changes and at Refresh; with RefreshOnUpdate at every update.
@@ -102,7 +104,8 @@ public:
   ///@{
   /**
    * Time of one timestep, in seconds (or the run's unit of time), where the files give no ITEM: TIME.
-   * Finite and greater than 0; anything else is an error and changes nothing. 1 by default.
+   * Finite and greater than 0; anything else is an error and changes nothing. A size that makes the time of a frame infinite is
+   * an error of the next update. 1 by default.
    */
   void SetTimestepSize(double size);
   vtkGetMacro(TimestepSize, double);

@@ -38,14 +38,15 @@ void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self)
 {
   for (const granular::Notice& notice : std::exchange(this->Notices, {}))
   {
-    this->Tell(self, granular::to_string(notice));
+    this->Tell(self, granular::to_string(notice), notice.topic);
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self, const std::string& text)
+void vtkGranularWriter::Internals::Tell(
+  vtkGranularWriter* self, const std::string& text, const std::string& topic)
 {
-  if (this->Told.insert(text).second && this->GetRanks().rank() == 0)
+  if (this->Told.insert(topic.empty() ? text : topic).second && this->GetRanks().rank() == 0)
   {
     vtkWarningWithObjectMacro(self, << text);
   }

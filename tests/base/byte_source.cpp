@@ -117,7 +117,9 @@ TEST_F(OpenFile, TheStampFollowsTheFile)
   fs::resize_file(path, 1);
   EXPECT_EQ(source->stamp().size, 1);
   char buffer[4];
-  EXPECT_EQ(source->read(0, buffer, 4), 1u); // shortened while open: short, not dead
+  // shortened while open: an error, not dead
+  EXPECT_THROW(source->read(0, buffer, 4), granular::IoError);
+  EXPECT_EQ(source->read(0, buffer, 1), 1u);
 }
 
 TEST_F(OpenFile, AReplacedFileHasAnotherStamp)

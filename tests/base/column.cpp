@@ -63,11 +63,11 @@ ValueType type_of(const std::string& name)
 TEST(KnownColumns, EveryWordOfDumpCustomIsThere)
 {
   // LIGGGHTS 3.8.0 dump_custom.cpp, LIGGGHTS-PFM, LAMMPS
-  for (const char* name : { "id", "mask", "mol", "id_multisphere", "type", "element", "mass", "x", "y", "z",
-         "xs", "ys", "zs", "xu", "yu", "zu", "xsu", "ysu", "zsu", "ix", "iy", "iz", "vx", "vy",
-         "vz", "fx", "fy", "fz", "q", "density", "p", "rho", "mux", "muy", "muz", "mu", "radius",
-         "diameter", "omegax", "omegay", "omegaz", "angmomx", "angmomy", "angmomz", "tqx", "tqy",
-         "tqz", "spin", "eradius", "ervel", "erforce", "shapex", "shapey", "shapez", "quat1",
+  for (const char* name : { "id", "mask", "mol", "id_multisphere", "type", "element", "mass", "x",
+         "y", "z", "xs", "ys", "zs", "xu", "yu", "zu", "xsu", "ysu", "zsu", "ix", "iy", "iz", "vx",
+         "vy", "vz", "fx", "fy", "fz", "q", "density", "p", "rho", "mux", "muy", "muz", "mu",
+         "radius", "diameter", "omegax", "omegay", "omegaz", "angmomx", "angmomy", "angmomz", "tqx",
+         "tqy", "tqz", "spin", "eradius", "ervel", "erforce", "shapex", "shapey", "shapez", "quat1",
          "quat2", "quat3", "quat4", "blockiness1", "blockiness2", "roundness1", "roundness2",
          "inertiax", "inertiay", "inertiaz", "thread", "proc", "procp1", "c_a", "c_a[1]", "f_b",
          "f_b[12]", "v_c", "d_d", "i_e", "i2_f[2]", "d2_g[3]" })
@@ -269,6 +269,25 @@ TEST(ColumnSchema, SetTypeReachesTheWholeVector)
   EXPECT_FALSE(schema == schema_of("id ix iy iz unheard"));
 }
 
+TEST(ColumnSchema, AVectorOfWordsIsNone)
+{
+  ColumnSchema schema = schema_of("id c_a[1] c_a[2] c_a f_b[1] f_b[2]");
+  ASSERT_EQ(schema.arrays().size(), 4u);
+  schema.set_type(2, ValueType::Text);
+  std::string arrays;
+  for (const ArrayInfo& array : schema.arrays())
+  {
+    arrays += array.name + (array.type == ValueType::Text ? "(text, " : "(") +
+      std::to_string(array.components()) +
+      (array.group.empty() ? ") " : " of " + array.group + ") ");
+  }
+  EXPECT_EQ(arrays, "id(1) c_a[1](1 of c_a) c_a[2](text, 1 of c_a) c_a(1) f_b(2) ");
+  EXPECT_EQ(schema.columns()[1].type, ValueType::Float64);
+  schema.set_type(2, ValueType::Float64); // the same as if there had been no word
+  EXPECT_TRUE(schema == schema_of("id c_a[1] c_a[2] c_a f_b[1] f_b[2]"));
+  EXPECT_EQ(schema.arrays().size(), 4u);
+}
+
 TEST(ColumnSchema, EqualityIsOfNamesAndTypes)
 {
   EXPECT_TRUE(schema_of("id x y") == schema_of("id x y"));
@@ -288,4 +307,49 @@ TEST(ColumnSchema, ThousandsOfColumns)
   const ColumnSchema schema = schema_of(names);
   ASSERT_EQ(schema.arrays().size(), 2u);
   EXPECT_EQ(schema.arrays()[1].components(), 3000);
+}
+
+// What takes time in proportion to the square of these does not come back.
+TEST(ColumnSchema, HundredThousandColumns)
+{
+  constexpr std::size_t many = 100'000;
+  const auto names_by = [](const auto& name_of)
+  {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < many; ++i)
+    {
+      names.push_back(name_of(i));
+    }
+    return names;
+  };
+  const auto number = [](std::size_t i) { return std::to_string(i); };
+  const std::vector<std::string> same = names_by([](std::size_t) { return "a"; });
+  const std::vector<std::string> far =
+    names_by([&](std::size_t i) { return "c_" + number(i) + "[99999]"; });
+  const std::vector<std::string> one =
+    names_by([&](std::size_t i) { return "c_a[" + number(i + 1) + "]"; });
+  const std::vector<std::string> pairs =
+    names_by([&](std::size_t i) { return "i2_" + number(i / 2) + (i % 2 == 0 ? "[1]" : "[2]"); });
+  const std::vector<std::string> known = names_by([](std::size_t) { return "vz"; });
+  const ColumnSchema copies(same);
+  EXPECT_EQ(copies.arrays().back().name, "a_100000");
+  EXPECT_EQ(ColumnSchema(far).arrays().size(), many);
+  EXPECT_EQ(ColumnSchema(one).arrays().size(), 1u);
+  EXPECT_EQ(ColumnSchema(known).arrays().size(), many);
+  for (const std::vector<std::string>& names : { same, one, pairs })
+  {
+    std::vector<ColumnSchema::TypeChange> doubles;
+    std::vector<ColumnSchema::TypeChange> texts;
+    for (int i = 0; i < static_cast<int>(many); ++i)
+    {
+      doubles.push_back({ i, ValueType::Float64 });
+      texts.push_back({ i, ValueType::Text });
+    }
+    ColumnSchema schema(names);
+    schema.set_types(doubles);
+    EXPECT_EQ(schema.columns().back().type, ValueType::Float64);
+    schema.set_types(texts);
+    EXPECT_EQ(schema.arrays().size(), many);
+    EXPECT_EQ(schema.arrays().back().type, ValueType::Text);
+  }
 }

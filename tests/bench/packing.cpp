@@ -5,6 +5,7 @@
 
 #include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"
+#include "granular/packing/packing_plan.h"
 
 #include <cstdint>
 #include <string>
@@ -85,7 +86,8 @@ public:
     : factor_(each.factor)
     , times_(each.many / grains)
     , request_(request_of({ each.name, each.arrangement, {}, 0.2, grains }, threads))
-    , frame_(granular::make_packing(request_, progress_))
+    , plan_(request_, alone_, progress_)
+    , frame_(granular::make_packing(plan_, progress_))
   {
   }
 
@@ -93,7 +95,7 @@ public:
   {
     for (std::int64_t i = 0; i < times_; ++i)
     {
-      bonds_ = granular::make_bonds(request_, frame_, factor_, progress_).count;
+      bonds_ = granular::make_bonds(plan_, frame_, factor_, progress_).count;
     }
     return bonds_ > 0;
   }
@@ -108,6 +110,8 @@ private:
   std::int64_t times_;
   granular::Progress progress_;
   PackingRequest request_;
+  granular::SerialCommunicator alone_;
+  granular::PackingPlan plan_;
   granular::DumpFrame frame_;
   std::int64_t bonds_ = 0;
 };

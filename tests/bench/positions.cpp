@@ -226,6 +226,10 @@ public:
     {
       for (const Text& text : texts)
       {
+        if (text.scaled && print(place.lo, text.box) == print(place.lo + box_length, text.box))
+        {
+          continue; // such a box has no length to scale by: to read it is an error
+        }
         dumps_.push_back(std::make_unique<Dump>(text, place.lo, rows));
         const std::string name = std::string("box at ") + place.name + "; " + text.name;
         for (const bool single : { false, true })

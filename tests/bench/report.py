@@ -133,6 +133,8 @@ def scientific(value):
 
 
 def pair(figures, case, metric, unit):
+    if case not in figures.cases:
+        return "an error"
     largest, rms = (figures.get(case, f"{metric}, {what}:{unit}") for what in ("largest", "rms"))
     return f"{scientific(largest)} ({scientific(rms)})"
 
@@ -144,16 +146,18 @@ def positions_table(part, figures, quick):
     for text, points, origin in ways:
         cases = [f"{box}; {text}; {points}; {origin}" for box in boxes]
         way = [f"`{text}`", points, origin]
-        time = sum(figures.get(case, "time:ns/row") for case in cases) / len(cases)
-        cost = [format(time, ".0f"), format(figures.get(cases[0], "memory:B/row"), ".0f")]
+        read = [case for case in cases if case in figures.cases]
+        time = sum(figures.get(case, "time:ns/row") for case in read) / len(read)
+        cost = [format(time, ".0f"), format(figures.get(read[0], "memory:B/row"), ".0f")]
         lengths.append(way + cost + [pair(figures, case, "error", "box length") for case in cases] + [
-            scientific(figures.get(case, "error of reading, largest:box length")) for case in cases])
+            scientific(figures.get(case, "error of reading, largest:box length")) if case in read
+            else "an error" for case in cases])
         radii.append(way + [pair(figures, case, "error", "smallest radius") for case in cases])
         text_rows[text] = [f"`{text}`"] + [pair(figures, case, "error of text", "box length")
                                            for case in cases]
     head = ["text", "points", "PointOrigin"]
     return (["Error of the points, largest (rms), in box lengths, and the largest that reading adds "
-             "to the text's:", ""] +
+             "to the text's. A box that is printed without a length is an error:", ""] +
             markdown(head + ["ns/row", "bytes/grain"] + boxes + [f"reading, {box}" for box in boxes],
                      lengths) +
             ["What the text loses, largest (rms), in box lengths:", ""] +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in grids and in other subdomains, against every particle compared with every face.
 #include "granular/decomposition/count_particles.h"
+#include "../base/exact_units.h"
 #include "counted_frames.h"
 #include "made_subdomains.h"
 
@@ -124,6 +125,52 @@ TEST(CountInGrid, MinusZeroIsZero)
   grid.cuts = { { { -1, -0.0, 1 }, { -0.0, 1 }, { -1, 0.0 } } };
   EXPECT_EQ(count(frame_of({ { 0.0, 0.0, -0.0 }, { -0.0, -0.0, 0.0 } }), grid),
     (ParticleCounts{ { 0, 2 }, 0 }));
+}
+
+/// Particles within three ulps of images of cuts, compared with the cuts as integers of 128 bits.
+TEST(CountInGrid, ImagesAreInTheSubdomainThatHasThem)
+{
+  std::mt19937_64 random(8);
+  for (const auto& [lo, hi] :
+    { std::array{ 0., 0.1 }, std::array{ -0.3, 0.7 }, std::array{ 1., 1000.1 } })
+  {
+    const ProcessGrid grid = grid_of({ lo, 0, 0 }, { hi, 1, 1 }, { 4, 1, 1 });
+    const std::vector<double>& cuts = grid.cuts[0];
+    Points points;
+    std::vector<std::int64_t> expected(4);
+    for (int i = 0; i < 50000; ++i)
+    {
+      const double periods = static_cast<double>(random() % 20001) - 10000;
+      double x = cuts[random() % cuts.size()] + periods * (hi - lo);
+      for (std::uint64_t ulps = random() % 4, up = random() % 2; ulps > 0; --ulps)
+      {
+        x = std::nextafter(x, up == 0 ? -infinity : infinity);
+      }
+      x = std::abs(x) < 0x1p-20 ? 0 : x; // a whole number of units
+      points.push_back({ x, 0.5, 0.5 });
+      const Int128 image = image_in(x, lo, hi);
+      const auto behind = std::find_if(
+        cuts.begin() + 1, cuts.end(), [image](double cut) { return to_units(cut) > image; });
+      ++expected[static_cast<std::size_t>(behind - cuts.begin() - 1)];
+    }
+    FrameView frame = frame_of(points);
+    frame.has_box = true;
+    frame.header.box = Box::from_bounds({ lo, 0, 0 }, { hi, 1, 1 });
+    frame.header.box.boundary = "pp ff ff";
+    EXPECT_EQ(count(frame, grid), (ParticleCounts{ expected, 0 })) << lo << " " << hi;
+    EXPECT_EQ(count(frame, grid.subdomains(0, 4)), (ParticleCounts{ expected, 0 }));
+  }
+}
+
+TEST(CountInGrid, TheExampleWithSevenPeriods)
+{
+  const Points points = { { -0.7000000000000001, 0.5, 0.5 } };
+  FrameView frame = frame_of(points);
+  frame.has_box = true;
+  frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 0.1, 1, 1 });
+  frame.header.box.boundary = "pp pp pp";
+  EXPECT_EQ(count(frame, grid_of({ 0, 0, 0 }, { 0.1, 1, 1 }, { 4, 1, 1 })),
+    (ParticleCounts{ { 0, 0, 0, 1 }, 0 }));
 }
 
 /// Each cut, and one ulp beside it.

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/subdomains.h"
 
+#include "../base/quad.h"
 #include "../base/thread_ranks.h"
 #include "gathered_bounds.h"
 #include "made_subdomains.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <mutex>
+#include <random>
 #include <string>
 
 using namespace granular;
@@ -112,4 +115,31 @@ TEST(ImbalanceOf, largest_by_mean)
   EXPECT_EQ(of({ 6, 2 }, 4), 3); // two more without a subdomain
   const std::int64_t many = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(of({ many, many, many, many }), 1);
+}
+
+/// Against quotients of 113 bits, rounded once.
+TEST(ImbalanceOf, is_the_nearest_double)
+{
+  const std::vector<Subdomain> one = { made_subdomain({}, {}, 4711) };
+  for (std::int64_t processes = 1; processes < 5000; ++processes)
+  {
+    EXPECT_EQ(imbalance_of(one, processes), static_cast<double>(processes));
+  }
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 2000; ++i)
+  {
+    Subdomains subdomains;
+    std::int64_t largest = 1;
+    std::int64_t total = 1;
+    subdomains.push_back(made_subdomain({}, {}, 1));
+    for (std::uint64_t n = random() % 100; n > 0; --n)
+    {
+      const auto count = static_cast<std::int64_t>(random() % 10'000'000'000);
+      subdomains.push_back(made_subdomain({}, {}, count));
+      largest = std::max(largest, count);
+      total += count;
+    }
+    const auto expected = Quad(largest) * static_cast<std::int64_t>(subdomains.size()) / total;
+    EXPECT_EQ(imbalance_of(subdomains), static_cast<double>(expected));
+  }
 }

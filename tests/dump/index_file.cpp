@@ -79,7 +79,7 @@ std::shared_ptr<const FrameKind> kind_of(
   return std::make_shared<const FrameKind>(kind);
 }
 
-/// Text, with a column of words and an id that is a real number, and two kinds of frames.
+/// Text, with columns of words, and two kinds of frames.
 FileIndex text_file(const std::string& path)
 {
   using enum ValueType;
@@ -93,8 +93,8 @@ FileIndex text_file(const std::string& path)
   file.notices = { { { path, 12, -1, "x" }, "expected 3 rows, got 4; the frame is left out" },
     { { "/elsewhere/b.dump", 0, 99, "" }, "text" } };
   file.defect = Notice{ { path, 12 }, "expected 3 rows, got 4" };
-  const auto words = kind_of({ "id", "x", "y", "z", "v_name", "c_1[1]", "c_1[2]", "diameter" },
-    { Float64, Float64, Float64, Float64, Text, Int32, Int32, Float64 }, "si", FrameKind::text);
+  const auto words = kind_of({ "id", "x", "y", "z", "word", "c_1[1]", "c_1[2]", "diameter" },
+    { Int64, Float64, Float64, Float64, Text, Float64, Float64, Float64 }, "si", FrameKind::text);
   const auto plain = kind_of({ "id", "type", "x", "y", "z" }, {}, "", FrameKind::text);
   file.frames = { { 0, 20, 100, 1500, 1, 0.1, 0x1122334455667788, words },
     { -100, 0, 1500, 1600, 30, FrameEntry::no_time, 1, plain },
@@ -122,6 +122,7 @@ FileIndex compressed_file(const std::string& path)
   FileIndex file = text_file(path);
   file.defect.reset();
   file.notices.clear();
+  file.compressed = true;
   file.points = std::make_shared<RestartPoints>();
   file.points->spacing = 3 << 20;
   file.points->points = { { 1000, 100, 0, 0, 0, "" },
@@ -168,8 +169,7 @@ std::string text_of(const FileIndex& file)
   std::ostringstream out;
   out << file.path << " " << file.stamp.size << " " << file.stamp.modified << " "
       << file.stamp.inode << " " << file.stamp.device << " " << file.ends_hash << " "
-      << file.resume_offset << " " << file.resume_line << " '" << file.units << "' " << file.unnamed
-      << "\n"
+      << file.unnamed << " " << file.compressed << "\n"
       << lines_of(file.notices) << (file.defect ? to_string(*file.defect) : "no defect") << "\n";
   for (const Notice& notice : file.notices)
   {
@@ -268,7 +268,6 @@ TEST_F(IndexFileTest, AllThatIsKnownComesBack)
   ASSERT_EQ(loaded.size(), 4u);
   EXPECT_EQ(loaded[0].frames[0].kind, loaded[2].frames[2].kind);
   EXPECT_EQ(loaded[1].frames[0].kind, kinds->share(*files[1].frames[0].kind));
-  EXPECT_EQ(loaded[0].frames[0].kind->schema.find(ColumnRole::Id), -1) << "a real number is no id";
 }
 
 TEST_F(IndexFileTest, OfNoFilesThereIsNothing)
@@ -526,7 +525,8 @@ TEST_F(IndexFileTest, TrapNumbersThatDoNotFitTogether)
   };
   for (const Place& bad : { Place{ -1, 0, 100, 1 }, Place{ 1, -1, 100, 1 }, Place{ 1, 100, 99, 1 },
          Place{ 1, 0, 100, -1 }, Place{ 101, 0, 100, 1 }, Place{ largest, 0, 100, 1 },
-         Place{ 1, 0, largest, 1 }, Place{ 1, largest, largest, 1 }, Place{ 1, 0, 100, largest } })
+         Place{ 1, 0, largest, 1 }, Place{ 1, largest, largest, 1 }, Place{ 1, 0, 100, largest },
+         Place{ 1, 1500, text.stamp.size + 1, 1 }, Place{ 1, 1500, 1600, 1502 } })
   {
     FileIndex file = text;
     FrameEntry& frame = file.frames[1];
@@ -541,7 +541,19 @@ TEST_F(IndexFileTest, TrapNumbersThatDoNotFitTogether)
   EXPECT_EQ(refusal(file), misplaced) << "four doubles a row";
   file = binary;
   file.frames.push_back(text.frames[0]);
+  file.frames.back().offset = file.frames[1].end;
+  file.frames.back().end = file.frames.back().offset + 1000;
   EXPECT_EQ(refusal(file), "expected frames of the same layout, got something else");
+  file = text;
+  file.frames[1].offset = file.frames[0].end - 1;
+  EXPECT_EQ(refusal(file), "expected frames one behind the other, got something else");
+  file = text;
+  file.compressed = true; // 12345 bytes are 2^15 times as many at most
+  file.stamp.size = 12345;
+  file.frames[2].end = std::int64_t{ 12345 } << 15;
+  EXPECT_EQ(refusal(file), "");
+  ++file.frames[2].end;
+  EXPECT_EQ(refusal(file), misplaced);
 
   const std::string place = "expected a place in a file, got something else";
   for (const std::int64_t bad : { std::int64_t{ -1 }, largest })
@@ -576,10 +588,26 @@ TEST_F(IndexFileTest, TrapKindsThatNoFileHas)
   EXPECT_EQ(with({ "id" }, {}, FrameKind::bare - 1), layout);
   EXPECT_EQ(with({ "id" }, {}, last + 1), layout);
   EXPECT_EQ(with({}, {}, 0), "expected a column, got something else");
-  EXPECT_EQ(with({ "v_a" }, { Text }, FrameKind::text), "");
-  EXPECT_EQ(with({ "v_a" }, { Text }, 0), "expected a type, got something else");
-  EXPECT_EQ(with({ "v_a" }, { static_cast<ValueType>(9) }, FrameKind::text),
-    "expected a type, got something else");
+  EXPECT_EQ(with({ "word" }, { Text }, FrameKind::text), "");
+  EXPECT_EQ(with({ "element" }, { Int32 }, 0), "");
+  EXPECT_EQ(with({ "word" }, { Text }, 0), "expected a column of texts, got something else");
+}
+
+TEST_F(IndexFileTest, RowsMayBeInTheFilesOfProcesses)
+{
+  FileIndex file;
+  file.path = "base.restart";
+  file.stamp.size = 994;
+  file.beside = { { "0.restart", { 12'000, 1, 2, 3 } }, { "1.restart", {} } };
+  file.frames = { { 7, 12'994, 0, 994, 0, FrameEntry::no_time, FrameEntry::whole,
+    kind_of({}, {}, "", FrameKind::text) } };
+  EXPECT_EQ(refusal(file), "");
+  // cells are a product: as many as there are bytes along each of three axes
+  constexpr std::int64_t bytes = 12'994;
+  file.frames[0].rows = bytes * bytes * bytes;
+  EXPECT_EQ(refusal(file), "");
+  file.frames[0].rows += bytes * bytes;
+  EXPECT_EQ(refusal(file), "expected a frame within its file, got something else");
 }
 
 TEST_F(IndexFileTest, TrapRestartPointsThatNoFileHas)

@@ -5,43 +5,19 @@ import os
 
 import granular
 import numpy
+from discs import LEVELS, Camera, black_view, color_by_id, picture
 from paraview.simple import *
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints, vtkTypeInt64Array
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 PIECES, PIXELS, SCALE = 6, 400, 1.8  # SCALE: half the height of the picture
-EDGE = 0.01  # pixels: within, rounding decides
-LEVELS = 1.5  # of 255: the table of colours has 256, and each value is rounded
 random = numpy.random.default_rng(1)
 CENTRES = random.uniform(-1, 1, (60, 3))
 RADII = random.uniform(0.05, 0.3, 60)
 IDS = numpy.arange(1, 61)
-
-# ---- the truth ----------------------------------------------------------------------------------
-POSITION = numpy.array([3.0, 2.0, 5.0])
-NORMAL = POSITION / numpy.linalg.norm(POSITION)  # towards the camera, which looks at the origin
-RIGHT = numpy.cross([0, 1, 0], NORMAL)
-RIGHT /= numpy.linalg.norm(RIGHT)
-UP = numpy.cross(NORMAL, RIGHT)
-
-
-def truth(shown=slice(None), factor=1.0):
-    """Of each pixel the id of the nearest grain or 0, its shade, and True where an edge is near."""
-    unit = 2 * SCALE / PIXELS
-    line = (numpy.arange(PIXELS) + 0.5) * unit - SCALE
-    x, y = numpy.meshgrid(line, line)
-    nearest = numpy.full(x.shape, -numpy.inf)
-    ids, shade, edge = numpy.zeros(x.shape, int), numpy.zeros(x.shape), numpy.zeros(x.shape, bool)
-    for centre, radius, identity in zip(CENTRES[shown], factor * RADII[shown], IDS[shown]):
-        distance = numpy.hypot(x - centre @ RIGHT, y - centre @ UP)
-        inside = (distance < radius) & (centre @ NORMAL > nearest)
-        nearest[inside], ids[inside] = centre @ NORMAL, identity
-        shade[inside] = 1 - (distance[inside] / radius) ** 2
-        edge |= abs(distance - radius) < EDGE * unit
-    return ids, shade, edge
+CAMERA = Camera([3, 2, 5], [0, 0, 0], scale=SCALE)
 
 
 # ---- the same grains in files of pieces -----------------------------------------------------------
@@ -87,63 +63,26 @@ splits = {"random": numpy.array_split(everything, PIECES),
           "last": (PIECES - 1) * [none] + [everything]}
 
 # ---- the pictures -----------------------------------------------------------------------------------
-view = CreateRenderView()
-view.ViewSize = [PIXELS, PIXELS]
-view.UseColorPaletteForBackground = 0
-view.Background = [0, 0, 0]
-view.OrientationAxesVisibility = 0
-view.CameraParallelProjection = 1
-view.UseFXAA = 0  # it would mix neighbours
-
-colors = GetColorTransferFunction("id")
-colors.AutomaticRescaleRangeMode = "Never"
-colors.ColorSpace = "RGB"
-colors.RGBPoints = [1, 1, 0, 0, 60, 0, 0, 1]  # from red to blue
+view = black_view(PIXELS)
 
 
 def look():
     Render(view)  # the first one resets the camera
-    view.CameraPosition, view.CameraFocalPoint = list(POSITION), [0, 0, 0]
-    view.CameraViewUp, view.CameraParallelScale = [0, 1, 0], SCALE
+    CAMERA.look(view)
 
 
-def picture(name):
-    SaveScreenshot(f"{name}.png", view, ImageResolution=[PIXELS, PIXELS])
-    png = vtkPNGReader()
-    png.SetFileName(f"{name}.png")
-    png.Update()
-    pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())
-    return pixels.reshape(PIXELS, PIXELS, -1)[:, :, :3].astype(float)
-
-
-def color_by_id(display):
-    ColorBy(display, ("POINTS", "id"))
-    display.RescaleTransferFunctionToDataRange(False)
-    display.LookupTable = colors
-    display.SetScalarBarVisibility(view, False)
-    colors.RescaleTransferFunction(1, 60)
-
-
-def expect(name, display, *wanted):
-    color_by_id(display)
+def expect(name, display, shown=slice(None), factor=1.0):
+    color_by_id(display, view, 60)
     look()
-    pixels = picture(name)
-    ids, shade, edge = truth(*wanted)
-    assert (ids > 0).sum() > 5000 and edge.mean() < 0.01, "the truth itself shows little"
-    assert not pixels[(ids == 0) & ~edge].any(), (name, "something where nothing is")
-    inside = (ids > 0) & ~edge
-    blue = (ids[inside] - 1) / 59
-    exact = 255 * shade[inside][:, None] * numpy.stack([1 - blue, 0 * blue, blue], axis=1)
-    away = abs(pixels[inside] - exact).max(axis=1)
-    assert away.max() < LEVELS, (name, away.max(), int((away >= LEVELS).sum()))
+    CAMERA.compare(picture(view, name), CENTRES[shown], factor * RADII[shown], IDS[shown], 60)
 
 
 def expect_whole_if_translucent(name, display):
     """What the blended colours are depends on an order; where something is seen does not."""
     display.Opacity = 0.5
     look()
-    pixels = picture(name)
-    ids, shade, edge = truth()
+    pixels = picture(view, name)
+    ids, shade, edge = CAMERA.discs(CENTRES, RADII, IDS, PIXELS)
     assert not pixels[(ids == 0) & ~edge].any(), (name, "something where nothing is")
     assert pixels[(ids > 0) & (shade > 0.1)].any(axis=1).all(), (name, "nothing where something is")
     display.Opacity = 1
@@ -192,12 +131,13 @@ Delete(reader)
 # ---- a grain whose centre is not in the picture ----------------------------------------------------
 CENTRES, RADII, IDS = numpy.array([[0.0, 0.0, 0.0]]), numpy.array([4.0]), numpy.array([30])
 reader = OpenDataFile(write("one", [numpy.array([0])]))
+RIGHT = numpy.cross([0, 1, 0], CAMERA.position)
+RIGHT /= numpy.linalg.norm(RIGHT)
 display = granular.show(reader, view)
-color_by_id(display)
-look()
-view.CameraPosition = list(POSITION + 2.5 * RIGHT)
-view.CameraFocalPoint = list(2.5 * RIGHT)
-pixels = picture("one")
+color_by_id(display, view, 60)
+Render(view)
+CAMERA.look(view, 2.5 * RIGHT)
+pixels = picture(view, "one")
 line = (numpy.arange(PIXELS) + 0.5) * 2 * SCALE / PIXELS - SCALE
 shade = 1 - ((line[None, :] + 2.5) ** 2 + line[:, None] ** 2) / 4.0 ** 2
 assert (shade < 0).any() and (shade > 0.5).any()

@@ -3,6 +3,8 @@
 import json
 import os
 import stat
+import warnings
+from fractions import Fraction
 
 import granular
 
@@ -30,7 +32,7 @@ assert path == "post/mesh2.stl.series", path
 with open(path) as file:
     series = json.load(file)
 assert series == {"file-series-version": "1.0", "files": [
-    {"name": f"mesh2_{step}.stl", "time": step * 2e-5} for step in (0, 1000, 2000, 10000)]}, series
+    {"name": f"mesh2_{step}.stl", "time": float(step * Fraction("2e-5"))} for step in (0, 1000, 2000, 10000)]}, series
 umask = os.umask(0)
 os.umask(umask)
 assert stat.S_IMODE(os.stat(path).st_mode) == 0o666 & ~umask
@@ -40,6 +42,24 @@ other = granular.write_series(files, 1, "run.stl.series")
 with open(other) as file:
     assert json.load(file)["files"][1] == {"name": "post/mesh2_1000.stl", "time": 1000}
 assert not [name for name in os.listdir(".") + os.listdir("post") if name.endswith(".tmp")]
+
+# the clock of the readers: 3 x 1e-5 is 3e-05; steps that share a double are told apart, with a warning
+def times(steps, dt):
+    names = [f"post/clock_{step}.stl" for step in steps]
+    for name in names:
+        with open(name, "w") as file:
+            file.write("")
+    with open(granular.write_series(names, dt)) as file:
+        return [entry["time"] for entry in json.load(file)["files"]]
+
+
+assert times(range(101), 1e-5) == [float(Fraction(step, 100000)) for step in range(101)]
+with warnings.catch_warnings(record=True) as messages:
+    warnings.simplefilter("always")
+    assert times((2**53, 2**53 + 1, 2**53 + 2), 1) == [2.0**53, 2.0**53 + 2, 2.0**53 + 4]
+assert len(messages) == 1 and "2 of 3 steps" in str(messages[0].message), messages
+assert messages[0].filename == __file__, messages[0].filename
+fails(ValueError, "dt must give finite times, got 1e+306 for step 1000", files, 1e306)
 
 # names without a suffix
 for name in ("wall.0", "wall.50"):

@@ -385,3 +385,40 @@ TEST(ReaderArrays, ASecondIdColumnIsAnArrayAndNotThePedigree)
   EXPECT_EQ(reader.Numbers("id")->GetComponent(0, 0), 3);
   EXPECT_EQ(reader.Numbers("id_2")->GetComponent(0, 0), 9);
 }
+
+// Names are not compared with those of all others, array by array: this would not end.
+TEST(ReaderArrays, HundredThousandOfThem)
+{
+  constexpr int many = 100'000;
+  std::string names = "id x y z";
+  std::string row = "1 0.5 0.5 0.5";
+  for (int i = 1; i <= many; ++i)
+  {
+    names += " a";
+    row += " " + std::to_string(i);
+  }
+  const std::string path = WriteFile("many.dump",
+    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+    "ITEM: ATOMS " +
+      names + "\n" + row + "\n");
+  vtkNew<vtkGranularDumpReader> reader;
+  reader->SetController(nullptr);
+  reader->AddFileName(path.c_str());
+  reader->UpdateInformation();
+  vtkDataArraySelection* choice = reader->GetPointDataArraySelection();
+  ASSERT_EQ(choice->GetNumberOfArrays(), many + 4);
+  EXPECT_STREQ(choice->GetArrayName(many + 3), "a_100000");
+  EXPECT_EQ(choice->GetNumberOfArraysEnabled(), many + 1); // x, y and z are points
+  choice->DisableArray("a");
+  reader->Update();
+  vtkPointData* data = reader->GetOutput()->GetPointData();
+  ASSERT_EQ(data->GetNumberOfArrays(), many);
+  EXPECT_EQ(data->GetArray("a"), nullptr);
+  vtkDataArray* last = data->GetArray(many - 1);
+  EXPECT_STREQ(last->GetName(), "a_100000");
+  EXPECT_EQ(last->GetComponent(0, 0), 100'000);
+  reader->Refresh();
+  reader->Update();
+  EXPECT_EQ(choice->GetNumberOfArraysEnabled(), many);
+  EXPECT_EQ(data->GetNumberOfArrays(), many);
+}

@@ -148,6 +148,36 @@ TEST(ReaderPrecision, OriginIsSubtractedBeforeRounding)
   EXPECT_EQ(reader.Particles()->GetPoint(0)[0], 1e6);
 }
 
+/// Of two frames that lose digits the first is told, and the second where the origin is another that is no better.
+TEST(ReaderPrecision, LostDigitsAreToldOnceAFile)
+{
+  std::string text;
+  for (const char* step : { "0", "1" })
+  {
+    text += std::string("ITEM: TIMESTEP\n") + step +
+      "\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n1000000 1000001\n0 1\n0 1\n"
+      "ITEM: ATOMS id x y z radius\n1 1000000.0" +
+      step + " 0.5 0.25 0.01\n";
+  }
+  Reader reader({ WriteFile("far.dump", text) });
+  reader->SetPointPrecision(vtkAlgorithm::SINGLE_PRECISION);
+  reader->UpdateTimeStep(1);
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_NE(reader.Said->Warnings[0].find("rounding to single precision moves points by up to 0.01 "
+                                          "along x, where the smallest radius is 0.01; set "
+                                          "PointOrigin"),
+    std::string::npos)
+    << reader.Said->Warnings[0];
+  reader->UpdateTimeStep(0);
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+  reader->SetPointOrigin(1e6, 0, 0);
+  reader->UpdateTimeStep(1);
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+  reader->SetPointOrigin(-1e6, 0, 0);
+  reader->UpdateTimeStep(1);
+  EXPECT_EQ(reader.Said->Warnings.size(), 2u);
+}
+
 TEST(ReaderRows, StrideKeepsTheSameIdsInEveryFrame)
 {
   Reader reader({ Good("grains.dump") });

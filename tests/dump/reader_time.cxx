@@ -109,6 +109,56 @@ TEST(ReaderTime, TimestepSizeMustBeGreaterThanZero)
   EXPECT_EQ(reader->GetTimestepSize(), 1);
 }
 
+/// 3 x 1e-5 is 3e-5 by hand; the product of the doubles is 3.0000000000000004e-05.
+TEST(ReaderTime, IsTheDoubleNearestToTheProductOfTheDecimals)
+{
+  const std::string file = WriteFile("clock.dump", Frame(3, 1, "id x y z", "1 0 0 0\n"));
+  Reader reader({ file });
+  reader->SetTimestepSize(1e-5);
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 3e-5 }));
+  reader->Update();
+  EXPECT_EQ(DataTime(reader.Particles()), 3e-5);
+}
+
+TEST(ReaderTime, TimestepsThatNoDoubleTellsApartAreSaidAndAllAreShown)
+{
+  std::string text;
+  std::vector<double> expected;
+  for (const char* step : { "9007199254740992", "9007199254740993", "9007199254740994" })
+  {
+    std::string frame = Frame(0, 1, "id x y z", "1 0 0 " + std::to_string(expected.size()) + "\n");
+    text += frame.replace(frame.find("TIMESTEP\n0") + 9, 1, step);
+    expected.push_back(0x1p53 + 2 * static_cast<double>(expected.size()));
+  }
+  Reader reader({ WriteFile("large.dump", text) });
+  EXPECT_EQ(reader.Times(), expected);
+  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
+  EXPECT_NE(
+    reader.Said->Warnings[0].find("got 9007199254740992 and 9007199254740993: 2 of 3 frames"),
+    std::string::npos);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    reader->UpdateTimeStep(expected[i]);
+    EXPECT_EQ(reader.Particles()->GetPoint(0)[2], static_cast<double>(i));
+  }
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+}
+
+TEST(ReaderTime, ASizeThatMakesTimesInfiniteIsAnError)
+{
+  Reader reader({ Good("grains.dump") });
+  reader->SetTimestepSize(1e306);
+  reader->Update();
+  ASSERT_EQ(reader.Said->Errors.size(), 1u);
+  EXPECT_NE(
+    reader.Said->Errors[0].find("expected a TimestepSize that gives finite times, got 1e+306: "
+                                "timestep 1000 is at infinity"),
+    std::string::npos);
+  reader->SetTimestepSize(1);
+  reader->Update();
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 1000, 2000 }));
+}
+
 TEST(ReaderFiles, OfOneFrameEachAreOneRunInTheOrderOfTheirSteps)
 {
   Reader reader({ Good("grains_2000.dump"), Good("grains_0.dump"), Good("grains_1000.dump") });

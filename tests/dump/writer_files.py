@@ -81,13 +81,13 @@ granular.save(reader, "a.dump", Columns="radius id image")
 frame, other = plain_dump.read("a.dump")[0], plain_dump.read(good("grains_1000.dump"))[0]
 assert list(frame.columns) == ["radius", "id", "ix", "iy", "iz"]
 assert all(frame.columns[name] == other.columns[name] for name in frame.columns)
-granular.save(reader, "a.dump", Columns="id x", NumberFormat="%.3g")
+granular.save(reader, "a.dump", Columns="id x", NumberFormat="%.5g")
 granular.save(reader, "b.dump", Columns="id x", NumberFormat="shortest")
 granular.save(reader, "c.dump", Columns="id x", NumberFormat="%.17g")
 shortest, exact = plain_dump.read("b.dump")[0], plain_dump.read("c.dump")[0]
 assert (shortest.numbers("x") == exact.numbers("x")).all()
 assert sum(map(len, shortest.columns["x"])) < sum(map(len, exact.columns["x"]))
-assert plain_dump.read("a.dump")[0].columns["x"] == ["%.3g" % x for x in exact.numbers("x")]
+assert plain_dump.read("a.dump")[0].columns["x"] == ["%.5g" % x for x in exact.numbers("x")]
 
 # ---- names -----------------------------------------------------------------------------------------
 

@@ -239,3 +239,48 @@ TEST(EulerAverage, CentresOnPeriodicFacesCountOnce)
   EXPECT_NEAR(count.value(), 4, 1e-13);
   EXPECT_EQ(averages.outside, 0);
 }
+
+TEST(EulerAverage, GrainsBesideEdgesAndCornersAreOutside)
+{
+  const Grains grains(
+    { { { -0.8, -0.8, -0.8 } }, { { -0.8, 0.5, -0.8 } }, { { -0.5, 0.5, 1.5 } } });
+  for (const std::int64_t count : { 1, 17 }) // a block, and several
+  {
+    const EulerGrid grid = { { 0, 0, 0 }, { 1, 1, 1 }, { count, count, count } };
+    const EulerAverages averages = average(grains.frame(), request_for(grid, CellWeights::Overlap));
+    EXPECT_EQ(averages.outside, 2) << count;
+    const Box box = periodic_box({ -2, -2, -2 }, { 2, 2, 2 }, "pp pp pp");
+    EXPECT_EQ(average(grains.frame(&box), request_for(grid, CellWeights::Overlap)).outside, 2);
+  }
+}
+
+/// Places and radii of few bits, so that distances are exact.
+TEST(EulerAverage, OutsideIsWhoseDistanceFromTheCellsIsARadiusOrMore)
+{
+  std::mt19937_64 random(9);
+  std::vector<Grain> grains(500);
+  std::int64_t outside = 0;
+  for (Grain& grain : grains)
+  {
+    const auto whole = [&](std::uint64_t below)
+    { return static_cast<std::int64_t>(random() % below); };
+    const std::int64_t radius = 1 + whole(32);
+    std::int64_t distance2 = 0;
+    for (double& x : grain.x) // in sixteenths; the cells are from 0 to 16
+    {
+      const std::int64_t place = whole(80) - 32;
+      const std::int64_t distance = std::max<std::int64_t>({ 0, -place, place - 16 });
+      distance2 += distance * distance;
+      x = static_cast<double>(place) / 16;
+    }
+    grain.radius = static_cast<double>(radius) / 16;
+    outside += distance2 >= radius * radius ? 1 : 0;
+  }
+  for (const std::int64_t count : { 1, 3, 17 }) // the last has several blocks
+  {
+    const EulerGrid grid = { { 0, 0, 0 }, { 1, 1, 1 }, { count, count, count } };
+    EXPECT_EQ(
+      average(Grains(grains).frame(), request_for(grid, CellWeights::Overlap), 2).outside, outside)
+      << count;
+  }
+}

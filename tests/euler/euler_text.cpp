@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -172,25 +173,77 @@ TEST(EncodeEuler, all_digits_are_read_back)
   EXPECT_TRUE(std::signbit(back.pressure[1]));
 }
 
-/// A grain of a micrometre.
+/// What %f makes of a value, by printf.
+double six_decimals(double value)
+{
+  std::array<char, 64> word;
+  std::snprintf(word.data(), word.size(), "%f", value);
+  return std::strtod(word.data(), nullptr);
+}
+
+/// Grains of micrometres: centres and values that become others are told, with how much.
 TEST(EncodeEuler, six_decimals_may_be_few)
 {
   EXPECT_EQ(said_of(cells_of_two(false)), "");
-  EulerCells cells;
+  const std::string begin = "rounding to six decimals, which is what LIGGGHTS writes, ";
+  const std::string end = "; the dialect Wide keeps all digits\n";
+  EulerCells cells; // a box of 1e-4, radii of 3e-6
+  cells.resize(8);
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    cells.centres[3 * i] = i % 2 == 0 ? 2.54e-5 : 7.5e-5;
+    cells.centres[3 * i + 1] = i / 2 % 2 == 0 ? 2.5e-5 : 7.5e-5;
+    cells.centres[3 * i + 2] = i < 4 ? 2.5e-5 : 7.5e-5;
+    cells.radius[i] = 3.7e-6;
+    cells.volume_fraction[i] = 0.123456;
+  }
+  EXPECT_EQ(six_decimals(2.54e-5), 2.5e-5);
+  EXPECT_EQ(six_decimals(3.7e-6), 4e-6);
+  EXPECT_EQ(said_of(cells),
+    begin +
+      "moves centres by up to 4e-07 along x, where the smallest radius is 3.7e-06, and "
+      "changes 'radius' by up to 8.11 % of itself" +
+      end);
+  EXPECT_EQ(said_of(cells, EulerDialect::Wide), "");
+
+  cells.radius.assign(8, 4e-6); // numbers that six decimals hold
+  cells.centres[0] = cells.centres[6] = cells.centres[12] = cells.centres[18] = 2.5e-5;
+  cells.velocities[0] = 1e-6;
+  cells.pressure[3] = 2e-6;
+  EXPECT_EQ(said_of(cells), "");
+  cells.velocities[0] = 1.1e-6; // next to nothing beside the others of the vector
+  cells.velocities[1] = 1;
+  EXPECT_EQ(said_of(cells), "");
+  cells.velocities[1] = 0;
+  EXPECT_EQ(said_of(cells), begin + "changes 'v_avg' by up to 9.09 % of itself" + end);
+
+  cells = {};
   cells.resize(8);
   for (std::size_t i = 0; i < 8; ++i)
   {
     cells.centres[3 * i] = 4e-7 * static_cast<double>(i % 4); // 0, 0, 1 and 1 millionths
-    cells.centres[3 * i + 2] = i < 4 ? 1e-7 : 3e-7;
-    cells.radius[i] = i < 3 ? 5e-7 : i < 6 ? 6e-7 : 0;
+    cells.radius[i] = 1;
   }
-  const std::string begin = "six decimals, which is what LIGGGHTS writes, are few: ";
-  const std::string end = "; the dialect Wide keeps all digits\n";
-  const std::string equal = " become equal to the one before" + end;
   EXPECT_EQ(said_of(cells),
-    begin + "2 of 4 places of centres along x" + equal + begin +
-      "1 of 2 places of centres along z" + equal + begin + "3 of 8 radii become 0" + end);
-  EXPECT_EQ(said_of(cells, EulerDialect::Wide), "");
+    begin + "2 of 4 places of centres along x become equal to the one before" + end);
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    cells.centres[3 * i + 2] = i < 4 ? 1e-7 : 3e-7;
+  }
+  Notices notices;
+  Progress progress;
+  try
+  {
+    encode_euler(cells, EulerDialect::Liggghts, notices, progress);
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.text(),
+      "expected cells that six decimals, which is what LIGGGHTS writes, tell apart, got 2 places "
+      "of "
+      "centres along z that all become one; the dialect Wide keeps all digits");
+  }
 }
 
 TEST(EncodeEuler, reports_and_can_be_cancelled)

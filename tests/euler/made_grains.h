@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -183,8 +184,13 @@ granular::EulerCells average_one_by_one(
           {
             const auto a = static_cast<std::size_t>(axes[n][0]);
             const auto b = static_cast<std::size_t>(axes[n][1]);
-            stress[n].add(-(grain.mass * share) * (grain.v[a] - mean[a]) * (grain.v[b] - mean[b]) +
-              grain.stress[n] * share);
+            // what rounding of the mean may make is no motion
+            const auto apart = [&](std::size_t along)
+            {
+              const double difference = grain.v[along] - mean[along];
+              return std::abs(difference) > 0x1p-49 * std::abs(mean[along]) ? difference : 0;
+            };
+            stress[n].add(-(grain.mass * share) * apart(a) * apart(b) + grain.stress[n] * share);
           }
         }
         for (std::size_t n = 0; n < 3; ++n)

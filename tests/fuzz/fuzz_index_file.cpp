@@ -36,8 +36,12 @@ void check(const FileIndex& file)
 {
   require(file.loaded && !file.error && file.kinds != nullptr, "the state of a file");
   require(file.stamp.size >= 0 && file.resume_offset >= 0 && file.resume_line >= 1, "a place");
+  std::int64_t last = 0;
   for (const FrameEntry& frame : file.frames)
   {
+    require(frame.offset >= last, "the order of the frames");
+    require(file.compressed || frame.end <= file.stamp.size, "the end of a frame");
+    last = frame.end;
     require(frame.kind && frame.kind->layout >= FrameKind::bare &&
         frame.kind->layout < static_cast<int>(binary_layouts().size()),
       "the kind of a frame");

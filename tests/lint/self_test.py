@@ -10,6 +10,7 @@ import server_manager
 import sizes
 import style
 import tree
+import type_names
 
 SPDX = "// SPDX-License-Identifier: BSD-3-Clause\n"
 
@@ -216,6 +217,26 @@ class Style(unittest.TestCase):
             tests__a_dot_cpp=SPDX + "int f() { printf(s); }\n"), [
                 "core/a.cpp:11", "core/a.cpp:4", "core/a.cpp:5", "core/a.cpp:8", "core/a.cpp:9",
                 "plugin/vtk/a.cxx:4"])
+
+
+class TypeNames(unittest.TestCase):
+    def test_two_of_a_name(self):
+        self.assertEqual(found(
+            type_names.check,
+            core__granular__base__a_dot_h=
+            "namespace granular\n{\nstruct Rows\n{\n  struct Part { int a; };\n};\nclass Ahead;\n"
+            "template <class T>\nclass Box final : public Base<T> { };\nusing Names = int;\n}\n",
+            core__granular__dump__b_dot_h=
+            "// struct Rows { };\nnamespace granular\n{\nstruct Part { };\nclass Ahead { };\n"
+            "enum class Names : int { One };\ntemplate <>\nclass Box<int> { };\n}\n",
+            core__granular__dump__c_dot_cpp=
+            "namespace granular\n{\nnamespace\n{\nstruct Rows { };\n}\nusing Part = int;\n"
+            "int f()\n{\n  struct Rows { };\n}\nstruct\nRows { };\nstruct alignas(8) Rows::Part { };\n}\n",
+            plugin__vtk__d_dot_cxx="namespace granular { template <class T> struct Box { }; }\n"
+            "namespace other { struct Rows { }; }\nstruct Rows { };\n",
+            tests__e_dot_cpp="namespace granular { struct Rows { }; }\n"), [
+                "core/granular/dump/b.h:6", "core/granular/dump/c.cpp:12",
+                "core/granular/dump/c.cpp:14", "plugin/vtk/d.cxx:1"])
 
 
 class ServerManager(unittest.TestCase):

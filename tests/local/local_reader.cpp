@@ -263,6 +263,84 @@ TEST(LocalReader, FlagsThatAreNone)
 }
 
 // A large frame, by one thread and by two: the same bits.
+// 0.5 is no integer: the column is kept as doubles, and is what it is there, too.
+TEST(LocalReader, FlagsThatAreNoIntegers)
+{
+  LocalRun run({ write_text("a.dump", local_frame("id1 id2 periodic", { "1 2 0", "2 3 0.5" })) });
+  EXPECT_NE(
+    error_of([&] { run.read(0); }).find("in the column that is taken for periodic, got 0.5"),
+    std::string::npos);
+}
+
+// A word in one of the pieces makes the column one of texts in all of them: no sample for the presets.
+TEST(LocalReader, TextsOfAPiece)
+{
+  const std::string names[] = { "a b c", "c_1[1] c_1[2] c", "c_1[1] c_1[2] c_1[3]" };
+  for (const std::string& columns : names)
+  {
+    LocalRun run({ write_text("a.0.dump", local_frame(columns, { "1 2 3" })),
+      write_text("a.1.dump", local_frame(columns, { "2 3 no", "3 4 yes", "4 5 no" })) });
+    ASSERT_EQ(run.pieces(0), 2u) << columns;
+    granular::Progress progress;
+    const granular::FrameKind& kind = *run.index().first_piece(0).entry.kind;
+    if (columns == names[2])
+    {
+      EXPECT_NE(
+        error_of([&] { run.read(0); }).find("expected a number, got 'no'"), std::string::npos);
+      continue;
+    }
+    EXPECT_EQ(granular::read_sample(run.index(), kind, progress).rows, 0u);
+    const granular::LocalFrame frame = run.read(0);
+    ASSERT_EQ(frame.table.rows, 4);
+    const granular::DumpArray& texts = frame.table.arrays.back();
+    std::string words;
+    for (const std::int32_t word : values<std::int32_t>(frame, "c"))
+    {
+      words += texts.words.at(static_cast<std::size_t>(word)) + " ";
+    }
+    EXPECT_EQ(words, "3 no yes no ");
+  }
+}
+
+// Columns with the names of the arrays that lines are made of are none of these.
+TEST(LocalReader, ColumnsNamedAsEnds)
+{
+  for (const char* columns : { "id1 id2 position1 position2", "position1 position2 id1 id2" })
+  {
+    LocalRun run({ write_text("a.dump", local_frame(columns, { "1 2 3 4", "2 3 4 5" })) });
+    const granular::LocalFrame frame = run.read(0);
+    EXPECT_FALSE(frame.has_lines);
+    EXPECT_EQ(frame.table.rows, 2);
+  }
+}
+
+// As many columns as there may be cost time in proportion to their number, or this would not end.
+TEST(LocalReader, HundredThousandColumns)
+{
+  constexpr int many = 100'000;
+  for (const std::string form : { "c_#[99999]", "c_a[#]" })
+  {
+    std::string columns;
+    std::string row;
+    for (int i = 1; i <= many; ++i)
+    {
+      const std::size_t at = form.find('#');
+      columns += (i > 1 ? " " : "") +
+        (at == form.npos ? form : form.substr(0, at) + std::to_string(i) + form.substr(at + 1));
+      row += (i > 1 ? " " : "") + std::to_string(i);
+    }
+    LocalRun run({ write_text("a.dump", local_frame(columns, { row, row })) });
+    granular::LocalRequest request;
+    request.columns = run.columns();
+    const granular::LocalFrame frame = run.read(0, request);
+    EXPECT_EQ(frame.table.rows, 2);
+    EXPECT_EQ(frame.table.arrays.size(), form == "c_a[#]" ? 1u : many) << form;
+    granular::Progress progress;
+    const granular::FrameKind& kind = *run.index().first_piece(0).entry.kind;
+    EXPECT_EQ(granular::read_sample(run.index(), kind, progress).values.size(), 2u * many);
+  }
+}
+
 TEST(LocalReader, ThreadsChangeNothing)
 {
   constexpr int count = 1'000'000;

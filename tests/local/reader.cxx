@@ -762,3 +762,27 @@ TEST(LocalReaderVtk, IsPrinted)
     EXPECT_NE(text.str().find(line), std::string::npos) << line;
   }
 }
+
+// On both outputs, with names that lines have, too.
+TEST(LocalReaderVtk, HundredThousandColumns)
+{
+  constexpr int many = 100'000;
+  std::string columns = "x1 y1 z1 x2 y2 z2 id1 id2 length";
+  std::string row = "1 1 1 2 2 2 3 4 5";
+  for (int i = 1; i <= many; ++i)
+  {
+    columns += " a";
+    row += " " + std::to_string(i);
+  }
+  LinesReader reader({ write_text("many.dump", local_frame(columns, { row })) });
+  reader->Update();
+  vtkFieldData* const rows = reader.Rows()->GetRowData();
+  vtkFieldData* const cells = reader.Lines()->GetCellData();
+  ASSERT_EQ(rows->GetNumberOfArrays(), many + 3);
+  ASSERT_EQ(cells->GetNumberOfArrays(), many + 4);
+  EXPECT_STREQ(rows->GetArrayName(2), "length");
+  EXPECT_STREQ(cells->GetArrayName(2), "length_2");
+  EXPECT_STREQ(cells->GetArrayName(many + 2), "a_100000");
+  EXPECT_STREQ(cells->GetArrayName(many + 3), "length");
+  EXPECT_EQ(cells->GetArray(many + 2)->GetComponent(0, 0), 100'000);
+}

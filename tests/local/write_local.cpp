@@ -202,6 +202,27 @@ Written write(const FrameView& view, const DumpFormat& format)
   return written;
 }
 
+/// Ends of lines that %g moves by more than 1e-4 of the box.
+TEST(WriteLocal, LostDigitsOfEndsAreTold)
+{
+  const std::vector<double> ends = { 1e6, 0.5, 0.25, 1e6 + 0.5, 1, 1, 1e6 + 1, 1, 1 };
+  Made made;
+  FrameView view = made.view();
+  view.header.box = Box::from_bounds({ 1e6, 0, 0 }, { 1e6 + 1, 2, 3 });
+  view.header.box.boundary = "pp pp ff";
+  view.arrays.push_back(view_rows("position1", ScalarType::Float64, ends.data(), 3));
+  view.arrays.back().columns = { "x1", "y1", "z1" };
+  view.arrays.back().places = true;
+  DumpFormat format = local(Dialect::Lammps, "BONDS");
+  EXPECT_EQ(write(view, format).said,
+    "rounding to %g moves ends of lines by up to 1 along x, where the box is 1 long; "
+    "NumberFormat=%.17g keeps all digits\n");
+  format.numbers = { 17 };
+  EXPECT_EQ(write(view, format).said, "");
+  format.dialect = Dialect::Liggghts; // whose box has all digits, as six are too few
+  EXPECT_NE(write(view, format).bytes.find("\n1e+06 1000001\n0 2\n"), std::string::npos);
+}
+
 TEST(WriteLocal, IdsOfTheEndsAreWhole)
 {
   const Made made;

@@ -4,6 +4,9 @@
 
 #include "granular/base/error.h"
 #include "granular/packing/bonds.h"
+#include "granular/packing/packing_plan.h"
+
+#include "../base/quad.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +41,9 @@ struct Bonds
     : grains(request)
   {
     granular::Progress progress;
-    const granular::GrainBonds made = granular::make_bonds(request, grains.frame, factor, progress);
+    granular::SerialCommunicator alone;
+    const granular::PackingPlan plan(request, alone, progress);
+    const granular::GrainBonds made = granular::make_bonds(plan, grains.frame, factor, progress);
     id1 = values<std::int64_t>(made.id1, made.count);
     id2 = values<std::int64_t>(made.id2, made.count);
     btype = values<std::int32_t>(made.btype, made.count);
@@ -83,31 +88,38 @@ std::array<int, 3> images_for(const Grains& grains, double reach)
   return most;
 }
 
-/// The distance of the nearest images of two grains.
-long double nearest(
-  const Grains& grains, std::size_t i, std::size_t j, const std::array<int, 3>& most)
+/// By Newton's method from the double nearest to it.
+Quad sqrt_of(Quad square)
 {
-  long double least = std::numeric_limits<long double>::infinity();
+  const Quad root = std::sqrt(static_cast<double>(square));
+  return (root + square / root) / 2;
+}
+
+/// The square of the distance of the nearest images of two grains.
+template <class Float>
+Float nearest(const Grains& grains, std::size_t i, std::size_t j, const std::array<int, 3>& most)
+{
+  Float least = std::numeric_limits<double>::max();
   for (int z = -most[2]; z <= most[2]; ++z)
   {
     for (int y = -most[1]; y <= most[1]; ++y)
     {
       for (int x = -most[0]; x <= most[0]; ++x)
       {
-        long double square = 0;
+        Float square = 0;
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          const long double edge = static_cast<long double>(grains.points[j][axis]) -
-            grains.points[i][axis] + x * static_cast<long double>(grains.vectors[0][axis]) +
-            y * static_cast<long double>(grains.vectors[1][axis]) +
-            z * static_cast<long double>(grains.vectors[2][axis]);
+          const Float edge = static_cast<Float>(grains.points[j][axis]) - grains.points[i][axis] +
+            x * static_cast<Float>(grains.vectors[0][axis]) +
+            y * static_cast<Float>(grains.vectors[1][axis]) +
+            z * static_cast<Float>(grains.vectors[2][axis]);
           square += edge * edge;
         }
         least = std::min(least, square);
       }
     }
   }
-  return std::sqrt(least);
+  return least;
 }
 
 /// All pairs that are near enough, with their distances. Those of which rounding decides would be no test.
@@ -122,7 +134,7 @@ std::map<Pair, long double> all_pairs(const Grains& grains, double factor)
     {
       const long double limit =
         factor * (static_cast<long double>(grains.radius[i]) + grains.radius[j]);
-      const long double distance = nearest(grains, i, j, most);
+      const long double distance = std::sqrt(nearest<long double>(grains, i, j, most));
       EXPECT_GT(std::abs(distance / limit - 1), 1e-8L);
       if (distance <= limit)
       {
@@ -367,6 +379,35 @@ TEST(PackingBonds, AreThoseOfAllPairs)
   }
 }
 
+// The reference is the shortest image by arithmetic of 113 bits: the images of grains far from the origin have 1e-10
+// of a box of 1, the vector between two grains all its digits.
+TEST(PackingBonds, LengthsAcrossPeriodicFacesAreExact)
+{
+  for (const double far : { 0.0, 1e6, -3e5 })
+  {
+    for (const Vector3& tilts : { Vector3{}, Vector3{ 0.3, -0.7, 1.3 } })
+    {
+      PackingRequest request;
+      request.grains = 300;
+      request.box = tilted_box({ far, -far, far / 3 }, { 3.1, 3.7, 2.9 }, tilts);
+      request.boundary = "p p p";
+      request.radii = one_radius(0.17);
+      const Bonds bonds(request, 1.4);
+      std::size_t across = 0;
+      for (std::size_t i = 0; i < bonds.size(); ++i)
+      {
+        const auto first = static_cast<std::size_t>(bonds.id1[i] - 1);
+        const auto second = static_cast<std::size_t>(bonds.id2[i] - 1);
+        const auto exact =
+          static_cast<double>(sqrt_of(nearest<Quad>(bonds.grains, first, second, { 2, 2, 2 })));
+        EXPECT_LE(std::abs(bonds.length[i] - exact), 1.5e-15 * exact) << far;
+        across += bonds.ends[i][1] == bonds.grains.points[second] ? 0u : 1u;
+      }
+      EXPECT_GT(across, 30u);
+    }
+  }
+}
+
 TEST(PackingBonds, OfAChainJoinConsecutiveGrains)
 {
   PackingRequest request;
@@ -416,7 +457,7 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
   for (const char* const boundary : { "f f f", "p p p" })
   {
     PackingRequest many; // several blocks along each axis
-    many.grains = 60000;
+    many.grains = 15000;
     many.boundary = boundary;
     requests.push_back(many);
     many.arrangement = Arrangement::Hexagonal;
@@ -453,7 +494,7 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
 TEST(PackingBonds, OfOneBlockOfManyAreThoseOfTheWhole)
 {
   PackingRequest request;
-  request.grains = 60000;
+  request.grains = 15000;
   request.boundary = "p p p";
   const Bonds whole(request, 3);
   request.pieces = 200;
@@ -503,8 +544,11 @@ TEST(PackingBonds, ProgressGoesOnAndCanStop)
     request.arrangement = arrangement;
     request.grains = 20000;
     const Grains grains(request);
+    granular::Progress progress;
+    granular::SerialCommunicator alone;
+    const granular::PackingPlan plan(request, alone, progress);
     Watch whole;
-    granular::make_bonds(request, grains.frame, 1.5, whole);
+    granular::make_bonds(plan, grains.frame, 1.5, whole);
     EXPECT_TRUE(std::is_sorted(whole.reported.begin(), whole.reported.end()));
     EXPECT_EQ(whole.reported.front(), 0);
     EXPECT_EQ(whole.reported.back(), 1);
@@ -512,7 +556,7 @@ TEST(PackingBonds, ProgressGoesOnAndCanStop)
     {
       Watch stopped;
       stopped.stop_at = at;
-      EXPECT_THROW(granular::make_bonds(request, grains.frame, 1.5, stopped), granular::Cancelled);
+      EXPECT_THROW(granular::make_bonds(plan, grains.frame, 1.5, stopped), granular::Cancelled);
     }
   }
 }

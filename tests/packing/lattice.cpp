@@ -2,6 +2,8 @@
 // Grains on lattices: counts and places from arithmetic, distances from a look at all pairs.
 #include "packings.h"
 
+#include "../base/quad.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,6 +51,52 @@ std::multiset<int> contacts(const Grains& grains)
     counts.insert(count);
   }
   return counts;
+}
+}
+
+namespace
+{
+/// The square of the distance of a grain and an image of another one.
+template <class Float>
+Float square_of(const Grains& grains, std::size_t i, std::size_t j, const std::array<int, 3>& image)
+{
+  Float square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    Float away = static_cast<Float>(grains.points[i][axis]) - grains.points[j][axis];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      away += image[k] * static_cast<Float>(grains.vectors[k][axis]);
+    }
+    square += away * away;
+  }
+  return square;
+}
+
+/// How much farther apart the nearest two grains of radius 0.5 or images are than 1, by arithmetic of 113 bits.
+double least_excess(const Grains& grains)
+{
+  Quad least = 2;
+  for (int n = 0; n < 27; ++n)
+  {
+    const std::array<int, 3> image = { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 };
+    bool there = true;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      there = there && (image[k] == 0 || grains.frame.header.box.boundary[3 * k] == 'p');
+    }
+    for (std::size_t i = 0; there && i < grains.size(); ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        if (square_of<double>(grains, i, j, image) < 1.1)
+        {
+          least = std::min(least, square_of<Quad>(grains, i, j, image));
+        }
+      }
+    }
+  }
+  return static_cast<double>((least - 1) / 2);
 }
 }
 
@@ -137,6 +185,53 @@ TEST(PackingLattice, NoneOverlapInTiltedBoxes)
       }
     }
   }
+}
+
+// Hexagonal cells in the first of these boxes were once 4e-12 of a diameter too near.
+TEST(PackingLattice, NoneOverlapInTiltedBoxesToTheLastBit)
+{
+  std::vector<PackingRequest> requests = {
+    on(Arrangement::Hexagonal, tilted_box({}, { 10, 10, 10 }, { -0.1, 1.2, -1 }), "p p f"),
+  };
+  for (int i = 0; i < 60; ++i)
+  {
+    const double turn = 0.37 * i;
+    const double far = i % 3 == 2 ? 1e6 : 0;
+    requests.push_back(on(lattices[i % 3],
+      tilted_box({ far, -far, 2 * far }, { 6.2 + std::sin(turn), 7.3 - std::cos(3 * turn), 6.5 },
+        { 2 * std::sin(2 * turn), 1.7 * std::cos(turn), -1.1 * std::sin(5 * turn) }),
+      i % 2 == 0 ? "p p f" : "f f f"));
+  }
+  for (const PackingRequest& request : requests)
+  {
+    const Grains grains(request);
+    EXPECT_GT(grains.size(), 60u);
+    EXPECT_GE(least_excess(grains), 0) << grains.vectors[2][0];
+  }
+}
+
+/// Boxes that the old way filled as well, found by hand: two cells, next to no room to stretch them.
+TEST(PackingLattice, SmallTiltedBoxesHoldWhatFits)
+{
+  const PackingRequest requests[] = {
+    on(Arrangement::FaceCentredCubic, tilted_box({}, { 5, 2, 2.5 }, { 1.3, 0.5, -0.4 }), "f f f"),
+    on(Arrangement::Hexagonal, tilted_box({}, { 4, 3.5, 2 }, { -0.6, -1.2, 0.1 }), "f f f"),
+    on(Arrangement::Hexagonal, tilted_box({}, { 5, 2.5, 3.5 }, { 1.5, 2.3, -1.1 }), "p p f"),
+  };
+  for (const PackingRequest& request : requests)
+  {
+    const Grains grains(request);
+    EXPECT_EQ(grains.size(), 8u);
+    EXPECT_GE(least_excess(grains), 0);
+  }
+}
+
+/// A pair along a 3-4-5 triangle across two periodic axes is 1 apart until a cell fewer fits.
+TEST(PackingLattice, ADistanceThatRoundingAloneMakesTooShortEnds)
+{
+  const Grains grains(on(Arrangement::FaceCentredCubic, tilted_box({}, { 10, 8, 6 }, { 4, 3.1, -2.4 }), "p p f"));
+  EXPECT_GT(grains.size(), 200u);
+  EXPECT_GE(least_excess(grains), 0);
 }
 
 TEST(PackingLattice, ABoxIsMadeForANumber)

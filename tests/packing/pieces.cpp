@@ -27,7 +27,7 @@ const Part parts[] = {
     [](PackingRequest& request)
     {
       request.grains = 0;
-      request.box = tilted_box({}, { 70, 60, 50 }, { 20, 5, -7 });
+      request.box = tilted_box({}, { 35, 30, 40 }, { 10, 5, -7 });
       request.boundary = "p p p";
       request.radii = two_radii(0.4, 0.8, 0.2);
     } },
@@ -55,7 +55,7 @@ const Part parts[] = {
 PackingRequest request_of(const Part& part)
 {
   PackingRequest request;
-  request.grains = 20000;
+  request.grains = 6000;
   request.radii = one_radius(0.5);
   request.speed = 1;
   part.choose(request);

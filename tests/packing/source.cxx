@@ -115,6 +115,7 @@ TEST(PackingSource, BondsOfABlockAreLines)
   source->SetRadii(vtkGranularPackingSource::ONE);
   source->SetRadius(0.005);
   source->SetNumberOfGrains(0);
+  source->SetBoxLengths(0.1, 0.1, 0.1);
   source->SetBoundary("p f f");
   source->SetBondFactor(1.05);
   source->Update();
@@ -165,7 +166,6 @@ TEST(PackingSource, FibresHaveNumbersAndBonds)
 {
   Source source;
   source->SetArrangement(vtkGranularPackingSource::FIBRE_BUNDLE);
-  source->SetBoxGiven(false);
   source->SetNumberOfGrains(45);
   source->SetGrainsPerFibre(10);
   source->SetBondFactor(1);
@@ -223,6 +223,7 @@ TEST(PackingSource, TiltedBox)
   source->SetArrangement(vtkGranularPackingSource::HEXAGONAL);
   source->SetNumberOfGrains(0);
   source->SetBoxOrigin(1, 2, 3);
+  source->SetBoxLengths(0.1, 0.1, 0.1);
   source->SetBoxTilts(0.01, 0.02, -0.03);
   source->SetBoundary("p p p");
   source->Update();
@@ -252,16 +253,19 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(2300); }, "no place was found" },
     { [](vtkGranularPackingSource* s) { s->SetBondFactor(0.5); },
       "expected a bond factor from 1 to 3, got 0.500000" },
+    { [](vtkGranularPackingSource* s) { s->SetNumberOfGrains(-1); },
+      "expected a number of grains from 0 to 10^12, got -1.000000" },
     { [](vtkGranularPackingSource* s)
       {
-        s->SetNumberOfGrains(0);
-        s->SetBoxGiven(false);
+        s->SetBoxLengths(0, 0, 0);
+        s->SetBoxTilts(0, 0.1, 0);
       },
-      "expected a number of grains or a box, got neither" },
+      "expected BoxLengths of the box that BoxTilts are of, got none" },
   };
   for (const auto& each : cases)
   {
     Source source;
+    source->SetBoxLengths(0.1, 0.1, 0.1);
     each.Spoil(source.Get);
     source->Update();
     ASSERT_EQ(source.Seen->Said.size(), 1u) << each.Text;
@@ -270,6 +274,7 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     ExpectEmpty(source);
     source->SetRadius(0.003);
     source->SetBoxLengths(0.1, 0.1, 0.1);
+    source->SetBoxTilts(0, 0, 0);
     source->SetBoundary("f f f");
     source->SetBondFactor(0);
     source->SetNumberOfGrains(10);
@@ -291,8 +296,7 @@ TEST(PackingSource, StopsAtAnyReportAndStartsAfresh)
     {
       source->SetArrangement(
         lattice ? vtkGranularPackingSource::SIMPLE_CUBIC : vtkGranularPackingSource::RANDOM);
-      source->SetBoxGiven(false);
-      source->SetNumberOfGrains(20000);
+      source->SetNumberOfGrains(5000);
       source->SetBondFactor(1.2);
       source->SetThreads(1);
     };
@@ -312,7 +316,7 @@ TEST(PackingSource, StopsAtAnyReportAndStartsAfresh)
       EXPECT_TRUE(source.Seen->Said.empty());
       ExpectEmpty(source);
       source->Update();
-      EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 20000);
+      EXPECT_EQ(source.Grains()->GetNumberOfPoints(), 5000);
       EXPECT_EQ(source.Box()->GetNumberOfCells(), 1);
       EXPECT_EQ(source.Bonds()->GetNumberOfCells(), counted.Bonds()->GetNumberOfCells());
     }
@@ -325,8 +329,8 @@ TEST(PackingSource, PrintsAllProperties)
   source->SetNumberOfGrains(77);
   std::ostringstream out;
   source->Print(out);
-  for (const char* line : { "NumberOfGrains: 77\n", "BoxLengths: 0.1 0.1 0.1\n",
-         "Boundary: ff ff ff\n", "GrainsPerFibre: 20\n", "BondFactor: 0\n" })
+  for (const char* line : { "NumberOfGrains: 77\n", "BoxLengths: 0 0 0\n", "Boundary: ff ff ff\n",
+         "GrainsPerFibre: 20\n", "BondFactor: 0\n" })
   {
     EXPECT_NE(out.str().find(line), std::string::npos) << line;
   }

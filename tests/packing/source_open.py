@@ -12,8 +12,8 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 source = GranularPackingSource()
 
 # names and defaults
-expected = {"Arrangement": "Random", "NumberOfGrains": 1000, "BoxGiven": 1, "BoxOrigin": [0, 0, 0],
-            "BoxLengths": [0.1, 0.1, 0.1], "BoxTilts": [0, 0, 0], "Boundary": "ff ff ff", "Radii": "Two",
+expected = {"Arrangement": "Random", "NumberOfGrains": 0, "BoxOrigin": [0, 0, 0],
+            "BoxLengths": [0, 0, 0], "BoxTilts": [0, 0, 0], "Boundary": "ff ff ff", "Radii": "Two",
             "Radius": 0.003, "SecondRadius": 0.005, "SecondShare": 0.3, "SolidFraction": 0.2,
             "Spacing": 1, "GrainsPerFibre": 20, "BondFactor": 0, "Speed": 0, "Seed": 1, "Threads": 0}
 for name, default in expected.items():
@@ -21,6 +21,21 @@ for name, default in expected.items():
     assert (list(value) if isinstance(default, list) else value) == default, (name, value)
     text = source.SMProxy.GetProperty(name).GetDocumentation()
     assert text and len(text.GetDescription().strip()) > 60, name
+# what is asked for is made: a number in a box of its own, or a box full
+volume = 4 / 3 * math.pi * (0.7 * 0.003 ** 3 + 0.3 * 0.005 ** 3)
+for properties, number, lengths in (({}, 1000, (1000 * volume / 0.2) ** (1 / 3)),
+                                    ({"NumberOfGrains": 5000}, 5000, (5000 * volume / 0.2) ** (1 / 3)),
+                                    ({"BoxLengths": [0.2, 0.2, 0.2]}, int(0.2 * 0.008 / volume), 0.2),
+                                    ({"NumberOfGrains": 700, "BoxLengths": [0.2, 0.2, 0.2]}, 700, 0.2)):
+    asked = GranularPackingSource(**properties)
+    asked.UpdatePipeline()
+    assert asked.GetDataInformation().GetNumberOfPoints() == number, (properties, number)
+    bounds = OutputPort(asked, "Box").GetDataInformation().GetBounds()
+    assert numpy.allclose(bounds, [0, lengths] * 3, rtol=1e-12), (properties, bounds)
+    Delete(asked)
+
+source.BoxLengths = [0.1, 0.1, 0.1]
+source.NumberOfGrains = 1000
 hints = source.SMProxy.GetHints()
 assert hints.FindNestedElementByName("ShowInMenu").GetAttribute("category") == "Granular"
 
@@ -101,7 +116,8 @@ assert 0.4 < arrays["v"].std() < 0.6
 assert (picture("lattice.png") != pixels).any()
 
 # a box that is made for the grains
-SetProperties(source, Arrangement="Random", BoxGiven=0, NumberOfGrains=5000, SolidFraction=0.25)
+SetProperties(source, Arrangement="Random", BoxLengths=[0, 0, 0], BoxTilts=[0, 0, 0], NumberOfGrains=5000,
+              SolidFraction=0.25)
 source.UpdatePipeline()
 assert source.GetDataInformation().GetNumberOfPoints() == 5000
 bounds = box.GetDataInformation().GetBounds()
@@ -149,7 +165,7 @@ clip.UpdatePipeline()
 assert clip.GetDataInformation().GetNumberOfPoints() == 100
 
 # a dump of the grains is read back as the grains
-SetProperties(source, BoxGiven=1, BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
+SetProperties(source, BoxLengths=[0.1, 0.1, 0.1], BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
 path = os.path.abspath("grains.dump")
 SaveData(path, source)
 reader = OpenDataFile(path)

@@ -15,7 +15,7 @@ def alone(**properties):
     source = granular.vtkGranularPackingSource()
     source.SetController(None)
     for name, value in properties.items():
-        getattr(source, f"Set{name}")(value)
+        getattr(source, f"Set{name}")(*value if isinstance(value, tuple) else (value,))
     source.Update()
     return source.GetOutput(), source.GetOutputDataObject(2)
 
@@ -33,14 +33,14 @@ def bonds_of(data):
     return digest(data, data.GetCellData(), ("id1", "id2", "btype", "equilibrium_length", "length"))
 
 
-for properties in ({"NumberOfGrains": 1000, "Speed": 1.0},
-                   {"NumberOfGrains": 20000, "BoxGiven": 0, "Boundary": "p p p", "Radii": 2},
-                   {"NumberOfGrains": 5000, "BoxGiven": 0, "Arrangement": 3, "Seed": 7},
-                   {"NumberOfGrains": 30000, "BoxGiven": 0, "Boundary": "p p p", "BondFactor": 1.5},
-                   {"NumberOfGrains": 8000, "BoxGiven": 0, "Arrangement": 1, "BondFactor": 1.1},
-                   {"NumberOfGrains": 1000, "BoxGiven": 0, "Arrangement": 5, "BondFactor": 1.0},
-                   {"NumberOfGrains": 10, "BoxGiven": 0, "Arrangement": 4, "BondFactor": 1.0},
-                   {"NumberOfGrains": 2, "BoxGiven": 0}):
+for properties in ({"NumberOfGrains": 1000, "Speed": 1.0, "BoxLengths": (0.1, 0.1, 0.1)},
+                   {"NumberOfGrains": 20000, "Boundary": "p p p", "Radii": 2},
+                   {"NumberOfGrains": 5000, "Arrangement": 3, "Seed": 7},
+                   {"NumberOfGrains": 30000, "Boundary": "p p p", "BondFactor": 1.5},
+                   {"NumberOfGrains": 8000, "Arrangement": 1, "BondFactor": 1.1},
+                   {"NumberOfGrains": 1000, "Arrangement": 5, "BondFactor": 1.0},
+                   {"NumberOfGrains": 10, "Arrangement": 4, "BondFactor": 1.0},
+                   {"NumberOfGrains": 2}):
     source = GranularPackingSource(**properties)
     data = whole(source)
     number = properties["NumberOfGrains"]

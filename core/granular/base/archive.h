@@ -67,6 +67,7 @@ void pass(Archive& archive, Notice& notice)
 {
   pass(archive, notice.where);
   archive.text(notice.text);
+  archive.text(notice.topic);
 }
 
 template <class Archive>

@@ -24,17 +24,27 @@ namespace
     std::string("cannot ") + action + ": " + reason, { path }, static_cast<std::errc>(error));
 }
 
+/// Makes a call of the system again when a signal has interrupted it, but not for ever. Returns what the call returns.
+template <class Call>
+auto call_again(const Call& call)
+{
+  constexpr int most = 100;
+  auto result = call();
+  for (int i = 1; i < most && result < 0 && errno == EINTR; ++i)
+  {
+    result = call();
+  }
+  return result;
+}
+
 class FileSource final : public ByteSource
 {
 public:
   explicit FileSource(const std::string& path)
     : path_(path)
-  {
     // O_NONBLOCK: a pipe of that name must not make the open wait; it changes nothing for files
-    do
-    {
-      file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    } while (file_ < 0 && errno == EINTR);
+    , file_(call_again([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }))
+  {
     if (file_ < 0)
     {
       fail("open", path, errno);
@@ -61,21 +71,38 @@ public:
     std::size_t done = 0;
     while (done < bytes)
     {
+      const std::int64_t at = offset + static_cast<std::int64_t>(done);
       const ssize_t got =
-        ::pread(file_, buffer + done, bytes - done, offset + static_cast<std::int64_t>(done));
-      if (got < 0 && errno != EINTR)
+        call_again([&] { return ::pread(file_, buffer + done, bytes - done, at); });
+      if (got < 0)
       {
         fail("read", path_, errno);
       }
       if (got == 0)
       {
+        this->check_end(at);
         break;
       }
-      done += got > 0 ? static_cast<std::size_t>(got) : 0;
+      done += static_cast<std::size_t>(got);
     }
     return done;
   }
 
+  /// Takes what the file is now for the least that it has from then on. Throws IoError for what is no plain file.
+  void expect_file()
+  {
+    const struct stat status = this->status();
+    const bool is_folder = S_ISDIR(status.st_mode);
+    if (!S_ISREG(status.st_mode))
+    {
+      throw IoError(
+        std::string("expected a file, got ") + (is_folder ? "a directory" : "a device or a pipe"),
+        { path_ }, is_folder ? std::errc::is_a_directory : std::errc::not_supported);
+    }
+    size_ = status.st_size;
+  }
+
+private:
   struct stat status() const
   {
     struct stat status;
@@ -86,9 +113,20 @@ public:
     return status;
   }
 
-private:
+  /// A read has met the end of the file at an offset.
+  void check_end(std::int64_t offset) const
+  {
+    if (offset < size_)
+    {
+      throw IoError("the file was shortened while it was read: expected at least " +
+          std::to_string(size_) + " bytes, got " + std::to_string(offset),
+        { path_ });
+    }
+  }
+
   std::string path_;
   int file_ = -1;
+  std::int64_t size_ = 0; ///< when it was opened
 };
 
 class FirstBytes final : public ByteSource
@@ -172,13 +210,7 @@ double ByteSource::fraction(std::int64_t offset) const
 std::unique_ptr<ByteSource> open_file(const std::string& path)
 {
   auto source = std::make_unique<FileSource>(path);
-  const mode_t mode = source->status().st_mode;
-  if (!S_ISREG(mode))
-  {
-    throw IoError(
-      std::string("expected a file, got ") + (S_ISDIR(mode) ? "a directory" : "a device or a pipe"),
-      { path }, S_ISDIR(mode) ? std::errc::is_a_directory : std::errc::not_supported);
-  }
+  source->expect_file();
   return source;
 }
 

@@ -23,7 +23,7 @@ struct FileStamp
 };
 
 /// Bytes with random access. Files are read, not mapped: a mapped file that shrinks kills the
-/// process, a read comes back short.
+/// process, a read fails.
 class ByteSource
 {
 public:
@@ -72,12 +72,14 @@ struct RestartPoints
 
   std::vector<Point> points;                      ///< by offset
   std::int64_t spacing = std::int64_t{ 1 } << 20; ///< least distance of two, in bytes of content
+  bool claimed = false; ///< not found in the file but said of it: a window is compared before what is behind it is given
 
   /// Bytes of memory.
   std::size_t bytes() const noexcept;
 };
 
-/// Opens a plain file. Throws IoError: missing, no permission, a directory, not a regular file.
+/// Opens a plain file. Throws IoError: missing, no permission, a directory, not a regular file. Reading throws IoError, too,
+/// where the file ends before the size that it had when it was opened.
 std::unique_ptr<ByteSource> open_file(const std::string& path);
 
 /// The bytes of a string, which must outlive the source.

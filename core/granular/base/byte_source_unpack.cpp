@@ -53,6 +53,8 @@ public:
 
 private:
   void go_to(std::int64_t offset);
+  void start_at(const RestartPoints::Point& point);
+  void compare_window(const RestartPoints::Point& before, const RestartPoints::Point& point);
   std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
   bool advance(std::int64_t target);
 
@@ -106,12 +108,45 @@ void Unpacker::go_to(std::int64_t offset)
   const bool far_ahead = nearest.offset > end_ + static_cast<std::int64_t>(largest_step);
   if (lost_ || offset < begin_ || far_ahead)
   {
-    lost_ = true;
-    decoder_->restart(nearest);
-    begin_ = nearest.offset;
-    end_ = nearest.offset;
-    lost_ = false;
+    if (points_->claimed && !nearest.window.empty())
+    {
+      this->compare_window(
+        after - points_->points.begin() > 1 ? *std::prev(after, 2) : start, nearest);
+      return;
+    }
+    this->start_at(nearest);
   }
+}
+
+void Unpacker::start_at(const RestartPoints::Point& point)
+{
+  lost_ = true;
+  decoder_->restart(point);
+  begin_ = point.offset;
+  end_ = point.offset;
+  lost_ = false;
+}
+
+/// Gets to a point from the one before. Throws if the window of the point is not what lies before it: bytes that were made
+/// with another one would be other data.
+void Unpacker::compare_window(
+  const RestartPoints::Point& before, const RestartPoints::Point& point)
+{
+  this->start_at(before);
+  while (end_ < point.offset && this->advance(point.offset))
+  {
+  }
+  const std::string& window = point.window;
+  std::string there(window.size(), '\0');
+  const std::int64_t first = point.offset - static_cast<std::int64_t>(window.size());
+  if (first < begin_ || end_ < point.offset ||
+    this->copy(first, there.data(), there.size()) < there.size() || there != window)
+  {
+    throw FormatError(
+      "expected the content that the index file says, got other; remove the index file",
+      { decoder_->path() });
+  }
+  begin_ = point.offset; // nobody compared the window of the point before
 }
 
 /// Copies what the ring has of [offset, offset + bytes), which does not begin before it.

@@ -64,6 +64,8 @@ public:
   /// After decode gave 0: whether the file ends before its data do.
   bool cut() const noexcept { return cut_; }
 
+  const std::string& path() const { return in_.path(); }
+
   /// As users spell the format.
   virtual const char* name() const noexcept = 0;
 

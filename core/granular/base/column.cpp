@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace granular
 {
@@ -16,7 +18,9 @@ namespace
 struct Group
 {
   std::string array;
-  std::vector<int> columns; ///< by component; -1: not seen
+  bool from_table = false;
+  std::size_t components = 0;         ///< the table says how many; else the largest index
+  std::map<std::size_t, int> columns; ///< by component
 };
 
 using Groups = std::map<std::string, Group>;
@@ -64,9 +68,8 @@ ColumnInfo describe(const std::string& name, std::span<const KnownColumn> table)
 void join(Group& group, std::string_view array, std::size_t component, int column)
 {
   group.array = array;
-  group.columns.resize(std::max(group.columns.size(), component + 1), -1);
-  int& place = group.columns[component];
-  place = place < 0 ? column : place;
+  group.components = std::max(group.components, component + 1);
+  group.columns.try_emplace(component, column);
 }
 
 Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const KnownColumn> table)
@@ -79,14 +82,14 @@ Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const Kn
     if (known && known->components > 1)
     {
       Group& group = groups[std::string(known->array) + "*"];
-      group.columns.resize(static_cast<std::size_t>(known->components), -1);
+      group.from_table = true;
+      group.components = static_cast<std::size_t>(known->components);
       join(group, known->array, static_cast<std::size_t>(known->component), static_cast<int>(i));
     }
     else if (const int index = split_index(columns[i].name, base); index > 0)
     {
-      // an index that leaves a gap for certain leaves one of bounded size
-      const std::size_t component = std::min(static_cast<std::size_t>(index - 1), columns.size());
-      join(groups[std::string(base)], base, component, static_cast<int>(i));
+      join(
+        groups[std::string(base)], base, static_cast<std::size_t>(index - 1), static_cast<int>(i));
     }
   }
   return groups;
@@ -94,13 +97,18 @@ Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const Kn
 
 /// Complete, and ID[1..n] also with n >= 2 and in the file's order: a vector whose components
 /// changed places would be wrong without anybody noticing.
-bool is_array(const std::string& key, const Group& group)
+bool is_array(const Group& group)
 {
-  const bool complete =
-    std::find(group.columns.begin(), group.columns.end(), -1) == group.columns.end();
-  const bool from_table = key.ends_with('*');
-  return complete && group.columns.size() > 1 &&
-    (from_table || std::is_sorted(group.columns.begin(), group.columns.end()));
+  return group.columns.size() == group.components && group.components > 1 &&
+    (group.from_table ||
+      std::ranges::is_sorted(group.columns, {}, [](const auto& member) { return member.second; }));
+}
+
+bool holds_texts(const Group& group, const std::vector<ColumnInfo>& columns)
+{
+  return std::ranges::any_of(group.columns,
+    [&](const auto& member)
+    { return columns[static_cast<std::size_t>(member.second)].type == ValueType::Text; });
 }
 
 /// Names that are taken, and the number that the next copy of each may get.
@@ -123,38 +131,54 @@ bool is_position(ColumnRole role) noexcept
     role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
 }
 
-std::vector<ArrayInfo> make_arrays(
+/// An array of these columns, whose type and role are those of the first one listed.
+ArrayInfo make_array(const std::string& name, std::vector<int> members,
+  const std::vector<ColumnInfo>& columns, TakenNames& taken)
+{
+  const ColumnInfo& first = columns[static_cast<std::size_t>(*std::ranges::min_element(members))];
+  ArrayInfo array;
+  array.name = make_unique(name, taken);
+  array.columns = std::move(members);
+  array.type = first.type;
+  array.role = first.role;
+  array.position_form = is_position(first.role);
+  return array;
+}
+
+std::vector<ArrayInfo> list_arrays(
   const std::vector<ColumnInfo>& columns, std::span<const KnownColumn> table)
 {
-  std::map<int, const Group*> first_columns; // the array stands where its first column stands
-  std::set<int> grouped;
   const Groups groups = collect_groups(columns, table);
+  std::vector<const Group*> vector_of(columns.size());
+  std::vector<std::string_view> split_from(columns.size());
   for (const auto& [key, group] : groups)
   {
-    if (is_array(key, group))
+    const bool vector = is_array(group);
+    const bool texts = vector && holds_texts(group, columns);
+    for (const auto& [component, column] : group.columns)
     {
-      first_columns[*std::min_element(group.columns.begin(), group.columns.end())] = &group;
-      grouped.insert(group.columns.begin(), group.columns.end());
+      vector_of[static_cast<std::size_t>(column)] = vector && !texts ? &group : nullptr;
+      split_from[static_cast<std::size_t>(column)] = texts ? group.array : std::string_view();
     }
   }
   std::vector<ArrayInfo> arrays;
   TakenNames taken;
-  for (int i = 0; i < static_cast<int>(columns.size()); ++i)
+  std::set<const Group*> listed; // an array stands where its first column stands
+  for (std::size_t i = 0; i < columns.size(); ++i)
   {
-    const ColumnInfo& column = columns[static_cast<std::size_t>(i)];
-    const auto group = first_columns.find(i);
-    if (group == first_columns.end() && grouped.contains(i))
+    const Group* const vector = vector_of[i];
+    if (!vector)
     {
-      continue;
+      arrays.push_back(make_array(columns[i].name, { static_cast<int>(i) }, columns, taken));
+      arrays.back().group = split_from[i];
     }
-    ArrayInfo array;
-    array.name =
-      make_unique(group == first_columns.end() ? column.name : group->second->array, taken);
-    array.columns = group == first_columns.end() ? std::vector<int>{ i } : group->second->columns;
-    array.type = column.type;
-    array.role = column.role;
-    array.position_form = is_position(column.role);
-    arrays.push_back(std::move(array));
+    else if (listed.insert(vector).second)
+    {
+      std::vector<int> members;
+      std::ranges::transform(vector->columns, std::back_inserter(members),
+        [](const auto& member) { return member.second; });
+      arrays.push_back(make_array(vector->array, std::move(members), columns, taken));
+    }
   }
   return arrays;
 }
@@ -195,18 +219,25 @@ const KnownColumn* find_known_column(
 
 ColumnSchema::ColumnSchema(
   const std::vector<std::string>& names, std::span<const KnownColumn> table)
+  : table_(table)
 {
+  std::set<std::pair<ColumnRole, int>> taken;
   for (const std::string& name : names)
   {
     columns_.push_back(describe(name, table));
     ColumnInfo& column = columns_.back();
-    if (this->find(column.role, column.component) < static_cast<int>(columns_.size()) - 1)
+    if (column.role != ColumnRole::Other && !taken.emplace(column.role, column.component).second)
     {
       column.role =
         ColumnRole::Other; // the first column has the role; a second one is just a column
     }
   }
-  arrays_ = make_arrays(columns_, table);
+  this->make_arrays();
+}
+
+void ColumnSchema::make_arrays()
+{
+  arrays_ = list_arrays(columns_, table_);
   add_radius(*this, arrays_);
 }
 
@@ -224,6 +255,19 @@ int ColumnSchema::find_array(std::string_view name) const noexcept
   return found == arrays_.end() ? -1 : static_cast<int>(found - arrays_.begin());
 }
 
+std::vector<int> ColumnSchema::arrays_of_columns() const
+{
+  std::vector<int> arrays(columns_.size());
+  for (std::size_t i = arrays_.size(); i-- > 0;) // the radius stands last
+  {
+    for (const int column : arrays_[i].columns)
+    {
+      arrays[static_cast<std::size_t>(column)] = static_cast<int>(i);
+    }
+  }
+  return arrays;
+}
+
 std::string ColumnSchema::text() const
 {
   std::string text;
@@ -234,26 +278,44 @@ std::string ColumnSchema::text() const
   return text;
 }
 
-void ColumnSchema::set_type(int column, ValueType type)
+void ColumnSchema::set_types(std::span<const TypeChange> changes)
 {
-  ColumnInfo& changed = columns_[static_cast<std::size_t>(column)];
-  changed.type = type;
-  if (changed.role == ColumnRole::Id && type != ValueType::Int64)
+  if (changes.empty())
   {
-    changed.role = ColumnRole::Other; // nothing to sort or select by
+    return;
   }
-  for (ArrayInfo& array : arrays_)
+  const std::vector<int> array_of = this->arrays_of_columns();
+  std::set<int> changed;
+  for (const auto& [column, type] : changes)
   {
-    if (std::find(array.columns.begin(), array.columns.end(), column) != array.columns.end())
+    const int array = array_of[static_cast<std::size_t>(column)];
+    if (type != ValueType::Text && changed.insert(array).second)
     {
-      array.type = type;
-      array.role = array.role == ColumnRole::Id ? changed.role : array.role;
-      for (const int member : array.columns)
+      for (const int member : arrays_[static_cast<std::size_t>(array)].columns)
       {
         columns_[static_cast<std::size_t>(member)].type = type;
       }
     }
   }
+  for (const auto& [column, type] : changes)
+  {
+    ValueType& own = columns_[static_cast<std::size_t>(column)].type;
+    own = type == ValueType::Text ? type : own;
+  }
+  for (ColumnInfo& column : columns_)
+  {
+    if (column.role == ColumnRole::Id && column.type != ValueType::Int64)
+    {
+      column.role = ColumnRole::Other; // nothing to sort or select by
+    }
+  }
+  this->make_arrays();
+}
+
+void ColumnSchema::set_type(int column, ValueType type)
+{
+  const TypeChange change = { column, type };
+  this->set_types({ &change, 1 });
 }
 
 bool ColumnSchema::operator==(const ColumnSchema& other) const

@@ -75,6 +75,8 @@ struct ArrayInfo
   std::vector<int> columns;   ///< column of each component
   double scale = 1;           ///< radius made from a diameter: 0.5
   bool position_form = false; ///< a coordinate column: not loaded as an array unless asked for
+  std::string
+    group = {}; ///< the array of several columns that this would be part of if none of them held texts
 
   int components() const noexcept { return static_cast<int>(columns.size()); }
 };
@@ -83,13 +85,23 @@ struct ArrayInfo
 /// - columns of the table join the vectors the table names, if all components are there;
 /// - c_ID[1] .. c_ID[n] (also f_, v_, i2_, d2_), n >= 2, complete and in this order in the file,
 ///   become one array c_ID of n components, in the file's order (no tensor reordering);
+/// - a column of texts is always an array of its own, and so are the others of its vector then;
 /// - every other column becomes an array under its own name;
 /// - a name that is taken gets "_2", "_3", ...;
 /// - `radius` is made from `diameter` where only that is there.
 class ColumnSchema
 {
 public:
+  /// What becomes of a column.
+  struct TypeChange
+  {
+    int column;
+    ValueType type;
+  };
+
   ColumnSchema() = default;
+
+  /// The table must outlive the schema, and its copies. Takes time in proportion to the columns.
   explicit ColumnSchema(
     const std::vector<std::string>& names, std::span<const KnownColumn> table = known_columns());
 
@@ -102,17 +114,26 @@ public:
   /// Index into arrays(), or -1.
   int find_array(std::string_view name) const noexcept;
 
+  /// Of each column the index into arrays(): of a diameter its own array, and not the radius.
+  std::vector<int> arrays_of_columns() const;
+
   /// The names, blank-separated, in the file's order and spelling.
   std::string text() const;
 
-  /// Changes the type of a column and of the array it is part of: an integer column that holds
-  /// other numbers becomes Float64, an unknown column of words becomes Text. Ids that are no integers
-  /// are ids no more.
+  /// Changes the types of columns. An integer column that holds other numbers becomes Float64, together with the other
+  /// columns of its array; an unknown column of words becomes Text, by itself, which may split an array. Ids that are
+  /// no integers are ids no more. Takes time in proportion to the columns, however many change.
+  void set_types(std::span<const TypeChange> changes);
+
+  /// The same for one column. To change many, one after the other, takes time in proportion to their square.
   void set_type(int column, ValueType type);
 
   bool operator==(const ColumnSchema& other) const;
 
 private:
+  void make_arrays();
+
+  std::span<const KnownColumn> table_;
   std::vector<ColumnInfo> columns_;
   std::vector<ArrayInfo> arrays_;
 };

@@ -73,6 +73,8 @@ struct Notice
 {
   Where where;
   std::string text;
+  std::string
+    topic = {}; ///< of notices with the same topic a user gets the first of a file; empty: each
 };
 
 using Notices = std::vector<Notice>;

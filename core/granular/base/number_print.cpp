@@ -3,6 +3,7 @@
 
 #include "granular/base/decimal.h"
 #include "granular/base/error.h"
+#include "granular/base/number.h"
 #include "granular/base/number_print_layout.h"
 
 #include <algorithm>
@@ -278,6 +279,27 @@ char* print_number(char* to, double value, NumberFormat format) noexcept
   }
   return format.digits < 6 ? print_few(to, value, format.digits)
                            : print_many(to, value, format.digits);
+}
+
+std::string to_text(NumberFormat format)
+{
+  return format.digits == 0 ? "shortest"
+    : format.digits == 6    ? "%g"
+                            : "%." + std::to_string(format.digits) + "g";
+}
+
+double as_fixed(double value) noexcept
+{
+  std::array<char, most_fixed_chars> word;
+  static_cast<void>(parse_double(word.data(), print_fixed(word.data(), value), value));
+  return value;
+}
+
+double as_printed(double value, NumberFormat format) noexcept
+{
+  char word[most_number_chars];
+  static_cast<void>(parse_double(word, print_number(word, value, format), value));
+  return value;
 }
 
 std::string to_text(double value, NumberFormat format)

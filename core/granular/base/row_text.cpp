@@ -184,6 +184,12 @@ void decode_plain(
 }
 }
 
+RowStatus check_word(std::string_view word, ColumnSink::Kind kind) noexcept
+{
+  char value[sizeof(std::string_view)];
+  return row_text::store(word.data(), word.data() + word.size(), { 0, kind, value, 0 });
+}
+
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
   std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd) noexcept
 {

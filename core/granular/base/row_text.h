@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace granular
 {
@@ -57,5 +58,8 @@ struct RowResult
 /// After an error the sinks' data is where it happens to be.
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
   std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd = best_simd()) noexcept;
+
+/// What decode_rows says of a single word: Done, NotANumber or NotExact.
+RowStatus check_word(std::string_view word, ColumnSink::Kind kind) noexcept;
 }
 #endif

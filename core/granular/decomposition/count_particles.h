@@ -26,8 +26,8 @@ struct ParticleCounts
 
 /// Counts the particles of a frame in the subdomains of a grid: each in one, lo <= x < hi along each axis, and x <= hi
 /// in the last; where cuts coincide, in the last that begins there. Comparisons of doubles decide, no computed index.
-/// Positions are absolute, wrapped into the frame's box along periodic axes (see AbsolutePositions); duplicates are
-/// left out. Time grows with the particles, not with the subdomains. Does not depend on threads, each of which has
+/// Positions are absolute, wrapped into the frame's box along periodic axes: images of particles outside compare with cuts as
+/// exact ones do (see AbsolutePositions). Duplicates are left out. Time grows with the particles, not with the subdomains. Does not depend on threads, each of which has
 /// counts of its own, as far as they fit into 1 GiB together. Throws Error: rows without points, cuts that decrease
 /// or are not finite; Cancelled.
 ParticleCounts count_in_grid(

@@ -2,7 +2,6 @@
 #include "granular/decomposition/decomposition_text.h"
 
 #include "granular/base/error.h"
-#include "granular/base/number.h"
 #include "granular/base/number_print.h"
 #include "granular/base/text_lines.h"
 #include "granular/decomposition/process_grid.h"
@@ -160,12 +159,9 @@ void add_arrays(std::string& text, const Decomposition& decomposition)
 double add_fixed(std::string& text, double value)
 {
   std::array<char, most_fixed_chars> digits;
-  char* const first = digits.data();
-  char* const last = print_fixed(first, value);
-  text.append(first, last);
+  text.append(digits.data(), print_fixed(digits.data(), value));
   text += ' ';
-  static_cast<void>(parse_double(first, last, value));
-  return value;
+  return as_fixed(value);
 }
 
 /// What six decimals do to the cuts of an axis.
@@ -178,6 +174,7 @@ public:
     if (count_ > 0 && cut != cut_)
     {
       thinnest_ = std::min(thinnest_, cut - cut_);
+      length_ += cut - cut_;
       joined_ += rounded == rounded_ ? 1 : 0;
     }
     moved_ = std::max(moved_, std::abs(rounded - cut));
@@ -193,6 +190,12 @@ public:
     {
       return;
     }
+    if (joined_ > 0 && joined_ + 1 == count_)
+    {
+      throw Error("expected a box that six decimals, which is what LIGGGHTS-PUBLIC writes, do not "
+                  "make flat, got one with a length of " +
+        to_text(length_) + " along " + std::string(1, axis) + "; the dialect INL keeps all digits");
+    }
     std::string text = "six decimals, which is what LIGGGHTS-PUBLIC writes, are few along " +
       std::string(1, axis) + ": coordinates change by up to " + to_text(moved_) +
       ", the thinnest slab has " + to_text(thinnest_);
@@ -201,12 +204,14 @@ public:
       text += "; " + std::to_string(joined_) + " of " + std::to_string(count_ - 1) +
         (joined_ == 1 ? " slabs becomes flat" : " slabs become flat");
     }
-    notices.push_back({ {}, text + "; the dialect INL keeps all digits" });
+    notices.push_back(
+      { {}, text + "; the dialect INL keeps all digits", std::string("rounding along ") + axis });
   }
 
 private:
   double cut_ = 0;
   double rounded_ = 0;
+  double length_ = 0;
   double thinnest_ = std::numeric_limits<double>::infinity(); ///< of the slabs that are not flat
   double moved_ = 0;                                          ///< at most
   std::int64_t joined_ = 0; ///< cuts that differ from the one before, and no longer do

@@ -17,7 +17,8 @@ namespace granular
 std::string encode_voxels(const Decomposition& decomposition, Progress& progress);
 
 /// The rectilinear grid that LIGGGHTS-PUBLIC writes, byte for byte (%f: six decimals). A notice says where these are
-/// too few: cuts that differ become equal, or one moves by more than a thousandth of the thinnest slab. Throws
+/// too few: cuts that differ become equal, or one moves by more than a thousandth of the thinnest slab. Throws Error
+/// where the box would become flat, and
 /// UnsupportedError where the subdomains do not form a grid, which is all that such a file can hold.
 std::string encode_grid(const Decomposition& decomposition, Notices& notices);
 }

@@ -197,6 +197,7 @@ double imbalance_of(std::span<const Subdomain> subdomains, std::int64_t processe
   }
   const auto count =
     static_cast<double>(processes > 0 ? processes : static_cast<std::int64_t>(subdomains.size()));
-  return largest > 0 ? static_cast<double>(largest) / (total.value() / count) : 1;
+  // the product first: of counts below 2^53 / n it is exact, and the quotient the nearest double
+  return largest > 0 ? static_cast<double>(largest) * count / total.value() : 1;
 }
 }

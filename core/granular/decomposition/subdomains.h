@@ -58,8 +58,8 @@ Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks
 /// above hi.
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept;
 
-/// The largest number of particles divided by the mean; 1 without particles. processes: how many there are, at
-/// least the subdomains; 0: as many as subdomains.
+/// The largest number of particles divided by the mean, made as largest * processes / sum; 1 without particles. processes: how
+/// many there are, at least the subdomains; 0: as many as subdomains.
 double imbalance_of(std::span<const Subdomain> subdomains, std::int64_t processes = 0) noexcept;
 
 /// What becomes of a check that fails.

@@ -22,21 +22,6 @@ bool is_plain(const ArrayView& points) noexcept
   return points.type == ScalarType::Float64 && points.step == 3 &&
     points.components[1] == first + 1 && points.components[2] == first + 2;
 }
-
-/// The image in [lo, hi) of a coordinate outside of it; length is hi - lo.
-double wrap_one(double x, double lo, double hi, const Twofold& length) noexcept
-{
-  // so far away that its last bit is more than a period it is nowhere in particular
-  if (!(std::abs(x - lo) < 0x1p53 * length.value()))
-  {
-    return x;
-  }
-  CompensatedSum sum;
-  sum.add(x);
-  sum.add_product(-std::floor((x - lo) / length.value()), length);
-  // the quotient was rounded, and so may be the image of what lies just below the box
-  return std::clamp(sum.value(), lo, std::nextafter(hi, lo));
-}
 }
 
 AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
@@ -67,10 +52,16 @@ AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
   const BoxBounds bounds = frame.has_box && !box.tilted ? box.bounds() : BoxBounds{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    lo_[axis] = bounds.lo[axis];
-    hi_[axis] = bounds.hi[axis];
-    wraps_[axis] = wrap && is_periodic(box, axis) && lo_[axis] < hi_[axis];
+    const Twofold length = box.vectors[axis][axis];
+    if (wrap && is_periodic(box, axis) && bounds.lo[axis] < bounds.hi[axis] &&
+      std::isfinite(length.hi))
+    {
+      wraps_[axis] = { bounds.lo[axis], bounds.hi[axis], length };
+      plan_.axes[axis].shift = 0; // whatever the counts are
+    }
   }
+  crosses_ = crosses_ &&
+    std::ranges::any_of(plan_.axes, [](const PositionPlan::Axis& axis) { return axis.shift != 0; });
   plain_ = frame.points && is_plain(*frame.points) && frame.point_origin == Vector3{} &&
     frame.coordinates == Coordinates::Absolute;
 }
@@ -94,7 +85,13 @@ const double* AbsolutePositions::load(std::int64_t first, std::size_t count, dou
 void AbsolutePositions::load(std::span<const std::int64_t> rows, double* buffer) const
 {
   this->convert(rows, buffer);
-  this->wrap({ buffer, 3 * rows.size() });
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (wraps_[axis])
+    {
+      this->wrap(axis, rows, buffer);
+    }
+  }
 }
 
 bool AbsolutePositions::is_wrapped(std::span<const double> points) const noexcept
@@ -106,8 +103,9 @@ bool AbsolutePositions::is_wrapped(std::span<const double> points) const noexcep
   std::array<double, 3 * some> hi;
   for (std::size_t i = 0; i < lo.size(); ++i)
   {
-    lo[i] = wraps_[i % 3] ? lo_[i % 3] : lowest;
-    hi[i] = wraps_[i % 3] ? hi_[i % 3] : infinity;
+    const std::optional<PeriodicAxis>& axis = wraps_[i % 3];
+    lo[i] = axis ? axis->lo : lowest;
+    hi[i] = axis ? axis->hi : infinity;
   }
   std::size_t outside = 0;
   for (std::size_t first = 0; first < points.size(); first += lo.size())
@@ -122,20 +120,45 @@ bool AbsolutePositions::is_wrapped(std::span<const double> points) const noexcep
   return outside == 0;
 }
 
-/// Into the box, along periodic axes.
-void AbsolutePositions::wrap(std::span<double> points) const noexcept
+/// Into the box, along a periodic axis. On a face the coordinate may have been rounded to it from outside.
+void AbsolutePositions::wrap(
+  std::size_t axis, std::span<const std::int64_t> rows, double* buffer) const
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  const PeriodicAxis& period = *wraps_[axis];
+  for (std::size_t i = 0; i < rows.size(); ++i)
   {
-    for (std::size_t i = axis; wraps_[axis] && i < points.size(); i += 3)
+    double& x = buffer[3 * i + axis];
+    if (!(x > period.lo && x < period.hi))
     {
-      if (!(points[i] >= lo_[axis] && points[i] < hi_[axis]))
-      {
-        points[i] =
-          wrap_one(points[i], lo_[axis], hi_[axis], frame_.header.box.vectors[axis][axis]);
-      }
+      x = period.wrap(this->exact(axis, rows[i]), x);
     }
   }
+}
+
+/// The coordinate along an axis that wraps, before it is.
+ExactCoordinate AbsolutePositions::exact(std::size_t axis, std::int64_t row) const
+{
+  const ValueSource source = point_values(frame_, axis);
+  double point = 0;
+  load_numbers(source, { &row, 1 }, &point);
+  ExactCoordinate sum;
+  const double terms[] = { point * source.factor, frame_.point_origin[axis] };
+  for (const double term : terms)
+  {
+    if (frame_.coordinates == Coordinates::Scaled)
+    {
+      sum.add_product(term, wraps_[axis]->length);
+    }
+    else
+    {
+      sum.add(term);
+    }
+  }
+  if (frame_.coordinates == Coordinates::Scaled)
+  {
+    sum.add(wraps_[axis]->lo);
+  }
+  return sum;
 }
 
 /// Absolute, but not wrapped.

@@ -5,6 +5,7 @@
 #include "granular/base/box.h"
 #include "granular/dump/column_arrays.h"
 #include "granular/dump/frame_view.h"
+#include "granular/dump/periodic_axis.h"
 #include "granular/dump/positions.h"
 
 #include <array>
@@ -16,16 +17,19 @@
 namespace granular
 {
 /// Where the particles of a frame are, whatever its points are: absolute, with the origin added that was
-/// subtracted, each coordinate rounded once.
+/// subtracted, each coordinate rounded once, to the nearest double.
 class AbsolutePositions
 {
 public:
   static constexpr std::size_t most_rows = 1024; ///< at a time
 
-  /// wrap: into the box along its periodic axes, lo <= x < hi, where the frame has a box that is not tilted; what is 2^53
-  /// periods away, where no bit tells the place in one, stays there.
-  /// Unwrapped points lose their image counts, or are wrapped where the frame has none. Throws
-  /// Error where points are scaled or unwrapped and there is no box. The frame must outlive this.
+  /// wrap: into the box along its periodic axes, lo <= x < hi, where the frame has a box that is not tilted. A coordinate that
+  /// is not between the faces becomes the largest double that is not above its exact image, less than an ulp below: it is on
+  /// that side of any double, a face or a cut, on which the image is. What is 2^52 periods away, where no bit tells the place in
+  /// one, stays there.
+  /// Other unwrapped points lose their image counts, or are moved into the box along periodic axes, tilted or not, where the
+  /// frame has none: see count_crossings. Throws Error where points are scaled or unwrapped and there is no box. The frame must
+  /// outlive this.
   AbsolutePositions(const FrameView& frame, bool wrap);
 
   /// x y z of rows [first, first + count), count <= most_rows: in the array of the points itself where
@@ -44,7 +48,8 @@ public:
 private:
   void convert(std::span<const std::int64_t> rows, double* buffer) const;
   bool is_wrapped(std::span<const double> points) const noexcept;
-  void wrap(std::span<double> points) const noexcept;
+  void wrap(std::size_t axis, std::span<const std::int64_t> rows, double* buffer) const;
+  ExactCoordinate exact(std::size_t axis, std::int64_t row) const;
 
   const FrameView& frame_;
   bool plain_ = false; ///< the array has what is wanted, but for wrapping
@@ -54,9 +59,7 @@ private:
   std::array<std::optional<ValueSource>, 3>
     images_ = {};        ///< of unwrapped points, where they are known
   bool crosses_ = false; ///< unwrapped points without counts: these are found
-  std::array<bool, 3> wraps_ = {};
-  Vector3 lo_ = {}; ///< of the box
-  Vector3 hi_ = {};
+  std::array<std::optional<PeriodicAxis>, 3> wraps_; ///< axes
 };
 }
 #endif

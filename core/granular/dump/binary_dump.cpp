@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/binary_dump.h"
 
-#include "granular/base/words.h"
 #include "granular/dump/binary_header.h"
+#include "granular/dump/unnamed_columns.h"
 
 #include <algorithm>
 #include <charconv>
@@ -13,9 +13,6 @@ namespace granular
 {
 namespace
 {
-/// The columns of dump atom, scaled or not only the user knows: by default they are.
-constexpr std::string_view atom_columns = "id type xs ys zs ix iy iz";
-
 /// The end of the frame; nothing if the source ends before it. Throws FormatError if the chunks do
 /// not add up.
 std::optional<std::int64_t> find_end(
@@ -286,38 +283,42 @@ ColumnSchema Indexer::schema(const BinaryHeader& header)
       { source_.path(), 0, header.size_one_offset });
   }
   ColumnSchema schema(names);
+  std::vector<ColumnSchema::TypeChange> integers;
   for (std::size_t column = 0; column < names.size(); ++column)
   {
     if (schema.columns()[column].type == ValueType::Text)
     {
       // an element is written as its type
-      schema.set_type(static_cast<int>(column), ValueType::Int32);
+      integers.push_back({ static_cast<int>(column), ValueType::Int32 });
     }
   }
+  schema.set_types(integers);
   return schema;
 }
 
-/// Names for columns that the file does not name. Where the user has not either, and they cannot be
-/// those of dump atom, they get stand-ins: the frames can be listed, and the error comes when one is
-/// read.
 std::vector<std::string> Indexer::unnamed(const BinaryHeader& header)
 {
-  const auto columns = static_cast<std::size_t>(header.size_one);
-  const std::vector<std::string_view> atom = split_words(atom_columns);
   index_.unnamed = true;
-  guessed_ = index_.column_names.empty() && (columns == 5 || columns == atom.size());
-  named_ = guessed_ || !index_.column_names.empty();
-  if (!index_.column_names.empty())
-  {
-    return index_.column_names;
-  }
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < columns; ++i)
-  {
-    names.push_back(named_ ? std::string(atom[i]) : "column" + std::to_string(i + 1));
-  }
-  return names;
+  UnnamedColumns columns =
+    name_columns(static_cast<std::size_t>(header.size_one), index_.column_names);
+  named_ = columns.named;
+  guessed_ = columns.guessed;
+  return std::move(columns.names);
 }
+}
+
+bool binary_dump_fits(const ByteSource& source, const FileIndex& index)
+{
+  const FrameEntry& first = index.frames.front();
+  const auto header = read_binary_header(
+    source, first.offset, binary_layouts()[static_cast<std::size_t>(first.kind->layout)]);
+  const auto is_named = [&](const FrameEntry& frame)
+  {
+    const FrameKind& kind = *frame.kind;
+    return index.unnamed ? is_named_so(kind, index.column_names) : kind.named && !kind.guessed;
+  };
+  return header && header->columns.empty() == index.unnamed &&
+    header->frame.units == first.kind->units && std::ranges::all_of(index.frames, is_named);
 }
 
 bool holds_binary(std::string_view first_bytes) noexcept

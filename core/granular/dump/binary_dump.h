@@ -24,6 +24,9 @@ bool holds_binary(std::string_view first_bytes) noexcept;
 std::string describe_first_row(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout);
 
+/// FileFormat::fits of a binary dump.
+bool binary_dump_fits(const ByteSource& source, const FileIndex& index);
+
 /// As index_dump, of a binary file. index.kinds must be there. Passes over the values from chunk to chunk.
 ///
 /// Files without magic, and those of revision 1, do not name their columns: index.column_names does,

@@ -127,11 +127,18 @@ std::unique_ptr<RowReader> BinaryRows::reader() const
   return std::make_unique<BinaryReader>(*this);
 }
 
-Misfit BinaryRows::describe(const RowFault& fault) const
+std::vector<Misfit> BinaryRows::describe(const RowFault& fault) const
 {
-  return { fault.column, fault.status, fault.text,
-    { source_.path(), 0, fault.offset,
-      entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].name } };
+  std::vector<Misfit> misfits;
+  const auto add = [&](const RowFault& one)
+  {
+    misfits.push_back({ one.column, one.status, one.text,
+      { source_.path(), 0, one.offset,
+        entry_.kind->schema.columns()[static_cast<std::size_t>(one.column)].name } });
+  };
+  add(fault);
+  std::ranges::for_each(fault.rest, add);
+  return misfits;
 }
 
 void BinaryRows::fail_short(std::int64_t end) const
@@ -293,6 +300,8 @@ std::int64_t BinaryReader::decode(std::span<ColumnSink> sinks, std::int64_t max_
 void BinaryReader::convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const
 {
   const auto row_bytes = static_cast<std::size_t>(of_.row_bytes_);
+  const auto converter_of = [this](const ColumnSink& sink)
+  { return convert_columns[static_cast<std::size_t>(sink.kind)][of_.swapped_]; };
   const std::size_t block = std::max(std::size_t{ 1 }, block_bytes / row_bytes);
   for (std::size_t left = rows; left > 0;)
   {
@@ -301,10 +310,8 @@ void BinaryReader::convert(std::span<ColumnSink> sinks, const char* from, std::s
     const ColumnSink* in = nullptr;
     for (ColumnSink& sink : sinks)
     {
-      const ConvertColumn convert_one =
-        convert_columns[static_cast<std::size_t>(sink.kind)][of_.swapped_];
       const char* const found =
-        convert_one(from + sink.column * sizeof(double), row_bytes, count, sink);
+        converter_of(sink)(from + sink.column * sizeof(double), row_bytes, count, sink);
       if (found && (!misfit || found < misfit))
       {
         misfit = found;
@@ -313,19 +320,31 @@ void BinaryReader::convert(std::span<ColumnSink> sinks, const char* from, std::s
     }
     if (misfit)
     {
-      this->fail(*in, misfit);
+      RowFault fault = this->fault_of(*in, misfit);
+      const char* const row = misfit - in->column * sizeof(double);
+      for (const ColumnSink& sink : sinks)
+      {
+        double number = 0;
+        ColumnSink one = { sink.column, sink.kind, reinterpret_cast<char*>(&number), 0 };
+        const char* const value = row + sink.column * sizeof(double);
+        if (value > misfit && converter_of(sink)(value, row_bytes, 1, one))
+        {
+          fault.rest.push_back(this->fault_of(sink, value));
+        }
+      }
+      throw fault;
     }
     from += count * row_bytes;
     left -= count;
   }
 }
 
-void BinaryReader::fail(const ColumnSink& sink, const char* value) const
+RowFault BinaryReader::fault_of(const ColumnSink& sink, const char* value) const
 {
   const double number = of_.swapped_ ? load<true>(value) : load<false>(value);
   char word[32];
   const auto end = std::to_chars(word, word + sizeof word, number).ptr;
-  throw RowFault{ RowStatus::NotExact, static_cast<int>(sink.column), std::string(word, end),
+  return { RowStatus::NotExact, static_cast<int>(sink.column), std::string(word, end),
     offset_ + (value - buffer_.get()) };
 }
 }

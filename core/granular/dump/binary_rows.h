@@ -19,7 +19,7 @@ public:
 
   const FrameHeader& header() const noexcept override { return header_; }
   std::unique_ptr<RowReader> reader() const override;
-  Misfit describe(const RowFault& fault) const override;
+  std::vector<Misfit> describe(const RowFault& fault) const override;
 
 private:
   friend class BinaryReader;
@@ -68,7 +68,7 @@ public:
 private:
   void fill(std::int64_t end);
   void convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const;
-  [[noreturn]] void fail(const ColumnSink& sink, const char* value) const;
+  RowFault fault_of(const ColumnSink& sink, const char* value) const;
 
   const BinaryRows& of_;
   std::vector<BinaryRows::Run> runs_; ///< their rows, all or some of them

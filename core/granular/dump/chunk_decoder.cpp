@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 namespace granular
 {
@@ -39,6 +40,22 @@ bool contains(const std::array<double, 6>& region, const double* point) noexcept
 }
 }
 
+RoundingLoss loss_of_points(const std::deque<DecodedChunk>& chunks, const FrameLayout& layout)
+{
+  RoundingLoss all;
+  bool any = false;
+  for (const DecodedChunk& chunk : chunks)
+  {
+    all.add(chunk.loss);
+    any = any || chunk.kept > 0;
+  }
+  if (any && layout.rounds())
+  {
+    layout.add_rounding(all);
+  }
+  return all;
+}
+
 ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
   : layout_(layout)
   , request_(request)
@@ -50,7 +67,7 @@ ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
   }
   if (request.stride > 1 || layout.region)
   {
-    keep_.resize(batch_rows);
+    keep_.resize(layout.batch);
   }
 }
 
@@ -62,7 +79,8 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
   while (chunk.rows < room)
   {
     this->aim();
-    const std::int64_t wanted = std::min<std::int64_t>(batch_rows, room - chunk.rows);
+    const std::int64_t wanted =
+      std::min(static_cast<std::int64_t>(layout_.batch), room - chunk.rows);
     const std::int64_t got = reader.decode(sinks_, wanted);
     if (got == 0)
     {
@@ -77,7 +95,7 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
         { reinterpret_cast<const std::string_view*>(wire.texts.at(0, scratch_.get())), count },
         to + row_, where);
     }
-    const std::size_t kept = this->finish_batch(count, number + chunk.rows);
+    const std::size_t kept = this->finish_batch(count, number + chunk.rows, chunk.loss);
     if (request_.ranges)
     {
       this->measure(kept, ranges);
@@ -141,26 +159,29 @@ void ChunkDecoder::aim()
 }
 
 /// Returns how many of the rows stay.
-std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number)
+std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number, RoundingLoss& loss)
 {
   this->copy_batch(count);
   if (layout_.points)
   {
     this->convert(*layout_.points, count);
   }
+  if (!keep_.empty())
+  {
+    this->choose_rows(count, number);
+  }
   if (layout_.points && request_.single_precision)
   {
-    const auto* const from =
-      reinterpret_cast<const double*>(layout_.points->xyz.at(row_, scratch_.get()));
-    std::transform(from, from + 3 * count,
-      static_cast<float*>(layout_.frame.points.data()) + 3 * row_,
-      [](double coordinate) { return static_cast<float>(coordinate); });
+    this->narrow(count, loss);
+  }
+  if (layout_.rounds() && layout_.radii)
+  {
+    this->measure_radii(count, loss);
   }
   if (keep_.empty())
   {
     return count;
   }
-  this->choose_rows(count, number);
   const auto kept = static_cast<std::size_t>(
     std::count(keep_.begin(), keep_.begin() + static_cast<std::ptrdiff_t>(count), 1));
   if (kept < count)
@@ -194,6 +215,36 @@ void ChunkDecoder::copy_batch(std::size_t count)
           break; // no text is ever copied to a number
       }
     }
+  }
+}
+
+/// Rounds points to floats, and measures what rows that stay lose by it.
+void ChunkDecoder::narrow(std::size_t count, RoundingLoss& loss)
+{
+  const auto* from = reinterpret_cast<const double*>(layout_.points->xyz.at(row_, scratch_.get()));
+  auto* to = static_cast<float*>(layout_.frame.points.data()) + 3 * row_;
+  Vector3 moved = {};
+  for (std::size_t i = 0; i < count; ++i, from += 3, to += 3)
+  {
+    const bool stays = keep_.empty() || keep_[i] != 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      to[axis] = static_cast<float>(from[axis]);
+      const double distance = std::abs(static_cast<double>(to[axis]) - from[axis]);
+      moved[axis] = stays && distance > moved[axis] ? distance : moved[axis];
+    }
+  }
+  layout_.add_moved(moved, loss);
+}
+
+/// The radii of the rows that stay.
+void ChunkDecoder::measure_radii(std::size_t count, RoundingLoss& loss) const
+{
+  const Block& radii = layout_.frame.arrays[*layout_.radii].block;
+  const auto* const radius = static_cast<const double*>(radii.data()) + row_;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    loss.add_radius(keep_.empty() || keep_[i] != 0 ? radius[i] : 0);
   }
 }
 

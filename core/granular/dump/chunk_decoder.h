@@ -2,11 +2,13 @@
 #ifndef granular_dump_chunk_decoder_h
 #define granular_dump_chunk_decoder_h
 
+#include "granular/base/rounding_loss.h"
 #include "granular/dump/frame_layout.h"
 #include "granular/dump/frame_rows.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,12 +18,16 @@ namespace granular
 /// What became of a chunk of rows.
 struct DecodedChunk
 {
-  std::int64_t row = 0;  ///< of the frame in memory, where its first row was put
-  std::int64_t rows = 0; ///< decoded
-  std::int64_t kept = 0; ///< by the filters
-  bool surplus = false;  ///< see RowReader::surplus
+  std::int64_t row = 0;   ///< of the frame in memory, where its first row was put
+  std::int64_t rows = 0;  ///< decoded
+  std::int64_t kept = 0;  ///< by the filters
+  bool surplus = false;   ///< see RowReader::surplus
+  RoundingLoss loss = {}; ///< of points in single precision, and the radii
   std::vector<std::vector<std::string>> words; ///< of each column of texts, by their indices
 };
+
+/// What the points of all chunks have lost.
+RoundingLoss loss_of_points(const std::deque<DecodedChunk>& chunks, const FrameLayout& layout);
 
 /// Decodes chunks of rows along the wires of a layout. One for each thread.
 class ChunkDecoder
@@ -38,8 +44,10 @@ public:
 private:
   void aim();
   void measure(std::size_t count, std::vector<ValueRange>& ranges) const;
-  std::size_t finish_batch(std::size_t count, std::int64_t number);
+  std::size_t finish_batch(std::size_t count, std::int64_t number, RoundingLoss& loss);
   void copy_batch(std::size_t count);
+  void narrow(std::size_t count, RoundingLoss& loss);
+  void measure_radii(std::size_t count, RoundingLoss& loss) const;
   void convert(const PointsWire& wire, std::size_t count);
   void choose_rows(std::size_t count, std::int64_t number);
   void choose_by_number(std::size_t count, std::int64_t number);

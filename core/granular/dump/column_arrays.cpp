@@ -11,7 +11,7 @@ namespace granular
 namespace
 {
 /// "A[3]": component 2 of the array A.
-std::optional<ValueSource> find_element(const FrameView& frame, std::string_view name)
+std::optional<ValueSource> find_element(const ArraysByName& arrays, std::string_view name)
 {
   const std::size_t open = name.rfind('[');
   int number = 0;
@@ -25,14 +25,8 @@ std::optional<ValueSource> find_element(const FrameView& frame, std::string_view
   {
     return {};
   }
-  for (const ArrayView& array : frame.arrays)
-  {
-    if (array.size() >= number && as_word(array.name) == name.substr(0, open))
-    {
-      return component_of(array, number - 1);
-    }
-  }
-  return {};
+  const ArrayView* const array = arrays.find_longer(name.substr(0, open), number);
+  return array ? std::optional(component_of(*array, number - 1)) : std::nullopt;
 }
 }
 
@@ -42,16 +36,47 @@ std::string as_word(std::string name)
   return name;
 }
 
+ArraysByName::ArraysByName(const std::vector<ArrayView>& arrays)
+{
+  for (const ArrayView& array : arrays)
+  {
+    names_[array.name].push_back(&array);
+    words_[as_word(array.name)].push_back(&array);
+  }
+}
+
+const ArrayView* ArraysByName::find(std::string_view name, int components) const
+{
+  for (const Places* const places : { &names_, &words_ })
+  {
+    const auto all = places->find(name);
+    if (all != places->end())
+    {
+      const auto found = std::ranges::find(all->second, components, &ArrayView::size);
+      if (found != all->second.end())
+      {
+        return *found;
+      }
+    }
+  }
+  return nullptr;
+}
+
+const ArrayView* ArraysByName::find_longer(std::string_view word, int components) const
+{
+  const auto all = words_.find(word);
+  if (all == words_.end())
+  {
+    return nullptr;
+  }
+  const auto found = std::ranges::find_if(
+    all->second, [components](const ArrayView* array) { return array->size() >= components; });
+  return found == all->second.end() ? nullptr : *found;
+}
+
 const ArrayView* find_array(const FrameView& frame, std::string_view name, int components)
 {
-  const auto find = [&](const auto& is_it)
-  {
-    const auto found = std::find_if(frame.arrays.begin(), frame.arrays.end(),
-      [&](const ArrayView& array) { return array.size() == components && is_it(array.name); });
-    return found == frame.arrays.end() ? nullptr : &*found;
-  };
-  const ArrayView* const exact = find([&](const std::string& own) { return own == name; });
-  return exact ? exact : find([&](const std::string& own) { return as_word(own) == name; });
+  return ArraysByName(frame.arrays).find(name, components);
 }
 
 ValueSource component_of(const ArrayView& array, int component, double factor)
@@ -59,16 +84,16 @@ ValueSource component_of(const ArrayView& array, int component, double factor)
   return { array.type, array.components[static_cast<std::size_t>(component)], array.step, factor };
 }
 
-std::optional<ValueSource> find_values(const FrameView& frame, std::string_view name)
+std::optional<ValueSource> find_values(const ArraysByName& arrays, std::string_view name)
 {
-  if (const ArrayView* array = find_array(frame, name, 1))
+  if (const ArrayView* array = arrays.find(name, 1))
   {
     return component_of(*array, 0);
   }
   const KnownColumn* known = find_known_column(name);
   if (known && known->components > 1)
   {
-    if (const ArrayView* array = find_array(frame, known->array, known->components))
+    if (const ArrayView* array = arrays.find(known->array, known->components))
     {
       return component_of(*array, known->component);
     }
@@ -82,34 +107,39 @@ std::optional<ValueSource> find_values(const FrameView& frame, std::string_view 
   constexpr Made made[] = { { "diameter", "radius", 2 }, { "radius", "diameter", 0.5 } };
   for (const Made& way : made)
   {
-    const ArrayView* array = name == way.name ? find_array(frame, way.from, 1) : nullptr;
+    const ArrayView* array = name == way.name ? arrays.find(way.from, 1) : nullptr;
     if (array)
     {
       return component_of(*array, 0, way.factor);
     }
   }
-  return find_element(frame, name);
+  return find_element(arrays, name);
+}
+
+std::optional<ValueSource> find_values(const FrameView& frame, std::string_view name)
+{
+  return find_values(ArraysByName(frame.arrays), name);
 }
 
 std::vector<std::optional<ValueSource>> find_all_values(
-  const FrameView& frame, const std::vector<std::string>& names)
+  const ArraysByName& arrays, const std::vector<std::string>& names)
 {
   std::vector<std::optional<ValueSource>> values(names.size());
   const ColumnSchema schema(names);
   for (const ArrayInfo& info : schema.arrays())
   {
     const ArrayView* array =
-      info.scale == 1 ? find_array(frame, info.name, info.components()) : nullptr;
+      info.scale == 1 ? arrays.find(info.name, info.components()) : nullptr;
     for (int i = 0; array && i < info.components(); ++i)
     {
       const auto column = static_cast<std::size_t>(info.columns[static_cast<std::size_t>(i)]);
-      const bool alone = info.components() > 1 && find_array(frame, names[column], 1);
+      const bool alone = info.components() > 1 && arrays.find(names[column], 1);
       values[column] = alone ? std::nullopt : std::optional(component_of(*array, i));
     }
   }
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    values[i] = values[i] ? values[i] : find_values(frame, names[i]);
+    values[i] = values[i] ? values[i] : find_values(arrays, names[i]);
   }
   return values;
 }

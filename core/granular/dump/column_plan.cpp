@@ -2,6 +2,9 @@
 #include "granular/dump/column_plan.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
 
 namespace granular
 {
@@ -170,7 +173,8 @@ std::vector<std::string> default_columns(const FrameView& frame, Notices& notice
   std::vector<std::string> names;
   std::string left_out;
   std::string without;
-  const std::vector<std::optional<ValueSource>> values = find_all_values(frame, frame.columns);
+  const ArraysByName arrays(frame.arrays);
+  const std::vector<std::optional<ValueSource>> values = find_all_values(arrays, frame.columns);
   for (std::size_t i = 0; i < frame.columns.size(); ++i)
   {
     const std::string& name = frame.columns[i];
@@ -191,22 +195,28 @@ std::vector<std::string> default_columns(const FrameView& frame, Notices& notice
   {
     names = { "id", "type", "x", "y", "z" };
   }
+  std::set<std::string> taken(names.begin(), names.end());
   const auto add = [&](const std::string& name)
   {
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (taken.insert(name).second)
     {
       names.push_back(name);
     }
   };
   const ColumnSchema input(frame.columns);
+  std::map<std::string_view, int> known; // also c_a_2, and the radius of a diameter
+  for (const ArrayInfo& array : input.arrays())
+  {
+    known.emplace(array.name, array.components());
+  }
   for (const ArrayView& array : frame.arrays)
   {
-    const int known = input.find_array(array.name); // also c_a_2, and the radius of a diameter
-    if (known < 0 || input.arrays()[static_cast<std::size_t>(known)].components() != array.size())
+    const auto of_input = known.find(array.name);
+    if (of_input == known.end() || of_input->second != array.size())
     {
       const std::vector<std::string> columns = columns_of(array);
       const ValueSource values_of_it = component_of(array, 0);
-      const bool other = find_array(frame, as_word(array.name), array.size()) != &array;
+      const bool other = arrays.find(as_word(array.name), array.size()) != &array;
       if (other || is_lost(array.name, values_of_it, binary))
       {
         without += " " + array.name;
@@ -226,13 +236,12 @@ std::vector<std::string> expand_columns(
   const std::vector<std::string>& names, const FrameView& frame)
 {
   std::vector<std::string> columns;
-  const std::vector<ArrayView> arrays = is_blank_frame(frame) ? known_arrays() : frame.arrays;
+  const std::vector<ArrayView> candidates = is_blank_frame(frame) ? known_arrays() : frame.arrays;
+  const ArraysByName arrays(candidates);
   for (const std::string& name : names)
   {
-    const auto array = std::find_if(arrays.begin(), arrays.end(),
-      [&](const ArrayView& candidate)
-      { return candidate.size() > 1 && as_word(candidate.name) == name; });
-    if (array == arrays.end() || find_array(frame, name, 1))
+    const ArrayView* const array = arrays.find_longer(name, 2);
+    if (!array || arrays.find(name, 1))
     {
       columns.push_back(name);
       continue;
@@ -248,7 +257,8 @@ ColumnPlan plan_columns(
 {
   ColumnPlan plan;
   plan.binary = binary;
-  const std::vector<std::optional<ValueSource>> values = find_all_values(frame, names);
+  const ArraysByName arrays(frame.arrays);
+  const std::vector<std::optional<ValueSource>> values = find_all_values(arrays, names);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const std::optional<ColumnSource> source = find_source(frame, names[i], values[i]);

@@ -30,8 +30,8 @@ struct ColumnSource
   Kind kind = Kind::Array;
   ValueSource values = {}; ///< of Kind::Array
   bool own = false;        ///< of Kind::Coordinate: values holds the file's own numbers, too
-  ColumnRole role = ColumnRole::Other; ///< of Kind::Coordinate
-  int axis = 0;                        ///< of Kind::Coordinate and Image
+  ColumnRole role = ColumnRole::Other; ///< of coordinates, those in arrays, too
+  int axis = 0;                        ///< of coordinates and Kind::Image
   bool whole = false; ///< text shows integral numbers with all their digits, whatever their type
 };
 

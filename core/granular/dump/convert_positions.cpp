@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/positions.h"
 
+#include "granular/base/exact_determinant.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +21,7 @@ struct Conversion
   const PositionPlan& plan;
   const Box& box;
   Vector3 point_origin;
+  Twofold volume; ///< of a general box, where coordinates are scaled by it
 };
 
 [[gnu::always_inline]] inline double shift_of(
@@ -159,14 +162,16 @@ inline CompensatedSum dot(const Twofold3& a, const Twofold3& b) noexcept
   return sum;
 }
 
-/// Scaled coordinates in a box of any three vectors, by Cramer's rule.
-inline Twofold3 solve_general(const Box& box, const Twofold3& offset) noexcept
+/// Scaled coordinates in a box of any three vectors, by Cramer's rule. The volume of a flat one has few of the bits of its
+/// terms: it is computed exactly.
+inline Twofold3 solve_general(
+  const Box& box, const Twofold& volume, const Twofold3& offset) noexcept
 {
   Twofold3 scaled;
   for (std::size_t k = 0; k < 3; ++k)
   {
     const Twofold3 normal = cross(box.vectors[(k + 1) % 3], box.vectors[(k + 2) % 3]);
-    scaled[k] = dot(normal, offset).over(dot(normal, box.vectors[k]).twofold());
+    scaled[k] = dot(normal, offset).over(volume);
   }
   return scaled;
 }
@@ -176,7 +181,7 @@ inline Twofold3 solve_general(const Box& box, const Twofold3& offset) noexcept
 {
   const Twofold3 offset = from_corner(c.box, point);
   const Twofold3 solved =
-    c.box.general ? solve_general(c.box, offset) : solve_triangular(c.box, offset);
+    c.box.general ? solve_general(c.box, c.volume, offset) : solve_triangular(c.box, offset);
   for (std::size_t k = 0; k < 3; ++k)
   {
     const PositionPlan::Axis& axis = c.plan.axes[k];
@@ -271,16 +276,19 @@ void clear_missing(const PositionPlan& plan, std::span<double> points) noexcept
   }
 }
 
-bool changes_nothing(const Conversion& c) noexcept
+Twofold volume_of(const Box& box) noexcept
 {
-  return c.point_origin == Vector3{} &&
-    std::all_of(c.plan.axes.begin(), c.plan.axes.end(),
-      [&](const PositionPlan::Axis& axis)
-      {
-        return axis.shift == 0 &&
-          (axis.column < 0 || axis.scaled == (c.plan.coordinates == Coordinates::Scaled));
-      });
+  return determinant(
+    exact_vector(box.vectors[0]), exact_vector(box.vectors[1]), exact_vector(box.vectors[2]))
+    .twofold();
 }
+}
+
+bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexcept
+{
+  return point_origin != Vector3{} ||
+    std::any_of(plan.axes.begin(), plan.axes.end(),
+      [&](const PositionPlan::Axis& axis) { return axis.shift != 0 || is_rescaled(plan, axis); });
 }
 
 void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
@@ -299,9 +307,10 @@ void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinat
 void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
   std::span<const double> images, std::span<double> points) noexcept
 {
-  const Conversion conversion{ plan, box, point_origin };
+  const bool scales = box.general && plan.coordinates == Coordinates::Scaled;
+  const Conversion conversion{ plan, box, point_origin, scales ? volume_of(box) : Twofold{} };
   clear_missing(plan, points);
-  if (changes_nothing(conversion))
+  if (!changes_points(plan, point_origin))
   {
     return;
   }

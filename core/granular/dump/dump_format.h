@@ -24,7 +24,7 @@ enum class DumpStyle : std::uint8_t
 /// Whose bytes a file has.
 enum class Dialect : std::uint8_t
 {
-  Liggghts, ///< box with six digits, binary without names, dump custom with trailing blanks
+  Liggghts, ///< box with six digits, or all where these are too few; binary without names, dump custom with trailing blanks
   Lammps    ///< box with 17 digits, binary of revision 2 with names
 };
 

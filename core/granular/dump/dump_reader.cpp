@@ -6,6 +6,7 @@
 #include "granular/dump/exchange_rows.h"
 #include "granular/dump/frame_chunks.h"
 #include "granular/dump/frame_decoder.h"
+#include "granular/dump/point_loss.h"
 #include "granular/dump/sort_rows.h"
 #include "granular/dump/text_header.h"
 
@@ -36,36 +37,56 @@ std::string text_of(const Misfit& misfit)
     quoted(misfit.word);
 }
 
-/// Throws if a column must be what it is taken for. Ids of a text must be integers: those of a binary file
+/// Whether a column must be what it is taken for. Ids of a text must be integers: those of a binary file
 /// are where the user says that they are. Columns that the request knows hold numbers, and columns that nobody named
 /// must be what they are taken for, too. The same on all ranks.
-void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
+bool must_fit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
 {
   const ColumnInfo& column = schema.columns()[static_cast<std::size_t>(misfit.column)];
-  if ((column.role == ColumnRole::Id && kind.is_text()) ||
-    (column.known && misfit.status == RowStatus::NotANumber))
-  {
-    throw FormatError(text_of(misfit), misfit.where);
-  }
-  if (kind.guessed)
+  return (column.role == ColumnRole::Id && kind.is_text()) ||
+    (column.known && misfit.status == RowStatus::NotANumber) || kind.guessed;
+}
+
+/// Throws if it must.
+void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
+{
+  if (must_fit(misfit, kind, schema))
   {
     throw FormatError(text_of(misfit) +
-        "; the columns, which the file does not name, are not those of dump atom: set ColumnNames",
+        (kind.guessed ? "; the columns, which the file does not name, are not those of dump atom: "
+                        "set ColumnNames"
+                      : ""),
       misfit.where);
   }
 }
 
-/// An integer column that holds other numbers is read again as doubles, a column that the table does
-/// not know and that holds a word as texts.
-void widen(const Misfit& misfit, ColumnSchema& schema, Notices& notices)
+/// Integer columns that hold other numbers are read again as doubles, columns that the table does
+/// not know and that hold a word as texts. What must be what it is taken for is left to the next pass, unless it is first.
+void widen(
+  const std::vector<Misfit>& misfits, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
 {
-  const bool number = misfit.status == RowStatus::NotExact;
-  notices.push_back({ misfit.where,
-    text_of(misfit) + "; the column is kept as " + (number ? "doubles" : "texts") });
-  schema.set_type(misfit.column, number ? ValueType::Float64 : ValueType::Text);
+  std::vector<ColumnSchema::TypeChange> changes;
+  const std::vector<int> arrays = schema.arrays_of_columns();
+  std::set<int> done; // arrays, whose other columns are doubles now, too
+  for (const Misfit& misfit : misfits)
+  {
+    if (&misfit != &misfits.front() && must_fit(misfit, kind, schema))
+    {
+      break;
+    }
+    const bool number = misfit.status == RowStatus::NotExact;
+    if (!number || done.insert(arrays[static_cast<std::size_t>(misfit.column)]).second)
+    {
+      notices.push_back({ misfit.where,
+        text_of(misfit) + "; the column is kept as " + (number ? "doubles" : "texts") });
+      changes.push_back({ misfit.column, number ? ValueType::Float64 : ValueType::Text });
+    }
+  }
+  schema.set_types(changes);
 }
 
-/// The columns of all pieces, which must be the same; what holds texts in one piece does in all.
+/// The columns of all pieces, which must be the same; what holds texts in one piece does in all, unless it is known to
+/// hold numbers.
 ColumnSchema join_schemas(const PieceList& pieces, const DumpRequest& request)
 {
   const FrameEntry& first = *pieces.entries.front();
@@ -77,6 +98,7 @@ ColumnSchema join_schemas(const PieceList& pieces, const DumpRequest& request)
       pieces.where(0));
   }
   ColumnSchema schema = request.schema.value_or(first.kind->schema);
+  std::set<int> texts;
   for (std::size_t i = 1; i < pieces.entries.size(); ++i)
   {
     const FrameEntry& entry = *pieces.entries[i];
@@ -93,12 +115,18 @@ ColumnSchema join_schemas(const PieceList& pieces, const DumpRequest& request)
     }
     for (std::size_t column = 0; column < other.columns().size(); ++column)
     {
-      if (other.columns()[column].type == ValueType::Text)
+      if (other.columns()[column].type == ValueType::Text && !schema.columns().at(column).known)
       {
-        schema.set_type(static_cast<int>(column), ValueType::Text);
+        texts.insert(static_cast<int>(column));
       }
     }
   }
+  std::vector<ColumnSchema::TypeChange> changes;
+  std::ranges::transform(texts, std::back_inserter(changes),
+    [](int column) {
+      return ColumnSchema::TypeChange{ column, ValueType::Text };
+    });
+  schema.set_types(changes);
   return schema;
 }
 
@@ -132,16 +160,17 @@ DumpPart decode(const PieceList& pieces, const ColumnSchema& schema, const DumpR
 {
   DumpPart part;
   FrameDecoder decoder(pieces, schema, request, part.notices);
-  part.misfit = decoder.run(progress);
-  if (!part.misfit)
+  part.misfits = decoder.run(progress);
+  if (part.misfits.empty())
   {
+    part.loss = decoder.loss();
     part.frame = decoder.take(part.ids);
     part.counts = decoder.take_counts();
   }
   return part;
 }
 
-/// Puts together what all ranks have to say, on all: the first misfit, and each notice once.
+/// Puts together what all ranks have to say, on all: the first misfits, and each notice once.
 void share_remarks(Communicator& ranks, DumpPart& part)
 {
   if (ranks.size() == 1)
@@ -152,19 +181,15 @@ void share_remarks(Communicator& ranks, DumpPart& part)
   do_together(ranks,
     [&]
     {
-      std::vector<Misfit> misfit;
-      if (part.misfit)
-      {
-        misfit.push_back(*part.misfit);
-      }
-      pass(packer, misfit);
+      pass(packer, part.misfits);
       pass(packer, part.notices);
+      packer.number(part.loss);
     });
   const std::vector<std::string> all = ranks.all_gather(packer.bytes);
   do_together(ranks,
     [&]
     {
-      part.misfit.reset();
+      part.misfits.clear();
       part.notices.clear();
       std::set<std::string> said;
       for (const std::string& bytes : all)
@@ -174,10 +199,10 @@ void share_remarks(Communicator& ranks, DumpPart& part)
         Notices notices;
         pass(unpacker, of_rank);
         pass(unpacker, notices);
-        if (!part.misfit && !of_rank.empty())
-        {
-          part.misfit = of_rank.front();
-        }
+        part.misfits = part.misfits.empty() ? std::move(of_rank) : part.misfits;
+        RoundingLoss loss;
+        unpacker.number(loss);
+        part.loss.add(loss);
         std::ranges::copy_if(notices, std::back_inserter(part.notices),
           [&](const Notice& notice) { return said.insert(to_string(notice)).second; });
       }
@@ -258,21 +283,27 @@ DumpFrame read(const PieceList& pieces, const DumpRequest& request, Communicator
       part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, forward);
       ahead.reset();
     });
-  for (share_remarks(ranks, part); part.misfit; share_remarks(ranks, part))
+  for (share_remarks(ranks, part); !part.misfits.empty(); share_remarks(ranks, part))
   {
-    check_misfit(*part.misfit, *pieces.entries.front()->kind, *schema);
+    const FrameKind& kind = *pieces.entries.front()->kind;
+    check_misfit(part.misfits.front(), kind, *schema);
     do_together(ranks,
       [&]
       {
-        widen(*part.misfit, *schema, notices);
+        widen(part.misfits, kind, *schema, notices);
         part = {}; // the memory of a rank whose own rows did fit
         part = decode(pieces, *schema, own, forward);
       });
   }
   check_counts(ranks, pieces, part);
   sort(part, request, ranks, where);
-  do_together(
-    ranks, [&] { notices.insert(notices.end(), part.notices.begin(), part.notices.end()); });
+  do_together(ranks,
+    [&]
+    {
+      notices.insert(notices.end(), part.notices.begin(), part.notices.end());
+      note_point_loss(part.loss, part.frame.header.box, request.point_origin,
+        request.single_precision, where, notices);
+    });
   return std::move(part.frame);
 }
 

@@ -291,7 +291,7 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
     file_ =
       std::make_unique<File>(name_of_step(path_, plan.header.timestep), format_, options_, ranks_);
   }
-  this->write_rows(frame, plan, progress);
+  this->write_rows(frame, plan, notices, progress);
   if (is_name_of_steps(path_))
   {
     this->finish();
@@ -314,7 +314,8 @@ void DumpWriter::check_step(std::int64_t timestep, Notices& notices)
   notices.push_back({ {}, step + " is written more than once: most programs show one of them" });
 }
 
-void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& progress)
+void DumpWriter::write_rows(
+  const FrameView& frame, FramePlan& plan, Notices& notices, Progress& progress)
 {
   constexpr double share_of_sorting = 0.3;
   PartialProgress part(progress);
@@ -329,7 +330,7 @@ void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& p
   const auto rank = static_cast<std::size_t>(ranks_.rank());
   const std::int64_t before = sum_of(std::span(plan.kept_rows).first(rank));
   const bool own = file_->way == File::Way::Own;
-
+  const RoundingLimit limit(plan.header.box, plan.smallest_radius);
   ChunkLengths chunks;
   std::string header;
   std::optional<RowEncoder> encoder;
@@ -344,9 +345,10 @@ void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& p
         chunks = ChunkLengths(
           plan.header.rows, static_cast<std::int64_t>(names.size()), format_.chunk_values);
       }
-      header = encode_header(plan.header, names, format_, chunks, file_->first);
+      const PrintLoss loss(plan.columns, view, plan.header.box, format_, limit);
+      header = encode_header(plan.header, names, format_, chunks, file_->first, loss.of_box());
       encoder.emplace(
-        view, plan.columns, plan.header.box, format_, chunks, before, own ? 0 : before);
+        view, plan.columns, plan.header.box, format_, chunks, before, own ? 0 : before, loss);
       rows.emplace(*encoder, view, names.size(), file_->executor);
     });
 
@@ -370,6 +372,10 @@ void DumpWriter::write_rows(const FrameView& frame, FramePlan& plan, Progress& p
       break;
   }
   file_->first = false;
+  const RoundingLoss loss = add_ranks(rows->loss(), ranks_);
+  do_together(ranks_,
+    [&]
+    { told_loss_ = told_loss_ || note_print_loss(loss, limit, format_, plan.names(), notices); });
 }
 
 void DumpWriter::finish()

@@ -49,7 +49,8 @@ public:
   ~DumpWriter();
 
   /// Adds a frame: see FrameView for what it is made of, and plan_columns for how. A timestep that was written before
-  /// gets a notice, and where each has a file of its own an Error. Throws Error, Cancelled; std::logic_error
+  /// gets a notice, and where each has a file of its own an Error. The first frame whose numbers lose more than a
+  /// RoundingLimit gets a notice that says how much. Throws Error, Cancelled; std::logic_error
   /// after finish().
   void write(const FrameView& frame, Notices& notices, Progress& progress);
 
@@ -60,7 +61,7 @@ private:
   struct File;
 
   void check_step(std::int64_t timestep, Notices& notices);
-  void write_rows(const FrameView& frame, FramePlan& plan, Progress& progress);
+  void write_rows(const FrameView& frame, FramePlan& plan, Notices& notices, Progress& progress);
 
   std::string path_;
   DumpFormat format_;
@@ -68,6 +69,7 @@ private:
   Communicator& ranks_;
   std::unique_ptr<File> file_;
   std::set<std::int64_t> steps_; ///< that are written
+  bool told_loss_ = false;
 };
 }
 #endif

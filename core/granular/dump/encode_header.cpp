@@ -18,8 +18,9 @@ constexpr std::int64_t most_int32 = std::numeric_limits<std::int32_t>::max();
 class TextHeaderWriter
 {
 public:
-  explicit TextHeaderWriter(Dialect dialect)
+  TextHeaderWriter(Dialect dialect, NumberFormat box)
     : dialect_(dialect)
+    , box_(box)
   {
   }
 
@@ -44,7 +45,7 @@ public:
       char word[most_number_chars];
       char* const end = dialect_ == Dialect::Lammps
         ? std::to_chars(word, word + sizeof word, value, std::chars_format::scientific, 16).ptr
-        : print_number(word, value, { 6 });
+        : print_number(word, value, box_);
       text_.append(gap).append(word, end);
       gap = " ";
     }
@@ -55,6 +56,7 @@ public:
 
 private:
   Dialect dialect_;
+  NumberFormat box_; ///< of LIGGGHTS
   std::string text_;
 };
 
@@ -96,19 +98,26 @@ std::string join(const std::vector<std::string>& names)
   return text;
 }
 
+/// With 16 digits, as LAMMPS prints it, and with 17 where that number would be another.
+std::string time_text(double time)
+{
+  constexpr NumberFormat lammps = { 16 };
+  return to_text(time, as_printed(time, lammps) == time ? lammps : NumberFormat{ 17 });
+}
+
 std::string encode_text(const FrameHeader& header, const std::vector<std::string>& columns,
-  const DumpFormat& format, bool first)
+  const DumpFormat& format, bool first, NumberFormat box)
 {
   const bool lammps = format.dialect == Dialect::Lammps;
   const bool custom = format.style == DumpStyle::Custom;
-  TextHeaderWriter writer(format.dialect);
+  TextHeaderWriter writer(format.dialect, box);
   if (lammps && format.units && first)
   {
     writer.item("UNITS", header.units);
   }
   if (lammps && format.time)
   {
-    writer.item("TIME", to_text(header.time.value_or(0), { 16 }));
+    writer.item("TIME", time_text(header.time.value_or(0)));
   }
   writer.item("TIMESTEP", std::to_string(header.timestep));
   if (!lammps && custom && !header.box.tilted && !header.label.empty())
@@ -271,7 +280,7 @@ bool has_trailing_blanks(const DumpFormat& format) noexcept
 }
 
 std::string encode_header(const FrameHeader& header, const std::vector<std::string>& columns,
-  const DumpFormat& format, const ChunkLengths& chunks, bool first)
+  const DumpFormat& format, const ChunkLengths& chunks, bool first, NumberFormat box)
 {
   if (header.box.general && format.dialect == Dialect::Liggghts)
   {
@@ -280,6 +289,6 @@ std::string encode_header(const FrameHeader& header, const std::vector<std::stri
                            "general one");
   }
   return format.binary ? encode_binary(header, columns, format, chunks, first)
-                       : encode_text(header, columns, format, first);
+                       : encode_text(header, columns, format, first, box);
 }
 }

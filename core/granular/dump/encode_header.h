@@ -50,8 +50,9 @@ bool has_trailing_blanks(const DumpFormat& format) noexcept;
 /// The header of a frame, up to its first row. first: of the file. Text as dump_atom.cpp, dump_custom.cpp and dump_local.cpp
 /// of LIGGGHTS and LAMMPS print it, in their order: [UNITS, TIME,] timestep, [LABEL,] number of what is counted, [box,]
 /// columns; binary: timestep, number, triclinic, boundary, box, [tilts,] values a row, [units, time, columns,]
-/// number of chunks. A tilted box is given by its bounds and tilts. Throws LimitError, UnsupportedError.
+/// number of chunks. A tilted box is given by its bounds and tilts, in the format `box` where the dialect is that of
+/// LIGGGHTS: see box_numbers. Throws LimitError, UnsupportedError.
 std::string encode_header(const FrameHeader& header, const std::vector<std::string>& columns,
-  const DumpFormat& format, const ChunkLengths& chunks, bool first);
+  const DumpFormat& format, const ChunkLengths& chunks, bool first, NumberFormat box = { 6 });
 }
 #endif

@@ -26,6 +26,10 @@ struct FileFormat
   /// Completes what frames do not say by themselves from all files of a run and their names, or null; may be called again
   /// with files that it has completed.
   void (*complete)(std::vector<FileIndex>& files, Notices& notices) = nullptr;
+
+  /// Whether what an index file says of a file with frames can be true, which nothing shows that is looked at when a frame is read.
+  /// Looks at little of the source. May throw Error: it cannot be true then.
+  bool (*fits)(const ByteSource& source, const FileIndex& index) = nullptr;
 };
 
 /// Dumps of particles.

@@ -3,6 +3,7 @@
 
 #include "granular/base/hash.h"
 #include "granular/dump/binary_dump.h"
+#include "granular/dump/frame_rows.h"
 #include "granular/dump/text_dump.h"
 
 #include <algorithm>
@@ -29,14 +30,48 @@ bool others_changed(const FileIndex& index)
     index.beside, [](const KnownFile& file) { return !(stamp_of(file.path) == file.stamp); });
 }
 
+/// Whether what was kept of a file can be what it holds, beyond what is looked at when a frame is read.
+bool fits(const FileIndex& index)
+{
+  try
+  {
+    const std::unique_ptr<ByteSource> source = unpack(open_file(index.path), index.points);
+    return source->compressed() == index.compressed && !index.frames.empty() &&
+      (index.format->fits == nullptr || index.format->fits(*source, index));
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+
 /// An index that was kept in a file is good for a file of the same size, time and ends: a copy has
-/// another inode.
+/// another inode. Where such a file goes on is found out by its last frame.
 void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
 {
   index.loaded = false;
-  if (index.stamp.modified == now.modified && index.stamp.size == now.size)
+  const bool same = index.stamp.modified == now.modified && index.stamp.size == now.size;
+  const bool good = index.stamp.size <= now.size &&
+    hash_ends(packed, index.stamp.size) == index.ends_hash && fits(index);
+  if (same || !good)
   {
-    index.stamp = hash_ends(packed, now.size) == index.ends_hash ? now : FileStamp{};
+    index.stamp = good ? now : FileStamp{};
+  }
+  if (good)
+  {
+    const FrameEntry& last = index.frames.back();
+    index.resume_offset = last.offset;
+    index.resume_line = std::max(last.line, std::int64_t{ 1 });
+    index.units = last.kind->units;
+  }
+}
+
+/// Throws if the header of the frame is another.
+void check_frame(const ByteSource& source, const FrameEntry& entry)
+{
+  if (entry.kind->named) // else it says so when it is read
+  {
+    open_rows(source, entry);
   }
 }
 
@@ -107,6 +142,8 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index = blank(index);
   }
+  std::erase_if(
+    index.frames, [&](const FrameEntry& frame) { return frame.offset >= index.resume_offset; });
   index.stamp = stamp;
   index.error = nullptr;
   index.defect.reset();
@@ -120,6 +157,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   }
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();
+  index.compressed = source->compressed();
   refuse_other_packings(*index.format, *source);
   index.format->index(*source, index, progress, ahead);
   drop_repeated(index.notices, known);
@@ -152,7 +190,7 @@ void set_defect(FileIndex& index, const Notice& defect)
 
 const FileFormat& dump_format() noexcept
 {
-  static constexpr FileFormat format = { "a dump", index_dump };
+  static constexpr FileFormat format = { "a dump", index_dump, nullptr, dump_fits };
   return format;
 }
 
@@ -178,6 +216,27 @@ bool is_dump_file(const std::string& path) noexcept
   {
     return false;
   }
+}
+
+bool dump_fits(const ByteSource& source, const FileIndex& index)
+{
+  const std::vector<FrameEntry>& frames = index.frames;
+  const bool text = frames.front().kind->is_text();
+  if (!(text ? text_dump_fits(source, index) : binary_dump_fits(source, index)))
+  {
+    return false;
+  }
+  check_frame(source, frames.front());
+  for (std::size_t i = 1; i < frames.size(); ++i)
+  {
+    const bool hides = frames[i].timestep <= frames[i - 1].timestep; // a frame that nobody will read
+    if (hides || i + 1 == frames.size())
+    {
+      check_frame(source, frames[i - (hides ? 1 : 0)]);
+      check_frame(source, frames[i]);
+    }
+  }
+  return true;
 }
 
 void index_dump(

@@ -45,6 +45,7 @@ struct FileIndex
   std::string unchecked;    ///< see ByteSource::unchecked
   std::exception_ptr error; ///< the file could not be opened or read
   bool unnamed = false;     ///< binary, without the names of its columns
+  bool compressed = false; ///< gzip or Zstandard
   bool loaded = false;      ///< from an index file: to be held against the file first
   std::vector<std::string> column_names; ///< of the user, for such a file
   std::shared_ptr<RestartPoints> points; ///< of a compressed file
@@ -69,6 +70,9 @@ bool is_dump_file(const std::string& path) noexcept;
 /// says with a notice. Throws IoError, LimitError; FormatError of compressed data; Cancelled. Large frames of a text are passed over by several threads.
 void index_dump(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
+
+/// FileFormat::fits of dumps: looks at the headers of the first and last frames, and of those whose timestep does not grow.
+bool dump_fits(const ByteSource& source, const FileIndex& index);
 
 /// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
 /// goes on if it only grew, and else, or if a file beside it changed, starts anew. Errors end in index.error; data packed in other ways are one.

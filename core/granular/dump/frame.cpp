@@ -4,6 +4,7 @@
 #include "granular/base/hash.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace granular
@@ -68,8 +69,11 @@ void check_header(const std::string& path, const FrameEntry& entry, const FrameH
 {
   const bool same_columns = columns.empty() ||
     std::ranges::equal(columns, entry.kind->schema.columns(), {}, {}, &ColumnInfo::name);
-  if (!same_columns || header.timestep != entry.timestep || header.rows != entry.rows ||
-    hash_shape(header, *entry.kind) != entry.shape)
+  const double time = header.time.value_or(FrameEntry::no_time);
+  const bool same_time = time == entry.time || (std::isnan(time) && std::isnan(entry.time));
+  const bool same_units = header.units.empty() || header.units == entry.kind->units;
+  if (!same_columns || !same_time || !same_units || header.timestep != entry.timestep ||
+    header.rows != entry.rows || hash_shape(header, *entry.kind) != entry.shape)
   {
     throw IoError("the file changed since it was indexed: expected the frame of timestep " +
         std::to_string(entry.timestep) + "; reload the files",

@@ -85,7 +85,7 @@ std::uint64_t hash_shape(const FrameHeader& header, const FrameKind& kind);
 Where where_of(const std::string& path, const FrameEntry& entry);
 
 /// Makes sure that the header found at the place of a frame is the one that was there when the file
-/// was indexed; columns are the names in it, or none if it names none. Throws IoError.
+/// was indexed; columns are the names in it, or none if it names none; units are its own, or empty. Throws IoError.
 void check_header(const std::string& path, const FrameEntry& entry, const FrameHeader& header,
   const std::vector<std::string>& columns);
 

@@ -4,8 +4,8 @@
 #include "granular/dump/text_dictionary.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -35,7 +35,7 @@ FrameDecoder::FrameDecoder(
   , notices_(notices)
   , executor_(request.threads)
   , ranges_(cut_frame(pieces, request.piece, request.pieces))
-  , chunks_(cut_chunks(pieces, ranges_, request.chunk_bytes))
+  , chunks_(pieces, ranges_, request.chunk_bytes)
   , sources_(pieces.entries.size())
 {
   first_ = this->open(0);
@@ -69,29 +69,22 @@ void FrameDecoder::go_to(Worker& worker, std::size_t piece)
   }
 }
 
-/// No part has more than the pieces that it is of.
-std::int64_t FrameDecoder::most_rows() const
+/// How many rows to make room for at first.
+std::int64_t FrameDecoder::first_room()
 {
-  return std::accumulate(ranges_.begin(), ranges_.end(), std::int64_t{ 0 },
-    [&](std::int64_t rows, const RowRange& range)
-    { return rows + pieces_.entries[range.piece]->rows; });
-}
-
-/// Rows of a text differ in length; a part of it rarely has many more than its share.
-std::int64_t FrameDecoder::likely_rows() const
-{
-  std::int64_t rows = 0;
-  for (const RowRange& range : ranges_)
+  constexpr std::int64_t few = std::int64_t{ 1 } << 24; // values
+  const std::int64_t likely = likely_rows(pieces_, ranges_);
+  if (likely <= few / std::max(std::ssize(schema_.columns()), std::ptrdiff_t{ 1 }))
   {
-    const FrameEntry& entry = *pieces_.entries[range.piece];
-    const double share =
-      static_cast<double>(range.last - range.first) / static_cast<double>(extent_of(entry));
-    const double likely = 1.25 * share * static_cast<double>(entry.rows) + 4096;
-    const bool all = range.last - range.first == extent_of(entry);
-    rows += all || likely >= static_cast<double>(entry.rows) ? entry.rows
-                                                             : static_cast<std::int64_t>(likely);
+    return likely;
   }
-  return rows;
+  std::int64_t possible = 0; // so many may be no more than a claim: it is held against the bytes that there are
+  for (const PieceRows& range : ranges_)
+  {
+    const std::shared_ptr<const Source> source = this->open(range.piece); // reads the header
+    possible += possible_rows(*pieces_.entries[range.piece], *source->bytes);
+  }
+  return std::min(likely, possible);
 }
 
 /// Rows of the frame before this part: where they are chosen by their numbers.
@@ -101,7 +94,7 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
   {
     return 0;
   }
-  const RowRange& range = ranges_.front();
+  const PieceRows& range = ranges_.front();
   std::int64_t before = 0;
   for (std::size_t piece = 0; piece < range.piece; ++piece)
   {
@@ -111,11 +104,10 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
   {
     return before + range.first;
   }
-  const std::vector<RowRange> chunks =
-    cut_chunks(pieces_, { { range.piece, 0, range.first } }, request_.chunk_bytes);
+  const ChunkCuts chunks(pieces_, { { range.piece, 0, range.first } }, request_.chunk_bytes);
   const std::shared_ptr<const Source> source = this->open(range.piece);
   std::vector<std::unique_ptr<RowReader>> readers(executor_.workers(chunks.size()));
-  std::vector<std::int64_t> rows(chunks.size());
+  std::atomic<std::int64_t> rows = before;
   Turns reads;
   const auto count = [&](std::size_t chunk, std::size_t worker)
   {
@@ -126,15 +118,16 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
     {
       read.pass();
     }
-    readers[worker]->open(chunks[chunk].first, chunks[chunk].last);
+    const PieceRows part = chunks[chunk];
+    readers[worker]->open(part.first, part.last);
     read.pass();
-    rows[chunk] = readers[worker]->rows();
+    rows += readers[worker]->rows();
   };
   executor_.parallel_for(chunks.size(), count, progress);
-  return std::accumulate(rows.begin(), rows.end(), before);
+  return rows;
 }
 
-std::optional<Misfit> FrameDecoder::run(Progress& whole)
+std::vector<Misfit> FrameDecoder::run(Progress& whole)
 {
   PartialProgress progress(whole);
   try
@@ -142,10 +135,10 @@ std::optional<Misfit> FrameDecoder::run(Progress& whole)
     progress.set_part(0, 0.25);
     first_number_ = this->rows_before(progress);
     progress.set_part(0, 1);
-    const std::int64_t likely = this->likely_rows();
-    if (!this->decode(likely, progress))
+    std::int64_t room = this->first_room();
+    while (!this->decode(room, progress))
     {
-      this->decode(this->most_rows(), progress);
+      room = std::min(most_rows(pieces_, ranges_), 4 * room); // there are more than that
     }
   }
   catch (const PieceFault& found)
@@ -158,7 +151,7 @@ std::optional<Misfit> FrameDecoder::run(Progress& whole)
   this->note_surplus();
   this->join_words();
   progress.step(1);
-  return std::nullopt;
+  return {};
 }
 
 /// False if there is not room enough, and could be more.
@@ -166,7 +159,7 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
 {
   Notices notices;
   layout_ = std::make_unique<FrameLayout>(schema_, header_, request_, room, where_, notices);
-  decoded_.assign(chunks_.size(), {});
+  decoded_.clear();
   next_row_ = next_number_ = 0;
   alone_ = executor_.workers(chunks_.size()) == 1;
   filtered_ = request_.stride > 1 || layout_->region;
@@ -188,7 +181,7 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   }
   catch (const TooManyRows& found)
   {
-    if (room < this->most_rows())
+    if (room < most_rows(pieces_, ranges_))
     {
       return false;
     }
@@ -203,10 +196,22 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   return true;
 }
 
+/// Where what becomes of a chunk is noted. There is room for those alone that were begun: how many there are may be no more than a
+/// claim.
+DecodedChunk& FrameDecoder::result_of(std::size_t chunk)
+{
+  const std::lock_guard lock(mutex_);
+  while (decoded_.size() <= chunk)
+  {
+    decoded_.emplace_back();
+  }
+  return decoded_[chunk];
+}
+
 void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
 {
-  const RowRange& range = chunks_[chunk];
-  DecodedChunk& decoded = decoded_[chunk];
+  const PieceRows range = chunks_[chunk];
+  DecodedChunk& decoded = this->result_of(chunk);
   std::optional<Turn> keep; // from the start, so that it passes whatever fails
   if (filtered_ && !alone_)
   {
@@ -231,7 +236,7 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
     place.pass();
     if (keep)
     {
-      this->decode_aside(chunk, number, rows, worker, *keep);
+      this->decode_aside(range.piece, number, rows, worker, decoded, *keep);
       return;
     }
     decoded.row = number;
@@ -266,10 +271,9 @@ void FrameDecoder::decode_rows(
 
 /// The same where filters leave few rows: they go to memory of the thread's own first, and from there
 /// behind those of the chunk before. Else all rows would be in memory at once.
-void FrameDecoder::decode_aside(
-  std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker, Turn& turn)
+void FrameDecoder::decode_aside(std::size_t piece, std::int64_t number, std::int64_t rows,
+  Worker& worker, DecodedChunk& decoded, Turn& turn)
 {
-  DecodedChunk& decoded = decoded_[chunk];
   if (!worker.aside || worker.aside->rows < rows)
   {
     Notices known;
@@ -277,7 +281,7 @@ void FrameDecoder::decode_aside(
       std::make_unique<FrameLayout>(schema_, header_, request_, rows + rows / 8, where_, known);
     worker.decoder = std::make_unique<ChunkDecoder>(*worker.aside, request_);
   }
-  this->decode_rows(chunks_[chunk].piece, number, rows, worker, decoded);
+  this->decode_rows(piece, number, rows, worker, decoded);
   turn.wait();
   decoded.row = next_row_;
   next_row_ += decoded.kept;
@@ -320,7 +324,7 @@ void FrameDecoder::count_rows()
 {
   counts_.assign(pieces_.entries.size(), 0);
   next_row_ = 0;
-  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
+  for (std::size_t chunk = 0; chunk < decoded_.size(); ++chunk)
   {
     counts_[chunks_[chunk].piece] += decoded_[chunk].rows;
     next_row_ += decoded_[chunk].kept;
@@ -330,7 +334,7 @@ void FrameDecoder::count_rows()
 /// The first pieces: of which all was read must have the rows that their headers promise, others no more.
 void FrameDecoder::check_counts(std::size_t pieces) const
 {
-  for (const RowRange& range : ranges_)
+  for (const PieceRows& range : ranges_)
   {
     if (range.piece >= pieces)
     {
@@ -352,7 +356,7 @@ void FrameDecoder::check_counts(std::size_t pieces) const
 void FrameDecoder::note_surplus()
 {
   std::size_t said = pieces_.entries.size();
-  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
+  for (std::size_t chunk = 0; chunk < decoded_.size(); ++chunk)
   {
     const std::size_t piece = chunks_[chunk].piece;
     if (decoded_[chunk].surplus && piece != said)

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -28,11 +29,14 @@ public:
   FrameDecoder(const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request,
     Notices& notices);
 
-  /// Decodes all rows, or up to a value that does not fit.
-  std::optional<Misfit> run(Progress& progress);
+  /// Decodes all rows, or up to a value that does not fit: returns those of its row.
+  std::vector<Misfit> run(Progress& progress);
 
   /// The frame; ids gets the ids where they are needed for sorting and no array of the frame.
   DumpFrame take(Block& ids);
+
+  /// What the points have lost by rounding.
+  RoundingLoss loss() const { return loss_of_points(decoded_, *layout_); }
 
   /// Rows of each piece that are in this part.
   std::vector<std::int64_t> take_counts() { return std::move(counts_); }
@@ -58,15 +62,15 @@ private:
 
   std::shared_ptr<const Source> open(std::size_t piece);
   void go_to(Worker& worker, std::size_t piece);
-  std::int64_t likely_rows() const;
-  std::int64_t most_rows() const;
+  std::int64_t first_room();
   std::int64_t rows_before(Progress& progress);
   bool decode(std::int64_t room, Progress& progress);
   void decode_chunk(std::size_t chunk, Worker& worker);
   void decode_rows(std::size_t piece, std::int64_t number, std::int64_t most, Worker& worker,
     DecodedChunk& decoded);
-  void decode_aside(
-    std::size_t chunk, std::int64_t number, std::int64_t rows, Worker& worker, Turn& turn);
+  void decode_aside(std::size_t piece, std::int64_t number, std::int64_t rows, Worker& worker,
+    DecodedChunk& decoded, Turn& turn);
+  DecodedChunk& result_of(std::size_t chunk);
   void join_ranges(const std::vector<Worker>& workers);
   void count_rows();
   void check_counts(std::size_t pieces) const;
@@ -78,8 +82,8 @@ private:
   const DumpRequest& request_;
   Notices& notices_;
   Executor executor_;
-  std::vector<RowRange> ranges_;
-  std::vector<RowRange> chunks_;
+  std::vector<PieceRows> ranges_;
+  ChunkCuts chunks_;
   Where where_; ///< of the first piece
   std::mutex mutex_;
   std::vector<std::weak_ptr<const Source>> sources_; ///< those that are open
@@ -87,7 +91,7 @@ private:
   FrameHeader header_;                               ///< its own, with the rows of all
 
   std::unique_ptr<FrameLayout> layout_;
-  std::vector<DecodedChunk> decoded_;
+  std::deque<DecodedChunk> decoded_; ///< of the chunks that were begun; stays where it is as it grows
   std::vector<std::int64_t> counts_; ///< rows of each piece that were decoded
   bool filtered_ = false;            ///< not all rows stay
   bool alone_ = true;                ///< one thread: it need not count rows before it has them

@@ -190,16 +190,13 @@ void FrameIndex::note_files(Notices& notices) const
 /// Says so if only some frames have a time, or times that do not increase.
 void FrameIndex::note_times(Notices& notices) const
 {
-  std::size_t with_time = 0;
-  for (std::size_t i = 0; i < this->size(); ++i)
-  {
-    with_time += std::isnan(this->first_piece(i).entry.time) ? 0U : 1U;
-  }
-  if (with_time > 0 && this->header_times().size() < this->size())
+  const std::vector<FrameInstant> frames = this->instants();
+  const auto has_time = [](const FrameInstant& frame) { return !std::isnan(frame.time); };
+  if (std::ranges::any_of(frames, has_time) && !have_times(frames))
   {
     notices.push_back({ { this->first_piece(0).file.path },
       std::string("expected an increasing ITEM: TIME in every frame, got ") +
-        (with_time == this->size() ? "one that does not increase" : "frames without") +
+        (std::ranges::all_of(frames, has_time) ? "one that does not increase" : "frames without") +
         "; times are timestep x TimestepSize" });
   }
 }
@@ -214,44 +211,43 @@ void FrameIndex::fail(const Notices& notices) const
   {
     std::rethrow_exception(files_.front().error);
   }
-  if (!notices.empty())
+  if (!notices.empty()) // pieces are missing, perhaps because a file cannot be read
   {
-    throw FormatError(notices.front().text, notices.front().where); // pieces are missing
+    const auto unread =
+      std::ranges::find_if(files_, [](const FileIndex& file) { return file.error != nullptr; });
+    if (unread != files_.end())
+    {
+      std::rethrow_exception(unread->error);
+    }
+    throw FormatError(notices.front().text, notices.front().where);
   }
   const Notice defect = files_.front().defect.value_or(Notice{ { files_.front().path },
     std::string("expected ") + files_.front().format->name + ", got no complete frame" });
   throw FormatError(defect.text, defect.where);
 }
 
-/// The times of the headers, as far as they increase.
-std::vector<double> FrameIndex::header_times() const
+std::vector<FrameInstant> FrameIndex::instants() const
 {
-  std::vector<double> from_header;
+  std::vector<FrameInstant> frames;
+  frames.reserve(this->size());
   for (std::size_t i = 0; i < this->size(); ++i)
   {
-    const double time = this->first_piece(i).entry.time;
-    if (!std::isfinite(time) || (!from_header.empty() && time <= from_header.back()))
-    {
-      break;
-    }
-    from_header.push_back(time);
+    const FrameEntry& entry = this->first_piece(i).entry;
+    frames.push_back({ entry.timestep, entry.time });
   }
-  return from_header;
+  return frames;
+}
+
+std::vector<double> FrameIndex::times(double timestep_size, Notices& notices) const
+{
+  return frame_times(this->instants(), timestep_size,
+    this->size() > 0 ? this->first_piece(0).file.path : std::string(), notices);
 }
 
 std::vector<double> FrameIndex::times(double timestep_size) const
 {
-  std::vector<double> from_header = this->header_times();
-  if (from_header.size() == this->size())
-  {
-    return from_header;
-  }
-  std::vector<double> from_steps;
-  for (std::size_t i = 0; i < this->size(); ++i)
-  {
-    from_steps.push_back(static_cast<double>(this->first_piece(i).entry.timestep) * timestep_size);
-  }
-  return from_steps;
+  Notices told_elsewhere;
+  return this->times(timestep_size, told_elsewhere);
 }
 
 std::size_t FrameIndex::find(const std::vector<double>& times, double time) noexcept

@@ -7,6 +7,7 @@
 #include "granular/base/progress.h"
 #include "granular/dump/file_index.h"
 #include "granular/dump/file_series.h"
+#include "granular/dump/frame_times.h"
 #include "granular/dump/index_file.h"
 
 #include <cstddef>
@@ -64,13 +65,14 @@ public:
   /// The first piece of a frame.
   FramePiece first_piece(std::size_t frame) const;
 
-  /// Time of every frame [s]: ITEM: TIME if every frame has one and it strictly increases,
-  /// else timestep * timestep_size.
+  /// Returns the time of every frame [s]: ITEM: TIME if every frame has one and it strictly increases, else timestep x
+  /// timestep_size; see frame_times, which has the notices, too. Throws Error where timestep_size makes a time infinite.
+  std::vector<double> times(double timestep_size, Notices& notices) const;
   std::vector<double> times(double timestep_size) const;
 
   /// The last frame at or before a time, of times that increase; the first if there is none.
-  /// A time that misses a frame by less than 1e-9 of the way to it is meant to be its own: 0.06 is
-  /// 3000 * 2e-5, which is a little more.
+  /// A time that misses a frame by less than 1e-9 of the way to it is meant to be its own: a product of doubles may be a
+  /// little less than the time of a frame.
   static std::size_t find(const std::vector<double>& times, double time) noexcept;
 
   /// All that is needed to read every frame elsewhere, as bytes; not what is wrong with files.
@@ -88,7 +90,7 @@ private:
     Notices& notices, Progress& progress);
   void note_files(Notices& notices) const;
   void note_times(Notices& notices) const;
-  std::vector<double> header_times() const;
+  std::vector<FrameInstant> instants() const;
   [[noreturn]] void fail(const Notices& notices) const;
 
   std::vector<FileIndex> files_;

@@ -2,6 +2,7 @@
 #include "granular/dump/frame_layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,16 +18,34 @@ constexpr ColumnSink::Kind kind_of(ValueType type) noexcept
   return kinds[static_cast<std::size_t>(type)];
 }
 
+/// Texts need memory for a batch, each column by itself: many of them get a shorter one.
+std::size_t batch_for(const ColumnSchema& schema) noexcept
+{
+  constexpr std::size_t most_rows = 2048;
+  constexpr std::size_t most_texts = std::size_t{ 1 } << 18; // 4 MiB
+  const auto texts = static_cast<std::size_t>(
+    std::ranges::count(schema.arrays(), ValueType::Text, &ArrayInfo::type));
+  return std::clamp(most_texts / std::max<std::size_t>(texts, 1), std::size_t{ 1 }, most_rows);
+}
+
 bool restricts(const std::array<double, 6>& region) noexcept
 {
   return region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5];
 }
 }
 
+bool is_wanted(const std::function<bool(const ArrayInfo&)>& wanted, const ArrayInfo& array)
+{
+  ArrayInfo vector;
+  vector.name = array.group;
+  return wanted(array) || (!array.group.empty() && wanted(vector));
+}
+
 FrameLayout::FrameLayout(const ColumnSchema& schema, const FrameHeader& header,
   const DumpRequest& request, std::int64_t room, const Where& where, Notices& notices)
   : rows(room)
   , point_bytes(3 * (request.single_precision ? sizeof(float) : sizeof(double)))
+  , batch(batch_for(schema))
   , id_column(schema.find(ColumnRole::Id))
   , schema_(schema)
   , request_(request)
@@ -44,7 +63,7 @@ FrameLayout::FrameLayout(const ColumnSchema& schema, const FrameHeader& header,
 Destination FrameLayout::scratch(std::size_t bytes_a_row)
 {
   const Destination to = { nullptr, scratch_bytes, static_cast<std::ptrdiff_t>(bytes_a_row), true };
-  scratch_bytes += bytes_a_row * batch_rows;
+  scratch_bytes += bytes_a_row * batch;
   return to;
 }
 
@@ -71,7 +90,7 @@ void FrameLayout::lay_arrays()
 {
   for (const ArrayInfo& info : schema_.arrays())
   {
-    if (request_.wanted ? !request_.wanted(info) : info.position_form)
+    if (request_.wanted ? !is_wanted(request_.wanted, info) : info.position_form)
     {
       continue;
     }
@@ -90,6 +109,10 @@ void FrameLayout::lay_arrays()
     {
       this->want(column, info.type, to, info.scale);
       to.base += to.scratch ? 0 : width; // a text has one component
+    }
+    if (info.name == "radius" && info.type == ValueType::Float64 && info.columns.size() == 1)
+    {
+      radii = frame.arrays.size();
     }
     frame.arrays.push_back(std::move(array));
   }
@@ -128,6 +151,10 @@ void FrameLayout::lay_points(const Where& where, Notices& notices)
 {
   points.emplace();
   points->plan = plan_positions(schema_, frame.header.box, request_.coordinates, where, notices);
+  if (frame.header.rows > 0)
+  {
+    check_scale(points->plan, frame.header.box, where);
+  }
   points->point_origin = request_.point_origin;
   frame.coordinates = points->plan.coordinates;
   frame.points = Block(point_bytes * static_cast<std::size_t>(rows), request_.pool);
@@ -174,6 +201,32 @@ std::vector<ValueRange> FrameLayout::ranges() const
     ranges.emplace_back(text ? 0 : array.info.columns.size());
   }
   return ranges;
+}
+
+bool FrameLayout::rounds() const noexcept
+{
+  return points &&
+    (request_.single_precision || changes_points(points->plan, points->point_origin));
+}
+
+void FrameLayout::add_moved(const Vector3& moved, RoundingLoss& loss) const noexcept
+{
+  const bool scaled = frame.coordinates == Coordinates::Scaled;
+  for (std::size_t j = 0; j < 3; ++j)
+  {
+    for (std::size_t k = 0; scaled && k < 3; ++k)
+    {
+      loss.move(k, moved[j] * std::abs(frame.header.box.vectors[j][k].hi));
+    }
+    loss.move(j, scaled ? 0 : moved[j]);
+  }
+}
+
+void FrameLayout::add_rounding(RoundingLoss& loss) const noexcept
+{
+  const bool scaled = frame.coordinates == Coordinates::Scaled;
+  const Box unit = Box::from_bounds({ 0, 0, 0 }, { 1, 1, 1 });
+  this->add_moved(rounding_of_points(scaled ? unit : frame.header.box, points->point_origin), loss);
 }
 
 DumpFrame FrameLayout::take(std::int64_t kept, Block& to)

@@ -3,6 +3,7 @@
 #define granular_dump_frame_layout_h
 
 #include "granular/base/block.h"
+#include "granular/base/rounding_loss.h"
 #include "granular/base/row_text.h"
 #include "granular/dump/dump_reader.h"
 
@@ -14,9 +15,6 @@
 
 namespace granular
 {
-/// Rows decoded at a time: what is made from them is made while they are in the cache.
-inline constexpr std::size_t batch_rows = 2048;
-
 /// Where values go: by the row of the frame, or by the row of the batch into a thread's own memory.
 struct Destination
 {
@@ -77,6 +75,15 @@ public:
   /// For the range of the points, and of each array; texts have none.
   std::vector<ValueRange> ranges() const;
 
+  /// Whether points are not the numbers of the file.
+  bool rounds() const noexcept;
+
+  /// Points have been moved so far along the axes of their coordinates.
+  void add_moved(const Vector3& moved, RoundingLoss& loss) const noexcept;
+
+  /// What points within the box have lost where they were rounded to doubles.
+  void add_rounding(RoundingLoss& loss) const noexcept;
+
   /// Calls visit(block, bytes a row) for every block that has rows.
   template <typename Visit>
   void for_each_block(Visit&& visit)
@@ -99,12 +106,15 @@ public:
   DumpFrame frame;
   Block ids; ///< where they are needed but not wanted as an array
   std::size_t point_bytes;
+  std::size_t
+    batch; ///< rows decoded at a time: what is made from them is made while they are in the cache
   std::size_t scratch_bytes = 0;
-  std::map<int, Wire> wires; ///< by column
+  std::map<int, Wire> wires;        ///< by column
   std::optional<PointsWire> points; ///< where they are wanted
   std::optional<PointsWire> region; ///< absolute coordinates, where a region restricts the rows
   std::vector<TextWire> texts;
-  int id_column; ///< -1: there is none
+  std::optional<std::size_t> radii; ///< the array of them
+  int id_column;                    ///< -1: there is none
 
 private:
   void lay_arrays();

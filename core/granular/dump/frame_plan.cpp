@@ -2,10 +2,10 @@
 #include "granular/dump/frame_plan.h"
 
 #include "granular/base/archive.h"
-#include "granular/base/number.h"
 #include "granular/base/words.h"
 #include "granular/dump/grain_bounds.h"
 #include "granular/dump/header_archive.h"
+#include "granular/dump/print_loss.h"
 #include "granular/dump/row_batches.h"
 #include "granular/dump/table_columns.h"
 
@@ -27,7 +27,8 @@ struct Survey
   std::int64_t kept = 0;
   std::int64_t arrays = 0; ///< a rank without rows and arrays knows nothing
   bool has_box = false;
-  GrainBounds bounds = {}; ///< where there is no box
+  GrainBounds bounds = {};  ///< where there is no box
+  double radius = HUGE_VAL; ///< the smallest, where numbers may lose digits
 };
 
 template <class Archive>
@@ -37,6 +38,7 @@ void pass(Archive& archive, Survey& survey)
   archive.number(survey.arrays);
   archive.number(survey.has_box);
   archive.number(survey.bounds);
+  archive.number(survey.radius);
 }
 
 /// What the rank that leads tells the others: the header, and the columns without their values.
@@ -90,12 +92,7 @@ void pass(Archive& archive, Lead& lead)
   pass(archive, lead.columns.ids);
   archive.number(lead.columns.binary);
   archive.number(lead.columns.wraps);
-  pass_list(archive, lead.notices,
-    [&](Notice& notice)
-    {
-      pass(archive, notice.where);
-      archive.text(notice.text);
-    });
+  pass(archive, lead.notices);
 }
 
 template <class Item>
@@ -118,6 +115,14 @@ Item unpack(std::string_view bytes)
 bool is_table(const DumpFormat& format) noexcept
 {
   return format.style == DumpStyle::Local;
+}
+
+/// Whether the numbers of particles may be others when they are read again.
+bool may_lose_digits(const FrameView& frame, const DumpFormat& format) noexcept
+{
+  return !is_table(format) &&
+    (!format.binary || frame.point_origin != Vector3{} ||
+      frame.coordinates != Coordinates::Absolute);
 }
 
 /// Makes one for particles where there is none.
@@ -185,25 +190,6 @@ bool is_scaled(const ColumnSource& column) noexcept
   return column.kind == Kind::Coordinate && is_scaled(column.role);
 }
 
-bool prints_exactly(double value)
-{
-  char word[most_number_chars];
-  double read = 0;
-  parse_double(word, print_number(word, value, { 6 }), read);
-  return read == value;
-}
-
-/// A box whose numbers change when six digits of them are written: what is scaled by the one is read by the
-/// other.
-bool loses_digits(const Box& box)
-{
-  const BoxBounds bounds = box.bounds();
-  const Vector3 tilts = { bounds.xy, bounds.xz, bounds.yz };
-  const auto all_exact = [](const Vector3& numbers)
-  { return std::all_of(numbers.begin(), numbers.end(), prints_exactly); };
-  return !all_exact(bounds.lo) || !all_exact(bounds.hi) || !all_exact(tilts);
-}
-
 /// What stands in a line of the header of its own must not look like another section of it.
 void check_line(const std::string& text, const char* what)
 {
@@ -234,12 +220,6 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
   if (lammps && format.time && !lead.header.time)
   {
     throw Error("expected the time of the frame for ITEM: TIME, got none");
-  }
-  if (scaled && !format.binary && format.dialect == Dialect::Liggghts && loses_digits(box))
-  {
-    notices.push_back({ {},
-      "the box is written with six digits, as LIGGGHTS does: scaled coordinates are read back by "
-      "these" });
   }
   if (format.sort_by_id && !lead.columns.ids)
   {
@@ -323,6 +303,10 @@ FramePlan plan_frame(
       {
         survey.bounds = bounds_of_grains(frame);
       }
+      if (may_lose_digits(frame, format))
+      {
+        survey.radius = smallest_radius(frame);
+      }
       own = pack(survey);
     });
   const std::vector<std::string> answers = ranks.all_gather(own);
@@ -337,6 +321,7 @@ FramePlan plan_frame(
       {
         surveys.push_back(unpack<Survey>(answer));
         plan.kept_rows.push_back(surveys.back().kept);
+        plan.smallest_radius = std::min(plan.smallest_radius, surveys.back().radius);
       }
       const auto knows = [](const Survey& a, const Survey& b)
       { return std::pair(a.kept > 0, a.arrays > 0) < std::pair(b.kept > 0, b.arrays > 0); };

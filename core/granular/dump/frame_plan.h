@@ -7,6 +7,7 @@
 #include "granular/dump/dump_format.h"
 #include "granular/dump/frame_view.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct FramePlan
   FrameHeader header;                  ///< rows are those of all ranks
   ColumnPlan columns;                  ///< of this rank
   std::vector<std::int64_t> kept_rows; ///< of each rank, duplicates left out
+  double smallest_radius = HUGE_VAL;   ///< of all ranks; HUGE_VAL: none, or nothing is rounded
 
   std::vector<std::string> names() const;
 };

@@ -28,9 +28,10 @@ struct Misfit
 struct RowFault
 {
   RowStatus status;
-  int column;          ///< -1: of TooFew
-  std::string text;    ///< the word at fault, or the row
-  std::int64_t offset; ///< of it in the content of the file
+  int column;                      ///< -1: of TooFew
+  std::string text;                ///< the word at fault, or the row
+  std::int64_t offset;             ///< of it in the content of the file
+  std::vector<RowFault> rest = {}; ///< other words behind it in its row that do not fit
 };
 
 /// The size of a frame in its own measure, by which it is cut into pieces and chunks: bytes of a text,
@@ -76,8 +77,9 @@ public:
   /// Who reads rows of it, as long as this lives.
   virtual std::unique_ptr<RowReader> reader() const = 0;
 
-  /// The misfit that a fault is; throws the FormatError if it is none. May read the source.
-  virtual Misfit describe(const RowFault& fault) const = 0;
+  /// The misfit that a fault is, and those behind it in its row: all columns that must change are known at once. Throws
+  /// the FormatError if the fault is none. May read the source.
+  virtual std::vector<Misfit> describe(const RowFault& fault) const = 0;
 };
 
 /// Reads the header at the place of a frame and makes the rows behind it ready. Throws IoError if

@@ -40,6 +40,7 @@ struct ArrayView
   std::vector<const void*> components = {}; ///< the first row's value of each
   std::int64_t step = 1;                    ///< values from one row to the next
   std::vector<std::string> columns = {};    ///< in local data: what its components are called
+  bool places = false;                      ///< in local data: x y z of an end of each line
 
   int size() const noexcept { return static_cast<int>(components.size()); }
 };

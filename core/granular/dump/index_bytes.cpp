@@ -6,10 +6,10 @@
 #include "granular/base/hash.h"
 #include "granular/dump/binary_header.h"
 #include "granular/dump/index_archive.h"
+#include "granular/dump/index_claims.h"
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -25,7 +25,7 @@ struct Head
   std::uint32_t byte_order = 0x01020304;
   /// To be raised with every change of what is written here, or of what it means: of the hashes, of
   /// how frames are found, of how columns become arrays.
-  std::uint32_t version = 1;
+  std::uint32_t version = 2;
 };
 
 /// A frame as it is kept.
@@ -41,9 +41,6 @@ struct FrameRecord
   std::uint64_t kind; ///< index into the kinds of the index file
 };
 static_assert(sizeof(FrameRecord) == 64);
-
-/// No file is larger; sums of two do not overflow.
-constexpr std::int64_t largest_offset = std::numeric_limits<std::int64_t>::max() / 2;
 
 /// With the slash, as the user spells it; empty if there is none.
 std::string folder_of(const std::string& path)
@@ -73,6 +70,7 @@ template <typename Archive, typename Points>
 void visit_points(Archive& archive, Points& all)
 {
   archive.number(all.spacing);
+  archive.flag(all.claimed);
   archive.list(all.points,
     [&](auto& point)
     {
@@ -104,6 +102,7 @@ void visit_file(Archive& archive, File& file)
   archive.list(file.notices, notice);
   archive.perhaps(file.defect, notice);
   archive.flag(file.unnamed);
+  archive.flag(file.compressed);
   archive.list(file.column_names, [&](auto& name) { archive.text(name); });
   archive.list(file.beside, known);
   archive.perhaps(file.points, [&](auto& points) { visit_points(archive, points); });
@@ -153,7 +152,7 @@ public:
           [&](const ColumnInfo& column)
           {
             out.text(column.name);
-            out.number(column.type);
+            out.flag(!column.known && column.type == ValueType::Text);
           });
       });
   }
@@ -165,11 +164,11 @@ private:
   std::uint64_t last_number_ = 0;
 };
 
-/// A column and its type, which follows from the first row as well as from the name.
+/// A column; its type follows from the name, where that is known, and else from the first row.
 struct KeptColumn
 {
   std::string name;
-  ValueType type = ValueType::Float64;
+  bool words = false;
 };
 
 ColumnSchema make_schema(const std::vector<KeptColumn>& columns, bool text)
@@ -177,19 +176,25 @@ ColumnSchema make_schema(const std::vector<KeptColumn>& columns, bool text)
   std::vector<std::string> names;
   for (const KeptColumn& column : columns)
   {
-    require(column.type < ValueType::Text || (text && column.type == ValueType::Text), "a type");
     names.push_back(column.name);
   }
   ColumnSchema schema(names);
-  for (std::size_t i = 0; i < columns.size(); ++i)
+  std::vector<ColumnSchema::TypeChange> types;
+  for (const KeptColumn& column : columns)
   {
-    if (schema.columns()[i].type != columns[i].type)
+    const auto i = static_cast<int>(&column - columns.data());
+    const ColumnInfo& info = schema.columns()[static_cast<std::size_t>(i)];
+    require(!column.words || (text && !info.known), "a column of texts");
+    if (column.words)
     {
-      schema.set_type(static_cast<int>(i), columns[i].type);
+      types.push_back({ i, ValueType::Text });
+    }
+    else if (info.known && info.type == ValueType::Text && !text)
+    {
+      types.push_back({ i, ValueType::Int32 }); // an element is written as its type
     }
   }
-  require(std::ranges::equal(columns, schema.columns(), {}, &KeptColumn::type, &ColumnInfo::type),
-    "types that go together");
+  schema.set_types(types);
   return schema;
 }
 
@@ -213,7 +218,7 @@ Kinds read_kinds(IndexReader& in, FrameKinds& store)
         [&](KeptColumn& column)
         {
           in.text(column.name);
-          in.number(column.type);
+          in.flag(column.words);
         });
       require(layout >= FrameKind::bare && layout < layouts, "a layout of binary dumps");
       kind.layout = layout;
@@ -234,22 +239,9 @@ void write_frames(IndexWriter& out, const std::vector<FrameEntry>& frames, KindT
     });
 }
 
-/// Whether as many rows as it says can lie where it says.
-bool plausible(const FrameRecord& frame, const FrameKind& kind)
+void read_frames(IndexReader& in, FileIndex& file, const Kinds& kinds)
 {
-  if (frame.offset < 0 || frame.end < frame.offset || frame.end > largest_offset ||
-    frame.rows < 0 || frame.line < 0 || frame.line > largest_offset)
-  {
-    return false;
-  }
-  // a row of text has a line feed at least
-  const std::size_t row_bytes = kind.is_text() ? 1 : kind.schema.columns().size() * sizeof(double);
-  return static_cast<std::uint64_t>(frame.rows) <=
-    static_cast<std::uint64_t>(frame.end - frame.offset) / row_bytes;
-}
-
-void read_frames(IndexReader& in, std::vector<FrameEntry>& frames, const Kinds& kinds)
-{
+  std::vector<FrameEntry>& frames = file.frames;
   const std::size_t count = in.count(sizeof(FrameRecord));
   frames.reserve(count);
   while (frames.size() < count)
@@ -258,41 +250,16 @@ void read_frames(IndexReader& in, std::vector<FrameEntry>& frames, const Kinds& 
     in.number(frame);
     require(frame.kind < kinds.size(), "a kind of frames");
     const auto& kind = kinds[static_cast<std::size_t>(frame.kind)];
-    require(plausible(frame, *kind), "a frame within its file");
     frames.push_back({ frame.timestep, frame.rows, frame.offset, frame.end, frame.line, frame.time,
       frame.shape, kind });
-    require(kind->layout == frames.front().kind->layout, "frames of the same layout");
   }
-}
-
-void check_points(const RestartPoints& all, const FileStamp& stamp)
-{
-  constexpr std::size_t largest_window = std::size_t{ 1 } << 15;
-  std::int64_t last = 0;
-  for (const RestartPoints::Point& point : all.points)
-  {
-    require(point.offset >= last && point.offset <= largest_offset, "increasing restart points");
-    require(
-      point.packed >= (point.bits > 0 ? 1 : 0) && point.packed <= stamp.size && point.bits < 8,
-      "a restart point within its file");
-    require(point.window.size() <= largest_window, "a window of gzip");
-    last = point.offset;
-  }
-  require(all.spacing > 0, "a spacing of restart points");
 }
 
 void read_file(IndexReader& in, FileIndex& file, const Kinds& kinds)
 {
-  const auto good = [](std::int64_t value, std::int64_t least)
-  { return value >= least && value <= largest_offset; };
   visit_file(in, file);
-  require(good(file.stamp.size, 0), "the size of a file");
-  require(good(file.resume_offset, 0) && good(file.resume_line, 1), "a place in a file");
-  if (file.points)
-  {
-    check_points(*file.points, file.stamp);
-  }
-  read_frames(in, file.frames, kinds);
+  read_frames(in, file, kinds);
+  check_claims(file);
   file.loaded = true;
 }
 

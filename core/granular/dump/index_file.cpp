@@ -74,7 +74,16 @@ std::vector<FileIndex> load_index(const std::string& path, const std::string& fi
     const std::unique_ptr<ByteSource> source = open_file(path);
     const auto size = static_cast<std::size_t>(source->stamp().size);
     const std::unique_ptr<char[]> bytes(new char[size]); // not value-initialised: it may be large
-    return decode_index({ bytes.get(), source->read(0, bytes.get(), size) }, first_file, kinds);
+    std::vector<FileIndex> files =
+      decode_index({ bytes.get(), source->read(0, bytes.get(), size) }, first_file, kinds);
+    for (const FileIndex& file : files)
+    {
+      if (file.points)
+      {
+        file.points->claimed = true;
+      }
+    }
+    return files;
   }
   catch (const IoError& error)
   {

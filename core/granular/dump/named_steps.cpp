@@ -12,7 +12,7 @@ namespace granular
 {
 namespace
 {
-bool counts_from_zero(const std::map<Digits, std::uint32_t>& group)
+bool counts_from_zero(const std::map<NameNumber, std::uint32_t>& group)
 {
   std::size_t next = 0;
   return std::ranges::all_of(
@@ -20,7 +20,7 @@ bool counts_from_zero(const std::map<Digits, std::uint32_t>& group)
 }
 
 /// Whether the contents of the files say that they are pieces: see name_steps.
-bool hold_pieces(const std::vector<FileIndex>& files, const std::map<Digits, std::uint32_t>& group)
+bool hold_pieces(const std::vector<FileIndex>& files, const std::map<NameNumber, std::uint32_t>& group)
 {
   const auto frames_of = [&](std::uint32_t file) -> const std::vector<FrameEntry>&
   { return files[file].frames; };
@@ -60,7 +60,7 @@ std::optional<std::size_t> place_of_pieces(
 std::vector<std::size_t> places_of_step(const Family& family, std::optional<std::size_t> pieces)
 {
   std::vector<std::size_t> places;
-  const std::vector<Digits>& first = family.begin()->second;
+  const std::vector<NameNumber>& first = family.begin()->second;
   for (const bool differ : { true, false })
   {
     for (std::size_t at = first.size(); at-- > 0;)
@@ -78,7 +78,7 @@ std::vector<std::size_t> places_of_step(const Family& family, std::optional<std:
 
 /// The first of these numbers that fits.
 std::optional<std::int64_t> number_at(
-  const std::vector<Digits>& numbers, const std::vector<std::size_t>& places)
+  const std::vector<NameNumber>& numbers, const std::vector<std::size_t>& places)
 {
   for (const std::size_t at : places)
   {

@@ -54,7 +54,7 @@ Siblings group_by_others(const Family& family, std::size_t at)
   Siblings groups;
   for (const auto& [file, numbers] : family)
   {
-    std::vector<Digits> others = numbers;
+    std::vector<NameNumber> others = numbers;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
     groups[others][numbers[at]] = file; // of equal numbers the last file
   }

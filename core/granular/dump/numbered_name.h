@@ -14,12 +14,12 @@
 namespace granular
 {
 /// A number in a name: without leading zeros, so that 007 is 7.
-struct Digits
+struct NameNumber
 {
   std::string text;
 
-  bool operator==(const Digits&) const = default;
-  bool operator<(const Digits& other) const
+  bool operator==(const NameNumber&) const = default;
+  bool operator<(const NameNumber& other) const
   {
     return std::pair(text.size(), text) < std::pair(other.text.size(), other.text);
   }
@@ -29,19 +29,19 @@ struct Digits
 struct NumberedName
 {
   std::string rest; ///< with folder, without what compression adds
-  std::vector<Digits> numbers;
+  std::vector<NameNumber> numbers;
 };
 
 NumberedName split_name(std::string_view path);
 
 /// Files whose names differ in numbers only: the numbers of each, by its place in the list of files.
-using Family = std::map<std::uint32_t, std::vector<Digits>>;
+using Family = std::map<std::uint32_t, std::vector<NameNumber>>;
 
 /// All files by what their names have in common.
 std::map<std::string, Family> families_of(const std::vector<FileIndex>& files);
 
 /// The files of a family by what one of the numbers is for given others.
-using Siblings = std::map<std::vector<Digits>, std::map<Digits, std::uint32_t>>;
+using Siblings = std::map<std::vector<NameNumber>, std::map<NameNumber, std::uint32_t>>;
 
 Siblings group_by_others(const Family& family, std::size_t at);
 }

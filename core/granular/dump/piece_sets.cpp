@@ -19,9 +19,9 @@ namespace granular
 {
 namespace
 {
-std::vector<Digits> values_of(const Siblings& groups)
+std::vector<NameNumber> values_of(const Siblings& groups)
 {
-  std::set<Digits> values;
+  std::set<NameNumber> values;
   for (const auto& [others, group] : groups)
   {
     for (const auto& [value, file] : group)
@@ -33,7 +33,7 @@ std::vector<Digits> values_of(const Siblings& groups)
 }
 
 /// The numbers of all pieces, with those that are missing.
-std::vector<Digits> piece_numbers(const std::vector<Digits>& values)
+std::vector<NameNumber> piece_numbers(const std::vector<NameNumber>& values)
 {
   constexpr std::size_t most_digits = 9;
   const std::string& largest = values.back().text;
@@ -44,7 +44,7 @@ std::vector<Digits> piece_numbers(const std::vector<Digits>& values)
   {
     return values; // they count something else
   }
-  std::vector<Digits> numbers;
+  std::vector<NameNumber> numbers;
   for (std::size_t i = 0; i < count; ++i)
   {
     numbers.push_back({ std::to_string(i) });
@@ -108,7 +108,7 @@ bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
 }
 
 /// Whether files list the same frames as far as they go.
-bool only_lag(const std::vector<FileIndex>& files, const std::map<Digits, std::uint32_t>& group)
+bool only_lag(const std::vector<FileIndex>& files, const std::map<NameNumber, std::uint32_t>& group)
 {
   const std::vector<FrameEntry>* longest = nullptr;
   for (const auto& [value, file] : group)
@@ -160,8 +160,8 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
     (2 * shared >= all || (groups.size() == 1 && only_lag(files, groups.begin()->second)));
 }
 
-/// Calls take(rows) for batches of the first rows of a frame, at most so many, with the sinks filled; those that cannot be
-/// decoded are left to who reads the frame.
+/// Calls take(rows) for batches of the first rows of a frame, at most so many, with the sinks filled. Rows that cannot be
+/// decoded are left to the reader of the frame. Throws IoError: without the rows nobody can tell pieces from repetitions.
 template <class Take>
 void decode_first(const FileIndex& file, const FrameEntry& entry, std::size_t most,
   std::span<ColumnSink> sinks, const Take& take)
@@ -179,6 +179,10 @@ void decode_first(const FileIndex& file, const FrameEntry& entry, std::size_t mo
       most -= static_cast<std::size_t>(got);
       take(static_cast<std::size_t>(got));
     }
+  }
+  catch (const IoError&)
+  {
+    throw;
   }
   catch (const Error&)
   {
@@ -204,8 +208,9 @@ std::vector<std::int64_t> first_ids(const FileIndex& file, const FrameEntry& ent
 /// Numbers that are the same for rows of the same words: of the first rows of a text that has no ids.
 std::vector<std::int64_t> hash_first_rows(const FileIndex& file, const FrameEntry& entry)
 {
-  constexpr std::size_t most = 1'000;
+  constexpr std::size_t most_words = 100'000;
   const std::size_t columns = entry.kind->schema.columns().size();
+  const std::size_t most = std::clamp<std::size_t>(most_words / columns, 1, 1'000);
   std::vector<std::string_view> words(columns * most);
   std::vector<ColumnSink> sinks;
   for (std::size_t i = 0; i < columns; ++i)
@@ -289,7 +294,7 @@ bool share_particles(const std::vector<FileIndex>& files, const std::vector<Grou
 /// The sets if the number that tells the files of a group apart counts pieces; else none.
 std::vector<PieceSet> sets_of(const std::vector<FileIndex>& files, const Siblings& groups)
 {
-  const std::vector<Digits> values = values_of(groups);
+  const std::vector<NameNumber> values = values_of(groups);
   if (values.size() < 2 || values.front().text != "0")
   {
     return {}; // the programs count processes from 0
@@ -299,13 +304,13 @@ std::vector<PieceSet> sets_of(const std::vector<FileIndex>& files, const Sibling
   {
     return {};
   }
-  const std::vector<Digits> numbers = piece_numbers(values);
+  const std::vector<NameNumber> numbers = piece_numbers(values);
   std::vector<PieceSet> sets;
   for (const auto& [others, group] : groups)
   {
     PieceSet& set = sets.emplace_back();
     set.expected = numbers.size();
-    for (const Digits& number : numbers)
+    for (const NameNumber& number : numbers)
     {
       const auto found = group.find(number);
       if (found == group.end())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/point_forms.h"
 
+#include "granular/base/exact_determinant.h"
+
 #include <cmath>
 
 namespace granular
@@ -39,6 +41,28 @@ void load_as(const ValueSource& source, Rows rows, To* to)
     copy_values<std::uint32_t, To>, copy_values<std::int64_t, To>, copy_values<std::uint64_t, To>,
     copy_values<float, To>, copy_values<double, To> };
   copies[static_cast<std::size_t>(source.type)](source, rows, to);
+}
+
+/// The sign of what a vector spans with the two that follow an axis of the box.
+int side_of(const ExactVector& vector, const Box& box, std::size_t axis) noexcept
+{
+  return determinant(vector, exact_vector(box.vectors[(axis + 1) % 3]),
+    exact_vector(box.vectors[(axis + 2) % 3]))
+    .sign();
+}
+
+/// Whether the scaled coordinate of a point along an axis is below a number. orientation: side_of the vector of that axis.
+bool is_below(const Box& box, int orientation, std::size_t axis, const double* point,
+  double number) noexcept
+{
+  ExactVector offset;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    offset[k].add(point[k]);
+    offset[k].add(Twofold{ -box.origin[k].hi, -box.origin[k].lo });
+    offset[k].add_product(-number, box.vectors[axis][k]);
+  }
+  return side_of(offset, box, axis) * orientation < 0;
 }
 }
 
@@ -113,12 +137,21 @@ Box box_of_points(const FrameView& frame, const Box& box)
 
 void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images)
 {
+  constexpr double rounding = 0x1p-20; // far more than that of a scaled coordinate
+  const int orientation = side_of(exact_vector(box.vectors[0]), box, 0); // the same for all axes
   images.assign(points.begin(), points.end());
   convert_positions(
     plan_form(Coordinates::Absolute, ColumnRole::ScaledPosition), box, {}, {}, images);
   for (std::size_t i = 0; i < images.size(); ++i)
   {
-    images[i] = is_periodic(box, i % 3) && std::isfinite(images[i]) ? std::floor(images[i]) : 0;
+    const double scaled = images[i];
+    const std::size_t axis = i % 3;
+    images[i] = is_periodic(box, axis) && std::isfinite(scaled) ? std::floor(scaled) : 0;
+    const double face = std::nearbyint(scaled);
+    if (is_periodic(box, axis) && std::abs(scaled) < 0x1p52 && std::abs(scaled - face) < rounding)
+    {
+      images[i] = face - (is_below(box, orientation, axis, &points[i - axis], face) ? 1 : 0);
+    }
   }
 }
 }

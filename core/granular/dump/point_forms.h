@@ -33,7 +33,8 @@ PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept;
 /// it to them.
 Box box_of_points(const FrameView& frame, const Box& box);
 
-/// How often unwrapped points have crossed the box along its periodic axes: three counts a point, 0 along others.
+/// How often unwrapped points have crossed the box along its periodic axes: three counts a point, 0 along others. Exact, in
+/// tilted boxes, too, up to 2^52 crossings.
 void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images);
 }
 #endif

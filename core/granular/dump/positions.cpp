@@ -2,6 +2,7 @@
 #include "granular/dump/positions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace granular
@@ -146,6 +147,31 @@ const char* to_string(Coordinates coordinates) noexcept
 {
   constexpr const char* names[] = { "Absolute", "Unwrapped", "Scaled" };
   return names[static_cast<std::size_t>(coordinates)];
+}
+
+void check_scale(const PositionPlan& plan, const Box& box, const Where& where)
+{
+  const bool scales = std::any_of(plan.axes.begin(), plan.axes.end(),
+    [&](const PositionPlan::Axis& axis) { return is_rescaled(plan, axis); });
+  for (const Twofold3& edge : box.vectors)
+  {
+    if (!std::all_of(
+          edge.begin(), edge.end(), [](const Twofold& part) { return std::isfinite(part.hi); }))
+    {
+      return; // coordinates are no numbers either
+    }
+  }
+  try
+  {
+    if (scales)
+    {
+      check_volume(box);
+    }
+  }
+  catch (const Error& error)
+  {
+    throw FormatError(error.text(), where);
+  }
 }
 
 PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordinates wanted,

@@ -48,13 +48,27 @@ struct PositionPlan
 PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordinates wanted,
   const Where& where, Notices& notices);
 
+/// Whether a coordinate is multiplied or divided by the box.
+inline bool is_rescaled(const PositionPlan& plan, const PositionPlan::Axis& axis) noexcept
+{
+  return axis.column >= 0 && axis.scaled != (plan.coordinates == Coordinates::Scaled);
+}
+
+/// Makes sure that a finite box can make points from scaled coordinates, or the other way, where a plan does so. Throws
+/// FormatError for one of no volume.
+void check_scale(const PositionPlan& plan, const Box& box, const Where& where);
+
+/// Whether points are other numbers than the columns.
+bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexcept;
+
 /// Turns the columns' values into points minus point_origin, in place: points holds x y z of each
 /// row, images (empty unless the plan has images) the three counts. Coordinates without a column are
 /// taken as 0.
 ///
 /// Each coordinate is within half an ulp plus 2^-100 of the sum of the magnitudes of its terms of
-/// the exact value, the file's doubles being exact: also far from the origin, for thin and for
-/// strongly tilted boxes, and after any number of crossings.
+/// the exact value, the file's doubles being exact: also far from the origin, for thin, for nearly
+/// flat and for strongly tilted boxes, and after any number of crossings. Terms are those of the
+/// expanded formula, by the volume of the box where it is general.
 void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
   std::span<const double> images, std::span<double> points) noexcept;
 

@@ -34,6 +34,7 @@ RowBatches::RowBatches(
     std::min({ chunks_, threads * chunks_per_thread, std::max(most_chunks, threads) });
   buffers_.resize(in_batch);
   values_.resize(executor.workers(in_batch));
+  losses_.resize(values_.size());
   std::int64_t kept = 0;
   for (std::size_t chunk = 0; frame.ghosts && chunk < chunks_; ++chunk)
   {
@@ -48,7 +49,7 @@ void RowBatches::encode(std::size_t chunk, std::size_t worker, RowBuffer& to)
   const std::int64_t first = static_cast<std::int64_t>(chunk) * chunk_rows_;
   to.clear();
   encoder_.encode(first, std::min(chunk_rows_, frame_.rows - first),
-    kept_before_.empty() ? first : kept_before_[chunk], values_[worker], to);
+    kept_before_.empty() ? first : kept_before_[chunk], values_[worker], to, losses_[worker]);
 }
 
 void RowBatches::pass_on(const std::function<std::int64_t(std::size_t bytes)>& take,
@@ -85,6 +86,13 @@ bool RowBatches::next(Progress& progress)
     part);
   place_ += filled_;
   return true;
+}
+
+RoundingLoss RowBatches::loss() const
+{
+  RoundingLoss all;
+  std::for_each(losses_.begin(), losses_.end(), [&](const RoundingLoss& loss) { all.add(loss); });
+  return all;
 }
 
 std::vector<std::string_view> RowBatches::bytes() const

@@ -38,6 +38,9 @@ public:
   std::size_t place() const noexcept { return place_; }
   void go_to(std::size_t place) noexcept { place_ = place; }
 
+  /// What becomes of the rows so far when they are read.
+  RoundingLoss loss() const;
+
 private:
   void encode(std::size_t chunk, std::size_t worker, RowBuffer& to);
 
@@ -51,7 +54,8 @@ private:
   std::vector<std::int64_t>
     kept_before_; ///< rows before a chunk that are no duplicates; empty: all
   std::vector<RowBuffer> buffers_;
-  std::vector<RowValues> values_; ///< of each worker
+  std::vector<RowValues> values_;    ///< of each worker
+  std::vector<RoundingLoss> losses_; ///< of each worker
 };
 
 /// Rows of the view that are written: all but duplicates.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace granular
 {
@@ -112,7 +113,7 @@ void pack_rows(
 
 RowEncoder::RowEncoder(const FrameView& frame, const ColumnPlan& plan, const Box& box,
   const DumpFormat& format, const ChunkLengths& chunks, std::int64_t first_row,
-  std::int64_t first_in_file)
+  std::int64_t first_in_file, PrintLoss print_loss)
   : frame_(frame)
   , plan_(plan)
   , box_(box)
@@ -121,17 +122,19 @@ RowEncoder::RowEncoder(const FrameView& frame, const ColumnPlan& plan, const Box
   , first_row_(first_row)
   , first_in_file_(first_in_file)
   , trailing_blank_(has_trailing_blanks(format))
+  , print_loss_(std::move(print_loss))
 {
 }
 
 void RowEncoder::encode(std::int64_t first, std::int64_t count, std::int64_t kept_before,
-  RowValues& values, RowBuffer& to) const
+  RowValues& values, RowBuffer& to, RoundingLoss& loss) const
 {
   std::int64_t row = first_row_ + kept_before;
   constexpr auto most = static_cast<std::int64_t>(RowValues::most_rows);
   for (std::int64_t done = 0; done < count; done += most)
   {
     values.load(frame_, plan_, box_, first + done, std::min(most, count - done), row);
+    print_loss_.measure(values, loss);
     if (format_.binary)
     {
       this->encode_binary(values, row - first_row_ + first_in_file_, to);

@@ -5,6 +5,7 @@
 #include "granular/dump/column_plan.h"
 #include "granular/dump/dump_format.h"
 #include "granular/dump/encode_header.h"
+#include "granular/dump/print_loss.h"
 #include "granular/dump/row_buffer.h"
 #include "granular/dump/row_values.h"
 
@@ -25,12 +26,12 @@ public:
   /// process; first_in_file: which of those in its file.
   RowEncoder(const FrameView& frame, const ColumnPlan& plan, const Box& box,
     const DumpFormat& format, const ChunkLengths& chunks, std::int64_t first_row,
-    std::int64_t first_in_file);
+    std::int64_t first_in_file, PrintLoss print_loss = {});
 
   /// Adds the rows of the view from first to first + count, duplicates left out; kept_before is the number of
-  /// those before that are not. Throws LimitError, FormatError.
+  /// those before that are not. loss: what becomes of the rows when they are read. Throws LimitError, FormatError.
   void encode(std::int64_t first, std::int64_t count, std::int64_t kept_before, RowValues& values,
-    RowBuffer& to) const;
+    RowBuffer& to, RoundingLoss& loss) const;
 
 private:
   void encode_text(const RowValues& values, RowBuffer& to) const;
@@ -44,6 +45,7 @@ private:
   std::int64_t first_row_;
   std::int64_t first_in_file_;
   bool trailing_blank_;
+  PrintLoss print_loss_;
 };
 }
 #endif

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/table_columns.h"
 
-#include <algorithm>
+#include <map>
+#include <set>
 
 namespace granular
 {
 namespace
 {
-bool contains(const std::vector<std::string>& names, const std::string& name)
-{
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// What the columns of an array are called.
 std::vector<std::string> names_of(const ArrayView& array)
 {
@@ -32,33 +28,58 @@ std::vector<std::string> names_of(const ArrayView& array)
   return names;
 }
 
-/// The first array that has such a column, the very names before those with blanks.
-std::optional<ValueSource> find_column(const FrameView& frame, const std::string& name)
+/// The columns that the arrays of a frame have, by their names.
+class TableColumns
 {
-  if (const ArrayView* array = find_array(frame, name, 1))
+public:
+  explicit TableColumns(const FrameView& frame)
+    : arrays_(frame.arrays)
   {
-    return component_of(*array, 0);
-  }
-  for (const ArrayView& array : frame.arrays)
-  {
-    const std::vector<std::string> names = names_of(array);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end())
+    for (const ArrayView& array : frame.arrays)
     {
-      return component_of(array, static_cast<int>(found - names.begin()));
+      const std::vector<std::string> names = names_of(array);
+      for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        const auto component = static_cast<int>(i);
+        ColumnSource column{ names[i] };
+        column.values = component_of(array, component);
+        column.role = array.places ? ColumnRole::Position : ColumnRole::Other;
+        column.axis = array.places ? component : 0;
+        columns_.try_emplace(names[i], column);
+      }
     }
   }
-  return {};
-}
+
+  /// The first array that has such a column, the very names before those with blanks.
+  std::optional<ColumnSource> find(const std::string& name) const
+  {
+    if (const ArrayView* array = arrays_.find(name, 1))
+    {
+      ColumnSource column{ name };
+      column.values = component_of(*array, 0);
+      return column;
+    }
+    const auto found = columns_.find(name);
+    return found == columns_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// The first array that is called so, or null.
+  const ArrayView* array(const std::string& name) const { return arrays_.find_longer(name, 0); }
+
+private:
+  ArraysByName arrays_;
+  std::map<std::string, ColumnSource> columns_;
+};
 }
 
 std::vector<std::string> default_table_columns(const FrameView& frame, Notices& notices)
 {
   std::vector<std::string> names;
   std::string left_out;
+  const TableColumns columns(frame);
   for (const std::string& name : frame.columns)
   {
-    if (find_column(frame, name) || is_blank_frame(frame))
+    if (columns.find(name) || is_blank_frame(frame))
     {
       names.push_back(name);
     }
@@ -73,11 +94,12 @@ std::vector<std::string> default_table_columns(const FrameView& frame, Notices& 
     notice.text = "columns of the input without an array are left out:" + left_out;
     notices.push_back(notice);
   }
+  std::set<std::string> taken(names.begin(), names.end());
   for (const ArrayView& array : frame.arrays)
   {
     for (const std::string& name : names_of(array))
     {
-      if (!contains(names, name))
+      if (taken.insert(name).second)
       {
         names.push_back(name);
       }
@@ -90,11 +112,11 @@ std::vector<std::string> expand_table_columns(
   const std::vector<std::string>& names, const FrameView& frame)
 {
   std::vector<std::string> columns;
+  const TableColumns all(frame);
   for (const std::string& name : names)
   {
-    const auto array = std::find_if(frame.arrays.begin(), frame.arrays.end(),
-      [&](const ArrayView& candidate) { return as_word(candidate.name) == name; });
-    const std::vector<std::string> parts = array == frame.arrays.end() || find_column(frame, name)
+    const ArrayView* const array = all.array(name);
+    const std::vector<std::string> parts = !array || all.find(name)
       ? std::vector<std::string>{ name }
       : names_of(*array);
     columns.insert(columns.end(), parts.begin(), parts.end());
@@ -105,15 +127,15 @@ std::vector<std::string> expand_table_columns(
 ColumnPlan plan_table_columns(const std::vector<std::string>& names, const FrameView& frame)
 {
   ColumnPlan plan;
+  const TableColumns columns(frame);
   for (const std::string& name : names)
   {
-    const std::optional<ValueSource> values = find_column(frame, name);
-    if (!values && !is_blank_frame(frame))
+    const std::optional<ColumnSource> found = columns.find(name);
+    if (!found && !is_blank_frame(frame))
     {
       fail_missing(frame, name);
     }
-    ColumnSource column{ name };
-    column.values = values.value_or(ValueSource{});
+    ColumnSource column = found.value_or(ColumnSource{ name });
     column.whole = name == "id1" || name == "id2";
     plan.columns.push_back(column);
   }

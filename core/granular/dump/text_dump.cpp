@@ -2,6 +2,7 @@
 #include "granular/dump/text_dump.h"
 
 #include "granular/base/number.h"
+#include "granular/dump/frame_rows.h"
 #include "granular/dump/text_header.h"
 
 #include <algorithm>
@@ -44,13 +45,15 @@ ColumnSchema make_schema(std::vector<std::string> names,
     names = unnamed_columns(first_row.size(), where);
   }
   ColumnSchema schema(names);
+  std::vector<ColumnSchema::TypeChange> texts;
   for (std::size_t i = 0; i < std::min(names.size(), first_row.size()); ++i)
   {
     if (!schema.columns()[i].known && !is_number(first_row[i]))
     {
-      schema.set_type(static_cast<int>(i), ValueType::Text);
+      texts.push_back({ static_cast<int>(i), ValueType::Text });
     }
   }
+  schema.set_types(texts);
   return schema;
 }
 
@@ -344,6 +347,33 @@ bool is_text_dump(std::string_view first_bytes)
 bool is_text_of_others(std::string_view first_bytes)
 {
   return find_rows(first_bytes) == RowsOf::Others;
+}
+
+bool makes_columns(const std::vector<std::string>& names,
+  const std::vector<std::string_view>& first_row, const ColumnSchema& schema)
+{
+  if (makes_schema(names, first_row, schema))
+  {
+    return true;
+  }
+  try
+  {
+    return make_schema(names, first_row, {}) == schema; // names that no header gives
+  }
+  catch (const FormatError&)
+  {
+    return false;
+  }
+}
+
+bool text_dump_fits(const ByteSource& source, const FileIndex& index)
+{
+  const FrameEntry& first = index.frames.front();
+  constexpr std::size_t window = 4096;
+  TextScanner scanner(source, first.offset, first.line, window);
+  TextHeader reader(scanner, "", RowsOf::Any);
+  return !index.unnamed && reader.read() && reader.header().units == first.kind->units &&
+    open_rows(source, first) != nullptr;
 }
 
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,

@@ -8,7 +8,9 @@
 #include "granular/dump/file_index.h"
 #include "granular/dump/text_header.h"
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace granular
 {
@@ -20,6 +22,13 @@ bool is_text_dump(std::string_view first_bytes);
 /// Whether the first bytes of a file are those of a text of dump local: as is_text_dump, but with something else than
 /// atoms that is counted, within these bytes.
 bool is_text_of_others(std::string_view first_bytes);
+
+/// Whether the names in a header, and the words of the first row, which has none where there are no rows, make these columns.
+bool makes_columns(const std::vector<std::string>& names,
+  const std::vector<std::string_view>& first_row, const ColumnSchema& schema);
+
+/// FileFormat::fits of a text.
+bool text_dump_fits(const ByteSource& source, const FileIndex& index);
 
 /// As index_dump, of a text. index.kinds must be there.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,

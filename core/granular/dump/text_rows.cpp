@@ -3,6 +3,7 @@
 
 #include "granular/base/line_scan.h"
 #include "granular/base/text_scanner.h"
+#include "granular/dump/text_dump.h"
 #include "granular/dump/text_header.h"
 
 #include <algorithm>
@@ -25,14 +26,27 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
     return;
   }
   check_header(source.path(), entry, header_, this->read_header());
+  header_.units = entry.kind->units;
 }
 
-/// Returns the names of the columns.
+/// The words of the first row, if there is one, until the scanner moves on.
+std::vector<std::string_view> TextRows::first_row(TextScanner& scanner) const
+{
+  std::vector<std::string_view> words;
+  std::string_view line;
+  while (header_.rows > 0 && words.empty() && scanner.next(line))
+  {
+    append_words(line, words);
+  }
+  return words;
+}
+
+/// Returns the names of the columns. Where the first row makes other columns of them than the index says, the header gets -1 rows.
 std::vector<std::string> TextRows::read_header()
 {
   constexpr std::size_t window = 4096; // most headers are shorter
   TextScanner scanner(source_, entry_.offset, entry_.line, window);
-  TextHeader reader(scanner, entry_.kind->units, RowsOf::Any);
+  TextHeader reader(scanner, "", RowsOf::Any);
   try
   {
     if (!reader.read())
@@ -51,6 +65,11 @@ std::vector<std::string> TextRows::read_header()
   header_ = std::move(reader.header());
   rows_offset_ = scanner.offset();
   rows_line_ = scanner.line();
+  const bool is_header = header_.rows >= 0;
+  if (is_header && !makes_columns(reader.column_names(), this->first_row(scanner), entry_.kind->schema))
+  {
+    header_.rows = -1;
+  }
   return reader.column_names();
 }
 
@@ -66,11 +85,22 @@ bool TextRows::is_misfit(const RowFault& fault) const
       !entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].known);
 }
 
-Misfit TextRows::describe(const RowFault& fault) const
+std::vector<Misfit> TextRows::describe(const RowFault& fault) const
 {
   if (this->is_misfit(fault))
   {
-    return { fault.column, fault.status, fault.text, this->where(fault) };
+    Where where = this->where(fault);
+    std::vector<Misfit> misfits = { { fault.column, fault.status, fault.text, where } };
+    for (const RowFault& next : fault.rest)
+    {
+      if (!this->is_misfit(next))
+      {
+        break; // it is met again
+      }
+      where.column = this->name_of(next);
+      misfits.push_back({ next.column, next.status, next.text, where });
+    }
+    return misfits;
   }
   if (fault.status == RowStatus::NotANumber)
   {
@@ -97,9 +127,14 @@ Where TextRows::where(const RowFault& fault) const
   }
   if (fault.column >= 0)
   {
-    where.column = entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].name;
+    where.column = this->name_of(fault);
   }
   return where;
+}
+
+std::string TextRows::name_of(const RowFault& fault) const
+{
+  return entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].name;
 }
 
 /// Brings [from, to) of the content behind what is in the buffer.
@@ -213,20 +248,38 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
     decode_rows(buffer_.data() + at_, buffer_.data() + end_, columns, sinks, max_rows);
   if (result.status != RowStatus::Done)
   {
-    this->fail(result);
+    this->fail(result, sinks);
   }
   at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
   surplus_ = surplus_ || result.surplus;
   return result.rows;
 }
 
-void TextReader::fail(const RowResult& result) const
+void TextReader::fail(const RowResult& result, std::span<const ColumnSink> sinks) const
 {
   const char* const last = buffer_.data() + end_;
   const char* const end = result.status == RowStatus::TooFew
     ? std::find(result.ptr, last, '\n')
     : std::find_if(result.ptr, last, is_blank);
-  throw RowFault{ result.status, result.status == RowStatus::TooFew ? -1 : result.column,
+  RowFault fault{ result.status, result.status == RowStatus::TooFew ? -1 : result.column,
     std::string(result.ptr, end), offset_ + (result.ptr - buffer_.data()) };
+  std::string_view rest(end, std::find(end, last, '\n'));
+  int column = result.column;
+  for (const ColumnSink& sink : sinks)
+  {
+    std::string_view word;
+    while (fault.column >= 0 && column < static_cast<int>(sink.column))
+    {
+      word = take_word(rest);
+      ++column;
+    }
+    const RowStatus status = word.empty() ? RowStatus::Done : check_word(word, sink.kind);
+    if (status != RowStatus::Done)
+    {
+      fault.rest.push_back(
+        { status, column, std::string(word), offset_ + (word.data() - buffer_.data()) });
+    }
+  }
+  throw fault;
 }
 }

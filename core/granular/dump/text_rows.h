@@ -2,6 +2,7 @@
 #ifndef granular_dump_text_rows_h
 #define granular_dump_text_rows_h
 
+#include "granular/base/text_scanner.h"
 #include "granular/dump/frame_rows.h"
 
 #include <cstddef>
@@ -19,14 +20,16 @@ public:
 
   const FrameHeader& header() const noexcept override { return header_; }
   std::unique_ptr<RowReader> reader() const override;
-  Misfit describe(const RowFault& fault) const override;
+  std::vector<Misfit> describe(const RowFault& fault) const override;
 
 private:
   friend class TextReader;
 
   std::vector<std::string> read_header();
+  std::vector<std::string_view> first_row(TextScanner& scanner) const;
   bool is_misfit(const RowFault& fault) const;
   Where where(const RowFault& fault) const;
+  std::string name_of(const RowFault& fault) const;
 
   const ByteSource& source_;
   FrameEntry entry_;
@@ -54,7 +57,7 @@ private:
   void load(std::int64_t from, std::int64_t to);
   std::size_t load_line(std::size_t at);
   void check_length(std::size_t first, std::size_t end) const;
-  [[noreturn]] void fail(const RowResult& result) const;
+  [[noreturn]] void fail(const RowResult& result, std::span<const ColumnSink> sinks) const;
 
   const TextRows& of_;
   PaddedBuffer buffer_;

@@ -17,6 +17,9 @@ namespace granular
 {
 namespace
 {
+/// The sums of a frame, and what TimeAverage keeps of a cell.
+constexpr double values_of_time_average = 6 + 44;
+
 /// Tells what is not known of the grains. The same on all ranks: grains speak for those who have none.
 struct Known
 {
@@ -77,7 +80,7 @@ void check_memory(const EulerAverageRequest& request)
   const auto& [nx, ny, nz] = request.grid.counts;
   const auto cells = static_cast<double>(request.grid.size());
   const double values = static_cast<double>(values_of_cell) +
-    (request.arrays.stress.empty() ? 0 : 6) + (request.keep_sums ? 24 : 0);
+    (request.arrays.stress.empty() ? 0 : 6) + (request.keep_sums ? values_of_time_average : 0);
   const double bytes = 8 *
       (static_cast<double>(request.wanted.count(request.grid)) * values + cells / 1024 +
         static_cast<double>(nx) + static_cast<double>(ny) + static_cast<double>(nz)) +
@@ -180,61 +183,5 @@ double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communi
     largest = std::max(largest, other);
   }
   return largest;
-}
-
-void TimeAverage::add(const EulerAverages& frame)
-{
-  const EulerCells& cells = frame.cells;
-  const std::span<const EulerArray> arrays = euler_arrays();
-  if (frames_ == 0)
-  {
-    centres_ = cells.centres;
-    mass_.assign(frame.mass.size(), {});
-    momentum_.assign(frame.momentum.size(), {});
-    for (const EulerArray& array : arrays)
-    {
-      means_.emplace_back((cells.*array.values).size());
-    }
-  }
-  if (cells.centres != centres_)
-  {
-    throw Error("expected the same cells in all frames that are averaged, got others in frame " +
-      std::to_string(frames_) + ": their bounds and their number must not depend on the frame");
-  }
-  const auto add_all = [](std::vector<CompensatedSum>& sums, const std::vector<double>& terms)
-  {
-    for (std::size_t i = 0; i < std::min(sums.size(), terms.size()); ++i)
-    {
-      sums[i].add(terms[i]);
-    }
-  };
-  add_all(mass_, frame.mass);
-  add_all(momentum_, frame.momentum);
-  for (std::size_t i = 0; i < arrays.size(); ++i)
-  {
-    add_all(means_[i], cells.*arrays[i].values);
-  }
-  ++frames_;
-}
-
-EulerCells TimeAverage::cells() const
-{
-  EulerCells cells;
-  cells.centres = centres_;
-  const std::span<const EulerArray> arrays = euler_arrays();
-  for (std::size_t i = 0; i < means_.size(); ++i)
-  {
-    std::vector<double>& values = cells.*arrays[i].values;
-    for (const CompensatedSum& sum : means_[i])
-    {
-      values.push_back(sum.value() / static_cast<double>(frames_));
-    }
-  }
-  for (std::size_t i = 0; i < momentum_.size(); ++i)
-  {
-    const double mass = mass_[i / 3].value();
-    cells.velocities[i] = mass > 0 ? momentum_[i].value() / mass : 0;
-  }
-  return cells;
 }
 }

@@ -13,6 +13,7 @@
 #include "granular/euler/grain_values.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -39,27 +40,47 @@ struct EulerAverageRequest
   GrainCells::Options cells;
   GrainArrays arrays;
   WantedCells wanted;     ///< of this process
-  bool keep_sums = false; ///< fill mass and momentum
+  bool keep_sums = false; ///< fill EulerAverages::sums
+};
+
+/// What averages of several frames are made of: structure of arrays, of the wanted cells.
+struct EulerSums
+{
+  std::vector<double> share;    ///< of the particles in each cell, as far as they are in it: sum w
+  std::vector<double> mass;     ///< sum w m [kg]
+  std::vector<double> momentum; ///< sum w m v, three a cell [kg m/s]
+  std::vector<double> volume;   ///< of the cell [m3]
 };
 
 /// Averages over the grains of a frame.
 struct EulerAverages
 {
-  EulerCells cells;             ///< the wanted ones
-  std::vector<double> mass;     ///< of the grains in each cell, as far as they are in it [kg]
-  std::vector<double> momentum; ///< three a cell [kg m/s]
-  std::int64_t outside = 0;     ///< grains that are in no cell
-  std::int64_t broken = 0;      ///< grains that were left out: see GrainValues::load
+  EulerCells cells; ///< the wanted ones
+  EulerSums sums;   ///< of the wanted ones, or empty
+  std::int64_t outside =
+    0; ///< particles that touch no cell; by centres those whose centre is in none
+  std::int64_t broken = 0; ///< particles that were left out: see GrainValues::load
 };
+
+/// v - mean; 0 where the two may differ by the rounding of mean alone: its terms, sums and quotients are rounded up to
+/// ten times. Without that one particle, or particles of one velocity, would have a pressure.
+inline double deviation(double v, double mean) noexcept
+{
+  const double difference = v - mean;
+  return std::abs(difference) > 0x1p-49 * std::abs(mean) ? difference : 0;
+}
 
 /// Averages the grains of a frame over the cells of a grid. With the share w of a grain in a cell, its mass m, radius r,
 /// velocity v, stress times volume S, and V the volume of the cell:
 ///   v_avg = sum w m v / sum w m; radius = sum w r / sum w; volume fraction = volume of the grains in the cell / V;
 ///   stress = sum (-w m (v - v_avg)(v - v_avg) + w S) / V; pressure = -trace(stress) / 3
 /// as fix ave/euler of LIGGGHTS has it, where w is 1 or 0: the grains of one moment, no average over time. Without S
-/// the stress is that of the fluctuations of velocity alone.
+/// the stress is that of the fluctuations of velocity alone; components of v - v_avg count as 0 up to 2^-49 v_avg, which
+/// rounding may make: particles of one velocity have no pressure. Where particles overlap one another their common volume
+/// counts for each of them.
 ///
-/// Cells are lo <= x < hi; the last along an axis has x <= hi. Positions and images: see AbsolutePositions and GrainCells.
+/// Cells are lo <= x < hi; the last along an axis has x <= hi. Positions and images: see AbsolutePositions and GrainCells;
+/// an image is on that side of a face on which the exact image of its position in the box is, which is less than an ulp off.
 /// Sums are those of exact arithmetic, rounded once, of terms that are rounded doubles (of stresses: to 2^-192 of the largest
 /// there can be): the results are the same, bit for bit, for any order of rows, threads and ranks.
 ///
@@ -71,24 +92,5 @@ EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest
 
 /// The largest radius of the grains of all ranks; 0 without grains. Throws Error, on all, where there are no radii. Collective.
 double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks);
-
-/// Averages over frames, which must have the same cells: v_avg = sum of momenta / sum of masses; of all other values
-/// the mean, where each frame, also one in which the cell is empty, has the same weight.
-class TimeAverage
-{
-public:
-  /// Of averages with sums. Throws Error if the cells are others.
-  void add(const EulerAverages& frame);
-
-  std::int64_t frames() const noexcept { return frames_; }
-  EulerCells cells() const; ///< 0 cells without frames
-
-private:
-  std::int64_t frames_ = 0;
-  std::vector<double> centres_;
-  std::vector<CompensatedSum> mass_;
-  std::vector<CompensatedSum> momentum_;
-  std::vector<std::vector<CompensatedSum>> means_; ///< by euler_arrays(); empty: not known
-};
 }
 #endif

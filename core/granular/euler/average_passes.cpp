@@ -146,9 +146,9 @@ void AveragePasses::sum_group(const Group& group)
         const double* const v = grains.velocities + 3 * i;
         const double* const mean = means + 3 * batch.cell[n];
         const double mass = grains.mass[i] * batch.share[n];
-        const double x = v[0] - mean[0];
-        const double y = v[1] - mean[1];
-        const double z = v[2] - mean[2];
+        const double x = deviation(v[0], mean[0]);
+        const double y = deviation(v[1], mean[1]);
+        const double z = deviation(v[2], mean[2]);
         batch.terms[n] = { -mass * x * x, -mass * y * y, -mass * z * z, -mass * x * y,
           -mass * x * z, -mass * y * z, 0, 0 };
         for (std::size_t k = 0; grains.stresses && k < 6; ++k)
@@ -241,7 +241,7 @@ void AveragePasses::each_batch(
         if (!inside)
         {
           cells_.each_range(grains.positions + 3 * i, grains.radius[i],
-            [&](const CellRange&) { inside = true; }); // it touches none, but nearly
+            [&](const CellRange&) { inside = true; }); // so little that its share is 0
           batch.outside += inside ? 0 : 1;
         }
       }
@@ -326,10 +326,7 @@ void AveragePasses::each_cell(const Group& group, const SumScale& scale, const T
         {
           for (x[0] = range.first[0]; x[0] < range.last[0]; ++x[0], ++cell)
           {
-            take(cell, request_.wanted.place(request_.grid, x),
-              edges_[0][static_cast<std::size_t>(x[0])] *
-                edges_[1][static_cast<std::size_t>(x[1])] *
-                edges_[2][static_cast<std::size_t>(x[2])],
+            take(cell, request_.wanted.place(request_.grid, x), this->volume_of(x),
               scale.values(integers_.data() + cell * scale.size()));
           }
         }
@@ -360,8 +357,9 @@ void AveragePasses::finish_means(const Group& group)
       cells.volume_fraction[to] = sums[Volume] / volume;
       if (request_.keep_sums)
       {
-        result_.mass[to] = sums[Mass];
-        std::copy_n(&sums[MomentumX], 3, result_.momentum.begin() + 3 * place);
+        result_.sums.share[to] = sums[Share];
+        result_.sums.mass[to] = sums[Mass];
+        std::copy_n(&sums[MomentumX], 3, result_.sums.momentum.begin() + 3 * place);
       }
     });
 }
@@ -377,7 +375,7 @@ void AveragePasses::finish_stress(const Group& group)
         return;
       }
       const auto to = static_cast<std::size_t>(place);
-      cells.pressure[to] = -(sums[0] + sums[1] + sums[2]) / (3 * volume);
+      cells.pressure[to] = (0 - (sums[0] + sums[1] + sums[2])) / (3 * volume); // 0, not -0
       for (std::size_t k = 0; stress_ && k < 3; ++k)
       {
         cells.normal_stress[3 * to + k] = sums[k] / volume;

@@ -84,6 +84,8 @@ private:
   std::int64_t find_blocks(
     const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const;
   void plan();
+  void make_cells();
+  double volume_of(const std::array<std::int64_t, 3>& cell) const noexcept;
   void locate();
   template <class Take>
   void each_block(std::size_t chunk, const Take& take) const;

@@ -171,13 +171,25 @@ void AveragePasses::plan()
     std::transform(
       faces.begin() + 1, faces.end(), faces.begin(), edges_[axis].begin(), std::minus<>());
   }
+  this->make_cells();
+}
+
+/// The wanted cells, empty.
+void AveragePasses::make_cells()
+{
+  const EulerGrid& grid = request_.grid;
   EulerCells& cells = result_.cells;
+  EulerSums& sums = result_.sums;
   const std::int64_t wanted = request_.wanted.count(grid);
+  const auto stresses = stress_ ? static_cast<std::size_t>(3 * wanted) : 0;
+  const auto kept = request_.keep_sums ? static_cast<std::size_t>(wanted) : 0;
   cells.resize(wanted);
-  cells.normal_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
-  cells.shear_stress.resize(stress_ ? static_cast<std::size_t>(3 * wanted) : 0);
-  result_.mass.resize(request_.keep_sums ? static_cast<std::size_t>(wanted) : 0);
-  result_.momentum.resize(3 * result_.mass.size());
+  cells.normal_stress.resize(stresses);
+  cells.shear_stress.resize(stresses);
+  sums.share.resize(kept);
+  sums.mass.resize(kept);
+  sums.momentum.resize(3 * kept);
+  sums.volume.resize(kept);
   const CellRange& range = request_.wanted.range;
   std::array<std::int64_t, 3> cell;
   for (cell[2] = range.first[2]; cell[2] < range.last[2]; ++cell[2])
@@ -187,12 +199,28 @@ void AveragePasses::plan()
       for (cell[0] = range.first[0]; cell[0] < range.last[0]; ++cell[0])
       {
         const std::int64_t place = request_.wanted.place(grid, cell);
-        for (std::size_t axis = 0; place >= 0 && axis < 3; ++axis)
+        if (place < 0)
         {
-          cells.centres[static_cast<std::size_t>(3 * place) + axis] = grid.centre(axis, cell[axis]);
+          continue;
+        }
+        const auto to = static_cast<std::size_t>(place);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          cells.centres[3 * to + axis] = grid.centre(axis, cell[axis]);
+        }
+        if (kept > 0)
+        {
+          sums.volume[to] = this->volume_of(cell);
         }
       }
     }
   }
+}
+
+double AveragePasses::volume_of(const std::array<std::int64_t, 3>& cell) const noexcept
+{
+  const auto [x, y, z] = cell;
+  return edges_[0][static_cast<std::size_t>(x)] * edges_[1][static_cast<std::size_t>(y)] *
+    edges_[2][static_cast<std::size_t>(z)];
 }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/cell_blocks.h"
 
-#include "granular/base/number.h"
 #include "granular/base/number_print.h"
 
 #include <cmath>
@@ -17,18 +16,12 @@ bool is_single(double value)
 
 bool has_six_digits(double value)
 {
-  std::array<char, most_number_chars> word;
-  double rounded = 0;
-  const char* const end = print_number(word.data(), value, { 6 });
-  return parse_double(word.data(), end, rounded) && rounded == value;
+  return as_printed(value, { 6 }) == value;
 }
 
 bool has_six_decimals(double value)
 {
-  std::array<char, most_fixed_chars> word;
-  double rounded = 0;
-  const char* const end = print_fixed(word.data(), value);
-  return parse_double(word.data(), end, rounded) && rounded == value;
+  return as_fixed(value) == value;
 }
 }
 

@@ -17,7 +17,7 @@ struct EulerCells
 {
   std::vector<double> centres;         ///< x y z of each cell [m]
   std::vector<double> velocities;      ///< u v w, weighted by mass [m/s]
-  std::vector<double> volume_fraction; ///< of solids, 0 and more [-]
+  std::vector<double> volume_fraction; ///< of solids, 0 and more; overlaps count twice [-]
   std::vector<double> radius;          ///< mean over particles [m]
   std::vector<double> pressure;        ///< positive in compression [Pa]
   std::vector<double> normal_stress;   ///< xx yy zz, or empty: not known [Pa]

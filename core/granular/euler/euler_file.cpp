@@ -6,6 +6,7 @@
 #include "granular/euler/euler_dataset.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace granular
@@ -87,6 +88,13 @@ void index_euler(const ByteSource& source, FileIndex& index, Progress& progress,
   }
 }
 
+/// Whether an index says of a file what index_euler may; cells are counted when they are read.
+bool is_one_frame(const ByteSource&, const FileIndex& index)
+{
+  const FrameEntry& frame = index.frames.front();
+  return index.frames.size() == 1 && frame.shape == FrameEntry::whole && std::isnan(frame.time);
+}
+
 bool look_at(const ByteSource& source)
 {
   Progress progress;
@@ -113,7 +121,7 @@ bool look_at(const ByteSource& source)
 
 const FileFormat& euler_format() noexcept
 {
-  static const FileFormat format = { "a file of Euler cells", &index_euler, &name_steps };
+  static const FileFormat format = { "a file of Euler cells", &index_euler, &name_steps, &is_one_frame };
   return format;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/euler_text.h"
 
-#include "granular/base/number.h"
 #include "granular/base/number_print.h"
+#include "granular/base/rounding_loss.h"
 #include "granular/base/text_lines.h"
 
 #include <algorithm>
@@ -63,58 +63,126 @@ private:
   std::size_t done_ = 0;
 };
 
-/// Whether six decimals are the same for both.
-bool prints_alike(double a, double b)
+/// What six decimals do to cells.
+class DecimalLoss
 {
-  const auto printed = [](double value)
+public:
+  explicit DecimalLoss(const EulerCells& cells)
+    : cells_(cells)
   {
-    std::array<char, most_fixed_chars> digits;
-    static_cast<void>(parse_double(digits.data(), print_fixed(digits.data(), value), value));
-    return value;
-  };
-  return std::abs(a - b) <= 1e-6 && printed(a) == printed(b);
-}
-
-void tell(std::size_t lost, std::size_t all, const std::string& what, Notices& notices)
-{
-  if (lost > 0)
-  {
-    Notice& notice = notices.emplace_back();
-    notice.text = "six decimals, which is what LIGGGHTS writes, are few: " + std::to_string(lost) +
-      " of " + std::to_string(all) + what + "; the dialect Wide keeps all digits";
-  }
-}
-
-/// Says where centres along an axis become equal.
-void tell_centres(const EulerCells& cells, std::size_t axis, Notices& notices)
-{
-  std::vector<double> places;
-  for (std::size_t i = axis; i < cells.centres.size(); i += 3)
-  {
-    const double place = cells.centres[i];
-    if (std::isfinite(place) && (places.empty() || place != places.back()))
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      places.push_back(place);
+      this->find_places(axis);
+    }
+    std::ranges::for_each(cells.radius, [&](double radius) { loss_.add_radius(radius); });
+    for (const EulerArray& array : euler_arrays())
+    {
+      names_.emplace_back(array.name);
+      if (!array.optional)
+      {
+        this->measure(array);
+      }
     }
   }
-  std::ranges::sort(places);
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  std::size_t lost = 0;
-  for (std::size_t i = 1; i < places.size(); ++i)
-  {
-    lost += prints_alike(places[i - 1], places[i]) ? 1U : 0U;
-  }
-  tell(lost, places.size(),
-    std::string(" places of centres along ") + "xyz"[axis] + " become equal to the one before",
-    notices);
-}
 
-void tell_radii(const EulerCells& cells, Notices& notices)
-{
-  const auto is_lost = [](double radius) { return radius != 0 && prints_alike(radius, 0); };
-  const auto lost = static_cast<std::size_t>(std::ranges::count_if(cells.radius, is_lost));
-  tell(lost, cells.radius.size(), " radii become 0", notices);
-}
+  /// Throws Error where cells would be in one place along an axis.
+  void tell(Notices& notices) const
+  {
+    std::string text =
+      loss_.text(RoundingLimit(Box::from_bounds(lo_, hi_), loss_.radius()), "centres", names_);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::string places =
+        std::to_string(places_[axis]) + " places of centres along " + "xyz"[axis];
+      if (joined_[axis] > 0 && joined_[axis] + 1 == places_[axis])
+      {
+        throw Error(
+          "expected cells that six decimals, which is what LIGGGHTS writes, tell apart, got " +
+          places + " that all become one; the dialect Wide keeps all digits");
+      }
+      if (joined_[axis] > 0)
+      {
+        text += (text.empty() ? "" : "; ") + std::to_string(joined_[axis]) + " of " + places +
+          " become equal to the one before";
+      }
+    }
+    if (!text.empty())
+    {
+      Notice& notice = notices.emplace_back();
+      notice.topic = "rounding";
+      notice.text = "rounding to six decimals, which is what LIGGGHTS writes, " + text +
+        "; the dialect Wide keeps all digits";
+    }
+  }
+
+private:
+  static constexpr double most = 5e-7; ///< that a number is moved by
+
+  /// Where centres are along an axis, and which become the same.
+  void find_places(std::size_t axis)
+  {
+    std::vector<double> places;
+    for (std::size_t i = axis; i < cells_.centres.size(); i += 3)
+    {
+      const double place = cells_.centres[i];
+      if (std::isfinite(place) && (places.empty() || place != places.back()))
+      {
+        places.push_back(place);
+      }
+    }
+    std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    double before = HUGE_VAL;
+    for (const double place : places)
+    {
+      const double rounded = as_fixed(place);
+      joined_[axis] += rounded == before ? 1U : 0U;
+      loss_.move(axis, std::abs(rounded - place));
+      before = rounded;
+    }
+    places_[axis] = places.size();
+    lo_[axis] = places.empty() ? 0 : places.front();
+    hi_[axis] = places.empty() ? 0 : places.back();
+  }
+
+  /// A radius counts by itself. Other values are held against the largest of their array: what is next to nothing beside it
+  /// is so in any case. Of vectors the length counts.
+  void measure(const EulerArray& array)
+  {
+    const std::vector<double>& values = cells_.*array.values;
+    const auto components = static_cast<std::size_t>(array.components);
+    const bool alone = array.values == &EulerCells::radius;
+    const std::size_t index = names_.size() - 1;
+    double largest = 0;
+    for (std::size_t i = 0; i < values.size(); i += components)
+    {
+      const double* const v = values.data() + i;
+      largest = std::max(largest, components == 3 ? std::hypot(v[0], v[1], v[2]) : std::abs(*v));
+    }
+    constexpr double safe = 2 * most / RoundingLimit::of_value; // sqrt(3) for three components
+    if (largest >= safe && !alone)
+    {
+      return;
+    }
+    for (const double value : values)
+    {
+      if (value != 0 && std::abs(value) < safe)
+      {
+        const double moved = std::abs(as_fixed(value) - value);
+        const double whole = alone ? std::abs(value) : largest;
+        loss_.change(index, whole, whole + moved);
+      }
+    }
+  }
+
+  const EulerCells& cells_;
+  RoundingLoss loss_;
+  std::vector<std::string> names_; ///< of the arrays
+  std::array<std::size_t, 3> places_ = {};
+  std::array<std::size_t, 3> joined_ = {}; ///< places that become the one before
+  Vector3 lo_ = {};
+  Vector3 hi_ = {};
+};
 }
 
 std::string encode_euler(
@@ -147,13 +215,9 @@ std::string encode_euler(
       array.components == 3 ? "" : " 1\nLOOKUP_TABLE default");
     writer.add(values, static_cast<std::size_t>(array.components));
   }
-  for (std::size_t axis = 0; !wide && axis < 3; ++axis)
-  {
-    tell_centres(cells, axis, notices);
-  }
   if (!wide)
   {
-    tell_radii(cells, notices);
+    DecimalLoss(cells).tell(notices);
   }
   progress.step(1);
   return text;

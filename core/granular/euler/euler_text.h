@@ -19,8 +19,9 @@ enum class EulerDialect : std::uint8_t
 };
 
 /// The file, points and arrays v_avg, volumefraction, radius, pressure; Wide also sigma and tau where they are known, which
-/// Liggghts leaves out. With
-/// a notice where %f loses more than it should: centres of cells that become equal, radii that become 0. Throws Cancelled.
+/// Liggghts leaves out. One notice says how much %f loses, if that is more than a RoundingLimit or centres become equal; values
+/// other than radii are held against the largest of their array. Throws Error where all centres along an axis would become
+/// equal; Cancelled.
 std::string encode_euler(
   const EulerCells& cells, EulerDialect dialect, Notices& notices, Progress& progress);
 }

@@ -3,6 +3,7 @@
 #define granular_euler_grain_cells_h
 
 #include "granular/base/box.h"
+#include "granular/base/expansion.h"
 #include "granular/euler/cell_finder.h"
 #include "granular/euler/euler_grid.h"
 #include "granular/euler/periodic_images.h"
@@ -153,7 +154,7 @@ private:
         std::array<std::int64_t, 3> cell;
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          const double x = image[axis].value();
+          const double x = floor_of(image[axis]); // below a face where the image is
           cell[axis] = images_.is_twice(axis, x) ? -1 : finder_.find(axis, x);
         }
         if ((cell[0] | cell[1] | cell[2]) >= 0)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/periodic_images.h"
 
-#include "granular/base/compensated.h"
 #include "granular/base/error.h"
+#include "granular/base/expansion.h"
 #include "granular/base/number_print.h"
 #include "granular/dump/point_forms.h"
 
@@ -54,7 +54,7 @@ std::array<std::int64_t, 2> PeriodicImages::find_range(
 /// The coordinate of image k.
 Twofold PeriodicImages::moved(std::size_t axis, double x, std::int64_t k) const noexcept
 {
-  CompensatedSum sum;
+  Expansion<5> sum;
   sum.add(x);
   sum.add_product(static_cast<double>(k), axes_[axis].length);
   return sum.twofold();

@@ -26,7 +26,7 @@ double one_part(double radius, const Vector3& lo, const Vector3& hi)
   {
     const bool has_lo = lo[k] > -radius;
     const double plane = has_lo ? lo[k] : hi[k];
-    const bool is_beyond = has_lo ? plane > 0 : plane < 0;
+    const bool is_beyond = has_lo ? plane > 0 : plane <= 0; // the centre is in the upper half
     distances[k] = std::min(radius, std::abs(plane));
     part |= static_cast<std::size_t>(is_beyond) << k;
   }

@@ -89,8 +89,26 @@ std::int64_t SphereCells::cell_of(std::size_t axis, double x) const noexcept
   return finder_.find(axis, std::clamp(x, grid_.lo[axis], grid_.hi[axis]));
 }
 
+/// By the numbers by which centred_box_volume finds the volume of the nearest cell to be 0.
+bool SphereCells::touches(const Twofold3& centre, double radius) const noexcept
+{
+  double nearest2 = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double lo = difference(faces_[axis].front(), centre[axis]);
+    const double hi = difference(faces_[axis].back(), centre[axis]);
+    const double distance = std::max({ 0.0, lo, -hi });
+    nearest2 += distance * distance;
+  }
+  return nearest2 < radius * radius;
+}
+
 CellRange SphereCells::range(const Twofold3& centre, double radius) const noexcept
 {
+  if (!this->touches(centre, radius))
+  {
+    return {};
+  }
   const double reach = radius * (1 + 0x1p-50); // differences may be wrong by an ulp
   CellRange range;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -126,7 +144,8 @@ CellRange SphereCells::range(const Twofold3& centre, double radius) const noexce
   return range;
 }
 
-/// Whether no more than one face cuts a sphere that touches this cell, or the one beside it, and which.
+/// Whether no more than one face cuts a sphere that touches this cell, or the one beside it, and which. Not where a cap
+/// is so flat that its cell may be smaller than what rounding adds: only centred_box_volume looks at that.
 bool SphereCells::cut_once(
   std::size_t axis, std::int64_t cell, Twofold centre, double radius, Cut& cut) const noexcept
 {
@@ -149,6 +168,10 @@ bool SphereCells::cut_once(
     return false;
   }
   const double plane = is_cut_below ? lo : hi;
+  if (std::abs(plane) > radius * (1 - 0x1p-20))
+  {
+    return false;
+  }
   const std::int64_t below = face - 1; // no_cell below the first
   const std::int64_t above = face < count ? face : no_cell;
   cut = { std::abs(plane), { plane > 0 ? below : above, plane > 0 ? above : below } };

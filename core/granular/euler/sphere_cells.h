@@ -26,7 +26,7 @@ public:
   /// short_cuts: false has each cell that the bounds of a sphere touch done by sphere_box_volume, for comparison.
   explicit SphereCells(const EulerGrid& grid, bool short_cuts = true);
 
-  /// The cells that the bounds of a sphere touch.
+  /// The cells that the bounds of a sphere touch; none where the sphere itself touches no cell. radius^2 is a normal number.
   CellRange range(const Twofold3& centre, double radius) const noexcept;
 
   /// Adds the shares of a sphere at hi + lo of the centre, finite, radius >= 0, in cells within a range of the grid.
@@ -38,6 +38,7 @@ private:
   struct Cut;
   class Shares;
 
+  bool touches(const Twofold3& centre, double radius) const noexcept;
   std::int64_t cell_of(std::size_t axis, double x) const noexcept;
   bool add_quickly(const Twofold3& centre, double radius, Shares& shares) const;
   bool cut_once(

@@ -74,24 +74,29 @@ SphereParts beyond_all(double radius, const Vector3& distances)
   SphereParts beyond = { 4 * pi / 3 };
   std::array<Edge, 3> edges = {};
   Vector3 units = {};
-  double far = 0;
+  Vector3 squares = {};
+  const double square =
+    radius * radius; // not of units: centred_box_volume decides by the same numbers
   for (std::size_t k = 0; k < 3; ++k)
   {
     units[k] = std::min(1.0, distances[k] / radius);
-    far += units[k] * units[k];
-    beyond[std::size_t{ 1 } << k] = beyond_plane(std::max(0.0, (radius - distances[k]) / radius));
+    squares[k] = distances[k] * distances[k];
+    if (squares[k] < square)
+    {
+      beyond[std::size_t{ 1 } << k] = beyond_plane(std::max(0.0, (radius - distances[k]) / radius));
+    }
   }
   for (std::size_t k = 0; k < 3; ++k)
   {
     const std::size_t next = (k + 1) % 3;
-    if (units[k] * units[k] + units[next] * units[next] < 1)
+    if (squares[k] + squares[next] < square)
     {
       edges[k] = make_edge(units[k], units[next]);
       beyond[(std::size_t{ 1 } << k) | (std::size_t{ 1 } << next)] =
         beyond_edge(units[k], units[next], edges[k]);
     }
   }
-  if (far < 1)
+  if (squares[0] + squares[1] + squares[2] < square)
   {
     beyond[7] = beyond_corner(units, edges);
   }

@@ -192,11 +192,12 @@ std::vector<std::string> expand_keywords(std::vector<std::string> words, std::si
       names.emplace_back(local_name(word));
     }
   }
-  for (std::size_t i = names.size(); history >= 0 && i < columns; ++i)
+  std::vector<std::string> rest; // what is left, of the last history
+  while (history >= 0 && names.size() + rest.size() < columns)
   {
-    const std::string name = "history" + std::to_string(columns - i);
-    names.insert(names.begin() + history, name);
+    rest.push_back("history" + std::to_string(rest.size() + 1));
   }
+  names.insert(names.begin() + std::max<std::ptrdiff_t>(history, 0), rest.begin(), rest.end());
   return names;
 }
 
@@ -220,7 +221,14 @@ std::vector<std::string> local_component_names(std::string_view array, int compo
 
 bool has_ends(const ColumnSchema& schema)
 {
-  return schema.find_array("position1") >= 0 && schema.find_array("position2") >= 0;
+  const auto is_end = [&](std::string_view name)
+  {
+    const int found = schema.find_array(name); // or a column that has the name of the array
+    const ArrayInfo* const array =
+      found < 0 ? nullptr : &schema.arrays()[static_cast<std::size_t>(found)];
+    return array && array->components() == 3 && array->type == ValueType::Float64;
+  };
+  return is_end("position1") && is_end("position2");
 }
 
 bool has_ids(const ColumnSchema& schema)

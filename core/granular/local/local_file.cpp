@@ -17,6 +17,14 @@ namespace granular
 {
 namespace
 {
+/// What rows without a header are, the header of another file says; that of a data file is not looked at again when they are read.
+bool local_fits(const ByteSource& source, const FileIndex& index)
+{
+  const FrameEntry& first = index.frames.front();
+  const bool bare = first.kind->layout == FrameKind::bare;
+  return bare ? first.offset == 0 && index.frames.size() == 1 : text_dump_fits(source, index);
+}
+
 /// Whether a text begins with a row of numbers; so does one that is empty, of a process without rows.
 bool is_bare(std::string_view first_bytes)
 {
@@ -95,9 +103,13 @@ void index_bare(
 void index_local(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
 {
-  if (index.resume_offset == 0)
+  const bool blank = !index.frames.empty() && is_headless(index.frames.front()) &&
+    index.frames.front().rows == 0;
+  if (index.resume_offset == 0 || blank)
   {
-    index.frames.clear(); // an empty file may become any
+    index.frames.clear(); // a file without a word may become any
+    index.resume_offset = 0;
+    index.resume_line = 1;
   }
   const std::string first_bytes = first_bytes_of(source);
   if (is_data_with_bonds(first_bytes))
@@ -133,7 +145,7 @@ bool adopt(FileIndex& file, const FrameEntry& head, FrameKinds& kinds)
 }
 
 /// The files of a run that differ in the number of the process.
-using Group = std::map<Digits, std::uint32_t>;
+using Group = std::map<NameNumber, std::uint32_t>;
 
 /// Calls visit(head, group) for files whose names differ in one number, where that with 0 has a header.
 template <class Visit>
@@ -146,7 +158,7 @@ void for_each_group(const std::vector<FileIndex>& files, const Visit& visit)
     {
       for (const auto& [others, group] : group_by_others(family, at))
       {
-        const auto head = group.find(Digits{ "0" });
+        const auto head = group.find(NameNumber{ "0" });
         const bool has_head = head != group.end() && !files[head->second].frames.empty() &&
           files[head->second].frames.front().kind->layout == FrameKind::text;
         if (has_head)
@@ -170,6 +182,7 @@ void leave_out(FileIndex& file)
   file.resume_offset = 0;
   file.resume_line = 1;
   file.stamp = {};
+  file.points.reset();
 }
 
 /// What is said of rows alone that belong to no header, or whose header has other columns.
@@ -284,7 +297,7 @@ void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
 
 const FileFormat& local_format() noexcept
 {
-  static constexpr FileFormat format = { "a dump of local data", index_local, complete_pieces };
+  static constexpr FileFormat format = { "a dump of local data", index_local, complete_pieces, local_fits };
   return format;
 }
 

@@ -67,7 +67,8 @@ std::vector<std::string> words_of_list(const std::string& list)
   return { words.begin(), words.end() };
 }
 
-void check_distinct(const std::vector<std::string>& names)
+/// The names as a set. Throws FormatError where there is one twice.
+std::set<std::string_view> check_distinct(const std::vector<std::string>& names)
 {
   std::set<std::string_view> seen;
   for (const std::string& name : names)
@@ -77,15 +78,28 @@ void check_distinct(const std::vector<std::string>& names)
       throw FormatError("expected each name once in the column map, got '" + name + "' twice");
     }
   }
+  return seen;
+}
+
+/// The first column of each name.
+std::map<std::string_view, std::size_t> places_of(const std::vector<std::string>& columns)
+{
+  std::map<std::string_view, std::size_t> places;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    places.try_emplace(columns[i], i);
+  }
+  return places;
 }
 
 /// The column that a word of a map means, by name or number.
-std::size_t column_of(const std::vector<std::string>& columns, const std::string& word)
+std::size_t column_of(const std::vector<std::string>& columns,
+  const std::map<std::string_view, std::size_t>& places, const std::string& word)
 {
-  const auto found = std::ranges::find(columns, word);
-  if (found != columns.end())
+  const auto found = places.find(word);
+  if (found != places.end())
   {
-    return static_cast<std::size_t>(found - columns.begin());
+    return found->second;
   }
   std::int64_t number = 0;
   if (parse_int64(word.data(), word.data() + word.size(), number) && number >= 1 &&
@@ -102,6 +116,7 @@ std::vector<std::string> name_by_pairs(
 {
   std::vector<std::string> names = name_columns(columns);
   std::map<std::size_t, std::string> given;
+  const std::map<std::string_view, std::size_t> places = places_of(columns);
   std::vector<std::string> all;
   for (const std::string& pair : pairs)
   {
@@ -112,7 +127,7 @@ std::vector<std::string> name_by_pairs(
         "expected NAME=COLUMN in the column map, as in its other words, got '" + pair + "'");
     }
     const std::string name(local_name(pair.substr(0, equals)));
-    const std::size_t column = column_of(columns, pair.substr(equals + 1));
+    const std::size_t column = column_of(columns, places, pair.substr(equals + 1));
     if (!given.emplace(column, name).second)
     {
       throw FormatError("expected each column once in the column map, got " + columns[column] +
@@ -120,7 +135,7 @@ std::vector<std::string> name_by_pairs(
     }
     all.push_back(name);
   }
-  check_distinct(all);
+  const std::set<std::string_view> taken = check_distinct(all);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const auto found = given.find(i);
@@ -128,11 +143,10 @@ std::vector<std::string> name_by_pairs(
     {
       names[i] = found->second;
     }
-    else if (std::ranges::find(all, names[i]) != all.end())
+    else if (taken.contains(names[i]))
     {
       // its name is another column's now, perhaps also as the file spells it
-      const bool taken = std::ranges::find(all, columns[i]) != all.end();
-      names[i] = columns[i] + (taken ? "_file" : "");
+      names[i] = columns[i] + (taken.contains(columns[i]) ? "_file" : "");
     }
   }
   return names;

@@ -2,10 +2,13 @@
 #include "granular/local/local_reader.h"
 
 #include "granular/base/archive.h"
+#include "granular/base/number_print.h"
+#include "granular/dump/point_loss.h"
 #include "granular/local/local_columns.h"
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace granular
@@ -20,13 +23,15 @@ ColumnSchema schema_for(const std::vector<std::string>& names, const ColumnSchem
 {
   ColumnSchema schema = make_local_schema(names);
   const std::size_t count = std::min(names.size(), of_file.columns().size());
+  std::vector<ColumnSchema::TypeChange> texts;
   for (std::size_t i = 0; i < count; ++i)
   {
     if (of_file.columns()[i].type == ValueType::Text && !schema.columns()[i].known)
     {
-      schema.set_type(static_cast<int>(i), ValueType::Text);
+      texts.push_back({ static_cast<int>(i), ValueType::Text });
     }
   }
+  schema.set_types(texts);
   return schema;
 }
 
@@ -38,11 +43,22 @@ DumpArray* find_array(DumpFrame& frame, std::string_view name)
 }
 
 template <class Value>
-std::span<const Value> values_of(const DumpArray* array)
+bool holds(const DumpArray& array, std::size_t components)
 {
-  return array ? std::span(static_cast<const Value*>(array->block.data()),
-                   array->block.bytes() / sizeof(Value))
-               : std::span<const Value>();
+  constexpr ValueType type = std::is_same_v<Value, double> ? ValueType::Float64
+    : std::is_same_v<Value, std::int64_t>                  ? ValueType::Int64
+                                                           : ValueType::Int32;
+  return array.info.type == type && array.info.columns.size() == components;
+}
+
+/// The values of an array; none where there is no array, or one that holds others than these.
+template <class Value>
+std::span<const Value> values_of(const DumpArray* array, std::size_t components = 1)
+{
+  return array && holds<Value>(*array, components)
+    ? std::span(
+        static_cast<const Value*>(array->block.data()), array->block.bytes() / sizeof(Value))
+    : std::span<const Value>();
 }
 
 /// Whether no digit of a number is lost where it is printed with six.
@@ -71,8 +87,10 @@ std::int64_t count_exponents(const DumpArray& array)
   std::vector<char> has(array.words.size());
   std::ranges::transform(array.words, has.begin(),
     [](const std::string& word) { return word.find_first_of("eE") != word.npos ? 1 : 0; });
-  return std::ranges::count_if(values_of<std::int32_t>(&array),
-    [&](std::int32_t word) { return has[static_cast<std::size_t>(word)] != 0; });
+  const std::span words(static_cast<const std::int32_t*>(array.block.data()),
+    array.block.bytes() / sizeof(std::int32_t));
+  return std::ranges::count_if(
+    words, [&](std::int32_t word) { return has[static_cast<std::size_t>(word)] != 0; });
 }
 
 /// How many ids of a part were printed with an exponent. Only where all that have more than six digits end in zeros
@@ -122,17 +140,21 @@ std::int64_t count_rounded(const std::vector<FramePiece>& pieces, const DumpRequ
 /// Throws where a column cannot be what it is taken for.
 void check_flags(const DumpArray* periodic, const Where& where)
 {
-  for (const std::int32_t flag : values_of<std::int32_t>(periodic))
+  const auto check = [&](auto flags)
   {
-    if (flag != 0 && flag != 1)
+    const auto other =
+      std::ranges::find_if(flags, [](auto flag) { return flag != 0 && flag != 1; });
+    if (other != flags.end())
     {
       throw FormatError(
         "expected the flags 0 and 1 in the column that is taken for periodic, got " +
-          std::to_string(flag) +
+          to_text(static_cast<double>(*other)) +
           ": bonds have their type there, contacts with walls a particle (wall_id in ColumnMap)",
         where);
     }
-  }
+  };
+  check(values_of<std::int32_t>(periodic));
+  check(values_of<double>(periodic)); // where one is no integer
 }
 
 DumpRequest table_request(const LocalRequest& request, const ColumnSchema& schema)
@@ -171,9 +193,10 @@ std::int64_t count_rows_before(
 /// Leaves out what was only needed on the way.
 void drop_unwanted(const LocalRequest& request, DumpFrame& frame)
 {
-  std::erase_if(frame.arrays,
-    [&](const DumpArray& array)
-    { return request.wanted ? !request.wanted(array.info.name) : is_end_array(array.info.name); });
+  const auto wanted = [&](const ArrayInfo& array)
+  { return request.wanted ? request.wanted(array.name) : !is_end_array(array.name); };
+  std::erase_if(
+    frame.arrays, [&](const DumpArray& array) { return !is_wanted(wanted, array.info); });
 }
 
 /// What is to be said of rows, of a rank or of all.
@@ -182,12 +205,14 @@ struct Remarks
   std::int64_t rows = 0;
   std::int64_t rounded = 0;
   std::int64_t misfits = 0;
+  RoundingLoss loss = {}; ///< of the ends of lines
 
   void add(const Remarks& more)
   {
     rows += more.rows;
     rounded += more.rounded;
     misfits += more.misfits;
+    loss.add(more.loss);
   }
 
   void note(Where where, Notices& notices) const
@@ -218,6 +243,7 @@ static void pass(Archive& archive, Remarks& remarks)
   archive.number(remarks.rows);
   archive.number(remarks.rounded);
   archive.number(remarks.misfits);
+  archive.number(remarks.loss);
 }
 
 bool is_end_array(std::string_view name) noexcept
@@ -260,9 +286,11 @@ LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress
   request.schema = ColumnSchema(names);
   request.pieces = static_cast<int>((rows + most_rows - 1) / most_rows);
   const DumpPart part = decode_dump(index.pieces(best), request, false, progress);
-  if (part.misfit)
+  const auto is_number = [](const DumpArray& array) { return holds<double>(array, 1); };
+  if (!part.misfits.empty() || part.frame.arrays.size() != names.size() ||
+    !std::ranges::all_of(part.frame.arrays, is_number))
   {
-    return sample; // words among the numbers: names must say what is what
+    return sample; // words among the numbers, perhaps of one piece: names must say what is what
   }
   sample.rows = static_cast<std::size_t>(part.frame.rows);
   sample.values.resize(sample.rows * names.size());
@@ -270,7 +298,7 @@ LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress
   sample.has_box = part.frame.header.has_box;
   for (std::size_t column = 0; column < names.size(); ++column)
   {
-    const auto* const from = static_cast<const double*>(part.frame.arrays[column].block.data());
+    const auto from = values_of<double>(&part.frame.arrays[column]);
     for (std::size_t row = 0; row < sample.rows; ++row)
     {
       sample.values[row * names.size() + column] = from[row];
@@ -315,8 +343,9 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       remarks.rounded = count_rounded(pieces, table, frame, ranks.size() > 1, forward);
       if (local.has_lines)
       {
-        const auto first = values_of<double>(find_array(frame, end_arrays[0]));
-        const auto second = values_of<double>(find_array(frame, end_arrays[1]));
+        const auto first = values_of<double>(find_array(frame, end_arrays[0]), 3);
+        const auto second = values_of<double>(find_array(frame, end_arrays[1]), 3);
+        add_rounding(frame.rows, frame.header.box, request.lines.point_origin, remarks.loss);
         local.lines = make_lines(first, second, frame.header.box, request.lines, forward);
         const bool as_written = request.lines.periodic == PeriodicLines::AsWritten;
         const std::span lengths(
@@ -341,6 +370,8 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         sum.add(of_rank);
       }
       sum.note(where, notices);
+      note_point_loss(
+        sum.loss, local.table.header.box, request.lines.point_origin, false, where, notices);
     });
   return local;
 }

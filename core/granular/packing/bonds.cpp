@@ -21,7 +21,7 @@ namespace granular
 namespace
 {
 constexpr double least_factor = 1;
-constexpr double most_factor = 3; // longer than six radii none may be: see Regions::rows_near
+constexpr double most_factor = 3;
 
 /// A grain of the piece and one of NearGrains.
 struct Pair
@@ -40,6 +40,24 @@ double distance(const Vector3& a, const Vector3& b)
   return std::sqrt(x * x + y * y + z * z);
 }
 
+/// The vector from a point to a periodic image, each component rounded once, as lines through faces are made.
+Vector3 exact_vector(const Vector3& from, const NearGrains::Grain& to, const Box& box)
+{
+  Vector3 vector;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    CompensatedSum sum;
+    sum.add(to.centre[axis]);
+    sum.add(-from[axis]);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      sum.add_product(static_cast<double>(to.image[k]), box.vectors[k][axis]);
+    }
+    vector[axis] = sum.value();
+  }
+  return vector;
+}
+
 /// Grains around those of a piece, with the memory for them.
 struct MadeGrains
 {
@@ -50,18 +68,12 @@ struct MadeGrains
   PlacedGrains placed() const { return { rows, points.data(), radius.data() }; }
 };
 
-MadeGrains make_grains(
-  const PackingPlan& plan, const RowRange& rows, int threads, Progress& progress)
+MadeGrains make_grains(const PackingPlan& plan, const RowRange& rows, Progress& progress)
 {
   MadeGrains made = { rows, std::vector<double>(static_cast<std::size_t>(3 * rows.count())),
     std::vector<double>(static_cast<std::size_t>(rows.count())) };
-  plan.place_rows({ rows, made.points.data(), made.radius.data() }, threads, progress);
-  for (std::size_t i = 0; i < made.points.size(); i += 3)
-  {
-    const Vector3 point =
-      plan.shape.point({ made.points[i], made.points[i + 1], made.points[i + 2] });
-    std::copy(point.begin(), point.end(), made.points.begin() + static_cast<std::ptrdiff_t>(i));
-  }
+  std::vector<std::int32_t> types(made.radius.size());
+  plan.place_rows({ rows, made.points.data(), made.radius.data(), types.data() }, progress);
   return made;
 }
 
@@ -88,16 +100,21 @@ public:
     bonds_.points = Block(size * 6 * sizeof(double));
   }
 
-  void set(std::int64_t bond, std::int64_t row1, const Vector3& point1, std::int64_t row2,
-    const Vector3& point2)
+  struct End
   {
-    static_cast<std::int64_t*>(bonds_.id1.data())[bond] = row1 + 1;
-    static_cast<std::int64_t*>(bonds_.id2.data())[bond] = row2 + 1;
+    std::int64_t row;
+    Vector3 point;
+  };
+
+  void set(std::int64_t bond, const End& first, const End& second, double length)
+  {
+    static_cast<std::int64_t*>(bonds_.id1.data())[bond] = first.row + 1;
+    static_cast<std::int64_t*>(bonds_.id2.data())[bond] = second.row + 1;
     static_cast<std::int32_t*>(bonds_.btype.data())[bond] = 1;
-    static_cast<double*>(bonds_.equilibrium_length.data())[bond] = distance(point1, point2);
+    static_cast<double*>(bonds_.equilibrium_length.data())[bond] = length;
     auto* const ends = static_cast<double*>(bonds_.points.data()) + 6 * bond;
-    std::copy(point1.begin(), point1.end(), ends);
-    std::copy(point2.begin(), point2.end(), ends + 3);
+    std::copy(first.point.begin(), first.point.end(), ends);
+    std::copy(second.point.begin(), second.point.end(), ends + 3);
   }
 
   GrainBonds take() { return std::move(bonds_); }
@@ -133,7 +150,7 @@ void PairFinder::add(std::int64_t i, Pairs& pairs)
     [&](std::uint32_t number, const NearGrains::Grain& other)
     {
       if (other.row > row &&
-        distance(point, other.point) <= all_.limit(own_.radius[i] + other.radius))
+        distance(point, all_.point(other)) <= all_.limit(own_.radius[i] + other.radius))
       {
         found_.push_back(number);
       }
@@ -145,7 +162,7 @@ void PairFinder::add(std::int64_t i, Pairs& pairs)
   for (const std::uint32_t number : found_)
   {
     const NearGrains::Grain& other = all_[number];
-    const double other_length = distance(point, other.point);
+    const double other_length = distance(point, all_.point(other));
     if (other.row != before)
     {
       pairs.push_back({ static_cast<std::uint32_t>(i), number });
@@ -161,16 +178,18 @@ void PairFinder::add(std::int64_t i, Pairs& pairs)
 }
 
 /// Bonds between near grains; own: not empty.
-GrainBonds near_bonds(const PackingPlan& plan, const PlacedGrains& own, double factor, int threads,
-  PartialProgress& progress)
+GrainBonds near_bonds(
+  const PackingPlan& plan, const PlacedGrains& own, double factor, PartialProgress& progress)
 {
+  const int threads = plan.request.threads;
   progress.set_part(0, 0.4);
   std::vector<MadeGrains> made;
   std::vector<PlacedGrains> others;
-  const double reach = factor * 2 * plan.radii.choice().largest();
+  const double reach =
+    factor * 2 * plan.radii.choice().largest() + 2 * plan.shape.rounding(); // as NearGrains has it
   for (const RowRange& rows : plan.rows_near(own.rows, reach * (1 + 1e-9)))
   {
-    made.push_back(make_grains(plan, rows, threads, progress));
+    made.push_back(make_grains(plan, rows, progress));
     others.push_back(made.back().placed());
   }
   const NearGrains all(plan.shape, factor, own, others);
@@ -201,7 +220,10 @@ GrainBonds near_bonds(const PackingPlan& plan, const PlacedGrains& own, double f
       for (const Pair& pair : chunks[chunk])
       {
         const NearGrains::Grain& other = all[pair.other];
-        bonds.set(bond++, own.rows.first + pair.own, own.point(pair.own), other.row, other.point);
+        const Vector3 point = own.point(pair.own);
+        const Vector3 vector = exact_vector(point, other, plan.box);
+        bonds.set(bond++, { own.rows.first + pair.own, point }, { other.row, all.point(other) },
+          std::sqrt(dot(vector, vector)));
       }
     },
     progress);
@@ -209,8 +231,7 @@ GrainBonds near_bonds(const PackingPlan& plan, const PlacedGrains& own, double f
 }
 
 /// Bonds between consecutive grains of each fibre.
-GrainBonds fibre_bonds(
-  const PackingPlan& plan, const RowRange& rows, int threads, Progress& progress)
+GrainBonds fibre_bonds(const PackingPlan& plan, const RowRange& rows, Progress& progress)
 {
   const Fibres& fibres = *plan.fibres;
   // of all grains before a row: one each, but for the last ones of fibres
@@ -218,15 +239,17 @@ GrainBonds fibre_bonds(
   { return row - fibres.fibre(row) - (row == plan.grains && fibres.is_inside(row) ? 1 : 0); };
   const std::int64_t first = bonds_before(rows.first);
   BondArrays bonds(bonds_before(rows.last) - first);
-  for_row_chunks(rows.count(), threads, progress,
+  for_row_chunks(rows.count(), plan.request.threads, progress,
     [&](std::int64_t begin, std::int64_t end, std::size_t)
     {
       for (std::int64_t row = rows.first + begin; row < rows.first + end; ++row)
       {
         if (row + 1 < plan.grains && fibres.is_inside(row + 1))
         {
-          bonds.set(bonds_before(row) - first, row, plan.shape.point(fibres.scaled(row)), row + 1,
-            plan.shape.point(fibres.scaled(row + 1)));
+          const Vector3 point = plan.shape.point(fibres.scaled(row));
+          const Vector3 next = plan.shape.point(fibres.scaled(row + 1));
+          bonds.set(
+            bonds_before(row) - first, { row, point }, { row + 1, next }, distance(point, next));
         }
       }
     });
@@ -235,25 +258,24 @@ GrainBonds fibre_bonds(
 }
 
 GrainBonds make_bonds(
-  const PackingRequest& request, const DumpFrame& grains, double factor, Progress& progress)
+  const PackingPlan& plan, const DumpFrame& grains, double factor, Progress& progress)
 {
   progress.step(0);
   if (!(factor >= least_factor && factor <= most_factor))
   {
     throw LimitError("expected a bond factor from 1 to 3, got " + std::to_string(factor));
   }
-  const PackingPlan plan(request);
-  const PlacedGrains own = { plan.rows_of_piece(request.piece, request.pieces),
-    static_cast<const double*>(grains.points.data()), array_of<double>(grains, "radius") };
+  const PlacedGrains own = { plan.rows(), static_cast<const double*>(grains.points.data()),
+    array_of<double>(grains, "radius") };
   PartialProgress part(progress);
   GrainBonds bonds;
   if (plan.fibres)
   {
-    bonds = fibre_bonds(plan, own.rows, request.threads, part);
+    bonds = fibre_bonds(plan, own.rows, part);
   }
   else if (own.rows.count() > 0)
   {
-    bonds = near_bonds(plan, own, factor, request.threads, part);
+    bonds = near_bonds(plan, own, factor, part);
   }
   progress.step(1);
   return bonds;

@@ -15,25 +15,26 @@ namespace granular
 struct GrainBonds
 {
   std::int64_t count = 0;
-  Block id1;                ///< std::int64_t
-  Block id2;                ///< std::int64_t, greater than id1
-  Block btype;              ///< std::int32_t: 1
-  Block equilibrium_length; ///< double: the distance of the two centres
-  Block points; ///< 2 x 3 doubles a bond: the centre of id1, and of id2's image nearest to it
+  Block id1;   ///< std::int64_t
+  Block id2;   ///< std::int64_t, greater than id1
+  Block btype; ///< std::int32_t: 1
+  Block
+    equilibrium_length; ///< double: the distance of the two centres, or of the nearest image: computed
+                        ///< from the centres and box vectors, not from the rounded image
+  Block points; ///< 2 x 3 doubles a bond: the centre of id1, and id2's image nearest to it, rounded
 };
 
-/// Bonds the grains that make_packing made for the request. In chains and bundles consecutive grains of a
+/// Bonds the grains that make_packing made for a plan; not collective. In chains and bundles consecutive grains of a
 /// fibre are bonded, whatever the factor. Of other arrangements all pairs are whose centres are no farther
 /// apart than the factor, 1 to 3, times the sum of the radii, within rounding: at 1, the neighbours of a lattice
 /// of spacing 1. Periodic images count, and of several of a pair the nearest, so that a pair has one bond
 /// at most, and a grain none with itself; of equally near ones that moved by fewer box vectors.
 ///
 /// A bond belongs to the piece of its lower id; the piece holds all of its own, and pieces and threads change
-/// nothing else. Where there are several a process makes the grains around its piece once more: of a lattice the
-/// layers within reach, of random grains the blocks around its own, of about 30 radii.
+/// nothing else. Where there are several a process makes the grains of the layers within reach around its piece once more.
 ///
 /// Throws LimitError for other factors and as make_packing does; Cancelled; std::bad_alloc.
 GrainBonds make_bonds(
-  const PackingRequest& request, const DumpFrame& grains, double factor, Progress& progress);
+  const PackingPlan& plan, const DumpFrame& grains, double factor, Progress& progress);
 }
 #endif

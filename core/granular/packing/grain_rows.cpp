@@ -68,11 +68,10 @@ void keep(DumpFrame& frame, const std::vector<Ranges>& of_workers)
 }
 }
 
-void fill_arrays(DumpFrame& frame, const BoxShape& box, const Radii& radii, const GrainRows& rows,
-  const PackingRequest& request, Progress& progress)
+void fill_arrays(
+  DumpFrame& frame, const RowRange& rows, const PackingRequest& request, Progress& progress)
 {
   auto* const ids = array_of<std::int64_t>(frame, "id");
-  auto* const types = array_of<std::int32_t>(frame, "type");
   auto* const velocities = array_of<double>(frame, "v");
   std::vector<Ranges> ranges(static_cast<std::size_t>(request.threads), empty_ranges(frame));
   for_row_chunks(rows.count(), request.threads, progress,
@@ -81,17 +80,12 @@ void fill_arrays(DumpFrame& frame, const BoxShape& box, const Radii& radii, cons
       for (std::int64_t i = begin; i < end; ++i)
       {
         const std::int64_t grain = rows.first + i;
-        double* const point = rows.scaled + 3 * i;
-        const Vector3 place = box.point({ point[0], point[1], point[2] });
         RandomNumbers numbers(request.seed, Stream::Velocities, grain);
-        for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::int64_t axis = 0; axis < 3; ++axis)
         {
-          point[axis] = place[axis];
-          velocities[3 * i + static_cast<std::int64_t>(axis)] =
-            request.speed > 0 ? request.speed * numbers.normal() : 0;
+          velocities[3 * i + axis] = request.speed > 0 ? request.speed * numbers.normal() : 0;
         }
         ids[i] = grain + 1;
-        types[i] = radii.type(grain);
       }
       if (request.ranges)
       {

@@ -44,9 +44,8 @@ T* array_of(const DumpFrame& frame, std::string_view name)
   return static_cast<T*>(found->block.data());
 }
 
-/// Makes points of the scaled coordinates in their place, fills all arrays but the radius, and finds the
-/// ranges if they are wanted.
-void fill_arrays(DumpFrame& frame, const BoxShape& box, const Radii& radii, const GrainRows& rows,
-  const PackingRequest& request, Progress& progress);
+/// Fills the arrays that need no more than the number of a grain, and finds the ranges if they are wanted.
+void fill_arrays(
+  DumpFrame& frame, const RowRange& rows, const PackingRequest& request, Progress& progress);
 }
 #endif

@@ -38,9 +38,9 @@ const LatticeCell& cell_of(LatticeKind kind)
   return cell_table[static_cast<std::size_t>(kind)];
 }
 
-/// What a length may lack, relative to it, to hold a whole number of cells all the same: a box that was
-/// made for them may have been rounded.
-constexpr double tolerance = 1e-12;
+/// The part of a length that may be missing for a whole number of cells: a box that was made for them may have been
+/// rounded.
+constexpr double tolerance = 32 * std::numeric_limits<double>::epsilon();
 
 /// Of all grains of a cell the largest coordinate.
 double last_place(const LatticeCell& cell, std::size_t axis)
@@ -69,26 +69,59 @@ std::int64_t count_cells(const LatticeCell& cell, std::size_t axis, double heigh
 Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double radius)
   : cell_(cell_of(kind))
 {
-  double stretch = 1;
-  for (;;)
+  const double clear = distance + 2 * box.rounding(); // no rounding brings such grains too near
+  double lacking = this->lay(box, distance, radius, clear);
+  if (lacking <= 1)
   {
-    this->lay(box, distance * stretch, radius);
-    const double lacking = distance / this->nearest(box, distance);
-    if (lacking <= 1 + 4 * tolerance)
-    {
-      return;
-    }
-    stretch *= lacking; // cells are sheared, and their grains too near
+    return;
   }
+  if (lacking <= 1 + tolerance + 4 * box.rounding() / distance)
+  {
+    const double larger = distance * (lacking + tolerance);
+    const bool fits = cells_ == this->cells_for(box, larger, radius);
+    if (!fits || this->lay(box, larger, radius, clear) > 1)
+    {
+      this->lay(box, distance, radius); // the box holds these cells and no larger ones
+    }
+    return;
+  }
+  // cells are sheared, and their grains too near: the least length at which they are not
+  double low = distance;
+  double high = distance;
+  while (lacking > 1)
+  {
+    low = high;
+    high *= std::max(lacking, 1 + 1e-5); // at least a little: what lacks may be no more than rounding
+    lacking = this->lay(box, high, radius, clear);
+  }
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i)
+  {
+    const double middle = low + (high - low) / 2;
+    (this->lay(box, middle, radius, clear) > 1 ? low : high) = middle;
+  }
+  this->lay(box, high, radius);
+}
+
+std::array<std::int64_t, 3> Lattice::cells_for(
+  const BoxShape& box, double length, double radius) const noexcept
+{
+  std::array<std::int64_t, 3> cells;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    cells[axis] = count_cells(
+      cell_, axis, box.heights[axis], box.periodic[axis], cell_.lengths[axis] * length, radius);
+  }
+  return cells;
 }
 
 void Lattice::lay(const BoxShape& box, double length, double radius)
 {
+  cells_ = this->cells_for(box, length, radius);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double height = box.heights[axis];
     const double cell = cell_.lengths[axis] * length;
-    cells_[axis] = count_cells(cell_, axis, height, box.periodic[axis], cell, radius);
     if (cells_[axis] == 0)
     {
       throw LimitError(std::string("expected a box that holds a cell of the ") + cell_.name +
@@ -102,11 +135,18 @@ void Lattice::lay(const BoxShape& box, double length, double radius)
   }
 }
 
-/// The distance of the nearest two grains of the lattice without end, or one that is large enough. Along
-/// no axis is a cell lower than the distance, so that nearer grains are in neighbouring cells.
-double Lattice::nearest(const BoxShape& box, double distance) const noexcept
+/// Gives by how much grains are nearer than they may.
+double Lattice::lay(const BoxShape& box, double length, double radius, double clear)
 {
-  double least = distance * distance;
+  this->lay(box, length, radius);
+  return clear / this->nearest(box, 2 * clear);
+}
+
+/// The distance of the nearest two grains of the lattice without end, or one that is enough. Along
+/// no axis is a cell lower than the distance, so that nearer grains are in neighbouring cells.
+double Lattice::nearest(const BoxShape& box, double enough) const noexcept
+{
+  double least = enough * enough;
   for (const Vector3& from : cell_.grains)
   {
     for (const Vector3& to : cell_.grains)

@@ -31,8 +31,9 @@ enum class LatticeKind : std::uint8_t
 };
 
 /// Whole cells of a lattice along the vectors of a box, in its middle, sheared with the box. Neighbours are
-/// nowhere nearer than the distance asked for: across a periodic axis cells are stretched, and in a
-/// sheared box all are, as much as needed. Across other axes grains lie wholly inside.
+/// nowhere nearer than the distance asked for, also after their coordinates are rounded: across a periodic axis
+/// cells are stretched, and in a sheared box all are, as much as needed. Only in a box that holds its cells exactly,
+/// neighbours are at the distance as well as rounding allows. Across other axes grains lie wholly inside.
 class Lattice
 {
 public:
@@ -55,8 +56,11 @@ public:
     double radius, std::int64_t grains);
 
 private:
+  std::array<std::int64_t, 3> cells_for(
+    const BoxShape& box, double length, double radius) const noexcept;
   void lay(const BoxShape& box, double length, double radius);
-  double nearest(const BoxShape& box, double distance) const noexcept;
+  double lay(const BoxShape& box, double length, double radius, double clear);
+  double nearest(const BoxShape& box, double enough) const noexcept;
 
   const LatticeCell& cell_;
   std::array<std::int64_t, 3> cells_ = {};

@@ -170,11 +170,10 @@ void NearGrains::visit_images(const PlacedGrains& grains, std::int64_t i, const 
       {
         const Vector3 moves = { static_cast<double>(x), static_cast<double>(y),
           static_cast<double>(z) };
-        const Vector3 edge = box_.edge(moves);
-        const Grain image = { { point[0] + edge[0], point[1] + edge[1], point[2] + edge[2] },
-          grains.radius[i], grains.rows.first + i,
-          { static_cast<std::int8_t>(x), static_cast<std::int8_t>(y),
-            static_cast<std::int8_t>(z) } };
+        const Grain image = {
+          { point[0], point[1], point[2] }, grains.radius[i], grains.rows.first + i,
+          { static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), static_cast<std::int8_t>(z) }
+        };
         visit(image, { place[0] + moves[0], place[1] + moves[1], place[2] + moves[2] });
       }
     }

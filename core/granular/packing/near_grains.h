@@ -35,10 +35,11 @@ class NearGrains
 public:
   struct Grain
   {
-    Vector3 point;
+    Vector3 centre; ///< in the box
     double radius;
     std::int64_t row;
-    std::array<std::int8_t, 3> image; ///< how many of each box vector it was moved by
+    std::array<std::int8_t, 3>
+      image; ///< how many of each box vector the image is away from the centre
   };
 
   /// own: those whose neighbours are asked for; not empty. others: further ones that may be near to them.
@@ -49,6 +50,19 @@ public:
   double limit(double sum_of_radii) const noexcept
   {
     return sum_of_radii * factor_ + 2 * box_.rounding();
+  }
+
+  /// Where the image is, rounded.
+  Vector3 point(const Grain& grain) const noexcept
+  {
+    const Vector3& at = grain.centre;
+    if (grain.image == std::array<std::int8_t, 3>{})
+    {
+      return at;
+    }
+    const Vector3 edge = box_.edge({ static_cast<double>(grain.image[0]),
+      static_cast<double>(grain.image[1]), static_cast<double>(grain.image[2]) });
+    return { at[0] + edge[0], at[1] + edge[1], at[2] + edge[2] };
   }
 
   /// Calls visit(number, grain) for a number of grains, among them all that are near, each as often as images are.

@@ -50,22 +50,33 @@ void number_fibres(DumpFrame& frame, const Fibres& fibres, const RowRange& rows)
 
 DumpFrame make_packing(const PackingRequest& request, Progress& progress)
 {
-  progress.step(0);
-  const PackingPlan plan(request);
-  GrainRows rows = { plan.rows_of_piece(request.piece, request.pieces) };
-  DumpFrame frame = empty_frame(plan, rows.count());
-  rows.scaled = static_cast<double*>(frame.points.data());
-  rows.radius = array_of<double>(frame, "radius");
+  SerialCommunicator alone;
   PartialProgress part(progress);
-  const double placed = plan.is_random() ? 0.9 : 0.3;
+  progress.step(0);
+  part.set_part(0, 0.8);
+  const PackingPlan plan(request, alone, part);
+  part.set_part(0.8, 1);
+  return make_packing(plan, part);
+}
+
+DumpFrame make_packing(const PackingPlan& plan, Progress& progress)
+{
+  progress.step(0);
+  GrainRows rows = { plan.rows() };
+  DumpFrame frame = empty_frame(plan, rows.count());
+  rows.points = static_cast<double*>(frame.points.data());
+  rows.radius = array_of<double>(frame, "radius");
+  rows.type = array_of<std::int32_t>(frame, "type");
+  PartialProgress part(progress);
+  constexpr double placed = 0.4;
   part.set_part(0, placed);
-  plan.place_rows(rows, request.threads, part);
+  plan.place_rows(rows, part);
   if (plan.fibres)
   {
     number_fibres(frame, *plan.fibres, rows);
   }
   part.set_part(placed, 1);
-  fill_arrays(frame, plan.shape, plan.radii, rows, request, part);
+  fill_arrays(frame, rows, plan.request, part);
   progress.step(1);
   return frame;
 }

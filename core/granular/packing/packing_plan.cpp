@@ -4,7 +4,6 @@
 #include "granular/base/error.h"
 #include "granular/dump/exchange_rows.h"
 #include "granular/packing/grain_rows.h"
-#include "granular/packing/random_grains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,10 +104,11 @@ double made_edge(const PackingRequest& request, bool walls)
   const double volume = static_cast<double>(request.grains) * request.radii.mean_volume();
   const double diameter = 2 * request.radii.largest();
   const double room = walls && request.grains > 1 ? std::cbrt(volume * 6 / std::numbers::pi) : 0;
-  return std::max(std::cbrt(volume / request.solid_fraction), diameter + room);
+  constexpr double apart = 1 + 1e-3; // no grain touches its own image, as near to it as coordinates may be coarse
+  return std::max(std::cbrt(volume / request.solid_fraction), (diameter + room) * apart);
 }
 
-/// The box at 0 0 0 for the grains.
+/// The box for the grains.
 Box made_box(const PackingRequest& request, const std::string& boundary)
 {
   const double radius = request.radii.largest();
@@ -131,7 +131,12 @@ Box made_box(const PackingRequest& request, const std::string& boundary)
         making.fibres, periodic, distance, radius, each, (request.grains - 1) / each + 1);
       break;
   }
-  return Box::from_bounds({}, lengths);
+  Box box = Box::from_bounds({}, lengths);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.origin[axis] = { request.corner[axis], 0 };
+  }
+  return box;
 }
 
 Box box_of(const PackingRequest& request)
@@ -142,7 +147,7 @@ Box box_of(const PackingRequest& request)
   return box;
 }
 
-void check_room(const BoxShape& box, const RadiusChoice& radii)
+void check_room(const BoxShape& box, const RadiusChoice& radii, bool random)
 {
   const double diameter = 2 * radii.largest();
   const double height = *std::min_element(box.heights.begin(), box.heights.end());
@@ -150,6 +155,13 @@ void check_room(const BoxShape& box, const RadiusChoice& radii)
     "a box of at least the largest diameter, " + std::to_string(diameter) +
       ", between any two opposite faces",
     height);
+  for (std::size_t axis = 0; random && axis < 3; ++axis)
+  {
+    expect(!box.periodic[axis] || box.heights[axis] > diameter + 4 * box.rounding(),
+      "a box in which no grain touches its own periodic image, of diameter " +
+        std::to_string(diameter),
+      box.heights[axis]);
+  }
   if (radii.smallest() < least_radius * box.rounding())
   {
     throw LimitError("expected grains that coordinates of " + std::to_string(box.reach) +
@@ -191,14 +203,14 @@ Box checked_box(const PackingRequest& request)
 }
 }
 
-PackingPlan::PackingPlan(const PackingRequest& request)
-  : box(checked_box(request))
+PackingPlan::PackingPlan(const PackingRequest& wanted, Communicator& ranks, Progress& progress)
+  : request(wanted)
+  , box(checked_box(request))
   , shape(box)
   , radii(request.radii, 0, request.seed)
-  , seed_(request.seed)
 {
-  check_room(shape, request.radii);
   const Making& making = making_of(request);
+  check_room(shape, request.radii, making.way == Way::Random);
   const double radius = request.radii.largest();
   switch (making.way)
   {
@@ -215,38 +227,43 @@ PackingPlan::PackingPlan(const PackingRequest& request)
       break;
   }
   radii = Radii(request.radii, grains, request.seed);
-}
-
-RowRange PackingPlan::rows_of_piece(int piece, int pieces) const noexcept
-{
-  return { begin_of_part(grains, piece, pieces), begin_of_part(grains, piece + 1, pieces) };
-}
-
-void PackingPlan::place_rows(const GrainRows& rows, int threads, Progress& progress) const
-{
-  if (this->is_random())
+  if (making.way == Way::Random)
   {
-    place({ shape, radii, grains, seed_ }, rows, threads, progress);
+    random_.emplace(shape, radii, request.seed, ranks, request.threads, progress);
+  }
+}
+
+RowRange PackingPlan::rows() const noexcept
+{
+  return { begin_of_part(grains, request.piece, request.pieces),
+    begin_of_part(grains, request.piece + 1, request.pieces) };
+}
+
+void PackingPlan::place_rows(const GrainRows& rows, Progress& progress) const
+{
+  if (random_)
+  {
+    random_->place(rows, request.threads, progress);
     return;
   }
-  for_row_chunks(rows.count(), threads, progress,
+  for_row_chunks(rows.count(), request.threads, progress,
     [&](std::int64_t begin, std::int64_t end, std::size_t)
     {
       for (std::int64_t i = begin; i < end; ++i)
       {
         const std::int64_t row = rows.first + i;
-        const Vector3 place = lattice_ ? lattice_->scaled(row) : fibres->scaled(row);
-        std::copy(place.begin(), place.end(), rows.scaled + 3 * i);
+        const Vector3 place = shape.point(lattice_ ? lattice_->scaled(row) : fibres->scaled(row));
+        std::copy(place.begin(), place.end(), rows.points + 3 * i);
         rows.radius[i] = radii.radius(row);
+        rows.type[i] = radii.type(row);
       }
     });
 }
 
 std::vector<RowRange> PackingPlan::rows_near(const RowRange& rows, double distance) const
 {
-  std::vector<RowRange> ranges = lattice_
-    ? lattice_->rows_near(rows, shape, distance)
-    : granular::rows_near({ shape, radii, grains, seed_ }, rows);
+  std::vector<RowRange> ranges =
+    lattice_ ? lattice_->rows_near(rows, shape, distance) : random_->rows_near(rows, distance);
   for (RowRange& range : ranges)
   {
     range.last = std::min(range.last, grains); // a lattice may have room for more

@@ -2,6 +2,7 @@
 #ifndef granular_packing_packing_plan_h
 #define granular_packing_packing_plan_h
 
+#include "granular/base/communicator.h"
 #include "granular/base/progress.h"
 #include "granular/packing/box_shape.h"
 #include "granular/packing/fibres.h"
@@ -16,26 +17,30 @@
 
 namespace granular
 {
-/// What a request comes to: its box, how many grains, of which sizes, and where.
+/// What a request comes to: its box, how many grains, of which sizes, and where. The requests of all ranks are the same but
+/// for their pieces and threads.
 class PackingPlan
 {
 public:
-  /// Throws LimitError for what cannot be.
-  explicit PackingPlan(const PackingRequest& request);
+  /// Collective, of random grains alone: each rank places those of its part of the box, and the ranks count. Throws on all ranks
+  /// LimitError for what cannot be; Cancelled.
+  PackingPlan(const PackingRequest& request, Communicator& ranks, Progress& progress);
 
+  PackingPlan(const PackingPlan&) = delete;
+  PackingPlan& operator=(const PackingPlan&) = delete;
+
+  PackingRequest request;
   Box box;
   BoxShape shape;
   std::optional<Fibres> fibres; ///< of a chain or a bundle
   std::int64_t grains = 0;
   Radii radii;
 
-  bool is_random() const noexcept { return !lattice_ && !fibres; }
+  /// The rows of the piece.
+  RowRange rows() const noexcept;
 
-  RowRange rows_of_piece(int piece, int pieces) const noexcept;
-
-  /// Any rows of the grains: each place is a function of the request and of its row. Throws LimitError where a
-  /// random grain finds no place; Cancelled.
-  void place_rows(const GrainRows& rows, int threads, Progress& progress) const;
+  /// Any rows of the grains: each place is a function of the request and of its row. Throws Cancelled.
+  void place_rows(const GrainRows& rows, Progress& progress) const;
 
   /// Rows after some, in order, that have all those later ones that may be nearer to one of them than a
   /// distance, which is at most six of the largest radii. Not of fibres. rows are not empty.
@@ -43,7 +48,7 @@ public:
 
 private:
   std::optional<Lattice> lattice_;
-  std::uint64_t seed_;
+  std::optional<RandomGrains> random_;
 };
 }
 #endif

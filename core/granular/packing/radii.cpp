@@ -5,16 +5,20 @@
 #include "granular/packing/random_numbers.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace granular
 {
 namespace
 {
-/// Regions of random grains are as large as their largest need.
+/// Largest first, small grains find no place any more between much larger ones.
 constexpr double largest_ratio = 20;
+
+constexpr double class_ratio = 1.05;
 
 double cube(double value)
 {
@@ -68,12 +72,7 @@ Radii::Radii(const RadiusChoice& choice, std::int64_t grains, std::uint64_t seed
   , grains_(grains)
   , seconds_(std::llround(choice.share * static_cast<double>(grains)))
   , seed_(seed)
-  , half_bits_(1)
 {
-  while (half_bits_ < 31 && std::int64_t{ 1 } << 2 * half_bits_ < grains)
-  {
-    ++half_bits_;
-  }
 }
 
 double Radii::radius(std::int64_t grain) const noexcept
@@ -87,25 +86,84 @@ double Radii::radius(std::int64_t grain) const noexcept
     case RadiusChoice::Kind::Range:
       break;
   }
-  const double part =
-    (static_cast<double>(this->dealt(grain)) + 0.5) / static_cast<double>(grains_);
-  return choice_.first + part * (choice_.second - choice_.first);
+  return this->part(this->dealt(grain, grains_));
 }
 
 std::int32_t Radii::type(std::int64_t grain) const noexcept
 {
-  return choice_.kind == RadiusChoice::Kind::Two && this->dealt(grain) < seconds_ ? 2 : 1;
+  return choice_.kind == RadiusChoice::Kind::Two && this->dealt(grain, grains_) < seconds_ ? 2 : 1;
 }
 
-/// Where the grain comes when all are shuffled: a Feistel network permutes the numbers of an even number
-/// of bits; one that leads out of the grains is followed until it is back.
-std::int64_t Radii::dealt(std::int64_t grain) const noexcept
+/// The middle of one of as many equal parts of the range as there are grains.
+double Radii::part(std::int64_t number) const noexcept
 {
-  const std::uint64_t mask = (std::uint64_t{ 1 } << half_bits_) - 1;
+  const double part = (static_cast<double>(number) + 0.5) / static_cast<double>(grains_);
+  return choice_.first + part * (choice_.second - choice_.first);
+}
+
+/// The same, the largest first.
+double Radii::by_size(std::int64_t number) const noexcept
+{
+  return this->part(choice_.first < choice_.second ? grains_ - 1 - number : number);
+}
+
+std::vector<SizeClass> Radii::classes() const
+{
+  std::vector<SizeClass> found;
+  switch (choice_.kind)
+  {
+    case RadiusChoice::Kind::One:
+      found = { { choice_.first, grains_, 1 } };
+      break;
+    case RadiusChoice::Kind::Two:
+      found = { { choice_.first, grains_ - seconds_, 1 }, { choice_.second, seconds_, 2 } };
+      if (choice_.first < choice_.second)
+      {
+        std::swap(found[0], found[1]);
+      }
+      break;
+    case RadiusChoice::Kind::Range:
+      for (std::int64_t first = 0; first < grains_;)
+      {
+        const double radius = this->by_size(first);
+        std::int64_t low = first; // in the class
+        std::int64_t high = grains_;
+        while (high - low > 1)
+        {
+          const std::int64_t middle = low + (high - low) / 2;
+          (this->by_size(middle) * class_ratio >= radius ? low : high) = middle;
+        }
+        found.push_back({ radius, high - first, 1 });
+        first = high;
+      }
+      break;
+  }
+  std::erase_if(found, [](const SizeClass& each) { return each.grains == 0; });
+  for (std::size_t i = 1; i < found.size(); ++i)
+  {
+    found[i].first = found[i - 1].first + found[i - 1].grains;
+  }
+  return found;
+}
+
+double Radii::radius(const SizeClass& size_class, std::int64_t grain) const noexcept
+{
+  return choice_.kind == RadiusChoice::Kind::Range
+    ? this->by_size(size_class.first + this->dealt(grain, size_class.grains))
+    : size_class.radius;
+}
+
+/// Where one of some grains comes when all are shuffled: a Feistel network permutes the numbers of an even number
+/// of bits; one that leads out of the grains is followed until it is back.
+std::int64_t Radii::dealt(std::int64_t grain, std::int64_t grains) const noexcept
+{
+  const auto bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(grains - 1)));
+  const int half_bits = std::max((bits + 1) / 2, 1);
+  const std::uint64_t mask = (std::uint64_t{ 1 } << half_bits) - 1;
   auto number = static_cast<std::uint64_t>(grain);
   do
   {
-    std::uint64_t left = number >> half_bits_;
+    std::uint64_t left = number >> half_bits;
     std::uint64_t right = number & mask;
     for (int round = 0; round < 4; ++round)
     {
@@ -114,8 +172,8 @@ std::int64_t Radii::dealt(std::int64_t grain) const noexcept
       left = right;
       right = next;
     }
-    number = left << half_bits_ | right;
-  } while (number >= static_cast<std::uint64_t>(grains_));
+    number = left << half_bits | right;
+  } while (number >= static_cast<std::uint64_t>(grains));
   return static_cast<std::int64_t>(number);
 }
 }

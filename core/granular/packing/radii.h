@@ -3,6 +3,7 @@
 #define granular_packing_radii_h
 
 #include <cstdint>
+#include <vector>
 
 namespace granular
 {
@@ -26,6 +27,15 @@ struct RadiusChoice
   double mean_volume() const noexcept;
 };
 
+/// Grains that are placed alike: of nearly the same size.
+struct SizeClass
+{
+  double radius = 0; ///< the largest of them
+  std::int64_t grains = 0;
+  std::int32_t type = 1;
+  std::int64_t first = 0; ///< how many grains are in classes before
+};
+
 /// Throws LimitError for what cannot be.
 void check(const RadiusChoice& choice);
 
@@ -40,14 +50,21 @@ public:
   double radius(std::int64_t grain) const noexcept;
   std::int32_t type(std::int64_t grain) const noexcept;
 
+  /// All grains by size, the largest first; none are empty. Radii of a class differ by a twentieth at most.
+  std::vector<SizeClass> classes() const;
+
+  /// The radius of a grain of a class, where radii are dealt out in each of the classes.
+  double radius(const SizeClass& size_class, std::int64_t grain) const noexcept;
+
 private:
-  std::int64_t dealt(std::int64_t grain) const noexcept;
+  std::int64_t dealt(std::int64_t grain, std::int64_t grains) const noexcept;
+  double part(std::int64_t number) const noexcept;
+  double by_size(std::int64_t number) const noexcept;
 
   RadiusChoice choice_;
   std::int64_t grains_;
   std::int64_t seconds_; ///< of Two, how many have `second`
   std::uint64_t seed_;
-  int half_bits_; ///< half of those that the number of a grain needs
 };
 }
 #endif

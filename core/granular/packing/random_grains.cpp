@@ -2,310 +2,299 @@
 #include "granular/packing/random_grains.h"
 
 #include "granular/base/error.h"
-#include "granular/base/executor.h"
-#include "granular/packing/neighbours.h"
+#include "granular/dump/exchange_rows.h"
 #include "granular/packing/random_numbers.h"
-#include "granular/packing/region_store.h"
-#include "granular/packing/regions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
-#include <vector>
 
 namespace granular
 {
 namespace
 {
-/// What a grain may take to find a place; then the region is begun again, with other numbers, as long as it
-/// has not taken what a region may.
-constexpr std::int64_t most_tries = 100'000;
-constexpr std::int64_t region_tries = 500'000;
-constexpr std::int64_t region_tries_a_grain = 1'000;
+/// How many arrivals there may be for each grain; for few grains more, in several attempts: each ends when so many
+/// found no place in a row.
+constexpr double tries_a_grain = 1'000;
+constexpr double tries_at_least = 500'000;
+constexpr double idle_tries = 20'000;
 
-/// And what it may take in the layer it was dealt, before it looks in all of its region.
-constexpr std::int64_t layer_tries = 100;
-
-/// Regions that a thread fills at a time.
-constexpr std::size_t chunk_regions = 16;
-
-/// Puts the grains of one region after the other to their places.
-class Filler
+/// The n-th least of the values of all ranks, n from 1 on: byte by byte. Collective.
+std::uint64_t nth_least(
+  const std::vector<std::uint64_t>& values, std::int64_t n, Communicator& ranks)
 {
-public:
-  Filler(const RandomGrains& all, const Regions& regions, RegionStore& store)
-    : all_(all)
-    , regions_(regions)
-    , store_(store)
-    , gap_(all.box.rounding())
+  std::uint64_t found = 0;
+  for (int shift = 56; shift >= 0; shift -= 8)
   {
+    std::array<std::int64_t, 256> counts = {};
+    for (const std::uint64_t value : values)
+    {
+      if (shift == 56 || (value ^ found) >> shift >> 8 == 0)
+      {
+        ++counts[value >> shift & 255];
+      }
+    }
+    ranks.sum(counts);
+    std::uint64_t byte = 0;
+    for (; counts[byte] < n; ++byte)
+    {
+      n -= counts[byte];
+    }
+    found |= byte << shift;
   }
+  return found;
+}
+}
 
-  void fill(std::int64_t index);
-
-private:
-  std::size_t fill(const Regions::Region& region, const GrainRows& grains, RandomNumbers& numbers);
-  void start(const Regions::Region& region, const GrainRows& grains);
-  void sort_by_size(const GrainRows& grains);
-  bool find_place(
-    const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place);
-  Regions::Bounds inside(double radius) const noexcept;
-  void add_images(const Vector3& place, double radius);
-  [[noreturn]] void give_up(const GrainRows& grains, std::size_t placed) const;
-
-  const RandomGrains& all_;
-  const Regions& regions_;
-  RegionStore& store_;
-  double gap_;
-  std::int64_t tries_left_ = 0; ///< of the region
-  Regions::Bounds bounds_ = {};
-  Neighbours neighbours_;
-  std::vector<std::int64_t> order_;
-};
-
-void Filler::fill(std::int64_t index)
+RandomGrains::RandomGrains(const BoxShape& box, const Radii& radii, std::uint64_t seed,
+  Communicator& ranks, int threads, Progress& progress)
+  : radii_(radii)
+  , grid_(box, radii.classes())
+  , seed_(seed)
 {
-  const GrainRows grains = store_.grains(index);
-  if (grains.count() == 0)
+  own_.shelves = { begin_of_part(grid_.shelves(), ranks.rank(), ranks.size()),
+    begin_of_part(grid_.shelves(), ranks.rank() + 1, ranks.size()) };
+  const SizeClass& last = grid_.classes().back();
+  const auto grains = static_cast<double>(last.first + last.grains);
+  const Executor executor(threads);
+  Tries tries = { tries_at_least + tries_a_grain * grains };
+  while (!this->adsorb_all(ranks, tries, executor, progress))
   {
-    return;
+    if (tries.left <= 0)
+    {
+      this->give_up();
+    }
   }
-  const Regions::Region region = regions_.region(index);
-  this->sort_by_size(grains);
-  RandomNumbers numbers(all_.seed, Stream::Places, index);
-  std::size_t most = 0;
-  tries_left_ = region_tries + region_tries_a_grain * grains.count();
-  while (tries_left_ > 0)
+  this->count(ranks);
+}
+
+/// One attempt. Gives false where no place is found any more.
+bool RandomGrains::adsorb_all(
+  Communicator& ranks, Tries& tries, const Executor& executor, Progress& progress)
+{
+  rounds_.clear();
+  own_.found.reset();
+  PartialProgress part(progress);
+  for (std::size_t i = 0; i < grid_.classes().size(); ++i)
   {
-    this->start(region, grains);
-    const std::size_t placed = this->fill(region, grains, numbers);
-    if (placed == order_.size())
+    if (!this->adsorb(i, ranks, tries, executor, part))
+    {
+      return false;
+    }
+  }
+  do_together(ranks, [&] { own_.found->finish(rounds_, executor); });
+  return true;
+}
+
+/// All grains of a class.
+bool RandomGrains::adsorb(std::size_t size_class, Communicator& ranks, Tries& tries,
+  const Executor& executor, PartialProgress& progress)
+{
+  const std::vector<SizeClass>& classes = grid_.classes();
+  const AdsorptionGrid::Cells& cells = grid_.cells(grid_.level_of(size_class));
+  const auto lines = static_cast<double>(cells[1] * cells[2]);
+  const auto all = static_cast<double>(classes.back().first + classes.back().grains);
+  std::int64_t missing = classes[size_class].grains;
+  double staying = 1; // of those that arrive
+  for (tries.idle = 0; missing > 0;)
+  {
+    const std::int64_t placed = classes[size_class].first + classes[size_class].grains - missing;
+    most_ = std::max(most_, placed);
+    if (tries.left <= 0 || tries.idle > idle_tries)
+    {
+      return false;
+    }
+    const double done = static_cast<double>(placed) / all;
+    progress.set_part(done, done);
+    const double mean = this->arrivals_on_a_line(size_class, missing, staying);
+    std::vector<std::uint64_t> moments;
+    do_together(ranks,
+      [&]
+      {
+        const std::uint64_t seed = RandomNumbers(seed_, Stream::Places, rounds_begun_++).bits();
+        rounds_.push_back({ size_class, seed, mean });
+        this->follow(own_, executor, progress);
+        moments = own_.found->moments();
+      });
+    std::array<std::int64_t, 1> stayed = { static_cast<std::int64_t>(moments.size()) };
+    ranks.sum(stayed);
+    if (stayed[0] > missing)
+    {
+      rounds_.back().last = nth_least(moments, missing, ranks);
+      stayed[0] = missing;
+    }
+    missing -= stayed[0];
+    tries.left -= mean * lines;
+    tries.idle = stayed[0] > 0 ? 0 : tries.idle + mean * lines;
+    staying = std::max(static_cast<double>(stayed[0]), 0.5) / (mean * lines);
+  }
+  return true;
+}
+
+/// So many that all missing grains are likely to be among them; but at most one in two cells that stays, for short
+/// chains of those that wait for each other.
+double RandomGrains::arrivals_on_a_line(
+  std::size_t size_class, std::int64_t missing, double staying) const noexcept
+{
+  constexpr double most = 512; // of Poisson's numbers 1024 are then out of reach
+  const AdsorptionGrid::Cells& cells = grid_.cells(grid_.level_of(size_class));
+  const auto grains = static_cast<double>(missing);
+  const double enough =
+    (grains + 4 * std::sqrt(grains) + 4) / static_cast<double>(cells[1] * cells[2]);
+  return std::min(std::min(enough, 0.5 * static_cast<double>(cells[0])) / staying, most);
+}
+
+/// Lets arrive what has not yet, with as wide a margin as it needs.
+void RandomGrains::follow(Part& part, const Executor& executor, Progress& progress) const
+{
+  for (;; part.margin *= 2)
+  {
+    if (!part.found)
+    {
+      part.found =
+        std::make_unique<Adsorption>(grid_, part.shelves.first, part.shelves.last, part.margin);
+    }
+    if (part.found->follow(rounds_, executor, progress))
     {
       return;
     }
-    most = std::max(most, placed);
+    part.found.reset();
   }
-  this->give_up(grains, most);
 }
 
-/// Gives how many found a place, before one that did not.
-std::size_t Filler::fill(
-  const Regions::Region& region, const GrainRows& grains, RandomNumbers& numbers)
+/// How many grains of each class are before each shelf.
+void RandomGrains::count(Communicator& ranks)
 {
-  for (std::size_t placed = 0; placed < order_.size(); ++placed)
-  {
-    const std::int64_t i = order_[placed];
-    Vector3 place = {};
-    if (!this->find_place(region, numbers, grains.radius[i], place))
+  const std::size_t classes = grid_.classes().size();
+  const auto shelves = static_cast<std::size_t>(grid_.shelves());
+  do_together(ranks,
+    [&]
     {
-      return placed;
-    }
-    std::copy(place.begin(), place.end(), grains.scaled + 3 * i);
-    this->add_images(place, grains.radius[i]);
-  }
-  return order_.size();
-}
-
-/// Readies the neighbours: those within two radii of the region.
-void Filler::start(const Regions::Region& region, const GrainRows& grains)
-{
-  const RadiusChoice& choice = all_.radii.choice();
-  bounds_ = regions_.bounds(region);
-  Regions::Bounds around = bounds_;
-  double inner = 1;
-  double outer = 1;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const double reach = (2 * choice.largest() + gap_) / all_.box.heights[k];
-    around.low[k] -= reach;
-    around.high[k] += reach;
-    inner *= bounds_.high[k] - bounds_.low[k];
-    outer *= around.high[k] - around.low[k];
-  }
-  neighbours_.start(all_.box, around.low, around.high, choice.smallest(), choice.largest(), gap_,
-    static_cast<double>(grains.count()) * (outer / inner));
-  regions_.visit_rim(region,
-    [this](std::int64_t rim, const Vector3& shift)
-    {
-      const GrainRows others = store_.grains(rim);
-      for (std::int64_t i = 0; i < others.count(); ++i)
+      counts_.assign((shelves + 1) * classes, 0);
+      rows_.assign(shelves + 1, 0);
+      for (std::int64_t shelf = own_.shelves.first; shelf < own_.shelves.last; ++shelf)
       {
-        const double* const at = others.scaled + 3 * i;
-        const Vector3 place = { at[0] + shift[0], at[1] + shift[1], at[2] + shift[2] };
-        if (neighbours_.holds(place))
+        for (std::size_t level = 0; level < grid_.levels(); ++level)
         {
-          neighbours_.add(place, others.radius[i]);
+          const std::int64_t end = grid_.first_layer(level, shelf + 1);
+          for (std::int64_t at = grid_.first_layer(level, shelf); at < end; ++at)
+          {
+            for (const Adsorption::Grain& grain : own_.found->grains(level, at))
+            {
+              ++counts_[(static_cast<std::size_t>(shelf) + 1) * classes +
+                static_cast<std::size_t>(grain.size_class)];
+            }
+          }
         }
       }
     });
-}
-
-/// Large ones first: small ones still find a place between them.
-void Filler::sort_by_size(const GrainRows& grains)
-{
-  order_.resize(static_cast<std::size_t>(grains.count()));
-  std::iota(order_.begin(), order_.end(), 0);
-  for (const std::int64_t i : order_)
+  ranks.sum(counts_);
+  for (std::size_t shelf = 1; shelf <= shelves; ++shelf)
   {
-    grains.radius[i] = all_.radii.radius(grains.first + i);
-  }
-  if (all_.radii.choice().kind != RadiusChoice::Kind::One)
-  {
-    std::stable_sort(order_.begin(), order_.end(),
-      [&grains](std::int64_t a, std::int64_t b) { return grains.radius[a] > grains.radius[b]; });
-  }
-}
-
-bool Filler::find_place(
-  const Regions::Region& region, RandomNumbers& numbers, double radius, Vector3& place)
-{
-  const Regions::Bounds whole = this->inside(radius);
-  Regions::Bounds bounds = whole;
-  int layer = Regions::outside;
-  for (std::int64_t tries = 0; tries < most_tries && tries_left_ > 0; ++tries, --tries_left_)
-  {
-    if (tries == layer_tries)
+    for (std::size_t i = 0; i < classes; ++i)
     {
-      bounds = whole;
-    }
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      place[k] = bounds.low[k] + numbers.unit() * (bounds.high[k] - bounds.low[k]);
-    }
-    const int here = regions_.layer(region, place);
-    if (here == Regions::outside ||
-      (layer != Regions::outside && here != layer && tries < layer_tries))
-    {
-      continue;
-    }
-    if (neighbours_.has_room(place, radius))
-    {
-      return true;
-    }
-    if (layer == Regions::outside)
-    {
-      layer = here;
-      regions_.narrow(region, place, bounds);
-    }
-  }
-  return false;
-}
-
-/// The bounds of the region, away from faces that are not periodic.
-Regions::Bounds Filler::inside(double radius) const noexcept
-{
-  Regions::Bounds bounds = bounds_;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    if (!all_.box.periodic[k])
-    {
-      const double least = std::min((radius + gap_) / all_.box.heights[k], 0.5);
-      bounds.low[k] = std::max(bounds.low[k], least);
-      bounds.high[k] = std::min(bounds.high[k], 1 - least);
-    }
-  }
-  return bounds;
-}
-
-/// A grain, and its periodic images along the axes that are one block.
-void Filler::add_images(const Vector3& place, double radius)
-{
-  const auto along = [this](std::size_t axis) { return regions_.wraps(axis) ? 1 : 0; };
-  for (int z = -along(2); z <= along(2); ++z)
-  {
-    for (int y = -along(1); y <= along(1); ++y)
-    {
-      for (int x = -along(0); x <= along(0); ++x)
-      {
-        const Vector3 image = { place[0] + x, place[1] + y, place[2] + z };
-        if (neighbours_.holds(image))
-        {
-          neighbours_.add(image, radius);
-        }
-      }
+      counts_[shelf * classes + i] += counts_[(shelf - 1) * classes + i];
+      rows_[shelf] += counts_[shelf * classes + i];
     }
   }
 }
 
-void Filler::give_up(const GrainRows& grains, std::size_t placed) const
+void RandomGrains::give_up() const
 {
-  const double part = static_cast<double>(placed) / static_cast<double>(grains.count());
-  const double volume = all_.radii.choice().mean_volume();
-  const double asked = static_cast<double>(all_.grains) * volume / all_.box.volume;
-  throw LimitError("no place was found for a random grain of radius " +
-    std::to_string(grains.radius[order_[placed]]) + " when " + std::to_string(placed) + " of " +
-    std::to_string(grains.count()) +
-    " of its part of the box had theirs: expected a solid fraction " +
-    "of at most about 0.3, and less where walls are near, got " + std::to_string(asked) +
-    ", of which " + std::to_string(part * asked) + " was reached");
+  const std::vector<SizeClass>& classes = grid_.classes();
+  const std::int64_t grains = classes.back().first + classes.back().grains;
+  const double asked =
+    static_cast<double>(grains) * radii_.choice().mean_volume() / grid_.box().volume;
+  double all = 0;
+  double reached = 0;
+  double radius = 0;
+  for (const SizeClass& each : classes)
+  {
+    const double volume = each.radius * each.radius * each.radius;
+    const std::int64_t placed = std::clamp<std::int64_t>(most_ - each.first, 0, each.grains);
+    all += volume * static_cast<double>(each.grains);
+    reached += volume * static_cast<double>(placed);
+    radius = each.first <= most_ ? each.radius : radius;
+  }
+  throw LimitError("no place was found for a random grain of radius " + std::to_string(radius) +
+    " when " + std::to_string(most_) + " of " + std::to_string(grains) +
+    " had theirs: expected a solid fraction of at most about 0.3, and less where walls are near, "
+    "got " +
+    std::to_string(asked) + ", of which " + std::to_string(asked * reached / all) + " was reached");
 }
 
-/// Regions of one kind, several at a time.
-void fill_all(std::vector<Filler>& fillers, const std::vector<std::int64_t>& regions,
-  const Executor& executor, Progress& progress)
+std::int64_t RandomGrains::shelf_of(std::int64_t row) const noexcept
 {
-  const std::size_t chunks = (regions.size() + chunk_regions - 1) / chunk_regions;
+  return std::upper_bound(rows_.begin(), rows_.end(), row) - rows_.begin() - 1;
+}
+
+void RandomGrains::place(const GrainRows& rows, int threads, Progress& progress) const
+{
+  if (rows.count() == 0)
+  {
+    return;
+  }
+  const Executor executor(threads);
+  Part made = { { this->shelf_of(rows.first), this->shelf_of(rows.last - 1) + 1 }, least_margin,
+    {} };
+  const Adsorption* found = own_.found.get();
+  if (!found->has(made.shelves.first, made.shelves.last))
+  {
+    this->follow(made, executor, progress);
+    made.found->finish(rounds_, executor);
+    found = made.found.get();
+  }
   executor.parallel_for(
-    chunks,
-    [&](std::size_t chunk, std::size_t worker)
-    {
-      const std::size_t end = std::min(regions.size(), (chunk + 1) * chunk_regions);
-      for (std::size_t i = chunk * chunk_regions; i < end; ++i)
-      {
-        fillers[worker].fill(regions[i]);
-      }
-    },
+    static_cast<std::size_t>(made.shelves.count()),
+    [&](std::size_t i, std::size_t)
+    { this->place(*found, made.shelves.first + static_cast<std::int64_t>(i), rows); },
     progress);
 }
 
-/// Back into the box, what lies beyond a periodic face.
-void wrap(const BoxShape& box, const GrainRows& rows)
+/// Those of the rows that are in a shelf.
+void RandomGrains::place(const Adsorption& found, std::int64_t shelf, const GrainRows& rows) const
 {
-  for (std::int64_t i = 0; i < 3 * rows.count(); ++i)
+  const std::vector<SizeClass>& classes = grid_.classes();
+  const Vector3& origin = grid_.box().origin;
+  const auto before =
+    counts_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(shelf) * classes.size());
+  std::vector<std::int64_t> counts(before, before + static_cast<std::ptrdiff_t>(classes.size()));
+  std::int64_t row = rows_[static_cast<std::size_t>(shelf)] - rows.first;
+  for (std::size_t level = 0; level < grid_.levels(); ++level)
   {
-    double& place = rows.scaled[i];
-    if (box.periodic[static_cast<std::size_t>(i % 3)])
+    const std::int64_t end = grid_.first_layer(level, shelf + 1);
+    for (std::int64_t at = grid_.first_layer(level, shelf); at < end; ++at)
     {
-      place -= std::floor(place);
-      place = place < 1 ? place : 0;
+      for (const Adsorption::Grain& grain : found.grains(level, at))
+      {
+        const auto i = static_cast<std::size_t>(grain.size_class);
+        const std::int64_t number = counts[i]++;
+        if (row >= 0 && row < rows.count())
+        {
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            rows.points[3 * row + static_cast<std::int64_t>(axis)] = origin[axis] + grain.at[axis];
+          }
+          rows.radius[row] = radii_.radius(classes[i], number);
+          rows.type[row] = classes[i].type;
+        }
+        ++row;
+      }
     }
   }
 }
 
-Regions regions_of(const RandomGrains& all)
+std::vector<RowRange> RandomGrains::rows_near(const RowRange& rows, double distance) const
 {
-  constexpr double slack = 1 + 1e-9; // for the rounding of scaled coordinates
-  const RadiusChoice& choice = all.radii.choice();
-  const double radius = (choice.largest() + all.box.rounding()) * slack;
-  const double inset = (choice.smallest() + choice.largest()) / 2;
-  return { all.box, radius, inset, all.grains };
-}
-}
-
-void place(const RandomGrains& all, const GrainRows& rows, int threads, Progress& progress)
-{
-  const Regions regions = regions_of(all);
-  RegionStore store(regions, rows);
-  const Executor executor(threads);
-  std::vector<Filler> fillers(
-    static_cast<std::size_t>(executor.threads()), Filler(all, regions, store));
-  PartialProgress part(progress);
-  const double ends[] = { 0.95, 0.4, 0.2, 0.1 };
-  double done = 0;
-  for (const int planes : { 3, 2, 1, 0 })
-  {
-    part.set_part(done, ends[planes]);
-    fill_all(fillers, store.with_planes(planes), executor, part);
-    done = ends[planes];
-  }
-  store.finish();
-  wrap(all.box, rows);
-  progress.step(1);
-}
-
-std::vector<RowRange> rows_near(const RandomGrains& all, const RowRange& rows)
-{
-  return regions_of(all).rows_near(rows);
+  const std::int64_t shelves = grid_.shelves();
+  const std::int64_t low = this->shelf_of(rows.first);
+  const std::int64_t high = this->shelf_of(rows.last - 1);
+  const std::int64_t reach = grid_.shelves_within(distance);
+  const std::int64_t end = std::min(high + reach + 1, shelves);
+  const bool periodic = grid_.box().periodic[grid_.axis(2)];
+  const std::int64_t top = std::clamp(periodic ? low + shelves - reach : shelves, end, shelves);
+  const auto row = [this](std::int64_t shelf) { return rows_[static_cast<std::size_t>(shelf)]; };
+  return { { rows.last, row(end) }, { row(top), row(shelves) } };
 }
 }

@@ -2,12 +2,15 @@
 #ifndef granular_packing_random_grains_h
 #define granular_packing_random_grains_h
 
+#include "granular/base/communicator.h"
 #include "granular/base/progress.h"
-#include "granular/packing/box_shape.h"
+#include "granular/packing/adsorption.h"
+#include "granular/packing/adsorption_grid.h"
 #include "granular/packing/radii.h"
 #include "granular/packing/row_range.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace granular
@@ -15,26 +18,68 @@ namespace granular
 /// Rows of grains, and where they go.
 struct GrainRows : RowRange
 {
-  double* scaled = nullptr; ///< three a row: their place in units of the box vectors
+  double* points = nullptr; ///< three a row
   double* radius = nullptr;
+  std::int32_t* type = nullptr;
 };
 
-/// Grains where chance puts them, one after the other, each where no other is (random sequential addition),
-/// in the regions of Regions: so all ranks agree on the grains between them without a word.
-struct RandomGrains
+/// Grains at random places: exactly random sequential adsorption, the largest grains first. Grains of a size arrive until
+/// there are as many as asked for; that moment alone depends on the whole box. Then any rows are found from what
+/// arrived near to them.
+class RandomGrains
 {
-  const BoxShape& box;
-  const Radii& radii;
-  std::int64_t grains; ///< of the whole box
-  std::uint64_t seed;
+public:
+  /// Lets the grains of all classes arrive. Collective: each rank finds those of its shelves, and the ranks count.
+  /// box and radii must live as long as this. Throws LimitError if some find no place; Cancelled.
+  RandomGrains(const BoxShape& box, const Radii& radii, std::uint64_t seed, Communicator& ranks,
+    int threads, Progress& progress);
+
+  /// Finds some of the grains. Not collective. Throws Cancelled.
+  void place(const GrainRows& rows, int threads, Progress& progress) const;
+
+  /// Rows after some, in order, that have all those later ones that may be nearer to one of them than a distance.
+  std::vector<RowRange> rows_near(const RowRange& rows, double distance) const;
+
+private:
+  using Shelves = RowRange;
+
+  static constexpr double least_margin = 8; ///< largest diameters: at 0.3 it is rarely more
+
+  /// What finds the grains of some shelves.
+  struct Part
+  {
+    Shelves shelves;
+    double margin = least_margin;
+    std::unique_ptr<Adsorption> found;
+  };
+
+  /// Of an attempt.
+  struct Tries
+  {
+    double left;     ///< in all attempts
+    double idle = 0; ///< since the last grain that stayed
+  };
+
+  void follow(Part& part, const Executor& executor, Progress& progress) const;
+  bool adsorb_all(Communicator& ranks, Tries& tries, const Executor& executor, Progress& progress);
+  bool adsorb(std::size_t size_class, Communicator& ranks, Tries& tries, const Executor& executor,
+    PartialProgress& progress);
+  double arrivals_on_a_line(
+    std::size_t size_class, std::int64_t missing, double staying) const noexcept;
+  void count(Communicator& ranks);
+  [[noreturn]] void give_up() const;
+  std::int64_t shelf_of(std::int64_t row) const noexcept;
+  void place(const Adsorption& found, std::int64_t shelf, const GrainRows& rows) const;
+
+  const Radii& radii_;
+  AdsorptionGrid grid_;
+  std::uint64_t seed_;
+  std::int64_t rounds_begun_ = 0;
+  std::vector<Arrivals> rounds_;
+  std::int64_t most_ = 0;            ///< grains of the attempt that had most
+  std::vector<std::int64_t> rows_;   ///< before each shelf
+  std::vector<std::int64_t> counts_; ///< of each class before each shelf
+  Part own_;
 };
-
-/// Places some of the grains, and what is around them. Throws LimitError where one finds no place;
-/// Cancelled.
-void place(const RandomGrains& all, const GrainRows& rows, int threads, Progress& progress);
-
-/// Rows after some, in order, that have all those later ones that may be nearer to one of them than six of the
-/// largest radii.
-std::vector<RowRange> rows_near(const RandomGrains& all, const RowRange& rows);
 }
 #endif

@@ -19,10 +19,11 @@ constexpr std::int64_t count_bytes = 4;
 constexpr auto least_doubles = static_cast<std::int64_t>(RecordSlots::common);
 constexpr std::size_t scan_window = std::size_t{ 1 } << 17;
 
-/// A complete file needs one walk over its records, and a hop for each process.
+/// A complete file needs one walk over its records, and a hop for each process, each of which has a count there.
 SearchBudget budget_of(std::int64_t bytes, std::int64_t processes)
 {
-  return { 4 * (bytes / (8 * least_doubles) + processes) + 1'000'000,
+  const std::int64_t hops = std::min(processes, bytes / count_bytes);
+  return { 4 * (bytes / (8 * least_doubles) + hops) + 1'000'000,
     2 * bytes + (std::int64_t{ 1 } << 28) };
 }
 
@@ -162,8 +163,8 @@ private:
     walker_.reset();
     for (std::int64_t chunk = at; chunk < size_;)
     {
-      const std::int64_t doubles = this->doubles_at(chunk);
-      if (!walker_.walk(chunk + count_bytes, doubles, budget_))
+      const std::int64_t doubles = this->doubles_at(chunk); // which may be others by now
+      if (doubles < 0 || !walker_.walk(chunk + count_bytes, doubles, budget_))
       {
         return false;
       }
@@ -186,7 +187,7 @@ private:
     {
       const std::int64_t doubles = this->doubles_at(run.end);
       const bool fits = doubles == 0 || doubles >= least_doubles;
-      if (!fits || doubles > (size_ - run.end - count_bytes) / 8 || budget_.spent())
+      if (!fits || budget_.spent())
       {
         return { 0, -1 };
       }
@@ -205,8 +206,7 @@ private:
     {
       const std::int64_t doubles =
         run.chunks < header_.processes && !budget_.spent() ? this->doubles_at(run.end) : -1;
-      if (doubles < 0 || doubles > (size_ - run.end - count_bytes) / 8 ||
-        !walker_in_box_.walk(run.end + count_bytes, doubles, budget_))
+      if (doubles < 0 || !walker_in_box_.walk(run.end + count_bytes, doubles, budget_))
       {
         return false;
       }
@@ -237,14 +237,15 @@ private:
     return missing == 0;
   }
 
-  /// The count of a chunk; -1 where none can be.
+  /// The count of a chunk, for whose doubles there is room; -1 where there is none.
   std::int64_t doubles_at(std::int64_t at)
   {
     const std::int64_t before = hops_.read_bytes();
     const std::string_view bytes = hops_.view(at, count_bytes);
     --budget_.steps;
     budget_.bytes -= hops_.read_bytes() - before;
-    return bytes.size() < count_bytes ? -1 : hops_.int32_in(bytes.data());
+    const std::int64_t doubles = bytes.size() < count_bytes ? -1 : hops_.int32_in(bytes.data());
+    return doubles > (size_ - at - count_bytes) / 8 ? -1 : doubles;
   }
 
   bool zeros(std::int64_t first, std::int64_t end)
@@ -265,7 +266,7 @@ private:
     return true;
   }
 
-  /// All chunks are known to be there.
+  /// All chunks were there a moment ago.
   void take(std::int64_t first, std::int64_t end)
   {
     result_.begin = first;
@@ -273,6 +274,12 @@ private:
     for (std::int64_t at = first; at < end;)
     {
       const std::int64_t doubles = this->doubles_at(at);
+      if (doubles < 0)
+      {
+        throw IoError("the file changed while it was read: expected the number of doubles of a "
+                      "process, got another one",
+          scan_.where(at));
+      }
       result_.chunks.push_back({ {}, at + count_bytes, doubles });
       at += count_bytes + doubles * 8;
     }

@@ -91,10 +91,16 @@ ProcessNames find_process_names(const std::vector<ProcessNames>& candidates)
   return found == candidates.end() ? candidates.front() : *found;
 }
 
-bool is_there(const std::string& path) noexcept
+bool is_there(const std::string& path)
 {
   std::error_code code;
-  return std::filesystem::exists(path, code);
+  const bool found = std::filesystem::exists(path, code);
+  if (code && code != std::errc::filename_too_long)
+  {
+    throw IoError("cannot look for the file: " + code.message(), { path },
+      static_cast<std::errc>(code.value()));
+  }
+  return found;
 }
 
 std::string read_content(const ByteSource& source, Progress& progress)

@@ -28,7 +28,8 @@ std::vector<ProcessNames> process_names(const std::string& base_path);
 /// The one of these of which there is a file of process 0; if there is none, the first.
 ProcessNames find_process_names(const std::vector<ProcessNames>& candidates);
 
-bool is_there(const std::string& path) noexcept;
+/// Whether there is a file, or anything else, of this name. Throws IoError where the system does not say.
+bool is_there(const std::string& path);
 
 /// What is inside of a packed source, in memory, with its path.
 std::string read_content(const ByteSource& source, Progress& progress);

@@ -7,6 +7,7 @@
 #include "granular/restart/restart_layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -79,6 +80,17 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
   {
     leave_out(index, { error.where(), error.text() });
   }
+}
+
+/// Whether an index has the times of the header: all else is read again with the records.
+bool header_fits(const ByteSource& source, const FileIndex& index)
+{
+  const FrameEntry& frame = index.frames.front();
+  RestartBytes bytes(source);
+  const RestartHeader header = read_header(bytes);
+  const double time = header.time.value_or(FrameEntry::no_time);
+  return index.frames.size() == 1 && frame.timestep == header.timestep &&
+    (frame.time == time || (std::isnan(frame.time) && std::isnan(time)));
 }
 
 /// Files of processes are known by their base, where it is.
@@ -168,7 +180,7 @@ bool looks_like_restart(const ByteSource& source)
 
 const FileFormat& restart_format() noexcept
 {
-  static constexpr FileFormat format = { "a restart file", &index_restart, &pass_over_parts };
+  static constexpr FileFormat format = { "a restart file", &index_restart, &pass_over_parts, &header_fits };
   return format;
 }
 

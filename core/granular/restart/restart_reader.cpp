@@ -2,6 +2,7 @@
 #include "granular/restart/restart_reader.h"
 
 #include "granular/dump/exchange_rows.h"
+#include "granular/dump/point_loss.h"
 #include "granular/restart/bond_frame.h"
 #include "granular/restart/collect_bonds.h"
 #include "granular/restart/decode_records.h"
@@ -17,6 +18,23 @@ namespace granular
 {
 namespace
 {
+/// What the points of this rank's part lose to a PointOrigin that is far away.
+void note_loss(
+  const DumpFrame& frame, const RestartRequest& request, const Where& where, Notices& notices)
+{
+  const Vector3& origin = request.lines.point_origin;
+  RoundingLoss loss;
+  add_rounding(frame.rows, frame.header.box, origin, loss);
+  for (const DumpArray& array : frame.arrays)
+  {
+    const bool radii = array.info.name == "radius" && origin != Vector3{};
+    const auto* const values = static_cast<const double*>(array.block.data());
+    std::for_each(
+      values, values + (radii ? frame.rows : 0), [&](double radius) { loss.add_radius(radius); });
+  }
+  note_point_loss(loss, frame.header.box, origin, false, where, notices);
+}
+
 /// Decodes the records of a file.
 class FrameReader
 {
@@ -72,6 +90,7 @@ public:
         make_bond_frame(*bonds_, layout, request, first_, end_, where, notices, progress);
     }
     frame.particles = particles_.take(where, notices);
+    note_loss(frame.particles, request, where, notices);
     if (!bonds_)
     {
       frame.bonds.table.header = frame.particles.header;

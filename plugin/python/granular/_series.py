@@ -4,6 +4,8 @@ import json
 import math
 import os
 import re
+import warnings
+from fractions import Fraction
 
 
 def _stem_and_suffix(name):
@@ -29,6 +31,28 @@ def _default_path(file):
     return os.path.join(folder, (text or "files") + suffix + ".series")
 
 
+def _times(steps, dt):
+    """Times of steps in ascending order, by the clock of the readers: the doubles nearest to step x dt as it is written.
+
+    Steps that would share a time are at the next doubles, with a warning."""
+    size = Fraction(repr(float(dt)))
+    times = []
+    shared = []
+    for step in steps:
+        try:
+            time = float(step * size)
+        except OverflowError:
+            raise ValueError(f"dt must give finite times, got {dt} for step {step}") from None
+        if times and time <= times[-1]:
+            time = math.nextafter(times[-1], math.inf)
+            shared.append(step)
+        times.append(time)
+    if shared:
+        warnings.warn(f"{len(shared)} of {len(times)} steps, the first of them {shared[0]}, are too large for times of their "
+                      "own and get the next ones; count steps from 0", stacklevel=3)
+    return times
+
+
 def _write_atomically(path, text):
     """The old file or the new one, never half of one."""
     temporary = f"{path}.{os.getpid()}.tmp"
@@ -49,13 +73,15 @@ def write_series(files, dt, path=None):
 
     files  names of the files, in any order: mesh_0.stl, mesh_1000.stl, ... The step of each is the
            last number in its name (without suffix).
-    dt     time of one step, greater than 0: time = step x dt.
+    dt     time of one step, greater than 0: time = step x dt, the double nearest to the product of the
+           decimal numbers, as readers have it: 3 x 1e-5 is 3e-05. Steps from 2^53 on that would share a
+           time get the next doubles, with a warning.
     path   the file to write, which must end in '.series'. By default it lies beside the first file
            and is called like it, without the number: mesh.stl.series.
 
     Names in the file are relative to it. An old file is replaced whole or left as it was.
     Raises ValueError: no files, no number in a name, a step that occurs twice, a dt or a path that
-    cannot be; FileNotFoundError if a file does not exist; OSError if the file cannot be written.
+    cannot be, an infinite time; FileNotFoundError if a file does not exist; OSError if the file cannot be written.
     """
     files = [os.fspath(file) for file in ([files] if isinstance(files, (str, os.PathLike)) else files)]
     if not files:
@@ -76,8 +102,9 @@ def write_series(files, dt, path=None):
         by_step[step] = file
 
     folder = os.path.dirname(os.path.abspath(path))
-    entries = [{"name": os.path.relpath(by_step[step], folder), "time": step * dt}
-               for step in sorted(by_step)]
+    steps = sorted(by_step)
+    entries = [{"name": os.path.relpath(by_step[step], folder), "time": time}
+               for step, time in zip(steps, _times(steps, dt))]
     series = {"file-series-version": "1.0", "files": entries}
     _write_atomically(path, json.dumps(series, indent=2) + "\n")
     return path

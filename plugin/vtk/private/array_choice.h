@@ -28,7 +28,7 @@ public:
 
   /**
    * Begins to list the arrays that there are now; Add names them, End takes away those that are no more. What was chosen
-   * before stays, also for arrays that come back. follow: new ones are off where the user has left out others.
+   * before stays, also for arrays that come back. Takes time in proportion to the arrays, if few of them are off. follow: new ones are off where the user has left out others.
    */
   void Begin(bool follow = false);
   void Add(const std::string& name, bool on);
@@ -52,8 +52,11 @@ public:
     const std::vector<std::string>& others = {}) const;
 
 private:
+  std::map<std::string, bool> GetStates() const;
+
   vtkNew<vtkDataArraySelection> Selection;
   std::map<std::string, bool> Names; ///< of all frames, and whether they are on if nobody chooses
+  std::vector<std::string> Order;    ///< of the names, as they were added
   bool Chosen = false;               ///< some were left out when Begin was called
   bool Follow = false;               ///< as Begin was told
   std::map<std::string, bool> Gone;  ///< what was chosen of those that are no more

@@ -3,6 +3,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
@@ -123,6 +124,34 @@ void SetRange(vtkDataArray* array, const granular::ValueRange& range)
   }
 }
 
+vtkSmartPointer<vtkAbstractArray> TakeValues(granular::DumpArray& array, vtkIdType rows)
+{
+  const int components = array.info.components();
+  switch (array.info.type)
+  {
+    case granular::ValueType::Int32:
+      return TakeBlock<vtkTypeInt32Array>(array.block, rows, components);
+    case granular::ValueType::Int64:
+      return TakeBlock<vtkTypeInt64Array>(array.block, rows, components);
+    case granular::ValueType::Float64:
+      return TakeBlock<vtkDoubleArray>(array.block, rows, components);
+    case granular::ValueType::Text:
+      break;
+  }
+  return TakeTexts(array, rows);
+}
+
+void Describe(vtkAbstractArray* taken, const granular::DumpArray& array,
+  const std::vector<granular::ColumnInfo>& columns)
+{
+  taken->SetName(array.info.name.c_str());
+  NameComponents(taken, array.info, columns);
+  if (auto* numbers = vtkDataArray::SafeDownCast(taken))
+  {
+    SetRange(numbers, array.range);
+  }
+}
+
 /**
  * Changes of cells or of the arrays behind them that were announced.
  */
@@ -136,30 +165,25 @@ vtkMTimeType TimeOf(vtkCellArray* cells)
 vtkSmartPointer<vtkAbstractArray> TakeArray(
   granular::DumpArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns)
 {
-  const granular::ArrayInfo& info = array.info;
-  vtkSmartPointer<vtkAbstractArray> taken;
-  switch (info.type)
-  {
-    case granular::ValueType::Int32:
-      taken = TakeBlock<vtkTypeInt32Array>(array.block, rows, info.components());
-      break;
-    case granular::ValueType::Int64:
-      taken = TakeBlock<vtkTypeInt64Array>(array.block, rows, info.components());
-      break;
-    case granular::ValueType::Float64:
-      taken = TakeBlock<vtkDoubleArray>(array.block, rows, info.components());
-      break;
-    case granular::ValueType::Text:
-      taken = TakeTexts(array, rows);
-      break;
-  }
-  taken->SetName(info.name.c_str());
-  NameComponents(taken, info, columns);
-  if (auto* numbers = vtkDataArray::SafeDownCast(taken))
-  {
-    SetRange(numbers, array.range);
-  }
+  const auto taken = TakeValues(array, rows);
+  Describe(taken, array, columns);
   return taken;
+}
+
+void AddTaken(vtkFieldData* data, granular::DumpArray& array, vtkIdType rows,
+  const std::vector<granular::ColumnInfo>& columns)
+{
+  const auto taken = TakeValues(array, rows);
+  data->AddArray(taken);
+  Describe(taken, array, columns);
+}
+
+void AddNew(vtkFieldData* data, vtkAbstractArray* array)
+{
+  const std::string name = array->GetName();
+  array->SetName(nullptr);
+  data->AddArray(array);
+  array->SetName(name.c_str());
 }
 
 vtkSmartPointer<vtkPoints> TakePoints(

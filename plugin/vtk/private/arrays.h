@@ -16,6 +16,7 @@
 class vtkAbstractArray;
 class vtkCellArray;
 class vtkDoubleArray;
+class vtkFieldData;
 class vtkIdList;
 class vtkPoints;
 
@@ -28,6 +29,18 @@ namespace vtkGranularPrivate
  */
 vtkSmartPointer<vtkAbstractArray> TakeArray(
   granular::DumpArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns);
+
+/**
+ * Adds such an array, whose name no other has. VTK compares the name of an array that is added with all others, which takes its time
+ * where there are many: it gets its name afterwards.
+ */
+void AddTaken(vtkFieldData* data, granular::DumpArray& array, vtkIdType rows,
+  const std::vector<granular::ColumnInfo>& columns);
+
+/**
+ * The same of an array that there is, and that must not know its range: a new name makes it forget that.
+ */
+void AddNew(vtkFieldData* data, vtkAbstractArray* array);
 
 /**
  * Points that take the memory of rows x 3 doubles or floats.

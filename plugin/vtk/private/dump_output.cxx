@@ -12,6 +12,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
@@ -78,16 +79,16 @@ void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singleP
     output->SetVerts(cache.Get(rows, cells == VertexCells::OnePerPoint, pool));
   }
   vtkPointData* data = output->GetPointData();
+  data->AllocateArrays(static_cast<int>(frame.arrays.size()));
   for (granular::DumpArray& from : frame.arrays)
   {
-    const auto array = TakeArray(from, rows, frame.schema.columns());
     if (from.info.role == granular::ColumnRole::Id)
     {
-      data->SetPedigreeIds(array);
+      data->SetPedigreeIds(TakeArray(from, rows, frame.schema.columns()));
     }
     else
     {
-      data->AddArray(array);
+      AddTaken(data, from, rows, frame.schema.columns());
     }
   }
 }
@@ -150,6 +151,35 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   {
     data->AddArray(MakeDoubles("time", { *header.time }));
   }
+}
+
+void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request)
+{
+  std::vector<std::string> names;
+  if (request.stride > 1)
+  {
+    names.push_back("Stride " + std::to_string(request.stride));
+  }
+  const auto& region = request.region;
+  if (region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5])
+  {
+    names.emplace_back("RegionOfInterest");
+  }
+  if (!names.empty())
+  {
+    data->AddArray(MakeStrings("ParticlesLeftOut", names));
+  }
+}
+
+std::string FindLeftOut(vtkFieldData* data)
+{
+  std::string text;
+  auto* names = vtkStringArray::SafeDownCast(data->GetAbstractArray("ParticlesLeftOut"));
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    text += (text.empty() ? "" : ", ") + names->GetValue(i);
+  }
+  return text;
 }
 
 void FillFieldData(

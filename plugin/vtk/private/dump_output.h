@@ -5,6 +5,7 @@
 #include "granular/dump/dump_reader.h"
 
 #include <memory>
+#include <string>
 
 class vtkFieldData;
 class vtkPolyData;
@@ -45,7 +46,14 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   granular::Coordinates coordinates, const granular::Vector3& pointOrigin);
 
 /**
- * The same, and the columns.
+ * ParticlesLeftOut: the properties by which a reader leaves out particles, or nothing where it has all. VTK's filters pass field
+ * data on, so that filters that need all particles can say that some are missing.
+ */
+void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request);
+std::string FindLeftOut(vtkFieldData* data); ///< in words: "Stride 10, RegionOfInterest", or empty
+
+/**
+ * The same as FillHeader, and the columns.
  */
 void FillFieldData(
   vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin);

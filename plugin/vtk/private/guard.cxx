@@ -84,6 +84,7 @@ Outcome ReportException(
   catch (const granular::IoError& error)
   {
     ReportError(self, FileErrorCode(error), error.what());
+    return error.where().path.empty() ? Outcome::Failed : Outcome::Refused;
   }
   catch (const granular::Error& error)
   {

@@ -29,7 +29,8 @@ enum class Outcome
 {
   Done,
   Cancelled,
-  Failed
+  Failed,
+  Refused ///< failed because the system refused a file: it may give it another time
 };
 
 /**

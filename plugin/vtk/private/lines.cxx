@@ -6,6 +6,7 @@
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -41,9 +42,11 @@ granular::LineRequest MakeLineRequest(int periodicLines, const double pointOrigi
 void FillRows(vtkTable* rows, granular::LocalFrame& frame)
 {
   const auto count = static_cast<vtkIdType>(frame.table.rows);
+  vtkDataSetAttributes* data = rows->GetRowData();
+  data->AllocateArrays(static_cast<int>(frame.table.arrays.size()));
   for (granular::DumpArray& from : frame.table.arrays)
   {
-    rows->AddColumn(TakeArray(from, count, frame.table.schema.columns()));
+    AddTaken(data, from, count, frame.table.schema.columns());
   }
 }
 
@@ -85,25 +88,39 @@ vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granul
 void AddRows(vtkPolyData* output, vtkTable* rows, const granular::Lines& lines, bool split,
   const granular::Where& where, granular::Notices& notices)
 {
-  for (vtkIdType i = 0; i < rows->GetNumberOfColumns(); ++i)
+  vtkCellData* data = output->GetCellData();
+  if (lines.rows.empty())
   {
-    vtkSmartPointer<vtkAbstractArray> array = TakeRows(rows->GetColumn(i), lines);
-    const std::string name = array->GetName();
-    if (name == LengthArray || (split && (name == RowArray || name == PartArray)))
+    data->ShallowCopy(rows->GetRowData()); // without a look at the names
+  }
+  else
+  {
+    data->AllocateArrays(static_cast<int>(rows->GetNumberOfColumns()));
+    for (vtkIdType i = 0; i < rows->GetNumberOfColumns(); ++i)
     {
-      int number = 2;
-      while (rows->GetColumnByName((name + "_" + std::to_string(number)).c_str()))
-      {
-        ++number;
-      }
-      const auto ofRows = std::exchange(array, vtk::TakeSmartPointer(array->NewInstance()));
-      array->DeepCopy(ofRows);
-      array->SetName((name + "_" + std::to_string(number)).c_str());
-      notices.push_back({ where,
-        "lines have an array '" + name + "' of their own: that of the file is '" +
-          array->GetName() + "'" });
+      AddNew(data, TakeRows(rows->GetColumn(i), lines));
     }
-    output->GetCellData()->AddArray(array);
+  }
+  for (const char* const own : { LengthArray, RowArray, PartArray })
+  {
+    vtkSmartPointer<vtkAbstractArray> array = data->GetAbstractArray(own);
+    if (!array || (own != LengthArray && !split))
+    {
+      continue;
+    }
+    const std::string name = own;
+    int number = 2;
+    while (rows->GetColumnByName((name + "_" + std::to_string(number)).c_str()))
+    {
+      ++number;
+    }
+    const auto ofRows = std::exchange(array, vtk::TakeSmartPointer(array->NewInstance()));
+    array->DeepCopy(ofRows);
+    data->AddArray(array); // in its place
+    array->SetName((name + "_" + std::to_string(number)).c_str());
+    notices.push_back({ where,
+      "lines have an array '" + name + "' of their own: that of the file is '" + array->GetName() +
+        "'" });
   }
 }
 

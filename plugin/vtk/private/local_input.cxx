@@ -6,6 +6,7 @@
 
 #include "granular/base/error.h"
 #include "granular/local/local_columns.h"
+#include "granular/local/local_reader.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -81,6 +82,7 @@ LocalInput::LocalInput(vtkDataObject* input, bool made, granular::Notices& notic
   for (granular::ArrayView& array : this->View.arrays)
   {
     array.columns = granular::local_component_names(array.name, array.size());
+    array.places = granular::is_end_array(array.name) && array.size() == 3;
   }
 }
 

@@ -42,9 +42,13 @@ void Processes::BeginUpdate(vtkAlgorithm* self)
 {
   if (this->Cancelled)
   {
-    this->Cancelled = false;
     self->SetAbortExecute(0);
     self->SetAbortOutput(false);
+  }
+  if (this->Cancelled || this->Refused)
+  {
+    this->Cancelled = false;
+    this->Refused = false;
     self->Modified();
   }
 }
@@ -52,12 +56,14 @@ void Processes::BeginUpdate(vtkAlgorithm* self)
 int Processes::EndRequest(vtkAlgorithm* self, Outcome outcome)
 {
   this->Cancelled = outcome == Outcome::Cancelled;
-  if (outcome == Outcome::Failed)
+  this->Refused = outcome == Outcome::Refused;
+  const bool failed = outcome == Outcome::Failed || this->Refused;
+  if (failed)
   {
     // who asked to stop, while another rank failed, has had the answer
     self->SetAbortExecute(0);
     self->SetAbortOutput(false);
   }
-  return outcome != Outcome::Failed;
+  return !failed;
 }
 }

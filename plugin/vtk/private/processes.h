@@ -43,7 +43,7 @@ public:
   /**
    * To be called in ComputePipelineMTime, the first call of every update. A request to abort holds for one update, and
    * observers of progress may make it again while the pipeline leaves the aborted one: it is forgotten
-   * here, and what was aborted is done again.
+   * here, and what was aborted is done again; so is a request that the system refused a file for.
    */
   void BeginUpdate(vtkAlgorithm* self);
 
@@ -61,6 +61,7 @@ private:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<granular::Communicator> Ranks; ///< null: not made yet
   bool Cancelled = false;
+  bool Refused = false; ///< the last request failed, but may succeed if it is made again
 };
 }
 

@@ -52,7 +52,7 @@ struct vtkGranularWriter::Internals
   vtkGranularPrivate::Processes Ranks;
   std::unique_ptr<vtkGranularPrivate::FrameWriter> File;
   granular::Notices Notices;  ///< that the user has not had yet
-  std::set<std::string> Told; ///< those of this file that the user has had
+  std::set<std::string> Told; ///< topics, or texts, of this file that the user has had
 
   /**
    * The processes that write together. Collective when it is called first.
@@ -60,10 +60,10 @@ struct vtkGranularWriter::Internals
   granular::Communicator& GetRanks() { return this->Ranks.Get(); }
 
   /**
-   * Warns of each thing once a file.
+   * Warns of each topic once a file; a text without one is its own.
    */
   void Tell(vtkGranularWriter* self);
-  void Tell(vtkGranularWriter* self, const std::string& text);
+  void Tell(vtkGranularWriter* self, const std::string& text, const std::string& topic = {});
 };
 
 #endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/euler/time_average.h"
+
+#include "granular/base/error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+/// xx yy zz, xy xz yz.
+constexpr std::array<std::array<std::size_t, 2>, 6> stress_axes = { { { 0, 0 }, { 1, 1 }, { 2, 2 },
+  { 0, 1 }, { 0, 2 }, { 1, 2 } } };
+
+double quotient(const CompensatedSum& sum, const CompensatedSum& weight)
+{
+  return weight.value() > 0 ? sum.over(weight.twofold()).value() : 0;
+}
+}
+
+/// Two sets of masses m and M whose means differ by d: what fluctuates about the mean of both is what does about each one's
+/// own, and m M / (m + M) d d (T. F. Chan, G. H. Golub, R. J. LeVeque, "Updating formulae and a pairwise algorithm for
+/// computing sample variances", COMPSTAT 1982): a sum of what is not negative, so that nothing cancels.
+void TimeAverage::Sums::add_velocities(double frame_mass, const double* frame_momentum)
+{
+  const double before = mass.value();
+  if (before > 0 && frame_mass > 0)
+  {
+    const double reduced = frame_mass * (before / (before + frame_mass));
+    std::array<double, 3> d;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      d[k] = deviation(frame_momentum[k] / frame_mass, momentum[k].value() / before);
+    }
+    for (std::size_t n = 0; n < 6; ++n)
+    {
+      apart[n].add(reduced * d[stress_axes[n][0]] * d[stress_axes[n][1]]);
+    }
+  }
+  mass.add(frame_mass);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    momentum[k].add(frame_momentum[k]);
+  }
+}
+
+void TimeAverage::add(const EulerAverages& frame)
+{
+  const EulerCells& cells = frame.cells;
+  if (frames_ == 0)
+  {
+    centres_ = cells.centres;
+    sums_.resize(static_cast<std::size_t>(cells.count()));
+    stress_ = !cells.normal_stress.empty();
+  }
+  if (cells.centres != centres_)
+  {
+    throw Error("expected the same cells in all frames that are averaged, got others in frame " +
+      std::to_string(frames_) + ": their bounds and their number must not depend on the frame");
+  }
+  for (std::size_t i = 0; i < sums_.size(); ++i)
+  {
+    Sums& sums = sums_[i];
+    sums.share.add(frame.sums.share[i]);
+    sums.radius.add_product(frame.sums.share[i], cells.radius[i]);
+    sums.add_velocities(frame.sums.mass[i], frame.sums.momentum.data() + 3 * i);
+    sums.volume_fraction.add(cells.volume_fraction[i]);
+    sums.pressure.add(cells.pressure[i]);
+    for (std::size_t n = 0; stress_ && n < 3; ++n)
+    {
+      sums.stress[n].add(cells.normal_stress[3 * i + n]);
+      sums.stress[3 + n].add(cells.shear_stress[3 * i + n]);
+    }
+    sums.volume = frame.sums.volume[i];
+  }
+  ++frames_;
+}
+
+EulerCells TimeAverage::cells() const
+{
+  EulerCells cells;
+  cells.resize(static_cast<std::int64_t>(sums_.size()));
+  cells.centres = centres_;
+  cells.normal_stress.resize(stress_ ? 3 * sums_.size() : 0);
+  cells.shear_stress.resize(stress_ ? 3 * sums_.size() : 0);
+  const auto frames = static_cast<double>(frames_);
+  for (std::size_t i = 0; i < sums_.size(); ++i)
+  {
+    const Sums& sums = sums_[i];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      cells.velocities[3 * i + k] = quotient(sums.momentum[k], sums.mass);
+    }
+    cells.radius[i] = quotient(sums.radius, sums.share);
+    cells.volume_fraction[i] = sums.volume_fraction.value() / frames;
+    const auto& [xx, yy, zz, xy, xz, yz] = sums.apart;
+    const double energy = xx.value() + yy.value() + zz.value();
+    cells.pressure[i] = (sums.pressure.value() + energy / (3 * sums.volume)) / frames;
+    for (std::size_t n = 0; stress_ && n < 6; ++n)
+    {
+      std::vector<double>& stress = n < 3 ? cells.normal_stress : cells.shear_stress;
+      stress[3 * i + n % 3] =
+        (sums.stress[n].value() - sums.apart[n].value() / sums.volume) / frames;
+    }
+  }
+  return cells;
+}
+}

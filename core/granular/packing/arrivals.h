@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_arrivals_h
+#define granular_packing_arrivals_h
+
+#include "granular/packing/adsorption_grid.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace granular
+{
+/// Grains of one class that arrive in a span of time. They are a Poisson process in space and time: on each line of
+/// cells a number with this mean, each at a place and a moment of its own, all drawn from hashes.
+struct Arrivals
+{
+  std::size_t size_class = 0;
+  std::uint64_t seed = 0;
+  double mean = 0; ///< up to 512
+  std::uint64_t last =
+    std::numeric_limits<std::uint64_t>::max(); ///< moments after this one do not count
+};
+
+/// Draws the arrivals of any line, the same whoever asks.
+class Round
+{
+public:
+  Round(const AdsorptionGrid& grid, const Arrivals& arrivals);
+
+  std::size_t size_class;
+  std::size_t level;
+  AdsorptionGrid::Cells cells;
+  double radius;
+  std::uint64_t last;
+
+  /// How many grains arrive on a line of a layer.
+  std::uint64_t count(std::int64_t layer, std::int64_t line) const noexcept;
+
+  /// When one of them does: no two moments of a round are the same.
+  std::uint64_t moment(std::int64_t layer, std::int64_t line, std::uint64_t arrival) const noexcept;
+
+  /// Where the one of a moment does: its place between 0 and 1 in the cells along each axis of the grid.
+  Vector3 place(std::int64_t layer, std::int64_t line, std::uint64_t moment) const noexcept;
+
+private:
+  std::uint64_t number(std::int64_t layer, std::int64_t line) const noexcept
+  {
+    return static_cast<std::uint64_t>(layer * cells[1] + line);
+  }
+
+  std::uint64_t counts_seed_;
+  std::uint64_t moments_seed_;
+  std::vector<double> up_to_; ///< the probability of at most so many on a line
+};
+}
+#endif

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every call of the system that a reader makes fails in turn, once or for ever. The reference is the run in which none does.
+#include "granular/decomposition/decomposition_file.h"
+#include "granular/euler/euler_file.h"
+#include "granular/local/local_columns.h"
+#include "granular/local/local_file.h"
+#include "granular/local/local_reader.h"
+#include "granular/restart/restart_file.h"
+#include "granular/restart/restart_reader.h"
+
+#include "../support/failing_calls.h"
+#include "frame_content.h"
+#include "series.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <functional>
+#include <span>
+
+using granular::FrameIndex;
+using granular::FramePiece;
+using granular::Notices;
+using granular::Progress;
+
+namespace
+{
+// ---- what is read ------------------------------------------------------------------------------
+
+std::string bytes_of(std::span<const double> values)
+{
+  return { reinterpret_cast<const char*>(values.data()), values.size_bytes() };
+}
+
+std::string text_of(const FrameContent& content)
+{
+  std::string text = content.head + "\n";
+  for (const std::vector<std::string>* parts : { &content.values, &content.words })
+  {
+    for (const std::string& part : *parts)
+    {
+      text += std::to_string(part.size()) + ":" + part;
+    }
+  }
+  return text;
+}
+
+/// All that a frame holds.
+using Content = std::string (*)(const FrameIndex& index, std::size_t frame, Notices& notices);
+
+std::string dump_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+{
+  Progress progress;
+  return text_of(
+    content_of(granular::read_dump(index.pieces(frame), everything(), notices, progress)));
+}
+
+std::string lines_content(const granular::LocalFrame& frame)
+{
+  return text_of(content_of(frame.table)) +
+    std::string(static_cast<const char*>(frame.lines.points.data()), frame.lines.points.bytes());
+}
+
+std::string local_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+{
+  Progress progress;
+  granular::SerialCommunicator alone;
+  const granular::FrameKind& kind = *index.first_piece(frame).entry.kind;
+  granular::LocalRequest request;
+  for (const granular::ColumnInfo& column : kind.schema.columns())
+  {
+    request.columns.push_back(column.name);
+  }
+  if (frame == 0)
+  {
+    const granular::LocalSample sample = granular::read_sample(index, kind, progress);
+    request.columns = granular::find_columns(request.columns, sample, {}, notices);
+  }
+  return lines_content(
+    granular::read_local(index.pieces(frame), request, alone, notices, progress));
+}
+
+std::string restart_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+{
+  Progress progress;
+  const auto source = granular::open_indexed(index.first_piece(frame).file);
+  const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
+  const granular::RestartFrame read =
+    granular::read_restart(*source, layout, {}, notices, progress);
+  return text_of(content_of(read.particles)) + lines_content(read.bonds);
+}
+
+std::string euler_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+{
+  Progress progress;
+  const FramePiece piece = index.first_piece(frame);
+  const auto all = [](std::string_view) { return true; };
+  const granular::EulerFrame read = granular::read_euler(
+    *granular::open_indexed(piece.file), piece.entry, all, notices, progress);
+  std::string text = bytes_of(read.centres);
+  for (const granular::EulerValues& values : read.arrays)
+  {
+    text += values.name + bytes_of(values.values);
+  }
+  return text;
+}
+
+std::string decomposition_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+{
+  Progress progress;
+  std::string text;
+  for (const FramePiece& piece : index.pieces(frame))
+  {
+    const granular::Decomposition read = granular::read_decomposition(
+      *granular::open_indexed(piece.file), piece.entry, notices, progress);
+    for (const granular::Subdomain& own : read.subdomains)
+    {
+      text += std::to_string(own.rank) + " " + std::to_string(own.particles) +
+        bytes_of(own.lo) + bytes_of(own.hi);
+    }
+  }
+  return text;
+}
+
+/// Files of a kind, copied into a folder of the test's own.
+struct Kind
+{
+  const char* name;
+  std::vector<std::string> files; ///< of tests/data/good; FILE=NAME for another name
+  const granular::FileFormat& (*format)() noexcept;
+  Content content;
+  std::size_t frames;             ///< that there are, as the program wrote them
+  std::vector<std::string> columns = {}; ///< that the user names
+};
+
+// clang-format off
+const std::vector<Kind>& kinds()
+{
+  using namespace granular;
+  static const std::vector<Kind> all = {
+    { "text", { "grains.dump" }, dump_format, dump_content, 3 },
+    { "text of several files", { "grains_0.dump", "grains_1000.dump", "grains_2000.dump" }, dump_format, dump_content, 3 },
+    { "done again", { "grains_1000.dump=again.0.dump", "grains_1000.dump=again.1.dump" }, dump_format, dump_content, 1 },
+    { "binary without names", { "plain.bin" }, dump_format, dump_content, 3,
+      { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz", "radius", "element" } },
+    { "binary of several processes", { "grains.bin" }, dump_format, dump_content, 3,
+      { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz", "radius" } },
+    { "binary, revision 2", { "tri_custom.bin" }, dump_format, dump_content, 2 },
+    { "compressed", { "ortho_000000.dump.gz", "ortho_000050.dump.gz", "ortho_000100.dump.gz" }, dump_format, dump_content, 3 },
+    { "pieces", { "pieces_1000.0.dump", "pieces_1000.1.dump", "pieces_1000.2.dump", "pieces_1000.3.dump" }, dump_format,
+      dump_content, 1 },
+    { "contacts", { "local/contacts.dump" }, local_format, local_content, 5 },
+    { "contacts, compressed", { "local/settled_contacts.dump.gz" }, local_format, local_content, 1 },
+    { "contacts, rows alone", { "local/pieces_3000.0.dump", "local/pieces_3000.1.dump", "local/pieces_3000.2.dump",
+      "local/pieces_3000.3.dump" }, local_format, local_content, 1 },
+    { "bonds of a data file", { "local/chain.data" }, local_format, local_content, 1 },
+    { "restart", { "restart/fibres.restart" }, restart_format, restart_content, 1 },
+    { "restart of another program", { "restart/pfm.restart" }, restart_format, restart_content, 1 },
+    { "restart without particles", { "restart/none.restart" }, restart_format, restart_content, 1 },
+    { "restart of several files", { "restart/parts.base.restart", "restart/parts.0.restart", "restart/parts.1.restart",
+      "restart/parts.2.restart" }, restart_format, restart_content, 1 },
+    { "Euler cells", { "euler_1000.vtk", "euler_2000.vtk" }, euler_format, euler_content, 2 },
+    { "Euler cells, binary", { "euler/grid_51_binary.vtk" }, euler_format, euler_content, 1 },
+    { "decompositions in one file", { "decomposition/all.vtk" }, decomposition_format, decomposition_content, 3 },
+    { "decomposition, binary", { "decomposition/voxels_51_binary.vtk" }, decomposition_format, decomposition_content, 1 },
+    { "decomposition, .vtu", { "decomposition/blocks_raw_zlib.vtu" }, decomposition_format, decomposition_content, 1 },
+  };
+  return all;
+}
+// clang-format on
+
+// ---- looking at it -----------------------------------------------------------------------------
+
+/// What a user has of a look at the files.
+struct Seen
+{
+  std::vector<std::string> frames;
+  std::string said;  ///< notices, one a line
+  std::string error; ///< what an update, or reading a frame, threw
+
+  bool operator==(const Seen&) const = default;
+};
+
+/// What may be seen of a fault.
+enum class Sees
+{
+  Nothing,
+  Word,  ///< all is as it should be, or there is an error or a notice
+  Others ///< anything: the file might be so; but it ends
+};
+
+/// What fails, and how often.
+struct Case
+{
+  const char* name;
+  CallFault fault;
+  long count;
+  Sees sees;
+};
+
+constexpr long always = FailingCalls::always;
+
+constexpr Case all_cases[] = {
+  { "a read gives one byte", CallFault::Short, 1, Sees::Nothing },
+  { "a call is interrupted", CallFault::Interrupted, 1, Sees::Nothing },
+  { "a read gives nothing, once", CallFault::End, 1, Sees::Word },
+  { "reads give nothing", CallFault::End, always, Sees::Word },
+  { "a call fails once", CallFault::Error, 1, Sees::Word },
+  { "two calls fail", CallFault::Error, 2, Sees::Word },
+  { "calls fail", CallFault::Error, always, Sees::Word },
+  { "calls are interrupted", CallFault::Interrupted, always, Sees::Word },
+  { "a file is shortened", CallFault::Shortened, 1, Sees::Word },
+  { "a read gives zeros", CallFault::Zeros, 1, Sees::Others },
+  { "reads give zeros", CallFault::Zeros, always, Sees::Others },
+  { "a read gives ones", CallFault::Ones, 1, Sees::Others },
+  { "reads give ones", CallFault::Ones, always, Sees::Others },
+  { "reads give letters", CallFault::Letters, always, Sees::Others },
+  { "a read gives others", CallFault::Moved, 1, Sees::Others },
+  { "reads give others", CallFault::Moved, always, Sees::Others },
+};
+
+/// Other bytes may look like many more frames than there are, of some bytes each.
+long most_calls(const Case& one, long usual, std::size_t bytes)
+{
+  return (one.fault == CallFault::Interrupted ? 101 : 4) * usual + 100 +
+    (one.sees == Sees::Others ? static_cast<long>(bytes) : 0);
+}
+
+/// Where each look begins with files that are written anew.
+constexpr Case some_cases[] = {
+  { "a read gives one byte", CallFault::Short, 1, Sees::Nothing },
+  { "a read gives nothing, once", CallFault::End, 1, Sees::Word },
+  { "a call fails once", CallFault::Error, 1, Sees::Word },
+  { "calls fail", CallFault::Error, always, Sees::Word },
+};
+
+class FailingReads : public ::testing::TestWithParam<std::size_t>
+{
+protected:
+  const Kind& kind() const { return kinds()[GetParam()]; }
+
+  /// Files as they were, or the first part of the last one.
+  void SetUp() override
+  {
+    for (const std::string& file : this->kind().files)
+    {
+      const std::size_t equals = file.find('=');
+      const std::string name = equals == file.npos ? file : file.substr(equals + 1);
+      texts_.push_back(data_file("good/" + file.substr(0, equals)));
+      paths_.push_back(folder_.path(std::filesystem::path(name).filename().string()));
+    }
+    this->write_all();
+  }
+
+  void TearDown() override { make_fail({}); }
+
+  void write_all() const
+  {
+    for (std::size_t i = 0; i < paths_.size(); ++i)
+    {
+      this->write(i, texts_[i]);
+    }
+  }
+
+  void write(std::size_t file, const std::string& text) const
+  {
+    folder_.write(std::filesystem::path(paths_[file]).filename().string(), text);
+  }
+
+  /// What there is to be seen with an index that may know the files already.
+  Seen look(FrameIndex& index) const
+  {
+    Seen seen;
+    Notices notices;
+    Progress progress;
+    granular::IndexOptions options;
+    options.format = &this->kind().format();
+    options.index_file = index_file;
+    options.column_names = this->kind().columns;
+    try
+    {
+      index.update(paths_, options, notices, progress);
+      for (std::size_t frame = 0; frame < index.size(); ++frame)
+      {
+        seen.frames.push_back(this->kind().content(index, frame, notices));
+      }
+    }
+    catch (const granular::Error& error)
+    {
+      seen.error = error.what();
+    }
+    seen.said = lines_of(notices);
+    return seen;
+  }
+
+  Seen look_with(const FailingCalls& calls, FrameIndex& index, long& possible, long& made) const
+  {
+    make_fail(calls);
+    Seen seen = this->look(index);
+    possible = calls_that_may_fail();
+    made = all_calls();
+    make_fail({});
+    return seen;
+  }
+
+  /// Fails every call of a look at files, which prepare makes an index for, in every way. Whatever is seen, the next look sees `whole`.
+  void try_all(
+    const Seen& whole, std::span<const Case> cases, const std::function<FrameIndex()>& prepare)
+  {
+    long possible = 0;
+    long usual = 0;
+    FrameIndex first = prepare();
+    const Seen clean = this->look_with({}, first, possible, usual);
+    ASSERT_EQ(clean.frames, whole.frames);
+    std::size_t bytes = 0;
+    for (const std::string& text : texts_)
+    {
+      bytes += text.size();
+    }
+    for (const Case& one : cases)
+    {
+      long number = 1;
+      for (bool fired = true; fired; ++number)
+      {
+        SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
+        FrameIndex index = prepare();
+        long made = 0;
+        const Seen seen =
+          this->look_with({ one.fault, number, one.count }, index, possible, made);
+        fired = possible >= number;
+        this->judge(one, fired, seen, clean);
+        EXPECT_LE(made, most_calls(one, usual, bytes));
+        if (one.fault == CallFault::Shortened)
+        {
+          this->write_all();
+        }
+        const Seen again = this->look(index);
+        if (one.sees != Sees::Others)
+        {
+          EXPECT_EQ(again.error, "");
+          EXPECT_TRUE(again.frames == whole.frames)
+            << again.frames.size() << " frames after " << seen.error << seen.said;
+        }
+        if (::testing::Test::HasFailure())
+        {
+          return;
+        }
+      }
+      EXPECT_GT(number, 2) << one.name;
+    }
+  }
+
+  void judge(const Case& one, bool fired, const Seen& seen, const Seen& clean) const
+  {
+    if (one.sees == Sees::Nothing || !fired)
+    {
+      EXPECT_TRUE(seen == clean) << seen.error << seen.said;
+    }
+    const bool complete = seen.frames == clean.frames;
+    EXPECT_TRUE(one.sees == Sees::Others || complete || !seen.error.empty() || seen.said.size() > clean.said.size())
+      << seen.frames.size() << " of " << clean.frames.size() << " frames, and " << seen.said;
+  }
+
+  granular::IndexFile index_file = granular::IndexFile::Never;
+  Folder folder_;
+  std::vector<std::string> texts_;
+  std::vector<std::string> paths_;
+};
+
+std::string name_of(const ::testing::TestParamInfo<std::size_t>& info)
+{
+  std::string name = kinds()[info.param].name;
+  std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
+  return name;
+}
+}
+
+TEST_P(FailingReads, OfAFirstLook)
+{
+  FrameIndex index;
+  const Seen whole = this->look(index);
+  ASSERT_EQ(whole.error, "");
+  ASSERT_EQ(whole.frames.size(), this->kind().frames);
+  this->try_all(whole, all_cases, [] { return FrameIndex(); });
+}
+
+/// The index knows the files as they were before the last one grew.
+TEST_P(FailingReads, OfAFileThatGrew)
+{
+  FrameIndex index;
+  const Seen whole = this->look(index);
+  const std::string& text = texts_.back();
+  this->try_all(whole, some_cases,
+    [&]
+    {
+      this->write(texts_.size() - 1, text.substr(0, 2 * text.size() / 3));
+      FrameIndex before;
+      this->look(before);
+      this->write(texts_.size() - 1, text);
+      return before;
+    });
+}
+
+/// The index is in a file.
+TEST_P(FailingReads, OfAKeptIndex)
+{
+  FrameIndex index;
+  const Seen whole = this->look(index);
+  index_file = granular::IndexFile::Beside;
+  this->try_all(whole, some_cases,
+    [&]
+    {
+      std::filesystem::remove(paths_.front() + std::string(granular::index_file_suffix));
+      FrameIndex before;
+      this->look(before);
+      return FrameIndex();
+    });
+}
+
+/// Nor does a look that fails leave anything in the file of the index.
+TEST_P(FailingReads, OfAnIndexThatIsMade)
+{
+  FrameIndex index;
+  const Seen whole = this->look(index);
+  index_file = granular::IndexFile::Beside;
+  const std::string kept = paths_.front() + std::string(granular::index_file_suffix);
+  long possible = 0;
+  for (long number = 1; number <= possible + 1; ++number)
+  {
+    std::filesystem::remove(kept);
+    FrameIndex failing;
+    long made = 0;
+    this->look_with({ CallFault::Error, number, 1 }, failing, possible, made);
+    FrameIndex opened;
+    EXPECT_TRUE(this->look(opened).frames == whole.frames) << number;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Kinds, FailingReads, ::testing::Range(std::size_t{ 0 }, kinds().size()), name_of);
