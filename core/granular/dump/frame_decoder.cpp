@@ -210,15 +210,15 @@ DecodedChunk& FrameDecoder::result_of(std::size_t chunk)
 
 void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
 {
-  const PieceRows range = chunks_[chunk];
-  DecodedChunk& decoded = this->result_of(chunk);
-  std::optional<Turn> keep; // from the start, so that it passes whatever fails
+  std::optional<Turn> keep; // all from the start, so that they pass whatever fails
   if (filtered_ && !alone_)
   {
     keep.emplace(kept_, chunk);
   }
   Turn place(places_, chunk);
   Turn read(reads_, chunk);
+  DecodedChunk& decoded = this->result_of(chunk);
+  const PieceRows range = chunks_[chunk];
   this->go_to(worker, range.piece);
   read.wait();
   if (worker.source->bytes->concurrent())
