@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/text_scanner.h"
 
+#include "../support/counting_source.h"
+
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -62,31 +64,6 @@ std::vector<Line> scanned_lines(std::string_view text)
   }
   return lines;
 }
-
-/// Counts how much is read.
-class Counting final : public granular::ByteSource
-{
-public:
-  explicit Counting(std::string_view text)
-    : source_(open_memory(text))
-  {
-  }
-
-  const std::string& path() const override { return source_->path(); }
-  granular::FileStamp stamp() const override { return source_->stamp(); }
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    const std::size_t got = source_->read(offset, buffer, bytes);
-    read_ += got;
-    return got;
-  }
-
-  std::size_t bytes_read() const { return read_; }
-
-private:
-  std::unique_ptr<granular::ByteSource> source_;
-  mutable std::size_t read_ = 0;
-};
 }
 
 // ---- words -------------------------------------------------------------------------------------
@@ -186,7 +163,7 @@ TEST(TextScanner, StartsInTheMiddleAndGoesElsewhere)
 TEST(TextScanner, AnEndlessLineIsALimitError)
 {
   const std::string text = "first\n" + std::string(8 * TextScanner::longest_line, '\0');
-  const Counting source(text);
+  const CountingSource source(text);
   TextScanner scanner(source, 0, 1);
   std::string_view line;
   ASSERT_TRUE(scanner.next(line));
@@ -200,7 +177,7 @@ TEST(TextScanner, AnEndlessLineIsALimitError)
     EXPECT_STREQ(
       error.what(), "memory:2: expected a line of at most 4194304 bytes, got a longer one");
   }
-  EXPECT_LE(source.bytes_read(), 2 * TextScanner::longest_line + window);
+  EXPECT_LE(source.bytes_read(), static_cast<std::int64_t>(2 * TextScanner::longest_line + window));
 }
 
 TEST(TextScanner, ALongLineIsNone)

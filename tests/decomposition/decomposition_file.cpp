@@ -2,6 +2,8 @@
 // Files of dump decomposition/vtk, as LIGGGHTS and VTK write them, and as they grow.
 #include "grid_files.h"
 
+#include "../support/counting_source.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,32 +18,6 @@ std::string reflected(const std::string& place, int cells)
   return place + ": corners of " + std::to_string(cells) +
     " voxels are in the order of LIGGGHTS-INL, x and z exchanged: they were put right\n";
 }
-
-/// Bytes in memory, and how many of them were asked for.
-class CountingSource final : public granular::ByteSource
-{
-public:
-  explicit CountingSource(std::string bytes)
-    : bytes_(std::move(bytes))
-    , source_(granular::open_memory(bytes_))
-  {
-  }
-
-  const std::string& path() const override { return source_->path(); }
-  granular::FileStamp stamp() const override { return source_->stamp(); }
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    const std::size_t got = source_->read(offset, buffer, bytes);
-    bytes_read += static_cast<std::int64_t>(got);
-    return got;
-  }
-
-  mutable std::int64_t bytes_read = 0;
-
-private:
-  std::string bytes_;
-  std::unique_ptr<granular::ByteSource> source_;
-};
 
 /// Keeps what is reported.
 struct Reports : granular::Progress
@@ -403,7 +379,8 @@ TEST(DecompositionFile, HeadersWithoutEnd)
     {
       text += header;
     }
-    const CountingSource source(text + two_boxes());
+    const std::string bytes = text + two_boxes();
+    const CountingSource source(bytes);
     granular::FileIndex index;
     granular::Progress progress;
     granular::decomposition_format().index(source, index, progress, {});
@@ -411,7 +388,7 @@ TEST(DecompositionFile, HeadersWithoutEnd)
     ASSERT_EQ(index.notices.size(), 101u);
 
     EXPECT_EQ(to_string(index.notices[100]), "memory: and 39900 more frames are left out");
-    EXPECT_LT(source.bytes_read, 2 * static_cast<std::int64_t>(text.size()));
+    EXPECT_LT(source.bytes_read(), 2 * static_cast<std::int64_t>(text.size()));
   }
 }
 

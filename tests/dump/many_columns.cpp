@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Headers of a hundred thousand columns: what takes time in proportion to the square of their number would not end here
-// before the test is stopped.
+// Columns cost time in proportion to their number, when they are read and when they are written.
 #include "binary_dumps.h"
+#include "dump_writing.h"
 #include "series.h"
+
+#include "../support/counting_source.h"
+#include "../support/many_columns.h"
 
 #include <gtest/gtest.h>
 
@@ -12,37 +15,31 @@
 
 namespace
 {
-constexpr int many = 100'000;
+constexpr int many = many_columns;
 
-/// id x y z, and then many, by their number from 1.
-template <class Word>
-std::string line(const std::string& first, const Word& word)
+/// id x y z, and then many.
+std::string names(const char* form)
 {
-  std::string text = first;
-  for (int i = 1; i <= many; ++i)
-  {
-    text += " ";
-    text += word(i);
-  }
-  return text;
+  return line_of_many("id x y z", form);
 }
 
-std::string names(const std::string& form)
+/// A binary file that names its columns.
+const binary::Form& named_form()
 {
-  return line("id x y z", [&](int i) { return replaced(form, "#", std::to_string(i)); });
+  return *std::ranges::find_if(binary::forms(), &binary::Form::named);
 }
 
 /// Two rows, of numbers or of words.
-std::string rows(const std::string& first, const std::string& second)
+std::string rows(const char* first, const char* second)
 {
-  return line("1 0.5 0.5 0.5", [&](int i) { return first + std::to_string(i); }) + "\n" +
-    line("2 0.25 0.25 0.25", [&](int i) { return second + std::to_string(i); }) + "\n";
+  return line_of_many("1 0.5 0.5 0.5", first) + "\n" + line_of_many("2 0.25 0.25 0.25", second) +
+    "\n";
 }
 }
 
 TEST(ManyColumns, OfOneName)
 {
-  const Dump dump(one_frame(names("a"), rows("", "-")));
+  const Dump dump(one_frame(names("a"), rows("#", "-#")));
   const Decoded frame = dump.read();
   ASSERT_EQ(frame.frame.arrays.size(), many + 1u);
   EXPECT_EQ(frame.values("a"), std::vector<double>({ 1, -1 }));
@@ -51,13 +48,13 @@ TEST(ManyColumns, OfOneName)
 
 TEST(ManyColumns, OfFarComponents)
 {
-  const Dump dump(one_frame(names("c_#[99999]"), rows("", "-")));
+  const Dump dump(one_frame(names("c_#[99999]"), rows("#", "-#")));
   EXPECT_EQ(dump.read().values("c_7[99999]"), std::vector<double>({ 7, -7 }));
 }
 
 TEST(ManyColumns, OfOneVector)
 {
-  const Dump dump(one_frame(names("c_a[#]"), rows("", "-")));
+  const Dump dump(one_frame(names("c_a[#]"), rows("#", "-#")));
   const std::vector<double> values = dump.read().values("c_a");
   ASSERT_EQ(values.size(), 2u * many);
   EXPECT_EQ(values[99'999], 100'000);
@@ -66,7 +63,7 @@ TEST(ManyColumns, OfOneVector)
 
 TEST(ManyColumns, OfTexts)
 {
-  const Dump dump(one_frame(names("word#"), rows("a", "b")));
+  const Dump dump(one_frame(names("word#"), rows("a#", "b#")));
   const Decoded frame = dump.read();
   EXPECT_EQ(frame.texts("word1"), std::vector<std::string>({ "a1", "b1" }));
   EXPECT_EQ(frame.texts("word100000"), std::vector<std::string>({ "a100000", "b100000" }));
@@ -75,7 +72,7 @@ TEST(ManyColumns, OfTexts)
 // The frame is read again once for the row, not for each of its words.
 TEST(ManyColumns, OfTextsFromTheSecondRowOn)
 {
-  const Dump dump(one_frame(names("word#"), rows("", "b")));
+  const Dump dump(one_frame(names("word#"), rows("#", "b#")));
   const Decoded frame = dump.read();
   EXPECT_EQ(frame.texts("word1"), std::vector<std::string>({ "1", "b1" }));
   EXPECT_EQ(frame.texts("word100000"), std::vector<std::string>({ "100000", "b100000" }));
@@ -89,7 +86,7 @@ TEST(ManyColumns, OfTextsFromTheSecondRowOn)
 
 TEST(ManyColumns, OfIntegersThatAreNone)
 {
-  const Dump dump(one_frame(names("i_#"), rows("", "0.")));
+  const Dump dump(one_frame(names("i_#"), rows("#", "0.#")));
   const Decoded frame = dump.read();
   EXPECT_EQ(frame.values("i_25"), std::vector<double>({ 25, 0.25 }));
   EXPECT_EQ(frame.values("i_100000"), std::vector<double>({ 100'000, 0.1 }));
@@ -109,9 +106,7 @@ TEST(ManyColumns, OfABinaryFile)
     row.push_back(i < 4 ? 1 : i + 0.5);
   }
   frame.chunks = { row };
-  const binary::Form& form =
-    *std::ranges::find_if(binary::forms(), [](const binary::Form& one) { return one.named(); });
-  const Dump dump(binary::write(form, { frame }).bytes);
+  const Dump dump(binary::write(named_form(), { frame }).bytes);
   const Decoded read = dump.read();
   EXPECT_EQ(read.values("i_a"), std::vector<double>({ 4.5 }));
   EXPECT_EQ(read.values("i_a_9996"), std::vector<double>({ 9999.5 }));
@@ -122,7 +117,7 @@ TEST(ManyColumns, OfABinaryFile)
 TEST(ManyColumns, OfAKeptIndex)
 {
   const Folder folder;
-  const std::string path = folder.write("a.dump", one_frame(names("word"), rows("a", "b")));
+  const std::string path = folder.write("a.dump", one_frame(names("word"), rows("a#", "b#")));
   for (int time = 0; time < 2; ++time)
   {
     Series run;
@@ -130,5 +125,78 @@ TEST(ManyColumns, OfAKeptIndex)
     run.update({ path });
     ASSERT_EQ(run.index.size(), 1u);
     EXPECT_EQ(run.read(0).texts("word_3"), std::vector<std::string>({ "a3", "b3" }));
+  }
+}
+
+/// As many bytes as are read of a frame to decode it, times the bytes that it has.
+double times_read(const std::string& bytes, const std::string& notice)
+{
+  const CountingSource source(bytes);
+  granular::FileIndex index;
+  granular::Progress progress;
+  granular::index_dump(source, index, progress);
+  const std::int64_t before = source.bytes_read();
+  granular::Notices notices;
+  granular::read_dump(source, index.frames.at(0), {}, notices, progress);
+  EXPECT_EQ(granular::to_string(notices.back()), notice);
+  return static_cast<double>(source.bytes_read() - before) / static_cast<double>(bytes.size());
+}
+
+// Each row makes one more column what it was not taken for: these are met by the chunk, not one by one.
+TEST(ManyColumns, OfWhichARowEachDoesNotFit)
+{
+  std::string columns = "id x y z";
+  std::string text;
+  binary::Frame frame;
+  frame.columns = columns;
+  frame.size_one = 304;
+  frame.chunks = { {} };
+  for (int row = 0; row < 300; ++row)
+  {
+    columns += " word" + std::to_string(row);
+    frame.columns += " i_" + std::to_string(row);
+    text += "1 0 0 0";
+    frame.chunks[0].insert(frame.chunks[0].end(), { 1, 0, 0, 0 });
+    for (int column = 0; column < 300; ++column)
+    {
+      text += column == row ? " a" : " 0";
+      frame.chunks[0].push_back(column == row ? 0.5 : 0);
+    }
+    text += "\n";
+  }
+  const std::string packed = binary::write(named_form(), { frame }).bytes;
+  EXPECT_LT(times_read(one_frame(columns, text),
+              "memory:309: column 'word299': expected a number, got 'a'; the column is kept as texts"),
+    4);
+  EXPECT_LT(times_read(packed,
+              "memory@" + std::to_string(packed.size() - 8) +
+                ": column 'i_299': expected an integer, got '0.5'; the column is kept as doubles"),
+    5);
+}
+
+// Texts and numbers, of particles and of other rows, by default and by name.
+TEST(ManyColumns, AreWritten)
+{
+  const Folder folder;
+  for (const char* const form : { "word#", "a#", "c_a[#]", "c_#[2]" })
+  {
+    const std::string text = rows("#", *form == 'w' ? "b#" : "-#");
+    const ReadFrameView read(Dump(one_frame(names(form), text)).read(everything()).frame);
+    for (const granular::DumpStyle style :
+      { granular::DumpStyle::Custom, granular::DumpStyle::Local })
+    {
+      granular::DumpFormat format;
+      format.style = style;
+      const std::string expected =
+        style == granular::DumpStyle::Custom ? text : replaced(text, "\n", " \n");
+      for (const bool by_name : { false, true })
+      {
+        format.columns = by_name ? read.view.columns : std::vector<std::string>{};
+        const Written written = write_dump(folder.path("a"), Frames{ read.view }, format);
+        EXPECT_EQ(written.error, "") << form;
+        const std::size_t other = written.bytes.size() - expected.size();
+        EXPECT_EQ(difference(written.bytes.substr(other), expected), "") << form;
+      }
+    }
   }
 }

@@ -550,6 +550,34 @@ TEST(ReadDump, IntegerColumnsThatHoldOtherNumbersBecomeDoubles)
     << "the index stays as it was";
 }
 
+// They are found together, and said in the order of the file; a word that must be a number is the error that it is alone.
+TEST(ReadDump, MisfitsOfSeveralRows)
+{
+  const auto dump = [](const std::string& last)
+  {
+    return Dump(replaced(one_frame("id type x y z ix iy iz mol word",
+                           "1 1 0 0 0 1 2 3 7 0\n \n2 1.5 0 0 0 1 2 3 7 0\n"
+                           "3 1 0 0 0 1 2 3 0.5 a surplus\n4 2.5 0 0 0 1.5 0.5 3 1.5 b\n" +
+                             last),
+      "ATOMS\n6\n", "ATOMS\n5\n"));
+  };
+  const Decoded frame = dump("5 1 0 0 0 1 2 3 4 5\n").read();
+  EXPECT_EQ(frame.values("type"), (Doubles{ 1, 1.5, 1, 2.5, 1 }));
+  EXPECT_EQ(frame.values("image")[9], 1.5);
+  EXPECT_EQ(frame.values("mol"), (Doubles{ 7, 7, 0.5, 1.5, 4 }));
+  EXPECT_EQ(frame.texts("word"), (std::vector<std::string>{ "0", "0", "a", "b", "5" }));
+  EXPECT_EQ(frame.said(),
+    "memory:12: column 'type': expected an integer, got '1.5'; the column is kept as doubles\n"
+    "memory:13: column 'mol': expected an integer, got '0.5'; the column is kept as doubles\n"
+    "memory:13: column 'word': expected a number, got 'a'; the column is kept as texts\n"
+    "memory:14: column 'ix': expected an integer, got '1.5'; the column is kept as doubles\n"
+    "memory:1: expected 10 words in a row, got more in some rows; the rest of them was ignored\n");
+  EXPECT_EQ(dump("5 1 0 0 0 1 2 ? 4 5\n").error(),
+    "memory:15: column 'iz': expected a number, got '?'");
+  EXPECT_EQ(dump("5.5 1 0 0 0 1 2 3 4 5\n").error(),
+    "memory:15: column 'id': expected an integer, got '5.5'");
+}
+
 TEST(ReadDump, WidenedImagesStillMoveThePoints)
 {
   const Dump dump(

@@ -2,6 +2,8 @@
 // Arrays, cells, field data and the box that come out of files of the real programs.
 #include "reader_helpers.h"
 
+#include "../support/many_columns.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
@@ -389,18 +391,9 @@ TEST(ReaderArrays, ASecondIdColumnIsAnArrayAndNotThePedigree)
 // Names are not compared with those of all others, array by array: this would not end.
 TEST(ReaderArrays, HundredThousandOfThem)
 {
-  constexpr int many = 100'000;
-  std::string names = "id x y z";
-  std::string row = "1 0.5 0.5 0.5";
-  for (int i = 1; i <= many; ++i)
-  {
-    names += " a";
-    row += " " + std::to_string(i);
-  }
+  constexpr int many = many_columns;
   const std::string path = WriteFile("many.dump",
-    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
-    "ITEM: ATOMS " +
-      names + "\n" + row + "\n");
+    Frame(0, 1, line_of_many("id x y z", "a"), line_of_many("1 0.5 0.5 0.5", "#") + "\n"));
   vtkNew<vtkGranularDumpReader> reader;
   reader->SetController(nullptr);
   reader->AddFileName(path.c_str());

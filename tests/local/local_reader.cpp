@@ -3,6 +3,7 @@
 #include "local_files.h"
 
 #include "../base/thread_ranks.h"
+#include "../support/many_columns.h"
 
 #include "granular/base/compression.h"
 
@@ -317,18 +318,11 @@ TEST(LocalReader, ColumnsNamedAsEnds)
 // As many columns as there may be cost time in proportion to their number, or this would not end.
 TEST(LocalReader, HundredThousandColumns)
 {
-  constexpr int many = 100'000;
+  constexpr int many = many_columns;
   for (const std::string form : { "c_#[99999]", "c_a[#]" })
   {
-    std::string columns;
-    std::string row;
-    for (int i = 1; i <= many; ++i)
-    {
-      const std::size_t at = form.find('#');
-      columns += (i > 1 ? " " : "") +
-        (at == form.npos ? form : form.substr(0, at) + std::to_string(i) + form.substr(at + 1));
-      row += (i > 1 ? " " : "") + std::to_string(i);
-    }
+    const std::string columns = line_of_many("", form.c_str());
+    const std::string row = line_of_many("", "#");
     LocalRun run({ write_text("a.dump", local_frame(columns, { row, row })) });
     granular::LocalRequest request;
     request.columns = run.columns();

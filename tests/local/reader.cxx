@@ -3,6 +3,7 @@
 #include "vtkGranularLocalReader.h"
 
 #include "../dump/reader_helpers.h"
+#include "../support/many_columns.h"
 #include "../support/observer.h"
 #include "local_files.h"
 
@@ -766,14 +767,9 @@ TEST(LocalReaderVtk, IsPrinted)
 // On both outputs, with names that lines have, too.
 TEST(LocalReaderVtk, HundredThousandColumns)
 {
-  constexpr int many = 100'000;
-  std::string columns = "x1 y1 z1 x2 y2 z2 id1 id2 length";
-  std::string row = "1 1 1 2 2 2 3 4 5";
-  for (int i = 1; i <= many; ++i)
-  {
-    columns += " a";
-    row += " " + std::to_string(i);
-  }
+  constexpr int many = many_columns;
+  const std::string columns = line_of_many("x1 y1 z1 x2 y2 z2 id1 id2 length", "a");
+  const std::string row = line_of_many("1 1 1 2 2 2 3 4 5", "#");
   LinesReader reader({ write_text("many.dump", local_frame(columns, { row })) });
   reader->Update();
   vtkFieldData* const rows = reader.Rows()->GetRowData();

@@ -2,12 +2,13 @@
 // How much of a restart file is read for what is wanted of it.
 #include "restart_runs.h"
 
+#include "../support/counting_source.h"
+
 #include "granular/base/byte_source.h"
 #include "granular/restart/restart_reader.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -20,33 +21,6 @@ namespace
 using restart_builder::RestartBuilder;
 
 constexpr std::int64_t mib = std::int64_t{ 1 } << 20;
-
-/// Bytes in memory, and how many of them were read.
-class CountingSource final : public granular::ByteSource
-{
-public:
-  explicit CountingSource(std::string_view bytes)
-    : bytes_(granular::open_memory(bytes))
-  {
-  }
-
-  const std::string& path() const override { return bytes_->path(); }
-  granular::FileStamp stamp() const override { return bytes_->stamp(); }
-  bool concurrent() const override { return true; }
-
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    const std::size_t there = bytes_->read(offset, buffer, bytes);
-    count_ += static_cast<std::int64_t>(there);
-    return there;
-  }
-
-  std::int64_t count() const { return count_; }
-
-private:
-  std::unique_ptr<granular::ByteSource> bytes_;
-  mutable std::atomic<std::int64_t> count_ = 0;
-};
 
 /// Grains in a box of their own, some 17 MiB.
 RestartBuilder many_grains()
@@ -106,7 +80,7 @@ Read read_of(const std::string& bytes, const granular::RestartRequest* request)
   {
     granular::find_restart_columns(source, layout, notices, progress);
   }
-  return { static_cast<std::int64_t>(bytes.size()), source.count(), rows };
+  return { static_cast<std::int64_t>(bytes.size()), source.bytes_read(), rows };
 }
 }
 

@@ -4,6 +4,7 @@
 #include "restart_files.h"
 
 #include "../dump/dumps.h"
+#include "../support/counting_source.h"
 #include "../support/largest_request.h"
 
 #include <gtest/gtest.h>
@@ -222,36 +223,14 @@ TEST(RestartDamage, NewerFilesOfLammps)
   }
 }
 
-/// Memory that counts how much was read of it.
-class CountedSource final : public granular::ByteSource
-{
-public:
-  explicit CountedSource(std::string_view bytes)
-    : source_(granular::open_memory(bytes))
-  {
-  }
-  const std::string& path() const override { return source_->path(); }
-  granular::FileStamp stamp() const override { return source_->stamp(); }
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    const std::size_t there = source_->read(offset, buffer, bytes);
-    total += static_cast<std::int64_t>(there);
-    return there;
-  }
-  mutable std::int64_t total = 0;
-
-private:
-  std::unique_ptr<granular::ByteSource> source_;
-};
-
 /// Bytes read of a file to find that there are no particles in it.
 std::int64_t cost_of(const std::string& bytes)
 {
-  const CountedSource source(bytes);
+  const CountingSource source(bytes);
   granular::Notices notices;
   granular::Progress progress;
   EXPECT_THROW(granular::read_layout(source, notices, progress), granular::FormatError);
-  return source.total;
+  return source.bytes_read();
 }
 
 /// Behind the small header: from each of 400 000 places chunks lead to the end of the file, all of them with records that

@@ -297,46 +297,53 @@ std::int64_t BinaryReader::decode(std::span<ColumnSink> sinks, std::int64_t max_
   return done;
 }
 
+const char* BinaryReader::convert_column(
+  const char* row, std::size_t rows, ColumnSink& sink) const noexcept
+{
+  return convert_columns[static_cast<std::size_t>(sink.kind)][of_.swapped_](
+    row + sink.column * sizeof(double), static_cast<std::size_t>(of_.row_bytes_), rows, sink);
+}
+
 void BinaryReader::convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const
 {
   const auto row_bytes = static_cast<std::size_t>(of_.row_bytes_);
-  const auto converter_of = [this](const ColumnSink& sink)
-  { return convert_columns[static_cast<std::size_t>(sink.kind)][of_.swapped_]; };
   const std::size_t block = std::max(std::size_t{ 1 }, block_bytes / row_bytes);
   for (std::size_t left = rows; left > 0;)
   {
     const std::size_t count = std::min(block, left);
-    const char* misfit = nullptr;
-    const ColumnSink* in = nullptr;
+    bool fits = true;
     for (ColumnSink& sink : sinks)
     {
-      const char* const found =
-        converter_of(sink)(from + sink.column * sizeof(double), row_bytes, count, sink);
-      if (found && (!misfit || found < misfit))
-      {
-        misfit = found;
-        in = &sink;
-      }
+      fits = this->convert_column(from, count, sink) == nullptr && fits;
     }
-    if (misfit)
+    if (!fits)
     {
-      RowFault fault = this->fault_of(*in, misfit);
-      const char* const row = misfit - in->column * sizeof(double);
-      for (const ColumnSink& sink : sinks)
-      {
-        double number = 0;
-        ColumnSink one = { sink.column, sink.kind, reinterpret_cast<char*>(&number), 0 };
-        const char* const value = row + sink.column * sizeof(double);
-        if (value > misfit && converter_of(sink)(value, row_bytes, 1, one))
-        {
-          fault.rest.push_back(this->fault_of(sink, value));
-        }
-      }
-      throw fault;
+      this->fail(sinks, from, left);
     }
     from += count * row_bytes;
     left -= count;
   }
+}
+
+/// Throws what does not fit in these rows, of each column the first.
+void BinaryReader::fail(
+  std::span<const ColumnSink> sinks, const char* from, std::size_t rows) const
+{
+  std::vector<std::pair<const char*, const ColumnSink*>> misfits;
+  for (const ColumnSink& sink : sinks)
+  {
+    double number = 0;
+    ColumnSink nowhere = { sink.column, sink.kind, reinterpret_cast<char*>(&number), 0 };
+    if (const char* const value = this->convert_column(from, rows, nowhere))
+    {
+      misfits.emplace_back(value, &sink);
+    }
+  }
+  std::ranges::sort(misfits);
+  RowFault fault = this->fault_of(*misfits.front().second, misfits.front().first);
+  std::transform(misfits.begin() + 1, misfits.end(), std::back_inserter(fault.rest),
+    [this](const auto& misfit) { return this->fault_of(*misfit.second, misfit.first); });
+  throw fault;
 }
 
 RowFault BinaryReader::fault_of(const ColumnSink& sink, const char* value) const

@@ -67,7 +67,10 @@ public:
 
 private:
   void fill(std::int64_t end);
+  const char* convert_column(const char* row, std::size_t rows, ColumnSink& sink) const noexcept;
   void convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const;
+  [[noreturn]] void fail(
+    std::span<const ColumnSink> sinks, const char* from, std::size_t rows) const;
   RowFault fault_of(const ColumnSink& sink, const char* value) const;
 
   const BinaryRows& of_;

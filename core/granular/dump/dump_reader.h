@@ -90,8 +90,8 @@ struct DumpPart
 /// lies in the part's share of the bytes, of a binary dump a share of the rows, of sorted rows a share of
 /// these. There may be more parts than rows.
 ///
-/// Reads the rows once, on several threads, straight into the blocks; columns that nobody asked for are
-/// not parsed. Compressed files are decompressed in order, while rows that were are decoded. Result,
+/// Reads the rows once, on several threads, straight into the blocks, and again where values do not fit the types of their
+/// columns; columns that nobody asked for are not parsed. Compressed files are decompressed in order, while rows that were are decoded. Result,
 /// notices and errors do not depend on the number of threads: the first error by position counts. The
 /// frame must still be where the index says: a file that was replaced or shortened gives an IoError.
 /// Values that an integer column cannot hold turn the whole array into Float64, with a notice.

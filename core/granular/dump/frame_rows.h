@@ -31,7 +31,8 @@ struct RowFault
   int column;                      ///< -1: of TooFew
   std::string text;                ///< the word at fault, or the row
   std::int64_t offset;             ///< of it in the content of the file
-  std::vector<RowFault> rest = {}; ///< other words behind it in its row that do not fit
+  std::int64_t lines_behind = 0;   ///< of a text: behind the fault that it is in the rest of
+  std::vector<RowFault> rest = {}; ///< those behind it in memory, of each column the first
 };
 
 /// The size of a frame in its own measure, by which it is cut into pieces and chunks: bytes of a text,
@@ -77,7 +78,7 @@ public:
   /// Who reads rows of it, as long as this lives.
   virtual std::unique_ptr<RowReader> reader() const = 0;
 
-  /// The misfit that a fault is, and those behind it in its row: all columns that must change are known at once. Throws
+  /// The misfit that a fault is, and those behind it: the frame is not read again for each column that must change. Throws
   /// the FormatError if the fault is none. May read the source.
   virtual std::vector<Misfit> describe(const RowFault& fault) const = 0;
 };

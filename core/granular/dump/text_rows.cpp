@@ -89,16 +89,16 @@ std::vector<Misfit> TextRows::describe(const RowFault& fault) const
 {
   if (this->is_misfit(fault))
   {
-    Where where = this->where(fault);
-    std::vector<Misfit> misfits = { { fault.column, fault.status, fault.text, where } };
+    const Where first = this->where(fault);
+    std::vector<Misfit> misfits = { { fault.column, fault.status, fault.text, first } };
     for (const RowFault& next : fault.rest)
     {
       if (!this->is_misfit(next))
       {
         break; // it is met again
       }
-      where.column = this->name_of(next);
-      misfits.push_back({ next.column, next.status, next.text, where });
+      misfits.push_back({ next.column, next.status, next.text,
+        { first.path, first.line + next.lines_behind, first.byte, this->name_of(next) } });
     }
     return misfits;
   }
@@ -255,6 +255,44 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
   return result.rows;
 }
 
+/// Adds to the fault what does not fit behind its word, which ends at `from`. A column that must change is looked at as
+/// what it becomes.
+void TextReader::find_misfits(
+  const char* from, std::span<const ColumnSink> sinks, RowFault& fault) const
+{
+  using Kind = ColumnSink::Kind;
+  std::vector<Kind> kinds;
+  std::ranges::transform(sinks, std::back_inserter(kinds), &ColumnSink::kind);
+  const auto change = [&](std::size_t sink, RowStatus status)
+  { kinds[sink] = status == RowStatus::NotExact ? Kind::Float64 : Kind::Text; };
+  const auto at_fault = std::ranges::find_if(
+    sinks, [&](const ColumnSink& sink) { return static_cast<int>(sink.column) == fault.column; });
+  change(static_cast<std::size_t>(at_fault - sinks.begin()), fault.status);
+  const char* const last = buffer_.data() + end_;
+  int column = fault.column; // that of the last word that was taken
+  for (std::int64_t line = 0; from < last; ++line, column = -1)
+  {
+    const char* const end = std::find(from, last, '\n');
+    std::string_view rest(from, end);
+    for (std::size_t sink = 0; sink < sinks.size(); ++sink)
+    {
+      std::string_view word;
+      for (; column < static_cast<int>(sinks[sink].column); ++column)
+      {
+        word = take_word(rest);
+      }
+      const RowStatus status = word.empty() ? RowStatus::Done : check_word(word, kinds[sink]);
+      if (status != RowStatus::Done)
+      {
+        fault.rest.push_back({ status, column, std::string(word),
+          offset_ + (word.data() - buffer_.data()), line });
+        change(sink, status);
+      }
+    }
+    from = end + 1;
+  }
+}
+
 void TextReader::fail(const RowResult& result, std::span<const ColumnSink> sinks) const
 {
   const char* const last = buffer_.data() + end_;
@@ -263,22 +301,9 @@ void TextReader::fail(const RowResult& result, std::span<const ColumnSink> sinks
     : std::find_if(result.ptr, last, is_blank);
   RowFault fault{ result.status, result.status == RowStatus::TooFew ? -1 : result.column,
     std::string(result.ptr, end), offset_ + (result.ptr - buffer_.data()) };
-  std::string_view rest(end, std::find(end, last, '\n'));
-  int column = result.column;
-  for (const ColumnSink& sink : sinks)
+  if (fault.column >= 0)
   {
-    std::string_view word;
-    while (fault.column >= 0 && column < static_cast<int>(sink.column))
-    {
-      word = take_word(rest);
-      ++column;
-    }
-    const RowStatus status = word.empty() ? RowStatus::Done : check_word(word, sink.kind);
-    if (status != RowStatus::Done)
-    {
-      fault.rest.push_back(
-        { status, column, std::string(word), offset_ + (word.data() - buffer_.data()) });
-    }
+    this->find_misfits(end, sinks, fault);
   }
   throw fault;
 }
