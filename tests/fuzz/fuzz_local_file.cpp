@@ -2,11 +2,9 @@
 // A file of local data, all the way: index, what the columns are, then the rows and lines of each frame; and the same bytes
 // cut in two, as the files of two processes. Whatever the bytes are, there is an Error, or as many rows as the index says;
 // and a file that grew is indexed as one that was always as long, if there is nothing to be said of it.
-#include "dump_checks.h"
+#include "local_checks.h"
 
-#include "granular/local/local_columns.h"
 #include "granular/local/local_file.h"
-#include "granular/local/local_reader.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -68,30 +66,6 @@ LocalFrame read(const FrameIndex& run, std::size_t frame, LocalRequest request)
   return read_local(run.pieces(frame), request, alone, notices, progress);
 }
 
-/// The names of the columns, guessed from the rows if they can be.
-std::vector<std::string> name(const FrameIndex& run, const FramePiece& first)
-{
-  std::vector<std::string> columns;
-  for (const ColumnInfo& column : first.entry.kind->schema.columns())
-  {
-    columns.push_back(column.name);
-  }
-  Notices notices;
-  Progress progress;
-  try
-  {
-    const LocalSample sample = read_sample(run, *first.entry.kind, progress);
-    const Where where = where_of(first.file.path, first.entry);
-    const std::vector<std::string> names = find_columns(columns, sample, where, notices);
-    require(names.size() == columns.size(), "a name for each column");
-    return names;
-  }
-  catch (const Error&)
-  {
-    return name_columns(columns);
-  }
-}
-
 /// As many values and ends of lines as rows; two parts have each row once.
 void check(const FrameIndex& run, std::size_t number)
 {
@@ -101,7 +75,8 @@ void check(const FrameIndex& run, std::size_t number)
     rows += piece.entry.rows;
   }
   LocalRequest request;
-  request.columns = name(run, run.first_piece(number));
+  request.columns = guess_names(run, run.first_piece(number),
+    [](const std::vector<std::string>& columns) { return name_columns(columns); });
   request.lines.threads = 2;
   request.wanted = [](std::string_view) { return true; };
   for (const auto periodic : { PeriodicLines::MinimumImage, PeriodicLines::Split })

@@ -4,6 +4,7 @@
 // file, then files and folders. The same arguments give the same copies. A crash, a hang or an array that is not what it
 // says is the failure; an Error is none.
 #include "dump_checks.h"
+#include "local_checks.h"
 
 #include "granular/base/block_pool.h"
 #include "granular/decomposition/decomposition_file.h"
@@ -11,7 +12,6 @@
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"
 #include "granular/local/local_file.h"
-#include "granular/local/local_reader.h"
 #include "granular/restart/restart_file.h"
 #include "granular/restart/restart_reader.h"
 
@@ -181,38 +181,25 @@ void read_particles(const FrameIndex& run, std::size_t frame, Random& random, Se
   }
 }
 
-std::vector<std::string> names_of(const FrameIndex& run, const FramePiece& piece, Random& random)
+/// Any preset that fits.
+std::vector<std::string> choose_names(const std::vector<std::string>& columns, Random& random)
 {
-  std::vector<std::string> columns;
-  for (const ColumnInfo& column : piece.entry.kind->schema.columns())
-  {
-    columns.push_back(column.name);
-  }
-  Notices notices;
-  Progress progress;
+  const auto presets = local_presets();
   try
   {
-    const LocalSample sample = read_sample(run, *piece.entry.kind, progress);
-    return find_columns(columns, sample, where_of(piece.file.path, piece.entry), notices);
+    return name_columns(columns, presets[below(random, presets.size())]);
   }
   catch (const Error&)
   {
-    const auto presets = local_presets();
-    try
-    {
-      return name_columns(columns, presets[below(random, presets.size())]);
-    }
-    catch (const Error&)
-    {
-      return name_columns(columns);
-    }
+    return name_columns(columns);
   }
 }
 
 void read_rows(const FrameIndex& run, std::size_t frame, Random& random, Session& session)
 {
   LocalRequest request;
-  request.columns = names_of(run, run.first_piece(frame), random);
+  request.columns = guess_names(run, run.first_piece(frame),
+    [&](const std::vector<std::string>& columns) { return choose_names(columns, random); });
   request.lines.periodic = static_cast<PeriodicLines>(below(random, 3));
   request.lines.pool = session.pool;
   if (below(random, 2) == 0)
