@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Far from the origin the picture is the one at the origin, and the one that arithmetic in doubles says,
-from any camera, on any number of ranks."""
+from any camera, on any number of ranks, and on a server, whose command the script may get."""
+import contextlib
 import os
+import sys
 
 import numpy
 from paraview.simple import *
 from discs import Camera, black_view, color_by_id, picture
+from ranks_server import connected
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 PIXELS, PARTICLES, EDGE = 400, 150, 2.0**-6  # the box is a cube
@@ -36,9 +39,14 @@ def write(name, corner, rows=slice(None)):
 
 
 CAMERA_ROUNDED = 20  # pixels: a camera at 2^20, in doubles, is off by 1e-5 of a pixel, and some round the other way
-ALONE = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses() == 1
+ON_SERVER = len(sys.argv) > 1
+ALONE = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses() == 1 and not ON_SERVER
 
+connection = contextlib.ExitStack()
+if ON_SERVER:
+    connection.enter_context(connected())
 view = black_view(PIXELS)
+view.RemoteRenderThreshold = 0  # the server draws, if there is one
 origin = numpy.zeros(3)
 
 
@@ -133,4 +141,5 @@ for name, corner in (("near", origin), ("thousand", THOUSAND), ("far", FAR))[:3 
     others = (translucent[0] != translucent[-1]).any(axis=2).sum()
     assert others <= CAMERA_ROUNDED, f"{name}, translucent: {others} pixels are others"
 
+connection.close()
 print("all pictures compared")
