@@ -5,12 +5,11 @@
 
 granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 
-# Debian's names. What the core and its tests need, and what the rest needs on top of it.
-granular_core_packages=(
-  binutils cmake g++ libbenchmark-dev libgtest-dev libzstd-dev locales ninja-build python3
-  zlib1g-dev)
+# Debian's names: what the core needs, the plugin and the samples on top of it, and the tests.
+granular_core_packages=(cmake g++ libzstd-dev ninja-build python3 zlib1g-dev)
 granular_plugin_packages=(
   libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xvfb)
+granular_test_packages=(binutils libbenchmark-dev libgtest-dev locales)
 
 granular_say()
 {
@@ -65,19 +64,25 @@ granular_need()
     apt-get -q install --yes --no-install-recommends "${missing[@]}"
 }
 
-# granular_configure preset [-Doption...]: sets granular_build, the build folder. ninja itself sees
-# to changed CMake files; what it does not know of is the presets, this file, and a moved tree.
+# granular_is_configured preset [-Doption...]: sets granular_build, the build folder. ninja itself
+# sees to changed CMake files; what it does not know of is the presets, this file, and a moved tree.
+granular_is_configured()
+{
+  granular_build="$granular_source/build/$1"
+  shift
+  local stamp="$granular_build/configured"
+  [ -f "$granular_build/build.ninja" ] && [ -f "$stamp" ] &&
+    [ "$(cat "$stamp")" = "$granular_source $*" ] &&
+    [ ! "$granular_source/CMakePresets.json" -nt "$stamp" ]
+}
+
+# granular_configure preset [-Doption...]: the same, done where it was not.
 granular_configure()
 {
+  granular_is_configured "$@" && return 0
   local preset="$1"
   shift
-  granular_build="$granular_source/build/$preset"
   local stamp="$granular_build/configured"
-  local wanted="$granular_source $*"
-  if [ -f "$granular_build/build.ninja" ] && [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$wanted" ] &&
-    [ ! "$granular_source/CMakePresets.json" -nt "$stamp" ]; then
-    return 0
-  fi
   local fresh=()
   if [ -f "$granular_build/CMakeCache.txt" ] &&
     ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$granular_source" "$granular_build/CMakeCache.txt"; then
@@ -86,28 +91,39 @@ granular_configure()
   rm -f "$stamp"
   granular_say "configuring build/$preset"
   (cd "$granular_source" && cmake --preset "$preset" "${fresh[@]}" "$@" >&2)
-  printf '%s\n' "$wanted" >"$stamp"
+  printf '%s\n' "$granular_source $*" >"$stamp"
 }
 
+# granular_make [target...]
 granular_make()
 {
   granular_say "building ${granular_build#"$granular_source"/}"
-  ninja -C "$granular_build" -j "$(nproc)" >&2
+  ninja -C "$granular_build" -j "$(nproc)" "$@" >&2
 }
 
-# granular_set_up full|core-only: from a bare Debian 12 to a finished build. Strict in all cases, so
-# that samples/run and tests/run share one build and a warning is seen wherever it arises.
+# granular_set_up samples|tests|core-only|benchmarks: from a bare Debian 12 to a finished build. Strict in all cases,
+# so that all but core-only share one build and a warning is seen wherever it arises. For samples the tests
+# are not even configured, unless they were before.
 granular_set_up()
 {
+  local tests=(release -DGRANULAR_STRICT=ON -DBUILD_TESTING=ON)
   case "$1" in
-    full)
+    samples)
       granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}"
-      granular_configure release -DGRANULAR_STRICT=ON
+      granular_is_configured "${tests[@]}" ||
+        granular_configure release -DGRANULAR_STRICT=ON -DBUILD_TESTING=OFF
+      granular_make core/all plugin/all
+      ;;
+    tests | benchmarks)
+      granular_need \
+        "${granular_core_packages[@]}" "${granular_plugin_packages[@]}" "${granular_test_packages[@]}"
+      granular_configure "${tests[@]}"
+      if [ "$1" = tests ]; then granular_make; else granular_make core/all plugin/all benchmarks; fi
       ;;
     core-only)
-      granular_need "${granular_core_packages[@]}"
+      granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
       granular_configure core-only
+      granular_make
       ;;
   esac
-  granular_make
 }
