@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/box.h"
 
-#include "quad.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

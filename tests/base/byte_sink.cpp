@@ -4,7 +4,7 @@
 #include "granular/base/error.h"
 
 #include "own_folder.h"
-#include "small_disk.h"
+#include "../support/small_disk.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/byte_source.h"
 
-#include "byte_source_packing.h"
+#include "../support/byte_source_packing.h"
 #include "granular/base/error.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/communicator.h"
 
-#include "communicator_checks.h"
-#include "small_disk.h"
-#include "thread_ranks.h"
+#include "../support/communicator_checks.h"
+#include "../support/small_disk.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 

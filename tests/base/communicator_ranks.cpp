@@ -2,8 +2,9 @@
 // Run by mpirun.
 #include "mpi/mpi_communicator.h"
 
-#include "communicator_checks.h"
-#include "small_disk.h"
+#include "../support/communicator_checks.h"
+#include "../support/dumps.h"
+#include "../support/small_disk.h"
 
 #include <gtest/gtest.h>
 
@@ -120,7 +121,7 @@ TEST(MpiCommunicator, opens_no_file_with_a_colon_in_its_path)
   }
   EXPECT_FALSE(ranks.open_together(noon + "/file"));
   EXPECT_FALSE(ranks.open_together(link));
-  EXPECT_EQ(names_in(noon), std::vector<std::string>{});
+  EXPECT_EQ(names_in(noon), "");
   granular::agree(ranks, nullptr);
   empty_folder(ranks, folder(ranks));
 }
@@ -144,7 +145,7 @@ TEST(MpiCommunicator, a_file_that_one_rank_cannot_open)
   EXPECT_EQ(error,
     path + ": cannot write: Permission denied (on rank " + last + " of " +
       std::to_string(ranks.size()) + ")");
-  EXPECT_EQ(names_in(folder(ranks)), std::vector<std::string>{});
+  EXPECT_EQ(names_in(folder(ranks)), "");
 }
 
 TEST(MpiCommunicator, a_folder_that_may_not_be_written)
@@ -166,7 +167,7 @@ TEST(MpiCommunicator, a_folder_that_may_not_be_written)
   }
   const std::string rank = " (on rank 0 of " + std::to_string(ranks.size()) + ")";
   EXPECT_EQ(error, path + ": cannot write: Permission denied" + (ranks.size() > 1 ? rank : ""));
-  EXPECT_EQ(names_in(folder(ranks)), std::vector<std::string>{});
+  EXPECT_EQ(names_in(folder(ranks)), "");
   std::filesystem::permissions(folder(ranks), std::filesystem::perms(0755));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/compression.h"
 
-#include "byte_source_packing.h"
+#include "../support/byte_source_packing.h"
 #include "own_folder.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "granular/base/line_scan.h"
 
 #include "granular/base/byte_source.h"
-#include "row_decoding.h"
+#include "../support/row_decoding.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/number.h"
 
-#include "decimals.h"
+#include "../support/decimals.h"
 #include "granular/base/decimal.h"
-#include "quad.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/number_print.h"
 
-#include "decimals.h"
+#include "../support/decimals.h"
 #include "exact_decimal.h"
 #include "granular/base/error.h"
 

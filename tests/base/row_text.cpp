@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/base/row_text.h"
 
-#include "decimals.h"
+#include "../support/decimals.h"
 #include "granular/base/number.h"
-#include "row_decoding.h"
+#include "../support/row_decoding.h"
 
 #include <gtest/gtest.h>
 

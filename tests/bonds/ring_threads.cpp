@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ring without MPI.
-#include "../base/thread_ranks.h"
+#include "../support/thread_ranks.h"
 #include "ring_checks.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // memory; and the same whether a file was indexed at once or while it grew.
 #include "grid_files.h"
 
-#include "../base/byte_source_packing.h"
+#include "../support/byte_source_packing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bounds of the particles of processes, on one rank and on several.
-#include "../base/thread_ranks.h"
+#include "../support/thread_ranks.h"
 #include "counted_frames.h"
 #include "made_subdomains.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/subdomains.h"
 
-#include "../base/quad.h"
-#include "../base/thread_ranks.h"
+#include "../support/quad.h"
+#include "../support/thread_ranks.h"
 #include "gathered_bounds.h"
 #include "made_subdomains.h"
 

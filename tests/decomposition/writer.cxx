@@ -2,7 +2,7 @@
 // What vtkGranularDecompositionWriter writes of which cells, under which names, and what it refuses.
 #include "vtkGranularDecompositionWriter.h"
 
-#include "../base/small_disk.h"
+#include "../support/small_disk.h"
 #include "../support/whole_file_writers.h"
 
 #include "vtkCellData.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is said of the files of tests/data/bad, to the letter: this is what a user sees.
-#include "dumps.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

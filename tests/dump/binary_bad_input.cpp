@@ -5,8 +5,8 @@
 #include "granular/dump/binary_header.h"
 #include "granular/dump/frame_index.h"
 
-#include "binary_dumps.h"
-#include "dumps.h"
+#include "../support/binary_dumps.h"
+#include "../support/dumps.h"
 
 #include "../support/largest_request.h"
 

@@ -5,10 +5,10 @@
 #include "granular/dump/binary_header.h"
 #include "granular/dump/frame_index.h"
 
-#include "../base/byte_source_packing.h"
-#include "../base/quad.h"
-#include "binary_dumps.h"
-#include "dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/quad.h"
+#include "../support/binary_dumps.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

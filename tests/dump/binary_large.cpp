@@ -3,8 +3,8 @@
 // zeros.
 #include "granular/dump/frame_index.h"
 
-#include "binary_dumps.h"
-#include "dumps.h"
+#include "../support/binary_dumps.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "granular/restart/restart_reader.h"
 
 #include "../support/failing_calls.h"
-#include "frame_content.h"
+#include "../support/frame_content.h"
 #include "series.h"
 
 #include <gtest/gtest.h>

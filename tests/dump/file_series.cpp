@@ -2,8 +2,8 @@
 // Runs in many files: what `*` and `%` in the name of a dump write, restarts, and what lies beside.
 #include "granular/dump/file_series.h"
 
-#include "../base/byte_source_packing.h"
-#include "dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/dumps.h"
 #include "series.h"
 
 #include <gtest/gtest.h>

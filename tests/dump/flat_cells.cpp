@@ -3,7 +3,7 @@
 #include "granular/dump/point_forms.h"
 #include "granular/dump/positions.h"
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 #include "../euler/exact_sum.h"
 
 #include <gtest/gtest.h>

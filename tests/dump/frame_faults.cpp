@@ -2,9 +2,9 @@
 // What is wrong with a frame is said in the same words by any number of threads in chunks of any size;
 // files that change while they are read, and tasks that are stopped, end in an error, never in other
 // numbers.
-#include "binary_dumps.h"
-#include "dumps.h"
-#include "frame_content.h"
+#include "../support/binary_dumps.h"
+#include "../support/dumps.h"
+#include "../support/frame_content.h"
 #include "series.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory that runs out at any allocation while a frame is read: std::bad_alloc, never a hang; what is
 // read next is whole. In a program of its own, because it replaces operator new.
-#include "binary_dumps.h"
-#include "dumps.h"
-#include "frame_content.h"
+#include "../support/binary_dumps.h"
+#include "../support/dumps.h"
+#include "../support/frame_content.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A frame read by several threads, in chunks of any size, or in parts, is what one thread reads in one
 // chunk, to the bit.
-#include "../base/byte_source_packing.h"
-#include "binary_dumps.h"
-#include "dumps.h"
-#include "frame_content.h"
+#include "../support/byte_source_packing.h"
+#include "../support/binary_dumps.h"
+#include "../support/dumps.h"
+#include "../support/frame_content.h"
 #include "series.h"
 
 #include "granular/base/words.h"

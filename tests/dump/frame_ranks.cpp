@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A frame that ranks read together: each its part, the same notices and the same errors on all.
-#include "../base/thread_ranks.h"
-#include "binary_dumps.h"
-#include "dumps.h"
-#include "frame_content.h"
+#include "../support/thread_ranks.h"
+#include "../support/binary_dumps.h"
+#include "../support/dumps.h"
+#include "../support/frame_content.h"
 #include "series.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 // replaced or removed meanwhile.
 #include "granular/dump/frame_index.h"
 
-#include "../base/byte_source_packing.h"
-#include "dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/dumps.h"
 #include "series.h"
 
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 // without any index.
 #include "index_damage.h"
 
-#include "../base/byte_source_packing.h"
-#include "binary_dumps.h"
-#include "frame_content.h"
+#include "../support/byte_source_packing.h"
+#include "../support/binary_dumps.h"
+#include "../support/frame_content.h"
 #include "series.h"
 
 #include <iterator>

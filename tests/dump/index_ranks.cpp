@@ -2,9 +2,9 @@
 // One index for all ranks: rank 0 makes it, and all can read every frame.
 #include "granular/dump/frame_index.h"
 
-#include "../base/byte_source_packing.h"
-#include "../base/thread_ranks.h"
-#include "dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/thread_ranks.h"
+#include "../support/dumps.h"
 #include "series.h"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "granular/dump/index_bytes.h"
 #include "granular/dump/update_files.h"
 
-#include "../base/byte_source_packing.h"
-#include "dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/dumps.h"
 #include "series.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files above 4 GiB, made as they are read: a row repeated without end between real frames.
-#include "dumps.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

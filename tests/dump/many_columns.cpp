@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Columns cost time in proportion to their number, when they are read and when they are written.
-#include "binary_dumps.h"
-#include "dump_writing.h"
+#include "../support/binary_dumps.h"
+#include "../support/dump_writing.h"
 #include "series.h"
 
 #include "../support/counting_source.h"

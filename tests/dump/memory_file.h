@@ -3,7 +3,7 @@
 #ifndef granular_tests_dump_memory_file_h
 #define granular_tests_dump_memory_file_h
 
-#include "dumps.h"
+#include "../support/dumps.h"
 
 #include "granular/dump/file_index.h"
 

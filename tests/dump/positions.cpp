@@ -5,7 +5,7 @@
 
 #include "granular/base/words.h"
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

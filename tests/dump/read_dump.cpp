@@ -2,7 +2,7 @@
 // What a frame becomes: arrays, points, rows chosen, rows sorted.
 #include "granular/dump/dump_reader.h"
 
-#include "dumps.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

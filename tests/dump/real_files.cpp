@@ -4,8 +4,8 @@
 #include "granular/dump/file_index.h"
 #include "granular/dump/frame_index.h"
 
-#include "../base/quad.h"
-#include "dumps.h"
+#include "../support/quad.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

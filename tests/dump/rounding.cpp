@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What rounding takes from points and values is told, in writing and reading: against snprintf, strtod and float, which do
 // the rounding here, and against what comes back.
-#include "dump_writing.h"
-#include "dumps.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
 
 #include "granular/dump/point_loss.h"
 

@@ -6,7 +6,7 @@
 
 #include "granular/dump/frame_index.h"
 
-#include "dumps.h"
+#include "../support/dumps.h"
 
 #include <chrono>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // What a rank without rows learns of a frame from the others.
 #include "granular/dump/shared_header.h"
 
-#include "../base/thread_ranks.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include "granular/dump/exchange_rows.h"
 
-#include "../base/thread_ranks.h"
-#include "sort_checks.h"
+#include "../support/thread_ranks.h"
+#include "../support/sort_checks.h"
 
 #include <gtest/gtest.h>
 

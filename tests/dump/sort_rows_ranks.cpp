@@ -2,7 +2,7 @@
 // Run by mpirun.
 #include "mpi/mpi_communicator.h"
 
-#include "sort_checks.h"
+#include "../support/sort_checks.h"
 
 #include <gtest/gtest.h>
 

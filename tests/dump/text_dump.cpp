@@ -2,7 +2,7 @@
 // Headers and frames of text dumps as the programs write them, and as users' tools change them.
 #include "granular/dump/text_dump.h"
 
-#include "dumps.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

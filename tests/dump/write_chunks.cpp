@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A binary dump counts the values of a chunk with 32 bits, and the chunks, too: rows go into as few as that allows.
-#include "dump_writing.h"
-#include "dumps.h"
-#include "reference_dump.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
+#include "../support/reference_dump.h"
 
 #include "granular/dump/encode_header.h"
 #include "granular/dump/row_batches.h"

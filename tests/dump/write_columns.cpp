@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which columns a dump gets, and what they are made from.
-#include "dump_writing.h"
-#include "dumps.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
 
 #include "granular/dump/column_plan.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The 16 forms of dump atom, compared with what fprintf and fwrite make of the same numbers.
-#include "dump_writing.h"
-#include "dumps.h"
-#include "reference_dump.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
+#include "../support/reference_dump.h"
 
 #include "granular/dump/atom_rows.h"
 #include "granular/dump/row_buffer.h"

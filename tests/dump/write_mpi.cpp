@@ -2,8 +2,8 @@
 // Run by mpirun: the bytes of one process from real ranks, and their errors.
 #include "mpi/mpi_communicator.h"
 
-#include "dump_writing.h"
-#include "dumps.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

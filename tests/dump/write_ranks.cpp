@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same bytes from one process and from ranks, with any number of threads, gathered or each for itself.
-#include "../base/byte_source_packing.h"
-#include "dump_writing.h"
-#include "dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

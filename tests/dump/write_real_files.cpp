@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of tests/data/good are read and written again: the bytes are those that LIGGGHTS and LAMMPS wrote.
-#include "../base/byte_source_packing.h"
-#include "dump_writing.h"
-#include "dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

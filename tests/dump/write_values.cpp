@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Headers: boxes of all kinds, and frames that lack something.
-#include "dump_writing.h"
-#include "dumps.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
 
 #include "granular/dump/encode_header.h"
 

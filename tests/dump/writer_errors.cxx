@@ -2,7 +2,7 @@
 // What goes wrong: one error that says what, the old file as it was, and the next Write() is right.
 #include "writer_helpers.h"
 
-#include "../base/small_disk.h"
+#include "../support/small_disk.h"
 
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"

@@ -4,7 +4,7 @@
 #include "reader_ranks.h"
 #include "writer_helpers.h"
 
-#include "../base/small_disk.h"
+#include "../support/small_disk.h"
 
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"

@@ -3,7 +3,7 @@
 
 #include "granular/base/error.h"
 
-#include "../base/thread_ranks.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 

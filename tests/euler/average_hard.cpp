@@ -2,7 +2,7 @@
 // Averages where numbers are difficult, missing or wrong.
 #include "made_grains.h"
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

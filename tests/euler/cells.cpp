@@ -4,7 +4,7 @@
 
 #include "granular/base/error.h"
 
-#include "../base/thread_ranks.h"
+#include "../support/thread_ranks.h"
 #include "gathered_cells.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include "granular/euler/regular_grids.h"
 
-#include "../base/byte_source_packing.h"
+#include "../support/byte_source_packing.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Files of dump euler/vtk, as LIGGGHTS, PFM and VTK write them.
 #include "euler_files.h"
 
-#include "../base/byte_source_packing.h"
+#include "../support/byte_source_packing.h"
 
 #include "granular/base/byte_source_unpack.h"
 #include "granular/decomposition/decomposition_file.h"

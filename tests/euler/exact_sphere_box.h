@@ -2,7 +2,7 @@
 #ifndef granular_tests_euler_exact_sphere_box_h
 #define granular_tests_euler_exact_sphere_box_h
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 #include "granular/base/box.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 // What vtkGranularEulerWriter writes of which data, under which names, and what it refuses.
 #include "vtkGranularEulerWriter.h"
 
-#include "../base/small_disk.h"
+#include "../support/small_disk.h"
 #include "../support/whole_file_writers.h"
 #include "made_files.h"
 

@@ -2,7 +2,7 @@
 // Kept indices of local data with any of their numbers changed: see ../dump/index_damage.h.
 #include "../dump/index_damage.h"
 
-#include "../dump/frame_content.h"
+#include "../support/frame_content.h"
 #include "local_files.h"
 
 #include <string>

@@ -4,7 +4,7 @@
 
 #include "granular/local/id_finder.h"
 
-#include "../base/thread_ranks.h"
+#include "../support/thread_ranks.h"
 #include "join_checks.h"
 
 #include <gtest/gtest.h>

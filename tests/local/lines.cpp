@@ -4,7 +4,7 @@
 #include "granular/base/block_pool.h"
 #include "granular/local/minimum_image.h"
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 #include "text_frames.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // Values of frames of local data, held against the grains of the same run and against plain parsing.
 #include "local_files.h"
 
-#include "../base/thread_ranks.h"
+#include "../support/thread_ranks.h"
 #include "../support/many_columns.h"
 
 #include "granular/base/compression.h"

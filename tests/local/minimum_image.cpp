@@ -2,7 +2,7 @@
 // The shortest image of a vector, held against all images near it, in 113 bits and in integers.
 #include "granular/local/minimum_image.h"
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dumps of local data: rows that are no particles.
-#include "../dump/dump_writing.h"
-#include "../dump/dumps.h"
+#include "../support/dump_writing.h"
+#include "../support/dumps.h"
 #include "text_frames.h"
 
 #include <gtest/gtest.h>

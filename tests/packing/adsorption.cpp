@@ -2,7 +2,7 @@
 // Parts of a box are found as the whole box is, or not at all, and random packings are those of sequential adsorption:
 // no planes show in their density, and their pair correlation is that of a plain program that tries one place after
 // the other.
-#include "packings.h"
+#include "../support/packings.h"
 
 #include "granular/packing/adsorption.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bonds of grains: numbers from arithmetic, and each bond against all pairs and their images.
-#include "packings.h"
+#include "../support/packings.h"
 
 #include "granular/base/error.h"
 #include "granular/packing/bonds.h"
 #include "granular/packing/packing_plan.h"
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What cannot be is refused, in words that say what can.
-#include "packings.h"
+#include "../support/packings.h"
 
 #include <gtest/gtest.h>
 

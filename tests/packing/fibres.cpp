@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chains and bundles: places from arithmetic, distances from a look at all pairs.
-#include "packings.h"
+#include "../support/packings.h"
 
 #include <gtest/gtest.h>
 

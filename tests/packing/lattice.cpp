@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grains on lattices: counts and places from arithmetic, distances from a look at all pairs.
-#include "packings.h"
+#include "../support/packings.h"
 
-#include "../base/quad.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

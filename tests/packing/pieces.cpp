@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces, one after the other, are the whole, to the bit; threads change nothing.
-#include "packings.h"
+#include "../support/packings.h"
 
 #include "granular/base/error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grains at random places: none overlap, all are there, and nothing shows where the box was cut.
-#include "packings.h"
+#include "../support/packings.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // replaces operator new.
 #include "restart_files.h"
 
-#include "../dump/dumps.h"
+#include "../support/dumps.h"
 #include "../support/counting_source.h"
 #include "../support/largest_request.h"
 

@@ -4,8 +4,8 @@
 
 #include "restart_files.h"
 
-#include "../base/byte_source_packing.h"
-#include "../dump/dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/dumps.h"
 
 #include "granular/dump/frame_index.h"
 

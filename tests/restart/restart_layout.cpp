@@ -3,8 +3,8 @@
 #include "restart_files.h"
 #include "shared_file.h"
 
-#include "../base/byte_source_packing.h"
-#include "../dump/dumps.h"
+#include "../support/byte_source_packing.h"
+#include "../support/dumps.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include "granular/base/communicator.h"
 
 #include <string>
-#include <vector>
 
 void check_broadcast(granular::Communicator& ranks);
 void check_all_gather(granular::Communicator& ranks);
@@ -27,8 +26,5 @@ void empty_folder(granular::Communicator& ranks, const std::string& folder);
 
 /// What goes wrong when all open a file together, as what(); the same on all ranks.
 std::string open_together_error(granular::Communicator& ranks, const std::string& path);
-
-/// What is in a folder, sorted.
-std::vector<std::string> names_in(const std::string& folder);
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dump_writing.h"
 
-#include "../base/thread_ranks.h"
+#include "thread_ranks.h"
 #include "dumps.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include <iterator>
 #include <new>
 #include <random>
-#include <set>
 #include <utility>
 
 using namespace granular;
@@ -273,21 +272,6 @@ std::string difference(const std::string& one, const std::string& other)
   return "at byte " + std::to_string(at) + " of " + std::to_string(one.size()) + " and " +
     std::to_string(other.size()) + ": '" + one.substr(begin, 80) + "' and '" +
     other.substr(std::min(begin, other.size()), 80) + "'";
-}
-
-std::string names_in(const std::string& folder)
-{
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-  {
-    names.insert(entry.path().filename().string());
-  }
-  std::string text;
-  for (const std::string& name : names)
-  {
-    text += (text.empty() ? "" : " ") + name;
-  }
-  return text;
 }
 
 std::string Form::name() const

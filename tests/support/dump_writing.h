@@ -82,9 +82,6 @@ std::string bytes_of_file(const std::string& path);
 /// The first thing that two texts do not share, for messages; "" if they are the same.
 std::string difference(const std::string& one, const std::string& other);
 
-/// The names in a folder, blank-separated.
-std::string names_in(const std::string& folder);
-
 /// The 16 forms of dump atom.
 struct Form
 {

@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -228,9 +230,26 @@ DumpRequest everything()
 Folder::Folder()
 {
   const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-  path_ = std::string(GRANULAR_OUTPUT) + "/" + test->test_suite_name() + "." + test->name();
+  const std::string program = program_invocation_short_name; // test_NAME
+  path_ = std::string(GRANULAR_OUTPUT) + "/" + program.substr(program.find('_') + 1) + "/" +
+    test->test_suite_name() + "." + test->name();
   std::filesystem::remove_all(path_);
   std::filesystem::create_directories(path_);
+}
+
+std::string names_in(const std::string& folder)
+{
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    names.insert(entry.path().filename().string());
+  }
+  std::string text;
+  for (const std::string& name : names)
+  {
+    text += (text.empty() ? "" : " ") + name;
+  }
+  return text;
 }
 
 std::string Folder::write(const std::string& name, const std::string& text) const

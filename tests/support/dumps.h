@@ -94,6 +94,9 @@ private:
   std::string path_;
 };
 
+/// The names in a folder, blank-separated.
+std::string names_in(const std::string& folder);
+
 /// The contents of a file of tests/data.
 std::string data_file(const std::string& name);
 

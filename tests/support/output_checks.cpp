@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that ranks write together.
 #include "communicator_checks.h"
+#include "dumps.h"
+#include "small_disk.h"
 
 #include "granular/base/byte_sink.h"
-
-#include "small_disk.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,6 @@ namespace
 namespace fs = std::filesystem;
 using granular::Communicator;
 using granular::do_together;
-using Names = std::vector<std::string>;
 
 std::string content(const std::string& path)
 {
@@ -69,17 +68,6 @@ std::string on_rank_0(const Communicator& ranks)
 {
   return ranks.size() == 1 ? "" : " (on rank 0 of " + std::to_string(ranks.size()) + ")";
 }
-}
-
-std::vector<std::string> names_in(const std::string& folder)
-{
-  Names names;
-  for (const auto& entry : fs::directory_iterator(folder))
-  {
-    names.push_back(entry.path().filename());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 void empty_folder(Communicator& ranks, const std::string& folder)
@@ -131,7 +119,7 @@ void check_open_together(Communicator& ranks, const std::string& folder)
     do_together(ranks, [] {});
     file->finish();
     EXPECT_TRUE(content(path) == expected);
-    EXPECT_EQ(names_in(folder), Names{ "file" });
+    EXPECT_EQ(names_in(folder), "file");
     do_together(ranks, [] {});
   }
 }
@@ -153,7 +141,7 @@ void check_open_together_fails(Communicator& ranks, const std::string& folder)
   file->write_at(ranks.rank(), "x");
   file.reset();
   EXPECT_EQ(content(path), "old");
-  EXPECT_EQ(names_in(folder), Names{ "file" });
+  EXPECT_EQ(names_in(folder), "file");
 
   const std::string where = on_rank_0(ranks);
   EXPECT_EQ(open_together_error(ranks, folder), folder + ": cannot write: Is a directory" + where);
@@ -176,7 +164,7 @@ void check_open_together_fails(Communicator& ranks, const std::string& folder)
   EXPECT_EQ(
     error_of(ranks, [&] { file->finish(); }), taken + ": cannot write: Is a directory" + where);
   file.reset();
-  EXPECT_EQ(names_in(folder), (Names{ "file", "taken" }));
+  EXPECT_EQ(names_in(folder), "file taken");
   do_together(ranks, [] {});
 }
 
@@ -212,7 +200,7 @@ bool check_full_disk(Communicator& ranks, const std::string& folder)
   EXPECT_EQ(error.substr(0, expected.size()), expected);
   file.reset();
   EXPECT_EQ(content(path), "old");
-  EXPECT_EQ(names_in(folder + "/disk"), Names{ "file" });
+  EXPECT_EQ(names_in(folder + "/disk"), "file");
   do_together(ranks, [] {});
   return true;
 }

@@ -3,7 +3,7 @@
 #ifndef granular_tests_dump_reference_dump_h
 #define granular_tests_dump_reference_dump_h
 
-#include "../base/quad.h"
+#include "quad.h"
 
 #include <array>
 #include <cstdint>
