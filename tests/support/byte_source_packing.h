@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_tests_base_byte_source_packing_h
-#define granular_tests_base_byte_source_packing_h
+#ifndef granular_tests_support_byte_source_packing_h
+#define granular_tests_support_byte_source_packing_h
 
 #include "granular/base/byte_source.h"
 

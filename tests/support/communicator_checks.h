@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every communicator must do, called on all of its ranks.
-#ifndef granular_tests_base_communicator_checks_h
-#define granular_tests_base_communicator_checks_h
+#ifndef granular_tests_support_communicator_checks_h
+#define granular_tests_support_communicator_checks_h
 
 #include "granular/base/communicator.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bytes in memory, and how many of them were read.
-#ifndef tests_support_counting_source_h
-#define tests_support_counting_source_h
+#ifndef granular_tests_support_counting_source_h
+#define granular_tests_support_counting_source_h
 
 #include "granular/base/byte_source.h"
 

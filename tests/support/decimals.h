@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_tests_base_decimals_h
-#define granular_tests_base_decimals_h
+#ifndef granular_tests_support_decimals_h
+#define granular_tests_support_decimals_h
 
 #include <cstdint>
 #include <random>

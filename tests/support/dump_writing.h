@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames that are written: made, read, cut for ranks; and what came of writing them.
-#ifndef granular_tests_dump_dump_writing_h
-#define granular_tests_dump_dump_writing_h
+#ifndef granular_tests_support_dump_writing_h
+#define granular_tests_support_dump_writing_h
 
 #include "granular/dump/dump_reader.h"
 #include "granular/dump/dump_writer.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_tests_dump_dumps_h
-#define granular_tests_dump_dumps_h
+#ifndef granular_tests_support_dumps_h
+#define granular_tests_support_dumps_h
 
 #include "granular/dump/dump_reader.h"
 #include "granular/dump/file_index.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_tests_dump_frame_content_h
-#define granular_tests_dump_frame_content_h
+#ifndef granular_tests_support_frame_content_h
+#define granular_tests_support_frame_content_h
 
 #include "granular/dump/dump_reader.h"
 

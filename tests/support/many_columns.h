@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lines of a hundred thousand columns: what takes time in proportion to the square of their number does not end before
 // a test is stopped.
-#ifndef tests_support_many_columns_h
-#define tests_support_many_columns_h
+#ifndef granular_tests_support_many_columns_h
+#define granular_tests_support_many_columns_h
 
 #include <string>
 

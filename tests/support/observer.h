@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What an algorithm tells while it works, and how it is asked to stop.
-#ifndef tests_support_observer_h
-#define tests_support_observer_h
+#ifndef granular_tests_support_observer_h
+#define granular_tests_support_observer_h
 
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"

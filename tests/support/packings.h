@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the tests of packings share: a look at what was made, by other means than those that made it.
-#ifndef tests_packing_packings_h
-#define tests_packing_packings_h
+#ifndef granular_tests_support_packings_h
+#define granular_tests_support_packings_h
 
 #include "granular/packing/packing.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_tests_base_quad_h
-#define granular_tests_base_quad_h
+#ifndef granular_tests_support_quad_h
+#define granular_tests_support_quad_h
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What dump atom of LIGGGHTS and LAMMPS writes, by fprintf and fwrite as they do, and by nothing of the core.
-#ifndef granular_tests_dump_reference_dump_h
-#define granular_tests_dump_reference_dump_h
+#ifndef granular_tests_support_reference_dump_h
+#define granular_tests_support_reference_dump_h
 
 #include "quad.h"
 

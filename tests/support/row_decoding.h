@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_tests_base_row_decoding_h
-#define granular_tests_base_row_decoding_h
+#ifndef granular_tests_support_row_decoding_h
+#define granular_tests_support_row_decoding_h
 
 #include "granular/base/row_text.h"
 

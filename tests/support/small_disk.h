@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_tests_base_small_disk_h
-#define granular_tests_base_small_disk_h
+#ifndef granular_tests_support_small_disk_h
+#define granular_tests_support_small_disk_h
 
 #include <cstdlib>
 #include <filesystem>

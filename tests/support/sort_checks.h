@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames to be sorted, alone or on ranks, and what must come out.
-#ifndef granular_tests_dump_sort_checks_h
-#define granular_tests_dump_sort_checks_h
+#ifndef granular_tests_support_sort_checks_h
+#define granular_tests_support_sort_checks_h
 
 #include "granular/base/communicator.h"
 #include "granular/dump/dump_reader.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ranks without MPI: threads of this process that pass each other their data.
-#ifndef granular_tests_base_thread_ranks_h
-#define granular_tests_base_thread_ranks_h
+#ifndef granular_tests_support_thread_ranks_h
+#define granular_tests_support_thread_ranks_h
 
 #include "granular/base/byte_sink.h"
 #include "granular/base/communicator.h"
@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <barrier>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -51,6 +50,36 @@ private:
   const std::string_view* offered_ = nullptr;
 };
 
+/// As std::barrier, but who waits sleeps at once: there may be many more ranks than cores.
+class Barrier
+{
+public:
+  explicit Barrier(int size)
+    : size_(size)
+  {
+  }
+
+  void arrive_and_wait()
+  {
+    std::unique_lock lock(mutex_);
+    if (++arrived_ == size_)
+    {
+      arrived_ = 0;
+      ++round_;
+      all_here_.notify_all();
+      return;
+    }
+    all_here_.wait(lock, [this, round = round_] { return round_ != round; });
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable all_here_;
+  const int size_;
+  int arrived_ = 0;
+  std::uint64_t round_ = 0;
+};
+
 /// What the ranks show to each other between two barriers, and what they give to each other.
 struct Meeting
 {
@@ -76,7 +105,7 @@ struct Meeting
   std::vector<Shown> shown;
   std::vector<Handover> handovers;
   std::shared_ptr<granular::NewFile> file; ///< being opened
-  std::barrier<> barrier;
+  Barrier barrier;
 };
 
 /// One file that all ranks have.

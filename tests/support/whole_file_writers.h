@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the tests of writers share that write a file as a whole.
-#ifndef tests_support_whole_file_writers_h
-#define tests_support_whole_file_writers_h
+#ifndef granular_tests_support_whole_file_writers_h
+#define granular_tests_support_whole_file_writers_h
 
 #include "../dump/writer_helpers.h"
 
