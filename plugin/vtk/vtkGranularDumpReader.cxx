@@ -11,8 +11,8 @@
 
 #include "granular/base/archive.h"
 #include "granular/base/words.h"
+#include "granular/dump/dump_files.h"
 #include "granular/dump/dump_reader.h"
-#include "granular/dump/file_index.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
@@ -276,6 +276,7 @@ vtkGranularDumpReader::vtkGranularDumpReader()
   : Internal(std::make_unique<Internals>())
 {
   this->SetNumberOfOutputPorts(2);
+  this->Series->Format = &granular::dump_format();
   this->Internal->Arrays.GetSelection()->AddObserver(
     vtkCommand::ModifiedEvent, this, &vtkGranularDumpReader::Modified);
 }

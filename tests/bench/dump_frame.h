@@ -5,6 +5,7 @@
 
 #include "dump_text.h"
 
+#include "granular/dump/dump_files.h"
 #include "granular/dump/dump_reader.h"
 #include "granular/dump/frame_index.h"
 
@@ -17,7 +18,7 @@ namespace bench
 {
 /// The index of a run. Throws where there is anything to notice.
 granular::FrameIndex index_of(
-  const std::vector<std::string>& files, const granular::IndexOptions& options = {});
+  const std::vector<std::string>& files, const granular::IndexOptions& options = { .format = &granular::dump_format() });
 
 /// A frame of it: double points and all arrays unless the request is for others. Throws where there is
 /// anything to notice.

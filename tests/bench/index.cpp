@@ -3,6 +3,7 @@
 #include "bench.h"
 #include "dump_text.h"
 
+#include "granular/dump/dump_files.h"
 #include "granular/base/line_scan.h"
 #include "granular/dump/frame_index.h"
 
@@ -97,7 +98,7 @@ void index_file(benchmark::State& state, Form form, std::int64_t frames, std::in
       granular::FrameIndex index;
       granular::Notices notices;
       granular::Progress progress;
-      index.update({ dump.file.path() }, {}, notices, progress);
+      index.update({ dump.file.path() }, { .format = &granular::dump_format() }, notices, progress);
       return check(dump, index, notices);
     });
   for (auto _ : state)

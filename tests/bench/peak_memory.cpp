@@ -2,6 +2,7 @@
 // bench_peak_memory FILE: reads the first frame of a dump as the reader does, into double points and
 // all arrays, and prints two numbers: the bytes of the arrays, and the most memory that this
 // process ever had [KiB].
+#include "granular/dump/dump_files.h"
 #include "granular/dump/dump_reader.h"
 #include "granular/dump/frame_index.h"
 
@@ -39,7 +40,7 @@ try
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ argv[1] }, {}, notices, progress);
+  index.update({ argv[1] }, { .format = &granular::dump_format() }, notices, progress);
   const granular::DumpFrame frame = granular::read_dump(index.pieces(0), {}, notices, progress);
   std::size_t bytes = frame.points.bytes();
   for (const granular::DumpArray& array : frame.arrays)

@@ -9,6 +9,7 @@
 #include "bench.h"
 #include "dump_text.h"
 
+#include "granular/dump/dump_files.h"
 #include "granular/dump/dump_reader.h"
 
 #include <algorithm>
@@ -144,7 +145,7 @@ Dump::Dump(const Text& how, double lo, std::int64_t count)
   file.append(rows.text);
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ file.path() }, {}, notices, progress);
+  index.update({ file.path() }, { .format = &granular::dump_format() }, notices, progress);
 }
 
 /// Largest and root of the mean square.

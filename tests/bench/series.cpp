@@ -220,7 +220,7 @@ struct Indexing
   }
 
   const Run& run;
-  granular::IndexOptions options;
+  granular::IndexOptions options = { .format = &granular::dump_format() };
   FrameIndex index;
 };
 

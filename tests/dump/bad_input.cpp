@@ -2,6 +2,8 @@
 // What is said of the files of tests/data/bad, to the letter: this is what a user sees.
 #include "../support/dumps.h"
 
+#include "granular/dump/dump_files.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +72,7 @@ void open(granular::FrameIndex& index, const std::string& path)
 {
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ path }, {}, notices, progress);
+  index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
 }
 
 granular::DumpFrame read(const granular::FrameIndex& index, std::size_t frame)

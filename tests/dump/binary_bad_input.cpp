@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary dumps that are damaged, cut or still being written: every one is an error that names a place,
 // or the frames that are whole; never more memory than the file is worth.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/binary_dump.h"
 #include "granular/dump/binary_header.h"
 #include "granular/dump/frame_index.h"
@@ -424,7 +425,7 @@ TEST(BinaryBadInput, AFileThatGrows)
     const Bytes whole = binary::write(form, frames);
     const Folder folder;
     const std::string path = folder.write("a.bin", "");
-    granular::IndexOptions options;
+    granular::IndexOptions options = { .format = &granular::dump_format() };
     if (!form.named())
     {
       options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",

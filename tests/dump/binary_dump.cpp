@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary dumps of every layout and byte order, put together byte by byte.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/binary_dump.h"
 
 #include "granular/dump/binary_header.h"
@@ -465,7 +466,7 @@ TEST(BinaryDump, TheStepsAreInTheUnitsAndTimesOfTheFile)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ folder.write("a.bin", binary::write(form, frames).bytes) }, {}, notices, progress);
+  index.update({ folder.write("a.bin", binary::write(form, frames).bytes) }, { .format = &granular::dump_format() }, notices, progress);
   EXPECT_EQ(index.times(1), (Doubles{ 0, 0.125, 0.375 }));
   EXPECT_EQ(lines_of(notices), "");
 }
@@ -847,7 +848,7 @@ TEST(BinaryDump, OneFileAProcess)
     std::vector<std::string> files;
     granular::Notices notices;
     granular::Progress progress;
-    granular::IndexOptions options;
+    granular::IndexOptions options = { .format = &granular::dump_format() };
     Integers ids;
     Doubles radii;
     for (std::int64_t piece = 0; piece < 3; ++piece)
@@ -904,7 +905,7 @@ TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ folder.path("a.0.bin"), folder.path("a.1.bin") }, {}, notices, progress);
+  index.update({ folder.path("a.0.bin"), folder.path("a.1.bin") }, { .format = &granular::dump_format() }, notices, progress);
   Decoded got;
   DumpRequest request;
   request.sort_by_id = true;
@@ -949,13 +950,13 @@ TEST(BinaryDump, CancelledWithinTheFileThenWhole)
     Stop stop(after);
     try
     {
-      index.update({ path }, {}, notices, stop);
+      index.update({ path }, { .format = &granular::dump_format() }, notices, stop);
     }
     catch (const granular::Cancelled&)
     {
       ++cancelled;
     }
-    index.update({ path }, {}, notices, progress);
+    index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
     EXPECT_EQ(index.size(), 1000u) << after;
   }
   EXPECT_GE(cancelled, 4);
@@ -981,7 +982,7 @@ TEST(BinaryDump, NamesThatChange)
   granular::FrameIndex index;
   granular::Progress progress;
   granular::Notices notices;
-  granular::IndexOptions options;
+  granular::IndexOptions options = { .format = &granular::dump_format() };
   index.update({ path }, options, notices, progress);
   EXPECT_EQ(lines_of(notices),
     path +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of more than 2^31 values and files of more than 4 GiB: sparse files, whose holes read as
 // zeros.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/frame_index.h"
 
 #include "../support/binary_dumps.h"
@@ -136,7 +137,7 @@ private:
 
 granular::IndexOptions names()
 {
-  granular::IndexOptions options;
+  granular::IndexOptions options = { .format = &granular::dump_format() };
   options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
     "radius" };
   return options;
@@ -218,7 +219,7 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
     GTEST_SKIP() << "the file system has no sparse files of this size: " << std::strerror(errno);
   }
   ASSERT_GT(10000 * rows, std::int64_t{ 1 } << 31);
-  granular::IndexOptions options;
+  granular::IndexOptions options = { .format = &granular::dump_format() };
   options.column_names = { "id", "x", "y", "z" };
   for (int i = 5; i <= 10000; ++i)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every call of the system that a reader makes fails in turn, once or for ever. The reference is the run in which none does.
+#include "granular/dump/dump_files.h"
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/euler/euler_file.h"
 #include "granular/local/local_columns.h"
@@ -274,7 +275,7 @@ protected:
     Seen seen;
     Notices notices;
     Progress progress;
-    granular::IndexOptions options;
+    granular::IndexOptions options = { .format = &granular::dump_format() };
     options.format = &this->kind().format();
     options.index_file = index_file;
     options.column_names = this->kind().columns;

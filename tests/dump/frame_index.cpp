@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Series of files on disk, as a run writes them and as they change while somebody looks.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/frame_index.h"
 
 #include "series.h"
@@ -398,7 +399,7 @@ TEST(FrameIndex, CancelledAtAnyReportThenWhole)
     Stop stop(after);
     try
     {
-      run.index.update(files, {}, notices, stop);
+      run.index.update(files, { .format = &granular::dump_format() }, notices, stop);
     }
     catch (const granular::Cancelled&)
     {
@@ -421,6 +422,10 @@ TEST(FrameIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
     return error_of([&] { run.update({ path }); });
   };
   EXPECT_EQ(error_of([] { Series().update({}); }), "expected the name of a file, got none");
+  Series without;
+  without.options.format = nullptr;
+  EXPECT_EQ(error_of([&] { without.update({ "a" }); }),
+    "expected the format of the files in the options, got none");
   EXPECT_EQ(
     error(folder.path("none")), folder.path("none") + ": cannot open: No such file or directory");
   EXPECT_EQ(error(folder.path("")), folder.path("") + ": expected a file, got a directory");

@@ -4,6 +4,7 @@
 #ifndef granular_tests_dump_index_damage_h
 #define granular_tests_dump_index_damage_h
 
+#include "granular/dump/dump_files.h"
 #include "granular/base/hash.h"
 #include "granular/dump/frame_index.h"
 
@@ -30,7 +31,7 @@ namespace index_damage
 struct Run
 {
   std::vector<std::string> files;
-  granular::IndexOptions options = {};
+  granular::IndexOptions options = { .format = &granular::dump_format() };
   std::function<std::string(const granular::FrameIndex& index, std::size_t frame)> show;
 
   std::string kept() const { return files.front() + std::string(granular::index_file_suffix); }

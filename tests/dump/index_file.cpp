@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is known of the files of a run, kept in a file between openings: it must come back as it
 // was, or not at all, and never stand against what the files hold.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/index_file.h"
 
 #include "../base/own_folder.h"
@@ -583,10 +584,9 @@ TEST_F(IndexFileTest, TrapKindsThatNoFileHas)
   const auto last = static_cast<int>(binary_layouts().size()) - 1;
   EXPECT_EQ(with({ "id" }, {}, FrameKind::text), "");
   EXPECT_EQ(with({ "id" }, {}, last), "");
-  const std::string layout = "expected a layout of binary dumps, got something else";
   EXPECT_EQ(with({ "id" }, {}, FrameKind::bare), "");
-  EXPECT_EQ(with({ "id" }, {}, FrameKind::bare - 1), layout);
-  EXPECT_EQ(with({ "id" }, {}, last + 1), layout);
+  EXPECT_EQ(with({ "id" }, {}, FrameKind::bare - 1),
+    "expected a layout of frames, got something else");
   EXPECT_EQ(with({}, {}, 0), "expected a column, got something else");
   EXPECT_EQ(with({ "word" }, { Text }, FrameKind::text), "");
   EXPECT_EQ(with({ "element" }, { Int32 }, 0), "");
@@ -702,7 +702,7 @@ struct Opened
 
   void update(const Names& files, IndexFile where = IndexFile::Beside)
   {
-    IndexOptions options;
+    IndexOptions options = { .format = &granular::dump_format() };
     options.index_file = where;
     Notices notices;
     Progress progress;
@@ -750,6 +750,27 @@ void append(const std::string& path, const std::string& text)
 {
   std::ofstream(path, std::ios::binary | std::ios::app) << text;
 }
+}
+
+/// Which layouts there are only the format knows, which meets the index with the file.
+TEST_F(IndexFileTest, TrapALayoutThatTheFormatHasNot)
+{
+  const std::string path = this->write("a.dump", frames(0, 3));
+  Opened first({ path });
+  const std::string kept = path + ".granular.idx";
+  Notices notices;
+  Files files = load_index(kept, path, std::make_shared<FrameKinds>(), notices);
+  ASSERT_EQ(files.size(), 1u);
+  auto kind = std::make_shared<FrameKind>(*files[0].frames[0].kind);
+  kind->layout = static_cast<int>(binary_layouts().size());
+  for (FrameEntry& frame : files[0].frames)
+  {
+    frame.kind = kind;
+  }
+  save_index(kept, files, notices);
+  Opened again({ path });
+  EXPECT_EQ(again.steps(), steps_from(0, 3));
+  EXPECT_EQ(again.index.first_piece(0).entry.kind->layout, FrameKind::text);
 }
 
 TEST_F(IndexFileTest, ASecondOpeningDoesNotReadTheFile)

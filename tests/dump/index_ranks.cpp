@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One index for all ranks: rank 0 makes it, and all can read every frame.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/frame_index.h"
 
 #include "../support/byte_source_packing.h"
@@ -71,7 +72,7 @@ struct Rank
   }
 
   /// Returns what this rank is told.
-  std::string update(const Files& files, const IndexOptions& options = {})
+  std::string update(const Files& files, const IndexOptions& options = { .format = &granular::dump_format() })
   {
     Notices notices;
     Progress progress;
@@ -158,7 +159,7 @@ TEST(IndexRanks, PiecesAreThoseOfRank0)
       Rank rank(communicator);
       rank.update(files);
       EXPECT_EQ(rank.frames(), "0: 0 1 2 10 11 12 20 21 22\n5: 0 1 2 3 10 11 12 13 20 21 22 23\n");
-      IndexOptions options;
+      IndexOptions options = { .format = &granular::dump_format() };
       options.repeated_steps = granular::RepeatedSteps::Last;
       rank.update(files, options); // no file has changed
       EXPECT_EQ(rank.frames(), "0: 20 21 22\n5: 20 21 22 23\n");
@@ -227,7 +228,7 @@ TEST(IndexRanks, CancelledOnAll)
       Rank rank(communicator);
       Notices notices;
       Stop stop;
-      EXPECT_THROW(granular::update_frame_index(rank.index, rank.ranks, files, {}, notices, stop),
+      EXPECT_THROW(granular::update_frame_index(rank.index, rank.ranks, files, { .format = &granular::dump_format() }, notices, stop),
         granular::Cancelled);
       EXPECT_EQ(rank.index.size(), 0u);
       rank.update(files);

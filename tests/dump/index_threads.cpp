@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An index does not depend on how many threads make it: of one file in which several pass over a frame,
 // and of many files.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/frame_index.h"
 #include "granular/dump/index_bytes.h"
 #include "granular/dump/update_files.h"
@@ -295,6 +296,7 @@ TEST(IndexThreads, RestartPointsOfTheFirstFiles)
       files[i] = {};
       files[i].path = folder.path(std::to_string(i));
       files[i].kinds = kinds;
+      files[i].format = &granular::dump_format();
     }
     Progress progress;
     EXPECT_TRUE(granular::update_files(files, {}, threads, progress, most));

@@ -7,6 +7,8 @@
 #include "../support/counting_source.h"
 #include "../support/many_columns.h"
 
+#include "granular/dump/dump_files.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

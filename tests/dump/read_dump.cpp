@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a frame becomes: arrays, points, rows chosen, rows sorted.
+#include "granular/dump/dump_files.h"
 #include "granular/dump/dump_reader.h"
 
 #include "../support/dumps.h"
@@ -702,7 +703,7 @@ TEST(ReadDump, AFileThatChangedSinceItWasIndexed)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ path }, {}, notices, progress);
+  index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
   EXPECT_EQ(read_error(index, 1), "");
 
   std::filesystem::resize_file(path, text.size() - 1);
@@ -729,7 +730,7 @@ TEST(ReadDump, AFileThatChangedSinceItWasIndexed)
   // another frame where the ends of the file are as they were
   const std::string large = plain(0, 1000);
   folder.write("a.dump", large + plain(100, 3) + large);
-  index.update({ path }, {}, notices, progress);
+  index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
   ASSERT_EQ(index.size(), 2u);
   EXPECT_EQ(read_error(index, 1), "");
   folder.write("a.dump", large + plain(101, 3) + large);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of tests/data/good: runs that LAMMPS and LIGGGHTS wrote in many forms at once. All forms
 // must show the same particles, as far as their digits go.
-#include "granular/dump/file_index.h"
+#include "granular/dump/dump_files.h"
 #include "granular/dump/frame_index.h"
 
 #include "../support/quad.h"
@@ -655,7 +655,7 @@ TEST(RealFiles, CompressedFilesOneAStep)
     granular::Progress progress;
     index.update({ path_of(run + "_000050.dump.gz"), path_of(run + "_000000.dump.gz"),
                    path_of(run + "_000100.dump.gz") },
-      {}, notices, progress);
+      { .format = &granular::dump_format() }, notices, progress);
     EXPECT_EQ(lines_of(notices), "");
     ASSERT_EQ(index.size(), 3u);
     EXPECT_EQ(index.times(1), (Doubles{ 0, 50, 100 }));
@@ -772,7 +772,7 @@ Doubles column_of(const Decoded& frame, const std::string& column)
 
 granular::IndexOptions with_names(const std::string& names)
 {
-  granular::IndexOptions options;
+  granular::IndexOptions options = { .format = &granular::dump_format() };
   options.column_names = words_of(names);
   return options;
 }
@@ -837,7 +837,7 @@ TEST(RealFiles, PlainBinaryOfLiggghtsWithoutNames)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ path_of("grains.bin") }, {}, notices, progress);
+  index.update({ path_of("grains.bin") }, { .format = &granular::dump_format() }, notices, progress);
   EXPECT_EQ(lines_of(notices), "");
   EXPECT_EQ(index.times(1), (Doubles{ 0, 1000, 2000 }));
   const std::vector<Table> stored = tables_of_binary(data_file("good/grains.bin"), grain_names);
@@ -879,7 +879,7 @@ TEST(RealFiles, PiecesOfLiggghts)
     granular::FrameIndex index;
     granular::Notices notices;
     granular::Progress progress;
-    index.update(files, {}, notices, progress);
+    index.update(files, { .format = &granular::dump_format() }, notices, progress);
     EXPECT_EQ(lines_of(notices), "");
     ASSERT_EQ(index.size(), 3u);
     for (std::size_t frame = 0; frame < 3; ++frame)
@@ -948,7 +948,7 @@ TEST(RealFiles, FilesOfLiggghtsOneAStep)
   granular::Notices notices;
   granular::Progress progress;
   index.update(
-    { path_of("grains_2000.dump"), path_of("grains_0.dump"), path_of("grains_1000.dump") }, {},
+    { path_of("grains_2000.dump"), path_of("grains_0.dump"), path_of("grains_1000.dump") }, { .format = &granular::dump_format() },
     notices, progress);
   EXPECT_EQ(lines_of(notices), "");
   ASSERT_EQ(index.size(), 3u);

@@ -4,6 +4,7 @@
 #ifndef granular_tests_dump_series_h
 #define granular_tests_dump_series_h
 
+#include "granular/dump/dump_files.h"
 #include "granular/dump/frame_index.h"
 
 #include "../support/dumps.h"
@@ -54,7 +55,7 @@ inline std::string grains(std::int64_t step, const Ids& ids, const std::string& 
 struct Series
 {
   granular::FrameIndex index;
-  granular::IndexOptions options;
+  granular::IndexOptions options = { .format = &granular::dump_format() };
   std::string said;
 
   void update(const Files& files)

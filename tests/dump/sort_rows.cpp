@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/sort_rows.h"
 
-#include "granular/dump/exchange_rows.h"
+#include "granular/base/shares.h"
 
 #include "../support/thread_ranks.h"
 #include "../support/sort_checks.h"

@@ -6,6 +6,7 @@
 
 #include "granular/base/words.h"
 #include "granular/dump/binary_dump.h"
+#include "granular/dump/dump_files.h"
 #include "granular/dump/file_index.h"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include "dump_checks.h"
 #include "local_checks.h"
 
+#include "granular/dump/dump_files.h"
 #include "granular/base/block_pool.h"
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/dump/frame_index.h"

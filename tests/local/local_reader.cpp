@@ -5,6 +5,7 @@
 #include "../support/thread_ranks.h"
 #include "../support/many_columns.h"
 
+#include "granular/dump/dump_files.h"
 #include "granular/base/compression.h"
 
 #include <gtest/gtest.h>
@@ -115,7 +116,7 @@ TEST(LocalReader, ForcesAddUp)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ local_file("settled_grains.dump.gz") }, {}, notices, progress);
+  index.update({ local_file("settled_grains.dump.gz") }, { .format = &granular::dump_format() }, notices, progress);
   granular::LocalFrame grains;
   grains.table = granular::read_dump(index.pieces(0), {}, notices, progress);
   ASSERT_EQ(grains.table.rows, 300);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dumps.h"
 
+#include "granular/dump/dump_files.h"
 #include "granular/base/words.h"
 #include "granular/dump/frame_rows.h"
 

@@ -309,8 +309,10 @@ bool is_decomposition_vtu(const ByteSource& source, const VtuHead& head)
 
 const FileFormat& decomposition_format() noexcept
 {
-  static const FileFormat format = { "a decomposition file", &index_decomposition, &name_steps,
-    &decomposition_fits };
+  static constexpr FileFormat format = { .name = "a decomposition file",
+    .index = &index_decomposition,
+    .complete = &name_steps,
+    .fits = &decomposition_fits };
   return format;
 }
 

@@ -3,7 +3,7 @@
 
 #include "granular/base/archive.h"
 #include "granular/base/executor.h"
-#include "granular/dump/exchange_rows.h"
+#include "granular/base/shares.h"
 #include "granular/dump/frame_chunks.h"
 #include "granular/dump/frame_decoder.h"
 #include "granular/dump/point_loss.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/exchange_rows.h"
 
+#include "granular/base/shares.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -120,12 +122,6 @@ std::vector<std::int64_t> to_bytes(std::vector<std::int64_t> rows, std::size_t w
   }
   return rows;
 }
-}
-
-std::int64_t begin_of_part(std::int64_t rows, int part, int parts) noexcept
-{
-  // of the rest, less than parts, the product fits
-  return rows / parts * part + rows % parts * part / parts;
 }
 
 RowExchange::RowExchange(

@@ -14,10 +14,6 @@
 
 namespace granular
 {
-/// Where part of parts begins among so many rows: rows * part / parts, rounded down. part may be parts:
-/// the end of the last. For rows up to 2^62.
-std::int64_t begin_of_part(std::int64_t rows, int part, int parts) noexcept;
-
 /// Moves rows between ranks so that each holds its part of the sorted rows of all. Collective.
 class RowExchange
 {

@@ -7,11 +7,21 @@
 #include "granular/base/progress.h"
 #include "granular/base/text_scanner.h"
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace granular
 {
 struct FileIndex;
+struct FrameEntry;
+
+/// Numbers by which rows of files are compared.
+struct FirstRows
+{
+  std::vector<std::int64_t> keys;
+  bool are_ids = false; ///< no two rows have the same; else equal rows have
+};
 
 /// What files hold that are indexed frame by frame.
 struct FileFormat
@@ -30,9 +40,15 @@ struct FileFormat
   /// Whether what an index file says of a file with frames can be true, which nothing shows that is looked at when a frame is read.
   /// Looks at little of the source. May throw Error: it cannot be true then.
   bool (*fits)(const ByteSource& source, const FileIndex& index) = nullptr;
-};
 
-/// Dumps of particles.
-const FileFormat& dump_format() noexcept;
+  /// What the first row of a frame holds, for who is to name its columns, or null. May throw Error.
+  std::string (*describe)(const ByteSource& source, const FrameEntry& entry) = nullptr;
+
+  /// The first rows of a frame, by which pieces are told from repetitions, or null; none where they tell nothing. Throws
+  /// IoError.
+  FirstRows (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
+
+  int layouts = 0; ///< how many FrameKind::layout there are that are no text
+};
 }
 #endif

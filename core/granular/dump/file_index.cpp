@@ -2,9 +2,6 @@
 #include "granular/dump/file_index.h"
 
 #include "granular/base/hash.h"
-#include "granular/dump/binary_dump.h"
-#include "granular/dump/frame_rows.h"
-#include "granular/dump/text_dump.h"
 
 #include <algorithm>
 #include <array>
@@ -30,13 +27,15 @@ bool others_changed(const FileIndex& index)
     index.beside, [](const KnownFile& file) { return !(stamp_of(file.path) == file.stamp); });
 }
 
-/// Whether what was kept of a file can be what it holds, beyond what is looked at when a frame is read.
+/// Whether what was kept of a file can be what it holds, beyond what is looked at when a frame is read. All frames have the
+/// layout of the first.
 bool fits(const FileIndex& index)
 {
   try
   {
     const std::unique_ptr<ByteSource> source = unpack(open_file(index.path), index.points);
     return source->compressed() == index.compressed && !index.frames.empty() &&
+      index.frames.front().kind->layout < index.format->layouts &&
       (index.format->fits == nullptr || index.format->fits(*source, index));
   }
   catch (const Error&)
@@ -63,15 +62,6 @@ void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
     index.resume_offset = last.offset;
     index.resume_line = std::max(last.line, std::int64_t{ 1 });
     index.units = last.kind->units;
-  }
-}
-
-/// Throws if the header of the frame is another.
-void check_frame(const ByteSource& source, const FrameEntry& entry)
-{
-  if (entry.kind->named) // else it says so when it is read
-  {
-    open_rows(source, entry);
   }
 }
 
@@ -188,73 +178,11 @@ void set_defect(FileIndex& index, const Notice& defect)
   }
 }
 
-const FileFormat& dump_format() noexcept
-{
-  static constexpr FileFormat format = { "a dump", index_dump, nullptr, dump_fits };
-  return format;
-}
-
-bool is_dump(std::string_view first_bytes)
-{
-  return is_text_dump(first_bytes) || is_binary_dump(first_bytes);
-}
-
 std::string first_bytes_of(const ByteSource& source)
 {
   std::string bytes(65536, '\0');
   bytes.resize(source.read(0, bytes.data(), bytes.size()));
   return bytes;
-}
-
-bool is_dump_file(const std::string& path) noexcept
-{
-  try
-  {
-    return is_dump(first_bytes_of(*unpack(open_file(path))));
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
-}
-
-bool dump_fits(const ByteSource& source, const FileIndex& index)
-{
-  const std::vector<FrameEntry>& frames = index.frames;
-  const bool text = frames.front().kind->is_text();
-  if (!(text ? text_dump_fits(source, index) : binary_dump_fits(source, index)))
-  {
-    return false;
-  }
-  check_frame(source, frames.front());
-  for (std::size_t i = 1; i < frames.size(); ++i)
-  {
-    const bool hides = frames[i].timestep <= frames[i - 1].timestep; // a frame that nobody will read
-    if (hides || i + 1 == frames.size())
-    {
-      check_frame(source, frames[i - (hides ? 1 : 0)]);
-      check_frame(source, frames[i]);
-    }
-  }
-  return true;
-}
-
-void index_dump(
-  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
-{
-  if (!index.kinds)
-  {
-    index.kinds = std::make_shared<FrameKinds>();
-  }
-  std::array<char, 4096> first;
-  if (holds_binary({ first.data(), source.read(0, first.data(), first.size()) }))
-  {
-    index_binary_dump(source, index, progress);
-  }
-  else
-  {
-    index_text_dump(source, index, progress, ahead);
-  }
 }
 
 bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,

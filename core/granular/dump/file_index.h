@@ -50,29 +50,12 @@ struct FileIndex
   std::vector<std::string> column_names; ///< of the user, for such a file
   std::shared_ptr<RestartPoints> points; ///< of a compressed file
   std::shared_ptr<FrameKinds> kinds;     ///< may be shared by files; made where it is missing
-  const FileFormat* format = &dump_format();
+  const FileFormat* format = nullptr; ///< must be there to be updated
 };
-
-/// True if the first bytes of a file, uncompressed, are those of a dump of particles that
-/// index_dump can read.
-bool is_dump(std::string_view first_bytes);
 
 /// The first 64 KiB of a file, uncompressed: headers of ordinary length are there many times over, and more is not read to find
 /// out what a file is.
 std::string first_bytes_of(const ByteSource& source);
-
-/// The same of a file by name, which may be compressed: looks at its first 64 KiB. Never throws:
-/// what cannot be read is no dump.
-bool is_dump_file(const std::string& path) noexcept;
-
-/// FileFormat::index of dumps, text or binary: finds the frames from index.resume_offset on. A last frame
-/// that is not complete is left out, silently; a frame in the middle that is not what its header
-/// says with a notice. Throws IoError, LimitError; FormatError of compressed data; Cancelled. Large frames of a text are passed over by several threads.
-void index_dump(
-  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
-
-/// FileFormat::fits of dumps: looks at the headers of the first and last frames, and of those whose timestep does not grow.
-bool dump_fits(const ByteSource& source, const FileIndex& index);
 
 /// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
 /// goes on if it only grew, and else, or if a file beside it changed, starts anew. Errors end in index.error; data packed in other ways are one.

@@ -37,7 +37,7 @@ struct FrameKind
 
   ColumnSchema schema;
   std::string units;
-  int layout = text; ///< index into binary_layouts(), or text, or bare
+  int layout = text; ///< below FileFormat::layouts: which of them; or text, or bare
   bool named = true; ///< false: nobody has named the columns of a binary file, these are stand-ins
   bool guessed = false;         ///< nobody has, and they are taken for those of dump atom
   std::uint64_t names_hash = 0; ///< of the columns; set where the kind is shared

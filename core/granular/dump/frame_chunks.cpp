@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/frame_chunks.h"
 
+#include "granular/base/shares.h"
 #include "granular/base/text_scanner.h"
-#include "granular/dump/exchange_rows.h"
 #include "granular/dump/frame_rows.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "granular/dump/frame_index.h"
 
 #include "granular/base/hash.h"
-#include "granular/dump/binary_dump.h"
 #include "granular/dump/index_archive.h"
 #include "granular/dump/index_bytes.h"
 #include "granular/dump/update_files.h"
@@ -30,14 +29,13 @@ Notice left_out(const std::exception_ptr& error)
   }
 }
 
-/// See describe_first_row; nothing if it cannot be read.
+/// See FileFormat::describe; nothing if it cannot be read.
 std::string first_row_of(const FileIndex& file)
 {
   const FrameEntry& entry = file.frames.front();
   try
   {
-    return describe_first_row(*open_indexed(file), entry.offset,
-      binary_layouts()[static_cast<std::size_t>(entry.kind->layout)]);
+    return file.format->describe ? file.format->describe(*open_indexed(file), entry) : "";
   }
   catch (const Error&)
   {
@@ -73,6 +71,10 @@ bool is_beside(const std::string& path)
 void FrameIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
   Notices& notices, Progress& progress)
 {
+  if (options.format == nullptr)
+  {
+    throw Error("expected the format of the files in the options, got none");
+  }
   std::vector<std::string> dumps = distinct(files);
   if (!std::ranges::all_of(dumps, is_beside))
   {

@@ -21,8 +21,8 @@ namespace granular
 /// What is the user's word.
 struct IndexOptions
 {
-  const FileFormat* format = &dump_format(); ///< of the files
-  std::vector<std::string> column_names;     ///< of binary files that do not name their columns
+  const FileFormat* format = nullptr;    ///< of the files; must be there
+  std::vector<std::string> column_names = {}; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
   IndexFile index_file = IndexFile::Never;
   int threads = 1; ///< >= 1; what is found does not depend on it

@@ -5,7 +5,7 @@
 #include "granular/base/block.h"
 #include "granular/base/rounding_loss.h"
 #include "granular/base/row_text.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/dump_request.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include "granular/dump/index_bytes.h"
 
 #include "granular/base/hash.h"
-#include "granular/dump/binary_header.h"
 #include "granular/dump/index_archive.h"
 #include "granular/dump/index_claims.h"
 
@@ -202,7 +201,6 @@ using Kinds = std::vector<std::shared_ptr<const FrameKind>>;
 
 Kinds read_kinds(IndexReader& in, FrameKinds& store)
 {
-  const auto layouts = static_cast<std::int32_t>(binary_layouts().size());
   Kinds kinds;
   in.list(kinds,
     [&](std::shared_ptr<const FrameKind>& shared)
@@ -220,7 +218,7 @@ Kinds read_kinds(IndexReader& in, FrameKinds& store)
           in.text(column.name);
           in.flag(column.words);
         });
-      require(layout >= FrameKind::bare && layout < layouts, "a layout of binary dumps");
+      require(layout >= FrameKind::bare, "a layout of frames");
       kind.layout = layout;
       require(!columns.empty() || kind.is_text(), "a column"); // other files have none
       kind.schema = make_schema(columns, kind.is_text());

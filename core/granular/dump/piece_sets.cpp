@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/piece_sets.h"
 
-#include "granular/base/hash.h"
 #include "granular/base/number.h"
-#include "granular/dump/frame_rows.h"
 #include "granular/dump/numbered_name.h"
 
 #include <algorithm>
-#include <bit>
 #include <map>
 #include <set>
-#include <span>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -160,101 +155,19 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
     (2 * shared >= all || (groups.size() == 1 && only_lag(files, groups.begin()->second)));
 }
 
-/// Calls take(rows) for batches of the first rows of a frame, at most so many, with the sinks filled. Rows that cannot be
-/// decoded are left to the reader of the frame. Throws IoError: without the rows nobody can tell pieces from repetitions.
-template <class Take>
-void decode_first(const FileIndex& file, const FrameEntry& entry, std::size_t most,
-  std::span<ColumnSink> sinks, const Take& take)
-{
-  try
-  {
-    const std::unique_ptr<ByteSource> source = open_indexed(file);
-    const std::unique_ptr<FrameRows> rows = open_rows(*source, entry);
-    const std::unique_ptr<RowReader> reader = rows->reader();
-    const std::int64_t step = chunk_extent(entry, std::size_t{ 1 } << 18);
-    for (std::int64_t at = 0; at < extent_of(entry) && most > 0; at += step)
-    {
-      reader->open(at, std::min(at + step, extent_of(entry)));
-      const std::int64_t got = reader->decode(sinks, static_cast<std::int64_t>(most));
-      most -= static_cast<std::size_t>(got);
-      take(static_cast<std::size_t>(got));
-    }
-  }
-  catch (const IoError&)
-  {
-    throw;
-  }
-  catch (const Error&)
-  {
-  }
-  catch (const RowFault&)
-  {
-  }
-}
-
-/// The ids of the first rows of a frame; none if there are none to be had.
-std::vector<std::int64_t> first_ids(const FileIndex& file, const FrameEntry& entry, int column)
-{
-  constexpr std::size_t most = 20'000;
-  std::vector<std::int64_t> ids(most);
-  std::size_t count = 0;
-  ColumnSink sink = { static_cast<std::uint32_t>(column), ColumnSink::Kind::Int64,
-    reinterpret_cast<char*>(ids.data()), sizeof ids[0] };
-  decode_first(file, entry, most, { &sink, 1 }, [&](std::size_t rows) { count += rows; });
-  ids.resize(count);
-  return ids;
-}
-
-/// Numbers that are the same for rows of the same words: of the first rows of a text that has no ids.
-std::vector<std::int64_t> hash_first_rows(const FileIndex& file, const FrameEntry& entry)
-{
-  constexpr std::size_t most_words = 100'000;
-  const std::size_t columns = entry.kind->schema.columns().size();
-  const std::size_t most = std::clamp<std::size_t>(most_words / columns, 1, 1'000);
-  std::vector<std::string_view> words(columns * most);
-  std::vector<ColumnSink> sinks;
-  for (std::size_t i = 0; i < columns; ++i)
-  {
-    sinks.push_back({ static_cast<std::uint32_t>(i), ColumnSink::Kind::Text,
-      reinterpret_cast<char*>(words.data() + i),
-      static_cast<std::ptrdiff_t>(columns * sizeof words[0]) });
-  }
-  std::vector<std::int64_t> hashes;
-  const auto take = [&](std::size_t rows)
-  {
-    for (std::size_t row = hashes.size(), end = row + rows; row < end; ++row)
-    {
-      Hash hash;
-      for (std::size_t i = 0; i < columns; ++i)
-      {
-        const std::string_view word = words[row * columns + i];
-        hash.add(word.data(), word.size());
-        hash.add(" ", 1);
-      }
-      hashes.push_back(std::bit_cast<std::int64_t>(hash.value()));
-    }
-  };
-  decode_first(file, entry, most, sinks, take);
-  return hashes;
-}
-
 /// Whether a frame has particles that were seen before: one of the same id, or, where it has rows of other things, which may
 /// be equal by chance, most rows.
 bool is_seen(const FileIndex& file, const FrameEntry& entry, std::set<std::int64_t>& seen)
 {
-  const int column = entry.kind->schema.find(ColumnRole::Id);
-  const bool others = column < 0 && file.format != &dump_format() && entry.kind->is_text() &&
-    !entry.kind->schema.columns().empty();
-  if (column < 0 && !others)
+  if (!file.format || !file.format->first_rows)
   {
     return false;
   }
-  const std::vector<std::int64_t> keys =
-    others ? hash_first_rows(file, entry) : first_ids(file, entry, column);
+  const FirstRows rows = file.format->first_rows(file, entry);
   const auto again =
-    std::ranges::count_if(keys, [&](std::int64_t key) { return seen.contains(key); });
-  seen.insert(keys.begin(), keys.end());
-  return others ? 2 * again > std::ssize(keys) : again > 0;
+    std::ranges::count_if(rows.keys, [&](std::int64_t key) { return seen.contains(key); });
+  seen.insert(rows.keys.begin(), rows.keys.end());
+  return rows.are_ids ? again > 0 : 2 * again > std::ssize(rows.keys);
 }
 
 /// Whether several files have the same particle in the first frame in which they have any: a run that

@@ -4,7 +4,7 @@
 
 #include "granular/base/communicator.h"
 #include "granular/base/executor.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/dump_frame.h"
 
 #include <cstdint>
 
@@ -18,7 +18,7 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Wher
 
 /// The same for a frame whose rows are spread over the ranks, who all call this: sorts the rows of all,
 /// those of the same id by rank and then as they were, and leaves rank r of n with part r of n of them
-/// (begin_of_part in exchange_rows), so that the ranks one after the other hold what one process would. All ranks
+/// (begin_of_part in shares), so that the ranks one after the other hold what one process would. All ranks
 /// have the same arrays, also those without rows; texts get the words of all ranks. Without ids
 /// nothing moves, and each rank gets the notice. Throws on all ranks (see agree); the frame is lost then.
 /// Needs memory for one more copy of the largest block, and some 40 bytes a row.

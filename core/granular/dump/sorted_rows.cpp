@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/sorted_rows.h"
 
-#include "granular/dump/exchange_rows.h"
+#include "granular/base/shares.h"
 #include "granular/dump/row_values.h"
 #include "granular/dump/sort_rows.h"
 #include "granular/dump/text_dictionary.h"

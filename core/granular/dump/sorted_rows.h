@@ -4,7 +4,7 @@
 
 #include "granular/base/communicator.h"
 #include "granular/base/executor.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/dump_frame.h"
 #include "granular/dump/frame_plan.h"
 
 #include <string>

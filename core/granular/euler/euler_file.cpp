@@ -121,7 +121,10 @@ bool look_at(const ByteSource& source)
 
 const FileFormat& euler_format() noexcept
 {
-  static const FileFormat format = { "a file of Euler cells", &index_euler, &name_steps, &is_one_frame };
+  static constexpr FileFormat format = { .name = "a file of Euler cells",
+    .index = &index_euler,
+    .complete = &name_steps,
+    .fits = &is_one_frame };
   return format;
 }
 

@@ -3,6 +3,7 @@
 
 #include "granular/base/number.h"
 #include "granular/dump/file_index.h"
+#include "granular/dump/first_rows.h"
 #include "granular/dump/numbered_name.h"
 #include "granular/dump/text_dump.h"
 #include "granular/local/data_bonds.h"
@@ -297,7 +298,11 @@ void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
 
 const FileFormat& local_format() noexcept
 {
-  static constexpr FileFormat format = { "a dump of local data", index_local, complete_pieces, local_fits };
+  static constexpr FileFormat format = { .name = "a dump of local data",
+    .index = index_local,
+    .complete = complete_pieces,
+    .fits = local_fits,
+    .first_rows = find_first_rows };
   return format;
 }
 

@@ -4,7 +4,7 @@
 
 #include "granular/base/block.h"
 #include "granular/base/progress.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/dump_frame.h"
 #include "granular/packing/packing.h"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "granular/base/box.h"
 #include "granular/base/progress.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/dump_frame.h"
 #include "granular/packing/radii.h"
 
 #include <cstdint>

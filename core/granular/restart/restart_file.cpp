@@ -180,7 +180,10 @@ bool looks_like_restart(const ByteSource& source)
 
 const FileFormat& restart_format() noexcept
 {
-  static constexpr FileFormat format = { "a restart file", &index_restart, &pass_over_parts, &header_fits };
+  static constexpr FileFormat format = { .name = "a restart file",
+    .index = &index_restart,
+    .complete = &pass_over_parts,
+    .fits = &header_fits };
   return format;
 }
 

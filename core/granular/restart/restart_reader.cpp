@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/restart_reader.h"
 
-#include "granular/dump/exchange_rows.h"
+#include "granular/base/shares.h"
 #include "granular/dump/point_loss.h"
 #include "granular/restart/bond_frame.h"
 #include "granular/restart/collect_bonds.h"

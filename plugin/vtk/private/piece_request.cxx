@@ -2,7 +2,7 @@
 #include "piece_request.h"
 
 #include "granular/base/archive.h"
-#include "granular/dump/exchange_rows.h"
+#include "granular/base/shares.h"
 
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"

@@ -26,7 +26,7 @@ struct vtkGranularSeriesReader::Internals
   using Self = vtkGranularSeriesReader;
 
   std::vector<std::string> FileNames;
-  const granular::FileFormat* Format = &granular::dump_format();
+  const granular::FileFormat* Format = nullptr; // set by the constructors of readers
   std::vector<std::string> ColumnNames; ///< for files that do not name their columns
   granular::FrameIndex Index;
   std::vector<std::string> IndexedNames; ///< what Index was made from
