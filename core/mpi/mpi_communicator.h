@@ -2,7 +2,7 @@
 #ifndef mpi_mpi_communicator_h
 #define mpi_mpi_communicator_h
 
-#include "granular/base/communicator.h"
+#include "granular/parallel/communicator.h"
 
 #include <mpi.h>
 

@@ -2,8 +2,8 @@
 #ifndef mpi_mpi_file_h
 #define mpi_mpi_file_h
 
-#include "granular/base/byte_sink.h"
-#include "granular/base/communicator.h"
+#include "granular/bytes/byte_sink.h"
+#include "granular/parallel/communicator.h"
 
 #include <mpi.h>
 

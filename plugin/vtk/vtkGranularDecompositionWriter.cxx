@@ -9,7 +9,7 @@
 #include "private/writer.h"
 
 #include "granular/decomposition/decomposition_text.h"
-#include "granular/dump/dump_format.h"
+#include "granular/dump/write/dump_format.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"

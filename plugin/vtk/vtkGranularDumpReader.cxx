@@ -9,10 +9,10 @@
 #include "private/piece_request.h"
 #include "private/series_reader.h"
 
-#include "granular/base/archive.h"
-#include "granular/base/words.h"
-#include "granular/dump/dump_files.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/common/archive.h"
+#include "granular/common/words.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/dump/read/dump_reader.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"

@@ -4,7 +4,7 @@
 #include "private/rows_file.h"
 #include "private/text_of.h"
 
-#include "granular/base/words.h"
+#include "granular/common/words.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"

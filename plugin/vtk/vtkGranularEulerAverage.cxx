@@ -11,9 +11,9 @@
 #include "private/processes.h"
 #include "private/text_of.h"
 
-#include "granular/base/number_print.h"
 #include "granular/euler/average.h"
 #include "granular/euler/time_average.h"
+#include "granular/numbers/number_print.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"

@@ -6,8 +6,8 @@
 #include "private/whole_file.h"
 #include "private/writer.h"
 
-#include "granular/base/compression.h"
-#include "granular/dump/dump_format.h"
+#include "granular/bytes/compression.h"
+#include "granular/dump/write/dump_format.h"
 #include "granular/euler/euler_text.h"
 
 #include "vtkDataObject.h"

@@ -9,13 +9,13 @@
 #include "private/processes.h"
 #include "private/text_of.h"
 
-#include "granular/base/archive.h"
-#include "granular/base/number_print.h"
-#include "granular/base/words.h"
-#include "granular/dump/point_forms.h"
-#include "granular/dump/shared_header.h"
+#include "granular/common/archive.h"
+#include "granular/common/words.h"
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
+#include "granular/numbers/number_print.h"
+#include "granular/particles/point_forms.h"
+#include "granular/particles/shared_header.h"
 
 #include "vtkCellData.h"
 #include "vtkDemandDrivenPipeline.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench.h"
 
-#include "granular/base/executor.h"
-#include "granular/base/row_text.h"
+#include "granular/parallel/executor.h"
+#include "granular/text/row_text.h"
 
 #include <algorithm>
 #include <cstdio>

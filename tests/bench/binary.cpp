@@ -4,7 +4,7 @@
 #include "dump_frame.h"
 #include "dump_text.h"
 
-#include "granular/dump/frame_rows.h"
+#include "granular/dump/formats/frame_rows.h"
 
 #include <algorithm>
 #include <cstring>

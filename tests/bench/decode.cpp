@@ -3,7 +3,7 @@
 #include "bench.h"
 #include "dump_text.h"
 
-#include "granular/base/row_text.h"
+#include "granular/text/row_text.h"
 
 #include <cstring>
 #include <limits>

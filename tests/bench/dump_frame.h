@@ -5,9 +5,9 @@
 
 #include "dump_text.h"
 
-#include "granular/dump/dump_files.h"
-#include "granular/dump/dump_reader.h"
-#include "granular/dump/frame_index.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/dump/read/dump_reader.h"
+#include "granular/frames/frame_index.h"
 
 #include <cstddef>
 #include <cstdint>

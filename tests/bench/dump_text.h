@@ -3,8 +3,8 @@
 #ifndef tests_bench_dump_text_h
 #define tests_bench_dump_text_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/row_text.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/text/row_text.h"
 
 #include <cstddef>
 #include <cstdint>

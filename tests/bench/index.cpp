@@ -3,9 +3,9 @@
 #include "bench.h"
 #include "dump_text.h"
 
-#include "granular/dump/dump_files.h"
-#include "granular/base/line_scan.h"
-#include "granular/dump/frame_index.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/frames/frame_index.h"
+#include "granular/text/line_scan.h"
 
 #include <algorithm>
 #include <cstring>

@@ -4,8 +4,8 @@
 #include "bench.h"
 #include "local_read.h"
 
-#include "granular/base/block_pool.h"
 #include "granular/local/join.h"
+#include "granular/memory/block_pool.h"
 
 #include <algorithm>
 #include <cmath>

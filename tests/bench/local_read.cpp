@@ -4,9 +4,9 @@
 #include "bench.h"
 #include "dump_frame.h"
 
-#include "granular/base/block_pool.h"
 #include "granular/local/local_file.h"
 #include "granular/local/local_reader.h"
+#include "granular/memory/block_pool.h"
 
 #include <cmath>
 #include <memory>

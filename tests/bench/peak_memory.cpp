@@ -2,9 +2,9 @@
 // bench_peak_memory FILE: reads the first frame of a dump as the reader does, into double points and
 // all arrays, and prints two numbers: the bytes of the arrays, and the most memory that this
 // process ever had [KiB].
-#include "granular/dump/dump_files.h"
-#include "granular/dump/dump_reader.h"
-#include "granular/dump/frame_index.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/dump/read/dump_reader.h"
+#include "granular/frames/frame_index.h"
 
 #include <cstdio>
 #include <exception>

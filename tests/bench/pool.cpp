@@ -3,8 +3,8 @@
 // and both against memory that was touched before.
 #include "bench.h"
 
-#include "granular/base/block.h"
-#include "granular/base/block_pool.h"
+#include "granular/memory/block.h"
+#include "granular/memory/block_pool.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -9,8 +9,8 @@
 #include "bench.h"
 #include "dump_text.h"
 
-#include "granular/dump/dump_files.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/dump/read/dump_reader.h"
 
 #include <algorithm>
 #include <array>

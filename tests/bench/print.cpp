@@ -4,7 +4,7 @@
 #include "bench.h"
 #include "dump_text.h"
 
-#include "granular/base/number_print.h"
+#include "granular/numbers/number_print.h"
 
 #include <charconv>
 #include <cstdio>

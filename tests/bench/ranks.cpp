@@ -4,7 +4,7 @@
 #include "dump_frame.h"
 #include "helper.h"
 
-#include "granular/base/executor.h"
+#include "granular/parallel/executor.h"
 
 #include <cstdlib>
 

@@ -3,7 +3,7 @@
 // as it is asked for. Questions: check|time RANKS plain|sorted.
 #include "dump_frame.h"
 
-#include "granular/base/block_pool.h"
+#include "granular/memory/block_pool.h"
 #include "mpi/mpi_communicator.h"
 
 #include <algorithm>

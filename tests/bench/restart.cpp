@@ -5,8 +5,8 @@
 
 #include "../restart/restart_builder.h"
 
-#include "granular/base/block_pool.h"
-#include "granular/base/byte_source.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/memory/block_pool.h"
 #include "granular/restart/restart_layout.h"
 #include "granular/restart/restart_reader.h"
 

@@ -5,8 +5,8 @@
 #include "dump_frame.h"
 #include "dump_text.h"
 
-#include "granular/base/block_pool.h"
-#include "granular/base/executor.h"
+#include "granular/memory/block_pool.h"
+#include "granular/parallel/executor.h"
 
 #include <algorithm>
 #include <fstream>

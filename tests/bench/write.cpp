@@ -4,7 +4,7 @@
 #include "bench.h"
 #include "dump_text.h"
 
-#include "granular/dump/dump_writer.h"
+#include "granular/dump/write/dump_writer.h"
 
 #include <cstdio>
 #include <cstdlib>

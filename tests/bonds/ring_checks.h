@@ -3,8 +3,8 @@
 #ifndef granular_tests_bonds_ring_checks_h
 #define granular_tests_bonds_ring_checks_h
 
-#include "granular/base/communicator.h"
 #include "granular/bonds/exchange_packing.h"
+#include "granular/parallel/communicator.h"
 
 #include "made_particles.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in grids and in other subdomains, against every particle compared with every face.
 #include "granular/decomposition/count_particles.h"
-#include "../base/exact_units.h"
+#include "../support/exact_units.h"
 #include "counted_frames.h"
 #include "made_subdomains.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #ifndef granular_tests_decomposition_grid_files_h
 #define granular_tests_decomposition_grid_files_h
 
-#include "../dump/memory_file.h"
+#include "../support/memory_file.h"
 
 #include "granular/decomposition/decomposition_file.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kept indices of decompositions: those of many cells are used, those with changed numbers show nothing else. See
-// ../dump/index_damage.h.
-#include "../dump/index_damage.h"
+// ../support/index_damage.h.
+#include "../support/index_damage.h"
 #include "grid_files.h"
 
 #include <string>

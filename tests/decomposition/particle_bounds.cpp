@@ -4,7 +4,7 @@
 #include "counted_frames.h"
 #include "made_subdomains.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "granular/decomposition/process_grid.h"
 #include "made_subdomains.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // What is said of the files of tests/data/bad, to the letter: this is what a user sees.
 #include "../support/dumps.h"
 
-#include "granular/dump/dump_files.h"
+#include "granular/dump/formats/dump_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary dumps of every layout and byte order, put together byte by byte.
-#include "granular/dump/dump_files.h"
-#include "granular/dump/binary_dump.h"
+#include "granular/dump/formats/binary_dump.h"
+#include "granular/dump/formats/dump_files.h"
 
-#include "granular/dump/binary_header.h"
-#include "granular/dump/frame_index.h"
+#include "granular/dump/formats/binary_header.h"
+#include "granular/frames/frame_index.h"
 
 #include "../support/byte_source_packing.h"
 #include "../support/quad.h"

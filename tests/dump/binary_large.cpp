@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of more than 2^31 values and files of more than 4 GiB: sparse files, whose holes read as
 // zeros.
-#include "granular/dump/dump_files.h"
-#include "granular/dump/frame_index.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/frames/frame_index.h"
 
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"

@@ -2,7 +2,7 @@
 // Compressed dumps with any of their bytes changed: an error that names the file and the byte, or what
 // was there before, or a word that it could not be checked; never other numbers in silence.
 #include "../support/byte_source_packing.h"
-#include "series.h"
+#include "../support/series.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every call of the system that a reader makes fails in turn, once or for ever. The reference is the run in which none does.
-#include "granular/dump/dump_files.h"
 #include "granular/decomposition/decomposition_file.h"
+#include "granular/dump/formats/dump_files.h"
 #include "granular/euler/euler_file.h"
 #include "granular/local/local_columns.h"
 #include "granular/local/local_file.h"
@@ -11,7 +11,7 @@
 
 #include "../support/failing_calls.h"
 #include "../support/frame_content.h"
-#include "series.h"
+#include "../support/series.h"
 
 #include <gtest/gtest.h>
 

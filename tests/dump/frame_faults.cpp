@@ -5,7 +5,7 @@
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
 #include "../support/frame_content.h"
-#include "series.h"
+#include "../support/series.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
 #include "../support/frame_content.h"
-#include "series.h"
+#include "../support/series.h"
 
-#include "granular/base/words.h"
+#include "granular/common/words.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Files above 4 GiB, made as they are read: a row repeated without end between real frames.
 #include "../support/dumps.h"
 
-#include "granular/dump/dump_files.h"
+#include "granular/dump/formats/dump_files.h"
 
 #include <gtest/gtest.h>
 

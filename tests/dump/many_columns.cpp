@@ -2,12 +2,12 @@
 // Columns cost time in proportion to their number, when they are read and when they are written.
 #include "../support/binary_dumps.h"
 #include "../support/dump_writing.h"
-#include "series.h"
+#include "../support/series.h"
 
 #include "../support/counting_source.h"
 #include "../support/many_columns.h"
 
-#include "granular/dump/dump_files.h"
+#include "granular/dump/formats/dump_files.h"
 
 #include <gtest/gtest.h>
 

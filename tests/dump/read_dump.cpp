@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a frame becomes: arrays, points, rows chosen, rows sorted.
-#include "granular/dump/dump_files.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/dump/read/dump_reader.h"
 
 #include "../support/dumps.h"
 

@@ -3,7 +3,7 @@
 #include "../../plugin/vtk/private/arrays.h"
 #include "../../plugin/vtk/private/pool.h"
 
-#include "granular/base/block_pool.h"
+#include "granular/memory/block_pool.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of tests/data/good: runs that LAMMPS and LIGGGHTS wrote in many forms at once. All forms
 // must show the same particles, as far as their digits go.
-#include "granular/dump/dump_files.h"
-#include "granular/dump/frame_index.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/frames/frame_index.h"
 
 #include "../support/quad.h"
 #include "../support/dumps.h"

@@ -4,7 +4,7 @@
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
 
-#include "granular/dump/point_loss.h"
+#include "granular/particles/point_loss.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include "../support/dumps.h"
 #include "../support/reference_dump.h"
 
-#include "granular/dump/encode_header.h"
-#include "granular/dump/row_batches.h"
+#include "granular/dump/write/encode_header.h"
+#include "granular/dump/write/row_batches.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
 
-#include "granular/dump/column_plan.h"
+#include "granular/dump/write/column_plan.h"
 
 #include <gtest/gtest.h>
 

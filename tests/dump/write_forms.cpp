@@ -4,8 +4,8 @@
 #include "../support/dumps.h"
 #include "../support/reference_dump.h"
 
-#include "granular/dump/atom_rows.h"
-#include "granular/dump/row_buffer.h"
+#include "granular/dump/write/atom_rows.h"
+#include "granular/dump/write/row_buffer.h"
 
 #include <gtest/gtest.h>
 

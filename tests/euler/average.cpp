@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "made_grains.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include "../support/thread_ranks.h"
 

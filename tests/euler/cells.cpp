@@ -2,7 +2,7 @@
 // Cells, packed as dump euler/vtk packs them, and gathered from processes that are threads.
 #include "granular/euler/cells.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include "../support/thread_ranks.h"
 #include "gathered_cells.h"

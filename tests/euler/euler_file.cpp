@@ -4,9 +4,9 @@
 
 #include "../support/byte_source_packing.h"
 
-#include "granular/base/byte_source_unpack.h"
+#include "granular/bytes/byte_source_unpack.h"
 #include "granular/decomposition/decomposition_file.h"
-#include "granular/dump/named_steps.h"
+#include "granular/frames/named_steps.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #ifndef granular_tests_euler_euler_files_h
 #define granular_tests_euler_euler_files_h
 
-#include "../dump/memory_file.h"
+#include "../support/memory_file.h"
 
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"

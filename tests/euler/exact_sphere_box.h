@@ -3,7 +3,7 @@
 #define granular_tests_euler_exact_sphere_box_h
 
 #include "../support/quad.h"
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 #include <cmath>

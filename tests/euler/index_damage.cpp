@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kept indices of Euler cells with any of their numbers changed: see ../dump/index_damage.h.
-#include "../dump/index_damage.h"
+// Kept indices of Euler cells with any of their numbers changed: see ../support/index_damage.h.
+#include "../support/index_damage.h"
 
 #include "granular/euler/euler_file.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/reproducible_sum.h"
+#include "granular/geometry/reproducible_sum.h"
 
 #include "exact_sum.h"
 

@@ -2,7 +2,7 @@
 // Averages over time against those of the particles of all frames at once, one by one with exact sums.
 #include "made_grains.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 #include "granular/euler/time_average.h"
 
 #include <gtest/gtest.h>

@@ -4,10 +4,10 @@
 // the rows it says, and no more memory than the bytes are worth.
 #include "dump_checks.h"
 
-#include "granular/base/words.h"
-#include "granular/dump/binary_dump.h"
-#include "granular/dump/dump_files.h"
-#include "granular/dump/file_index.h"
+#include "granular/common/words.h"
+#include "granular/dump/formats/binary_dump.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/frames/file_index.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/decomposition/subdomains.h"
 #include "granular/decomposition/voxels.h"
-#include "granular/dump/file_index.h"
+#include "granular/frames/file_index.h"
 
 #include <algorithm>
 #include <cstddef>

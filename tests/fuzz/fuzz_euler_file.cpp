@@ -4,9 +4,9 @@
 // was always as long.
 #include "dump_checks.h"
 
-#include "granular/dump/file_index.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"
+#include "granular/frames/file_index.h"
 
 #include <cstddef>
 #include <cstdint>

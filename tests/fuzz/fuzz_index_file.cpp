@@ -2,9 +2,9 @@
 // The bytes of an index file, as they are, and again with a head and a hash that make a reader
 // believe the rest. Whatever they are, there is an Error, or files in which all is within bounds,
 // and which come back as they are when they are written and read again.
-#include "granular/base/hash.h"
-#include "granular/dump/binary_header.h"
-#include "granular/dump/index_bytes.h"
+#include "granular/common/hash.h"
+#include "granular/dump/formats/binary_header.h"
+#include "granular/frames/index_bytes.h"
 
 #include <cstddef>
 #include <cstdint>

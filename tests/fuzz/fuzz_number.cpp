@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A word: parse_double against strtod, every path of decode_rows against parse_double and
 // parse_int64, and the number printed again against snprintf.
-#include "granular/base/number.h"
-#include "granular/base/number_print.h"
-#include "granular/base/row_text.h"
+#include "granular/numbers/number.h"
+#include "granular/numbers/number_print.h"
+#include "granular/text/row_text.h"
 
 #include <algorithm>
 #include <bit>

@@ -4,9 +4,9 @@
 // decodes the rows alike.
 #include "dump_checks.h"
 
-#include "granular/base/line_scan.h"
-#include "granular/base/row_text.h"
-#include "granular/dump/text_dump.h"
+#include "granular/dump/formats/text_dump.h"
+#include "granular/text/line_scan.h"
+#include "granular/text/row_text.h"
 
 #include <algorithm>
 #include <cmath>

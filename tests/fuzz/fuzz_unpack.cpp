@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A compressed file from memory. Whatever the bytes are, there is an Error or content; the content
 // is the same from the start, from anywhere, and from restart points that another source found.
-#include "granular/base/byte_source.h"
-#include "granular/base/error.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/error.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -6,13 +6,13 @@
 #include "dump_checks.h"
 #include "local_checks.h"
 
-#include "granular/dump/dump_files.h"
-#include "granular/base/block_pool.h"
 #include "granular/decomposition/decomposition_file.h"
-#include "granular/dump/frame_index.h"
+#include "granular/dump/formats/dump_files.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"
+#include "granular/frames/frame_index.h"
 #include "granular/local/local_file.h"
+#include "granular/memory/block_pool.h"
 #include "granular/restart/restart_file.h"
 #include "granular/restart/restart_reader.h"
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Who may include whom.
 
-    core/granular/base     the C++ standard library; the system only where SYSTEM_HEADERS says so
-    core/granular/SYSTEM   base, its own folder, and what SYSTEM_MAY_USE says
-    core/mpi               base, its own folder, mpi.h
+    core/granular/ROOM     its own folder, the rooms that ROOMS says, the C++ standard library; the
+                           system only where SYSTEM_HEADERS says so; no more files than MOST_FILES
+    core/mpi               what ROOMS says, its own folder, mpi.h
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/
     plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
@@ -31,17 +31,42 @@ STANDARD = set("""
 # Headers that are neither ours nor of the C++ standard library, and the files that may have them.
 _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
-    (_OPERATING_SYSTEM, r"core/granular/base/byte_(source(_\w+)?|sink)\.cpp"),
-    (r"(zlib|zstd|zstd_errors)\.h", r"core/granular/base/(byte_source(_\w+)?|compression)\.cpp"),
-    (r"(sched|unistd)\.h", r"core/granular/base/executor\.cpp"),
-    (r"sys/mman\.h", r"core/granular/base/mapping\.cpp"),
-    (r"immintrin\.h", r"core/granular/base/(line_scan|row_text|value_range)\w*\.(cpp|h|inc)"),
+    (_OPERATING_SYSTEM, r"core/granular/bytes/byte_(source(_\w+)?|sink)\.cpp"),
+    (r"(zlib|zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source(_\w+)?|compression)\.cpp"),
+    (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
+    (r"sys/mman\.h", r"core/granular/memory/mapping\.cpp"),
+    (r"immintrin\.h", r"core/granular/(text|memory)/(line_scan|row_text|value_range)\w*\.(cpp|h|inc)"),
     (r"mpi\.h", r"core/mpi/.*"),
 )
 
-# Beside base/ and itself. A system that is not here may use dump/ (frames and columns of particles).
-SYSTEM_MAY_USE = {"dump": (), "restart": ("dump", "bonds", "local")}
-SYSTEM_MAY_USE_DEFAULT = ("dump",)
+# The rooms below core/granular/, and which others each may include: those above it in this list alone.
+ROOMS = {room: words.split() for room, words in (
+    ("common", ""),
+    ("columns", "common"),
+    ("numbers", "common"),
+    ("bytes", "common"),
+    ("memory", "common"),
+    ("geometry", "common columns"),
+    ("parallel", "common bytes"),
+    ("text", "common numbers bytes parallel"),
+    ("vtk_files", "common numbers bytes geometry"),
+    ("frames", "common columns numbers bytes geometry parallel text"),
+    ("particles", "common columns numbers memory geometry parallel frames"),
+    ("sorting", "common memory parallel particles"),
+    ("dump/formats", "common numbers bytes text frames"),
+    ("dump/read", "common columns numbers bytes memory geometry parallel text frames particles sorting "
+                  "dump/formats"),
+    ("dump/write", "common numbers bytes geometry parallel frames particles sorting"),
+    ("packing", "common memory geometry parallel particles"),
+    ("bonds", "common numbers geometry"),
+    ("decomposition", "common numbers bytes memory geometry parallel vtk_files frames particles"),
+    ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles"),
+    ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
+              "dump/read"),
+    ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
+)}
+MPI_MAY_USE = ["common", "bytes", "parallel"]
+MOST_FILES = 40
 
 SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")
 
@@ -67,16 +92,30 @@ def core_complaint(path, bracket, name):
             return f"<{name}> is not for this file (see SYSTEM_HEADERS in tests/lint/layering.py)"
         return f"<{name}> is not a header of the C++ standard library"
     if path.startswith("core/mpi/"):
-        allowed = ("granular/base/", "mpi/")
+        allowed = [f"granular/{room}/" for room in MPI_MAY_USE] + ["mpi/"]
     else:
-        system = path.split("/")[2]
-        systems = ["base", system]
-        if system != "base":
-            systems += SYSTEM_MAY_USE.get(system, SYSTEM_MAY_USE_DEFAULT)
-        allowed = tuple(f"granular/{one}/" for one in dict.fromkeys(systems))
-    if name.startswith(allowed):
+        own = room_of(path)
+        if own is None:
+            return "is in no room of the core (see ROOMS in tests/lint/layering.py)"
+        allowed = [f"granular/{room}/" for room in ROOMS[own] + [own]]
+    if name.startswith(tuple(allowed)):
         return None
     return f'"{name}": only {" ".join(allowed)} may be included here, by their whole path'
+
+
+def room_of(path):
+    """The room of a file of the core, or None."""
+    folder = path.removeprefix("core/granular/").rpartition("/")[0]
+    return folder if folder in ROOMS else None
+
+
+def check_rooms(root):
+    """A room that a newcomer can still look over."""
+    rooms = [room_of(path) for path in tree.files(root) if path.startswith("core/granular/")]
+    for room in ROOMS:
+        if rooms.count(room) > MOST_FILES:
+            yield (f"core/granular/{room}", 0,
+                   f"expected at most {MOST_FILES} files in a room, got {rooms.count(room)}")
 
 
 def check_core(root, path):
@@ -147,6 +186,7 @@ def check_sample(root, path):
 
 
 def check(root):
+    yield from check_rooms(root)
     for path in tree.files(root):
         if re.match(r"core/(granular|mpi)/.*\.(h|cpp|inc)$", path):
             yield from check_core(root, path)

@@ -46,26 +46,38 @@ class Layering(unittest.TestCase):
     def test_core(self):
         self.assertEqual(found(
             layering.check,
-            core__granular__base__a_dot_h=
-            '#include <vector>\n#include "granular/base/b.h"\n#include "granular/dump/d.h"\n'
+            core__granular__bytes__a_dot_h=
+            '#include <vector>\n#include "granular/bytes/b.h"\n#include "granular/text/d.h"\n'
             '// #include "vtkObject.h"\n#include "vtkObject.h"\n#include <unistd.h>\n',
-            core__granular__base__byte_source_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
-            core__granular__base__byte_source_x_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
-            core__granular__base__byte_source_x_dot_h="#include <zstd.h>\n",
-            core__granular__base__byte_sink_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
-            core__granular__base__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
-            core__granular__base__mapping_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
-            core__granular__base__executor_dot_cpp="#include <sched.h>\n",
-            core__granular__dump__d_dot_cpp='#include "granular/euler/e.h"\n#include "d.h"\n',
-            core__granular__euler__e_dot_cpp='#include "granular/dump/d.h"\n#include <mpi.h>\n',
+            core__granular__bytes__byte_source_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
+            core__granular__bytes__byte_source_x_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
+            core__granular__bytes__byte_source_x_dot_h="#include <zstd.h>\n",
+            core__granular__bytes__byte_sink_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
+            core__granular__bytes__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
+            core__granular__memory__mapping_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
+            core__granular__parallel__executor_dot_cpp="#include <sched.h>\n",
+            core__granular__dump__read__r_dot_cpp='#include "granular/dump/formats/f.h"\n'
+            '#include "granular/dump/write/w.h"\n#include "r.h"\n',
+            core__granular__dump__d_dot_cpp='#include "granular/common/c.h"\n',
+            core__granular__euler__e_dot_cpp='#include "granular/frames/f.h"\n#include <mpi.h>\n',
             core__granular__restart__r_dot_cpp='#include "granular/bonds/b.h"\n',
-            core__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/base/b.h"\n'
-            '#include "granular/dump/d.h"\n'), [
-                "core/granular/base/a.h:3", "core/granular/base/a.h:5", "core/granular/base/a.h:6",
-                "core/granular/base/byte_sink.cpp:2", "core/granular/base/byte_source_x.h:1",
-                "core/granular/base/compression.cpp:2", "core/granular/base/mapping.cpp:2",
-                "core/granular/dump/d.cpp:1", "core/granular/dump/d.cpp:2",
-                "core/granular/euler/e.cpp:2", "core/mpi/m.cpp:3"])
+            core__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/bytes/b.h"\n'
+            '#include "granular/frames/d.h"\n'), [
+                "core/granular/bytes/a.h:3", "core/granular/bytes/a.h:5", "core/granular/bytes/a.h:6",
+                "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_x.h:1",
+                "core/granular/bytes/compression.cpp:2", "core/granular/dump/d.cpp:1",
+                "core/granular/dump/read/r.cpp:2", "core/granular/dump/read/r.cpp:3",
+                "core/granular/euler/e.cpp:2", "core/granular/memory/mapping.cpp:2", "core/mpi/m.cpp:3"])
+
+    def test_rooms(self):
+        files = {f"core__granular__text__a{i}_dot_h": "" for i in range(layering.MOST_FILES)}
+        self.assertEqual(found(layering.check, **files), [])
+        self.assertEqual(found(layering.check, **files, core__granular__text__b_dot_h=""),
+                         ["core/granular/text:0"])
+        above = []
+        for room, may_use in layering.ROOMS.items():
+            self.assertLessEqual(set(may_use), set(above), room)  # so there is no cycle
+            above.append(room)
 
     def test_vtk_header(self):
         self.assertEqual(found(
@@ -74,14 +86,14 @@ class Layering(unittest.TestCase):
             '#include "vtkGranularModule.h" // for the export macro\n'
             '#include "vtkPolyDataAlgorithm.h"\n'
             '#include <string> // for std::string\n#include <vector>\n'
-            '#include "granular/base/a.h"\n#include <mpi.h>\n#include "vtkNew.h" // for vtkNew\n'
+            '#include "granular/common/a.h"\n#include <mpi.h>\n#include "vtkNew.h" // for vtkNew\n'
             'class VTKGRANULAR_EXPORT vtkGranularA : public vtkPolyDataAlgorithm\n{\n};\n'), [
                 f"plugin/vtk/vtkGranularA.h:{line}" for line in (4, 5, 6, 7)])
 
     def test_vtk_source(self):
         self.assertEqual(found(
             layering.check,
-            plugin__vtk__a_dot_cxx='#include "granular/base/a.h"\n#include "vtkNew.h"\n'
+            plugin__vtk__a_dot_cxx='#include "granular/common/a.h"\n#include "vtkNew.h"\n'
             '#include "private/guard.h"\n#include <string>\n#include "vtkSMProxy.h"\n'
             '#include "vtkPVSession.h"\n#include <QWidget>\n#include "pqApplicationCore.h"\n'
             '#include <mpi.h>\n#include "vtkSMPTools.h"\n#include "mpi/m.h"\n',
@@ -91,10 +103,10 @@ class Layering(unittest.TestCase):
     def test_paraview(self):
         self.assertEqual(found(
             layering.check,
-            plugin__views__vtkGranularA_dot_cxx='#include "granular/base/a.h"\n'
+            plugin__views__vtkGranularA_dot_cxx='#include "granular/common/a.h"\n'
             '#include "vtkPVView.h"\n',
             plugin__servermanager__vtkSMA_dot_h='#include "vtkSMSourceProxy.h"\n#include <string>\n'
-            '#include "granular/base/a.h"\n#include "vtkGranularA.h"\n#include <QWidget>\n'
+            '#include "granular/common/a.h"\n#include "vtkGranularA.h"\n#include <QWidget>\n'
             '#include "pqCore.h"\n#include <mpi.h>\n'), [
                 f"plugin/servermanager/vtkSMA.h:{line}" for line in (3, 5, 6, 7)] + [
                     "plugin/views/vtkGranularA.cxx:1"])
@@ -112,7 +124,7 @@ class Messages(unittest.TestCase):
     def test_texts(self):
         self.assertEqual(found(
             messages.check,
-            core__granular__base__a_dot_cpp=
+            core__granular__common__a_dot_cpp=
             'void f()\n{\n'
             '  throw FormatError("expected a number, got " + x, where);\n'
             '  throw FormatError("Expected a number", where);\n'
@@ -124,7 +136,7 @@ class Messages(unittest.TestCase):
             '  // throw Error("Not code.");\n'
             '  throw UnsupportedError(\n    "a"\n    "b.");\n'
             '}\n'), [
-                f"core/granular/base/a.cpp:{line}" for line in (13, 4, 5, 7, 8)])
+                f"core/granular/common/a.cpp:{line}" for line in (13, 4, 5, 7, 8)])
 
 
 class Sizes(unittest.TestCase):
@@ -183,7 +195,7 @@ int h(int n = 1, C c = {})
             sizes.check,
             core__granular__a_dot_cpp=SPDX + function(80) + function(81),
             core__granular__b_dot_cpp="\n" * 401,
-            core__granular__base__column_dot_cpp="\n" * 401,
+            core__granular__columns__column_dot_cpp="\n" * 401,
             core__granular__c_dot_h="\n" * 201,
             plugin__vtk__a_dot_cxx=function(100) + function(101),
             plugin__vtk__b_dot_cxx="\n" * 601,
@@ -223,7 +235,7 @@ class TypeNames(unittest.TestCase):
     def test_two_of_a_name(self):
         self.assertEqual(found(
             type_names.check,
-            core__granular__base__a_dot_h=
+            core__granular__common__a_dot_h=
             "namespace granular\n{\nstruct Rows\n{\n  struct Part { int a; };\n};\nclass Ahead;\n"
             "template <class T>\nclass Box final : public Base<T> { };\nusing Names = int;\n}\n",
             core__granular__dump__b_dot_h=

@@ -14,7 +14,7 @@ BUDGETS = (
 )
 # Files that are one long table: their own number of lines.
 TABLES = {
-    "core/granular/base/column.cpp": 600,
+    "core/granular/columns/column.cpp": 600,
 }
 
 _SCOPE = re.compile(r"\b(namespace|class|struct|union|enum)\b")

@@ -21,7 +21,7 @@ BANNED = (
      "ends the program of others"),
     (r"core/", r"\b(?:ato(?:f|i|l|ll)|strto(?:f|d|ld|l|ll|ul|ull|imax|umax)|v?f?s?scanf|"
      r"sto(?:f|d|ld|i|l|ll|ul|ull))\s*\(",
-     "depends on the locale: use granular/base/number.h"),
+     "depends on the locale: use granular/numbers/number.h"),
 )
 # Words that mean "not finished"; spelled so that this file does not hold them.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kept indices of local data with any of their numbers changed: see ../dump/index_damage.h.
-#include "../dump/index_damage.h"
+// Kept indices of local data with any of their numbers changed: see ../support/index_damage.h.
+#include "../support/index_damage.h"
 
 #include "../support/frame_content.h"
 #include "local_files.h"

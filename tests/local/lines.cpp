@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/lines.h"
 
-#include "granular/base/block_pool.h"
 #include "granular/local/minimum_image.h"
+#include "granular/memory/block_pool.h"
 
 #include "../support/quad.h"
 #include "text_frames.h"

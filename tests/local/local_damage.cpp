@@ -3,9 +3,9 @@
 // says where, in bounded memory; and the same whether a file was looked at once or while it grew.
 #include "local_files.h"
 
-#include "../dump/memory_file.h"
+#include "../support/memory_file.h"
 
-#include "granular/base/compression.h"
+#include "granular/bytes/compression.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "../support/thread_ranks.h"
 #include "../support/many_columns.h"
 
-#include "granular/dump/dump_files.h"
-#include "granular/base/compression.h"
+#include "granular/bytes/compression.h"
+#include "granular/dump/formats/dump_files.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Bonds of grains: numbers from arithmetic, and each bond against all pairs and their images.
 #include "../support/packings.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 #include "granular/packing/bonds.h"
 #include "granular/packing/packing_plan.h"
 

@@ -2,7 +2,7 @@
 // Pieces, one after the other, are the whole, to the bit; threads change nothing.
 #include "../support/packings.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <gtest/gtest.h>
 

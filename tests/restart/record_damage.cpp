@@ -2,7 +2,7 @@
 // Records that are not what they say: an error with the place, or a frame, but never a crash or memory for what is not there.
 #include "restart_runs.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "../support/counting_source.h"
 
-#include "granular/base/byte_source.h"
+#include "granular/bytes/byte_source.h"
 #include "granular/restart/restart_reader.h"
 
 #include <gtest/gtest.h>

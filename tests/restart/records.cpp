@@ -3,7 +3,7 @@
 #include "restart_runs.h"
 #include "shared_file.h"
 
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/read/dump_reader.h"
 #include "granular/restart/restart_styles.h"
 
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 
-#include "granular/dump/frame_index.h"
+#include "granular/frames/frame_index.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #ifndef granular_tests_restart_restart_runs_h
 #define granular_tests_restart_restart_runs_h
 
-#include "granular/base/byte_source.h"
+#include "granular/bytes/byte_source.h"
 #include "granular/restart/restart_layout.h"
 #include "granular/restart/restart_reader.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "byte_source_packing.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "communicator_checks.h"
 
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 
 #include <gtest/gtest.h>
 

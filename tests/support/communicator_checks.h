@@ -3,7 +3,7 @@
 #ifndef granular_tests_support_communicator_checks_h
 #define granular_tests_support_communicator_checks_h
 
-#include "granular/base/communicator.h"
+#include "granular/parallel/communicator.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #ifndef granular_tests_support_counting_source_h
 #define granular_tests_support_counting_source_h
 
-#include "granular/base/byte_source.h"
+#include "granular/bytes/byte_source.h"
 
 #include <atomic>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #ifndef granular_tests_support_dump_writing_h
 #define granular_tests_support_dump_writing_h
 
-#include "granular/dump/dump_reader.h"
-#include "granular/dump/dump_writer.h"
+#include "granular/dump/read/dump_reader.h"
+#include "granular/dump/write/dump_writer.h"
 
 #include <cstdint>
 #include <functional>

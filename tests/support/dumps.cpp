@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dumps.h"
 
-#include "granular/dump/dump_files.h"
-#include "granular/base/words.h"
-#include "granular/dump/frame_rows.h"
+#include "granular/common/words.h"
+#include "granular/dump/formats/dump_files.h"
+#include "granular/dump/formats/frame_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "dumps.h"
 
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 
 #include <algorithm>
 #include <new>

@@ -2,7 +2,7 @@
 #ifndef granular_tests_support_frame_content_h
 #define granular_tests_support_frame_content_h
 
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/read/dump_reader.h"
 
 #include <cstdint>
 #include <functional>

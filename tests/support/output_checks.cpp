@@ -4,7 +4,7 @@
 #include "dumps.h"
 #include "small_disk.h"
 
-#include "granular/base/byte_sink.h"
+#include "granular/bytes/byte_sink.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "packings.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef granular_tests_support_row_decoding_h
 #define granular_tests_support_row_decoding_h
 
-#include "granular/base/row_text.h"
+#include "granular/text/row_text.h"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sort_checks.h"
 
-#include "granular/dump/sort_rows.h"
+#include "granular/sorting/sort_rows.h"
 
 #include <gtest/gtest.h>
 

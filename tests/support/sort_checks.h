@@ -3,8 +3,8 @@
 #ifndef granular_tests_support_sort_checks_h
 #define granular_tests_support_sort_checks_h
 
-#include "granular/base/communicator.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/read/dump_reader.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
 #include <string>

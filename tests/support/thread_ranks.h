@@ -3,8 +3,8 @@
 #ifndef granular_tests_support_thread_ranks_h
 #define granular_tests_support_thread_ranks_h
 
-#include "granular/base/byte_sink.h"
-#include "granular/base/communicator.h"
+#include "granular/bytes/byte_sink.h"
+#include "granular/parallel/communicator.h"
 
 #include <gtest/gtest.h>
 

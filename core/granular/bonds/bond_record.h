@@ -2,7 +2,7 @@
 #ifndef granular_bonds_bond_record_h
 #define granular_bonds_bond_record_h
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,9 +2,9 @@
 #ifndef granular_bonds_bonded_particles_h
 #define granular_bonds_bonded_particles_h
 
-#include "granular/base/box.h"
 #include "granular/bonds/bond_record.h"
 #include "granular/bonds/pack_fields.h"
+#include "granular/geometry/box.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bonds/exchange_packing.h"
 
-#include "granular/base/number_print.h"
 #include "granular/bonds/pack_values.h"
+#include "granular/numbers/number_print.h"
 
 #include <algorithm>
 

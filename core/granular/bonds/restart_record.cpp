@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bonds/restart_record.h"
 
-#include "granular/base/number_print.h"
 #include "granular/bonds/id_numbers.h"
+#include "granular/numbers/number_print.h"
 
 #include <algorithm>
 #include <bit>

@@ -3,8 +3,8 @@
 #include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/subdomains.h"
 
-#include "granular/base/compensated.h"
-#include "granular/base/number_print.h"
+#include "granular/geometry/compensated.h"
+#include "granular/numbers/number_print.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/count_particles.h"
 
-#include "granular/base/error.h"
-#include "granular/base/number_print.h"
+#include "granular/common/error.h"
 #include "granular/decomposition/slab_finder.h"
 #include "granular/decomposition/subdomain_tree.h"
-#include "granular/dump/absolute_positions.h"
+#include "granular/numbers/number_print.h"
+#include "granular/particles/absolute_positions.h"
 
 #include <algorithm>
 #include <array>

@@ -2,12 +2,12 @@
 #ifndef granular_decomposition_count_particles_h
 #define granular_decomposition_count_particles_h
 
-#include "granular/base/communicator.h"
-#include "granular/base/executor.h"
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 #include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/subdomains.h"
-#include "granular/dump/frame_view.h"
+#include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
+#include "granular/particles/frame_view.h"
 
 #include <cstdint>
 #include <span>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/decomposition_file.h"
 
-#include "granular/base/hash.h"
-#include "granular/base/words.h"
+#include "granular/common/hash.h"
+#include "granular/common/words.h"
 #include "granular/decomposition/decomposition_grid.h"
 #include "granular/decomposition/voxels.h"
 #include "granular/decomposition/vtu_grids.h"
 #include "granular/decomposition/vtu_head.h"
-#include "granular/dump/file_index.h"
-#include "granular/dump/named_steps.h"
+#include "granular/frames/file_index.h"
+#include "granular/frames/named_steps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 #ifndef granular_decomposition_decomposition_file_h
 #define granular_decomposition_decomposition_file_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
 #include "granular/decomposition/subdomains.h"
-#include "granular/dump/file_format.h"
-#include "granular/dump/frame.h"
+#include "granular/frames/file_format.h"
+#include "granular/frames/frame.h"
 
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/decomposition_grid.h"
 
-#include "granular/base/vtk_sections.h"
+#include "granular/vtk_files/vtk_sections.h"
 
 #include <algorithm>
 #include <iterator>

@@ -2,10 +2,10 @@
 #ifndef granular_decomposition_decomposition_grid_h
 #define granular_decomposition_decomposition_grid_h
 
-#include "granular/base/legacy_vtk.h"
-#include "granular/base/vtk_corners.h"
 #include "granular/decomposition/subdomains.h"
 #include "granular/decomposition/voxels.h"
+#include "granular/vtk_files/legacy_vtk.h"
+#include "granular/vtk_files/vtk_corners.h"
 
 #include <array>
 #include <cstdint>

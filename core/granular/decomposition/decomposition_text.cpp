@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/decomposition_text.h"
 
-#include "granular/base/error.h"
-#include "granular/base/number_print.h"
-#include "granular/base/text_lines.h"
+#include "granular/common/error.h"
 #include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/voxels.h"
+#include "granular/numbers/number_print.h"
+#include "granular/numbers/text_lines.h"
 
 #include <algorithm>
 #include <array>

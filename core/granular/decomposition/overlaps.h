@@ -2,7 +2,7 @@
 #ifndef granular_decomposition_overlaps_h
 #define granular_decomposition_overlaps_h
 
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 #include "granular/decomposition/subdomains.h"
 
 #include <cstdint>

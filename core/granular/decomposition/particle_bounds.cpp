@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/base/archive.h"
-#include "granular/base/error.h"
-#include "granular/base/number_print.h"
+#include "granular/common/archive.h"
+#include "granular/common/error.h"
 #include "granular/decomposition/count_particles.h"
-#include "granular/dump/absolute_positions.h"
-#include "granular/dump/column_arrays.h"
-#include "granular/dump/point_forms.h"
+#include "granular/numbers/number_print.h"
+#include "granular/particles/absolute_positions.h"
+#include "granular/particles/column_arrays.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <array>

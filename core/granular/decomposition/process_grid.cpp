@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/process_grid.h"
 
-#include "granular/base/error.h"
-#include "granular/base/number_print.h"
+#include "granular/common/error.h"
+#include "granular/numbers/number_print.h"
 
 #include <algorithm>
 #include <cmath>

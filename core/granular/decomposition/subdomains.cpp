@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/subdomains.h"
 
-#include "granular/base/archive.h"
-#include "granular/base/compensated.h"
+#include "granular/common/archive.h"
+#include "granular/geometry/compensated.h"
 
 #include <algorithm>
 #include <limits>

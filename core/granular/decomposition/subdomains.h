@@ -2,10 +2,10 @@
 #ifndef granular_decomposition_subdomains_h
 #define granular_decomposition_subdomains_h
 
-#include "granular/base/box.h"
-#include "granular/base/communicator.h"
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/geometry/box.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
 #include <span>

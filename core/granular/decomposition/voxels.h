@@ -2,12 +2,12 @@
 #ifndef granular_decomposition_voxels_h
 #define granular_decomposition_voxels_h
 
-#include "granular/base/block.h"
-#include "granular/base/block_pool.h"
-#include "granular/base/executor.h"
-#include "granular/base/progress.h"
-#include "granular/base/vtk_corners.h"
+#include "granular/common/progress.h"
 #include "granular/decomposition/subdomains.h"
+#include "granular/memory/block.h"
+#include "granular/memory/block_pool.h"
+#include "granular/parallel/executor.h"
+#include "granular/vtk_files/vtk_corners.h"
 
 #include <array>
 #include <cstdint>

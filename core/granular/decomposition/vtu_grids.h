@@ -2,8 +2,8 @@
 #ifndef granular_decomposition_vtu_grids_h
 #define granular_decomposition_vtu_grids_h
 
-#include "granular/base/vtk_xml.h"
 #include "granular/decomposition/decomposition_grid.h"
+#include "granular/vtk_files/vtk_xml.h"
 
 #include <array>
 #include <cstddef>

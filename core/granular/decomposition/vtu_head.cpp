@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/vtu_head.h"
 
-#include "granular/base/number.h"
-#include "granular/base/words.h"
-#include "granular/base/xml_tags.h"
+#include "granular/common/words.h"
 #include "granular/decomposition/voxels.h"
+#include "granular/numbers/number.h"
+#include "granular/vtk_files/xml_tags.h"
 
 #include <limits>
 

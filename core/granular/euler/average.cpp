@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/average.h"
 
-#include "granular/base/mapping.h"
-#include "granular/dump/point_forms.h"
 #include "granular/euler/average_passes.h"
+#include "granular/memory/mapping.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,15 +2,15 @@
 #ifndef granular_euler_average_h
 #define granular_euler_average_h
 
-#include "granular/base/communicator.h"
-#include "granular/base/error.h"
-#include "granular/base/executor.h"
-#include "granular/base/progress.h"
-#include "granular/dump/frame_view.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_grid.h"
 #include "granular/euler/grain_cells.h"
 #include "granular/euler/grain_values.h"
+#include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
+#include "granular/particles/frame_view.h"
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 #define granular_euler_average_passes_h
 
 #include "granular/euler/average.h"
-#include "granular/euler/reproducible_sum.h"
 #include "granular/euler/sum_blocks.h"
+#include "granular/geometry/reproducible_sum.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/base/number_print.h"
 #include "granular/euler/average_passes.h"
 #include "granular/euler/sphere_box.h"
+#include "granular/numbers/number_print.h"
 
 #include <algorithm>
 #include <functional>

@@ -2,8 +2,8 @@
 #ifndef granular_euler_cell_blocks_h
 #define granular_euler_cell_blocks_h
 
-#include "granular/base/box.h"
 #include "granular/euler/euler_file.h"
+#include "granular/geometry/box.h"
 
 #include <algorithm>
 #include <array>

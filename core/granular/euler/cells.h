@@ -2,7 +2,7 @@
 #ifndef granular_euler_cells_h
 #define granular_euler_cells_h
 
-#include "granular/base/communicator.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
 #include <span>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/euler_dataset.h"
 
-#include "granular/base/vtk_corners.h"
-#include "granular/base/vtk_sections.h"
 #include "granular/euler/cells.h"
+#include "granular/vtk_files/vtk_corners.h"
+#include "granular/vtk_files/vtk_sections.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,8 +2,8 @@
 #ifndef granular_euler_euler_dataset_h
 #define granular_euler_euler_dataset_h
 
-#include "granular/base/legacy_vtk.h"
 #include "granular/euler/euler_file.h"
+#include "granular/vtk_files/legacy_vtk.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/euler_file.h"
 
-#include "granular/dump/file_index.h"
-#include "granular/dump/named_steps.h"
 #include "granular/euler/euler_dataset.h"
+#include "granular/frames/file_index.h"
+#include "granular/frames/named_steps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 #ifndef granular_euler_euler_file_h
 #define granular_euler_euler_file_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
-#include "granular/dump/file_format.h"
-#include "granular/dump/frame.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/frames/file_format.h"
+#include "granular/frames/frame.h"
 
 #include <cstdint>
 #include <functional>

@@ -2,7 +2,7 @@
 #ifndef granular_euler_euler_grid_h
 #define granular_euler_euler_grid_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 #include <cstddef>

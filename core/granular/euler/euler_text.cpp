@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/euler_text.h"
 
-#include "granular/base/number_print.h"
-#include "granular/base/rounding_loss.h"
-#include "granular/base/text_lines.h"
+#include "granular/numbers/number_print.h"
+#include "granular/numbers/text_lines.h"
+#include "granular/particles/rounding_loss.h"
 
 #include <algorithm>
 #include <array>

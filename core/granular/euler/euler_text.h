@@ -2,8 +2,8 @@
 #ifndef granular_euler_euler_text_h
 #define granular_euler_euler_text_h
 
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
 #include "granular/euler/cells.h"
 
 #include <cstdint>

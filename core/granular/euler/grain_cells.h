@@ -2,13 +2,13 @@
 #ifndef granular_euler_grain_cells_h
 #define granular_euler_grain_cells_h
 
-#include "granular/base/box.h"
-#include "granular/base/expansion.h"
 #include "granular/euler/cell_finder.h"
 #include "granular/euler/euler_grid.h"
 #include "granular/euler/periodic_images.h"
 #include "granular/euler/sphere_box.h"
 #include "granular/euler/sphere_cells.h"
+#include "granular/geometry/box.h"
+#include "granular/geometry/expansion.h"
 
 #include <algorithm>
 #include <array>

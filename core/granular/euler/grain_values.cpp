@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/grain_values.h"
 
-#include "granular/base/error.h"
-#include "granular/dump/point_forms.h"
+#include "granular/common/error.h"
 #include "granular/euler/sphere_box.h"
+#include "granular/particles/point_forms.h"
 
 #include <bit>
 #include <cmath>

@@ -2,10 +2,10 @@
 #ifndef granular_euler_grain_values_h
 #define granular_euler_grain_values_h
 
-#include "granular/dump/absolute_positions.h"
-#include "granular/dump/column_arrays.h"
-#include "granular/dump/frame_view.h"
-#include "granular/euler/reproducible_sum.h"
+#include "granular/geometry/reproducible_sum.h"
+#include "granular/particles/absolute_positions.h"
+#include "granular/particles/column_arrays.h"
+#include "granular/particles/frame_view.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/periodic_images.h"
 
-#include "granular/base/error.h"
-#include "granular/base/expansion.h"
-#include "granular/base/number_print.h"
-#include "granular/dump/point_forms.h"
+#include "granular/common/error.h"
+#include "granular/geometry/expansion.h"
+#include "granular/numbers/number_print.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <cmath>

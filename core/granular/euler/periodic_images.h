@@ -2,8 +2,8 @@
 #ifndef granular_euler_periodic_images_h
 #define granular_euler_periodic_images_h
 
-#include "granular/base/box.h"
 #include "granular/euler/euler_grid.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/regular_grids.h"
 
-#include "granular/base/number_print.h"
 #include "granular/euler/cell_blocks.h"
+#include "granular/numbers/number_print.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #ifndef granular_euler_regular_grids_h
 #define granular_euler_regular_grids_h
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/euler_grid.h"
 

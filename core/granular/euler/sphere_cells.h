@@ -2,9 +2,9 @@
 #ifndef granular_euler_sphere_cells_h
 #define granular_euler_sphere_cells_h
 
-#include "granular/base/box.h"
 #include "granular/euler/cell_finder.h"
 #include "granular/euler/euler_grid.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 #include <cstdint>

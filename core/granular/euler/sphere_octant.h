@@ -2,7 +2,7 @@
 #ifndef granular_euler_sphere_octant_h
 #define granular_euler_sphere_octant_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 namespace granular
 {

@@ -2,7 +2,7 @@
 #ifndef granular_euler_sphere_parts_h
 #define granular_euler_sphere_parts_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 #include <cstddef>

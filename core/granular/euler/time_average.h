@@ -2,8 +2,8 @@
 #ifndef granular_euler_time_average_h
 #define granular_euler_time_average_h
 
-#include "granular/base/compensated.h"
 #include "granular/euler/average.h"
+#include "granular/geometry/compensated.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #ifndef granular_local_box_vectors_h
 #define granular_local_box_vectors_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 #include <cstddef>
 #include <span>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/data_bonds.h"
 
-#include "granular/base/number.h"
-#include "granular/base/text_scanner.h"
-#include "granular/dump/file_index.h"
+#include "granular/frames/file_index.h"
+#include "granular/numbers/number.h"
+#include "granular/text/text_scanner.h"
 
 #include <algorithm>
 #include <cctype>

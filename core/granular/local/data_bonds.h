@@ -2,8 +2,8 @@
 #ifndef granular_local_data_bonds_h
 #define granular_local_data_bonds_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/progress.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/progress.h"
 
 #include <string_view>
 

@@ -2,8 +2,8 @@
 #ifndef granular_local_fetch_particles_h
 #define granular_local_fetch_particles_h
 
-#include "granular/base/communicator.h"
 #include "granular/local/particle_values.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/id_finder.h"
 
-#include "granular/dump/frame_view.h"
+#include "granular/particles/frame_view.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/ids.h"
 
-#include "granular/base/error.h"
-#include "granular/base/number_print.h"
-#include "granular/dump/point_forms.h"
+#include "granular/common/error.h"
+#include "granular/numbers/number_print.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #ifndef granular_local_ids_h
 #define granular_local_ids_h
 
-#include "granular/base/executor.h"
-#include "granular/base/progress.h"
-#include "granular/dump/frame_view.h"
+#include "granular/common/progress.h"
+#include "granular/parallel/executor.h"
+#include "granular/particles/frame_view.h"
 
 #include <cstdint>
 #include <span>

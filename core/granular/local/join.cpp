@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/join.h"
 
-#include "granular/base/executor.h"
 #include "granular/local/fetch_particles.h"
 #include "granular/local/id_finder.h"
 #include "granular/local/ids.h"
 #include "granular/local/particle_values.h"
+#include "granular/parallel/executor.h"
 
 #include <algorithm>
 #include <array>

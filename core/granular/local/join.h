@@ -2,11 +2,11 @@
 #ifndef granular_local_join_h
 #define granular_local_join_h
 
-#include "granular/base/block.h"
-#include "granular/base/communicator.h"
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
-#include "granular/dump/frame_view.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/memory/block.h"
+#include "granular/parallel/communicator.h"
+#include "granular/particles/frame_view.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/lines.h"
 
-#include "granular/base/executor.h"
 #include "granular/local/minimum_image.h"
 #include "granular/local/split_line.h"
+#include "granular/parallel/executor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef granular_local_lines_h
 #define granular_local_lines_h
 
-#include "granular/base/block.h"
-#include "granular/base/box.h"
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
+#include "granular/geometry/box.h"
+#include "granular/memory/block.h"
 
 #include <cstdint>
 #include <memory>

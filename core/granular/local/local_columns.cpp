@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_columns.h"
 
-#include "granular/base/error.h"
-#include "granular/base/words.h"
+#include "granular/common/error.h"
+#include "granular/common/words.h"
 
 #include <algorithm>
 #include <iterator>

@@ -2,7 +2,7 @@
 #ifndef granular_local_local_columns_h
 #define granular_local_local_columns_h
 
-#include "granular/base/column.h"
+#include "granular/columns/column.h"
 
 #include <span>
 #include <string>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_file.h"
 
-#include "granular/base/number.h"
-#include "granular/dump/file_index.h"
-#include "granular/dump/first_rows.h"
-#include "granular/dump/numbered_name.h"
-#include "granular/dump/text_dump.h"
+#include "granular/dump/formats/first_rows.h"
+#include "granular/dump/formats/text_dump.h"
+#include "granular/frames/file_index.h"
+#include "granular/frames/numbered_name.h"
 #include "granular/local/data_bonds.h"
+#include "granular/numbers/number.h"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 #ifndef granular_local_local_file_h
 #define granular_local_local_file_h
 
-#include "granular/dump/file_format.h"
+#include "granular/frames/file_format.h"
 
 #include <string>
 #include <string_view>

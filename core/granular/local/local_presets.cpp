@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_presets.h"
 
-#include "granular/base/number.h"
-#include "granular/base/words.h"
+#include "granular/common/words.h"
 #include "granular/local/local_columns.h"
+#include "granular/numbers/number.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,8 +2,8 @@
 #ifndef granular_local_local_presets_h
 #define granular_local_local_presets_h
 
-#include "granular/base/box.h"
-#include "granular/base/error.h"
+#include "granular/common/error.h"
+#include "granular/geometry/box.h"
 
 #include <cstddef>
 #include <span>

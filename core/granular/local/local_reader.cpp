@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_reader.h"
 
-#include "granular/base/archive.h"
-#include "granular/base/number_print.h"
-#include "granular/dump/point_loss.h"
+#include "granular/common/archive.h"
 #include "granular/local/local_columns.h"
+#include "granular/numbers/number_print.h"
+#include "granular/particles/point_loss.h"
 
 #include <algorithm>
 #include <string>

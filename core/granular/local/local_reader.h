@@ -2,10 +2,10 @@
 #ifndef granular_local_local_reader_h
 #define granular_local_local_reader_h
 
-#include "granular/base/communicator.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/read/dump_reader.h"
 #include "granular/local/lines.h"
 #include "granular/local/local_presets.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
 #include <functional>

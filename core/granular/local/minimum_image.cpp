@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/minimum_image.h"
 
-#include "granular/dump/point_forms.h"
 #include "granular/local/box_vectors.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef granular_local_minimum_image_h
 #define granular_local_minimum_image_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 #include <cstdint>

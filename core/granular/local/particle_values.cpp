@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/particle_values.h"
 
-#include "granular/base/error.h"
-#include "granular/dump/absolute_positions.h"
+#include "granular/common/error.h"
+#include "granular/particles/absolute_positions.h"
 
 #include <algorithm>
 #include <array>

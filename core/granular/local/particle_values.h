@@ -2,10 +2,10 @@
 #ifndef granular_local_particle_values_h
 #define granular_local_particle_values_h
 
-#include "granular/base/communicator.h"
-#include "granular/base/executor.h"
-#include "granular/base/progress.h"
-#include "granular/dump/frame_view.h"
+#include "granular/common/progress.h"
+#include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
+#include "granular/particles/frame_view.h"
 
 #include <cstddef>
 #include <cstdint>

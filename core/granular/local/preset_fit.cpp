@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/base/words.h"
-#include "granular/dump/point_forms.h"
+#include "granular/common/words.h"
 #include "granular/local/local_presets.h"
 #include "granular/local/minimum_image.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <cmath>

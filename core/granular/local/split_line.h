@@ -2,7 +2,7 @@
 #ifndef granular_local_split_line_h
 #define granular_local_split_line_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 #include "granular/local/minimum_image.h"
 
 #include <array>

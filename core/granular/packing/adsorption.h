@@ -2,9 +2,9 @@
 #ifndef granular_packing_adsorption_h
 #define granular_packing_adsorption_h
 
-#include "granular/base/executor.h"
 #include "granular/packing/adsorption_grid.h"
 #include "granular/packing/arrivals.h"
+#include "granular/parallel/executor.h"
 
 #include <atomic>
 #include <cstddef>

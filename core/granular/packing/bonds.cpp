@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/packing/bonds.h"
 
-#include "granular/base/error.h"
-#include "granular/base/executor.h"
+#include "granular/common/error.h"
 #include "granular/packing/grain_rows.h"
 #include "granular/packing/near_grains.h"
 #include "granular/packing/packing_plan.h"
+#include "granular/parallel/executor.h"
 
 #include <algorithm>
 #include <cmath>

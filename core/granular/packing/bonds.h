@@ -2,10 +2,10 @@
 #ifndef granular_packing_bonds_h
 #define granular_packing_bonds_h
 
-#include "granular/base/block.h"
-#include "granular/base/progress.h"
-#include "granular/dump/dump_frame.h"
+#include "granular/common/progress.h"
+#include "granular/memory/block.h"
 #include "granular/packing/packing.h"
+#include "granular/particles/dump_frame.h"
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 #ifndef granular_packing_box_shape_h
 #define granular_packing_box_shape_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 

@@ -2,9 +2,9 @@
 #ifndef granular_packing_grain_rows_h
 #define granular_packing_grain_rows_h
 
-#include "granular/base/executor.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/random_grains.h"
+#include "granular/parallel/executor.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/packing/near_grains.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include <cmath>
 #include <limits>

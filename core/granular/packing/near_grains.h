@@ -2,7 +2,7 @@
 #ifndef granular_packing_near_grains_h
 #define granular_packing_near_grains_h
 
-#include "granular/base/block.h"
+#include "granular/memory/block.h"
 #include "granular/packing/box_shape.h"
 #include "granular/packing/row_range.h"
 

@@ -2,10 +2,10 @@
 #ifndef granular_packing_packing_h
 #define granular_packing_packing_h
 
-#include "granular/base/box.h"
-#include "granular/base/progress.h"
-#include "granular/dump/dump_frame.h"
+#include "granular/common/progress.h"
+#include "granular/geometry/box.h"
 #include "granular/packing/radii.h"
+#include "granular/particles/dump_frame.h"
 
 #include <cstdint>
 #include <optional>

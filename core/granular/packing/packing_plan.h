@@ -2,14 +2,14 @@
 #ifndef granular_packing_packing_plan_h
 #define granular_packing_packing_plan_h
 
-#include "granular/base/communicator.h"
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 #include "granular/packing/box_shape.h"
 #include "granular/packing/fibres.h"
 #include "granular/packing/lattice.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/radii.h"
 #include "granular/packing/random_grains.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/packing/radii.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 #include "granular/packing/random_numbers.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/packing/random_grains.h"
 
-#include "granular/base/shares.h"
-#include "granular/base/error.h"
+#include "granular/common/error.h"
+#include "granular/common/shares.h"
 #include "granular/packing/random_numbers.h"
 
 #include <algorithm>

@@ -2,12 +2,12 @@
 #ifndef granular_packing_random_grains_h
 #define granular_packing_random_grains_h
 
-#include "granular/base/communicator.h"
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 #include "granular/packing/adsorption.h"
 #include "granular/packing/adsorption_grid.h"
 #include "granular/packing/radii.h"
 #include "granular/packing/row_range.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 #ifndef granular_restart_decode_records_h
 #define granular_restart_decode_records_h
 
-#include "granular/dump/dump_frame.h"
+#include "granular/particles/dump_frame.h"
 #include "granular/restart/record_plan.h"
 #include "granular/restart/record_scan.h"
 #include "granular/restart/restart_reader.h"

@@ -2,8 +2,8 @@
 #ifndef granular_restart_find_chunks_h
 #define granular_restart_find_chunks_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/progress.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/progress.h"
 #include "granular/restart/restart_header.h"
 #include "granular/restart/restart_layout.h"
 

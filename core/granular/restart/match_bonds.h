@@ -2,8 +2,8 @@
 #ifndef granular_restart_match_bonds_h
 #define granular_restart_match_bonds_h
 
-#include "granular/base/executor.h"
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
+#include "granular/parallel/executor.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #ifndef granular_restart_process_files_h
 #define granular_restart_process_files_h
 
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 #include "granular/restart/restart_layout.h"
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the parts of a record are, by a plan.
-#include "granular/base/number_print.h"
+#include "granular/numbers/number_print.h"
 #include "granular/restart/record_places.h"
 #include "granular/restart/record_plan.h"
 

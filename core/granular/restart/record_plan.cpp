@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/record_plan.h"
 
-#include "granular/base/words.h"
+#include "granular/common/words.h"
 #include "granular/restart/record_places.h"
 #include "granular/restart/record_scan.h"
 

@@ -2,9 +2,9 @@
 #ifndef granular_restart_record_scan_h
 #define granular_restart_record_scan_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/executor.h"
-#include "granular/base/progress.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/progress.h"
+#include "granular/parallel/executor.h"
 #include "granular/restart/restart_layout.h"
 
 #include <atomic>

@@ -2,7 +2,7 @@
 #ifndef granular_restart_record_walker_h
 #define granular_restart_record_walker_h
 
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 #include "granular/restart/restart_bytes.h"
 #include "granular/restart/restart_header.h"
 

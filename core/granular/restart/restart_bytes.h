@@ -2,8 +2,8 @@
 #ifndef granular_restart_restart_bytes_h
 #define granular_restart_restart_bytes_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/error.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/error.h"
 
 #include <algorithm>
 #include <array>

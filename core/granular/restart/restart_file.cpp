@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/restart_file.h"
 
-#include "granular/dump/file_index.h"
+#include "granular/frames/file_index.h"
 #include "granular/restart/process_files.h"
 #include "granular/restart/restart_bytes.h"
 #include "granular/restart/restart_layout.h"

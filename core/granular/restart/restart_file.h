@@ -2,7 +2,7 @@
 #ifndef granular_restart_restart_file_h
 #define granular_restart_restart_file_h
 
-#include "granular/dump/file_format.h"
+#include "granular/frames/file_format.h"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/restart_header.h"
 
-#include "granular/base/compensated.h"
-#include "granular/base/error.h"
+#include "granular/common/error.h"
+#include "granular/geometry/compensated.h"
 #include "granular/restart/header_fields.h"
 #include "granular/restart/restart_bytes.h"
 

@@ -2,7 +2,7 @@
 #ifndef granular_restart_restart_header_h
 #define granular_restart_restart_header_h
 
-#include "granular/base/box.h"
+#include "granular/geometry/box.h"
 
 #include <cstdint>
 #include <optional>

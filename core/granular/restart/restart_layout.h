@@ -2,9 +2,9 @@
 #ifndef granular_restart_restart_layout_h
 #define granular_restart_restart_layout_h
 
-#include "granular/base/byte_source.h"
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
+#include "granular/bytes/byte_source.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
 #include "granular/restart/restart_header.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/restart_reader.h"
 
-#include "granular/base/shares.h"
-#include "granular/dump/point_loss.h"
+#include "granular/common/shares.h"
+#include "granular/particles/point_loss.h"
 #include "granular/restart/bond_frame.h"
 #include "granular/restart/collect_bonds.h"
 #include "granular/restart/decode_records.h"

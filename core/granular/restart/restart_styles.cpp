@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/restart_styles.h"
 
-#include "granular/base/number_print.h"
+#include "granular/numbers/number_print.h"
 
 #include <algorithm>
 #include <string>

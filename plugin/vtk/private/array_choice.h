@@ -2,7 +2,7 @@
 #ifndef vtkGranularArrayChoice_h
 #define vtkGranularArrayChoice_h
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include "vtkNew.h"
 

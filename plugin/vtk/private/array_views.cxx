@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "array_views.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include "vtkDataArray.h"
 #include "vtkStringArray.h"

@@ -2,7 +2,7 @@
 #ifndef vtkGranularArrayViews_h
 #define vtkGranularArrayViews_h
 
-#include "granular/dump/frame_view.h"
+#include "granular/particles/frame_view.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

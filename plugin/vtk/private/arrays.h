@@ -2,9 +2,9 @@
 #ifndef vtkGranularArrays_h
 #define vtkGranularArrays_h
 
-#include "granular/base/block.h"
-#include "granular/base/column.h"
-#include "granular/dump/dump_reader.h"
+#include "granular/columns/column.h"
+#include "granular/dump/read/dump_reader.h"
+#include "granular/memory/block.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

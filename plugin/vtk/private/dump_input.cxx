@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dump_input.h"
 
-#include "granular/dump/absolute_positions.h"
+#include "granular/particles/absolute_positions.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"

@@ -4,9 +4,9 @@
 
 #include "array_views.h"
 
-#include "granular/base/box.h"
-#include "granular/base/error.h"
-#include "granular/dump/frame_view.h"
+#include "granular/common/error.h"
+#include "granular/geometry/box.h"
+#include "granular/particles/frame_view.h"
 
 #include <optional>
 #include <vector>

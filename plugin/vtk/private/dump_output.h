@@ -2,7 +2,7 @@
 #ifndef vtkGranularDumpOutput_h
 #define vtkGranularDumpOutput_h
 
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/read/dump_reader.h"
 
 #include <memory>
 #include <string>

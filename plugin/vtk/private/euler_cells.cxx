@@ -4,7 +4,7 @@
 #include "arrays.h"
 #include "piece_request.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"

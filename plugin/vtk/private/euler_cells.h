@@ -2,10 +2,10 @@
 #ifndef vtkGranularEulerCells_h
 #define vtkGranularEulerCells_h
 
-#include "granular/base/box.h"
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/euler_grid.h"
+#include "granular/geometry/box.h"
 
 #include "vtkType.h"
 

@@ -3,7 +3,7 @@
 
 #include "dump_input.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"

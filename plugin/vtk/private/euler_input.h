@@ -2,8 +2,8 @@
 #ifndef vtkGranularEulerInput_h
 #define vtkGranularEulerInput_h
 
-#include "granular/base/communicator.h"
 #include "granular/euler/cells.h"
+#include "granular/parallel/communicator.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

@@ -2,7 +2,7 @@
 #ifndef vtkGranularFrameAhead_h
 #define vtkGranularFrameAhead_h
 
-#include "granular/dump/dump_reader.h"
+#include "granular/dump/read/dump_reader.h"
 
 #include "vtkType.h"
 

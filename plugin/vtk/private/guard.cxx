@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "guard.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

@@ -2,7 +2,7 @@
 #ifndef vtkGranularGuard_h
 #define vtkGranularGuard_h
 
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 
 #include <exception>
 #include <string>

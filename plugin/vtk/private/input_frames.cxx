@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input_frames.h"
 
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

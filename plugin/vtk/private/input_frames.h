@@ -2,7 +2,7 @@
 #ifndef vtkGranularInputFrames_h
 #define vtkGranularInputFrames_h
 
-#include "granular/base/communicator.h"
+#include "granular/parallel/communicator.h"
 
 #include <optional>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef vtkGranularLines_h
 #define vtkGranularLines_h
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 #include "granular/local/local_reader.h"
 
 #include "vtkSmartPointer.h"

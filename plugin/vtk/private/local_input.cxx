@@ -4,7 +4,7 @@
 #include "lines.h"
 #include "local_rows.h"
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 #include "granular/local/local_columns.h"
 #include "granular/local/local_reader.h"
 

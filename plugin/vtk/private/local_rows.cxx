@@ -4,10 +4,10 @@
 #include "arrays.h"
 #include "lines.h"
 
-#include "granular/base/error.h"
-#include "granular/base/executor.h"
+#include "granular/common/error.h"
 #include "granular/local/ids.h"
 #include "granular/local/particle_values.h"
+#include "granular/parallel/executor.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"

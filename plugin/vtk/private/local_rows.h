@@ -4,7 +4,7 @@
 
 #include "array_views.h"
 
-#include "granular/base/progress.h"
+#include "granular/common/progress.h"
 
 #include "vtkType.h"
 

@@ -2,8 +2,8 @@
 #ifndef vtkGranularLookTogether_h
 #define vtkGranularLookTogether_h
 
-#include "granular/base/archive.h"
-#include "granular/base/communicator.h"
+#include "granular/common/archive.h"
+#include "granular/parallel/communicator.h"
 
 namespace vtkGranularPrivate
 {

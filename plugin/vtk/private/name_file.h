@@ -2,7 +2,7 @@
 #ifndef vtkGranularNameFile_h
 #define vtkGranularNameFile_h
 
-#include "granular/base/error.h"
+#include "granular/common/error.h"
 
 namespace vtkGranularPrivate
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "particles.h"
 
-#include "granular/base/error.h"
-#include "granular/dump/shared_header.h"
+#include "granular/common/error.h"
+#include "granular/particles/shared_header.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkPointSet.h"

@@ -5,8 +5,8 @@
 #include "dump_input.h"
 #include "piece_request.h"
 
-#include "granular/base/box.h"
-#include "granular/base/communicator.h"
+#include "granular/geometry/box.h"
+#include "granular/parallel/communicator.h"
 
 #include <optional>
 #include <utility>

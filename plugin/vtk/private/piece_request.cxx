@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "piece_request.h"
 
-#include "granular/base/archive.h"
-#include "granular/base/shares.h"
+#include "granular/common/archive.h"
+#include "granular/common/shares.h"
 
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"

@@ -2,7 +2,7 @@
 #ifndef vtkGranularPieceRequest_h
 #define vtkGranularPieceRequest_h
 
-#include "granular/base/communicator.h"
+#include "granular/parallel/communicator.h"
 
 #include "vtkType.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pool.h"
 
-#include "granular/base/number.h"
+#include "granular/numbers/number.h"
 
 #include "vtksys/SystemInformation.hxx"
 

@@ -2,8 +2,8 @@
 #ifndef vtkGranularPool_h
 #define vtkGranularPool_h
 
-#include "granular/base/block_pool.h"
-#include "granular/base/error.h"
+#include "granular/common/error.h"
+#include "granular/memory/block_pool.h"
 
 #include <memory>
 

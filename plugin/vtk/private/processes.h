@@ -5,7 +5,7 @@
 #include "guard.h"
 #include "ranks.h"
 
-#include "granular/base/communicator.h"
+#include "granular/parallel/communicator.h"
 
 #include "vtkSmartPointer.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ranks.h"
 
-#include "granular/base/executor.h"
+#include "granular/parallel/executor.h"
 
 #include "vtkMultiProcessController.h"
 

@@ -2,7 +2,7 @@
 #ifndef vtkGranularRanks_h
 #define vtkGranularRanks_h
 
-#include "granular/base/communicator.h"
+#include "granular/parallel/communicator.h"
 
 #include <memory>
 

@@ -3,7 +3,7 @@
 
 #include "text_of.h"
 
-#include "granular/base/words.h"
+#include "granular/common/words.h"
 
 #include <algorithm>
 #include <sstream>

@@ -5,7 +5,7 @@
 #include "dump_input.h"
 #include "writer.h"
 
-#include "granular/dump/dump_writer.h"
+#include "granular/dump/write/dump_writer.h"
 
 #include <memory>
 #include <string>

@@ -7,8 +7,8 @@
 #include "guard.h"
 #include "processes.h"
 
-#include "granular/base/block_pool.h"
-#include "granular/dump/frame_index.h"
+#include "granular/frames/frame_index.h"
+#include "granular/memory/block_pool.h"
 
 #include <memory>
 #include <set>

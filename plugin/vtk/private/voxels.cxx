@@ -4,9 +4,9 @@
 #include "arrays.h"
 #include "dump_input.h"
 
-#include "granular/base/executor.h"
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/decomposition/voxels.h"
+#include "granular/parallel/executor.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -2,10 +2,10 @@
 #ifndef vtkGranularVoxels_h
 #define vtkGranularVoxels_h
 
-#include "granular/base/box.h"
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
 #include "granular/decomposition/subdomains.h"
+#include "granular/geometry/box.h"
 
 class vtkUnstructuredGrid;
 

@@ -3,9 +3,9 @@
 
 #include "dump_input.h"
 
-#include "granular/base/byte_sink.h"
-#include "granular/base/hash.h"
-#include "granular/dump/dump_format.h"
+#include "granular/bytes/byte_sink.h"
+#include "granular/common/hash.h"
+#include "granular/dump/write/dump_format.h"
 
 #include "vtkDataObject.h"
 #include "vtkPointSet.h"

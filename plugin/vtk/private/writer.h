@@ -6,9 +6,9 @@
 
 #include "processes.h"
 
-#include "granular/base/communicator.h"
-#include "granular/base/error.h"
-#include "granular/base/progress.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/parallel/communicator.h"
 
 #include <memory>
 #include <optional>

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/bytes/byte_source.h"
+
+#include "granular/common/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace granular
+{
+namespace
+{
+[[noreturn]] void fail(const char* action, const std::string& path, int error)
+{
+  const std::string reason = std::generic_category().message(error);
+  throw IoError(
+    std::string("cannot ") + action + ": " + reason, { path }, static_cast<std::errc>(error));
+}
+
+/// Makes a call of the system again when a signal has interrupted it, but not for ever. Returns what the call returns.
+template <class Call>
+auto call_again(const Call& call)
+{
+  constexpr int most = 100;
+  auto result = call();
+  for (int i = 1; i < most && result < 0 && errno == EINTR; ++i)
+  {
+    result = call();
+  }
+  return result;
+}
+
+class FileSource final : public ByteSource
+{
+public:
+  explicit FileSource(const std::string& path)
+    : path_(path)
+    // O_NONBLOCK: a pipe of that name must not make the open wait; it changes nothing for files
+    , file_(call_again([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }))
+  {
+    if (file_ < 0)
+    {
+      fail("open", path, errno);
+    }
+  }
+
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+  ~FileSource() override { ::close(file_); }
+
+  const std::string& path() const override { return path_; }
+  bool concurrent() const override { return true; }
+
+  FileStamp stamp() const override
+  {
+    const struct stat status = this->status();
+    return { status.st_size,
+      std::int64_t{ status.st_mtim.tv_sec } * 1'000'000'000 + status.st_mtim.tv_nsec, status.st_ino,
+      status.st_dev };
+  }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    std::size_t done = 0;
+    while (done < bytes)
+    {
+      const std::int64_t at = offset + static_cast<std::int64_t>(done);
+      const ssize_t got =
+        call_again([&] { return ::pread(file_, buffer + done, bytes - done, at); });
+      if (got < 0)
+      {
+        fail("read", path_, errno);
+      }
+      if (got == 0)
+      {
+        this->check_end(at);
+        break;
+      }
+      done += static_cast<std::size_t>(got);
+    }
+    return done;
+  }
+
+  /// Takes what the file is now for the least that it has from then on. Throws IoError for what is no plain file.
+  void expect_file()
+  {
+    const struct stat status = this->status();
+    const bool is_folder = S_ISDIR(status.st_mode);
+    if (!S_ISREG(status.st_mode))
+    {
+      throw IoError(
+        std::string("expected a file, got ") + (is_folder ? "a directory" : "a device or a pipe"),
+        { path_ }, is_folder ? std::errc::is_a_directory : std::errc::not_supported);
+    }
+    size_ = status.st_size;
+  }
+
+private:
+  struct stat status() const
+  {
+    struct stat status;
+    if (::fstat(file_, &status) != 0)
+    {
+      fail("stat", path_, errno);
+    }
+    return status;
+  }
+
+  /// A read has met the end of the file at an offset.
+  void check_end(std::int64_t offset) const
+  {
+    if (offset < size_)
+    {
+      throw IoError("the file was shortened while it was read: expected at least " +
+          std::to_string(size_) + " bytes, got " + std::to_string(offset),
+        { path_ });
+    }
+  }
+
+  std::string path_;
+  int file_ = -1;
+  std::int64_t size_ = 0; ///< when it was opened
+};
+
+class FirstBytes final : public ByteSource
+{
+public:
+  FirstBytes(std::unique_ptr<ByteSource> source, std::int64_t bytes)
+    : source_(std::move(source))
+    , bytes_(bytes)
+    , head_(new char[head_bytes]) // not value-initialised: many files are smaller
+    , there_(source_->read(0, head_.get(), std::min(head_bytes, static_cast<std::size_t>(bytes))))
+  {
+  }
+
+  const std::string& path() const override { return source_->path(); }
+  FileStamp stamp() const override { return source_->stamp(); }
+  bool concurrent() const override { return source_->concurrent(); }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const auto left = static_cast<std::size_t>(std::max(std::int64_t{ 0 }, bytes_ - offset));
+    const std::size_t wanted = std::min(bytes, left);
+    // small files, and the beginning of others, are looked at several times
+    if (offset + static_cast<std::int64_t>(wanted) <= static_cast<std::int64_t>(head_bytes))
+    {
+      const std::size_t start = std::min(static_cast<std::size_t>(offset), there_);
+      const std::size_t count = std::min(wanted, there_ - start);
+      std::copy_n(head_.get() + start, count, buffer);
+      return count;
+    }
+    return source_->read(offset, buffer, wanted);
+  }
+
+private:
+  static constexpr std::size_t head_bytes = std::size_t{ 1 } << 14;
+
+  std::unique_ptr<ByteSource> source_;
+  std::int64_t bytes_;
+  std::unique_ptr<char[]> head_;
+  std::size_t there_; ///< bytes in it
+};
+
+class MemorySource final : public ByteSource
+{
+public:
+  MemorySource(std::string_view bytes, std::string name)
+    : bytes_(bytes)
+    , path_(std::move(name))
+  {
+  }
+
+  const std::string& path() const override { return path_; }
+  bool concurrent() const override { return true; }
+
+  FileStamp stamp() const override
+  {
+    FileStamp stamp;
+    stamp.size = static_cast<std::int64_t>(bytes_.size());
+    return stamp;
+  }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const std::size_t start = std::min(static_cast<std::size_t>(offset), bytes_.size());
+    const std::size_t count = std::min(bytes, bytes_.size() - start);
+    std::copy_n(bytes_.data() + start, count, buffer);
+    return count;
+  }
+
+private:
+  std::string_view bytes_;
+  std::string path_;
+};
+}
+
+double ByteSource::fraction(std::int64_t offset) const
+{
+  const auto size = static_cast<double>(this->stamp().size);
+  return size > 0 ? std::clamp(static_cast<double>(offset) / size, 0.0, 1.0) : 1.0;
+}
+
+std::unique_ptr<ByteSource> open_file(const std::string& path)
+{
+  auto source = std::make_unique<FileSource>(path);
+  source->expect_file();
+  return source;
+}
+
+std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name)
+{
+  return std::make_unique<MemorySource>(bytes, std::move(name));
+}
+
+std::string read_up_to(const ByteSource& source, std::int64_t end)
+{
+  constexpr std::size_t least = std::size_t{ 1 } << 14;
+  std::string bytes;
+  for (std::size_t wanted = 1, got = 1; wanted > 0 && got == wanted;)
+  {
+    const std::size_t from = bytes.size();
+    const auto left = std::max(end - static_cast<std::int64_t>(from), std::int64_t{ 0 });
+    // what end claims may not be there
+    wanted =
+      static_cast<std::size_t>(std::min(left, static_cast<std::int64_t>(std::max(from, least))));
+    bytes.resize(from + wanted);
+    got = source.read(static_cast<std::int64_t>(from), bytes.data() + from, wanted);
+    bytes.resize(from + got);
+  }
+  return bytes;
+}
+
+std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std::int64_t bytes)
+{
+  return std::make_unique<FirstBytes>(std::move(source), bytes);
+}
+
+void PaddedBuffer::resize(std::size_t bytes)
+{
+  // not value-initialised: the buffers are read into at once
+  std::unique_ptr<char[]> memory(new char[bytes + 2 * padding]);
+  std::memset(memory.get(), '\n', padding);
+  if (memory_)
+  {
+    std::memcpy(memory.get() + padding, memory_.get() + padding, std::min(bytes, size_));
+  }
+  std::memset(memory.get() + padding + bytes, '\n', padding);
+  memory_ = std::move(memory);
+  size_ = bytes;
+}
+}

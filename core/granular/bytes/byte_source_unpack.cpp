@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/bytes/byte_source_unpack.h"
+
+#include "granular/common/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+constexpr std::size_t most_points = 1024;
+constexpr std::int64_t widest_spacing = std::int64_t{ 1 } << 24;
+constexpr std::size_t input_bytes = std::size_t{ 1 } << 18;
+constexpr std::size_t ring_bytes = std::size_t{ 1 } << 20;
+// As much as is wanted at a time, but not in steps that cost more than what is in them.
+constexpr std::size_t least_step = std::size_t{ 1 } << 16;
+constexpr std::size_t largest_step = std::size_t{ 1 } << 18;
+
+/// Leaves out points that are closer to the one before than the spacing.
+void thin(RestartPoints& all)
+{
+  std::int64_t last = 0;
+  std::erase_if(all.points,
+    [&](const RestartPoints::Point& point)
+    {
+      const bool close = point.offset - last < all.spacing;
+      last = close ? last : point.offset;
+      return close;
+    });
+}
+
+/// The content of a compressed file: a decoder, and a ring of the last bytes that it gave.
+class Unpacker
+{
+public:
+  Unpacker(std::unique_ptr<Decoder> decoder, std::shared_ptr<const RestartPoints> points)
+    : decoder_(std::move(decoder))
+    , points_(std::move(points))
+    , ring_(new char[ring_bytes]) // not value-initialised: many files are smaller
+  {
+  }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes);
+  const std::string& unchecked() const noexcept { return unchecked_; }
+  std::int64_t packed_position() const noexcept { return decoder_->position(); }
+
+private:
+  void go_to(std::int64_t offset);
+  void start_at(const RestartPoints::Point& point);
+  void compare_window(const RestartPoints::Point& before, const RestartPoints::Point& point);
+  std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
+  bool advance(std::int64_t target);
+
+  std::unique_ptr<Decoder> decoder_;
+  std::shared_ptr<const RestartPoints> points_;
+  std::unique_ptr<char[]> ring_; ///< the byte at an offset lies at offset % ring_bytes
+  std::int64_t begin_ = 0;       ///< of the bytes in the ring
+  std::int64_t end_ = 0;         ///< where the decoder stands, too, unless lost
+  bool lost_ = true;
+  std::exception_ptr damage_;
+  std::string unchecked_;
+};
+
+std::size_t Unpacker::read(std::int64_t offset, char* buffer, std::size_t bytes)
+{
+  if (damage_)
+  {
+    std::rethrow_exception(damage_);
+  }
+  try
+  {
+    this->go_to(offset);
+    std::size_t done = 0;
+    do
+    {
+      done += this->copy(offset + static_cast<std::int64_t>(done), buffer + done, bytes - done);
+    } while (done < bytes && this->advance(offset + static_cast<std::int64_t>(bytes)));
+    return done;
+  }
+  catch (const IoError&)
+  {
+    lost_ = true; // the system may be in a better mood next time
+    throw;
+  }
+  catch (...)
+  {
+    // Damage shows behind its place: what lies before may be wrong as well, so nothing is given now.
+    damage_ = std::current_exception();
+    throw;
+  }
+}
+
+/// Starts again where that is needed to read at an offset, or saves decompressing much.
+void Unpacker::go_to(std::int64_t offset)
+{
+  static const RestartPoints::Point start;
+  const auto after = std::upper_bound(points_->points.begin(), points_->points.end(), offset,
+    [](std::int64_t value, const RestartPoints::Point& point) { return value < point.offset; });
+  const RestartPoints::Point& nearest =
+    after == points_->points.begin() ? start : *std::prev(after);
+  const bool far_ahead = nearest.offset > end_ + static_cast<std::int64_t>(largest_step);
+  if (lost_ || offset < begin_ || far_ahead)
+  {
+    if (points_->claimed && !nearest.window.empty())
+    {
+      this->compare_window(
+        after - points_->points.begin() > 1 ? *std::prev(after, 2) : start, nearest);
+      return;
+    }
+    this->start_at(nearest);
+  }
+}
+
+void Unpacker::start_at(const RestartPoints::Point& point)
+{
+  lost_ = true;
+  decoder_->restart(point);
+  begin_ = point.offset;
+  end_ = point.offset;
+  lost_ = false;
+}
+
+/// Gets to a point from the one before. Throws if the window of the point is not what lies before it: bytes that were made
+/// with another one would be other data.
+void Unpacker::compare_window(
+  const RestartPoints::Point& before, const RestartPoints::Point& point)
+{
+  this->start_at(before);
+  while (end_ < point.offset && this->advance(point.offset))
+  {
+  }
+  const std::string& window = point.window;
+  std::string there(window.size(), '\0');
+  const std::int64_t first = point.offset - static_cast<std::int64_t>(window.size());
+  if (first < begin_ || end_ < point.offset ||
+    this->copy(first, there.data(), there.size()) < there.size() || there != window)
+  {
+    throw FormatError(
+      "expected the content that the index file says, got other; remove the index file",
+      { decoder_->path() });
+  }
+  begin_ = point.offset; // nobody compared the window of the point before
+}
+
+/// Copies what the ring has of [offset, offset + bytes), which does not begin before it.
+std::size_t Unpacker::copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept
+{
+  if (offset >= end_)
+  {
+    return 0;
+  }
+  const std::size_t count = std::min(bytes, static_cast<std::size_t>(end_ - offset));
+  const std::size_t at = static_cast<std::size_t>(offset) % ring_bytes;
+  const std::size_t first = std::min(count, ring_bytes - at);
+  std::memcpy(buffer, ring_.get() + at, first);
+  std::memcpy(buffer + first, ring_.get(), count - first);
+  return count;
+}
+
+/// Decompresses a step towards an offset into the ring; false at the end.
+bool Unpacker::advance(std::int64_t target)
+{
+  const std::size_t at = static_cast<std::size_t>(end_) % ring_bytes;
+  const std::size_t step =
+    std::clamp(static_cast<std::size_t>(target - end_), least_step, largest_step);
+  const std::size_t got = decoder_->decode(ring_.get() + at, std::min(step, ring_bytes - at));
+  end_ += static_cast<std::int64_t>(got);
+  begin_ = std::max(begin_, end_ - static_cast<std::int64_t>(ring_bytes));
+  if (got == 0)
+  {
+    unchecked_.clear();
+    if (decoder_->cut())
+    {
+      unchecked_ = std::string("expected the end of the ") + decoder_->name() +
+        " data, got the end of the file; what is there is taken unchecked";
+    }
+  }
+  return got > 0;
+}
+
+class UnpackedSource final : public ByteSource
+{
+public:
+  using MakeDecoder = std::unique_ptr<Decoder> (*)(const ByteSource&, RestartPoints&);
+
+  UnpackedSource(std::unique_ptr<ByteSource> packed, const std::shared_ptr<RestartPoints>& points,
+    MakeDecoder make_decoder)
+    : packed_(std::move(packed))
+    , unpacker_(std::make_unique<Unpacker>(make_decoder(*packed_, *points), points))
+  {
+  }
+
+  const std::string& path() const override { return packed_->path(); }
+  FileStamp stamp() const override { return packed_->stamp(); }
+  bool compressed() const override { return true; }
+  std::string unchecked() const override { return unpacker_->unchecked(); }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    return unpacker_->read(offset, buffer, bytes);
+  }
+
+  double fraction(std::int64_t) const override
+  {
+    return packed_->fraction(unpacker_->packed_position());
+  }
+
+private:
+  std::unique_ptr<ByteSource> packed_;
+  std::unique_ptr<Unpacker> unpacker_; ///< reading moves it
+};
+
+/// Whether data begin with a magic number, or are a part of one that no text begins with.
+bool begins_with(std::string_view data, std::string_view magic)
+{
+  return data.size() >= 2 && data.substr(0, magic.size()) == magic.substr(0, data.size());
+}
+
+/// Of Zstandard: 0x184D2A50 to 0x184D2A5F, least byte first. The first three are text, too.
+bool is_skippable_frame(std::string_view data)
+{
+  return data.size() >= 4 && (data[0] & 0xf0) == 0x50 && data.substr(1, 3) == "\x2a\x4d\x18";
+}
+}
+
+std::size_t RestartPoints::bytes() const noexcept
+{
+  std::size_t bytes = points.capacity() * sizeof(Point);
+  for (const Point& point : points)
+  {
+    bytes += point.window.empty() ? 0 : point.window.capacity() + 1;
+  }
+  return bytes;
+}
+
+PackedInput::PackedInput(const ByteSource& source)
+  : source_(source)
+  , buffer_(new unsigned char[input_bytes])
+{
+}
+
+void PackedInput::seek(std::int64_t position) noexcept
+{
+  if (position >= start_ && position <= start_ + static_cast<std::int64_t>(filled_))
+  {
+    next_ = static_cast<std::size_t>(position - start_);
+    return;
+  }
+  start_ = position;
+  next_ = 0;
+  filled_ = 0;
+}
+
+bool PackedInput::more()
+{
+  if (next_ == filled_)
+  {
+    start_ = this->position();
+    next_ = 0;
+    filled_ = 0; // should the read throw
+    filled_ = source_.read(start_, reinterpret_cast<char*>(buffer_.get()), input_bytes);
+  }
+  return next_ < filled_;
+}
+
+int PackedInput::get()
+{
+  return this->more() ? buffer_[next_++] : -1;
+}
+
+std::int64_t Decoder::to_next_point() const noexcept
+{
+  const std::int64_t last = points_.points.empty() ? 0 : points_.points.back().offset;
+  return std::max(
+    std::int64_t{ 0 }, std::max(std::int64_t{ 1 }, points_.spacing) - (offset_ - last));
+}
+
+void Decoder::add_point(RestartPoints::Point point)
+{
+  points_.points.push_back(std::move(point));
+  while (points_.points.size() > most_points && points_.spacing < widest_spacing)
+  {
+    points_.spacing = std::min(2 * std::max(std::int64_t{ 1 }, points_.spacing), widest_spacing);
+    thin(points_);
+  }
+}
+
+void Decoder::fail(const std::string& why) const
+{
+  throw FormatError(
+    std::string("expected ") + this->name() + " data, got bytes that are none (" + why + ")",
+    { in_.path(), 0, in_.position() });
+}
+
+std::unique_ptr<ByteSource> unpack(
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<RestartPoints> points)
+{
+  std::array<char, 4> first = {};
+  const std::string_view magic(first.data(), packed->read(0, first.data(), first.size()));
+  UnpackedSource::MakeDecoder make_decoder = nullptr;
+  if (begins_with(magic, "\x1f\x8b\x08"))
+  {
+    make_decoder = make_gzip_decoder;
+  }
+  else if (begins_with(magic, "\x28\xb5\x2f\xfd") || is_skippable_frame(magic))
+  {
+    make_decoder = make_zstd_decoder;
+  }
+  if (make_decoder == nullptr)
+  {
+    return packed;
+  }
+  return std::make_unique<UnpackedSource>(std::move(packed),
+    points ? std::move(points) : std::make_shared<RestartPoints>(), make_decoder);
+}
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Zstandard, RFC 8878.
+#include "granular/bytes/byte_source_unpack.h"
+
+#include "granular/common/error.h"
+
+#include <cstdint>
+#include <new>
+#include <string>
+
+#include <zstd.h>
+#include <zstd_errors.h>
+
+namespace granular
+{
+namespace
+{
+constexpr int largest_window = 27; // as a power of 2; also what programs take unless told otherwise
+
+struct FreeStream
+{
+  void operator()(ZSTD_DStream* stream) const noexcept { ZSTD_freeDStream(stream); }
+};
+
+class ZstdDecoder final : public Decoder
+{
+public:
+  ZstdDecoder(const ByteSource& packed, RestartPoints& points)
+    : Decoder(packed, points)
+    , stream_(ZSTD_createDStream())
+  {
+    if (!stream_ ||
+      ZSTD_isError(ZSTD_DCtx_setParameter(stream_.get(), ZSTD_d_windowLogMax, largest_window)))
+    {
+      throw std::bad_alloc();
+    }
+  }
+
+  const char* name() const noexcept override { return "zstd"; }
+  void restart(const RestartPoints::Point& point) override;
+  std::size_t decode(char* out, std::size_t bytes) override;
+
+private:
+  void begin_frame();
+  [[noreturn]] void fail_with(std::size_t status) const;
+
+  std::unique_ptr<ZSTD_DStream, FreeStream> stream_;
+  std::int64_t frame_start_ = 0; ///< in the file
+  bool in_frame_ = false;
+  bool flushed_ = false; ///< the stream holds no content back
+};
+
+void ZstdDecoder::restart(const RestartPoints::Point& point)
+{
+  in_.seek(point.packed);
+  offset_ = point.offset;
+  in_frame_ = false;
+}
+
+std::size_t ZstdDecoder::decode(char* out, std::size_t bytes)
+{
+  for (;;)
+  {
+    const bool more = in_.more();
+    if (!more && (!in_frame_ || flushed_))
+    {
+      this->end_of_file(in_frame_);
+      return 0;
+    }
+    if (!in_frame_)
+    {
+      this->begin_frame();
+    }
+    ZSTD_inBuffer input{ in_.data(), in_.size(), 0 };
+    ZSTD_outBuffer output{ out, bytes, 0 };
+    const std::size_t status = ZSTD_decompressStream(stream_.get(), &output, &input);
+    if (ZSTD_isError(status))
+    {
+      this->fail_with(status); // at the first byte that was handed in: input.pos means nothing then
+    }
+    in_.skip(input.pos);
+    offset_ += static_cast<std::int64_t>(output.pos);
+    flushed_ = output.pos < output.size;
+    in_frame_ = status != 0;
+    if (output.pos > 0)
+    {
+      return output.pos;
+    }
+  }
+}
+
+void ZstdDecoder::begin_frame()
+{
+  frame_start_ = in_.position();
+  if (this->to_next_point() == 0)
+  {
+    this->add_point({ offset_, frame_start_, 0, 0, 0, {} });
+  }
+  ZSTD_DCtx_reset(stream_.get(), ZSTD_reset_session_only);
+  in_frame_ = true;
+  flushed_ = true;
+}
+
+void ZstdDecoder::fail_with(std::size_t status) const
+{
+  if (ZSTD_getErrorCode(status) == ZSTD_error_memory_allocation)
+  {
+    throw std::bad_alloc();
+  }
+  if (ZSTD_getErrorCode(status) == ZSTD_error_frameParameter_windowTooLarge)
+  {
+    throw LimitError("expected a zstd window of at most 128 MiB, got a larger one",
+      { in_.path(), 0, frame_start_ });
+  }
+  std::string why = ZSTD_getErrorName(status);
+  why[0] = static_cast<char>(why[0] >= 'A' && why[0] <= 'Z' ? why[0] - 'A' + 'a' : why[0]);
+  this->fail(why);
+}
+}
+
+std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, RestartPoints& points)
+{
+  return std::make_unique<ZstdDecoder>(packed, points);
+}
+}

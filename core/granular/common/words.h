@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_common_words_h
+#define granular_common_words_h
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// Blanks, tabs, CR and all other bytes up to ' ' separate words.
+constexpr bool is_blank(char c) noexcept
+{
+  return static_cast<unsigned char>(c) <= ' ';
+}
+
+/// What a text of UTF-8 may begin with.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// Takes the first word off a line, with what is before it. Empty: the line has none.
+inline std::string_view take_word(std::string_view& line) noexcept
+{
+  const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
+  const auto end = std::find_if(first, line.end(), is_blank);
+  line = { end, line.end() };
+  return { first, end };
+}
+
+inline bool has_words(std::string_view line) noexcept
+{
+  return !take_word(line).empty();
+}
+
+/// Adds the words of a line.
+inline void append_words(std::string_view line, std::vector<std::string_view>& words)
+{
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
+  {
+    words.push_back(word);
+  }
+}
+
+/// The words of a line.
+inline std::vector<std::string_view> split_words(std::string_view line)
+{
+  std::vector<std::string_view> words;
+  append_words(line, words);
+  return words;
+}
+
+/// Words, separated by blanks.
+template <class Words>
+std::string join_words(const Words& words)
+{
+  std::string text;
+  for (const auto& word : words)
+  {
+    text.append(text.empty() ? "" : " ").append(word);
+  }
+  return text;
+}
+
+/// In quotes, shortened to what fits a message; other than printable bytes become '?'.
+inline std::string quoted(std::string_view text)
+{
+  constexpr std::size_t longest = 40;
+  std::string shown(text.substr(0, longest));
+  std::replace_if(
+    shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "'" + shown + (text.size() > longest ? "...'" : "'");
+}
+}
+#endif

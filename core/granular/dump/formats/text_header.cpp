@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/formats/text_header.h"
+
+#include "granular/numbers/number.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Takes the mark off a line that begins with it; else false.
+bool take_item(std::string_view& line) noexcept
+{
+  if (line.starts_with(byte_order_mark))
+  {
+    line.remove_prefix(byte_order_mark.size());
+  }
+  return take_word(line) == item_mark;
+}
+
+/// Where in a line that is no start of a frame the header of one begins; 0: nowhere. A run that was
+/// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
+std::size_t find_glued_header(std::string_view line)
+{
+  if (line.find(item_mark, 1) == line.npos)
+  {
+    return 0;
+  }
+  const std::size_t found = line.rfind(item_mark); // the last: it may have been killed twice
+  const std::string_view before = line.substr(0, found);
+  return before == byte_order_mark || !has_words(before) ||
+      !opens_frame(item_words(line.substr(found)))
+    ? 0
+    : found;
+}
+}
+
+std::vector<std::string_view> item_words(std::string_view line)
+{
+  return take_item(line) ? split_words(line) : std::vector<std::string_view>();
+}
+
+bool opens_frame(std::span<const std::string_view> words) noexcept
+{
+  return words.size() == 1 && (words[0] == "TIMESTEP" || words[0] == "UNITS" || words[0] == "TIME");
+}
+
+bool begins_with(
+  std::span<const std::string_view> words, std::string_view name, bool alone) noexcept
+{
+  std::size_t same = 0;
+  for (auto wanted = take_word(name); !wanted.empty(); wanted = take_word(name))
+  {
+    if (same == words.size() || words[same] != wanted)
+    {
+      return false;
+    }
+    ++same;
+  }
+  return !alone || same == words.size();
+}
+
+const TextHeader::Section TextHeader::sections[] = {
+  { "TIMESTEP", true, &TextHeader::parse_timestep },
+  { "TIME", true, &TextHeader::parse_time },
+  { "UNITS", true, &TextHeader::parse_units },
+  { "LABEL", true, &TextHeader::parse_label },
+  { "NUMBER OF", false, &TextHeader::parse_rows },
+  { "BOX BOUNDS", false, &TextHeader::parse_box },
+  { "", false, &TextHeader::skip_section },
+};
+
+void TextHeader::restart(const std::string& units)
+{
+  header_.time.reset();
+  header_.label.clear();
+  header_.counted = rows_of_ == RowsOf::Particles ? "ATOMS" : "";
+  header_.units = units;
+  next_line_ = 0;
+  opened_ = false;
+  has_timestep_ = false;
+  has_rows_ = false;
+  has_box_ = false;
+  has_columns_ = false;
+}
+
+bool TextHeader::read()
+{
+  std::string_view line;
+  while (this->next(line))
+  {
+    if (has_words(line) && line != byte_order_mark)
+    {
+      if (!this->read_section(line))
+      {
+        return false;
+      }
+      if (has_columns_)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// A section, or what lies between frames, from its first line on. False at the end of the text.
+bool TextHeader::read_section(std::string_view line)
+{
+  // the words outlive the line: the sections read on
+  section_ = line;
+  std::string_view rest = section_;
+  words_.clear();
+  if (take_item(rest))
+  {
+    append_words(rest, words_);
+  }
+  const bool columns = opened_ && !header_.counted.empty() && begins_with(words_, header_.counted);
+  const Section& section = find_section(words_);
+  if (!opened_ && !words_.empty() && section.parse == &TextHeader::skip_section)
+  {
+    return this->skip_section(words_); // between frames, or behind the last
+  }
+  if (words_.empty() || (!opened_ && !opens_frame(words_)))
+  {
+    this->fail(opened_ ? "an ITEM: line" : "ITEM: TIMESTEP, UNITS or TIME", section_);
+  }
+  if (!opened_)
+  {
+    opened_ = true;
+    offset_ = scanner_.last_offset();
+    line_ = scanner_.last_line();
+  }
+  this->look_for_next_frame(words_, section_);
+  return columns ? this->parse_columns(words_) : (this->*section.parse)(words_);
+}
+
+bool TextHeader::next(std::string_view& line)
+{
+  if (!scanner_.next(line))
+  {
+    return false;
+  }
+  if (const std::size_t glued = find_glued_header(line))
+  {
+    const Where where = scanner_.where();
+    scanner_.go_to(scanner_.last_offset() + static_cast<std::int64_t>(glued), where.line);
+    throw FormatError("expected a whole line, got the header of another frame within it", where);
+  }
+  return true;
+}
+
+/// A second ITEM: TIMESTEP is that of another frame, and so are UNITS and TIME that came before it.
+void TextHeader::look_for_next_frame(Words words, std::string_view line)
+{
+  if (!has_timestep_ || !opens_frame(words))
+  {
+    return;
+  }
+  if (next_line_ == 0)
+  {
+    next_offset_ = scanner_.last_offset();
+    next_line_ = scanner_.last_line();
+  }
+  if (words[0] == "TIMESTEP")
+  {
+    const std::string expected = "expected " + this->columns_section() + ", got " + quoted(line);
+    const Where where = scanner_.where();
+    scanner_.go_to(next_offset_, next_line_);
+    throw FormatError(expected, where);
+  }
+}
+
+const TextHeader::Section& TextHeader::find_section(Words words) noexcept
+{
+  return *std::find_if(std::begin(sections), std::end(sections),
+    [words](const Section& entry) { return begins_with(words, entry.name, entry.alone); });
+}
+
+void TextHeader::fail(const std::string& expected, std::string_view got) const
+{
+  throw FormatError("expected " + expected + ", got " + quoted(got), scanner_.where());
+}
+
+/// The line that the header ends with.
+std::string TextHeader::columns_section() const
+{
+  return "ITEM: " + (header_.counted.empty() ? std::string("ENTRIES") : header_.counted);
+}
+
+void TextHeader::require(bool seen, const char* section) const
+{
+  if (!seen)
+  {
+    throw FormatError(std::string("expected ITEM: ") + section + " before " +
+        this->columns_section() + ", got none",
+      scanner_.where());
+  }
+}
+
+bool TextHeader::value_line(std::string_view& line)
+{
+  do
+  {
+    if (!this->next(line))
+    {
+      return false;
+    }
+  } while (!has_words(line));
+  if (line.starts_with(item_mark))
+  {
+    const std::string copy(line);
+    scanner_.put_back();
+    this->fail("a value", copy);
+  }
+  return true;
+}
+
+std::int64_t TextHeader::integer(std::string_view word, const char* what) const
+{
+  std::int64_t value = 0;
+  if (!parse_int64(word.data(), word.data() + word.size(), value))
+  {
+    this->fail(what, word);
+  }
+  return value;
+}
+
+bool TextHeader::parse_timestep(Words)
+{
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  // some tools add the time as a second word
+  header_.timestep = this->integer(take_word(line), "an integer timestep");
+  has_timestep_ = true;
+  return true;
+}
+
+bool TextHeader::parse_time(Words)
+{
+  double time = 0;
+  if (!this->read_numbers(1, &time))
+  {
+    return false;
+  }
+  header_.time = time;
+  return true;
+}
+
+bool TextHeader::parse_units(Words)
+{
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  header_.units = take_word(line);
+  return true;
+}
+
+bool TextHeader::parse_label(Words)
+{
+  std::string_view line;
+  if (!this->next(line))
+  {
+    return false;
+  }
+  header_.label = line;
+  return true;
+}
+
+bool TextHeader::parse_rows(Words words)
+{
+  const std::string counted = join_words(words.subspan(2));
+  const bool particles = counted == "ATOMS";
+  if (counted.empty() || (rows_of_ != RowsOf::Any && particles != (rows_of_ == RowsOf::Particles)))
+  {
+    this->fail(rows_of_ == RowsOf::Others ? "ITEM: NUMBER OF ENTRIES, or of other things than ATOMS"
+                                          : "ITEM: NUMBER OF ATOMS",
+      "ITEM: " + join_words(words));
+  }
+  header_.counted = counted;
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  const std::string_view word = take_word(line);
+  const std::string number = std::string("a number of ") + (particles ? "atoms" : "rows");
+  header_.rows = this->integer(word, number.c_str());
+  if (header_.rows < 0)
+  {
+    this->fail(number + " >= 0", word);
+  }
+  has_rows_ = true;
+  return true;
+}
+
+/// "[xy xz yz | abc origin] [flags]" and three lines of 2, 3 or 4 numbers.
+bool TextHeader::parse_box(Words words)
+{
+  Words rest = words.subspan(2);
+  const bool tilted = begins_with(rest, "xy xz yz");
+  const bool general = begins_with(rest, "abc origin");
+  rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
+  std::array<std::array<double, 4>, 3> n = {};
+  for (auto& numbers : n)
+  {
+    if (!this->read_numbers(general ? 4 : tilted ? 3 : 2, numbers.data()))
+    {
+      return false;
+    }
+  }
+  if (general)
+  {
+    header_.box = Box::from_vectors({ n[0][3], n[1][3], n[2][3] },
+      { Vector3{ n[0][0], n[0][1], n[0][2] }, Vector3{ n[1][0], n[1][1], n[1][2] },
+        Vector3{ n[2][0], n[2][1], n[2][2] } });
+  }
+  else
+  {
+    const Vector3 lo = { n[0][0], n[1][0], n[2][0] };
+    const Vector3 hi = { n[0][1], n[1][1], n[2][1] };
+    header_.box = tilted ? Box::from_tilted_bounds(lo, hi, n[0][2], n[1][2], n[2][2])
+                         : Box::from_bounds(lo, hi);
+  }
+  header_.box.boundary = join_words(rest);
+  has_box_ = true;
+  return true;
+}
+
+bool TextHeader::read_numbers(std::size_t count, double* numbers)
+{
+  std::string_view line;
+  if (!this->value_line(line))
+  {
+    return false;
+  }
+  std::array<std::string_view, 4> words;
+  std::size_t there = 0;
+  std::string_view rest = line;
+  for (auto word = take_word(rest); !word.empty(); word = take_word(rest))
+  {
+    words[std::min(there++, words.size() - 1)] = word;
+  }
+  if (there != count)
+  {
+    this->fail(std::to_string(count) + (count == 1 ? " number" : " numbers"), line);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (!parse_double(words[i].data(), words[i].data() + words[i].size(), numbers[i]))
+    {
+      this->fail("a number", words[i]);
+    }
+  }
+  return true;
+}
+
+bool TextHeader::parse_columns(Words words)
+{
+  this->require(has_timestep_, "TIMESTEP");
+  this->require(has_rows_, "NUMBER OF ATOMS");
+  const bool particles = header_.counted == "ATOMS";
+  if (particles)
+  {
+    this->require(has_box_, "BOX BOUNDS");
+  }
+  header_.has_box = has_box_;
+  header_.box = has_box_ ? std::move(header_.box) : Box();
+  const auto section = split_words(header_.counted).size();
+  column_names_.assign(words.begin() + static_cast<std::ptrdiff_t>(section), words.end());
+  has_columns_ = true;
+  return true;
+}
+
+bool TextHeader::skip_section(Words)
+{
+  std::string_view line;
+  while (this->next(line))
+  {
+    std::string_view rest = line;
+    if (take_item(rest) && has_words(rest))
+    {
+      scanner_.put_back();
+      return true;
+    }
+  }
+  return false;
+}
+}

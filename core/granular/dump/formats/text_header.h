@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_formats_text_header_h
+#define granular_dump_formats_text_header_h
+
+#include "granular/frames/frame.h"
+#include "granular/text/text_scanner.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// A line "ITEM: ...": its words after the first. Empty for other lines.
+std::vector<std::string_view> item_words(std::string_view line);
+
+/// Whether words begin with the blank-separated words of name; alone: and have no others.
+bool begins_with(
+  std::span<const std::string_view> words, std::string_view name, bool alone = false) noexcept;
+
+/// Whether the section of that name may be the first of a frame: TIMESTEP, or UNITS and TIME,
+/// which LAMMPS puts before it.
+bool opens_frame(std::span<const std::string_view> words) noexcept;
+
+/// What the rows of a dump are: ITEM: NUMBER OF ATOMS, or ENTRIES or any words of the user's.
+enum class RowsOf : std::uint8_t
+{
+  Particles,
+  Others, ///< of dump local; there need be no box
+  Any
+};
+
+/// Reads the header of one frame of a text dump, in any of its dialects: sections in any order
+/// up to ITEM: ATOMS, or what else it counts; unknown ones passed over.
+class TextHeader
+{
+public:
+  TextHeader(TextScanner& scanner, const std::string& units, RowsOf rows_of)
+    : scanner_(scanner)
+    , rows_of_(rows_of)
+  {
+    this->restart(units);
+  }
+
+  /// Makes ready for the header of another frame.
+  void restart(const std::string& units);
+
+  /// Reads up to and including the line ITEM: ATOMS. False at the end of the text.
+  /// Throws FormatError.
+  bool read();
+
+  FrameHeader& header() noexcept { return header_; }
+  const FrameHeader& header() const noexcept { return header_; }
+  const std::vector<std::string>& column_names() const noexcept { return column_names_; }
+  std::int64_t offset() const noexcept { return offset_; } ///< of the frame's first line
+  std::int64_t line() const noexcept { return line_; }
+  bool opened() const noexcept { return opened_; }
+
+private:
+  using Words = std::span<const std::string_view>;
+  using Parse = bool (TextHeader::*)(Words);
+
+  struct Section
+  {
+    std::string_view name; ///< words after ITEM:, as far as they are fixed
+    bool alone;            ///< no other words may follow: with some it is an unknown section
+    Parse parse;           ///< false at the end of the text
+  };
+
+  static const Section sections[];
+
+  static const Section& find_section(Words words) noexcept;
+  bool read_section(std::string_view line);
+  bool next(std::string_view& line);
+  void look_for_next_frame(Words words, std::string_view line);
+  bool value_line(std::string_view& line);
+  bool parse_timestep(Words words);
+  bool parse_time(Words words);
+  bool parse_units(Words words);
+  bool parse_label(Words words);
+  bool parse_rows(Words words);
+  bool parse_box(Words words);
+  bool parse_columns(Words words);
+  bool skip_section(Words words);
+  bool read_numbers(std::size_t count, double* numbers);
+  std::int64_t integer(std::string_view word, const char* what) const;
+  void require(bool seen, const char* section) const;
+  std::string columns_section() const;
+  [[noreturn]] void fail(const std::string& expected, std::string_view got) const;
+
+  TextScanner& scanner_;
+  RowsOf rows_of_;
+  FrameHeader header_;
+  std::vector<std::string> column_names_;
+  std::string section_;                 ///< the line ITEM: of the section at hand
+  std::vector<std::string_view> words_; ///< of it
+  std::int64_t offset_ = 0;
+  std::int64_t line_ = 0;
+  std::int64_t next_offset_ = 0; ///< of the first section that may be another frame's
+  std::int64_t next_line_ = 0;
+  bool opened_ = false;
+  bool has_timestep_ = false;
+  bool has_rows_ = false;
+  bool has_box_ = false;
+  bool has_columns_ = false;
+};
+}
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_formats_text_rows_h
+#define granular_dump_formats_text_rows_h
+
+#include "granular/dump/formats/frame_rows.h"
+#include "granular/text/text_scanner.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// The rows of a frame of a text dump: the lines behind its header.
+class TextRows final : public FrameRows
+{
+public:
+  TextRows(const ByteSource& source, const FrameEntry& entry);
+
+  const FrameHeader& header() const noexcept override { return header_; }
+  std::unique_ptr<RowReader> reader() const override;
+  std::vector<Misfit> describe(const RowFault& fault) const override;
+
+private:
+  friend class TextReader;
+
+  std::vector<std::string> read_header();
+  std::vector<std::string_view> first_row(TextScanner& scanner) const;
+  bool is_misfit(const RowFault& fault) const;
+  Where where(const RowFault& fault) const;
+  std::string name_of(const RowFault& fault) const;
+
+  const ByteSource& source_;
+  FrameEntry entry_;
+  FrameHeader header_;
+  std::int64_t rows_offset_ = 0;
+  std::int64_t rows_line_ = 0;
+};
+
+/// Whole lines, all in memory: a row belongs to the chunk that holds its first byte.
+class TextReader final : public RowReader
+{
+public:
+  explicit TextReader(const TextRows& of)
+    : of_(of)
+  {
+  }
+
+  void open(std::int64_t first, std::int64_t last) override;
+  std::int64_t rows() const noexcept override;
+  bool more() const noexcept override;
+  bool surplus() const noexcept override { return surplus_; }
+  std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
+
+private:
+  void load(std::int64_t from, std::int64_t to);
+  std::size_t load_line(std::size_t at);
+  void check_length(std::size_t first, std::size_t end) const;
+  void find_misfits(
+    const char* from, std::span<const ColumnSink> sinks, RowFault& fault) const;
+  [[noreturn]] void fail(const RowResult& result, std::span<const ColumnSink> sinks) const;
+
+  const TextRows& of_;
+  PaddedBuffer buffer_;
+  std::int64_t offset_ = 0; ///< of buffer_ in the content
+  std::size_t filled_ = 0;  ///< bytes in buffer_
+  std::size_t first_ = 0;   ///< of the rows
+  std::size_t at_ = 0;      ///< next row
+  std::size_t end_ = 0;     ///< of the rows
+  bool surplus_ = false;
+};
+}
+#endif

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/read/chunk_decoder.h"
+
+#include "granular/sorting/text_dictionary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+namespace granular
+{
+namespace
+{
+template <typename T>
+void copy_scaled(const char* from, std::ptrdiff_t from_stride, char* to, std::ptrdiff_t to_stride,
+  double scale, std::size_t count) noexcept
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    *reinterpret_cast<double*>(to) = static_cast<double>(*reinterpret_cast<const T*>(from)) * scale;
+    from += from_stride;
+    to += to_stride;
+  }
+}
+
+/// A coordinate that is no number is in no region.
+bool contains(const std::array<double, 6>& region, const double* point) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double lo = region[2 * axis];
+    const double hi = region[2 * axis + 1];
+    if (lo <= hi && !(point[axis] >= lo && point[axis] <= hi))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}
+
+RoundingLoss loss_of_points(const std::deque<DecodedChunk>& chunks, const FrameLayout& layout)
+{
+  RoundingLoss all;
+  bool any = false;
+  for (const DecodedChunk& chunk : chunks)
+  {
+    all.add(chunk.loss);
+    any = any || chunk.kept > 0;
+  }
+  if (any && layout.rounds())
+  {
+    layout.add_rounding(all);
+  }
+  return all;
+}
+
+ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
+  : layout_(layout)
+  , request_(request)
+  , scratch_(std::make_unique<char[]>(layout.scratch_bytes))
+{
+  for (const auto& [column, wire] : layout.wires)
+  {
+    sinks_.push_back({ static_cast<std::uint32_t>(column), wire.kind, nullptr, wire.first.stride });
+  }
+  if (request.stride > 1 || layout.region)
+  {
+    keep_.resize(layout.batch);
+  }
+}
+
+void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t room,
+  const Where& where, DecodedChunk& chunk, std::vector<ValueRange>& ranges)
+{
+  row_ = chunk.row;
+  std::vector<TextDictionary> words(layout_.texts.size());
+  while (chunk.rows < room)
+  {
+    this->aim();
+    const std::int64_t wanted =
+      std::min(static_cast<std::int64_t>(layout_.batch), room - chunk.rows);
+    const std::int64_t got = reader.decode(sinks_, wanted);
+    if (got == 0)
+    {
+      break;
+    }
+    const auto count = static_cast<std::size_t>(got);
+    for (std::size_t i = 0; i < layout_.texts.size(); ++i)
+    {
+      const TextWire& wire = layout_.texts[i];
+      auto* const to = static_cast<std::int32_t*>(layout_.frame.arrays[wire.array].block.data());
+      words[i].index(
+        { reinterpret_cast<const std::string_view*>(wire.texts.at(0, scratch_.get())), count },
+        to + row_, where);
+    }
+    const std::size_t kept = this->finish_batch(count, number + chunk.rows, chunk.loss);
+    if (request_.ranges)
+    {
+      this->measure(kept, ranges);
+    }
+    row_ += static_cast<std::int64_t>(kept);
+    chunk.rows += got;
+  }
+  chunk.kept = row_ - chunk.row;
+  chunk.surplus = reader.surplus();
+  for (TextDictionary& dictionary : words)
+  {
+    chunk.words.push_back(dictionary.take());
+  }
+}
+
+/// Takes rows into account while they are in the cache: whoever shows them asks for their range.
+void ChunkDecoder::measure(std::size_t count, std::vector<ValueRange>& ranges) const
+{
+  const auto row = static_cast<std::size_t>(row_);
+  const auto add = [&](ValueRange& range, const auto* values, std::size_t components)
+  { range.add(values + row * components, count); };
+  const DumpFrame& frame = layout_.frame;
+  if (layout_.points && request_.single_precision)
+  {
+    add(ranges[0], static_cast<const float*>(frame.points.data()), 3);
+  }
+  else if (layout_.points)
+  {
+    add(ranges[0], static_cast<const double*>(frame.points.data()), 3);
+  }
+  for (std::size_t i = 0; i < frame.arrays.size(); ++i)
+  {
+    const DumpArray& array = frame.arrays[i];
+    const std::size_t components = array.info.columns.size();
+    const void* const data = array.block.data();
+    switch (array.info.type)
+    {
+      case ValueType::Int32:
+        add(ranges[i + 1], static_cast<const std::int32_t*>(data), components);
+        break;
+      case ValueType::Int64:
+        add(ranges[i + 1], static_cast<const std::int64_t*>(data), components);
+        break;
+      case ValueType::Float64:
+        add(ranges[i + 1], static_cast<const double*>(data), components);
+        break;
+      case ValueType::Text:
+        break;
+    }
+  }
+}
+
+/// Points the sinks at where the next row goes.
+void ChunkDecoder::aim()
+{
+  auto sink = sinks_.begin();
+  for (const auto& [column, wire] : layout_.wires)
+  {
+    sink++->data = wire.first.at(row_, scratch_.get());
+  }
+}
+
+/// Returns how many of the rows stay.
+std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number, RoundingLoss& loss)
+{
+  this->copy_batch(count);
+  if (layout_.points)
+  {
+    this->convert(*layout_.points, count);
+  }
+  if (!keep_.empty())
+  {
+    this->choose_rows(count, number);
+  }
+  if (layout_.points && request_.single_precision)
+  {
+    this->narrow(count, loss);
+  }
+  if (layout_.rounds() && layout_.radii)
+  {
+    this->measure_radii(count, loss);
+  }
+  if (keep_.empty())
+  {
+    return count;
+  }
+  const auto kept = static_cast<std::size_t>(
+    std::count(keep_.begin(), keep_.begin() + static_cast<std::ptrdiff_t>(count), 1));
+  if (kept < count)
+  {
+    layout_.for_each_block(
+      [&](Block& block, std::size_t width) { this->compact(block, width, count); });
+  }
+  return kept;
+}
+
+void ChunkDecoder::copy_batch(std::size_t count)
+{
+  for (const auto& [column, wire] : layout_.wires)
+  {
+    const char* const from = wire.first.at(row_, scratch_.get());
+    for (const Wire::Copy& copy : wire.copies)
+    {
+      char* const to = copy.to.at(row_, scratch_.get());
+      switch (wire.kind)
+      {
+        case ColumnSink::Kind::Int32:
+          copy_scaled<std::int32_t>(from, wire.first.stride, to, copy.to.stride, copy.scale, count);
+          break;
+        case ColumnSink::Kind::Int64:
+          copy_scaled<std::int64_t>(from, wire.first.stride, to, copy.to.stride, copy.scale, count);
+          break;
+        case ColumnSink::Kind::Float64:
+          copy_scaled<double>(from, wire.first.stride, to, copy.to.stride, copy.scale, count);
+          break;
+        case ColumnSink::Kind::Text:
+          break; // no text is ever copied to a number
+      }
+    }
+  }
+}
+
+/// Rounds points to floats, and measures what rows that stay lose by it.
+void ChunkDecoder::narrow(std::size_t count, RoundingLoss& loss)
+{
+  const auto* from = reinterpret_cast<const double*>(layout_.points->xyz.at(row_, scratch_.get()));
+  auto* to = static_cast<float*>(layout_.frame.points.data()) + 3 * row_;
+  Vector3 moved = {};
+  for (std::size_t i = 0; i < count; ++i, from += 3, to += 3)
+  {
+    const bool stays = keep_.empty() || keep_[i] != 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      to[axis] = static_cast<float>(from[axis]);
+      const double distance = std::abs(static_cast<double>(to[axis]) - from[axis]);
+      moved[axis] = stays && distance > moved[axis] ? distance : moved[axis];
+    }
+  }
+  layout_.add_moved(moved, loss);
+}
+
+/// The radii of the rows that stay.
+void ChunkDecoder::measure_radii(std::size_t count, RoundingLoss& loss) const
+{
+  const Block& radii = layout_.frame.arrays[*layout_.radii].block;
+  const auto* const radius = static_cast<const double*>(radii.data()) + row_;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    loss.add_radius(keep_.empty() || keep_[i] != 0 ? radius[i] : 0);
+  }
+}
+
+void ChunkDecoder::convert(const PointsWire& wire, std::size_t count)
+{
+  std::span<const double> images;
+  if (wire.images)
+  {
+    images = { reinterpret_cast<const double*>(wire.images->at(row_, scratch_.get())), 3 * count };
+  }
+  convert_positions(wire.plan, layout_.frame.header.box, wire.point_origin, images,
+    { reinterpret_cast<double*>(wire.xyz.at(row_, scratch_.get())), 3 * count });
+}
+
+/// Sets keep_ for each row of the batch.
+void ChunkDecoder::choose_rows(std::size_t count, std::int64_t number)
+{
+  std::fill(keep_.begin(), keep_.end(), char{ 1 });
+  if (request_.stride > 1)
+  {
+    this->choose_by_number(count, number);
+  }
+  if (layout_.region)
+  {
+    this->convert(*layout_.region, count);
+    const auto* point =
+      reinterpret_cast<const double*>(layout_.region->xyz.at(row_, scratch_.get()));
+    for (std::size_t i = 0; i < count; ++i, point += 3)
+    {
+      keep_[i] = keep_[i] && contains(request_.region, point);
+    }
+  }
+}
+
+/// By the id, or by the number of the row where there are no ids.
+void ChunkDecoder::choose_by_number(std::size_t count, std::int64_t number)
+{
+  const auto id = layout_.wires.find(layout_.id_column);
+  const bool by_row = id == layout_.wires.end();
+  const char* from = by_row ? nullptr : id->second.first.at(row_, scratch_.get());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (by_row)
+    {
+      keep_[i] = (number + static_cast<std::int64_t>(i)) % request_.stride == 0;
+      continue;
+    }
+    if (id->second.kind == ColumnSink::Kind::Float64)
+    {
+      double value = 0;
+      std::memcpy(&value, from, sizeof value);
+      keep_[i] = std::fmod(value, static_cast<double>(request_.stride)) == 0;
+    }
+    else
+    {
+      std::int64_t value = 0;
+      std::memcpy(&value, from, sizeof value);
+      keep_[i] = value % request_.stride == 0;
+    }
+    from += id->second.first.stride;
+  }
+}
+
+/// Moves the rows that stay together, from where the batch begins.
+void ChunkDecoder::compact(Block& block, std::size_t width, std::size_t count) const
+{
+  const char* from = static_cast<char*>(block.data()) + static_cast<std::size_t>(row_) * width;
+  char* to = static_cast<char*>(block.data()) + static_cast<std::size_t>(row_) * width;
+  for (std::size_t i = 0; i < count; ++i, from += width)
+  {
+    if (keep_[i])
+    {
+      std::memmove(to, from, width);
+      to += width;
+    }
+  }
+}
+}

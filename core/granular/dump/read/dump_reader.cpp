@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/read/dump_reader.h"
+
+#include "granular/common/archive.h"
+#include "granular/common/shares.h"
+#include "granular/dump/formats/text_header.h"
+#include "granular/dump/read/frame_chunks.h"
+#include "granular/dump/read/frame_decoder.h"
+#include "granular/parallel/executor.h"
+#include "granular/particles/point_loss.h"
+#include "granular/sorting/sort_rows.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace granular
+{
+template <class Archive>
+static void pass(Archive& archive, Misfit& misfit)
+{
+  archive.number(misfit.column);
+  archive.number(misfit.status);
+  archive.text(misfit.word);
+  pass(archive, misfit.where);
+}
+
+namespace
+{
+std::string text_of(const Misfit& misfit)
+{
+  return std::string("expected ") +
+    (misfit.status == RowStatus::NotExact ? "an integer" : "a number") + ", got " +
+    quoted(misfit.word);
+}
+
+/// Whether a column must be what it is taken for. Ids of a text must be integers: those of a binary file
+/// are where the user says that they are. Columns that the request knows hold numbers, and columns that nobody named
+/// must be what they are taken for, too. The same on all ranks.
+bool must_fit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
+{
+  const ColumnInfo& column = schema.columns()[static_cast<std::size_t>(misfit.column)];
+  return (column.role == ColumnRole::Id && kind.is_text()) ||
+    (column.known && misfit.status == RowStatus::NotANumber) || kind.guessed;
+}
+
+/// Throws if it must.
+void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)
+{
+  if (must_fit(misfit, kind, schema))
+  {
+    throw FormatError(text_of(misfit) +
+        (kind.guessed ? "; the columns, which the file does not name, are not those of dump atom: "
+                        "set ColumnNames"
+                      : ""),
+      misfit.where);
+  }
+}
+
+/// Integer columns that hold other numbers are read again as doubles, columns that the table does
+/// not know and that hold a word as texts. What must be what it is taken for is left to the next pass, unless it is first.
+void widen(
+  const std::vector<Misfit>& misfits, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
+{
+  std::vector<ColumnSchema::TypeChange> changes;
+  const std::vector<int> arrays = schema.arrays_of_columns();
+  std::set<int> done; // arrays, whose other columns are doubles now, too
+  for (const Misfit& misfit : misfits)
+  {
+    if (&misfit != &misfits.front() && must_fit(misfit, kind, schema))
+    {
+      break;
+    }
+    const bool number = misfit.status == RowStatus::NotExact;
+    if (!number || done.insert(arrays[static_cast<std::size_t>(misfit.column)]).second)
+    {
+      notices.push_back({ misfit.where,
+        text_of(misfit) + "; the column is kept as " + (number ? "doubles" : "texts") });
+      changes.push_back({ misfit.column, number ? ValueType::Float64 : ValueType::Text });
+    }
+  }
+  schema.set_types(changes);
+}
+
+/// The columns of all pieces, which must be the same; what holds texts in one piece does in all, unless it is known to
+/// hold numbers.
+ColumnSchema join_schemas(const PieceList& pieces, const DumpRequest& request)
+{
+  const FrameEntry& first = *pieces.entries.front();
+  if (request.schema && request.schema->columns().size() != first.kind->schema.columns().size())
+  {
+    throw FormatError("expected " + std::to_string(request.schema->columns().size()) +
+        " columns, got " + std::to_string(first.kind->schema.columns().size()) + ": " +
+        first.kind->schema.text(),
+      pieces.where(0));
+  }
+  ColumnSchema schema = request.schema.value_or(first.kind->schema);
+  std::set<int> texts;
+  for (std::size_t i = 1; i < pieces.entries.size(); ++i)
+  {
+    const FrameEntry& entry = *pieces.entries[i];
+    const ColumnSchema& other = entry.kind->schema;
+    const bool same_form = entry.kind->is_text() == first.kind->is_text();
+    if (!same_form || entry.shape != first.shape)
+    {
+      const bool same_columns = other.text() == schema.text();
+      throw FormatError("expected a piece of the same frame, got one with " +
+          std::string(!same_form ? "text where others are binary"
+              : same_columns     ? "another box"
+                                 : "the columns " + other.text()),
+        pieces.where(i));
+    }
+    for (std::size_t column = 0; column < other.columns().size(); ++column)
+    {
+      if (other.columns()[column].type == ValueType::Text && !schema.columns().at(column).known)
+      {
+        texts.insert(static_cast<int>(column));
+      }
+    }
+  }
+  std::vector<ColumnSchema::TypeChange> changes;
+  std::ranges::transform(texts, std::back_inserter(changes),
+    [](int column) {
+      return ColumnSchema::TypeChange{ column, ValueType::Text };
+    });
+  schema.set_types(changes);
+  return schema;
+}
+
+/// Which rows a process decodes: one that is alone sorts all to get its part of them.
+DumpRequest own_request(const DumpRequest& request, bool together)
+{
+  DumpRequest own = request;
+  if (request.sort_by_id && !together)
+  {
+    own.piece = 0;
+    own.pieces = 1;
+  }
+  return own;
+}
+
+void check(const DumpRequest& request)
+{
+  if (request.stride < 1)
+  {
+    throw LimitError("expected a stride >= 1, got " + std::to_string(request.stride));
+  }
+  if (request.piece < 0 || request.piece >= request.pieces)
+  {
+    throw LimitError("expected a piece from 0 to below " + std::to_string(request.pieces) +
+      ", got " + std::to_string(request.piece));
+  }
+}
+
+DumpPart decode(const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request,
+  Progress& progress)
+{
+  DumpPart part;
+  FrameDecoder decoder(pieces, schema, request, part.notices);
+  part.misfits = decoder.run(progress);
+  if (part.misfits.empty())
+  {
+    part.loss = decoder.loss();
+    part.frame = decoder.take(part.ids);
+    part.counts = decoder.take_counts();
+  }
+  return part;
+}
+
+/// Puts together what all ranks have to say, on all: the first misfits, and each notice once.
+void share_remarks(Communicator& ranks, DumpPart& part)
+{
+  if (ranks.size() == 1)
+  {
+    return;
+  }
+  Packer packer;
+  do_together(ranks,
+    [&]
+    {
+      pass(packer, part.misfits);
+      pass(packer, part.notices);
+      packer.number(part.loss);
+    });
+  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
+  do_together(ranks,
+    [&]
+    {
+      part.misfits.clear();
+      part.notices.clear();
+      std::set<std::string> said;
+      for (const std::string& bytes : all)
+      {
+        Unpacker unpacker{ bytes };
+        std::vector<Misfit> of_rank;
+        Notices notices;
+        pass(unpacker, of_rank);
+        pass(unpacker, notices);
+        part.misfits = part.misfits.empty() ? std::move(of_rank) : part.misfits;
+        RoundingLoss loss;
+        unpacker.number(loss);
+        part.loss.add(loss);
+        std::ranges::copy_if(notices, std::back_inserter(part.notices),
+          [&](const Notice& notice) { return said.insert(to_string(notice)).second; });
+      }
+    });
+}
+
+/// The parts of all ranks must have the rows that the headers promise: none of them sees them all.
+void check_counts(Communicator& ranks, const PieceList& pieces, DumpPart& part)
+{
+  if (ranks.size() == 1)
+  {
+    return;
+  }
+  ranks.sum(part.counts);
+  for (std::size_t piece = 0; piece < part.counts.size(); ++piece)
+  {
+    const std::int64_t rows = pieces.entries[piece]->rows;
+    if (part.counts[piece] != rows)
+    {
+      throw FormatError("expected " + std::to_string(rows) + " rows, got " +
+          (part.counts[piece] > rows ? "more" : std::to_string(part.counts[piece])),
+        pieces.where(piece));
+    }
+  }
+}
+
+void forget_ranges(DumpFrame& frame)
+{
+  frame.points_range = ValueRange();
+  for (DumpArray& array : frame.arrays)
+  {
+    array.range = ValueRange();
+  }
+}
+
+/// Sorts the rows if that is asked for. Collective.
+void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const Where& where)
+{
+  if (!request.sort_by_id)
+  {
+    return;
+  }
+  const Executor executor(request.threads);
+  if (ranks.size() > 1 || request.pieces > 1)
+  {
+    forget_ranges(part.frame); // the rows will be others
+  }
+  if (ranks.size() > 1)
+  {
+    sort_by_id(part.frame, part.ids, ranks, part.notices, where, executor);
+    return;
+  }
+  sort_by_id(part.frame, part.ids, part.notices, where, executor);
+  if (request.pieces > 1)
+  {
+    const std::int64_t first = begin_of_part(part.frame.rows, request.piece, request.pieces);
+    const std::int64_t end = begin_of_part(part.frame.rows, request.piece + 1, request.pieces);
+    keep_rows(part.frame, first, end - first);
+  }
+}
+
+DumpFrame read(const PieceList& pieces, const DumpRequest& request, Communicator& ranks,
+  std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
+{
+  check(request);
+  DumpRequest own;
+  Where where;
+  SharedProgress shared(progress, ranks);
+  PartialProgress forward(shared); // also where a frame is read again
+  std::optional<ColumnSchema> schema;
+  DumpPart part;
+  do_together(ranks,
+    [&]
+    {
+      own = own_request(request, ranks.size() > 1);
+      where = pieces.where(0);
+      schema = join_schemas(pieces, request);
+      part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, forward);
+      ahead.reset();
+    });
+  for (share_remarks(ranks, part); !part.misfits.empty(); share_remarks(ranks, part))
+  {
+    const FrameKind& kind = *pieces.entries.front()->kind;
+    check_misfit(part.misfits.front(), kind, *schema);
+    do_together(ranks,
+      [&]
+      {
+        widen(part.misfits, kind, *schema, notices);
+        part = {}; // the memory of a rank whose own rows did fit
+        part = decode(pieces, *schema, own, forward);
+      });
+  }
+  check_counts(ranks, pieces, part);
+  sort(part, request, ranks, where);
+  do_together(ranks,
+    [&]
+    {
+      notices.insert(notices.end(), part.notices.begin(), part.notices.end());
+      note_point_loss(part.loss, part.frame.header.box, request.point_origin,
+        request.single_precision, where, notices);
+    });
+  return std::move(part.frame);
+}
+
+PieceList list_of(const std::vector<FramePiece>& pieces)
+{
+  PieceList list;
+  for (const FramePiece& piece : pieces)
+  {
+    list.entries.push_back(&piece.entry);
+    list.paths.push_back(piece.file.path);
+  }
+  list.open = [&pieces](std::size_t i) { return open_indexed(pieces[i].file); };
+  return list;
+}
+}
+
+DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
+{
+  PieceList list;
+  do_together(ranks, [&] { list = list_of(pieces); });
+  return read(list, request, ranks, std::move(ahead), notices, progress);
+}
+
+DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  Notices& notices, Progress& progress)
+{
+  SerialCommunicator alone;
+  return read_dump(pieces, request, alone, std::nullopt, notices, progress);
+}
+
+DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
+  Notices& notices, Progress& progress)
+{
+  const auto lent = [](const ByteSource*) {};
+  const PieceList list = { { &entry }, { source.path() },
+    [&](std::size_t) { return std::shared_ptr<const ByteSource>(&source, lent); } };
+  SerialCommunicator alone;
+  return read(list, request, alone, std::nullopt, notices, progress);
+}
+
+DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  bool together, Progress& progress)
+{
+  check(request);
+  const PieceList list = list_of(pieces);
+  return decode(list, join_schemas(list, request), own_request(request, together), progress);
+}
+}

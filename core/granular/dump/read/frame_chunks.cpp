@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/read/frame_chunks.h"
+
+#include "granular/common/shares.h"
+#include "granular/dump/formats/frame_rows.h"
+#include "granular/text/text_scanner.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t some_rows = 4096;
+}
+
+std::int64_t PieceList::rows() const noexcept
+{
+  return std::accumulate(entries.begin(), entries.end(), std::int64_t{ 0 },
+    [](std::int64_t rows, const FrameEntry* entry) { return rows + entry->rows; });
+}
+
+Where PieceList::where(std::size_t piece) const
+{
+  return where_of(paths[piece], *entries[piece]);
+}
+
+std::vector<PieceRows> cut_frame(const PieceList& pieces, int part, int parts)
+{
+  std::int64_t all = 0;
+  for (const FrameEntry* const entry : pieces.entries)
+  {
+    all += extent_of(*entry);
+  }
+  const std::int64_t first = begin_of_part(all, part, parts);
+  const std::int64_t last = begin_of_part(all, part + 1, parts);
+  std::vector<PieceRows> ranges;
+  std::int64_t begin = 0;
+  for (std::size_t piece = 0; piece < pieces.entries.size(); ++piece)
+  {
+    const std::int64_t extent = extent_of(*pieces.entries[piece]);
+    const PieceRows range = { piece, std::max(first - begin, std::int64_t{ 0 }),
+      std::min(last - begin, extent) };
+    if (range.first < range.last)
+    {
+      ranges.push_back(range);
+    }
+    begin += extent;
+  }
+  return ranges;
+}
+
+std::int64_t most_rows(const PieceList& pieces, const std::vector<PieceRows>& ranges)
+{
+  return std::accumulate(ranges.begin(), ranges.end(), std::int64_t{ 0 },
+    [&](std::int64_t rows, const PieceRows& range)
+    { return rows + pieces.entries[range.piece]->rows; });
+}
+
+std::int64_t likely_rows(const PieceList& pieces, const std::vector<PieceRows>& ranges)
+{
+  std::int64_t rows = 0;
+  for (const PieceRows& range : ranges)
+  {
+    const FrameEntry& entry = *pieces.entries[range.piece];
+    const double share =
+      static_cast<double>(range.last - range.first) / static_cast<double>(extent_of(entry));
+    const double likely = 1.25 * share * static_cast<double>(entry.rows) + some_rows;
+    const bool all = range.last - range.first == extent_of(entry);
+    rows += all || likely >= static_cast<double>(entry.rows) ? entry.rows
+                                                             : static_cast<std::int64_t>(likely);
+  }
+  return rows;
+}
+
+std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source)
+{
+  constexpr std::int64_t often_packed = 256; // times; what is packed better takes another turn
+  const auto columns = static_cast<std::int64_t>(entry.kind->schema.columns().size());
+  const std::int64_t word = entry.kind->is_text() ? 2 : sizeof(double); // a digit and a blank at least
+  const std::int64_t all = entry.end - entry.offset;
+  const std::int64_t bytes =
+    source.compressed() ? std::min(all, often_packed * source.stamp().size) : all;
+  return std::min(entry.rows, bytes / (word * std::max<std::int64_t>(columns, 1)) + some_rows);
+}
+
+ChunkCuts::ChunkCuts(
+  const PieceList& pieces, const std::vector<PieceRows>& ranges, std::size_t chunk_bytes)
+{
+  const std::size_t bytes = std::min(chunk_bytes, TextScanner::longest_line);
+  for (const PieceRows& range : ranges)
+  {
+    const std::int64_t step = chunk_extent(*pieces.entries[range.piece], bytes);
+    const std::int64_t chunks =
+      range.first < range.last ? (range.last - 1) / step - range.first / step + 1 : 0;
+    cuts_.push_back({ range, step, this->size() + static_cast<std::size_t>(chunks) });
+  }
+}
+
+PieceRows ChunkCuts::operator[](std::size_t chunk) const noexcept
+{
+  const auto cut = std::ranges::upper_bound(cuts_, chunk, {}, &Cut::end);
+  const std::int64_t before_end = static_cast<std::int64_t>(cut->end - chunk) - 1;
+  const PieceRows& range = cut->range;
+  const std::int64_t first = ((range.last - 1) / cut->step - before_end) * cut->step;
+  return { range.piece, std::max(range.first, first), std::min(range.last, first + cut->step) };
+}
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_read_frame_layout_h
+#define granular_dump_read_frame_layout_h
+
+#include "granular/dump/read/dump_request.h"
+#include "granular/memory/block.h"
+#include "granular/particles/rounding_loss.h"
+#include "granular/text/row_text.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace granular
+{
+/// Where values go: by the row of the frame, or by the row of the batch into a thread's own memory.
+struct Destination
+{
+  char* base = nullptr;
+  std::size_t offset = 0; ///< in scratch memory
+  std::ptrdiff_t stride = 0;
+  bool scratch = false;
+
+  char* at(std::int64_t row, char* memory) const noexcept
+  {
+    return scratch ? memory + offset : base + row * stride;
+  }
+};
+
+/// A column on its way: to its first destination by the decoder, from there to others.
+struct Wire
+{
+  struct Copy
+  {
+    Destination to; ///< doubles
+    double scale;
+  };
+
+  ColumnSink::Kind kind;
+  Destination first;
+  std::vector<Copy> copies;
+};
+
+/// Points: three doubles a row, made from columns.
+struct PointsWire
+{
+  PositionPlan plan;
+  Vector3 point_origin = {};
+  Destination xyz;
+  std::optional<Destination> images; ///< three doubles
+};
+
+/// A column of texts, which become indices of the words that occur.
+struct TextWire
+{
+  std::size_t array; ///< in the frame
+  Destination texts; ///< std::string_views of a batch
+};
+
+/// The memory that a frame is decoded into, and the wires from its columns to there. Any number of
+/// threads decode along it, each into rows of its own.
+class FrameLayout
+{
+public:
+  /// rows is how many there is room for. Throws what plan_positions throws; std::bad_alloc.
+  FrameLayout(const ColumnSchema& schema, const FrameHeader& header, const DumpRequest& request,
+    std::int64_t rows, const Where& where, Notices& notices);
+
+  /// Cuts the memory to the rows that there are. ids gets the ids where they are needed for sorting
+  /// and no array of the frame.
+  DumpFrame take(std::int64_t rows, Block& ids);
+
+  /// For the range of the points, and of each array; texts have none.
+  std::vector<ValueRange> ranges() const;
+
+  /// Whether points are not the numbers of the file.
+  bool rounds() const noexcept;
+
+  /// Points have been moved so far along the axes of their coordinates.
+  void add_moved(const Vector3& moved, RoundingLoss& loss) const noexcept;
+
+  /// What points within the box have lost where they were rounded to doubles.
+  void add_rounding(RoundingLoss& loss) const noexcept;
+
+  /// Calls visit(block, bytes a row) for every block that has rows.
+  template <typename Visit>
+  void for_each_block(Visit&& visit)
+  {
+    if (points)
+    {
+      visit(frame.points, point_bytes);
+    }
+    if (ids.bytes() > 0)
+    {
+      visit(ids, sizeof(std::int64_t));
+    }
+    for (DumpArray& array : frame.arrays)
+    {
+      visit(array.block, size_of(array.info.type) * array.info.columns.size());
+    }
+  }
+
+  std::int64_t rows; ///< there is room for
+  DumpFrame frame;
+  Block ids; ///< where they are needed but not wanted as an array
+  std::size_t point_bytes;
+  std::size_t
+    batch; ///< rows decoded at a time: what is made from them is made while they are in the cache
+  std::size_t scratch_bytes = 0;
+  std::map<int, Wire> wires;        ///< by column
+  std::optional<PointsWire> points; ///< where they are wanted
+  std::optional<PointsWire> region; ///< absolute coordinates, where a region restricts the rows
+  std::vector<TextWire> texts;
+  std::optional<std::size_t> radii; ///< the array of them
+  int id_column;                    ///< -1: there is none
+
+private:
+  void lay_arrays();
+  void lay_points(const Where& where, Notices& notices);
+  void lay_filters(const Where& where, Notices& notices);
+  void lay(PointsWire& wire);
+  void want(int column, ValueType type, Destination to, double scale = 1);
+  Destination scratch(std::size_t bytes_a_row);
+
+  const ColumnSchema& schema_;
+  const DumpRequest& request_;
+};
+}
+#endif

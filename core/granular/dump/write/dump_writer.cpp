@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/write/dump_writer.h"
+
+#include "granular/dump/write/file_appender.h"
+#include "granular/dump/write/frame_plan.h"
+#include "granular/dump/write/row_batches.h"
+#include "granular/dump/write/sorted_rows.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Bytes of text that a rank keeps while it counts all, so that it need not encode them again.
+constexpr std::size_t most_kept = std::size_t{ 16 } << 20;
+
+std::int64_t sum_of(std::span<const std::int64_t> counts) noexcept
+{
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+}
+
+std::size_t total_size(std::span<const std::string_view> parts) noexcept
+{
+  return std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 },
+    [](std::size_t sum, std::string_view part) { return sum + part.size(); });
+}
+}
+
+/// The file, as this rank knows it.
+struct DumpWriter::File
+{
+  enum class Way : std::uint8_t
+  {
+    Own,    ///< each rank has its file
+    Gather, ///< the first rank has it
+    Shared  ///< all ranks have it
+  };
+
+  File(const std::string& path, const DumpFormat& format, const WriteOptions& options,
+    Communicator& all)
+    : executor(options.threads)
+    , ranks(all)
+  {
+    if (is_name_of_ranks(path))
+    {
+      way = Way::Own;
+    }
+    else if (options.mode == ParallelMode::MpiIo && all.size() > 1 &&
+      format.compression == Compression::None)
+    {
+      shared = all.open_together(path);
+      way = shared ? Way::Shared : Way::Gather;
+    }
+    if (way != Way::Shared)
+    {
+      do_together(all,
+        [&]
+        {
+          if (way == Way::Own || all.rank() == 0)
+          {
+            own = std::make_unique<NewFile>(name_of_rank(path, all.rank()));
+            appender.emplace(*own, format.compression, executor);
+          }
+        });
+    }
+  }
+
+  void append_rows(std::string_view header, RowBatches& rows, Progress& progress);
+  void gather_rows(std::string_view header, RowBatches& rows, Progress& progress);
+  void write_at(std::int64_t offset, std::span<const std::string_view> parts);
+  void share_binary(std::string_view header, RowBatches& rows, const ChunkLengths& chunks,
+    std::span<const std::int64_t> kept_rows, Progress& progress);
+  void share_text(std::string_view header, RowBatches& rows, Progress& progress);
+  std::size_t count_text(RowBatches& rows, std::string& kept, Progress& progress);
+
+  Executor executor;
+  Communicator& ranks;
+  Way way = Way::Gather;
+  std::unique_ptr<OutputFile> own;
+  std::optional<FileAppender> appender; ///< to own
+  std::unique_ptr<OutputFile> shared;
+  std::int64_t shared_size = 0;
+  bool first = true; ///< no frame is written yet
+};
+
+void DumpWriter::File::append_rows(std::string_view header, RowBatches& rows, Progress& progress)
+{
+  appender->append(header);
+  if (appender->is_plain())
+  {
+    rows.pass_on([&](std::size_t bytes) { return appender->take(bytes); },
+      [&](std::int64_t offset, std::string_view bytes) { appender->write_at(offset, bytes); },
+      progress);
+    return;
+  }
+  while (rows.next(progress))
+  {
+    appender->append(rows.bytes());
+  }
+}
+
+/// The first rank takes what the others send until each says that this is all. Also after an error: who sends
+/// waits until somebody takes it.
+void DumpWriter::File::gather_rows(std::string_view header, RowBatches& rows, Progress& progress)
+{
+  std::exception_ptr failure;
+  const auto attempt = [&](const auto& work)
+  {
+    try
+    {
+      if (!failure)
+      {
+        work();
+      }
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+      ranks.call_off();
+    }
+  };
+  SharedProgress shared_progress(progress, ranks);
+  PartialProgress part(shared_progress);
+  const double share = 1.0 / ranks.size();
+  if (ranks.rank() == 0)
+  {
+    part.set_part(0, share);
+    attempt([&] { this->append_rows(header, rows, part); });
+    for (int source = 1; source < ranks.size(); ++source)
+    {
+      part.set_part(source * share, (source + 1) * share);
+      std::string bytes;
+      for (ranks.receive(bytes, source); !bytes.empty(); ranks.receive(bytes, source))
+      {
+        attempt(
+          [&]
+          {
+            part.step(0);
+            appender->append(bytes);
+          });
+      }
+    }
+    attempt([&] { appender->end_part(); });
+  }
+  else
+  {
+    attempt(
+      [&]
+      {
+        while (rows.next(part))
+        {
+          for (const std::string_view bytes : rows.bytes())
+          {
+            if (!bytes.empty())
+            {
+              ranks.send(bytes, 0);
+            }
+          }
+        }
+      });
+    ranks.send({}, 0);
+  }
+  agree(ranks, failure);
+}
+
+void DumpWriter::File::write_at(std::int64_t offset, std::span<const std::string_view> parts)
+{
+  for (const std::string_view part : parts)
+  {
+    shared->write_at(offset, part);
+    offset += static_cast<std::int64_t>(part.size());
+  }
+}
+
+void DumpWriter::File::share_binary(std::string_view header, RowBatches& rows,
+  const ChunkLengths& chunks, std::span<const std::int64_t> kept_rows, Progress& progress)
+{
+  const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
+  do_together(ranks,
+    [&]
+    {
+      if (ranks.rank() == 0)
+      {
+        shared->write_at(shared_size, header);
+      }
+      const auto before = kept_rows.first(static_cast<std::size_t>(ranks.rank()));
+      std::int64_t offset = begin + chunks.offset(sum_of(before));
+      SharedProgress shared_progress(progress, ranks);
+      while (rows.next(shared_progress))
+      {
+        const std::vector<std::string_view> bytes = rows.bytes();
+        this->write_at(offset, bytes);
+        offset += static_cast<std::int64_t>(total_size(bytes));
+      }
+    });
+  shared_size = begin + chunks.offset(sum_of(kept_rows));
+}
+
+/// Counts the bytes of all rows, keeps the first, and leaves rows where those begin that are not kept.
+std::size_t DumpWriter::File::count_text(RowBatches& rows, std::string& kept, Progress& progress)
+{
+  kept.reserve(most_kept); // growing would take thrice as much; what is not used is not touched
+  std::size_t bytes = 0;
+  std::size_t not_kept = rows.place();
+  bool keeps = true;
+  while (rows.next(progress))
+  {
+    const std::vector<std::string_view> batch = rows.bytes();
+    const std::size_t size = total_size(batch);
+    bytes += size;
+    keeps = keeps && kept.size() + size <= most_kept;
+    if (keeps)
+    {
+      std::for_each(batch.begin(), batch.end(), [&](std::string_view part) { kept += part; });
+      not_kept = rows.place();
+    }
+  }
+  rows.go_to(not_kept);
+  return bytes;
+}
+
+void DumpWriter::File::share_text(std::string_view header, RowBatches& rows, Progress& progress)
+{
+  SharedProgress shared_progress(progress, ranks);
+  PartialProgress part(shared_progress);
+  std::vector<std::int64_t> counts;
+  std::string kept;
+  do_together(ranks,
+    [&]
+    {
+      counts.resize(static_cast<std::size_t>(ranks.size()));
+      part.set_part(0, 0.5);
+      counts[static_cast<std::size_t>(ranks.rank())] =
+        static_cast<std::int64_t>(this->count_text(rows, kept, part));
+    });
+  ranks.sum(counts);
+  const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
+  do_together(ranks,
+    [&]
+    {
+      if (ranks.rank() == 0)
+      {
+        shared->write_at(shared_size, header);
+      }
+      std::int64_t offset =
+        begin + sum_of(std::span(counts).first(static_cast<std::size_t>(ranks.rank())));
+      shared->write_at(offset, kept);
+      offset += static_cast<std::int64_t>(kept.size());
+      part.set_part(0.5, 1);
+      while (rows.next(part))
+      {
+        const std::vector<std::string_view> bytes = rows.bytes();
+        this->write_at(offset, bytes);
+        offset += static_cast<std::int64_t>(total_size(bytes));
+      }
+    });
+  shared_size = begin + sum_of(counts);
+}
+
+DumpWriter::DumpWriter(
+  std::string path, DumpFormat format, const WriteOptions& options, Communicator& ranks)
+  : path_(std::move(path))
+  , format_(std::move(format))
+  , options_(options)
+  , ranks_(ranks)
+{
+  check_format(format_, path_);
+  if (!is_name_of_steps(path_))
+  {
+    file_ = std::make_unique<File>(path_, format_, options_, ranks_);
+  }
+}
+
+DumpWriter::~DumpWriter() = default;
+
+void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progress)
+{
+  if (!file_ && !is_name_of_steps(path_))
+  {
+    throw std::logic_error("a dump is written to after it was finished");
+  }
+  FramePlan plan = plan_frame(frame, format_, ranks_, notices);
+  do_together(ranks_, [&] { this->check_step(plan.header.timestep, notices); });
+  if (is_name_of_steps(path_))
+  {
+    file_ =
+      std::make_unique<File>(name_of_step(path_, plan.header.timestep), format_, options_, ranks_);
+  }
+  this->write_rows(frame, plan, notices, progress);
+  if (is_name_of_steps(path_))
+  {
+    this->finish();
+  }
+}
+
+void DumpWriter::check_step(std::int64_t timestep, Notices& notices)
+{
+  if (steps_.insert(timestep).second)
+  {
+    return;
+  }
+  const std::string step = "timestep " + std::to_string(timestep);
+  if (is_name_of_steps(path_))
+  {
+    throw Error("expected a timestep of its own for each frame, got " + step +
+        " again: its file is written already",
+      { name_of_step(path_, timestep) });
+  }
+  notices.push_back({ {}, step + " is written more than once: most programs show one of them" });
+}
+
+void DumpWriter::write_rows(
+  const FrameView& frame, FramePlan& plan, Notices& notices, Progress& progress)
+{
+  constexpr double share_of_sorting = 0.3;
+  PartialProgress part(progress);
+  std::optional<SortedRows> sorted;
+  if (format_.sort_by_id && plan.columns.ids)
+  {
+    part.set_part(0, share_of_sorting);
+    sorted.emplace(frame, plan, ranks_, file_->executor, part);
+    part.set_part(share_of_sorting, 1);
+  }
+  const FrameView& view = sorted ? sorted->view() : frame;
+  const auto rank = static_cast<std::size_t>(ranks_.rank());
+  const std::int64_t before = sum_of(std::span(plan.kept_rows).first(rank));
+  const bool own = file_->way == File::Way::Own;
+  const RoundingLimit limit(plan.header.box, plan.smallest_radius);
+  ChunkLengths chunks;
+  std::string header;
+  std::optional<RowEncoder> encoder;
+  std::optional<RowBatches> rows;
+  do_together(ranks_,
+    [&]
+    {
+      const std::vector<std::string> names = plan.names();
+      plan.header.rows = own ? plan.kept_rows[rank] : plan.header.rows;
+      if (format_.binary)
+      {
+        chunks = ChunkLengths(
+          plan.header.rows, static_cast<std::int64_t>(names.size()), format_.chunk_values);
+      }
+      const PrintLoss loss(plan.columns, view, plan.header.box, format_, limit);
+      header = encode_header(plan.header, names, format_, chunks, file_->first, loss.of_box());
+      encoder.emplace(
+        view, plan.columns, plan.header.box, format_, chunks, before, own ? 0 : before, loss);
+      rows.emplace(*encoder, view, names.size(), file_->executor);
+    });
+
+  switch (file_->way)
+  {
+    case File::Way::Own:
+      do_together(ranks_,
+        [&]
+        {
+          SharedProgress shared(part, ranks_);
+          file_->append_rows(header, *rows, shared);
+          file_->appender->end_part();
+        });
+      break;
+    case File::Way::Gather:
+      file_->gather_rows(header, *rows, part);
+      break;
+    case File::Way::Shared:
+      format_.binary ? file_->share_binary(header, *rows, chunks, plan.kept_rows, part)
+                     : file_->share_text(header, *rows, part);
+      break;
+  }
+  file_->first = false;
+  const RoundingLoss loss = add_ranks(rows->loss(), ranks_);
+  do_together(ranks_,
+    [&]
+    { told_loss_ = told_loss_ || note_print_loss(loss, limit, format_, plan.names(), notices); });
+}
+
+void DumpWriter::finish()
+{
+  if (file_ && file_->way == File::Way::Shared)
+  {
+    file_->shared->finish();
+  }
+  else if (file_)
+  {
+    do_together(ranks_,
+      [&]
+      {
+        if (file_->own)
+        {
+          file_->own->finish();
+        }
+      });
+  }
+  file_.reset();
+}
+}

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/dump/write/frame_plan.h"
+
+#include "granular/common/archive.h"
+#include "granular/common/words.h"
+#include "granular/dump/write/grain_bounds.h"
+#include "granular/dump/write/print_loss.h"
+#include "granular/dump/write/row_batches.h"
+#include "granular/dump/write/table_columns.h"
+#include "granular/frames/header_archive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+using Kind = ColumnSource::Kind;
+using namespace std::string_literals;
+
+/// What each rank tells the others first.
+struct Survey
+{
+  std::int64_t kept = 0;
+  std::int64_t arrays = 0; ///< a rank without rows and arrays knows nothing
+  bool has_box = false;
+  GrainBounds bounds = {};  ///< where there is no box
+  double radius = HUGE_VAL; ///< the smallest, where numbers may lose digits
+};
+
+template <class Archive>
+void pass(Archive& archive, Survey& survey)
+{
+  archive.number(survey.kept);
+  archive.number(survey.arrays);
+  archive.number(survey.has_box);
+  archive.number(survey.bounds);
+  archive.number(survey.radius);
+}
+
+/// What the rank that leads tells the others: the header, and the columns without their values.
+struct Lead
+{
+  FrameHeader header;
+  ColumnPlan columns;
+  Notices notices;
+};
+
+/// A vector: how many, and then each.
+template <class Archive, class Item, class Each>
+void pass_list(Archive& archive, std::vector<Item>& items, const Each& each)
+{
+  std::size_t count = items.size();
+  archive.number(count);
+  items.resize(count);
+  std::for_each(items.begin(), items.end(), each);
+}
+
+template <class Archive>
+void pass(Archive& archive, ColumnSource& column)
+{
+  archive.text(column.name);
+  archive.number(column.kind);
+  archive.number(column.role);
+  archive.number(column.axis);
+  archive.number(column.whole);
+  archive.number(column.values.type);
+  archive.number(column.values.factor);
+  archive.number(column.own);
+}
+
+template <class Archive>
+void pass(Archive& archive, std::optional<ValueSource>& values)
+{
+  bool there = values.has_value();
+  archive.number(there);
+  values = there ? values.value_or(ValueSource{}) : std::optional<ValueSource>();
+}
+
+template <class Archive>
+void pass(Archive& archive, Lead& lead)
+{
+  pass(archive, lead.header);
+  pass_list(archive, lead.columns.columns, [&](ColumnSource& column) { pass(archive, column); });
+  for (std::optional<ValueSource>& image : lead.columns.images)
+  {
+    pass(archive, image);
+  }
+  pass(archive, lead.columns.ids);
+  archive.number(lead.columns.binary);
+  archive.number(lead.columns.wraps);
+  pass(archive, lead.notices);
+}
+
+template <class Item>
+std::string pack(Item item)
+{
+  Packer packer;
+  pass(packer, item);
+  return std::move(packer.bytes);
+}
+
+template <class Item>
+Item unpack(std::string_view bytes)
+{
+  Item item;
+  Unpacker unpacker{ bytes };
+  pass(unpacker, item);
+  return item;
+}
+
+bool is_table(const DumpFormat& format) noexcept
+{
+  return format.style == DumpStyle::Local;
+}
+
+/// Whether the numbers of particles may be others when they are read again.
+bool may_lose_digits(const FrameView& frame, const DumpFormat& format) noexcept
+{
+  return !is_table(format) &&
+    (!format.binary || frame.point_origin != Vector3{} ||
+      frame.coordinates != Coordinates::Absolute);
+}
+
+/// Makes one for particles where there is none.
+void choose_box(
+  Lead& lead, const FrameView& frame, const DumpFormat& format, const std::vector<Survey>& surveys)
+{
+  if (std::any_of(surveys.begin(), surveys.end(),
+        [&](const Survey& rank) { return rank.kept > 0 && rank.has_box != frame.has_box; }))
+  {
+    throw Error("expected a box on all ranks or on none, got one on some");
+  }
+  lead.header.has_box = frame.has_box || !is_table(format);
+  if (frame.has_box || is_table(format))
+  {
+    return;
+  }
+  if (frame.rows > 0 && frame.coordinates != Coordinates::Absolute)
+  {
+    throw Error("expected a box for "s + to_string(frame.coordinates) + " points, got none");
+  }
+  GrainBounds all;
+  std::for_each(surveys.begin(), surveys.end(), [&](const Survey& rank) { all.add(rank.bounds); });
+  lead.header.box = all.box();
+  lead.notices.push_back({ {}, "the input has no box: it is made from the bounds of the grains" });
+}
+
+std::vector<std::string> choose_names(
+  const FrameView& frame, const DumpFormat& format, Notices& notices)
+{
+  const bool chosen = !format.columns.empty();
+  if (is_table(format))
+  {
+    return chosen ? expand_table_columns(format.columns, frame)
+                  : default_table_columns(frame, notices);
+  }
+  return format.style == DumpStyle::Atom ? atom_columns(format.atom)
+    : chosen                             ? expand_columns(format.columns, frame)
+                                         : default_columns(frame, notices, format.binary);
+}
+
+ColumnPlan plan_names(const std::vector<std::string>& names, const FrameView& frame,
+  const DumpFormat& format, Notices& notices)
+{
+  return is_table(format) ? plan_table_columns(names, frame)
+                          : plan_columns(names, frame, format.binary, notices);
+}
+
+void check_names(const std::vector<std::string>& names)
+{
+  if (names.empty())
+  {
+    throw Error("expected at least one column, got none");
+  }
+  for (const std::string& name : names)
+  {
+    if (split_words(name).size() != 1 || split_words(name).front() != name)
+    {
+      throw Error("expected the name of a column as one word, got '" + name + "'");
+    }
+  }
+}
+
+bool is_scaled(const ColumnSource& column) noexcept
+{
+  return column.kind == Kind::Coordinate && is_scaled(column.role);
+}
+
+/// What stands in a line of the header of its own must not look like another section of it.
+void check_line(const std::string& text, const char* what)
+{
+  if (text.find_first_of("\n\r") != text.npos)
+  {
+    throw FormatError(std::string("expected ") + what + " in one line, got a line break in it");
+  }
+}
+
+/// Whether the frame has what the format asks for.
+void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
+{
+  const Box& box = lead.header.box;
+  const auto& columns = lead.columns.columns;
+  const bool scaled = std::any_of(columns.begin(), columns.end(), is_scaled);
+  if (scaled || lead.columns.wraps)
+  {
+    check_volume(box);
+  }
+  check_line(lead.header.label, "the label");
+  check_line(lead.header.units, "the units");
+  check_bounds(box);
+  const bool lammps = format.dialect == Dialect::Lammps; // the other has neither
+  if (lammps && format.units && lead.header.units.empty())
+  {
+    throw Error("expected the units of the frame for ITEM: UNITS, got none");
+  }
+  if (lammps && format.time && !lead.header.time)
+  {
+    throw Error("expected the time of the frame for ITEM: TIME, got none");
+  }
+  if (format.sort_by_id && !lead.columns.ids)
+  {
+    notices.push_back({ {}, "no integer array 'id': the rows are not sorted" });
+  }
+  if (box.boundary.empty() && lead.header.has_box)
+  {
+    notices.push_back(
+      { {}, "the boundaries of the box are not known: they are written as ff ff ff" });
+  }
+}
+
+[[noreturn]] void fail_others(const std::string& column)
+{
+  throw Error("expected an array of the same kind on all ranks, got others", { .column = column });
+}
+
+/// The columns of a rank without rows, or the check that those of a rank with rows are the same.
+ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat& format)
+{
+  if (frame.rows == 0)
+  {
+    return lead.columns;
+  }
+  Notices told; // by the rank that leads
+  std::vector<std::string> names;
+  for (const ColumnSource& column : lead.columns.columns)
+  {
+    names.push_back(column.name);
+  }
+  ColumnPlan plan = plan_names(names, frame, format, told);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const ColumnSource& own = plan.columns[i];
+    const ColumnSource& other = lead.columns.columns[i];
+    if (own.kind != other.kind || own.own != other.own ||
+      is_integer(own.values.type) != is_integer(other.values.type) ||
+      (own.values.type == ScalarType::Text) != (other.values.type == ScalarType::Text))
+    {
+      fail_others(names[i]);
+    }
+  }
+  if (plan.ids.has_value() != lead.columns.ids.has_value())
+  {
+    fail_others("id");
+  }
+  for (std::size_t axis = 0; axis < plan.images.size(); ++axis)
+  {
+    if (plan.images[axis].has_value() != lead.columns.images[axis].has_value())
+    {
+      fail_others(std::string("i") + "xyz"[axis]);
+    }
+  }
+  return plan;
+}
+}
+
+std::vector<std::string> FramePlan::names() const
+{
+  std::vector<std::string> names;
+  for (const ColumnSource& column : columns.columns)
+  {
+    names.push_back(column.name);
+  }
+  return names;
+}
+
+FramePlan plan_frame(
+  const FrameView& frame, const DumpFormat& format, Communicator& ranks, Notices& notices)
+{
+  FramePlan plan;
+  std::string own;
+  do_together(ranks,
+    [&]
+    {
+      Survey survey;
+      survey.kept = count_kept(frame, 0, frame.rows);
+      survey.arrays = static_cast<std::int64_t>(frame.arrays.size());
+      survey.has_box = frame.has_box;
+      if (!frame.has_box && !is_table(format))
+      {
+        survey.bounds = bounds_of_grains(frame);
+      }
+      if (may_lose_digits(frame, format))
+      {
+        survey.radius = smallest_radius(frame);
+      }
+      own = pack(survey);
+    });
+  const std::vector<std::string> answers = ranks.all_gather(own);
+
+  int leader = 0;
+  std::string told;
+  do_together(ranks,
+    [&]
+    {
+      std::vector<Survey> surveys;
+      for (const std::string& answer : answers)
+      {
+        surveys.push_back(unpack<Survey>(answer));
+        plan.kept_rows.push_back(surveys.back().kept);
+        plan.smallest_radius = std::min(plan.smallest_radius, surveys.back().radius);
+      }
+      const auto knows = [](const Survey& a, const Survey& b)
+      { return std::pair(a.kept > 0, a.arrays > 0) < std::pair(b.kept > 0, b.arrays > 0); };
+      const auto best = std::max_element(surveys.begin(), surveys.end(), knows);
+      leader = static_cast<int>(best - surveys.begin());
+      if (ranks.rank() != leader)
+      {
+        return;
+      }
+      Lead lead{ frame.header, {}, {} };
+      choose_box(lead, frame, format, surveys);
+      const std::vector<std::string> names = choose_names(frame, format, lead.notices);
+      check_names(names);
+      lead.columns = plan_names(names, frame, format, lead.notices);
+      check_frame(lead, format, lead.notices);
+      told = pack(std::move(lead));
+    });
+  ranks.broadcast(told, leader);
+
+  do_together(ranks,
+    [&]
+    {
+      const Lead lead = unpack<Lead>(told);
+      plan.header = lead.header;
+      plan.header.counted = is_table(format) ? format.counted : "ATOMS";
+      plan.header.rows =
+        std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
+      plan.header.box.boundary =
+        lead.header.box.boundary.empty() ? "ff ff ff" : parse_boundary(lead.header.box.boundary);
+      plan.columns = join_plan(lead, frame, format);
+      notices.insert(notices.end(), lead.notices.begin(), lead.notices.end());
+    });
+  return plan;
+}
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_write_print_loss_h
+#define granular_dump_write_print_loss_h
+
+#include "granular/dump/write/column_plan.h"
+#include "granular/dump/write/dump_format.h"
+#include "granular/dump/write/row_values.h"
+#include "granular/particles/rounding_loss.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// The smallest radius of the rows of a frame; HUGE_VAL without radii.
+double smallest_radius(const FrameView& frame);
+
+/// How the numbers of the box are printed in a text dump: LAMMPS has all digits, LIGGGHTS six. Where six would move the corners
+/// by a tenth of the limit, or change a length by more than a value may, they are printed with all digits for LIGGGHTS, too: whoever reads
+/// a dump reads any number.
+NumberFormat box_numbers(const Box& box, Dialect dialect, const RoundingLimit& limit);
+
+/// Says how much the rows of all ranks lose where that is more than the limit. Returns whether it is. names: of the columns.
+bool note_print_loss(const RoundingLoss& loss, const RoundingLimit& limit, const DumpFormat& format,
+  const std::vector<std::string>& names, Notices& notices);
+
+/// Measures what the format of a dump does to its rows. A column costs a comparison a value, unless the digits
+/// printed may be too few for its largest values: then these are printed and read back.
+class PrintLoss
+{
+public:
+  /// Measures nothing.
+  PrintLoss() = default;
+
+  PrintLoss(const ColumnPlan& plan, const FrameView& frame, const Box& box,
+    const DumpFormat& format, const RoundingLimit& limit);
+
+  /// How the numbers of the box are printed: see box_numbers.
+  NumberFormat of_box() const noexcept { return of_box_; }
+
+  /// Rows of the frame.
+  void measure(const RowValues& values, RoundingLoss& loss) const;
+
+private:
+  /// A column of coordinates.
+  struct Place
+  {
+    std::size_t column;
+    Vector3 unit;  ///< how far 1 in the column is along the axes
+    Vector3 moved; ///< by what is rounded elsewhere: the box that scales it, or a sum of doubles
+    double safe;   ///< no value up to this one moves too far
+  };
+
+  void add_place(const ColumnSource& source, std::size_t column, const Vector3& of_box,
+    const Vector3& of_sums, const RoundingLimit& limit);
+  void measure_place(
+    const Place& place, const std::vector<double>& values, RoundingLoss& loss) const;
+  void measure_values(
+    std::size_t column, const RowValues::Column& values, RoundingLoss& loss) const;
+
+  Box box_;
+  NumberFormat of_box_ = { 6 };
+  NumberFormat numbers_ = { 0 };
+  std::vector<Place> places_;
+  std::vector<std::size_t> values_; ///< columns whose numbers may change too much
+};
+}
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_write_row_values_h
+#define granular_dump_write_row_values_h
+
+#include "granular/dump/write/column_plan.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// The values of some rows of a frame, column by column, as the columns of a dump have them.
+class RowValues
+{
+public:
+  static constexpr std::size_t most_rows = 256; ///< at a time: they stay in the nearest cache
+
+  /// One column: whole numbers, real numbers or texts.
+  struct Column
+  {
+    ScalarType type = ScalarType::Float64; ///< Int64, Float64 or Text
+    bool whole = false;                    ///< reals: integral ones are shown with all their digits
+    std::vector<std::int64_t> integers = {};
+    std::vector<double> reals = {};
+    std::vector<const std::string*> texts = {};
+  };
+
+  /// Loads rows [first, first + count) of the view but duplicates, count <= most_rows. row_number: from 0, of
+  /// the first of them that is kept, among the rows of all processes. Throws LimitError for integers of
+  /// 2^63 and more.
+  void load(const FrameView& frame, const ColumnPlan& plan, const Box& box, std::int64_t first,
+    std::int64_t count, std::int64_t row_number);
+
+  std::size_t rows() const noexcept { return rows_; } ///< that are kept
+  std::span<const Column> columns() const noexcept { return columns_; }
+
+private:
+  void load_points(const FrameView& frame, const ColumnPlan& plan);
+  std::span<const double> coordinates(const FrameView& frame, ColumnRole role);
+  void load_coordinate(
+    const FrameView& frame, const Box& box, const ColumnSource& source, std::vector<double>& to);
+
+  std::vector<std::int64_t> kept_; ///< rows of the view
+  std::size_t rows_ = 0;
+  std::vector<Column> columns_;
+  Box box_;                    ///< in the coordinates of the points, see point_origin
+  std::vector<double> points_; ///< three of each row
+  std::vector<double> images_; ///< three of each row
+  std::array<std::vector<double>, 4>
+    forms_; ///< of the points, as far as they are needed, see form_of
+  std::vector<double> own_;
+};
+}
+#endif

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/frames/file_index.h"
+
+#include "granular/common/hash.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Whether the file only grew since it was indexed: the same file, and the ends of what it was are
+/// still there. A run that starts over writes a new file of the same name, or into the same one:
+/// one that changed and is as long as it was is not the same.
+bool only_grew(const ByteSource& packed, const FileStamp& now, const FileIndex& index)
+{
+  const FileStamp& before = index.stamp;
+  return before.inode == now.inode && before.device == now.device && now.size > before.size &&
+    before.size > 0 && hash_ends(packed, before.size) == index.ends_hash;
+}
+
+bool others_changed(const FileIndex& index)
+{
+  return std::ranges::any_of(
+    index.beside, [](const KnownFile& file) { return !(stamp_of(file.path) == file.stamp); });
+}
+
+/// Whether what was kept of a file can be what it holds, beyond what is looked at when a frame is read. All frames have the
+/// layout of the first.
+bool fits(const FileIndex& index)
+{
+  try
+  {
+    const std::unique_ptr<ByteSource> source = unpack(open_file(index.path), index.points);
+    return source->compressed() == index.compressed && !index.frames.empty() &&
+      index.frames.front().kind->layout < index.format->layouts &&
+      (index.format->fits == nullptr || index.format->fits(*source, index));
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+
+/// An index that was kept in a file is good for a file of the same size, time and ends: a copy has
+/// another inode. Where such a file goes on is found out by its last frame.
+void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
+{
+  index.loaded = false;
+  const bool same = index.stamp.modified == now.modified && index.stamp.size == now.size;
+  const bool good = index.stamp.size <= now.size &&
+    hash_ends(packed, index.stamp.size) == index.ends_hash && fits(index);
+  if (same || !good)
+  {
+    index.stamp = good ? now : FileStamp{};
+  }
+  if (good)
+  {
+    const FrameEntry& last = index.frames.back();
+    index.resume_offset = last.offset;
+    index.resume_line = std::max(last.line, std::int64_t{ 1 });
+    index.units = last.kind->units;
+  }
+}
+
+/// A file that was not indexed yet, of the same name and run.
+FileIndex blank(const FileIndex& index)
+{
+  FileIndex fresh;
+  fresh.path = index.path;
+  fresh.kinds = index.kinds;
+  fresh.format = index.format;
+  return fresh;
+}
+
+/// What else LAMMPS packs dumps with, by the first bytes.
+// clang-format off
+constexpr std::pair<std::string_view, const char*> other_packings[] = {
+  { "\xfd" "7zXZ", "xz" },
+  { "BZh", "bzip2" },
+  { "\x04\x22\x4d\x18", "lz4" },
+};
+// clang-format on
+
+void refuse_other_packings(const FileFormat& format, const ByteSource& source)
+{
+  std::array<char, 8> first;
+  const std::string_view first_bytes(first.data(), source.read(0, first.data(), first.size()));
+  for (const auto& [magic, name] : other_packings)
+  {
+    if (first_bytes.starts_with(magic))
+    {
+      throw UnsupportedError(std::string("expected ") + format.name +
+          ", plain or packed by gzip or Zstandard, got one packed by " + name + ": unpack it first",
+        { source.path() });
+    }
+  }
+}
+
+/// What lies behind the last frame that was kept is looked at each time that the file has grown: what
+/// is wrong there is not said again.
+void drop_repeated(Notices& notices, std::size_t known)
+{
+  const auto first_new = notices.begin() + static_cast<std::ptrdiff_t>(known);
+  const auto repeated = [&](const Notice& notice)
+  {
+    return std::any_of(notices.begin(), first_new,
+      [text = to_string(notice)](const Notice& said) { return to_string(said) == text; });
+  };
+  notices.erase(std::remove_if(first_new, notices.end(), repeated), notices.end());
+}
+
+/// Returns whether anything was read.
+bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
+  const ScanAhead& ahead)
+{
+  std::unique_ptr<ByteSource> packed = open_file(index.path);
+  const FileStamp stamp = packed->stamp();
+  if (index.loaded)
+  {
+    adopt(index, *packed, stamp);
+  }
+  const bool renamed = (index.unnamed || index.error) && index.column_names != column_names;
+  const bool anew = renamed || others_changed(index);
+  if (index.stamp == stamp && !anew)
+  {
+    return false;
+  }
+  if (anew || !only_grew(*packed, stamp, index))
+  {
+    index = blank(index);
+  }
+  std::erase_if(
+    index.frames, [&](const FrameEntry& frame) { return frame.offset >= index.resume_offset; });
+  index.stamp = stamp;
+  index.error = nullptr;
+  index.defect.reset();
+  index.column_names = column_names;
+  // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
+  packed = first_bytes(std::move(packed), stamp.size);
+  index.ends_hash = hash_ends(*packed, stamp.size);
+  if (!index.points)
+  {
+    index.points = std::make_shared<RestartPoints>();
+  }
+  const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
+  const std::size_t known = index.notices.size();
+  index.compressed = source->compressed();
+  refuse_other_packings(*index.format, *source);
+  index.format->index(*source, index, progress, ahead);
+  drop_repeated(index.notices, known);
+  index.unchecked = source->unchecked();
+  if (index.defect && !index.unchecked.empty())
+  {
+    index.defect->text += "; " + index.unchecked;
+  }
+  // a single frame is read from the start anyway
+  if (!source->compressed() || index.frames.size() <= 1)
+  {
+    index.points.reset();
+  }
+  index.frames.shrink_to_fit();
+  set_defect(index,
+    { { index.path },
+      std::string("expected ") + index.format->name + ", got " +
+        (stamp.size == 0 ? "an empty file" : "no complete frame") });
+  return true;
+}
+}
+
+void set_defect(FileIndex& index, const Notice& defect)
+{
+  if (!index.defect)
+  {
+    index.defect = defect;
+  }
+}
+
+std::string first_bytes_of(const ByteSource& source)
+{
+  std::string bytes(65536, '\0');
+  bytes.resize(source.read(0, bytes.data(), bytes.size()));
+  return bytes;
+}
+
+bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
+  Progress& progress, const ScanAhead& ahead)
+{
+  const auto fail = [&](const FileStamp& stamp)
+  {
+    FileIndex failed = blank(index);
+    failed.stamp = stamp;
+    failed.column_names = column_names;
+    failed.error = std::current_exception();
+    index = std::move(failed);
+    return true;
+  };
+  try
+  {
+    return update(index, column_names, progress, ahead);
+  }
+  catch (const IoError&)
+  {
+    return fail({}); // the system may be in a better mood next time
+  }
+  catch (const Error&)
+  {
+    return fail(index.stamp); // it is not read again until it changes
+  }
+  catch (...)
+  {
+    index = blank(index); // half of it would pass for all
+    throw;
+  }
+}
+
+bool is_changed(const FileIndex& index)
+{
+  return !(stamp_of(index.path) == index.stamp) || others_changed(index);
+}
+
+FileStamp stamp_of(const std::string& path)
+{
+  try
+  {
+    return open_file(path)->stamp();
+  }
+  catch (const IoError&)
+  {
+    return {};
+  }
+}
+
+std::unique_ptr<ByteSource> open_indexed(const FileIndex& index)
+{
+  std::unique_ptr<ByteSource> packed = open_file(index.path);
+  const FileStamp now = packed->stamp();
+  if (now.size < index.stamp.size)
+  {
+    throw IoError("the file was shortened since it was indexed: expected at least " +
+        std::to_string(index.stamp.size) + " bytes, got " + std::to_string(now.size) +
+        "; reload the files",
+      { index.path });
+  }
+  if (!(now == index.stamp) && hash_ends(*packed, index.stamp.size) != index.ends_hash)
+  {
+    throw IoError("the file changed since it was indexed; reload the files", { index.path });
+  }
+  return unpack(std::move(packed), index.points);
+}
+
+std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size)
+{
+  constexpr std::int64_t block = 4096;
+  std::array<char, block> bytes;
+  Hash hash;
+  for (const std::int64_t from : { std::int64_t{ 0 }, std::max(std::int64_t{ 0 }, size - block) })
+  {
+    const auto wanted = static_cast<std::size_t>(std::min(block, size - from));
+    hash.add(bytes.data(), packed.read(from, bytes.data(), wanted));
+  }
+  return hash.value();
+}
+}

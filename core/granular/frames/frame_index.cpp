@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/frames/frame_index.h"
+
+#include "granular/common/hash.h"
+#include "granular/frames/index_archive.h"
+#include "granular/frames/index_bytes.h"
+#include "granular/frames/update_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+Notice left_out(const std::exception_ptr& error)
+{
+  try
+  {
+    std::rethrow_exception(error);
+  }
+  catch (const Error& e)
+  {
+    return { e.where(), e.text() + "; the file is left out" };
+  }
+}
+
+/// See FileFormat::describe; nothing if it cannot be read.
+std::string first_row_of(const FileIndex& file)
+{
+  const FrameEntry& entry = file.frames.front();
+  try
+  {
+    return file.format->describe ? file.format->describe(*open_indexed(file), entry) : "";
+  }
+  catch (const Error&)
+  {
+    return {};
+  }
+}
+
+/// The names in their order; of one that occurs again the last counts.
+std::vector<std::string> distinct(const std::vector<std::string>& names)
+{
+  std::set<std::string_view> seen;
+  std::vector<std::string> kept;
+  for (auto name = names.rbegin(); name != names.rend(); ++name)
+  {
+    if (seen.insert(*name).second)
+    {
+      kept.push_back(*name);
+    }
+  }
+  std::ranges::reverse(kept);
+  return kept;
+}
+
+/// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
+/// is kept of the index.
+bool is_beside(const std::string& path)
+{
+  return path.find("boundingBox", path.rfind('/') + 1) != path.npos ||
+    path.ends_with(index_file_suffix);
+}
+}
+
+void FrameIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
+  Notices& notices, Progress& progress)
+{
+  if (options.format == nullptr)
+  {
+    throw Error("expected the format of the files in the options, got none");
+  }
+  std::vector<std::string> dumps = distinct(files);
+  if (!std::ranges::all_of(dumps, is_beside))
+  {
+    std::erase_if(dumps, is_beside);
+  }
+  series_ = {};
+  this->update_files(dumps, options, notices, progress);
+  Notices found;
+  if (options.format->complete)
+  {
+    options.format->complete(files_, found);
+  }
+  series_ = FileSeries(files_, options.repeated_steps, found);
+  if (series_.size() == 0)
+  {
+    this->fail(found);
+  }
+  notices.insert(notices.end(), found.begin(), found.end());
+  this->note_files(notices);
+  this->note_times(notices);
+}
+
+void FrameIndex::update_files(const std::vector<std::string>& files, const IndexOptions& options,
+  Notices& notices, Progress& progress)
+{
+  std::map<std::string, FileIndex> known;
+  const auto kinds = files_.empty() ? std::make_shared<FrameKinds>() : files_.front().kinds;
+  const std::string kept = files.empty() ? "" : index_file_path(options.index_file, files.front());
+  if (files_.empty() && !kept.empty())
+  {
+    files_ = load_index(kept, files.front(), kinds, notices);
+    kept_ = files_.empty() ? "" : kept;
+  }
+  for (FileIndex& file : files_)
+  {
+    known[file.path] = std::move(file);
+  }
+  // if this is left by an exception, what is known so far is gone and will be read anew
+  files_.clear();
+  bool changed = known.size() != files.size() || kept != kept_;
+  kept_ = kept;
+  std::vector<FileIndex> updated(files.size());
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    const auto found = known.find(files[i]);
+    if (found != known.end())
+    {
+      updated[i] = std::move(found->second);
+    }
+    updated[i].path = files[i];
+    updated[i].kinds = kinds;
+    updated[i].format = options.format;
+  }
+  changed =
+    granular::update_files(updated, options.column_names, options.threads, progress) || changed;
+  files_ = std::move(updated);
+  for (FileIndex& file : files_)
+  {
+    notices.insert(notices.end(), file.notices.begin() + static_cast<std::ptrdiff_t>(file.told),
+      file.notices.end());
+    file.told = file.notices.size();
+  }
+  if (changed && !kept.empty())
+  {
+    save_index(kept, files_, notices);
+  }
+}
+
+bool FrameIndex::changed() const
+{
+  return std::ranges::any_of(files_, [](const FileIndex& file) { return is_changed(file); });
+}
+
+FramePiece FrameIndex::first_piece(std::size_t frame) const
+{
+  const FileSeries::Place place = series_.pieces(frame).front();
+  return { files_[place.file], files_[place.file].frames[place.frame] };
+}
+
+std::vector<FramePiece> FrameIndex::pieces(std::size_t frame) const
+{
+  std::vector<FramePiece> pieces;
+  for (const FileSeries::Place place : series_.pieces(frame))
+  {
+    pieces.push_back({ files_[place.file], files_[place.file].frames[place.frame] });
+  }
+  return pieces;
+}
+
+/// Says which files cannot be read or checked, and, once, that columns have names that are not in the file.
+void FrameIndex::note_files(Notices& notices) const
+{
+  for (const FileIndex& file : files_)
+  {
+    if (file.error)
+    {
+      notices.push_back(left_out(file.error));
+    }
+    if (!file.unchecked.empty() && !file.frames.empty())
+    {
+      notices.push_back({ { file.path }, file.unchecked });
+    }
+  }
+  const auto guessed = std::ranges::find_if(files_,
+    [](const FileIndex& file)
+    { return !file.frames.empty() && file.frames.front().kind->guessed; });
+  if (guessed != files_.end())
+  {
+    notices.push_back({ { guessed->path },
+      "set ColumnNames if the columns, which the file does not name, are others than " +
+        guessed->frames.front().kind->schema.text() + first_row_of(*guessed) });
+  }
+}
+
+/// Says so if only some frames have a time, or times that do not increase.
+void FrameIndex::note_times(Notices& notices) const
+{
+  const std::vector<FrameInstant> frames = this->instants();
+  const auto has_time = [](const FrameInstant& frame) { return !std::isnan(frame.time); };
+  if (std::ranges::any_of(frames, has_time) && !have_times(frames))
+  {
+    notices.push_back({ { this->first_piece(0).file.path },
+      std::string("expected an increasing ITEM: TIME in every frame, got ") +
+        (std::ranges::all_of(frames, has_time) ? "one that does not increase" : "frames without") +
+        "; times are timestep x TimestepSize" });
+  }
+}
+
+void FrameIndex::fail(const Notices& notices) const
+{
+  if (files_.empty())
+  {
+    throw IoError("expected the name of a file, got none");
+  }
+  if (files_.front().error)
+  {
+    std::rethrow_exception(files_.front().error);
+  }
+  if (!notices.empty()) // pieces are missing, perhaps because a file cannot be read
+  {
+    const auto unread =
+      std::ranges::find_if(files_, [](const FileIndex& file) { return file.error != nullptr; });
+    if (unread != files_.end())
+    {
+      std::rethrow_exception(unread->error);
+    }
+    throw FormatError(notices.front().text, notices.front().where);
+  }
+  const Notice defect = files_.front().defect.value_or(Notice{ { files_.front().path },
+    std::string("expected ") + files_.front().format->name + ", got no complete frame" });
+  throw FormatError(defect.text, defect.where);
+}
+
+std::vector<FrameInstant> FrameIndex::instants() const
+{
+  std::vector<FrameInstant> frames;
+  frames.reserve(this->size());
+  for (std::size_t i = 0; i < this->size(); ++i)
+  {
+    const FrameEntry& entry = this->first_piece(i).entry;
+    frames.push_back({ entry.timestep, entry.time });
+  }
+  return frames;
+}
+
+std::vector<double> FrameIndex::times(double timestep_size, Notices& notices) const
+{
+  return frame_times(this->instants(), timestep_size,
+    this->size() > 0 ? this->first_piece(0).file.path : std::string(), notices);
+}
+
+std::vector<double> FrameIndex::times(double timestep_size) const
+{
+  Notices told_elsewhere;
+  return this->times(timestep_size, told_elsewhere);
+}
+
+std::size_t FrameIndex::find(const std::vector<double>& times, double time) noexcept
+{
+  constexpr double tolerance = 1e-9; // of the distance between two frames
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  const auto next = static_cast<std::size_t>(after - times.begin());
+  const bool nearly =
+    next > 0 && after != times.end() && *after - time <= tolerance * (*after - times[next - 1]);
+  return next == 0 || nearly ? next : next - 1;
+}
+
+std::string FrameIndex::encode() const
+{
+  std::string bytes;
+  IndexWriter out(bytes, "");
+  out.text(encode_files(files_));
+  series_.write(out);
+  return bytes;
+}
+
+void FrameIndex::decode(std::string_view bytes)
+{
+  IndexReader in(bytes, "");
+  FrameIndex index;
+  std::string files;
+  in.text(files);
+  index.files_ = decode_index(files, "", std::make_shared<FrameKinds>());
+  index.series_ = FileSeries::read(in, index.files_);
+  require(in.ended(), "the end of the index");
+  *this = std::move(index);
+}
+
+void update_frame_index(FrameIndex& index, Communicator& ranks,
+  const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
+  Progress& progress)
+{
+  const bool looks = ranks.rank() == 0;
+  try
+  {
+    std::string bytes; // empty: nothing is new
+    do_together(ranks,
+      [&]
+      {
+        if (looks)
+        {
+          index.update(files, options, notices, progress);
+          bytes = ranks.size() > 1 ? index.encode() : "";
+          Hash hash;
+          hash.add(bytes.data(), bytes.size());
+          bytes = hash.value() == index.shared_ ? "" : std::move(bytes);
+          index.shared_ = hash.value();
+        }
+      });
+    ranks.broadcast(bytes, 0);
+    do_together(ranks,
+      [&]
+      {
+        if (!looks && !bytes.empty())
+        {
+          index.decode(bytes);
+        }
+      });
+  }
+  catch (...)
+  {
+    index.series_ = {};
+    index.shared_ = 0;
+    throw;
+  }
+}
+
+bool is_changed(const FrameIndex& index, Communicator& ranks)
+{
+  std::int64_t changed = 0;
+  do_together(ranks, [&] { changed = ranks.rank() == 0 && index.changed() ? 1 : 0; });
+  ranks.sum({ &changed, 1 });
+  return changed != 0;
+}
+}

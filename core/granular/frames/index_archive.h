@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the parts of an index are written as bytes and read back. Both sides have the same functions, so
+// that one description of a thing does for both.
+#ifndef granular_frames_index_archive_h
+#define granular_frames_index_archive_h
+
+#include "granular/common/error.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+/// Appends to the bytes of an index.
+class IndexWriter
+{
+public:
+  /// folder: of the first file.
+  IndexWriter(std::string& out, std::string folder)
+    : out_(out)
+    , folder_(std::move(folder))
+  {
+  }
+
+  template <typename T>
+  void number(const T& value)
+  {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    out_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+
+  void count(std::size_t value) { this->number(std::uint64_t{ value }); }
+  void flag(bool value) { out_.push_back(value ? '\1' : '\0'); }
+
+  void text(const std::string& value)
+  {
+    this->count(value.size());
+    out_.append(value);
+  }
+
+  /// Of a file: relative to the folder if it lies below, as it is otherwise.
+  void path(const std::string& value)
+  {
+    const bool elsewhere = folder_.empty() && value.starts_with('/');
+    const bool below = value.starts_with(folder_) && !elsewhere;
+    this->flag(below);
+    this->text(below ? value.substr(folder_.size()) : value);
+  }
+
+  template <typename Item, typename Each>
+  void list(const std::vector<Item>& items, const Each& each)
+  {
+    this->count(items.size());
+    std::for_each(items.begin(), items.end(), each);
+  }
+
+  /// What may be there, or not.
+  template <typename Holder, typename Each>
+  void perhaps(const Holder& holder, const Each& each)
+  {
+    this->flag(static_cast<bool>(holder));
+    if (holder)
+    {
+      each(*holder);
+    }
+  }
+
+private:
+  std::string& out_;
+  std::string folder_;
+};
+
+inline void require(bool good, const char* expected)
+{
+  if (!good)
+  {
+    throw FormatError(std::string("expected ") + expected + ", got something else");
+  }
+}
+
+/// Takes what an IndexWriter wrote. Nothing is allocated for more than is there.
+class IndexReader
+{
+public:
+  IndexReader(std::string_view bytes, std::string folder)
+    : bytes_(bytes)
+    , folder_(std::move(folder))
+  {
+  }
+
+  template <typename T>
+  void number(T& value)
+  {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    std::memcpy(&value, this->take(sizeof value).data(), sizeof value);
+  }
+
+  /// Of things of which each takes some bytes.
+  std::size_t count(std::size_t bytes)
+  {
+    std::uint64_t value = 0;
+    this->number(value);
+    require(value <= bytes_.size() / bytes, "a number of things that are there");
+    return static_cast<std::size_t>(value);
+  }
+
+  void flag(bool& value)
+  {
+    const char byte = this->take(1).front();
+    value = byte != '\0';
+    require(byte == (value ? '\1' : '\0'), "yes or no");
+  }
+
+  void text(std::string& value) { value = this->take(this->count(1)); }
+
+  void path(std::string& value)
+  {
+    bool below = false;
+    this->flag(below);
+    this->text(value);
+    if (below)
+    {
+      value.insert(0, folder_);
+    }
+  }
+
+  template <typename Item, typename Each>
+  void list(std::vector<Item>& items, const Each& each)
+  {
+    for (std::size_t left = this->count(1); left > 0; --left)
+    {
+      each(items.emplace_back());
+    }
+    items.shrink_to_fit();
+  }
+
+  template <typename Holder, typename Each>
+  void perhaps(Holder& holder, const Each& each)
+  {
+    bool there = false;
+    this->flag(there);
+    if (there)
+    {
+      each(make(holder));
+    }
+  }
+
+  bool ended() const noexcept { return bytes_.empty(); }
+
+private:
+  template <typename T>
+  static T& make(std::optional<T>& holder)
+  {
+    return holder.emplace();
+  }
+
+  template <typename T>
+  static T& make(std::shared_ptr<T>& holder)
+  {
+    return *(holder = std::make_shared<T>());
+  }
+
+  std::string_view take(std::size_t bytes)
+  {
+    require(bytes <= bytes_.size(), "more bytes");
+    const std::string_view taken = bytes_.substr(0, bytes);
+    bytes_.remove_prefix(bytes);
+    return taken;
+  }
+
+  std::string_view bytes_; ///< not yet taken
+  std::string folder_;
+};
+}
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/frames/index_file.h"
+
+#include "granular/bytes/byte_sink.h"
+#include "granular/common/hash.h"
+#include "granular/frames/index_bytes.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// With a slash; empty if the user has none.
+std::string cache_folder()
+{
+  constexpr std::pair<const char*, const char*> places[] = { { "XDG_CACHE_HOME", "/granular/" },
+    { "HOME", "/.cache/granular/" } };
+  for (const auto& [variable, below] : places)
+  {
+    const char* const value = std::getenv(variable);
+    if (value != nullptr && value[0] == '/')
+    {
+      return std::string(value) + below;
+    }
+  }
+  return {};
+}
+
+std::string path_in_cache(const std::string& first_file)
+{
+  constexpr std::size_t longest_name = 200; // of 255 that systems allow
+  std::error_code error;
+  const std::string absolute =
+    std::filesystem::absolute(first_file, error).lexically_normal().string();
+  const std::string folder = cache_folder();
+  if (error || folder.empty())
+  {
+    return {};
+  }
+  Hash hash;
+  hash.add(absolute.data(), absolute.size());
+  std::string digits;
+  for (int shift = 60; shift >= 0; shift -= 4)
+  {
+    digits += "0123456789abcdef"[hash.value() >> shift & 15];
+  }
+  const std::string name = absolute.substr(absolute.rfind('/') + 1, longest_name);
+  return folder + digits + "-" + name + std::string(index_file_suffix);
+}
+}
+
+std::string index_file_path(IndexFile where, const std::string& first_file)
+{
+  if (where == IndexFile::Never || first_file.empty())
+  {
+    return {};
+  }
+  return where == IndexFile::Cache ? path_in_cache(first_file)
+                                   : first_file + std::string(index_file_suffix);
+}
+
+std::vector<FileIndex> load_index(const std::string& path, const std::string& first_file,
+  const std::shared_ptr<FrameKinds>& kinds, Notices& notices)
+{
+  std::string why;
+  try
+  {
+    const std::unique_ptr<ByteSource> source = open_file(path);
+    const auto size = static_cast<std::size_t>(source->stamp().size);
+    const std::unique_ptr<char[]> bytes(new char[size]); // not value-initialised: it may be large
+    std::vector<FileIndex> files =
+      decode_index({ bytes.get(), source->read(0, bytes.get(), size) }, first_file, kinds);
+    for (const FileIndex& file : files)
+    {
+      if (file.points)
+      {
+        file.points->claimed = true;
+      }
+    }
+    return files;
+  }
+  catch (const IoError& error)
+  {
+    if (error.code() == std::errc::no_such_file_or_directory ||
+      error.code() == std::errc::not_a_directory)
+    {
+      return {};
+    }
+    why = "cannot be read: " + error.text();
+  }
+  catch (const UnsupportedError& error)
+  {
+    why = "is of another version: " + error.text();
+  }
+  catch (const FormatError& error)
+  {
+    why = "is damaged: " + error.text();
+  }
+  notices.push_back({ { path }, "the index file " + why + "; it is ignored" });
+  return {};
+}
+
+void save_index(const std::string& path, const std::vector<FileIndex>& files, Notices& notices)
+{
+  if (std::ranges::all_of(files, [](const FileIndex& file) { return file.frames.empty(); }))
+  {
+    return;
+  }
+  if (path == index_file_path(IndexFile::Cache, files.front().path))
+  {
+    std::error_code ignored; // without a folder the file cannot be written either
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
+  }
+  try
+  {
+    write_file(path, encode_index(files));
+  }
+  catch (const IoError& error)
+  {
+    notices.push_back({ { path },
+      "cannot write the index file: " + std::make_error_code(error.code()).message() +
+        "; the index is not kept" });
+  }
+}
+}

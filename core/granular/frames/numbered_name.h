@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_frames_numbered_name_h
+#define granular_frames_numbered_name_h
+
+#include "granular/frames/file_index.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+/// A number in a name: without leading zeros, so that 007 is 7.
+struct NameNumber
+{
+  std::string text;
+
+  bool operator==(const NameNumber&) const = default;
+  bool operator<(const NameNumber& other) const
+  {
+    return std::pair(text.size(), text) < std::pair(other.text.size(), other.text);
+  }
+};
+
+/// The name of a file, its numbers taken out.
+struct NumberedName
+{
+  std::string rest; ///< with folder, without what compression adds
+  std::vector<NameNumber> numbers;
+};
+
+NumberedName split_name(std::string_view path);
+
+/// Files whose names differ in numbers only: the numbers of each, by its place in the list of files.
+using Family = std::map<std::uint32_t, std::vector<NameNumber>>;
+
+/// All files by what their names have in common.
+std::map<std::string, Family> families_of(const std::vector<FileIndex>& files);
+
+/// The files of a family by what one of the numbers is for given others.
+using Siblings = std::map<std::vector<NameNumber>, std::map<NameNumber, std::uint32_t>>;
+
+Siblings group_by_others(const Family& family, std::size_t at);
+}
+#endif

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/geometry/positions.h"
+
+#include "granular/geometry/exact_determinant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define GRANULAR_FMA 1
+#endif
+
+namespace granular
+{
+namespace
+{
+/// Box and plan in the form that the loops over rows want.
+struct Conversion
+{
+  const PositionPlan& plan;
+  const Box& box;
+  Vector3 point_origin;
+  Twofold volume; ///< of a general box, where coordinates are scaled by it
+};
+
+[[gnu::always_inline]] inline double shift_of(
+  const PositionPlan::Axis& axis, const double* images, std::size_t k) noexcept
+{
+  return axis.shift == 0 ? 0.0 : axis.shift * images[k];
+}
+
+/// Cartesian from scaled or cartesian columns; the box is axis-aligned.
+[[gnu::always_inline]] inline void to_cartesian_aligned(
+  const Conversion& c, const double* images, double* point) noexcept
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const PositionPlan::Axis& axis = c.plan.axes[k];
+    const double shift = shift_of(axis, images, k);
+    CompensatedSum sum;
+    if (axis.column >= 0 && axis.scaled)
+    {
+      sum.add(c.box.origin[k]);
+      sum.add_product(point[k], c.box.vectors[k][k]);
+    }
+    else
+    {
+      sum.add(point[k]);
+    }
+    if (axis.shift != 0)
+    {
+      sum.add_product(shift, c.box.vectors[k][k]);
+    }
+    sum.add(-c.point_origin[k]);
+    point[k] = sum.value();
+  }
+}
+
+/// Whether component k of the box vector j is a term of coordinate k at all. One that is 0 by the
+/// shape of the box is none: a grain that was lost along j keeps its coordinate k.
+[[gnu::always_inline]] inline bool reaches(const Box& box, std::size_t j, std::size_t k) noexcept
+{
+  return j == k || box.vectors[j][k].hi != 0;
+}
+
+[[gnu::always_inline]] inline void to_cartesian_tilted(
+  const Conversion& c, const double* images, double* point) noexcept
+{
+  const Vector3 given = { point[0], point[1], point[2] };
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    CompensatedSum sum;
+    if (c.plan.axes[k].scaled)
+    {
+      sum.add(c.box.origin[k]);
+    }
+    else
+    {
+      sum.add(given[k]);
+    }
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      const PositionPlan::Axis& axis = c.plan.axes[j];
+      const bool term = reaches(c.box, j, k);
+      if (term && axis.scaled)
+      {
+        sum.add_product(given[j], c.box.vectors[j][k]);
+      }
+      if (term && axis.shift != 0)
+      {
+        sum.add_product(shift_of(axis, images, j), c.box.vectors[j][k]);
+      }
+    }
+    sum.add(-c.point_origin[k]);
+    point[k] = sum.value();
+  }
+}
+
+/// point - origin of the box, to the last bit
+[[gnu::always_inline]] inline Twofold3 from_corner(const Box& box, const double* point) noexcept
+{
+  Twofold3 offset;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    CompensatedSum sum;
+    sum.add(point[k]);
+    sum.add(Twofold{ -box.origin[k].hi, -box.origin[k].lo });
+    offset[k] = sum.twofold();
+  }
+  return offset;
+}
+
+inline Twofold negative(Twofold value) noexcept
+{
+  return { -value.hi, -value.lo };
+}
+
+/// Scaled coordinates in a box whose vectors form an upper triangle, by back substitution.
+[[gnu::always_inline]] inline Twofold3 solve_triangular(
+  const Box& box, const Twofold3& offset) noexcept
+{
+  Twofold3 scaled;
+  for (std::size_t k = 3; k-- > 0;)
+  {
+    CompensatedSum sum;
+    sum.add(offset[k]);
+    for (std::size_t j = k + 1; j < 3; ++j)
+    {
+      if (reaches(box, j, k))
+      {
+        sum.add_product(negative(scaled[j]), box.vectors[j][k]);
+      }
+    }
+    scaled[k] = sum.over(box.vectors[k][k]);
+  }
+  return scaled;
+}
+
+inline Twofold3 cross(const Twofold3& a, const Twofold3& b) noexcept
+{
+  Twofold3 product;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    CompensatedSum sum;
+    sum.add_product(a[i], b[j]);
+    sum.add_product(negative(a[j]), b[i]);
+    product[k] = sum.twofold();
+  }
+  return product;
+}
+
+inline CompensatedSum dot(const Twofold3& a, const Twofold3& b) noexcept
+{
+  CompensatedSum sum;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    sum.add_product(a[k], b[k]);
+  }
+  return sum;
+}
+
+/// Scaled coordinates in a box of any three vectors, by Cramer's rule. The volume of a flat one has few of the bits of its
+/// terms: it is computed exactly.
+inline Twofold3 solve_general(
+  const Box& box, const Twofold& volume, const Twofold3& offset) noexcept
+{
+  Twofold3 scaled;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const Twofold3 normal = cross(box.vectors[(k + 1) % 3], box.vectors[(k + 2) % 3]);
+    scaled[k] = dot(normal, offset).over(volume);
+  }
+  return scaled;
+}
+
+[[gnu::always_inline]] inline void to_scaled(
+  const Conversion& c, const double* images, double* point) noexcept
+{
+  const Twofold3 offset = from_corner(c.box, point);
+  const Twofold3 solved =
+    c.box.general ? solve_general(c.box, c.volume, offset) : solve_triangular(c.box, offset);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const PositionPlan::Axis& axis = c.plan.axes[k];
+    CompensatedSum sum;
+    sum.add(axis.column < 0 || axis.scaled ? Twofold{ point[k], 0 } : solved[k]);
+    sum.add(shift_of(axis, images, k));
+    sum.add(-c.point_origin[k]);
+    point[k] = sum.value();
+  }
+}
+
+[[gnu::always_inline]] inline void convert_rows(
+  const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
+{
+  const double none[3] = {};
+  const std::size_t step = images.empty() ? 0 : 3;
+  const double* image = images.empty() ? none : images.data();
+  const bool scaled = c.plan.coordinates == Coordinates::Scaled;
+  for (double* point = points.data(); point != points.data() + points.size(); point += 3)
+  {
+    if (scaled)
+    {
+      to_scaled(c, image, point);
+    }
+    else if (c.box.tilted)
+    {
+      to_cartesian_tilted(c, image, point);
+    }
+    else
+    {
+      to_cartesian_aligned(c, image, point);
+    }
+    image += step;
+  }
+}
+
+/// What to_scaled does in an aligned box. Without branches: compilers find vector instructions for it.
+[[gnu::always_inline]] inline void scale_rows(
+  const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+  constexpr double largest = std::numeric_limits<double>::max();
+  const Twofold low = negative(box.origin[axis]);
+  const Twofold length = box.vectors[axis][axis];
+  for (double& x : coordinates)
+  {
+    const double offset = x + low.hi;
+    const double part = offset - x;
+    const double rest = (x - (offset - part)) + (low.hi - part) + low.lo;
+    const double quotient = offset / length.hi;
+    const double left = std::fma(-quotient, length.hi, offset) + rest - quotient * length.lo;
+    x = std::abs(quotient) <= largest ? quotient + left / length.hi : quotient;
+  }
+}
+
+void scale_portable(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+  scale_rows(box, axis, coordinates);
+}
+
+void convert_portable(
+  const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
+{
+  convert_rows(c, images, points);
+}
+
+#if GRANULAR_FMA
+/// The same operations; std::fma is an instruction here and a function call there.
+__attribute__((target("fma"))) void convert_fma(
+  const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
+{
+  convert_rows(c, images, points);
+}
+#endif
+
+#if GRANULAR_FMA
+__attribute__((target("avx2,fma"))) void scale_avx2(
+  const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+  scale_rows(box, axis, coordinates);
+}
+#endif
+
+/// Coordinates that no column gives.
+void clear_missing(const PositionPlan& plan, std::span<double> points) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (std::size_t i = axis; plan.axes[axis].column < 0 && i < points.size(); i += 3)
+    {
+      points[i] = 0;
+    }
+  }
+}
+
+Twofold volume_of(const Box& box) noexcept
+{
+  return determinant(
+    exact_vector(box.vectors[0]), exact_vector(box.vectors[1]), exact_vector(box.vectors[2]))
+    .twofold();
+}
+}
+
+bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexcept
+{
+  return point_origin != Vector3{} ||
+    std::any_of(plan.axes.begin(), plan.axes.end(),
+      [&](const PositionPlan::Axis& axis) { return axis.shift != 0 || is_rescaled(plan, axis); });
+}
+
+void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
+{
+#if GRANULAR_FMA
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (has_avx2)
+  {
+    scale_avx2(box, axis, coordinates);
+    return;
+  }
+#endif
+  scale_portable(box, axis, coordinates);
+}
+
+void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
+  std::span<const double> images, std::span<double> points) noexcept
+{
+  const bool scales = box.general && plan.coordinates == Coordinates::Scaled;
+  const Conversion conversion{ plan, box, point_origin, scales ? volume_of(box) : Twofold{} };
+  clear_missing(plan, points);
+  if (!changes_points(plan, point_origin))
+  {
+    return;
+  }
+#if GRANULAR_FMA
+  static const bool has_fma = __builtin_cpu_supports("fma");
+  if (has_fma)
+  {
+    convert_fma(conversion, images, points);
+    return;
+  }
+#endif
+  convert_portable(conversion, images, points);
+}
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_geometry_exact_determinant_h
+#define granular_geometry_exact_determinant_h
+
+#include "granular/geometry/box.h"
+#include "granular/geometry/expansion.h"
+
+#include <array>
+
+namespace granular
+{
+/// A vector, each component the exact sum of few doubles.
+using ExactVector = std::array<Expansion<8>, 3>;
+
+ExactVector exact_vector(const Twofold3& vector) noexcept;
+
+/// Six permutations, products of three components, and four terms of each.
+using ExactDeterminant = Expansion<6 * 8 * 2 * 2 * 4>;
+
+/// Returns the determinant of three vectors, exactly, as long as no product of three components underflows. Components of b and
+/// c are sums of two doubles at most.
+ExactDeterminant determinant(
+  const ExactVector& a, const ExactVector& b, const ExactVector& c) noexcept;
+}
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_geometry_expansion_h
+#define granular_geometry_expansion_h
+
+#include "granular/geometry/compensated.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace granular
+{
+/// Returns the largest double that is not above a sum of which hi is the nearest double.
+inline double floor_of(Twofold sum) noexcept
+{
+  return sum.lo < 0 ? std::nextafter(sum.hi, -HUGE_VAL) : sum.hi;
+}
+
+/// An exact sum of at most that many doubles, as doubles that do not overlap (J. R. Shewchuk, "Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates", Discrete Comput. Geom. 18, 1997). No overflow, and no
+/// underflow of products, assumed.
+template <std::size_t most>
+class Expansion
+{
+public:
+  void add(double term) noexcept
+  {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < size_; ++i)
+    {
+      const double sum = term + parts_[i];
+      const double part = sum - term;
+      const double rest = (term - (sum - part)) + (parts_[i] - part);
+      parts_[kept] = rest;
+      kept += rest != 0 ? 1 : 0;
+      term = sum;
+    }
+    parts_[kept] = term;
+    size_ = kept + (term != 0 ? 1 : 0);
+  }
+
+  void add(Twofold term) noexcept
+  {
+    this->add(term.hi);
+    this->add(term.lo);
+  }
+
+  /// Two terms.
+  void add_product(double a, double b) noexcept
+  {
+    const double product = a * b;
+    this->add(std::fma(a, b, -product));
+    this->add(product);
+  }
+
+  /// Four terms.
+  void add_product(double a, Twofold b) noexcept
+  {
+    this->add_product(a, b.lo);
+    this->add_product(a, b.hi);
+  }
+
+  /// -1, 0 or 1.
+  int sign() const noexcept { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
+
+  /// Returns the largest double that is not above the sum: it is below another double where the sum is.
+  double floor() const noexcept
+  {
+    double sum = 0;
+    for (std::size_t i = size_; i-- > 0;)
+    {
+      const double next = sum + parts_[i];
+      const double rest = parts_[i] - (next - sum);
+      sum = next;
+      if (rest != 0)
+      {
+        return floor_of({ sum, rest });
+      }
+    }
+    return sum;
+  }
+
+  /// The sum to 106 bits; lo is 0 where hi is all of it.
+  Twofold twofold() const noexcept
+  {
+    Twofold sum;
+    for (std::size_t i = size_; i-- > 0;)
+    {
+      const double next = sum.hi + parts_[i];
+      sum.lo += parts_[i] - (next - sum.hi);
+      sum.hi = next;
+    }
+    return sum;
+  }
+
+  /// The doubles whose sum it is, the smallest first.
+  std::span<const double> parts() const noexcept { return { parts_.data(), size_ }; }
+
+private:
+  std::array<double, most> parts_;
+  std::size_t size_ = 0;
+};
+}
+#endif

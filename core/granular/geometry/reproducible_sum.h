@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_geometry_reproducible_sum_h
+#define granular_geometry_reproducible_sum_h
+
+#include "granular/common/simd.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// Sums that do not depend on the order of their terms. A term is cut into pieces, the highest first: whole multiples of
+/// powers of two that are the same for all terms. Pieces of one level are added as 64-bit integers, which is exact, so
+/// order, threads and ranks cannot matter, and integers of several sums may be added. A piece is cut off by adding a number
+/// so large that the sum has no bits below the level, as in the indexed sums of J. Demmel and H. D. Nguyen
+/// ("Parallel reproducible summation", IEEE Trans. Comput. 64, 2015), which here keep all levels and add without rounding.
+///
+/// Eight sums are made at once.
+class SumScale
+{
+public:
+  static constexpr std::size_t lanes = 8;
+  static constexpr int most_top = 900; ///< terms are below 2^900: 8e270
+
+  /// What is known of the terms of a sum: magnitudes are below 2^top, and what counts are multiples of 2^bottom: each
+  /// term is rounded to one, which changes nothing in those that are.
+  struct Range
+  {
+    int top = 0;
+    int bottom = 0;
+  };
+
+  /// terms: the most there can be in one sum, at most 2^40. Tops are at most most_top.
+  SumScale(const std::array<Range, lanes>& ranges, std::int64_t terms);
+
+  std::size_t levels() const noexcept { return shifts_.size(); }
+
+  /// 64-bit integers of the eight sums.
+  std::size_t size() const noexcept { return lanes * shifts_.size(); }
+
+  using Terms = std::array<double, lanes>;
+
+  /// Adds a term to each of the sums of a cell, for each of the cells; those that have none get 0. The sums of cell c are
+  /// at sums + c size().
+  void add(std::span<const Terms> terms, const std::int64_t* cells, std::int64_t* sums,
+    Simd simd = best_simd()) const noexcept;
+
+  /// The eight sums, each correctly rounded.
+  Terms values(const std::int64_t* sums) const noexcept;
+
+private:
+  double value(const std::int64_t* sums, std::size_t lane) const noexcept;
+
+  std::vector<Terms> shifts_; ///< of each level and sum: 1.5 * 2^(52 + e), for multiples of 2^e
+  std::array<int, lanes> top_ = {};
+  int width_; ///< bits of a level
+};
+}
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/memory/block.h"
+
+#include "granular/memory/block_pool.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Start of a mapping; the data are behind it. Small blocks are malloc's, without more.
+struct alignas(Block::alignment) Header
+{
+  std::uint64_t mark; ///< that this is a header, and that of this address
+  std::uintptr_t self;
+  Mapping mapping;
+  std::weak_ptr<BlockPool> pool;
+};
+
+static_assert(sizeof(Header) == Block::alignment);
+
+constexpr std::uint64_t header_mark = 0x6b636f6c42c0ffee;
+constexpr std::uintptr_t least_page = 4096;
+
+/// Smaller blocks are what malloc is good at: it keeps some memory itself, but gives back, and fetches
+/// again, more than a pool does.
+constexpr std::size_t least_pooled = std::size_t{ 1 } << 16;
+constexpr std::size_t least_mapped = std::size_t{ 1 } << 22;
+
+/// Null if the data are malloc's. What is read then may be of others, but lies in the same page.
+__attribute__((no_sanitize("address", "thread"))) Header* header_of(void* data) noexcept
+{
+  const auto address = reinterpret_cast<std::uintptr_t>(data);
+  if (address % least_page != sizeof(Header))
+  {
+    return nullptr;
+  }
+  Header* const header = static_cast<Header*>(data) - 1;
+  const volatile Header& seen = *header;
+  const bool found =
+    seen.mark == header_mark && seen.self == reinterpret_cast<std::uintptr_t>(header);
+  return found ? header : nullptr;
+}
+
+void* allocate_small(std::size_t bytes) noexcept
+{
+  void* data = nullptr;
+  const bool failed =
+    ::posix_memalign(&data, Block::alignment, std::max<std::size_t>(bytes, 1)) != 0;
+  return failed ? nullptr : data;
+}
+
+void* allocate_mapping(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
+{
+  const std::size_t size = sizeof(Header) + bytes;
+  Mapping mapping = pool ? pool->take(size) : map_memory(size);
+  if (pool && !mapping.base)
+  {
+    // room to grow, so that it serves the next frames of a run that gains particles, too
+    mapping = map_memory(size + size / 4);
+  }
+  if (!mapping.base)
+  {
+    return nullptr;
+  }
+  expect_bytes(mapping, size);
+  const auto self = reinterpret_cast<std::uintptr_t>(mapping.base);
+  return new (mapping.base) Header{ header_mark, self, mapping, pool } + 1;
+}
+
+/// Null if there is no memory.
+void* allocate(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
+{
+  if (bytes > std::numeric_limits<std::size_t>::max() / 2)
+  {
+    return nullptr;
+  }
+  return bytes < (pool ? least_pooled : least_mapped) ? allocate_small(bytes)
+                                                      : allocate_mapping(bytes, pool);
+}
+}
+
+Block::Block(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
+  : data_(allocate(bytes, pool))
+  , bytes_(bytes)
+{
+  if (!data_)
+  {
+    throw std::bad_alloc();
+  }
+}
+
+Block::Block(Block&& other) noexcept
+  : data_(std::exchange(other.data_, nullptr))
+  , bytes_(std::exchange(other.bytes_, 0))
+{
+}
+
+Block& Block::operator=(Block&& other) noexcept
+{
+  std::swap(data_, other.data_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+Block::~Block()
+{
+  Block::free(data_);
+}
+
+std::shared_ptr<BlockPool> Block::pool() const noexcept
+{
+  const Header* const header = header_of(data_);
+  return header ? header->pool.lock() : nullptr;
+}
+
+void Block::shrink(std::size_t bytes) noexcept
+{
+  if (bytes >= bytes_)
+  {
+    return;
+  }
+  Header* const header = header_of(data_);
+  const bool little = bytes < least_mapped && bytes <= bytes_ / 2;
+  if (void* const smaller =
+        little ? allocate(bytes, this->pool()) : nullptr)
+  {
+    std::memcpy(smaller, data_, bytes);
+    Block::free(std::exchange(data_, smaller));
+  }
+  else if (header)
+  {
+    keep_bytes(header->mapping, sizeof(Header) + bytes);
+  }
+  bytes_ = bytes;
+}
+
+void* Block::release() noexcept
+{
+  bytes_ = 0;
+  return std::exchange(data_, nullptr);
+}
+
+void Block::free(void* data) noexcept
+{
+  Header* const header = header_of(data);
+  if (!header)
+  {
+    std::free(data);
+    return;
+  }
+  const Mapping mapping = header->mapping;
+  const std::shared_ptr<BlockPool> pool = header->pool.lock();
+  header->~Header();
+  if (pool)
+  {
+    pool->give_back(mapping);
+  }
+  else
+  {
+    unmap_memory(mapping);
+  }
+}
+}

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/numbers/number_print.h"
+
+#include "granular/common/error.h"
+#include "granular/numbers/decimal.h"
+#include "granular/numbers/number.h"
+#include "granular/numbers/number_print_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+using namespace number_print;
+
+/// Left to the library, which is exact and slow.
+[[gnu::noinline]] char* print_exactly(char* to, double value, int digits) noexcept
+{
+  char* const last = to + most_number_chars;
+  return digits == 0 ? std::to_chars(to, last, value).ptr
+                     : std::to_chars(to, last, value, std::chars_format::general, digits).ptr;
+}
+
+constexpr std::uint64_t sign_bit = std::uint64_t{ 1 } << 63;
+
+inline const PowerOfFive& power_of_five(int q)
+{
+  return powers_of_five[static_cast<std::size_t>(q - smallest_power)];
+}
+
+inline std::uint64_t odd_part(std::uint64_t n)
+{
+  return n >> std::countr_zero(n);
+}
+
+constexpr auto whole_powers_of_ten = []
+{
+  std::array<std::uint64_t, 18> powers{};
+  std::uint64_t power = 1;
+  for (std::uint64_t& entry : powers)
+  {
+    entry = power;
+    power *= 10;
+  }
+  return powers;
+}();
+
+inline std::uint64_t whole_power_of_ten(int q)
+{
+  return whole_powers_of_ten[static_cast<std::size_t>(q)];
+}
+
+enum class Rounding : std::uint8_t
+{
+  Down,
+  Up,
+  Unknown
+};
+
+/// Whether mantissa * 10^q, of which 64 bits are too near to a half, is rounded up. floor is the
+/// number before the point, shift the bits after it in the high half of the product.
+Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floor) noexcept
+{
+  const PowerOfFive& five = power_of_five(q);
+  const Wide first = Wide{ mantissa } * five.high;
+  const Wide product = first + (Wide{ mantissa } * five.low >> 64);
+  const Wide half = Wide{ 1 } << (63 + shift);
+  const Wide rest = product & ((half << 1) - 1);
+  bool is_half = false;
+  if (q >= 0 && q <= 27)
+  {
+    is_half = rest == half; // the product is exact
+  }
+  else if (rest + 2 - half <= 4)
+  {
+    // It is a half only if 5^-q divides the mantissa. And if it does, it is one: the quotient is a
+    // multiple of a power of two far above this distance.
+    if (q > 0 || q < -27 || mantissa % odd_part(power_of_five(-q).high) != 0)
+    {
+      return Rounding::Unknown;
+    }
+    is_half = true;
+  }
+  const bool is_up = is_half ? (floor & 1) != 0 : rest > half;
+  return is_up ? Rounding::Up : Rounding::Down;
+}
+
+/// A double times 10^q, as a product of which 64 bits are known.
+struct Scaled
+{
+  std::uint64_t mantissa;
+  std::uint64_t product; ///< the bits; the last `shift` of them, 7 to 63, are after the point
+  int shift;
+  int q;
+};
+
+/// A magnitude, not 0 and not small, made to have so many digits before the point.
+///
+/// With 10^q = g * 2^(binary_exponent(q) - 63), high of the table is in (g - 1, g + 2^-64]. So the
+/// product is less than 2 below that of g, and not above it by 2^-63: a fraction of half - 1 or
+/// half may be on either side of a half, or on it; all others are on their own.
+inline Scaled scale(std::uint64_t magnitude, int digits)
+{
+  const std::uint64_t mantissa = magnitude << 11 | std::uint64_t{ 1 } << 63;
+  const auto biased = static_cast<std::int64_t>(magnitude >> 52);
+  constexpr std::int64_t log = 1292913986; // of 2, times 2^32
+  const auto least = static_cast<std::int64_t>((biased * log - 1023 * log) >> 32);
+  const std::int64_t q = digits - 1 - least -
+    static_cast<std::int64_t>(
+      magnitude >= least_doubles[static_cast<std::size_t>(least + 1 - smallest_normal_power)]);
+  const Wide product =
+    Wide{ mantissa } * powers_of_five[static_cast<std::size_t>(q - smallest_power)].high;
+  return { mantissa, static_cast<std::uint64_t>(product >> 64),
+    62 + 1023 - static_cast<int>(biased) - binary_exponent(static_cast<int>(q)),
+    static_cast<int>(q) };
+}
+
+/// %g's choice.
+inline Place place_of_digits(int k, int digits)
+{
+  return place_of(k, k >= least_fixed && k < digits);
+}
+
+/// Any digits from 1 to 17.
+[[gnu::noinline]] char* print_many(char* to, double value, int digits) noexcept
+{
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  const std::uint64_t floor = scaled.product >> scaled.shift;
+  const std::uint64_t half = std::uint64_t{ 1 } << (scaled.shift - 1);
+  const std::uint64_t rest = scaled.product & (2 * half - 1);
+  std::uint64_t whole = floor + (rest >= half ? 1 : 0);
+  if (rest + 1 - half <= 1) [[unlikely]]
+  {
+    const Rounding rounding = round_half(scaled.mantissa, scaled.q, scaled.shift, floor);
+    if (rounding == Rounding::Unknown)
+    {
+      return print_exactly(to, value, digits);
+    }
+    whole = floor + (rounding == Rounding::Up ? 1 : 0);
+  }
+  int k = digits - 1 - scaled.q;
+  if (whole == whole_power_of_ten(digits)) [[unlikely]]
+  {
+    whole = whole_power_of_ten(digits - 1);
+    ++k;
+  }
+  *to = '-';
+  return lay_out_seventeen(to + (bits >> 63),
+    seventeen_digits(whole * whole_power_of_ten(17 - digits)), place_of_digits(k, digits));
+}
+
+/// The shortest number that reads back.
+///
+/// A decimal of at most 15 digits is what its nearest double gives rounded to 15 digits. So one
+/// that reads back as the value is found by that rounding, and with the zeros at its end taken
+/// off it is the shortest. It is at most half a unit of the mantissa away, 1/8 of the last digit.
+[[gnu::noinline]] char* print_shortest(char* to, double value) noexcept
+{
+  constexpr int digits = 15;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  const std::uint64_t eighth = std::uint64_t{ 1 } << (scaled.shift - 3);
+  const std::uint64_t whole = (scaled.product + eighth) >> scaled.shift;
+  const int k = digits - 1 - scaled.q;
+  double back = 0;
+  if (((scaled.product + eighth) & (8 * eighth - 1)) > 2 * eighth || k >= digits ||
+    whole >= whole_power_of_ten(digits) || !to_double(whole, -scaled.q, back) ||
+    back != std::abs(value))
+  {
+    return print_exactly(to, value, 0);
+  }
+  const Seventeen raw = seventeen_digits(whole * 100);
+  const int length = static_cast<int>(raw.length());
+  const int point = length > 1 ? 1 : 0;
+  const int scientific = length + point + (k <= -100 ? 5 : 4);
+  const int fixed = k < 0 ? length + 1 - k : std::max(length + (length > k + 1 ? 1 : 0), k + 1);
+  *to = '-';
+  return lay_out_seventeen(to + (bits >> 63), raw, place_of(k, fixed <= scientific));
+}
+
+/// At most six digits, so that there are at least 44 bits after the point.
+inline char* print_few(char* to, double value, int digits) noexcept
+{
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  const std::uint64_t fraction = scaled.product << (-scaled.shift & 63);
+  constexpr std::uint64_t doubt = std::uint64_t{ 1 } << 30; // much more than 2 units of the product
+  if (fraction + doubt - (std::uint64_t{ 1 } << 63) < 2 * doubt) [[unlikely]]
+  {
+    return print_many(to, value, digits);
+  }
+  std::uint64_t whole = (scaled.product >> (scaled.shift & 63)) + (fraction >> 63);
+  whole *= whole_power_of_ten(6 - digits);
+  int k = digits - 1 - scaled.q;
+  if (whole == 1'000'000) [[unlikely]]
+  {
+    whole = 100'000;
+    ++k;
+  }
+  *to = '-';
+  return lay_out_eight(to + (bits >> 63), six_digits(whole), place_of_digits(k, digits));
+}
+
+/// x < 10^8 does it in one go.
+inline char* print_natural(char* to, std::uint64_t x) noexcept
+{
+  if (x < 10)
+  {
+    *to = static_cast<char>('0' + x);
+    return to + 1;
+  }
+  if (x < 100'000'000)
+  {
+    const std::uint64_t digits = eight_digits(x);
+    const int zeros = std::countr_zero(digits) & ~7;
+    store(to, (digits | eight_zeros) >> zeros);
+    return to + 8 - (zeros >> 3);
+  }
+  to = print_natural(to, x / 100'000'000);
+  store(to, eight_digits(x % 100'000'000) | eight_zeros);
+  return to + 8;
+}
+}
+
+NumberFormat parse_number_format(std::string_view text)
+{
+  if (text == "%g")
+  {
+    return { 6 };
+  }
+  if (text == "shortest")
+  {
+    return { 0 };
+  }
+  if (text.size() >= 4 && text.starts_with("%.") && text.ends_with('g'))
+  {
+    const std::string_view number = text.substr(2, text.size() - 3);
+    int digits = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), digits);
+    if (error == std::errc{} && end == number.data() + number.size() && number[0] != '0' &&
+      digits >= 1 && digits <= 17)
+    {
+      return { digits };
+    }
+  }
+  throw FormatError("expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '" +
+    std::string(text) + "'");
+}
+
+char* print_number(char* to, double value, NumberFormat format) noexcept
+{
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  if (bits << 1 == 0)
+  {
+    to[0] = '-';
+    to += bits >> 63;
+    to[0] = '0';
+    return to + 1;
+  }
+  constexpr std::uint64_t least = 60; // 2^-963: 10^q is in the table
+  if ((bits >> 52 & 2047) - least >= 2047 - least) [[unlikely]]
+  {
+    return print_exactly(to, value, format.digits);
+  }
+  if (format.digits == 6) [[likely]] // a case of its own: what the compiler knows is faster
+  {
+    return print_few(to, value, 6);
+  }
+  if (format.digits == 0)
+  {
+    return print_shortest(to, value);
+  }
+  return format.digits < 6 ? print_few(to, value, format.digits)
+                           : print_many(to, value, format.digits);
+}
+
+std::string to_text(NumberFormat format)
+{
+  return format.digits == 0 ? "shortest"
+    : format.digits == 6    ? "%g"
+                            : "%." + std::to_string(format.digits) + "g";
+}
+
+double as_fixed(double value) noexcept
+{
+  std::array<char, most_fixed_chars> word;
+  static_cast<void>(parse_double(word.data(), print_fixed(word.data(), value), value));
+  return value;
+}
+
+double as_printed(double value, NumberFormat format) noexcept
+{
+  char word[most_number_chars];
+  static_cast<void>(parse_double(word, print_number(word, value, format), value));
+  return value;
+}
+
+std::string to_text(double value, NumberFormat format)
+{
+  char word[most_number_chars];
+  return { word, print_number(word, value, format) };
+}
+
+char* print_fixed(char* to, double value) noexcept
+{
+  return std::to_chars(to, to + most_fixed_chars, value, std::chars_format::fixed, 6).ptr;
+}
+
+char* print_integer(char* to, std::int64_t value) noexcept
+{
+  const auto bits = static_cast<std::uint64_t>(value);
+  *to = '-';
+  return value < 0 ? print_natural(to + 1, 0 - bits) : print_natural(to, bits);
+}
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_parallel_executor_h
+#define granular_parallel_executor_h
+
+#include "granular/common/progress.h"
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+
+namespace granular
+{
+/// Cores of the machine, at least 1.
+int machine_cores() noexcept;
+
+/// Cores that this process may run on, at least 1.
+int available_cores() noexcept;
+
+/// Runs chunks of work on threads of its own.
+class Executor
+{
+public:
+  /// threads >= 1, the caller's own among them.
+  explicit Executor(int threads = 1) noexcept;
+
+  int threads() const noexcept { return threads_; }
+
+  /// How many workers parallel_for has for that many chunks, at least 1.
+  std::size_t workers(std::size_t chunks) const noexcept;
+
+  /// Calls task(chunk, worker) for each chunk from 0 to chunks - 1, with worker < workers(chunks). Chunks
+  /// are begun in their order, each worker does one at a time, and worker 0 is the caller, who also
+  /// reports progress before each chunk that it does. All work has ended when this returns or throws.
+  /// After a chunk that threw no other is begun; what comes out is the exception of the first by
+  /// number, whatever the number of threads. Throws Cancelled if progress says so.
+  void parallel_for(std::size_t chunks,
+    const std::function<void(std::size_t chunk, std::size_t worker)>& task,
+    Progress& progress) const;
+
+private:
+  int threads_;
+};
+
+/// Lets the chunks of a parallel_for pass a place one after the other, in their order. Each of them must
+/// pass, also one that fails; Turn sees to that.
+class Turns
+{
+public:
+  void wait(std::size_t chunk) const noexcept; ///< until all chunks before have passed
+  void pass(std::size_t chunk) noexcept;       ///< lets the next one pass
+  void restart() noexcept { next_ = 0; }       ///< when nobody waits
+
+private:
+  std::atomic<std::size_t> next_ = 0;
+};
+
+/// The turn of one chunk: passes when it is done, or when it goes out of scope without.
+class Turn
+{
+public:
+  Turn(Turns& turns, std::size_t chunk) noexcept
+    : turns_(turns)
+    , chunk_(chunk)
+  {
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+  ~Turn() { this->pass(); }
+
+  void wait() const noexcept { turns_.wait(chunk_); }
+
+  void pass() noexcept
+  {
+    if (!passed_)
+    {
+      turns_.wait(chunk_);
+      turns_.pass(chunk_);
+      passed_ = true;
+    }
+  }
+
+private:
+  Turns& turns_;
+  std::size_t chunk_;
+  bool passed_ = false;
+};
+}
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_particles_absolute_positions_h
+#define granular_particles_absolute_positions_h
+
+#include "granular/geometry/box.h"
+#include "granular/geometry/periodic_axis.h"
+#include "granular/geometry/positions.h"
+#include "granular/particles/column_arrays.h"
+#include "granular/particles/frame_view.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace granular
+{
+/// Where the particles of a frame are, whatever its points are: absolute, with the origin added that was
+/// subtracted, each coordinate rounded once, to the nearest double.
+class AbsolutePositions
+{
+public:
+  static constexpr std::size_t most_rows = 1024; ///< at a time
+
+  /// wrap: into the box along its periodic axes, lo <= x < hi, where the frame has a box that is not tilted. A coordinate that
+  /// is not between the faces becomes the largest double that is not above its exact image, less than an ulp below: it is on
+  /// that side of any double, a face or a cut, on which the image is. What is 2^52 periods away, where no bit tells the place in
+  /// one, stays there.
+  /// Other unwrapped points lose their image counts, or are moved into the box along periodic axes, tilted or not, where the
+  /// frame has none: see count_crossings. Throws Error where points are scaled or unwrapped and there is no box. The frame must
+  /// outlive this.
+  AbsolutePositions(const FrameView& frame, bool wrap);
+
+  /// x y z of rows [first, first + count), count <= most_rows: in the array of the points itself where
+  /// nothing is to be done and all are finite, else in buffer, which has room for most_rows * 3 numbers. From any thread.
+  const double* load(std::int64_t first, std::size_t count, double* buffer) const;
+
+  /// Where load found that nothing is to be done, the same without looking again.
+  const double* loaded(std::int64_t first) const noexcept
+  {
+    return static_cast<const double*>(frame_.points->components[0]) + 3 * first;
+  }
+
+  /// The same of rows in any order, always in the buffer.
+  void load(std::span<const std::int64_t> rows, double* buffer) const;
+
+private:
+  void convert(std::span<const std::int64_t> rows, double* buffer) const;
+  bool is_wrapped(std::span<const double> points) const noexcept;
+  void wrap(std::size_t axis, std::span<const std::int64_t> rows, double* buffer) const;
+  ExactCoordinate exact(std::size_t axis, std::int64_t row) const;
+
+  const FrameView& frame_;
+  bool plain_ = false; ///< the array has what is wanted, but for wrapping
+  Box box_;            ///< in the coordinates of the points
+  PositionPlan plan_;
+  Vector3 less_ = {};
+  std::array<std::optional<ValueSource>, 3>
+    images_ = {};        ///< of unwrapped points, where they are known
+  bool crosses_ = false; ///< unwrapped points without counts: these are found
+  std::array<std::optional<PeriodicAxis>, 3> wraps_; ///< axes
+};
+}
+#endif

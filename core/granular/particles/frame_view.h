@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_particles_frame_view_h
+#define granular_particles_frame_view_h
+
+#include "granular/frames/frame.h"
+#include "granular/geometry/positions.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// What is in the memory of an array that is to be written.
+enum class ScalarType : std::uint8_t
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float32,
+  Float64,
+  Text ///< std::string
+};
+
+bool is_integer(ScalarType type) noexcept;
+
+/// An array in someone else's memory: rows of one or more values.
+struct ArrayView
+{
+  std::string name = {};
+  ScalarType type = ScalarType::Float64;
+  std::vector<const void*> components = {}; ///< the first row's value of each
+  std::int64_t step = 1;                    ///< values from one row to the next
+  std::vector<std::string> columns = {};    ///< in local data: what its components are called
+  bool places = false;                      ///< in local data: x y z of an end of each line
+
+  int size() const noexcept { return static_cast<int>(components.size()); }
+};
+
+/// An array whose rows lie one after the other, `size` values each.
+template <class Value>
+ArrayView view_rows(std::string name, ScalarType type, const Value* values, int size = 1)
+{
+  ArrayView view{ std::move(name), type, {}, size };
+  for (int i = 0; i < size; ++i)
+  {
+    view.components.push_back(values ? values + i : nullptr);
+  }
+  return view;
+}
+
+/// The rows that one process has of a frame that is to be written. Nothing is copied: what the views point at
+/// must stay until the frame is written.
+struct FrameView
+{
+  FrameHeader header; ///< of the frame; rows are counted when it is written, box counts if has_box
+  bool has_box =
+    true; ///< false: the box is made from the bounds of the grains, and local data have none
+  std::int64_t rows = 0; ///< of this process
+  std::optional<ArrayView>
+    points = {}; ///< three numbers a row; needed where there are rows, but of local data
+  Coordinates coordinates = Coordinates::Absolute; ///< what the points are
+  Vector3 point_origin = {};                       ///< what was subtracted from them
+  std::vector<ArrayView> arrays = {};
+  std::vector<std::string> columns = {}; ///< of the file that the rows come from; may be empty
+  const unsigned char* ghosts = nullptr; ///< a value a row, or null; see duplicate_row
+
+  /// Bit of a ghost value that says that another process has the row, too: it is left out.
+  static constexpr unsigned char duplicate_row = 1;
+
+  /// Whether another process has the row, too.
+  bool is_duplicate(std::int64_t row) const noexcept { return is_duplicate(ghosts, row); }
+
+  /// The same by ghost values, a value a row, or null.
+  static bool is_duplicate(const unsigned char* ghosts, std::int64_t row) noexcept
+  {
+    return ghosts && (ghosts[row] & duplicate_row) != 0;
+  }
+
+  /// The first array of that name, or null.
+  const ArrayView* find(std::string_view name) const noexcept;
+};
+}
+#endif

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/particles/point_forms.h"
+
+#include "granular/geometry/exact_determinant.h"
+
+#include <cmath>
+
+namespace granular
+{
+namespace
+{
+using Rows = std::span<const std::int64_t>;
+
+template <class From, class To>
+void copy_values(const ValueSource& source, Rows rows, To* to)
+{
+  const auto* from = static_cast<const From*>(source.data);
+  const std::int64_t step = source.step;
+  const auto count = static_cast<std::int64_t>(rows.size());
+  if (count > 0 && is_consecutive(rows))
+  {
+    from += rows.front() * step;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      to[i] = static_cast<To>(from[i * step]);
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    to[i] = static_cast<To>(from[rows[i] * step]);
+  }
+}
+
+template <class To>
+void load_as(const ValueSource& source, Rows rows, To* to)
+{
+  using Copy = void (*)(const ValueSource&, Rows, To*);
+  constexpr Copy copies[] = { copy_values<std::int8_t, To>, copy_values<std::uint8_t, To>,
+    copy_values<std::int16_t, To>, copy_values<std::uint16_t, To>, copy_values<std::int32_t, To>,
+    copy_values<std::uint32_t, To>, copy_values<std::int64_t, To>, copy_values<std::uint64_t, To>,
+    copy_values<float, To>, copy_values<double, To> };
+  copies[static_cast<std::size_t>(source.type)](source, rows, to);
+}
+
+/// The sign of what a vector spans with the two that follow an axis of the box.
+int side_of(const ExactVector& vector, const Box& box, std::size_t axis) noexcept
+{
+  return determinant(vector, exact_vector(box.vectors[(axis + 1) % 3]),
+    exact_vector(box.vectors[(axis + 2) % 3]))
+    .sign();
+}
+
+/// Whether the scaled coordinate of a point along an axis is below a number. orientation: side_of the vector of that axis.
+bool is_below(const Box& box, int orientation, std::size_t axis, const double* point,
+  double number) noexcept
+{
+  ExactVector offset;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    offset[k].add(point[k]);
+    offset[k].add(Twofold{ -box.origin[k].hi, -box.origin[k].lo });
+    offset[k].add_product(-number, box.vectors[axis][k]);
+  }
+  return side_of(offset, box, axis) * orientation < 0;
+}
+}
+
+bool is_consecutive(Rows rows) noexcept
+{
+  const auto count = static_cast<std::int64_t>(rows.size());
+  if (count > 0 && rows.back() - rows.front() != count - 1)
+  {
+    return false;
+  }
+  std::int64_t others = 0; // of rows in no order the ends say nothing
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    others |= rows[static_cast<std::size_t>(i)] ^ (rows.front() + i);
+  }
+  return others == 0;
+}
+
+void load_numbers(const ValueSource& source, Rows rows, double* to)
+{
+  load_as(source, rows, to);
+}
+
+void load_numbers(const ValueSource& source, Rows rows, std::int64_t* to)
+{
+  load_as(source, rows, to);
+}
+
+bool is_periodic(const Box& box, std::size_t axis) noexcept
+{
+  return 3 * axis < box.boundary.size() && box.boundary[3 * axis] == 'p';
+}
+
+ValueSource point_values(const FrameView& frame, std::size_t axis)
+{
+  return { frame.points->type, frame.points->components[axis], frame.points->step };
+}
+
+PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
+{
+  PositionPlan plan;
+  plan.coordinates = is_scaled(to) ? Coordinates::Scaled : Coordinates::Absolute;
+  for (int k = 0; k < 3; ++k)
+  {
+    PositionPlan::Axis& axis = plan.axes[static_cast<std::size_t>(k)];
+    axis.column = k;
+    axis.scaled = from == Coordinates::Scaled;
+    axis.shift = (is_unwrapped(to) ? 1 : 0) - (from == Coordinates::Unwrapped ? 1 : 0);
+  }
+  return plan;
+}
+
+Box box_of_points(const FrameView& frame, const Box& box)
+{
+  Box moved = box;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    CompensatedSum sum;
+    sum.add(box.origin[k]);
+    if (frame.coordinates != Coordinates::Scaled)
+    {
+      sum.add(-frame.point_origin[k]);
+    }
+    for (std::size_t j = 0; frame.coordinates == Coordinates::Scaled && j < 3; ++j)
+    {
+      sum.add_product(frame.point_origin[j], box.vectors[j][k]);
+    }
+    moved.origin[k] = sum.twofold();
+  }
+  return moved;
+}
+
+void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images)
+{
+  constexpr double rounding = 0x1p-20; // far more than that of a scaled coordinate
+  const int orientation = side_of(exact_vector(box.vectors[0]), box, 0); // the same for all axes
+  images.assign(points.begin(), points.end());
+  convert_positions(
+    plan_form(Coordinates::Absolute, ColumnRole::ScaledPosition), box, {}, {}, images);
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    const double scaled = images[i];
+    const std::size_t axis = i % 3;
+    images[i] = is_periodic(box, axis) && std::isfinite(scaled) ? std::floor(scaled) : 0;
+    const double face = std::nearbyint(scaled);
+    if (is_periodic(box, axis) && std::abs(scaled) < 0x1p52 && std::abs(scaled - face) < rounding)
+    {
+      images[i] = face - (is_below(box, orientation, axis, &points[i - axis], face) ? 1 : 0);
+    }
+  }
+}
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/sorting/exchange_rows.h"
+
+#include "granular/common/shares.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Gives each rank its number: rank r gets the r-th of every rank, by rank.
+std::vector<std::int64_t> swap_numbers(
+  Communicator& ranks, const std::vector<std::int64_t>& numbers)
+{
+  std::vector<std::int64_t> bytes;
+  std::vector<std::int64_t> got;
+  do_together(ranks,
+    [&]
+    {
+      bytes.assign(numbers.size(), sizeof(std::int64_t));
+      got.resize(numbers.size());
+    });
+  ranks.exchange(reinterpret_cast<const char*>(numbers.data()), bytes,
+    reinterpret_cast<char*>(got.data()), bytes);
+  return got;
+}
+
+/// The ids that have these places among the sorted ids of all ranks: for each the smallest id with
+/// more ids up to it than the place has before it. Found by halving, for all places at once.
+std::vector<std::int64_t> find_ids_at(const std::vector<std::int64_t>& places,
+  std::span<const std::int64_t> sorted, Communicator& ranks)
+{
+  std::vector<std::int64_t> low;
+  std::vector<std::int64_t> high;
+  std::vector<std::int64_t> up_to;
+  do_together(ranks,
+    [&]
+    {
+      low.assign(places.size(), std::numeric_limits<std::int64_t>::min());
+      high.assign(places.size(), std::numeric_limits<std::int64_t>::max());
+      up_to.resize(places.size());
+    });
+  while (low != high)
+  {
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const auto end =
+        std::upper_bound(sorted.begin(), sorted.end(), std::midpoint(low[i], high[i]));
+      up_to[i] = end - sorted.begin();
+    }
+    ranks.sum(up_to);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const std::int64_t middle = std::midpoint(low[i], high[i]);
+      (up_to[i] > places[i] ? high[i] : low[i]) = up_to[i] > places[i] ? middle : middle + 1;
+    }
+  }
+  return low;
+}
+
+/// How many of the sorted ids of this rank go to each rank.
+std::vector<std::int64_t> count_parts(
+  std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks)
+{
+  const auto size = static_cast<std::size_t>(ranks.size());
+  std::vector<std::int64_t> places;
+  std::vector<std::int64_t> begins;
+  std::vector<std::int64_t> equal;
+  std::vector<std::int64_t> before;
+  std::vector<std::int64_t> counts;
+  do_together(ranks,
+    [&]
+    {
+      for (std::vector<std::int64_t>* one : { &places, &begins, &equal, &before, &counts })
+      {
+        one->resize(size);
+      }
+    });
+  for (int rank = 0; rank < ranks.size(); ++rank)
+  {
+    places[static_cast<std::size_t>(rank)] = begin_of_part(rows, rank, ranks.size());
+  }
+  const std::vector<std::int64_t> cuts = find_ids_at(places, sorted, ranks);
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), cuts[i]);
+    begins[i] = first - sorted.begin();
+    equal[i] = last - first;
+  }
+  before = begins;
+  ranks.sum(before);
+
+  // the cut at which its part begins is drawn by each rank
+  const auto own = static_cast<std::size_t>(ranks.rank());
+  std::int64_t left = places[own] - before[own];
+  std::vector<std::int64_t> shares = swap_numbers(ranks, equal);
+  for (std::int64_t& share : shares)
+  {
+    share = std::min(share, left);
+    left -= share;
+  }
+  shares = swap_numbers(ranks, shares);
+  std::transform(begins.begin(), begins.end(), shares.begin(), begins.begin(), std::plus<>());
+
+  std::copy(begins.begin() + 1, begins.end(), counts.begin());
+  counts.back() = static_cast<std::int64_t>(sorted.size());
+  std::transform(counts.begin(), counts.end(), begins.begin(), counts.begin(), std::minus<>());
+  return counts;
+}
+
+std::vector<std::int64_t> to_bytes(std::vector<std::int64_t> rows, std::size_t width)
+{
+  for (std::int64_t& count : rows)
+  {
+    count *= static_cast<std::int64_t>(width);
+  }
+  return rows;
+}
+}
+
+RowExchange::RowExchange(
+  std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks)
+  : ranks_(ranks)
+  , out_(count_parts(rows, sorted, ranks))
+  , in_(swap_numbers(ranks, out_))
+  , rows_(std::accumulate(in_.begin(), in_.end(), std::int64_t{ 0 }))
+{
+}
+
+void RowExchange::move(Block& block, std::size_t width, const RowOrder& leave,
+  const RowOrder& arrive, const Executor& executor) const
+{
+  Block came;
+  std::vector<std::int64_t> out_bytes;
+  std::vector<std::int64_t> in_bytes;
+  do_together(ranks_,
+    [&]
+    {
+      leave.apply(block, width, executor);
+      came = Block(static_cast<std::size_t>(rows_) * width, block.pool());
+      out_bytes = to_bytes(out_, width);
+      in_bytes = to_bytes(in_, width);
+    });
+  ranks_.exchange(
+    static_cast<const char*>(block.data()), out_bytes, static_cast<char*>(came.data()), in_bytes);
+  block = std::exchange(came, Block());
+  do_together(ranks_, [&] { arrive.apply(block, width, executor); });
+}
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_sorting_row_order_h
+#define granular_sorting_row_order_h
+
+#include "granular/memory/block.h"
+#include "granular/parallel/executor.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace granular
+{
+/// An order of rows, to be given to many blocks.
+class RowOrder
+{
+public:
+  /// As the rows are.
+  RowOrder() noexcept = default;
+
+  /// By id; rows of the same id keep their order. Throws std::bad_alloc.
+  explicit RowOrder(std::span<const std::int64_t> ids);
+
+  /// Whether any row moves.
+  bool moves() const noexcept { return rows_.bytes() > 0; }
+
+  /// Brings the rows of a block, width bytes each, into this order. A block without bytes stays as it
+  /// is. Throws std::bad_alloc.
+  void apply(Block& block, std::size_t width, const Executor& executor) const;
+
+private:
+  Block rows_; ///< std::uint64_t: from where each row comes; empty: they stay
+};
+}
+#endif

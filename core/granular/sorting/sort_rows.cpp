@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/sorting/sort_rows.h"
+
+#include "granular/sorting/exchange_rows.h"
+#include "granular/sorting/row_order.h"
+#include "granular/sorting/text_dictionary.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+const std::int64_t* find_ids(const DumpFrame& frame, const Block& ids) noexcept
+{
+  for (const DumpArray& array : frame.arrays)
+  {
+    if (array.info.role == ColumnRole::Id && array.info.type == ValueType::Int64)
+    {
+      return static_cast<const std::int64_t*>(array.block.data());
+    }
+  }
+  return static_cast<const std::int64_t*>(ids.data());
+}
+
+std::size_t row_width(const DumpArray& array) noexcept
+{
+  return size_of(array.info.type) * array.info.columns.size();
+}
+
+void note_no_ids(Notices& notices, const Where& where)
+{
+  notices.push_back(
+    { where, "expected a column id to sort by, got none; the order is the file's" });
+}
+
+/// Calls call(block, width) for all that has a value a row.
+template <class Call>
+void for_each_block(DumpFrame& frame, const Call& call)
+{
+  if (frame.rows > 0)
+  {
+    call(frame.points, frame.points.bytes() / static_cast<std::size_t>(frame.rows));
+  }
+  for (DumpArray& array : frame.arrays)
+  {
+    call(array.block, row_width(array));
+  }
+}
+
+/// What each rank tells of itself before the rows move.
+struct Share
+{
+  std::int64_t rows;
+  std::int64_t has_ids;
+  std::int64_t point_width; ///< bytes; 0 where there are no rows
+};
+
+/// The rows of all ranks.
+struct Survey
+{
+  std::int64_t rows = 0;
+  std::size_t point_width = 0;
+  bool has_ids = false;
+};
+
+/// The arrays: what must be the same on all ranks.
+std::string shape_of(const DumpFrame& frame)
+{
+  std::string shape;
+  for (const DumpArray& array : frame.arrays)
+  {
+    shape += array.info.name + ' ' + std::to_string(static_cast<int>(array.info.type)) + ' ' +
+      std::to_string(array.info.components()) + '\n';
+  }
+  return shape;
+}
+
+Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
+{
+  const std::int64_t width =
+    frame.rows > 0 ? static_cast<std::int64_t>(frame.points.bytes()) / frame.rows : 0;
+  const Share own = { frame.rows, has_ids, width };
+  std::string told;
+  do_together(ranks,
+    [&]
+    {
+      told.assign(reinterpret_cast<const char*>(&own), sizeof own);
+      told += shape_of(frame);
+    });
+  const std::vector<std::string> all = ranks.all_gather(told);
+
+  Survey sum;
+  bool lacking = false; // a rank with rows has no ids
+  for (const std::string& one : all)
+  {
+    if (one.compare(sizeof(Share), one.npos, all.front(), sizeof(Share)) != 0)
+    {
+      throw Error("expected the same arrays on all ranks, got others");
+    }
+    Share share;
+    std::memcpy(&share, one.data(), sizeof share);
+    sum.rows += share.rows;
+    sum.point_width = std::max(sum.point_width, static_cast<std::size_t>(share.point_width));
+    sum.has_ids = sum.has_ids || share.has_ids;
+    lacking = lacking || (share.rows > 0 && !share.has_ids);
+  }
+  sum.has_ids = sum.has_ids && !lacking;
+  return sum;
+}
+
+/// Gives a column of texts the words of all ranks, in the order in which they first occur.
+void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows, const Where& where)
+{
+  std::string joined;
+  do_together(ranks,
+    [&]
+    {
+      for (const std::string& word : array.words)
+      {
+        joined += word + '\n'; // which no word holds
+      }
+    });
+  const std::vector<std::string> all = ranks.all_gather(joined);
+  do_together(ranks,
+    [&]
+    {
+      TextDictionary words;
+      std::vector<std::int32_t> renumbered; // by the index of a word here
+      for (std::size_t rank = 0; rank < all.size(); ++rank)
+      {
+        std::string_view rest = all[rank];
+        for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1))
+        {
+          const std::int32_t index = words.index(rest.substr(0, end), where);
+          if (static_cast<int>(rank) == ranks.rank())
+          {
+            renumbered.push_back(index);
+          }
+        }
+      }
+      array.words = words.take();
+      auto* const indices = static_cast<std::int32_t*>(array.block.data());
+      std::transform(indices, indices + rows, indices,
+        [&](std::int32_t index) { return renumbered[static_cast<std::size_t>(index)]; });
+    });
+}
+}
+
+void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where,
+  const Executor& executor)
+{
+  const std::int64_t* const numbers = find_ids(frame, ids);
+  if (!numbers)
+  {
+    note_no_ids(notices, where);
+    return;
+  }
+  const RowOrder order({ numbers, static_cast<std::size_t>(frame.rows) });
+  for_each_block(
+    frame, [&](Block& block, std::size_t width) { order.apply(block, width, executor); });
+}
+
+void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
+  const Where& where, const Executor& executor)
+{
+  if (ranks.size() == 1)
+  {
+    sort_by_id(frame, ids, notices, where, executor);
+    return;
+  }
+  const std::int64_t* const numbers = find_ids(frame, ids);
+  const Survey all = survey(frame, numbers != nullptr, ranks);
+  if (!all.has_ids)
+  {
+    do_together(ranks, [&] { note_no_ids(notices, where); });
+    return;
+  }
+  if (all.rows == 0)
+  {
+    return;
+  }
+  for (DumpArray& array : frame.arrays)
+  {
+    if (array.info.type == ValueType::Text)
+    {
+      join_words(array, ranks, frame.rows, where);
+    }
+  }
+
+  constexpr std::size_t id_width = sizeof(std::int64_t);
+  const auto values = [](const Block& block)
+  { return std::span(static_cast<const std::int64_t*>(block.data()), block.bytes() / id_width); };
+  Block sorted;
+  RowOrder leave;
+  do_together(ranks,
+    [&]
+    {
+      sorted = Block(static_cast<std::size_t>(frame.rows) * id_width);
+      std::copy_n(numbers, frame.rows, static_cast<std::int64_t*>(sorted.data()));
+      leave = RowOrder(values(sorted));
+      leave.apply(sorted, id_width, executor);
+    });
+  const RowExchange rows(all.rows, values(sorted), ranks);
+  const RowOrder stay;
+  rows.move(sorted, id_width, stay, stay, executor);
+  RowOrder arrive;
+  do_together(ranks, [&] { arrive = RowOrder(values(sorted)); });
+  sorted = Block();
+
+  rows.move(frame.points, all.point_width, leave, arrive, executor);
+  for (DumpArray& array : frame.arrays)
+  {
+    rows.move(array.block, row_width(array), leave, arrive, executor);
+  }
+  frame.rows = rows.rows();
+}
+
+void keep_rows(DumpFrame& frame, std::int64_t first, std::int64_t count)
+{
+  for_each_block(frame,
+    [&](Block& block, std::size_t width)
+    {
+      if (block.bytes() > 0)
+      {
+        auto* const data = static_cast<char*>(block.data());
+        const std::size_t bytes = static_cast<std::size_t>(count) * width;
+        std::memmove(data, data + static_cast<std::size_t>(first) * width, bytes);
+        block.shrink(bytes);
+      }
+    });
+  frame.rows = count;
+}
+}

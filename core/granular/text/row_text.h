@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_text_row_text_h
+#define granular_text_row_text_h
+
+#include "granular/bytes/byte_source.h"
+#include "granular/common/simd.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace granular
+{
+/// A column of a text that is wanted, and where its next value goes.
+struct ColumnSink
+{
+  enum class Kind : std::uint8_t
+  {
+    Int32,   ///< std::int32_t
+    Int64,   ///< std::int64_t
+    Float64, ///< double
+    Text     ///< std::string_view into the text
+  };
+
+  std::uint32_t column = 0; ///< place of the word in its row, from 0
+  Kind kind = Kind::Float64;
+  char* data = nullptr;
+  std::ptrdiff_t stride = 0; ///< bytes from one row's value to the next's
+};
+
+enum class RowStatus : std::uint8_t
+{
+  Done,       ///< the text or the rows asked for are used up
+  TooFew,     ///< a row has fewer words than there are columns
+  NotANumber, ///< a word that should be a number is none
+  NotExact    ///< a number that an integer column cannot hold
+};
+
+/// What decode_rows did. After an error, ptr is the start of the row at fault (TooFew) or of the
+/// word (NotANumber, NotExact), column its column, and rows counts the rows before it.
+struct RowResult
+{
+  const char* ptr;
+  std::int64_t rows = 0;
+  RowStatus status = RowStatus::Done;
+  int column = -1;
+  bool surplus = false; ///< some row had more words than columns; they were passed over
+};
+
+/// Decodes rows of blank-separated words into columns.
+///
+/// [first, last) holds whole lines: it is empty or ends in LF. It lies in a PaddedBuffer: up to
+/// 64 bytes before and after are read (and ignored). columns is the number of words a row must
+/// have; sinks names those that are wanted, by increasing column, and each sink's data is moved on
+/// past the rows decoded. Lines without words are passed over. At most max_rows rows are decoded.
+/// Numbers are parsed as by parse_double and parse_int64, to the bit. Does not throw or allocate.
+/// After an error the sinks' data is where it happens to be.
+RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
+  std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd = best_simd()) noexcept;
+
+/// What decode_rows says of a single word: Done, NotANumber or NotExact.
+RowStatus check_word(std::string_view word, ColumnSink::Kind kind) noexcept;
+}
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_text_row_text_tables_h
+#define granular_text_row_text_tables_h
+
+// Batches and tables of the decoders for x86. Only for row_text_*.cpp.
+
+#include "granular/numbers/decimal.h"
+#include "granular/numbers/number.h"
+#include "granular/numbers/number_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace granular::row_text
+{
+inline constexpr std::ptrdiff_t batch_bytes = 16384;
+
+/// Edges of words in up to batch_bytes of text; a little room more, since they are written in
+/// groups without looking.
+struct Edges
+{
+  std::uint32_t count;
+  std::uint32_t lines;
+  alignas(64) std::uint16_t offsets[batch_bytes + 128];
+  alignas(64) std::uint16_t line_ends[batch_bytes + 128];
+};
+
+/// Rows of a batch, by the index of their first edge.
+struct Rows
+{
+  std::uint32_t count;
+  std::uint32_t end; ///< offset of the line behind the last row
+  bool surplus;      ///< a row had more words than columns
+  std::uint16_t first_edges[batch_bytes / 2];
+};
+
+/// Words of some columns of a batch, and the bits of their values.
+struct Words
+{
+  std::uint32_t count;
+  alignas(64) std::uint16_t edges[batch_bytes + 128];
+  alignas(64) std::uint64_t values[batch_bytes / 2 + 8];
+};
+
+struct BlockMarks
+{
+  std::uint64_t words; ///< bytes above ' '
+  std::uint64_t lines; ///< line feeds
+};
+}
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_text_text_scanner_h
+#define granular_text_text_scanner_h
+
+#include "granular/bytes/byte_source.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/common/words.h"
+#include "granular/text/line_scan.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// What the line of a section begins with.
+inline constexpr std::string_view item_mark = "ITEM:";
+
+/// How bulk is passed over by several threads, where the source lets them. What is found is the same
+/// for all values.
+struct ScanAhead
+{
+  int threads = 1;
+  std::int64_t after = std::int64_t{ 1 } << 21; ///< bytes that one thread passes over first
+  std::size_t chunk = std::size_t{ 1 } << 18;   ///< bytes that a thread takes at a time
+};
+
+/// Reads a text line by line, and passes over bulk at scan speed, knowing line and byte.
+class TextScanner
+{
+public:
+  /// A header line longer than this is a LimitError: no dump has one, a file of zeros does.
+  static constexpr std::size_t longest_line = std::size_t{ 1 } << 22;
+
+  /// Starts at byte offset, which is the start of line number line. window is how many bytes are
+  /// read at a time; lines may be longer.
+  TextScanner(const ByteSource& source, std::int64_t offset, std::int64_t line,
+    std::size_t window = std::size_t{ 1 } << 18, const ScanAhead& ahead = {});
+
+  /// The next line without its LF or CRLF. False at the end of the text. A last line without LF
+  /// counts as not there: its writer may not be done with it. Valid until the next call.
+  bool next(std::string_view& line);
+
+  /// Makes the line that next() gave come again.
+  void put_back() noexcept;
+
+  /// Goes to another place, the start of line number line.
+  void go_to(std::int64_t offset, std::int64_t line) noexcept;
+
+  /// Passes over lines up to one that begins with "ITEM:", or to the end of the text.
+  /// Returns how many lines with words were passed; one without LF is not counted.
+  std::int64_t skip_to_item(Progress& progress);
+
+  /// The bytes before the next line, as many as asked for: those in the window, or read again into the
+  /// buffer. Valid until the next call.
+  std::string_view before(std::size_t bytes, std::string& buffer) const;
+
+  std::int64_t offset() const noexcept { return window_offset_ + static_cast<std::int64_t>(at_); }
+  std::int64_t line() const noexcept { return line_; } ///< number of the line that comes next
+
+  /// Place of the line that next() gave last.
+  Where where() const { return { source_.path(), last_line_, -1, {} }; }
+  std::int64_t last_offset() const noexcept { return last_offset_; }
+  std::int64_t last_line() const noexcept { return last_line_; }
+
+private:
+  /// What skip_to_item has passed over.
+  struct Passed
+  {
+    std::int64_t rows = 0;
+    std::int64_t line_start = 0; ///< of the line at hand
+    LineState state = {};
+  };
+  struct Chunk;
+  class ScanProgress;
+
+  bool fill();
+  bool skip_window(Passed& passed, bool at_end);
+  bool skip_chunks(Passed& passed, ScanProgress& reports);
+  Chunk scan_chunk(std::int64_t from, const LineState* state, PaddedBuffer& buffer) const;
+  bool join(const Chunk& chunk, Passed& passed);
+
+  const ByteSource& source_;
+  ScanAhead ahead_;
+  std::vector<PaddedBuffer> buffers_; ///< of the threads
+  PaddedBuffer window_;
+  std::size_t at_ = 0;  ///< next byte in window_
+  std::size_t end_ = 0; ///< bytes in window_
+  std::int64_t window_offset_ = 0;
+  std::int64_t line_ = 1;
+  std::int64_t last_offset_ = 0;
+  std::int64_t last_line_ = 0;
+};
+}
+#endif

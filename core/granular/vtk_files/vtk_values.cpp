@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/vtk_files/vtk_values.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace granular
+{
+namespace
+{
+/// The first bytes as an unsigned number, the first the most significant.
+template <class U>
+U load_big(const char* bytes) noexcept
+{
+  U value = 0;
+  for (std::size_t i = 0; i < sizeof(U); ++i)
+  {
+    value = static_cast<U>(std::uint64_t{ value } << 8 | static_cast<unsigned char>(bytes[i]));
+  }
+  return value;
+}
+
+bool convert(double from, std::int64_t& to) noexcept
+{
+  constexpr double limit = 9223372036854775808.0; // 2^63
+  const bool whole = from >= -limit && from < limit && from == std::trunc(from);
+  to = whole ? static_cast<std::int64_t>(from) : 0;
+  return whole;
+}
+
+bool convert(std::uint64_t from, std::int64_t& to) noexcept
+{
+  to = static_cast<std::int64_t>(from);
+  return to >= 0;
+}
+
+template <class From>
+bool convert(From from, double& to) noexcept
+{
+  to = static_cast<double>(from);
+  return true;
+}
+
+template <class From>
+bool convert(From from, std::int64_t& to) noexcept
+{
+  to = from;
+  return true;
+}
+
+bool convert(float from, std::int64_t& to) noexcept
+{
+  return convert(double{ from }, to);
+}
+
+/// Returns how many could be converted.
+template <class Bits, class From, class To>
+std::int64_t load(const char* bytes, To* numbers, std::int64_t count) noexcept
+{
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const auto from =
+      std::bit_cast<From>(load_big<Bits>(bytes + i * static_cast<std::int64_t>(sizeof(Bits))));
+    if (!convert(from, numbers[i]))
+    {
+      return i;
+    }
+  }
+  return count;
+}
+
+template <class To>
+std::int64_t load_bits(const char* bytes, To* numbers, std::int64_t count)
+{
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    numbers[i] = static_cast<To>(static_cast<unsigned char>(bytes[i / 8]) >> (7 - i % 8) & 1);
+  }
+  return count;
+}
+
+template <class To>
+using Load = std::int64_t (*)(const char*, To*, std::int64_t);
+
+/// By VtkType.
+template <class To>
+constexpr Load<To> loads[] = { &load_bits<To>, &load<std::uint8_t, std::int8_t, To>,
+  &load<std::uint8_t, std::uint8_t, To>, &load<std::uint16_t, std::int16_t, To>,
+  &load<std::uint16_t, std::uint16_t, To>, &load<std::uint32_t, std::int32_t, To>,
+  &load<std::uint32_t, std::uint32_t, To>, &load<std::uint64_t, std::int64_t, To>,
+  &load<std::uint64_t, std::uint64_t, To>, &load<std::uint32_t, float, To>,
+  &load<std::uint64_t, double, To> };
+}
+
+std::int64_t VtkArray::size() const noexcept
+{
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  return components != 0 && tuples > most / components ? most : tuples * components;
+}
+
+std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcept
+{
+  std::int64_t cells = 1;
+  for (const std::int64_t along : positions)
+  {
+    cells = VtkArray{ {}, VtkType::Double, cells, std::max(along, std::int64_t{ 1 }) - 1 }.size();
+  }
+  return cells;
+}
+
+std::int64_t bytes_of(VtkType type) noexcept
+{
+  constexpr std::int64_t bytes[] = { 0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 0, 0 };
+  return bytes[static_cast<std::size_t>(type)];
+}
+
+std::int64_t load_numbers(
+  VtkType type, const char* bytes, std::int64_t count, double* numbers) noexcept
+{
+  return loads<double>[static_cast<std::size_t>(type)](bytes, numbers, count);
+}
+
+std::int64_t load_numbers(
+  VtkType type, const char* bytes, std::int64_t count, std::int64_t* numbers) noexcept
+{
+  return loads<std::int64_t>[static_cast<std::size_t>(type)](bytes, numbers, count);
+}
+}

@@ -1,0 +1,566 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Series of files on disk, as a run writes them and as they change while somebody looks.
+#include "granular/dump/formats/dump_files.h"
+#include "granular/frames/frame_index.h"
+
+#include "../support/series.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace
+{
+namespace fs = std::filesystem;
+using granular::FrameIndex;
+using granular::Notices;
+using granular::Progress;
+using Times = std::vector<double>;
+
+/// A frame of rows grains, whose x is the timestep.
+std::string frame(std::int64_t step, int rows = 2, const std::string& before = "")
+{
+  const std::string number = std::to_string(step);
+  std::string text = before + "ITEM: TIMESTEP\n" + number + "\nITEM: NUMBER OF ATOMS\n" +
+    std::to_string(rows) + "\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n";
+  for (int row = 1; row <= rows; ++row)
+  {
+    text += std::to_string(row) + " " + number + " 0.5 0.25\n";
+  }
+  return text;
+}
+
+std::string at_time(double time, std::int64_t step)
+{
+  return frame(step, 1, "ITEM: TIME\n" + std::to_string(time) + "\n");
+}
+}
+
+// ---- one file, many files ----------------------------------------------------------------------
+
+TEST(FrameIndex, ManyFramesInAFile)
+{
+  const Folder folder;
+  Series run;
+  run.update({ folder.write("a.dump", frame(0) + frame(100, 3) + frame(200, 0)) });
+  EXPECT_EQ(run.said, "");
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 }));
+  EXPECT_EQ(run.read(1).points()[0], 100);
+  EXPECT_EQ(run.read(1).rows(), 3);
+  EXPECT_EQ(run.read(2).rows(), 0);
+}
+
+TEST(FrameIndex, FilesOfOneFrameAreSortedByTimestep)
+{
+  const Folder folder;
+  Series run;
+  // as a shell lists them
+  run.update({ folder.write("dump.0", frame(0)), folder.write("dump.1000", frame(1000)),
+    folder.write("dump.200", frame(200)) });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 200, 1000 }));
+  EXPECT_EQ(run.file(1), 2u);
+  EXPECT_EQ(run.read(2).points()[0], 1000);
+}
+
+TEST(FrameIndex, TrapRepeatedTimestepsTheLastOneStays)
+{
+  const Folder folder;
+  // restarted at 100, and appended to the same file
+  const std::string first = frame(0) + frame(100) + frame(200);
+  Series run;
+  run.update({ folder.write("a.dump", first + frame(100, 5) + frame(200, 6)) });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 }));
+  EXPECT_EQ(run.read(0).rows(), 2);
+  EXPECT_EQ(run.read(1).rows(), 5);
+  EXPECT_EQ(run.read(2).rows(), 6);
+  // and in several files, in their order
+  run.update({ folder.write("1.dump", frame(0, 1) + frame(100, 1)),
+    folder.write("2.dump", frame(100, 2) + frame(200, 2)) });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 }));
+  EXPECT_EQ(run.read(1).rows(), 2);
+  run.update({ folder.path("2.dump"), folder.path("1.dump") });
+  EXPECT_EQ(run.read(1).rows(), 1);
+}
+
+TEST(FrameIndex, TrapDecreasingAndNegativeTimesteps)
+{
+  const Folder folder;
+  Series run;
+  run.update({ folder.write("a.dump",
+    frame(500) + frame(0) + frame(-100) + frame(9'000'000'000) + frame(500, 7) + frame(100)) });
+  EXPECT_EQ(run.steps(), (Steps{ -100, 0, 100, 500, 9'000'000'000 }));
+  EXPECT_EQ(run.read(3).rows(), 7);
+}
+
+TEST(FrameIndex, TheSameFileTwice)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(0) + frame(100));
+  Series run;
+  run.update({ path, path });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
+  EXPECT_EQ(run.read(1).points()[0], 100);
+}
+
+TEST(FrameIndex, UnitsAreOfTheirFile)
+{
+  const Folder folder;
+  Series run;
+  run.update({ folder.write("a.dump", "ITEM: UNITS\nsi\n" + frame(0) + frame(100)),
+    folder.write("b.dump", frame(200)) });
+  EXPECT_EQ(run.entry(0).kind->units, "si");
+  EXPECT_EQ(run.entry(1).kind->units, "si");
+  EXPECT_EQ(run.entry(2).kind->units, "");
+}
+
+// ---- time --------------------------------------------------------------------------------------
+
+TEST(FrameIndex, TrapTimeIsTheTimestepTimesItsSize)
+{
+  const Folder folder;
+  Series run;
+  run.update({ folder.write("a.dump", frame(0) + frame(100) + frame(250)) });
+  EXPECT_EQ(run.index.times(1), (Times{ 0, 100, 250 }));
+  EXPECT_EQ(run.index.times(0.5), (Times{ 0, 50, 125 }));
+}
+
+TEST(FrameIndex, TimeOfTheHeadersIfEveryFrameHasOneAndTheyIncrease)
+{
+  const Folder folder;
+  const auto times = [&](const std::string& text)
+  {
+    Series run;
+    run.update({ folder.write("a.dump", text) });
+    return run.index.times(2);
+  };
+  EXPECT_EQ(times(at_time(0.25, 0) + at_time(0.5, 100)), (Times{ 0.25, 0.5 }));
+  EXPECT_EQ(times(at_time(0.25, 0) + frame(100)), (Times{ 0, 200 }));
+  EXPECT_EQ(times(frame(0) + at_time(0.25, 100)), (Times{ 0, 200 }));
+  EXPECT_EQ(times(at_time(0.5, 0) + at_time(0.5, 100)), (Times{ 0, 200 }));
+  EXPECT_EQ(times(at_time(0.5, 0) + at_time(0.25, 100)), (Times{ 0, 200 }));
+  EXPECT_EQ(times(at_time(-1.5, 0) + at_time(0, 100)), (Times{ -1.5, 0 }));
+  // the frames that stay decide: the first one of step 100 has a later time
+  EXPECT_EQ(
+    times(at_time(0, 0) + at_time(9, 100) + at_time(1, 100) + at_time(2, 200)), (Times{ 0, 1, 2 }));
+}
+
+TEST(FrameIndex, TimesThatAreNoNumbersAreNotTaken)
+{
+  const Folder folder;
+  for (const double time : { std::nan(""), HUGE_VAL, -HUGE_VAL })
+  {
+    Series run;
+    run.update({ folder.write("a.dump", at_time(time, 3)) });
+    EXPECT_EQ(run.index.times(2), Times{ 6 });
+  }
+}
+
+TEST(FrameIndex, FindsTheLastFrameAtOrBeforeATime)
+{
+  const Times times = { 0, 1, 2.5 };
+  EXPECT_EQ(FrameIndex::find(times, -1), 0u);
+  EXPECT_EQ(FrameIndex::find(times, 0), 0u);
+  EXPECT_EQ(FrameIndex::find(times, 0.999), 0u);
+  EXPECT_EQ(FrameIndex::find(times, 1), 1u);
+  EXPECT_EQ(FrameIndex::find(times, 2.49), 1u);
+  EXPECT_EQ(FrameIndex::find(times, 2.5), 2u);
+  EXPECT_EQ(FrameIndex::find(times, 1e300), 2u);
+  EXPECT_EQ(FrameIndex::find({}, 1), 0u);
+}
+
+// ---- files that change -------------------------------------------------------------------------
+
+TEST(FrameIndex, TrapCutAtEveryByteAndThenCompleted)
+{
+  const Folder folder;
+  const std::string text = frame(0) + frame(100) + frame(200);
+  const std::size_t size = frame(0).size();
+  ASSERT_EQ(text.size(), 3 * size + 8 + 4) << "two digits more per number";
+  const std::vector<std::size_t> ends = { size, size + frame(100).size(), text.size() };
+  for (std::size_t cut = 0; cut < text.size(); ++cut)
+  {
+    const std::string path = folder.write("a.dump", text.substr(0, cut));
+    Series run;
+    if (cut < ends[0])
+    {
+      EXPECT_NE(error_of([&] { run.update({ path }); }), "") << cut;
+      EXPECT_EQ(run.index.size(), 0u) << cut;
+    }
+    else
+    {
+      run.update({ path });
+      ASSERT_EQ(run.steps(), cut < ends[1] ? Steps{ 0 } : (Steps{ 0, 100 })) << cut;
+      ASSERT_EQ(run.said, "") << cut;
+    }
+    folder.append("a.dump", text.substr(cut));
+    run.update({ path });
+    ASSERT_EQ(run.steps(), (Steps{ 0, 100, 200 })) << cut;
+    ASSERT_EQ(run.said, "") << cut;
+    ASSERT_EQ(run.read(2).points(), (Times{ 200, 0.5, 0.25, 200, 0.5, 0.25 })) << cut;
+  }
+}
+
+TEST(FrameIndex, GrowsWithItsFile)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", "ITEM: UNITS\nsi\n" + frame(0));
+  Series run;
+  run.update({ path });
+  for (int step = 1; step < 20; ++step)
+  {
+    folder.append("a.dump", frame(step, step % 3) + "\n");
+    run.update({ path });
+    ASSERT_EQ(run.index.size(), static_cast<std::size_t>(step) + 1);
+    EXPECT_EQ(run.entry(run.index.size() - 1).kind->units, "si");
+  }
+  Series fresh;
+  fresh.update({ path });
+  EXPECT_EQ(fresh.places(), run.places());
+  for (std::size_t i = 0; i < fresh.index.size(); ++i)
+  {
+    EXPECT_EQ(fresh.entry(i).line, run.entry(i).line);
+    EXPECT_EQ(fresh.entry(i).end, run.entry(i).end);
+  }
+}
+
+TEST(FrameIndex, SaysWhatItLeavesOutOnce)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(0) + "garbage\n" + frame(100));
+  Series run;
+  run.update({ path });
+  EXPECT_EQ(run.said, path + ":1: expected 2 rows, got 3; the frame is left out\n");
+  run.update({ path });
+  EXPECT_EQ(run.said, "");
+  folder.append("a.dump", frame(200));
+  run.update({ path });
+  EXPECT_EQ(run.said, "");
+  EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
+}
+
+TEST(FrameIndex, AFileThatWasShortenedIsReadAnew)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(0) + frame(100) + frame(200));
+  Series run;
+  run.update({ path });
+  fs::resize_file(path, frame(0).size() + 20);
+  run.update({ path });
+  EXPECT_EQ(run.steps(), Steps{ 0 });
+  folder.append("a.dump", frame(100).substr(20));
+  run.update({ path });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
+}
+
+TEST(FrameIndex, AFileThatWasWrittenAnewIsReadAnew)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(0) + frame(100));
+  Series run;
+  run.update({ path });
+  // into the same file, and longer
+  folder.write("a.dump", frame(5, 7) + frame(6) + frame(7));
+  run.update({ path });
+  EXPECT_EQ(run.steps(), (Steps{ 5, 6, 7 }));
+  EXPECT_EQ(run.read(0).rows(), 7);
+  // a new file of that name: the same size, and the same time of change
+  const std::string other =
+    folder.write("b.dump", frame(8, 7) + frame(9) + frame(10, 1) + "            ");
+  fs::resize_file(other, fs::file_size(path));
+  fs::last_write_time(other, fs::last_write_time(path));
+  fs::rename(other, path);
+  run.update({ path });
+  EXPECT_EQ(run.steps()[0], 8);
+}
+
+TEST(FrameIndex, TheSameSizeWrittenAgain)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(100) + frame(200));
+  Series run;
+  run.update({ path });
+  folder.write("a.dump", frame(300) + frame(400));
+  touch(path, 10);
+  run.update({ path });
+  EXPECT_EQ(run.steps(), (Steps{ 300, 400 }));
+}
+
+TEST(FrameIndex, AFileThatDidNotChangeIsNotRead)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(100) + frame(200));
+  Series run;
+  run.update({ path });
+  // other bytes behind the same stamp: only a reader would see them
+  const auto time = fs::last_write_time(path);
+  folder.write("a.dump", frame(300) + frame(400));
+  fs::last_write_time(path, time);
+  run.update({ path });
+  EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
+}
+
+TEST(FrameIndex, FilesComeAndGo)
+{
+  const Folder folder;
+  const std::string a = folder.write("a.dump", frame(0));
+  const std::string b = folder.write("b.dump", frame(100));
+  Series run;
+  run.update({ a, b, folder.path("c.dump") });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
+  EXPECT_EQ(run.said,
+    folder.path("c.dump") + ": cannot open: No such file or directory; the file is left out\n");
+  folder.write("c.dump", frame(200));
+  fs::remove(a);
+  run.update({ a, b, folder.path("c.dump") });
+  EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
+  EXPECT_EQ(run.file(1), 2u);
+  run.update({ b });
+  EXPECT_EQ(run.steps(), Steps{ 100 });
+  ASSERT_EQ(run.index.files().size(), 1u);
+  EXPECT_EQ(run.index.files()[0].path, b);
+}
+
+TEST(FrameIndex, AFileWithoutFramesAmongOthers)
+{
+  const Folder folder;
+  const std::string good = folder.write("a.dump", frame(0));
+  Series run;
+  run.update({ folder.write("empty.dump", ""), good, folder.write("bad.dump", "not a dump\n") });
+  EXPECT_EQ(run.steps(), Steps{ 0 });
+  EXPECT_EQ(run.said,
+    folder.path("bad.dump") +
+      ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'not a dump'; the frame is left out\n");
+}
+
+TEST(FrameIndex, AfterAnErrorItStartsOver)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(0));
+  Series run;
+  run.update({ path });
+  EXPECT_NE(error_of([&] { run.update({ folder.path("missing") }); }), "");
+  EXPECT_EQ(run.index.size(), 0u);
+  run.update({ path });
+  EXPECT_EQ(run.steps(), Steps{ 0 });
+}
+
+TEST(FrameIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
+{
+  const Folder folder;
+  const std::string bad = "ITEM: TIMESTEP\nx\n";
+  const std::string path = folder.write("a.dump", frame(0) + bad + "ITEM: TIMESTEP\n");
+  Series run;
+  run.update({ path });
+  EXPECT_NE(run.said.find("got 'x'; the frame is left out"), std::string::npos) << run.said;
+  for (int i = 0; i < 5; ++i)
+  {
+    folder.append("a.dump", i == 0 ? "10\n" : "\n");
+    run.update({ path });
+    EXPECT_EQ(run.said, "") << i;
+    EXPECT_EQ(run.index.files()[0].notices.size(), 1u) << i;
+  }
+}
+
+TEST(FrameIndex, CancelledAtAnyReportThenWhole)
+{
+  class Stop final : public Progress
+  {
+  public:
+    explicit Stop(int after)
+      : left_(after)
+    {
+    }
+    bool report(double fraction) override
+    {
+      EXPECT_GE(fraction, 0);
+      EXPECT_LE(fraction, 1);
+      return left_-- > 0;
+    }
+
+  private:
+    int left_;
+  };
+  const Folder folder;
+  const Files files = { folder.write("a.dump", frame(0)), folder.write("b.dump", frame(100)),
+    folder.write("c.dump", frame(200)) };
+  int cancelled = 0;
+  for (int after = 0; after < 10; ++after)
+  {
+    Series run;
+    run.update({ files[0] });
+    Notices notices;
+    Stop stop(after);
+    try
+    {
+      run.index.update(files, { .format = &granular::dump_format() }, notices, stop);
+    }
+    catch (const granular::Cancelled&)
+    {
+      ++cancelled;
+    }
+    run.update(files);
+    EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 })) << after;
+  }
+  EXPECT_GE(cancelled, 3);
+}
+
+// ---- what is no dump ---------------------------------------------------------------------------
+
+TEST(FrameIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
+{
+  const Folder folder;
+  const auto error = [](const std::string& path)
+  {
+    Series run;
+    return error_of([&] { run.update({ path }); });
+  };
+  EXPECT_EQ(error_of([] { Series().update({}); }), "expected the name of a file, got none");
+  Series without;
+  without.options.format = nullptr;
+  EXPECT_EQ(error_of([&] { without.update({ "a" }); }),
+    "expected the format of the files in the options, got none");
+  EXPECT_EQ(
+    error(folder.path("none")), folder.path("none") + ": cannot open: No such file or directory");
+  EXPECT_EQ(error(folder.path("")), folder.path("") + ": expected a file, got a directory");
+  const std::string empty = folder.write("empty", "");
+  EXPECT_EQ(error(empty), empty + ": expected a dump, got an empty file");
+  const std::string blank = folder.write("blank", "\n \n");
+  EXPECT_EQ(error(blank), blank + ": expected a dump, got no complete frame");
+  const std::string garbage = folder.write("garbage",
+    "\x7f"
+    "ELF\x02\x01\n");
+  EXPECT_EQ(
+    error(garbage), garbage + "@0: expected a complete frame, got the end of the file in it");
+  const std::string bzip2 = folder.write("dump.bz2", "BZh91AY&SY\x01\x02");
+  EXPECT_EQ(error(bzip2),
+    bzip2 +
+      ": expected a dump, plain or packed by gzip or Zstandard, got one packed by bzip2: unpack it "
+      "first");
+  const std::string zeros = folder.write("zeros", std::string(5'000'000, '\0'));
+  EXPECT_EQ(error(zeros),
+    zeros + "@92: expected 1 to 10000 columns, got 0; no known layout of a binary dump fits");
+  const std::string one_line = folder.write("one", std::string(1000, 'x'));
+  EXPECT_EQ(error(one_line), one_line + ": expected a dump, got no complete frame");
+  const std::string cut = folder.write("cut", frame(0).substr(0, 60));
+  EXPECT_EQ(
+    error(cut), cut + ":1: expected a complete frame, got the end of the file in its header");
+  const std::string rows =
+    folder.write("rows", "\n" + frame(0, 2).substr(0, frame(0, 2).size() - 3));
+  EXPECT_EQ(
+    error(rows), rows + ":2: expected 2 rows, got 1, and a last line without its line feed");
+  ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(
+    error(folder.path("pipe")), folder.path("pipe") + ": expected a file, got a device or a pipe");
+}
+
+// ---- real files --------------------------------------------------------------------------------
+
+TEST(FrameIndex, FilesOfTheRealPrograms)
+{
+  const std::string good = std::string(GRANULAR_DATA) + "/good/";
+  Series run;
+  run.update({ good + "grains.dump" });
+  EXPECT_EQ(run.said, "");
+  EXPECT_EQ(run.steps(), (Steps{ 0, 1000, 2000 }));
+  EXPECT_EQ(run.read(0).rows(), 0);
+  EXPECT_EQ(run.read(2).rows(), 1200);
+  run.update({ good + "grains_2000.dump", good + "grains_0.dump", good + "grains_1000.dump" });
+  EXPECT_EQ(run.said, "");
+  EXPECT_EQ(run.steps(), (Steps{ 0, 1000, 2000 }));
+  for (const char* name :
+    { "ortho_plain", "ortho_scaled", "ortho_image", "ortho_scaled_image", "ortho_unwrapped",
+      "tri_plain", "tri_scaled", "tri_image", "tri_scaled_image", "tri_unwrapped" })
+  {
+    run.update({ good + name + ".dump" });
+    EXPECT_EQ(run.said, "") << name;
+    EXPECT_EQ(run.steps(), (Steps{ 0, 100 })) << name;
+    EXPECT_EQ(run.read(1).rows(), 500) << name;
+  }
+}
+
+// ---- rewritten in place ------------------------------------------------------------------------
+
+TEST(FrameIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
+{
+  const Folder folder;
+  const std::string before = replaced(frame(0), "id x y z\n", "id xs ys zs vx\n");
+  const auto rows = [](const std::string& text, const std::string& values)
+  { return text.substr(0, text.find("1 0 0.5")) + values; };
+  const std::string values = "1 .5 .5 .5 7\n2 .5 .5 .5 7\n";
+  const std::string path = folder.write("a.dump", rows(before, values));
+  Series run;
+  run.update({ path });
+  EXPECT_TRUE(run.read(0).has("vx"));
+
+  // same length, same inode: forces instead of velocities, and another box
+  const std::string after = replaced(replaced(before, "0 1\n0 1\n", "0 8\n0 8\n"), "vx", "fx");
+  folder.write("a.dump", rows(after, values));
+  touch(path, 1);
+  EXPECT_EQ(error_of([&] { run.read(0); }),
+    path + ": the file changed since it was indexed; reload the files");
+  run.update({ path });
+  EXPECT_TRUE(run.read(0).has("fx"));
+  EXPECT_FALSE(run.read(0).has("vx"));
+  EXPECT_EQ(run.read(0).points().front(), 4);
+}
+
+TEST(FrameIndex, ARerunThatGrewWithTheSameFirstHeader)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", frame(0));
+  Series run;
+  run.update({ path });
+  // the same header, rows of another length, and more frames behind
+  folder.write("a.dump", replaced(frame(0), "0.25\n", "0.125\n") + frame(100) + frame(200));
+  touch(path, 1);
+  run.update({ path });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 }));
+  EXPECT_EQ(run.read(0).points()[2], 0.125);
+  EXPECT_EQ(run.said, "");
+}
+
+// ---- what is said of a series ------------------------------------------------------------------
+
+TEST(FrameIndex, AFileOfWhichNothingIsShownIsSaid)
+{
+  const Folder folder;
+  Series run;
+  run.options.repeated_steps = granular::RepeatedSteps::Last;
+  run.update({ folder.write("p.0.dump", frame(10)), folder.write("p.1.dump", frame(10)) });
+  EXPECT_EQ(run.steps(), (Steps{ 10 }));
+  EXPECT_EQ(run.said,
+    folder.path("p.0.dump") +
+      ": no frame of this file is shown: later files have the same timesteps; if they are pieces "
+      "of "
+      "one run, set RepeatedSteps to Merge\n");
+  // an ordinary restart repeats the step that it starts from
+  run.update({ folder.write("a.dump", frame(0) + frame(10)),
+    folder.write("b.dump", frame(10) + frame(20)) });
+  EXPECT_EQ(run.said, "");
+  EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
+}
+
+TEST(FrameIndex, TimesThatCannotBeUsedAreSaid)
+{
+  const Folder folder;
+  const auto said = [](const std::string& got)
+  {
+    return ": expected an increasing ITEM: TIME in every frame, got " + got +
+      "; times are timestep x TimestepSize\n";
+  };
+  Series run;
+  const std::string some = folder.write("some.dump", at_time(1, 0) + frame(10));
+  run.update({ some });
+  EXPECT_EQ(run.said, some + said("frames without"));
+  const std::string back = folder.write("back.dump", at_time(1, 0) + at_time(0.5, 10));
+  run.update({ back });
+  EXPECT_EQ(run.said, back + said("one that does not increase"));
+  EXPECT_EQ(run.index.times(2), (Times{ 0, 20 }));
+}

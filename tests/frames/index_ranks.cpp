@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One index for all ranks: rank 0 makes it, and all can read every frame.
+#include "granular/dump/formats/dump_files.h"
+#include "granular/frames/frame_index.h"
+
+#include "../support/byte_source_packing.h"
+#include "../support/thread_ranks.h"
+#include "../support/dumps.h"
+#include "../support/series.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace
+{
+using granular::Communicator;
+using granular::FrameIndex;
+using granular::IndexOptions;
+using granular::Notices;
+using granular::Progress;
+
+/// Counts the bytes that rank 0 sends.
+class Counting final : public Communicator
+{
+public:
+  explicit Counting(Communicator& ranks)
+    : ranks_(ranks)
+  {
+  }
+
+  int rank() const noexcept override { return ranks_.rank(); }
+  int size() const noexcept override { return ranks_.size(); }
+  int node_size() const noexcept override { return ranks_.node_size(); }
+  void broadcast(std::string& bytes, int root) override
+  {
+    ranks_.broadcast(bytes, root);
+    sent += bytes.size();
+  }
+  std::vector<std::string> all_gather(std::string_view bytes) override
+  {
+    return ranks_.all_gather(bytes);
+  }
+  void sum(std::span<std::int64_t> values) override { ranks_.sum(values); }
+  void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+    std::span<const std::int64_t> to_bytes) override
+  {
+    ranks_.exchange(from, from_bytes, to, to_bytes);
+  }
+  void send(std::string_view bytes, int to) override { ranks_.send(bytes, to); }
+  void receive(std::string& bytes, int from) override { ranks_.receive(bytes, from); }
+  std::unique_ptr<granular::OutputFile> open_together(const std::string& path) override
+  {
+    return ranks_.open_together(path);
+  }
+
+  std::size_t sent = 0;
+
+private:
+  Communicator& ranks_;
+};
+
+/// What one rank sees.
+struct Rank
+{
+  explicit Rank(Communicator& communicator)
+    : ranks(communicator)
+  {
+  }
+
+  /// Returns what this rank is told.
+  std::string update(const Files& files, const IndexOptions& options = { .format = &granular::dump_format() })
+  {
+    Notices notices;
+    Progress progress;
+    granular::update_frame_index(index, ranks, files, options, notices, progress);
+    return lines_of(notices);
+  }
+
+  /// Every frame as it is read here: timestep, header, ids.
+  std::string frames() const
+  {
+    std::string text;
+    for (std::size_t i = 0; i < index.size(); ++i)
+    {
+      Progress progress;
+      Decoded decoded;
+      decoded.frame = granular::read_dump(index.pieces(i), {}, decoded.notices, progress);
+      text += std::to_string(decoded.frame.header.timestep) + ":";
+      for (const std::int64_t id : decoded.integers("id"))
+      {
+        text += " " + std::to_string(id);
+      }
+      text += "\n" + decoded.said();
+    }
+    return text;
+  }
+
+  Counting ranks;
+  FrameIndex index;
+};
+
+constexpr int ranks_of_tests = 3;
+
+/// A run with files that are no dumps among those that are.
+Files mixed_run(const Folder& folder)
+{
+  std::string text;
+  for (int step = 0; step < 40; ++step)
+  {
+    text += grains(step, ids_from(1, 3000));
+  }
+  return { folder.path("missing"), folder.write("a.dump", grains(100, ids_from(1, 4))),
+    folder.write("b.gz", packing::gzip(text)), folder.write("c.jpg", "\xff\xd8 no dump\n"),
+    folder.write("d.dump", grains(200, ids_from(1, 2)) + grains(300, {}) + "ITEM: TIMESTEP\nx\n"),
+    folder.write("e.zst", packing::zstd_frames(grains(400, ids_from(5, 7)), 100)) };
+}
+}
+
+TEST(IndexRanks, AllReadEveryFrame)
+{
+  const Folder folder;
+  const Files files = mixed_run(folder);
+  Series alone;
+  alone.update(files);
+  run_ranks(ranks_of_tests,
+    [&](Communicator& communicator)
+    {
+      Rank rank(communicator);
+      EXPECT_EQ(rank.update(files), communicator.rank() == 0 ? alone.said : "");
+      EXPECT_TRUE(rank.index.encode() == alone.index.encode());
+      EXPECT_EQ(rank.index.size(), 44u);
+      EXPECT_EQ(rank.index.files().size(), files.size());
+      ASSERT_TRUE(rank.index.files()[2].points);
+      EXPECT_FALSE(rank.index.files()[2].points->points.empty());
+      EXPECT_EQ(rank.index.times(0.5), alone.index.times(0.5));
+      Rank other(communicator);
+      other.index.decode(alone.index.encode());
+      EXPECT_EQ(rank.frames(), other.frames());
+      EXPECT_EQ(rank.frames().substr(0, 8), "0: 1 2 3");
+    });
+}
+
+TEST(IndexRanks, PiecesAreThoseOfRank0)
+{
+  const Folder folder;
+  Files files;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    files.push_back(folder.write("run." + std::to_string(piece),
+      grains(0, ids_from(10 * piece, 3)) + grains(5, ids_from(10 * piece, 4))));
+  }
+  run_ranks(ranks_of_tests,
+    [&](Communicator& communicator)
+    {
+      Rank rank(communicator);
+      rank.update(files);
+      EXPECT_EQ(rank.frames(), "0: 0 1 2 10 11 12 20 21 22\n5: 0 1 2 3 10 11 12 13 20 21 22 23\n");
+      IndexOptions options = { .format = &granular::dump_format() };
+      options.repeated_steps = granular::RepeatedSteps::Last;
+      rank.update(files, options); // no file has changed
+      EXPECT_EQ(rank.frames(), "0: 20 21 22\n5: 20 21 22 23\n");
+    });
+}
+
+TEST(IndexRanks, OnlyWhatIsNewIsSent)
+{
+  const Folder folder;
+  const Files files = mixed_run(folder);
+  run_ranks(ranks_of_tests,
+    [&](Communicator& communicator)
+    {
+      Rank rank(communicator);
+      rank.update(files);
+      EXPECT_GT(rank.ranks.sent, 0u);
+      rank.ranks.sent = 0;
+      rank.update(files);
+      EXPECT_EQ(rank.ranks.sent, 0u);
+      EXPECT_FALSE(granular::is_changed(rank.index, rank.ranks));
+      if (communicator.rank() == 0)
+      {
+        folder.append("a.dump", grains(110, ids_from(7, 2)));
+      }
+      EXPECT_TRUE(granular::is_changed(rank.index, rank.ranks));
+      rank.update(files);
+      EXPECT_EQ(rank.index.size(), 45u);
+      EXPECT_NE(rank.frames().find("\n110: 7 8\n"), std::string::npos);
+      EXPECT_FALSE(granular::is_changed(rank.index, rank.ranks));
+    });
+}
+
+TEST(IndexRanks, AllHearWhatIsWrong)
+{
+  const Folder folder;
+  const std::string path = folder.write("a.dump", grains(0, { 1, 2 }));
+  run_ranks(ranks_of_tests,
+    [&](Communicator& communicator)
+    {
+      Rank rank(communicator);
+      rank.update({ path });
+      EXPECT_EQ(rank.index.size(), 1u);
+      EXPECT_EQ(error_of([&] { rank.update({ folder.path("none") }); }),
+        folder.path("none") + ": cannot open: No such file or directory (on rank 0 of 3)");
+      EXPECT_EQ(rank.index.size(), 0u);
+      rank.update({ path });
+      EXPECT_EQ(rank.frames(), "0: 1 2\n");
+      EXPECT_NE(error_of([&] { rank.update({}); }), "");
+      rank.update({ path });
+      EXPECT_EQ(rank.frames(), "0: 1 2\n");
+    });
+}
+
+TEST(IndexRanks, CancelledOnAll)
+{
+  class Stop final : public Progress
+  {
+  public:
+    bool report(double) override { return false; }
+  };
+  const Folder folder;
+  const Files files = mixed_run(folder);
+  run_ranks(ranks_of_tests,
+    [&](Communicator& communicator)
+    {
+      Rank rank(communicator);
+      Notices notices;
+      Stop stop;
+      EXPECT_THROW(granular::update_frame_index(rank.index, rank.ranks, files, { .format = &granular::dump_format() }, notices, stop),
+        granular::Cancelled);
+      EXPECT_EQ(rank.index.size(), 0u);
+      rank.update(files);
+      EXPECT_EQ(rank.index.size(), 44u);
+    });
+}
+
+TEST(IndexRanks, ASingleProcessSendsNothing)
+{
+  const Folder folder;
+  const Files files = mixed_run(folder);
+  Series alone;
+  alone.update(files);
+  granular::SerialCommunicator serial;
+  Rank rank(serial);
+  EXPECT_EQ(rank.update(files), alone.said);
+  EXPECT_EQ(rank.ranks.sent, 0u);
+  EXPECT_TRUE(rank.index.encode() == alone.index.encode());
+  EXPECT_THROW(rank.update({ folder.path("none") }), granular::IoError);
+}
+
+TEST(IndexRanks, BytesThatAreNoIndex)
+{
+  const Folder folder;
+  Series alone;
+  alone.update(mixed_run(folder));
+  const std::string good = alone.index.encode();
+  FrameIndex index;
+  index.decode(good);
+  EXPECT_TRUE(index.encode() == good);
+  for (std::size_t cut = 0; cut < good.size(); cut += 97)
+  {
+    EXPECT_THROW(index.decode(good.substr(0, cut)), granular::FormatError) << cut;
+  }
+  EXPECT_THROW(index.decode(good + "x"), granular::FormatError);
+  // places: those of another run
+  Series other;
+  const std::string path = folder.write("z.dump", grains(0, { 1 }));
+  other.update({ path });
+  const std::string small = other.index.encode();
+  constexpr std::size_t places = 44 * 8 + 16;
+  EXPECT_THROW(index.decode(small.substr(0, small.size() - 24) + good.substr(good.size() - places)),
+    granular::FormatError);
+  EXPECT_TRUE(index.encode() == good) << "what fails changes nothing";
+}
