@@ -40,8 +40,8 @@ Place PlaceInView(vtkCamera* camera)
   Place place;
   camera->GetPosition(position.data());
   camera->GetFocalPoint(place.data());
-  const double distance = std::clamp(
-    camera->GetDistance(), camera->GetClippingRange()[0], camera->GetClippingRange()[1]);
+  const double distance =
+    std::clamp(camera->GetDistance(), camera->GetClippingRange()[0], camera->GetClippingRange()[1]);
   const double half = camera->GetParallelProjection()
     ? camera->GetParallelScale()
     : distance * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));

@@ -17,8 +17,8 @@
 namespace bench
 {
 /// The index of a run. Throws where there is anything to notice.
-granular::FrameIndex index_of(
-  const std::vector<std::string>& files, const granular::IndexOptions& options = { .format = &granular::dump_format() });
+granular::FrameIndex index_of(const std::vector<std::string>& files,
+  const granular::IndexOptions& options = { .format = &granular::dump_format() });
 
 /// A frame of it: double points and all arrays unless the request is for others. Throws where there is
 /// anything to notice.

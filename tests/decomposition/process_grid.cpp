@@ -213,9 +213,11 @@ TEST(ProcessGrid, SaysWhatIsWrongWithARequest)
       "expected fewer than 2^31 processes, got a grid of 2147483647 x 2147483647 x 2147483647" },
     { unit_cube({ 0, 0, 0 }, std::int64_t{ 1 } << 31),
       "expected fewer than 2^31 processes, got 2147483648" },
-    { with_cuts({ 2, 1, 1 }, { 0.5, 0.6 }), "expected 1 cuts along x for 2 processes, or 0 processes, which follow from "
+    { with_cuts({ 2, 1, 1 }, { 0.5, 0.6 }),
+      "expected 1 cuts along x for 2 processes, or 0 processes, which follow from "
       "the cuts, got 2" },
-    { with_cuts({ 1, 1, 1 }, { 0.5 }), "expected 0 cuts along x for 1 processes, or 0 processes, which follow from "
+    { with_cuts({ 1, 1, 1 }, { 0.5 }),
+      "expected 0 cuts along x for 1 processes, or 0 processes, which follow from "
       "the cuts, got 1" },
     { with_cuts({ 3, 1, 1 }, { 0.6, 0.5 }),
       "expected increasing cuts along x between 0 and 1, got 0.5 behind 0.6" },

@@ -6,10 +6,10 @@
 #include "granular/dump/formats/binary_header.h"
 #include "granular/frames/frame_index.h"
 
-#include "../support/byte_source_packing.h"
-#include "../support/quad.h"
 #include "../support/binary_dumps.h"
+#include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 
@@ -466,7 +466,8 @@ TEST(BinaryDump, TheStepsAreInTheUnitsAndTimesOfTheFile)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ folder.write("a.bin", binary::write(form, frames).bytes) }, { .format = &granular::dump_format() }, notices, progress);
+  index.update({ folder.write("a.bin", binary::write(form, frames).bytes) },
+    { .format = &granular::dump_format() }, notices, progress);
   EXPECT_EQ(index.times(1), (Doubles{ 0, 0.125, 0.375 }));
   EXPECT_EQ(lines_of(notices), "");
 }
@@ -905,7 +906,8 @@ TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ folder.path("a.0.bin"), folder.path("a.1.bin") }, { .format = &granular::dump_format() }, notices, progress);
+  index.update({ folder.path("a.0.bin"), folder.path("a.1.bin") },
+    { .format = &granular::dump_format() }, notices, progress);
   Decoded got;
   DumpRequest request;
   request.sort_by_id = true;

@@ -97,8 +97,8 @@ std::string euler_content(const FrameIndex& index, std::size_t frame, Notices& n
   Progress progress;
   const FramePiece piece = index.first_piece(frame);
   const auto all = [](std::string_view) { return true; };
-  const granular::EulerFrame read = granular::read_euler(
-    *granular::open_indexed(piece.file), piece.entry, all, notices, progress);
+  const granular::EulerFrame read =
+    granular::read_euler(*granular::open_indexed(piece.file), piece.entry, all, notices, progress);
   std::string text = bytes_of(read.centres);
   for (const granular::EulerValues& values : read.arrays)
   {
@@ -117,8 +117,8 @@ std::string decomposition_content(const FrameIndex& index, std::size_t frame, No
       *granular::open_indexed(piece.file), piece.entry, notices, progress);
     for (const granular::Subdomain& own : read.subdomains)
     {
-      text += std::to_string(own.rank) + " " + std::to_string(own.particles) +
-        bytes_of(own.lo) + bytes_of(own.hi);
+      text += std::to_string(own.rank) + " " + std::to_string(own.particles) + bytes_of(own.lo) +
+        bytes_of(own.hi);
     }
   }
   return text;
@@ -131,7 +131,7 @@ struct Kind
   std::vector<std::string> files; ///< of tests/data/good; FILE=NAME for another name
   const granular::FileFormat& (*format)() noexcept;
   Content content;
-  std::size_t frames;             ///< that there are, as the program wrote them
+  std::size_t frames;                    ///< that there are, as the program wrote them
   std::vector<std::string> columns = {}; ///< that the user names
 };
 
@@ -327,8 +327,7 @@ protected:
         SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
         FrameIndex index = prepare();
         long made = 0;
-        const Seen seen =
-          this->look_with({ one.fault, number, one.count }, index, possible, made);
+        const Seen seen = this->look_with({ one.fault, number, one.count }, index, possible, made);
         fired = possible >= number;
         this->judge(one, fired, seen, clean);
         EXPECT_LE(made, most_calls(one, usual, bytes));
@@ -359,7 +358,8 @@ protected:
       EXPECT_TRUE(seen == clean) << seen.error << seen.said;
     }
     const bool complete = seen.frames == clean.frames;
-    EXPECT_TRUE(one.sees == Sees::Others || complete || !seen.error.empty() || seen.said.size() > clean.said.size())
+    EXPECT_TRUE(one.sees == Sees::Others || complete || !seen.error.empty() ||
+      seen.said.size() > clean.said.size())
       << seen.frames.size() << " of " << clean.frames.size() << " frames, and " << seen.said;
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A frame read by several threads, in chunks of any size, or in parts, is what one thread reads in one
 // chunk, to the bit.
-#include "../support/byte_source_packing.h"
 #include "../support/binary_dumps.h"
+#include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 #include "../support/frame_content.h"
 #include "../support/series.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A frame that ranks read together: each its part, the same notices and the same errors on all.
-#include "../support/thread_ranks.h"
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
 #include "../support/frame_content.h"
 #include "../support/series.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 

@@ -167,8 +167,9 @@ TEST(ManyColumns, OfWhichARowEachDoesNotFit)
     text += "\n";
   }
   const std::string packed = binary::write(named_form(), { frame }).bytes;
-  EXPECT_LT(times_read(one_frame(columns, text),
-              "memory:309: column 'word299': expected a number, got 'a'; the column is kept as texts"),
+  EXPECT_LT(
+    times_read(one_frame(columns, text),
+      "memory:309: column 'word299': expected a number, got 'a'; the column is kept as texts"),
     4);
   EXPECT_LT(times_read(packed,
               "memory@" + std::to_string(packed.size() - 8) +

@@ -573,8 +573,8 @@ TEST(ReadDump, MisfitsOfSeveralRows)
     "memory:13: column 'word': expected a number, got 'a'; the column is kept as texts\n"
     "memory:14: column 'ix': expected an integer, got '1.5'; the column is kept as doubles\n"
     "memory:1: expected 10 words in a row, got more in some rows; the rest of them was ignored\n");
-  EXPECT_EQ(dump("5 1 0 0 0 1 2 ? 4 5\n").error(),
-    "memory:15: column 'iz': expected a number, got '?'");
+  EXPECT_EQ(
+    dump("5 1 0 0 0 1 2 ? 4 5\n").error(), "memory:15: column 'iz': expected a number, got '?'");
   EXPECT_EQ(dump("5.5 1 0 0 0 1 2 3 4 5\n").error(),
     "memory:15: column 'id': expected an integer, got '5.5'");
 }

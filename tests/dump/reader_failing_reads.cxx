@@ -108,7 +108,8 @@ void TryAll(const std::vector<std::string>& files)
         const bool looks = failed || again != Again::Update;
         EXPECT_TRUE(!looks || (reader->GetErrorCode() == 0 && Content(reader.Get) == whole))
           << "fault " << static_cast<int>(fault) << " at call " << number << ", again "
-          << static_cast<int>(again) << ": " << (reader.Seen->Said.empty() ? "" : reader.Seen->Said.back());
+          << static_cast<int>(again) << ": "
+          << (reader.Seen->Said.empty() ? "" : reader.Seen->Said.back());
       }
       EXPECT_GT(number, 3);
     }

@@ -24,8 +24,8 @@
 #include <vector>
 
 using granular::BlockPool;
-using vtkGranularPrivate::MakePool;
 using vtkGranularPrivate::MakeCells;
+using vtkGranularPrivate::MakePool;
 using vtkGranularPrivate::TakePoints;
 using vtkGranularPrivate::VertexCache;
 

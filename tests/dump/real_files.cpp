@@ -4,8 +4,8 @@
 #include "granular/dump/formats/dump_files.h"
 #include "granular/frames/frame_index.h"
 
-#include "../support/quad.h"
 #include "../support/dumps.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 
@@ -837,7 +837,8 @@ TEST(RealFiles, PlainBinaryOfLiggghtsWithoutNames)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ path_of("grains.bin") }, { .format = &granular::dump_format() }, notices, progress);
+  index.update(
+    { path_of("grains.bin") }, { .format = &granular::dump_format() }, notices, progress);
   EXPECT_EQ(lines_of(notices), "");
   EXPECT_EQ(index.times(1), (Doubles{ 0, 1000, 2000 }));
   const std::vector<Table> stored = tables_of_binary(data_file("good/grains.bin"), grain_names);
@@ -948,8 +949,8 @@ TEST(RealFiles, FilesOfLiggghtsOneAStep)
   granular::Notices notices;
   granular::Progress progress;
   index.update(
-    { path_of("grains_2000.dump"), path_of("grains_0.dump"), path_of("grains_1000.dump") }, { .format = &granular::dump_format() },
-    notices, progress);
+    { path_of("grains_2000.dump"), path_of("grains_0.dump"), path_of("grains_1000.dump") },
+    { .format = &granular::dump_format() }, notices, progress);
   EXPECT_EQ(lines_of(notices), "");
   ASSERT_EQ(index.size(), 3u);
   EXPECT_EQ(index.times(2e-5), (Doubles{ 0, 1000 * 2e-5, 2000 * 2e-5 }));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What goes wrong on one rank goes wrong on all, with the same words; the old file stays, and nothing else is left.
-#include "../support/small_disk.h"
-#include "../support/thread_ranks.h"
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
+#include "../support/small_disk.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 

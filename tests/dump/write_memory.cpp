@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows are written by the batch: what is needed beside them does not grow with their number.
-#include "../support/thread_ranks.h"
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 

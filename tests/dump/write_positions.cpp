@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Positions of all forms from points of all forms, against 113 bits: the points as they are in memory, with what
 // was subtracted from them, are exact.
-#include "../support/quad.h"
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
+#include "../support/quad.h"
 #include "../support/reference_dump.h"
 
 #include <gtest/gtest.h>

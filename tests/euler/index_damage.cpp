@@ -14,8 +14,9 @@ std::string shown(const granular::FrameIndex& index, std::size_t frame)
   const granular::FramePiece piece = index.first_piece(frame);
   granular::Notices notices;
   granular::Progress progress;
-  const granular::EulerFrame cells = granular::read_euler(*granular::open_indexed(piece.file),
-    piece.entry, [](std::string_view) { return true; }, notices, progress);
+  const granular::EulerFrame cells = granular::read_euler(
+    *granular::open_indexed(piece.file), piece.entry, [](std::string_view) { return true; },
+    notices, progress);
   std::string seen = std::to_string(cells.cells);
   for (const double centre : cells.centres)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Series of files on disk, as a run writes them and as they change while somebody looks.
-#include "granular/dump/formats/dump_files.h"
 #include "granular/frames/frame_index.h"
+#include "granular/dump/formats/dump_files.h"
 
 #include "../support/series.h"
 

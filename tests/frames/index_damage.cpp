@@ -3,8 +3,8 @@
 // without any index.
 #include "../support/index_damage.h"
 
-#include "../support/byte_source_packing.h"
 #include "../support/binary_dumps.h"
+#include "../support/byte_source_packing.h"
 #include "../support/frame_content.h"
 #include "../support/series.h"
 
@@ -23,7 +23,8 @@ std::string text_run()
 {
   return "ITEM: UNITS\nsi\n" + std::string("ITEM: TIME\n0.5\n") + grains(100, ids_from(1, 5)) +
     "ITEM: TIME\n1.5\n" + grains(200, ids_from(1, 8)) + "ITEM: TIME\n2.5\n" +
-    replaced(header(300, 3, "id type element v_a word number x y z", "0 2"), "pp pp pp", "ff pp pp") +
+    replaced(
+      header(300, 3, "id type element v_a word number x y z", "0 2"), "pp pp pp", "ff pp pp") +
     "1 1 Si 1.5 abc 4 1 1 1\n2 1 O 2 d 5 1 1.5 1\n3 2 C 1e10 e 6 1 1 1.25\n";
 }
 
@@ -102,7 +103,8 @@ TEST(IndexDamage, Gzip)
 TEST(IndexDamage, Zstandard)
 {
   const Folder folder;
-  expect_none(damage(run_of({ folder.write("a.dump.zst", packing::zstd_frames(text_run(), 100)) })));
+  expect_none(
+    damage(run_of({ folder.write("a.dump.zst", packing::zstd_frames(text_run(), 100)) })));
 }
 
 // Of a long file the index has windows, which what is behind them is made from. Of 40,000 bytes every thousandth is changed.
@@ -154,6 +156,6 @@ TEST(IndexDamage, Pieces)
   const Folder folder;
   const std::string first = grains(0, ids_from(1, 5)) + grains(7, ids_from(1, 3));
   const std::string second = grains(0, ids_from(6, 5)) + grains(7, ids_from(4, 7));
-  expect_none(damage(
-    run_of({ folder.write("a.0.dump", first), folder.write("a.1.dump", second) }), 3));
+  expect_none(
+    damage(run_of({ folder.write("a.0.dump", first), folder.write("a.1.dump", second) }), 3));
 }

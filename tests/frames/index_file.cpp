@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is known of the files of a run, kept in a file between openings: it must come back as it
 // was, or not at all, and never stand against what the files hold.
-#include "granular/dump/formats/dump_files.h"
 #include "granular/frames/index_file.h"
+#include "granular/dump/formats/dump_files.h"
 
 #include "../support/own_folder.h"
 
@@ -585,8 +585,8 @@ TEST_F(IndexFileTest, TrapKindsThatNoFileHas)
   EXPECT_EQ(with({ "id" }, {}, FrameKind::text), "");
   EXPECT_EQ(with({ "id" }, {}, last), "");
   EXPECT_EQ(with({ "id" }, {}, FrameKind::bare), "");
-  EXPECT_EQ(with({ "id" }, {}, FrameKind::bare - 1),
-    "expected a layout of frames, got something else");
+  EXPECT_EQ(
+    with({ "id" }, {}, FrameKind::bare - 1), "expected a layout of frames, got something else");
   EXPECT_EQ(with({}, {}, 0), "expected a column, got something else");
   EXPECT_EQ(with({ "word" }, { Text }, FrameKind::text), "");
   EXPECT_EQ(with({ "element" }, { Int32 }, 0), "");

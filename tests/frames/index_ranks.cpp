@@ -4,9 +4,9 @@
 #include "granular/frames/frame_index.h"
 
 #include "../support/byte_source_packing.h"
-#include "../support/thread_ranks.h"
 #include "../support/dumps.h"
 #include "../support/series.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,8 @@ struct Rank
   }
 
   /// Returns what this rank is told.
-  std::string update(const Files& files, const IndexOptions& options = { .format = &granular::dump_format() })
+  std::string update(
+    const Files& files, const IndexOptions& options = { .format = &granular::dump_format() })
   {
     Notices notices;
     Progress progress;
@@ -228,7 +229,8 @@ TEST(IndexRanks, CancelledOnAll)
       Rank rank(communicator);
       Notices notices;
       Stop stop;
-      EXPECT_THROW(granular::update_frame_index(rank.index, rank.ranks, files, { .format = &granular::dump_format() }, notices, stop),
+      EXPECT_THROW(granular::update_frame_index(rank.index, rank.ranks, files,
+                     { .format = &granular::dump_format() }, notices, stop),
         granular::Cancelled);
       EXPECT_EQ(rank.index.size(), 0u);
       rank.update(files);

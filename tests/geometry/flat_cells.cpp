@@ -3,8 +3,8 @@
 #include "granular/geometry/positions.h"
 #include "granular/particles/point_forms.h"
 
-#include "../support/quad.h"
 #include "../euler/exact_sum.h"
+#include "../support/quad.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Values of frames of local data, held against the grains of the same run and against plain parsing.
 #include "local_files.h"
 
-#include "../support/thread_ranks.h"
 #include "../support/many_columns.h"
+#include "../support/thread_ranks.h"
 
 #include "granular/bytes/compression.h"
 #include "granular/dump/formats/dump_files.h"
@@ -116,7 +116,8 @@ TEST(LocalReader, ForcesAddUp)
   granular::FrameIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ local_file("settled_grains.dump.gz") }, { .format = &granular::dump_format() }, notices, progress);
+  index.update({ local_file("settled_grains.dump.gz") }, { .format = &granular::dump_format() },
+    notices, progress);
   granular::LocalFrame grains;
   grains.table = granular::read_dump(index.pieces(0), {}, notices, progress);
   ASSERT_EQ(grains.table.rows, 300);

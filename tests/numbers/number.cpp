@@ -2,8 +2,8 @@
 #include "granular/numbers/number.h"
 
 #include "../support/decimals.h"
-#include "granular/numbers/decimal.h"
 #include "../support/quad.h"
+#include "granular/numbers/decimal.h"
 
 #include <gtest/gtest.h>
 

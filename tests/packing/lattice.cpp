@@ -229,7 +229,8 @@ TEST(PackingLattice, SmallTiltedBoxesHoldWhatFits)
 /// A pair along a 3-4-5 triangle across two periodic axes is 1 apart until a cell fewer fits.
 TEST(PackingLattice, ADistanceThatRoundingAloneMakesTooShortEnds)
 {
-  const Grains grains(on(Arrangement::FaceCentredCubic, tilted_box({}, { 10, 8, 6 }, { 4, 3.1, -2.4 }), "p p f"));
+  const Grains grains(
+    on(Arrangement::FaceCentredCubic, tilted_box({}, { 10, 8, 6 }, { 4, 3.1, -2.4 }), "p p f"));
   EXPECT_GT(grains.size(), 200u);
   EXPECT_GE(least_excess(grains), 0);
 }

@@ -46,6 +46,5 @@ TEST(RestartIndexDamage, OneFile)
 
 TEST(RestartIndexDamage, FilesOfProcesses)
 {
-  expect_none(
-    { "parts.base.restart", "parts.0.restart", "parts.1.restart", "parts.2.restart" }, 7);
+  expect_none({ "parts.base.restart", "parts.0.restart", "parts.1.restart", "parts.2.restart" }, 7);
 }

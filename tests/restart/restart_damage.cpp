@@ -3,8 +3,8 @@
 // replaces operator new.
 #include "restart_files.h"
 
-#include "../support/dumps.h"
 #include "../support/counting_source.h"
+#include "../support/dumps.h"
 #include "../support/largest_request.h"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 
 #include "granular/common/shares.h"
 
-#include "../support/thread_ranks.h"
 #include "../support/sort_checks.h"
+#include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dump_writing.h"
 
-#include "thread_ranks.h"
 #include "dumps.h"
+#include "thread_ranks.h"
 
 #include <gtest/gtest.h>
 

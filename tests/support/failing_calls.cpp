@@ -50,9 +50,7 @@ CallFault next_fault(Call call)
 /// Sets errno as the fault says; false: the call is made.
 bool fails(CallFault fault)
 {
-  errno = fault == CallFault::Interrupted ? EINTR
-    : fault == CallFault::Error           ? EIO
-                                          : errno;
+  errno = fault == CallFault::Interrupted ? EINTR : fault == CallFault::Error ? EIO : errno;
   return fault == CallFault::Interrupted || fault == CallFault::Error;
 }
 
@@ -116,46 +114,46 @@ long all_calls()
 #pragma GCC visibility push(default) // shared libraries are to find them
 extern "C"
 {
-ssize_t pread(int file, void* buffer, size_t bytes, off_t offset)
-{
-  static auto* const read = of_system<ssize_t(int, void*, size_t, off_t)>("pread");
-  const CallFault fault = next_fault(Call::Read);
-  if (fault == CallFault::Shortened)
+  ssize_t pread(int file, void* buffer, size_t bytes, off_t offset)
   {
-    cut_in_two(file);
+    static auto* const read = of_system<ssize_t(int, void*, size_t, off_t)>("pread");
+    const CallFault fault = next_fault(Call::Read);
+    if (fault == CallFault::Shortened)
+    {
+      cut_in_two(file);
+    }
+    if (fails(fault))
+    {
+      return -1;
+    }
+    const size_t most = fault == CallFault::End ? 0 : fault == CallFault::Short ? 1 : bytes;
+    const ssize_t got = read(file, buffer, std::min(bytes, most), offset);
+    change(static_cast<char*>(buffer), got > 0 ? static_cast<size_t>(got) : 0, fault);
+    return got;
   }
-  if (fails(fault))
+
+  int open(const char* path, int flags, ...)
   {
-    return -1;
+    static auto* const open_file = of_system<int(const char*, int, ...)>("open");
+    va_list more;
+    va_start(more, flags);
+    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
+    va_end(more);
+    const bool reads = (flags & O_ACCMODE) == O_RDONLY && (flags & O_DIRECTORY) == 0;
+    return reads && fails(next_fault(Call::Open)) ? -1 : open_file(path, flags, mode);
   }
-  const size_t most = fault == CallFault::End ? 0 : fault == CallFault::Short ? 1 : bytes;
-  const ssize_t got = read(file, buffer, std::min(bytes, most), offset);
-  change(static_cast<char*>(buffer), got > 0 ? static_cast<size_t>(got) : 0, fault);
-  return got;
-}
 
-int open(const char* path, int flags, ...)
-{
-  static auto* const open_file = of_system<int(const char*, int, ...)>("open");
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
-  va_end(more);
-  const bool reads = (flags & O_ACCMODE) == O_RDONLY && (flags & O_DIRECTORY) == 0;
-  return reads && fails(next_fault(Call::Open)) ? -1 : open_file(path, flags, mode);
-}
+  int fstat(int file, struct stat* status) noexcept
+  {
+    static auto* const ask = of_system<int(int, struct stat*)>("fstat");
+    return fails(next_fault(Call::Stat)) ? -1 : ask(file, status);
+  }
 
-int fstat(int file, struct stat* status) noexcept
-{
-  static auto* const ask = of_system<int(int, struct stat*)>("fstat");
-  return fails(next_fault(Call::Stat)) ? -1 : ask(file, status);
-}
-
-int stat(const char* path, struct stat* status) noexcept
-{
-  static auto* const ask = of_system<int(const char*, struct stat*)>("stat");
-  return fails(next_fault(Call::Stat)) ? -1 : ask(path, status);
-}
+  int stat(const char* path, struct stat* status) noexcept
+  {
+    static auto* const ask = of_system<int(const char*, struct stat*)>("stat");
+    return fails(next_fault(Call::Stat)) ? -1 : ask(path, status);
+  }
 }
 #pragma GCC visibility pop
 // NOLINTEND

@@ -64,7 +64,10 @@ public:
   }
   MemoryLimit(const MemoryLimit&) = delete;
   MemoryLimit& operator=(const MemoryLimit&) = delete;
-  ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &before_); }
+  ~MemoryLimit()
+  {
+    ::setrlimit(RLIMIT_AS, &before_);
+  }
 
 private:
   rlimit before_ = {};
@@ -166,8 +169,8 @@ inline Outcomes damage(const Run& run, std::size_t step = 1)
         outcomes);
     }
     constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
-    for (const std::int64_t value : { std::int64_t{ -1 }, std::int64_t{ 0 }, std::int64_t{ 1 } << 20,
-           std::int64_t{ 1 } << 33, largest / 2 - 1 })
+    for (const std::int64_t value : { std::int64_t{ -1 }, std::int64_t{ 0 },
+           std::int64_t{ 1 } << 20, std::int64_t{ 1 } << 33, largest / 2 - 1 })
     {
       std::string bytes = good;
       std::memcpy(bytes.data() + at, &value, std::min(sizeof value, good.size() - 8 - at));

@@ -26,8 +26,9 @@ inline std::string line_of_many(const std::string& line, const char* form)
   const std::string text = form;
   const std::size_t at = text.find('#');
   return line_of_many(line,
-    [&](int i)
-    { return at == text.npos ? text : text.substr(0, at) + std::to_string(i) + text.substr(at + 1); });
+    [&](int i) {
+      return at == text.npos ? text : text.substr(0, at) + std::to_string(i) + text.substr(at + 1);
+    });
 }
 
 #endif

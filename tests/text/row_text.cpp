@@ -2,8 +2,8 @@
 #include "granular/text/row_text.h"
 
 #include "../support/decimals.h"
-#include "granular/numbers/number.h"
 #include "../support/row_decoding.h"
+#include "granular/numbers/number.h"
 
 #include <gtest/gtest.h>
 

@@ -72,7 +72,8 @@ struct RestartPoints
 
   std::vector<Point> points;                      ///< by offset
   std::int64_t spacing = std::int64_t{ 1 } << 20; ///< least distance of two, in bytes of content
-  bool claimed = false; ///< not found in the file but said of it: a window is compared before what is behind it is given
+  bool claimed =
+    false; ///< not found in the file but said of it: a window is compared before what is behind it is given
 
   /// Bytes of memory.
   std::size_t bytes() const noexcept;

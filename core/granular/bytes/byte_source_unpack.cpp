@@ -129,8 +129,7 @@ void Unpacker::start_at(const RestartPoints::Point& point)
 
 /// Gets to a point from the one before. Throws if the window of the point is not what lies before it: bytes that were made
 /// with another one would be other data.
-void Unpacker::compare_window(
-  const RestartPoints::Point& before, const RestartPoints::Point& point)
+void Unpacker::compare_window(const RestartPoints::Point& before, const RestartPoints::Point& point)
 {
   this->start_at(before);
   while (end_ < point.offset && this->advance(point.offset))

@@ -45,12 +45,12 @@ struct FileIndex
   std::string unchecked;    ///< see ByteSource::unchecked
   std::exception_ptr error; ///< the file could not be opened or read
   bool unnamed = false;     ///< binary, without the names of its columns
-  bool compressed = false; ///< gzip or Zstandard
+  bool compressed = false;  ///< gzip or Zstandard
   bool loaded = false;      ///< from an index file: to be held against the file first
   std::vector<std::string> column_names; ///< of the user, for such a file
   std::shared_ptr<RestartPoints> points; ///< of a compressed file
   std::shared_ptr<FrameKinds> kinds;     ///< may be shared by files; made where it is missing
-  const FileFormat* format = nullptr; ///< must be there to be updated
+  const FileFormat* format = nullptr;    ///< must be there to be updated
 };
 
 /// The first 64 KiB of a file, uncompressed: headers of ordinary length are there many times over, and more is not read to find

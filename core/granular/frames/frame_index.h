@@ -21,7 +21,7 @@ namespace granular
 /// What is the user's word.
 struct IndexOptions
 {
-  const FileFormat* format = nullptr;    ///< of the files; must be there
+  const FileFormat* format = nullptr;         ///< of the files; must be there
   std::vector<std::string> column_names = {}; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
   IndexFile index_file = IndexFile::Never;

@@ -80,8 +80,8 @@ void check_points(const FileIndex& file)
   {
     require(
       point.offset >= last && point.offset <= most_content(file), "increasing restart points");
-    require(point.packed >= (point.bits > 0 ? 1 : 0) && point.packed <= file.stamp.size &&
-        point.bits < 8,
+    require(
+      point.packed >= (point.bits > 0 ? 1 : 0) && point.packed <= file.stamp.size && point.bits < 8,
       "a restart point within its file");
     require(point.window.size() <= largest_window, "a window of gzip");
     last = point.offset;
@@ -93,8 +93,8 @@ void check_points(const FileIndex& file)
 void check_claims(const FileIndex& file)
 {
   require(file.stamp.size >= 0 && file.stamp.size <= largest_offset, "the size of a file");
-  require(file.resume_line >= 1 &&
-      is_place(file.resume_offset, file.resume_line, most_content(file)),
+  require(
+    file.resume_line >= 1 && is_place(file.resume_offset, file.resume_line, most_content(file)),
     "a place in a file");
   if (file.points)
   {

@@ -20,7 +20,8 @@ bool counts_from_zero(const std::map<NameNumber, std::uint32_t>& group)
 }
 
 /// Whether the contents of the files say that they are pieces: see name_steps.
-bool hold_pieces(const std::vector<FileIndex>& files, const std::map<NameNumber, std::uint32_t>& group)
+bool hold_pieces(
+  const std::vector<FileIndex>& files, const std::map<NameNumber, std::uint32_t>& group)
 {
   const auto frames_of = [&](std::uint32_t file) -> const std::vector<FrameEntry>&
   { return files[file].frames; };

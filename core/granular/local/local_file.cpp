@@ -104,8 +104,8 @@ void index_bare(
 void index_local(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
 {
-  const bool blank = !index.frames.empty() && is_headless(index.frames.front()) &&
-    index.frames.front().rows == 0;
+  const bool blank =
+    !index.frames.empty() && is_headless(index.frames.front()) && index.frames.front().rows == 0;
   if (index.resume_offset == 0 || blank)
   {
     index.frames.clear(); // a file without a word may become any

@@ -129,8 +129,7 @@ void Block::shrink(std::size_t bytes) noexcept
   }
   Header* const header = header_of(data_);
   const bool little = bytes < least_mapped && bytes <= bytes_ / 2;
-  if (void* const smaller =
-        little ? allocate(bytes, this->pool()) : nullptr)
+  if (void* const smaller = little ? allocate(bytes, this->pool()) : nullptr)
   {
     std::memcpy(smaller, data_, bytes);
     Block::free(std::exchange(data_, smaller));

@@ -91,7 +91,8 @@ Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double 
   while (lacking > 1)
   {
     low = high;
-    high *= std::max(lacking, 1 + 1e-5); // at least a little: what lacks may be no more than rounding
+    high *=
+      std::max(lacking, 1 + 1e-5); // at least a little: what lacks may be no more than rounding
     lacking = this->lay(box, high, radius, clear);
   }
   constexpr int halvings = 60;

@@ -104,7 +104,8 @@ double made_edge(const PackingRequest& request, bool walls)
   const double volume = static_cast<double>(request.grains) * request.radii.mean_volume();
   const double diameter = 2 * request.radii.largest();
   const double room = walls && request.grains > 1 ? std::cbrt(volume * 6 / std::numbers::pi) : 0;
-  constexpr double apart = 1 + 1e-3; // no grain touches its own image, as near to it as coordinates may be coarse
+  constexpr double apart =
+    1 + 1e-3; // no grain touches its own image, as near to it as coordinates may be coarse
   return std::max(std::cbrt(volume / request.solid_fraction), (diameter + room) * apart);
 }
 

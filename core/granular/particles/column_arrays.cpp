@@ -128,8 +128,7 @@ std::vector<std::optional<ValueSource>> find_all_values(
   const ColumnSchema schema(names);
   for (const ArrayInfo& info : schema.arrays())
   {
-    const ArrayView* array =
-      info.scale == 1 ? arrays.find(info.name, info.components()) : nullptr;
+    const ArrayView* array = info.scale == 1 ? arrays.find(info.name, info.components()) : nullptr;
     for (int i = 0; array && i < info.components(); ++i)
     {
       const auto column = static_cast<std::size_t>(info.columns[static_cast<std::size_t>(i)]);

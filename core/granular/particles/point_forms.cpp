@@ -46,14 +46,14 @@ void load_as(const ValueSource& source, Rows rows, To* to)
 /// The sign of what a vector spans with the two that follow an axis of the box.
 int side_of(const ExactVector& vector, const Box& box, std::size_t axis) noexcept
 {
-  return determinant(vector, exact_vector(box.vectors[(axis + 1) % 3]),
-    exact_vector(box.vectors[(axis + 2) % 3]))
+  return determinant(
+    vector, exact_vector(box.vectors[(axis + 1) % 3]), exact_vector(box.vectors[(axis + 2) % 3]))
     .sign();
 }
 
 /// Whether the scaled coordinate of a point along an axis is below a number. orientation: side_of the vector of that axis.
-bool is_below(const Box& box, int orientation, std::size_t axis, const double* point,
-  double number) noexcept
+bool is_below(
+  const Box& box, int orientation, std::size_t axis, const double* point, double number) noexcept
 {
   ExactVector offset;
   for (std::size_t k = 0; k < 3; ++k)

@@ -27,7 +27,7 @@ struct vtkGranularSeriesReader::Internals
 
   std::vector<std::string> FileNames;
   const granular::FileFormat* Format = nullptr; // set by the constructors of readers
-  std::vector<std::string> ColumnNames; ///< for files that do not name their columns
+  std::vector<std::string> ColumnNames;         ///< for files that do not name their columns
   granular::FrameIndex Index;
   std::vector<std::string> IndexedNames; ///< what Index was made from
   bool Valid = false;                    ///< Index is what the last look at the files gave

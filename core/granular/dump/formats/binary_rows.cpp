@@ -326,8 +326,7 @@ void BinaryReader::convert(std::span<ColumnSink> sinks, const char* from, std::s
 }
 
 /// Throws what does not fit in these rows, of each column the first.
-void BinaryReader::fail(
-  std::span<const ColumnSink> sinks, const char* from, std::size_t rows) const
+void BinaryReader::fail(std::span<const ColumnSink> sinks, const char* from, std::size_t rows) const
 {
   std::vector<std::pair<const char*, const ColumnSink*>> misfits;
   for (const ColumnSink& sink : sinks)

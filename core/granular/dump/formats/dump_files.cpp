@@ -25,10 +25,9 @@ void check_frame(const ByteSource& source, const FrameEntry& entry)
 
 std::string describe_first(const ByteSource& source, const FrameEntry& entry)
 {
-  return entry.kind->is_text()
-    ? ""
-    : describe_first_row(
-        source, entry.offset, binary_layouts()[static_cast<std::size_t>(entry.kind->layout)]);
+  return entry.kind->is_text() ? ""
+                               : describe_first_row(source, entry.offset,
+                                   binary_layouts()[static_cast<std::size_t>(entry.kind->layout)]);
 }
 }
 
@@ -71,7 +70,8 @@ bool dump_fits(const ByteSource& source, const FileIndex& index)
   check_frame(source, frames.front());
   for (std::size_t i = 1; i < frames.size(); ++i)
   {
-    const bool hides = frames[i].timestep <= frames[i - 1].timestep; // a frame that nobody will read
+    const bool hides =
+      frames[i].timestep <= frames[i - 1].timestep; // a frame that nobody will read
     if (hides || i + 1 == frames.size())
     {
       check_frame(source, frames[i - (hides ? 1 : 0)]);

@@ -15,9 +15,8 @@ std::int64_t extent_of(const FrameEntry& entry) noexcept
 
 std::int64_t chunk_extent(const FrameEntry& entry, std::size_t bytes) noexcept
 {
-  const std::size_t unit = entry.kind->is_text()
-    ? 1
-    : entry.kind->schema.columns().size() * sizeof(double);
+  const std::size_t unit =
+    entry.kind->is_text() ? 1 : entry.kind->schema.columns().size() * sizeof(double);
   return static_cast<std::int64_t>(
     std::max(std::size_t{ 1 }, bytes / std::max<std::size_t>(unit, 1)));
 }

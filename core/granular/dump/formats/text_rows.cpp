@@ -66,7 +66,8 @@ std::vector<std::string> TextRows::read_header()
   rows_offset_ = scanner.offset();
   rows_line_ = scanner.line();
   const bool is_header = header_.rows >= 0;
-  if (is_header && !makes_columns(reader.column_names(), this->first_row(scanner), entry_.kind->schema))
+  if (is_header &&
+    !makes_columns(reader.column_names(), this->first_row(scanner), entry_.kind->schema))
   {
     header_.rows = -1;
   }
@@ -284,8 +285,8 @@ void TextReader::find_misfits(
       const RowStatus status = word.empty() ? RowStatus::Done : check_word(word, kinds[sink]);
       if (status != RowStatus::Done)
       {
-        fault.rest.push_back({ status, column, std::string(word),
-          offset_ + (word.data() - buffer_.data()), line });
+        fault.rest.push_back(
+          { status, column, std::string(word), offset_ + (word.data() - buffer_.data()), line });
         change(sink, status);
       }
     }

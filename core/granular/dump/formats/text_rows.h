@@ -57,8 +57,7 @@ private:
   void load(std::int64_t from, std::int64_t to);
   std::size_t load_line(std::size_t at);
   void check_length(std::size_t first, std::size_t end) const;
-  void find_misfits(
-    const char* from, std::span<const ColumnSink> sinks, RowFault& fault) const;
+  void find_misfits(const char* from, std::span<const ColumnSink> sinks, RowFault& fault) const;
   [[noreturn]] void fail(const RowResult& result, std::span<const ColumnSink> sinks) const;
 
   const TextRows& of_;

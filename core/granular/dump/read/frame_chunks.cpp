@@ -78,7 +78,8 @@ std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source)
 {
   constexpr std::int64_t often_packed = 256; // times; what is packed better takes another turn
   const auto columns = static_cast<std::int64_t>(entry.kind->schema.columns().size());
-  const std::int64_t word = entry.kind->is_text() ? 2 : sizeof(double); // a digit and a blank at least
+  const std::int64_t word =
+    entry.kind->is_text() ? 2 : sizeof(double); // a digit and a blank at least
   const std::int64_t all = entry.end - entry.offset;
   const std::int64_t bytes =
     source.compressed() ? std::min(all, often_packed * source.stamp().size) : all;

@@ -78,7 +78,8 @@ std::int64_t FrameDecoder::first_room()
   {
     return likely;
   }
-  std::int64_t possible = 0; // so many may be no more than a claim: it is held against the bytes that there are
+  std::int64_t possible =
+    0; // so many may be no more than a claim: it is held against the bytes that there are
   for (const PieceRows& range : ranges_)
   {
     const std::shared_ptr<const Source> source = this->open(range.piece); // reads the header

@@ -91,7 +91,8 @@ private:
   FrameHeader header_;                               ///< its own, with the rows of all
 
   std::unique_ptr<FrameLayout> layout_;
-  std::deque<DecodedChunk> decoded_; ///< of the chunks that were begun; stays where it is as it grows
+  std::deque<DecodedChunk>
+    decoded_; ///< of the chunks that were begun; stays where it is as it grows
   std::vector<std::int64_t> counts_; ///< rows of each piece that were decoded
   bool filtered_ = false;            ///< not all rows stay
   bool alone_ = true;                ///< one thread: it need not count rows before it has them

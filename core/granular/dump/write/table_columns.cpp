@@ -116,9 +116,8 @@ std::vector<std::string> expand_table_columns(
   for (const std::string& name : names)
   {
     const ArrayView* const array = all.array(name);
-    const std::vector<std::string> parts = !array || all.find(name)
-      ? std::vector<std::string>{ name }
-      : names_of(*array);
+    const std::vector<std::string> parts =
+      !array || all.find(name) ? std::vector<std::string>{ name } : names_of(*array);
     columns.insert(columns.end(), parts.begin(), parts.end());
   }
   return columns;
