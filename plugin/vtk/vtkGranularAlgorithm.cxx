@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularAlgorithm.h"
 
-#include "private/particles.h"
-#include "private/piece_request.h"
-#include "private/processes.h"
+#include "private/dump/particles.h"
+#include "private/request/piece_request.h"
+#include "private/request/processes.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

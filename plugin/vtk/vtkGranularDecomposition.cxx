@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecomposition.h"
 
-#include "private/arrays.h"
-#include "private/decomposition_algorithm.h"
-#include "private/particles.h"
+#include "private/arrays/arrays.h"
+#include "private/decomposition/decomposition_algorithm.h"
+#include "private/dump/particles.h"
 
 #include "granular/decomposition/count_particles.h"
 

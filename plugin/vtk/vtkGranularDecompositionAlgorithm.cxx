@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionAlgorithm.h"
 
-#include "private/decomposition_algorithm.h"
+#include "private/decomposition/decomposition_algorithm.h"
 
 #include "vtkInformation.h"
 #include "vtkUnstructuredGrid.h"

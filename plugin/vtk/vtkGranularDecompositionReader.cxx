@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionReader.h"
 
-#include "private/arrays.h"
-#include "private/dump_output.h"
-#include "private/piece_request.h"
-#include "private/series_reader.h"
-#include "private/voxels.h"
+#include "private/arrays/arrays.h"
+#include "private/decomposition/voxels.h"
+#include "private/dump/dump_output.h"
+#include "private/request/piece_request.h"
+#include "private/request/series_reader.h"
 
 #include "granular/decomposition/decomposition_file.h"
 

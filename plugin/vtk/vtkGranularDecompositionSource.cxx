@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionSource.h"
 
-#include "private/decomposition_algorithm.h"
-#include "private/dump_output.h"
+#include "private/decomposition/decomposition_algorithm.h"
+#include "private/dump/dump_output.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformationVector.h"

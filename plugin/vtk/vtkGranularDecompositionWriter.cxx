@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionWriter.h"
 
-#include "private/dump_input.h"
-#include "private/name_file.h"
-#include "private/voxels.h"
-#include "private/vtu_file.h"
-#include "private/whole_file.h"
-#include "private/writer.h"
+#include "private/decomposition/voxels.h"
+#include "private/decomposition/vtu_file.h"
+#include "private/dump/dump_input.h"
+#include "private/request/name_file.h"
+#include "private/writing/whole_file.h"
+#include "private/writing/writer.h"
 
 #include "granular/decomposition/decomposition_text.h"
 #include "granular/dump/write/dump_format.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpReader.h"
 
-#include "private/array_choice.h"
-#include "private/arrays.h"
-#include "private/dump_output.h"
-#include "private/frame_ahead.h"
-#include "private/guard.h"
-#include "private/piece_request.h"
-#include "private/series_reader.h"
+#include "private/arrays/array_choice.h"
+#include "private/arrays/arrays.h"
+#include "private/dump/dump_output.h"
+#include "private/dump/frame_ahead.h"
+#include "private/request/guard.h"
+#include "private/request/piece_request.h"
+#include "private/request/series_reader.h"
 
 #include "granular/common/archive.h"
 #include "granular/common/words.h"

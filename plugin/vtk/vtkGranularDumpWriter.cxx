@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpWriter.h"
 
-#include "private/rows_file.h"
-#include "private/text_of.h"
+#include "private/request/text_of.h"
+#include "private/writing/rows_file.h"
 
 #include "granular/common/words.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularEulerReader.h"
 
-#include "private/array_choice.h"
-#include "private/dump_output.h"
-#include "private/euler_cells.h"
-#include "private/look_together.h"
-#include "private/name_file.h"
-#include "private/piece_request.h"
-#include "private/series_reader.h"
+#include "private/arrays/array_choice.h"
+#include "private/dump/dump_output.h"
+#include "private/euler/euler_cells.h"
+#include "private/request/look_together.h"
+#include "private/request/name_file.h"
+#include "private/request/piece_request.h"
+#include "private/request/series_reader.h"
 
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularEulerWriter.h"
 
-#include "private/euler_input.h"
-#include "private/name_file.h"
-#include "private/whole_file.h"
-#include "private/writer.h"
+#include "private/euler/euler_input.h"
+#include "private/request/name_file.h"
+#include "private/writing/whole_file.h"
+#include "private/writing/writer.h"
 
 #include "granular/bytes/compression.h"
 #include "granular/dump/write/dump_format.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularLocalJoin.h"
 
-#include "private/arrays.h"
-#include "private/lines.h"
-#include "private/local_rows.h"
-#include "private/particles.h"
-#include "private/piece_request.h"
-#include "private/processes.h"
-#include "private/text_of.h"
+#include "private/arrays/arrays.h"
+#include "private/dump/particles.h"
+#include "private/local/lines.h"
+#include "private/local/local_rows.h"
+#include "private/request/piece_request.h"
+#include "private/request/processes.h"
+#include "private/request/text_of.h"
 
 #include "granular/common/archive.h"
 #include "granular/common/words.h"

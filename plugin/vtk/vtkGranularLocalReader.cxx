@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularLocalReader.h"
 
-#include "private/array_choice.h"
-#include "private/dump_output.h"
-#include "private/lines.h"
-#include "private/look_together.h"
-#include "private/piece_request.h"
-#include "private/series_reader.h"
+#include "private/arrays/array_choice.h"
+#include "private/dump/dump_output.h"
+#include "private/local/lines.h"
+#include "private/request/look_together.h"
+#include "private/request/piece_request.h"
+#include "private/request/series_reader.h"
 
 #include "granular/local/local_columns.h"
 #include "granular/local/local_file.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularLocalWriter.h"
 
-#include "private/local_input.h"
-#include "private/name_file.h"
-#include "private/rows_file.h"
-#include "private/text_of.h"
+#include "private/local/local_input.h"
+#include "private/request/name_file.h"
+#include "private/request/text_of.h"
+#include "private/writing/rows_file.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"

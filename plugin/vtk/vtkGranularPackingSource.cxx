@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularPackingSource.h"
 
-#include "private/arrays.h"
-#include "private/bond_lines.h"
-#include "private/dump_output.h"
-#include "private/guard.h"
-#include "private/piece_request.h"
-#include "private/processes.h"
+#include "private/arrays/arrays.h"
+#include "private/dump/dump_output.h"
+#include "private/local/bond_lines.h"
+#include "private/request/guard.h"
+#include "private/request/piece_request.h"
+#include "private/request/processes.h"
 
 #include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"

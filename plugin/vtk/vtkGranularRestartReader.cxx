@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularRestartReader.h"
 
-#include "private/array_choice.h"
-#include "private/arrays.h"
-#include "private/dump_output.h"
-#include "private/lines.h"
-#include "private/look_together.h"
-#include "private/piece_request.h"
-#include "private/series_reader.h"
+#include "private/arrays/array_choice.h"
+#include "private/arrays/arrays.h"
+#include "private/dump/dump_output.h"
+#include "private/local/lines.h"
+#include "private/request/look_together.h"
+#include "private/request/piece_request.h"
+#include "private/request/series_reader.h"
 
 #include "granular/restart/history_layout.h"
 #include "granular/restart/restart_file.h"

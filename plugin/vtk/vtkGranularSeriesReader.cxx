@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularSeriesReader.h"
 
-#include "private/guard.h"
-#include "private/pool.h"
-#include "private/series_reader.h"
+#include "private/arrays/pool.h"
+#include "private/request/guard.h"
+#include "private/request/series_reader.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

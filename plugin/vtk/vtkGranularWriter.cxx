@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularWriter.h"
 
-#include "private/guard.h"
-#include "private/input_frames.h"
-#include "private/writer.h"
+#include "private/dump/input_frames.h"
+#include "private/request/guard.h"
+#include "private/writing/writer.h"
 
 #include "vtkCommand.h"
 #include "vtkDataObject.h"

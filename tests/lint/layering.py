@@ -5,7 +5,8 @@
                            system only where SYSTEM_HEADERS says so; no more files than MOST_FILES
     core/mpi               what ROOMS says, its own folder, mpi.h
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
-    plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/
+    plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/,
+                           whose rooms include each other as PRIVATE_ROOMS says
     plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
     plugin/views           VTK, ParaView's views, but no core and no Qt
     samples                paraview.simple, granular, numpy and Python's own modules
@@ -67,6 +68,17 @@ ROOMS = {room: words.split() for room, words in (
 )}
 MPI_MAY_USE = ["common", "bytes", "parallel"]
 MOST_FILES = 40
+
+# The rooms below plugin/vtk/private/, and which others each may include.
+PRIVATE_ROOMS = {room: words.split() for room, words in (
+    ("request", ""),
+    ("arrays", ""),
+    ("dump", "request arrays"),
+    ("local", "request arrays dump"),
+    ("euler", "request arrays dump"),
+    ("decomposition", "request arrays dump"),
+    ("writing", "request dump"),
+)}
 
 SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")
 
@@ -141,7 +153,16 @@ def check_vtk_header(root, path):
 
 def check_vtk_source(root, path):
     private = path.startswith("plugin/vtk/private/")
+    own = path.split("/")[3] if private else None
     for line, bracket, name, _ in includes(tree.read(root, path)):
+        room = name.split("/")[1] if name.startswith("private/") else own
+        if private and own not in PRIVATE_ROOMS:
+            yield path, line, "is in no room of private/ (see PRIVATE_ROOMS in tests/lint/layering.py)"
+            continue
+        if private and room not in PRIVATE_ROOMS[own] + [own]:
+            yield path, line, (f'"{name}": only {" ".join(PRIVATE_ROOMS[own] + [own])} of private/ may be '
+                               "included here")
+            continue
         if name.startswith("granular/") or (bracket == "<" and name in STANDARD):
             continue
         # vtkSMPTools and its kin are of VTK.

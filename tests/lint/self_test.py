@@ -94,11 +94,15 @@ class Layering(unittest.TestCase):
         self.assertEqual(found(
             layering.check,
             plugin__vtk__a_dot_cxx='#include "granular/common/a.h"\n#include "vtkNew.h"\n'
-            '#include "private/guard.h"\n#include <string>\n#include "vtkSMProxy.h"\n'
+            '#include "private/request/guard.h"\n#include <string>\n#include "vtkSMProxy.h"\n'
             '#include "vtkPVSession.h"\n#include <QWidget>\n#include "pqApplicationCore.h"\n'
             '#include <mpi.h>\n#include "vtkSMPTools.h"\n#include "mpi/m.h"\n',
-            plugin__vtk__private__mpi_glue_dot_h='#include <mpi.h>\n#include "mpi/m.h"\n'), [
-                f"plugin/vtk/a.cxx:{line}" for line in (11, 5, 6, 7, 8, 9)])
+            plugin__vtk__private__request__mpi_glue_dot_h='#include <mpi.h>\n#include "mpi/m.h"\n',
+            plugin__vtk__private__dump__d_dot_h='#include "private/request/r.h"\n#include "private/dump/e.h"\n'
+            '#include "private/euler/e.h"\n',
+            plugin__vtk__private__p_dot_h='#include <vector>\n'), [
+                f"plugin/vtk/a.cxx:{line}" for line in (11, 5, 6, 7, 8, 9)] + [
+                    "plugin/vtk/private/dump/d.h:3", "plugin/vtk/private/p.h:1"])
 
     def test_paraview(self):
         self.assertEqual(found(

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "private/dump/dump_output.h"
+
+#include "private/arrays/arrays.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+
+namespace vtkGranularPrivate
+{
+namespace
+{
+/**
+ * The corners of a cube in the order of a VTK_HEXAHEDRON.
+ */
+constexpr int HexahedronCorners[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+  { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+
+std::vector<double> Values(const granular::Twofold3& vector)
+{
+  std::vector<double> values;
+  for (const granular::Twofold& component : vector)
+  {
+    values.push_back(std::isfinite(component.hi) ? component.value() : component.hi);
+  }
+  return values;
+}
+
+/**
+ * The numbers of the header: six, and the tilts of a tilted box. The vectors are rounded, these are not.
+ */
+std::vector<double> Bounds(const granular::Box& box)
+{
+  const granular::BoxBounds b = box.bounds();
+  std::vector<double> values = { b.lo[0], b.hi[0], b.lo[1], b.hi[1], b.lo[2], b.hi[2] };
+  if (box.tilted)
+  {
+    values.insert(values.end(), { b.xy, b.xz, b.yz });
+  }
+  return values;
+}
+
+void FillBoxData(vtkFieldData* data, const granular::Box& box)
+{
+  std::vector<double> vectors;
+  for (const granular::Twofold3& vector : box.vectors)
+  {
+    const std::vector<double> values = Values(vector);
+    vectors.insert(vectors.end(), values.begin(), values.end());
+  }
+  data->AddArray(MakeDoubles("BoxOrigin", Values(box.origin)));
+  data->AddArray(MakeDoubles("BoxVectors", vectors));
+  if (!box.general)
+  {
+    data->AddArray(MakeDoubles("BoxBounds", Bounds(box)));
+  }
+  data->AddArray(MakeStrings("Boundary", { box.boundary }));
+}
+}
+
+void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision,
+  VertexCells cells, VertexCache& cache, const std::shared_ptr<granular::BlockPool>& pool)
+{
+  const auto rows = static_cast<vtkIdType>(frame.rows);
+  output->SetPoints(TakePoints(frame.points, rows, singlePrecision, frame.points_range));
+  if (cells != VertexCells::None && rows > 0)
+  {
+    output->SetVerts(cache.Get(rows, cells == VertexCells::OnePerPoint, pool));
+  }
+  vtkPointData* data = output->GetPointData();
+  data->AllocateArrays(static_cast<int>(frame.arrays.size()));
+  for (granular::DumpArray& from : frame.arrays)
+  {
+    if (from.info.role == granular::ColumnRole::Id)
+    {
+      data->SetPedigreeIds(TakeArray(from, rows, frame.schema.columns()));
+    }
+    else
+    {
+      AddTaken(data, from, rows, frame.schema.columns());
+    }
+  }
+}
+
+bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(8);
+  for (int i = 0; i < 8; ++i)
+  {
+    const auto& corner = HexahedronCorners[i];
+    granular::Vector3 position = box.corner(corner[0], corner[1], corner[2], pointOrigin);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (coordinates == granular::Coordinates::Scaled)
+      {
+        position[axis] = corner[axis] - pointOrigin[axis];
+      }
+      if (!std::isfinite(position[axis]))
+      {
+        return false;
+      }
+    }
+    points->SetPoint(i, position.data());
+  }
+  vtkNew<vtkIdList> corners;
+  corners->SetNumberOfIds(8);
+  for (vtkIdType i = 0; i < 8; ++i)
+  {
+    corners->SetId(i, i);
+  }
+  output->SetPoints(points);
+  output->Allocate(1);
+  output->InsertNextCell(VTK_HEXAHEDRON, corners);
+  return true;
+}
+
+void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
+  granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
+{
+  data->AddArray(MakeStrings("Coordinates", { granular::to_string(coordinates) }));
+  data->AddArray(
+    MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
+  if (header.has_box)
+  {
+    FillBoxData(data, header.box);
+  }
+  data->AddArray(MakeInteger("timestep", header.timestep));
+  if (!header.label.empty())
+  {
+    data->AddArray(MakeStrings("label", { header.label }));
+  }
+  if (!header.units.empty())
+  {
+    data->AddArray(MakeStrings("units", { header.units }));
+  }
+  if (header.time)
+  {
+    data->AddArray(MakeDoubles("time", { *header.time }));
+  }
+}
+
+void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request)
+{
+  std::vector<std::string> names;
+  if (request.stride > 1)
+  {
+    names.push_back("Stride " + std::to_string(request.stride));
+  }
+  const auto& region = request.region;
+  if (region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5])
+  {
+    names.emplace_back("RegionOfInterest");
+  }
+  if (!names.empty())
+  {
+    data->AddArray(MakeStrings("ParticlesLeftOut", names));
+  }
+}
+
+std::string FindLeftOut(vtkFieldData* data)
+{
+  std::string text;
+  auto* names = vtkStringArray::SafeDownCast(data->GetAbstractArray("ParticlesLeftOut"));
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    text += (text.empty() ? "" : ", ") + names->GetValue(i);
+  }
+  return text;
+}
+
+void FillFieldData(
+  vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin)
+{
+  FillHeader(data, frame.header, frame.coordinates, pointOrigin);
+  std::vector<std::string> names;
+  for (const granular::ColumnInfo& column : frame.schema.columns())
+  {
+    names.push_back(column.name);
+  }
+  data->AddArray(MakeStrings("Columns", names));
+}
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "private/dump/particles.h"
+
+#include "granular/common/error.h"
+#include "granular/particles/shared_header.h"
+
+#include "vtkCompositeDataSet.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace vtkGranularPrivate
+{
+Particles::Particles(vtkDataObject* input, granular::Communicator& ranks)
+{
+  granular::do_together(ranks,
+    [&]
+    {
+      auto* points = vtkPointSet::SafeDownCast(input);
+      if (!points)
+      {
+        throw granular::UnsupportedError("expected a vtkPointSet of particles, got " +
+          (input ? std::string("a ") + input->GetClassName() : "nothing") +
+          (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
+                                                    : ""));
+      }
+      granular::Notices ofArrays; // that have no use here
+      this->Input.emplace(points, ofArrays);
+    });
+  granular::share_header(this->Input->View, ranks);
+}
+
+std::pair<granular::Vector3, granular::Vector3> Particles::FindBounds(
+  const double given[6], const char* tilted) const
+{
+  const granular::FrameView& view = this->View();
+  if (std::any_of(given, given + 6, [](double bound) { return std::isnan(bound); }))
+  {
+    throw granular::Error("expected Bounds of numbers, got nan");
+  }
+  const bool all = given[0] <= given[1] && given[2] <= given[3] && given[4] <= given[5];
+  if (!all && !view.has_box)
+  {
+    throw granular::Error(
+      "expected the box in the field data of the input (BoxOrigin, BoxVectors), "
+      "got none: give Bounds");
+  }
+  const bool fits = !view.header.box.tilted || (!tilted && !view.header.box.general);
+  if (!all && !fits)
+  {
+    throw granular::UnsupportedError("expected a box along the axes, got a tilted one: " +
+      std::string(tilted ? tilted : "give Bounds"));
+  }
+  const granular::BoxBounds box = all ? granular::BoxBounds{} : view.header.box.bounds();
+  granular::Vector3 lo = box.lo;
+  granular::Vector3 hi = box.hi;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    if (given[2 * k] <= given[2 * k + 1])
+    {
+      lo[k] = given[2 * k];
+      hi[k] = given[2 * k + 1];
+    }
+  }
+  return { lo, hi };
+}
+
+bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks)
+{
+  return wanted.Pieces == ranks.size() && wanted.Piece == ranks.rank();
+}
+
+bool AreTogether(const PieceRequest& wanted, bool mayDiffer, granular::Communicator& ranks)
+{
+  std::int64_t all = IsOwn(wanted, ranks) ? 1 : 0;
+  ranks.sum({ &all, 1 });
+  const bool together = all == ranks.size();
+  granular::do_together(ranks,
+    [&]
+    {
+      if (all != 0 && !together && !mayDiffer)
+      {
+        throw granular::UnsupportedError(
+          "expected that all processes ask for their own piece, or none, got " +
+          std::to_string(all) + " of " + std::to_string(ranks.size()));
+      }
+    });
+  return together;
+}
+}

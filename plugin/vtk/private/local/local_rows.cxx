@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "private/local/local_rows.h"
+
+#include "private/arrays/arrays.h"
+#include "private/local/lines.h"
+
+#include "granular/common/error.h"
+#include "granular/local/ids.h"
+#include "granular/local/particle_values.h"
+#include "granular/parallel/executor.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <iterator>
+#include <numeric>
+
+namespace vtkGranularPrivate
+{
+LocalRows::LocalRows(vtkDataObject* input)
+{
+  vtkIdType count = 0;
+  if (auto* lines = vtkDataSet::SafeDownCast(input))
+  {
+    count = lines->GetNumberOfCells();
+    this->Data = lines->GetCellData();
+    this->MayBeSplit = true;
+  }
+  else if (auto* table = vtkTable::SafeDownCast(input))
+  {
+    count = table->GetNumberOfRows();
+    this->Data = table->GetRowData();
+  }
+  else
+  {
+    throw granular::UnsupportedError(
+      "expected lines as cells of a vtkDataSet, or a vtkTable with a row for each, got " +
+      (input ? std::string("a ") + input->GetClassName() : "nothing") +
+      (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it" : ""));
+  }
+  this->Field = input->GetFieldData();
+  this->AllTuples = count;
+  this->FindTuples();
+}
+
+void LocalRows::FindTuples()
+{
+  const char* const name = vtkDataSetAttributes::GhostArrayName();
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(this->Data->GetAbstractArray(name));
+  vtkDataArray* parts = this->HasParts() ? this->Data->GetArray(PartArray) : nullptr;
+  for (vtkDataArray* array : { static_cast<vtkDataArray*>(ghosts), parts })
+  {
+    if (array)
+    {
+      this->Arrays.CheckTuples(array, array->GetName(), this->AllTuples);
+      this->AreAll = false;
+    }
+  }
+  for (vtkIdType tuple = 0; !this->AreAll && tuple < this->AllTuples; ++tuple)
+  {
+    const bool duplicate =
+      ghosts && (ghosts->GetValue(tuple) & vtkDataSetAttributes::DUPLICATECELL) != 0;
+    if (!duplicate && (!parts || parts->GetComponent(tuple, 0) == 0))
+    {
+      this->Tuples.push_back(tuple);
+    }
+  }
+}
+
+std::vector<vtkIdType> LocalRows::FindBegins() const
+{
+  if (!this->AreAll)
+  {
+    return this->Tuples;
+  }
+  std::vector<vtkIdType> all(static_cast<std::size_t>(this->AllTuples));
+  std::iota(all.begin(), all.end(), vtkIdType{ 0 });
+  return all;
+}
+
+std::vector<vtkIdType> LocalRows::FindEnds() const
+{
+  std::vector<vtkIdType> ends = this->FindBegins();
+  vtkDataArray* parts = this->HasParts() ? this->Data->GetArray(PartArray) : nullptr;
+  vtkIdType later = 0; // parts but the first of each line
+  for (vtkIdType tuple = 0; parts && tuple < this->AllTuples; ++tuple)
+  {
+    later += parts->GetComponent(tuple, 0) != 0 ? 1 : 0;
+  }
+  for (vtkIdType& end : ends)
+  {
+    while (later > 0 && end + 1 < this->AllTuples &&
+      parts->GetComponent(end + 1, 0) == parts->GetComponent(end, 0) + 1)
+    {
+      ++end;
+      --later;
+    }
+  }
+  if (later > 0)
+  {
+    throw granular::Error("expected the parts of each line one after the other, got " +
+      std::to_string(later) +
+      " of other lines or places: with PeriodicLines MinimumImage lines are whole");
+  }
+  return ends;
+}
+
+void LocalRows::Keep(std::pair<vtkTypeInt64, vtkTypeInt64> range)
+{
+  std::vector<vtkIdType> kept;
+  for (vtkTypeInt64 row = range.first; row < range.second; ++row)
+  {
+    kept.push_back(this->TupleOf(row));
+  }
+  this->AreAll = this->AreAll && std::ssize(kept) == this->AllTuples;
+  this->Tuples = std::move(kept);
+}
+
+bool LocalRows::Has(const char* name) const
+{
+  return this->Data->HasArray(name) != 0;
+}
+
+bool LocalRows::HasNumbers(const char* name) const
+{
+  vtkDataArray* array = this->Data->GetArray(name);
+  return array && array->GetNumberOfComponents() == 1;
+}
+
+bool LocalRows::HasParts() const
+{
+  const int type = this->MayBeSplit && this->HasNumbers(PartArray)
+    ? this->Data->GetArray(PartArray)->GetDataType()
+    : VTK_DOUBLE;
+  return type != VTK_FLOAT && type != VTK_DOUBLE;
+}
+
+granular::ArrayView LocalRows::See(const char* name)
+{
+  vtkAbstractArray* array = this->Data->GetAbstractArray(name);
+  if (!array)
+  {
+    throw granular::Error("expected an array '" + std::string(name) + "' of the lines, got none");
+  }
+  const auto view = this->Arrays.See(array, name, this->AllTuples);
+  if (!view || view->type == granular::ScalarType::Text || view->size() != 1)
+  {
+    throw granular::Error("expected one number a row in the array '" + std::string(name) +
+      "' of the lines, got " +
+      (view && view->type != granular::ScalarType::Text
+          ? std::to_string(view->size())
+          : std::string("the type ") + array->GetDataTypeAsString()));
+  }
+  return *view;
+}
+
+std::vector<std::int64_t> LocalRows::ReadIds(const char* name, granular::Progress& progress)
+{
+  std::vector<std::int64_t> ids;
+  if (this->Count() == 0)
+  {
+    return ids;
+  }
+  const granular::Ids all(this->See(name), this->AllTuples, granular::Executor(), progress);
+  if (this->AreAll)
+  {
+    ids.assign(all.values().begin(), all.values().end());
+    return ids;
+  }
+  std::ranges::transform(this->Tuples, std::back_inserter(ids),
+    [&](vtkIdType tuple) { return all.values()[static_cast<std::size_t>(tuple)]; });
+  return ids;
+}
+
+std::vector<double> LocalRows::ReadNumbers(
+  const char* name, const std::vector<std::int64_t>& rows, vtkIdType count)
+{
+  std::vector<double> numbers(static_cast<std::size_t>(count));
+  if (count == 0)
+  {
+    return numbers;
+  }
+  const granular::ArrayView view = this->See(name);
+  std::array<std::int64_t, 1024> tuples; // at once, which stay in the cache
+  for (std::size_t first = 0; first < numbers.size(); first += tuples.size())
+  {
+    const std::size_t some = std::min(tuples.size(), numbers.size() - first);
+    for (std::size_t i = 0; i < some; ++i)
+    {
+      tuples[i] =
+        this->TupleOf(rows.empty() ? static_cast<std::int64_t>(first + i) : rows[first + i]);
+    }
+    granular::gather_numbers(view, 0, { tuples.data(), some }, numbers.data() + first);
+  }
+  return numbers;
+}
+
+void LocalRows::Pass(
+  const std::vector<std::int64_t>& rows, vtkIdType count, vtkDataSetAttributes* to) const
+{
+  const bool same = this->AreAll && rows.empty() && count == this->AllTuples;
+  vtkNew<vtkIdList> tuples;
+  tuples->SetNumberOfIds(same ? 0 : count);
+  for (vtkIdType i = 0; i < tuples->GetNumberOfIds(); ++i)
+  {
+    tuples->SetId(i, this->TupleOf(rows.empty() ? i : rows[static_cast<std::size_t>(i)]));
+  }
+  for (int i = 0; i < this->Data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* from = this->Data->GetAbstractArray(i);
+    const char* name = from->GetName();
+    if (!name || !*name || std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0)
+    {
+      continue;
+    }
+    this->Arrays.CheckTuples(from, name, this->AllTuples);
+    to->AddArray(same ? from : TakeTuples(from, tuples).Get());
+  }
+}
+}

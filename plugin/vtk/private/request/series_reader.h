@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularSeriesReaderInternals_h
+#define vtkGranularSeriesReaderInternals_h
+
+#include "vtkGranularSeriesReader.h"
+
+#include "private/request/guard.h"
+#include "private/request/processes.h"
+
+#include "granular/frames/frame_index.h"
+#include "granular/memory/block_pool.h"
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkInformation;
+class vtkInformationVector;
+
+/**
+ * The files, what is known of them, and what the user was told.
+ */
+struct vtkGranularSeriesReader::Internals
+{
+  using Self = vtkGranularSeriesReader;
+
+  std::vector<std::string> FileNames;
+  const granular::FileFormat* Format = nullptr; // set by the constructors of readers
+  std::vector<std::string> ColumnNames;         ///< for files that do not name their columns
+  granular::FrameIndex Index;
+  std::vector<std::string> IndexedNames; ///< what Index was made from
+  bool Valid = false;                    ///< Index is what the last look at the files gave
+  bool Stale = false;                    ///< the files are to be looked at again
+  std::set<std::string> Told;            ///< notices the user has had
+  vtkGranularPrivate::Processes Ranks;
+  std::shared_ptr<granular::BlockPool> Pool; ///< of output memory; null: none, or not made yet
+  bool PoolMade = false;
+
+  /**
+   * The processes that read together. Collective when it is called first.
+   */
+  granular::Communicator& GetRanks() { return this->Ranks.Get(); }
+
+  /**
+   * Brings the index up to the files, if they are to be looked at at all: rank 0 looks, for all. Throws,
+   * on all ranks, and leaves the index invalid, if there is nothing to show. Collective.
+   */
+  void Update(Self* self);
+
+  /**
+   * The output port that a request is for.
+   */
+  static int PortOf(vtkInformation* request);
+
+  /**
+   * Readies the memory for a frame.
+   */
+  void StartFrame(granular::Notices& notices);
+
+  /**
+   * The frame that the port which is asked for shows, and its time.
+   */
+  std::size_t FindFrame(
+    Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time);
+
+  /**
+   * Does a request for data: work() where there are frames to show. Returns what the request returns.
+   */
+  template <typename Work>
+  int Run(Self* self, vtkInformationVector* outputs, const Work& work)
+  {
+    using namespace vtkGranularPrivate;
+    const Outcome outcome = Guard(self, outputs,
+      [&]
+      {
+        if (this->Ranks.IsCancelled())
+        {
+          throw granular::Cancelled();
+        }
+        // valid already, but for a pipeline that goes on after RequestInformation failed
+        this->Update(self);
+        work();
+      });
+    if (outcome != Outcome::Done)
+    {
+      self->ForgetFrames();
+    }
+    return this->Ranks.EndRequest(self, outcome);
+  }
+
+  /**
+   * One warning a file, and each notice once, for whichever frame it came first; not too many.
+   */
+  void Tell(Self* self, const granular::Notices& notices, bool ofFrames);
+};
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularRowsFile_h
+#define vtkGranularRowsFile_h
+
+#include "private/dump/dump_input.h"
+#include "private/writing/writer.h"
+
+#include "granular/dump/write/dump_writer.h"
+
+#include <memory>
+#include <string>
+
+namespace vtkGranularPrivate
+{
+/**
+ * What the name of a dump and the properties that all have say of how it is written.
+ */
+granular::DumpFormat MakeFormat(
+  const char* path, bool liggghts, const char* columns, const char* numberFormat);
+
+/**
+ * A dump that is being written, of particles or of anything else that has rows.
+ */
+class RowsFile : public FrameWriter
+{
+public:
+  RowsFile(const char* path, granular::DumpFormat format, const granular::WriteOptions& options,
+    granular::Communicator& ranks);
+
+  void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
+    granular::Progress& progress) final;
+  void Finish() final;
+
+protected:
+  /**
+   * Takes what this process has of a frame. Not collective.
+   */
+  virtual std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) = 0;
+
+  const std::string Path;
+
+private:
+  void Gather(const std::string& own, granular::Notices& notices);
+
+  granular::Communicator& Ranks;
+  granular::DumpWriter Writer;
+};
+}
+
+#endif

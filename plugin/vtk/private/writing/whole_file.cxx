@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "private/writing/whole_file.h"
+
+#include "private/dump/dump_input.h"
+
+#include "granular/bytes/byte_sink.h"
+#include "granular/common/hash.h"
+#include "granular/dump/write/dump_format.h"
+
+#include "vtkDataObject.h"
+#include "vtkPointSet.h"
+
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace vtkGranularPrivate
+{
+namespace
+{
+SharedFacts ShareFacts(const FrameFacts& own, granular::Communicator& ranks)
+{
+  const std::vector<std::string> all =
+    ranks.all_gather({ reinterpret_cast<const char*>(&own), sizeof own });
+  SharedFacts shared;
+  granular::do_together(ranks,
+    [&]
+    {
+      std::string changed;
+      for (const std::string& bytes : all)
+      {
+        FrameFacts facts;
+        std::memcpy(&facts, bytes.data(), sizeof facts);
+        if (changed.empty() || (facts.HasCells && !shared.HasCells))
+        {
+          static_cast<FrameFacts&>(shared) = facts;
+        }
+        changed += " " + std::to_string(facts.Changed);
+      }
+      shared.Key =
+        shared.HasTimestep ? "timestep " + std::to_string(shared.Timestep) : "data" + changed;
+    });
+  return shared;
+}
+
+/**
+ * Each process' notices become one.
+ */
+void GatherNotices(
+  const granular::Notices& own, granular::Notices& all, granular::Communicator& ranks)
+{
+  std::string text;
+  granular::do_together(ranks,
+    [&]
+    {
+      for (const granular::Notice& notice : own)
+      {
+        text += (text.empty() ? "" : "\n") + granular::to_string(notice);
+      }
+    });
+  const std::vector<std::string> texts = ranks.all_gather(text);
+  granular::do_together(ranks,
+    [&]
+    {
+      for (const std::string& each : texts)
+      {
+        if (!each.empty())
+        {
+          all.push_back({ {}, each });
+        }
+      }
+    });
+}
+}
+
+FrameFacts MakeFacts(
+  vtkDataObject* input, vtkPointSet* points, bool hasCells, const FrameTime& time)
+{
+  granular::Notices ofArrays; // that nobody writes
+  const DumpInput data(points, ofArrays);
+  const granular::FrameHeader& header = data.View.header;
+  FrameFacts facts;
+  facts.HasCells = hasCells;
+  facts.HasTimestep = data.HasTimestep || time.Step.has_value();
+  facts.Timestep = data.HasTimestep ? header.timestep : time.Step.value_or(time.Frame);
+  facts.HasTime = data.HasTime || time.Time.has_value();
+  facts.Time = data.HasTime ? *header.time : time.Time.value_or(0);
+  facts.Changed = input->GetMTime();
+  return facts;
+}
+
+void WrittenFiles::Write(const std::string& path, const std::string& text, const std::string& keys,
+  const std::string& things, granular::Notices& notices)
+{
+  granular::Hash hash;
+  hash.add(text.data(), text.size());
+  const auto known = this->Files.find(path);
+  std::error_code failed; // then it is written
+  if (known != this->Files.end() && known->second.Keys == keys &&
+    std::filesystem::exists(path, failed))
+  {
+    if (known->second.Hash != hash.value())
+    {
+      notices.push_back({ { path },
+        "this writer has written " + keys + " already, with other " + things +
+          ": the file is left as it was" });
+    }
+    return;
+  }
+  granular::write_file(path, text);
+  this->Files[path] = { keys, hash.value() };
+}
+
+WholeFile::WholeFile(
+  WholeFileForm form, granular::Communicator& ranks, WrittenFiles& past, granular::Notices& ofFile)
+  : Form(std::move(form))
+  , Ranks(ranks)
+  , Past(past)
+  , OfFile(ofFile)
+  , OneFileAStep(granular::is_name_of_steps(this->Form.Path))
+{
+}
+
+void WholeFile::Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
+  granular::Progress& progress)
+{
+  FrameFacts own;
+  granular::Notices ownNotices;
+  granular::do_together(this->Ranks, [&] { own = this->Take(input, time, ownNotices); });
+  GatherNotices(ownNotices, notices, this->Ranks);
+  const SharedFacts facts = ShareFacts(own, this->Ranks);
+  granular::do_together(this->Ranks,
+    [&]
+    {
+      if (this->OneFileAStep && !facts.HasTimestep)
+      {
+        notices.push_back({ {},
+          "the input has neither field data 'timestep' nor a time of a whole number: time steps "
+          "are counted from 0" });
+      }
+    });
+  this->Gather(notices, progress);
+  granular::do_together(this->Ranks,
+    [&]
+    {
+      if (this->Ranks.rank() == 0)
+      {
+        this->WriteFrame(facts, notices, progress);
+      }
+    });
+}
+
+// Into its file, or it is kept for the file of all.
+void WholeFile::WriteFrame(
+  const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress)
+{
+  const std::string key =
+    facts.Key + (this->Form.Dialect.empty() ? "" : " as " + this->Form.Dialect);
+  if (this->OneFileAStep)
+  {
+    const std::string path = granular::name_of_step(this->Form.Path, facts.Timestep);
+    this->Past.Write(path, this->Encode(facts, notices, progress), key, this->Form.Things, notices);
+    return;
+  }
+  if (this->LastKey == key)
+  {
+    return; // a timestep is written once
+  }
+  if (!this->Keys.empty() && !this->Form.TakesAll)
+  {
+    throw granular::UnsupportedError(
+      "expected a '*' in the name, which gives each time step its file: this file holds one",
+      { this->Form.Path });
+  }
+  this->Text += this->Encode(facts, notices, progress);
+  this->Keys += (this->Keys.empty() ? "" : ", ") + key;
+  this->LastKey = key;
+}
+
+void WholeFile::Finish()
+{
+  granular::do_together(this->Ranks,
+    [&]
+    {
+      if (this->Ranks.rank() == 0 && !this->OneFileAStep)
+      {
+        this->Past.Write(this->Form.Path, this->Text, this->Keys, this->Form.Things, this->OfFile);
+      }
+    });
+}
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularWholeFile_h
+#define vtkGranularWholeFile_h
+
+#include "private/writing/writer.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+class vtkPointSet;
+
+namespace vtkGranularPrivate
+{
+/**
+ * What a process knows of a frame beside its cells.
+ */
+struct FrameFacts
+{
+  bool HasCells = false;
+  bool HasTimestep = false;
+  bool HasTime = false;
+  vtkTypeInt64 Timestep = 0; ///< or the number of the frame
+  double Time = 0;
+  vtkMTimeType Changed = 0; ///< when the data were
+};
+
+/**
+ * The facts of an input with these points and field data.
+ */
+FrameFacts MakeFacts(
+  vtkDataObject* input, vtkPointSet* points, bool hasCells, const FrameTime& time);
+
+/**
+ * What all know: the word of the first who has cells, or of the first.
+ */
+struct SharedFacts : FrameFacts
+{
+  std::string Key; ///< tells frames apart: one of the same key is the same
+};
+
+/**
+ * The files that a writer has written, with the frames that are in them. Of the first process alone.
+ */
+class WrittenFiles
+{
+public:
+  /**
+   * Writes a file, or leaves it if it is there and has the frames of these keys; with a notice if it has other things
+   * of them.
+   */
+  void Write(const std::string& path, const std::string& text, const std::string& keys,
+    const std::string& things, granular::Notices& notices);
+
+private:
+  struct Entry
+  {
+    std::string Keys;
+    std::uint64_t Hash = 0;
+  };
+
+  std::map<std::string, Entry> Files;
+};
+
+/**
+ * How a WholeFile is written.
+ */
+struct WholeFileForm
+{
+  std::string Path;
+  std::string Things;    ///< of which there are some in a file, for messages
+  std::string Dialect;   ///< in which they are written, if it is not the usual one
+  bool TakesAll = false; ///< several frames come one after the other if there is no '*' in the name
+};
+
+/**
+ * A file of text that the first process writes for all at once: a frame, or a file for each timestep. A timestep is written
+ * once.
+ */
+class WholeFile : public FrameWriter
+{
+public:
+  WholeFile(WholeFileForm form, granular::Communicator& ranks, WrittenFiles& past,
+    granular::Notices& ofFile);
+
+  void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
+    granular::Progress& progress) final;
+  void Finish() final;
+
+protected:
+  /**
+   * Takes what this process has of a frame. Not collective.
+   */
+  virtual FrameFacts Take(
+    vtkDataObject* input, const FrameTime& time, granular::Notices& notices) = 0;
+
+  /**
+   * Brings together what all have taken. Collective.
+   */
+  virtual void Gather(granular::Notices& notices, granular::Progress& progress) = 0;
+
+  /**
+   * The text of that, on the first process.
+   */
+  virtual std::string Encode(
+    const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress) = 0;
+
+  const WholeFileForm Form;
+  granular::Communicator& Ranks;
+
+private:
+  void WriteFrame(
+    const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress);
+
+  WrittenFiles& Past;
+  granular::Notices& OfFile;
+  const bool OneFileAStep;
+  std::string Text; ///< of the file of all frames, so far
+  std::string Keys;
+  std::string LastKey;
+};
+}
+
+#endif
