@@ -45,6 +45,7 @@ ALONE = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses() =
 connection = contextlib.ExitStack()
 if ON_SERVER:
     connection.enter_context(connected())
+    CAMERAS = {"perspective": CAMERAS["perspective"], "parallel": CAMERAS["parallel"]}  # ranks see the others
 view = black_view(PIXELS)
 view.RemoteRenderThreshold = 0  # the server draws, if there is one
 origin = numpy.zeros(3)
