@@ -112,13 +112,13 @@ granular_set_up()
       granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}"
       granular_is_configured "${tests[@]}" ||
         granular_configure release -DGRANULAR_STRICT=ON -DBUILD_TESTING=OFF
-      granular_make core/all plugin/all
+      granular_make core/all plugin/all plugin/python/all
       ;;
     tests | benchmarks)
       granular_need \
         "${granular_core_packages[@]}" "${granular_plugin_packages[@]}" "${granular_test_packages[@]}"
       granular_configure "${tests[@]}"
-      if [ "$1" = tests ]; then granular_make; else granular_make core/all plugin/all benchmarks; fi
+      if [ "$1" = tests ]; then granular_make; else granular_make core/all plugin/all plugin/python/all benchmarks; fi
       ;;
     core-only)
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
