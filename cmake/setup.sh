@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by samples/run and tests/run: what both need before their own work. Everything here does
+# Sourced by samples/run, tests/run and tests/bench/run: what they need before their own work. Everything here does
 # nothing, quickly, when it has been done before.
 
 granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -106,7 +106,7 @@ granular_make()
 # are not even configured, unless they were before.
 granular_set_up()
 {
-  local tests=(release -DGRANULAR_STRICT=ON -DBUILD_TESTING=ON)
+  local tests=(release -DGRANULAR_STRICT=ON -DBUILD_TESTING=ON -DGRANULAR_BUILD_BENCH=ON)
   case "$1" in
     samples)
       granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}"

@@ -177,6 +177,15 @@ TEST(ManyColumns, OfWhichARowEachDoesNotFit)
     5);
 }
 
+// Nor are columns looked for in lines that have none.
+TEST(ManyColumns, AndRowsOfFewWords)
+{
+  const std::string rows = line_of_many("1 1 0 0 0", "#") + "\n0.5\n";
+  const std::string blank(1'000'000, '\n');
+  const std::string text = one_frame(line_of_many("type id x y z", "a#"), rows) + blank;
+  EXPECT_EQ(Dump(text).error(), "memory:11: expected 100005 words in a row, got 1");
+}
+
 // Texts and numbers, of particles and of other rows, by default and by name.
 TEST(ManyColumns, AreWritten)
 {

@@ -28,8 +28,8 @@ struct FileFormat
 {
   const char* name; ///< for messages: "a dump"
 
-  /// Finds the frames from index.resume_offset to the end of the source, see index_dump; lists in index.beside which other files it
-  /// has looked at.
+  /// Finds the frames from index.resume_offset to the end of the source: frames that are not complete are left out. Lists in
+  /// index.beside which other files it has looked at. Throws IoError, LimitError; FormatError of packed data; Cancelled.
   void (*index)(
     const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead);
 

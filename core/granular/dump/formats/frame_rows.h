@@ -28,11 +28,12 @@ struct Misfit
 struct RowFault
 {
   RowStatus status;
-  int column;                      ///< -1: of TooFew
-  std::string text;                ///< the word at fault, or the row
-  std::int64_t offset;             ///< of it in the content of the file
-  std::int64_t lines_behind = 0;   ///< of a text: behind the fault that it is in the rest of
-  std::vector<RowFault> rest = {}; ///< those behind it in memory, of each column the first
+  int column;                    ///< -1: of TooFew
+  std::string text;              ///< the word at fault, or the row
+  std::int64_t offset;           ///< of it in the content of the file
+  std::int64_t lines_behind = 0; ///< of a text: behind the fault that it is in the rest of
+  std::vector<RowFault>
+    rest = {}; ///< those behind it that were read with it, of each column the first
 };
 
 /// The size of a frame in its own measure, by which it is cut into pieces and chunks: bytes of a text,
@@ -78,7 +79,7 @@ public:
   /// Who reads rows of it, as long as this lives.
   virtual std::unique_ptr<RowReader> reader() const = 0;
 
-  /// The misfit that a fault is, and those behind it: the frame is not read again for each column that must change. Throws
+  /// The misfit that a fault is, and those behind it of the rows that were read with it: fewer passes over the frame. Throws
   /// the FormatError if the fault is none. May read the source.
   virtual std::vector<Misfit> describe(const RowFault& fault) const = 0;
 };

@@ -277,12 +277,20 @@ void TextReader::find_misfits(
     std::string_view rest(from, end);
     for (std::size_t sink = 0; sink < sinks.size(); ++sink)
     {
+      if (column >= static_cast<int>(sinks[sink].column))
+      {
+        continue;
+      }
       std::string_view word;
       for (; column < static_cast<int>(sinks[sink].column); ++column)
       {
         word = take_word(rest);
       }
-      const RowStatus status = word.empty() ? RowStatus::Done : check_word(word, kinds[sink]);
+      if (word.empty())
+      {
+        break; // a row of fewer words, or a blank line
+      }
+      const RowStatus status = check_word(word, kinds[sink]);
       if (status != RowStatus::Done)
       {
         fault.rest.push_back(

@@ -52,7 +52,7 @@ struct DumpPart
 {
   DumpFrame frame;
   Block ids;                   ///< for sorting, where the frame has no array of them
-  std::vector<Misfit> misfits; ///< of the first row that has any; then there is no frame
+  std::vector<Misfit> misfits; ///< the first, and those found with it; then there is no frame
   Notices notices;
   RoundingLoss loss;                ///< of the points
   std::vector<std::int64_t> counts; ///< of each piece of the frame, the rows that are in this part
