@@ -199,7 +199,6 @@ int h(int n = 1, C c = {})
             sizes.check,
             core__granular__a_dot_cpp=SPDX + function(80) + function(81),
             core__granular__b_dot_cpp="\n" * 401,
-            core__granular__columns__column_dot_cpp="\n" * 401,
             core__granular__c_dot_h="\n" * 201,
             plugin__vtk__a_dot_cxx=function(100) + function(101),
             plugin__vtk__b_dot_cxx="\n" * 601,
