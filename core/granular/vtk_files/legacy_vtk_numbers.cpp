@@ -3,30 +3,15 @@
 #include "granular/vtk_files/legacy_vtk.h"
 
 #include "granular/common/words.h"
-#include "granular/numbers/number.h"
 #include "granular/numbers/number_scan.h"
+#include "granular/vtk_files/vtk_words.h"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace granular
 {
 namespace
 {
-/// What a text has beside digits, for messages.
-template <class T>
-constexpr const char* kind_of = std::is_integral_v<T> ? "a whole number" : "a number";
-
-bool parse(std::string_view word, double& number) noexcept
-{
-  return static_cast<bool>(parse_double(word.data(), word.data() + word.size(), number));
-}
-
-bool parse(std::string_view word, std::int64_t& number) noexcept
-{
-  return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), number));
-}
-
 /// What a block of text holds.
 struct Words
 {
@@ -180,11 +165,11 @@ void LegacyVtk::read_text(T* numbers, std::int64_t first, std::int64_t last, std
       if (!word_end || !is_blank(*word_end))
       {
         word_end = std::find_if(at, end, is_blank);
-        if (!parse({ at, word_end }, numbers[done]))
+        if (!parse_word({ at, word_end }, numbers[done]))
         {
           this->pass(static_cast<std::size_t>(at - text.data()));
           line_ += line_ > 0 ? feeds : 0;
-          this->fail_number(done, count, kind_of<T>);
+          this->fail_number(done, count, kind_of_word<T>);
         }
       }
       at = word_end;
@@ -215,7 +200,7 @@ void LegacyVtk::read_binary(
     done += good;
     if (done < next)
     {
-      throw FormatError(std::string("expected ") + kind_of<T> + " of 64 bits (" +
+      throw FormatError(std::string("expected ") + kind_of_word<T> + " of 64 bits (" +
           std::to_string(done + 1) + " of " + std::to_string(count) + "), got another",
         this->where(this->place()));
     }
@@ -314,10 +299,10 @@ const char* LegacyVtk::skip_words(
     if (is_blank(at[-1])) // else it is the rest of a word that was counted
     {
       double number = 0;
-      if (is_odd(*at) && !parse({ at, word_end }, number))
+      if (is_odd(*at) && !parse_word({ at, word_end }, number))
       {
         this->pass(static_cast<std::size_t>(at - this->text().data()));
-        this->fail_number(done, count, kind_of<double>);
+        this->fail_number(done, count, kind_of_word<double>);
       }
       ++done;
     }

@@ -4,31 +4,17 @@
 // base64 header and plain values are encoded together; a header of compressed ones on its own, and all blocks together.
 #include "granular/bytes/compression.h"
 #include "granular/common/words.h"
-#include "granular/numbers/number.h"
 #include "granular/vtk_files/base64.h"
+#include "granular/vtk_files/vtk_words.h"
 #include "granular/vtk_files/vtk_xml.h"
 
 #include <algorithm>
 #include <limits>
-#include <type_traits>
 
 namespace granular
 {
 namespace
 {
-template <class T>
-constexpr const char* kind_of = std::is_integral_v<T> ? "a whole number" : "a number";
-
-bool parse(std::string_view word, double& number) noexcept
-{
-  return static_cast<bool>(parse_double(word.data(), word.data() + word.size(), number));
-}
-
-bool parse(std::string_view word, std::int64_t& number) noexcept
-{
-  return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), number));
-}
-
 std::string number_of(std::int64_t number, std::int64_t count)
 {
   return " (" + std::to_string(number + 1) + " of " + std::to_string(count) + ")";
@@ -210,10 +196,10 @@ void VtkXml::read_text(const VtkXmlArray& array, std::int64_t count, std::vector
   for (std::int64_t i = 0; i < count; ++i)
   {
     const std::string_view word = take_word(rest);
-    if (!parse(word, numbers[static_cast<std::size_t>(i)]))
+    if (!parse_word(word, numbers[static_cast<std::size_t>(i)]))
     {
-      throw FormatError(std::string("expected ") + kind_of<T> + number_of(i, count) + ", got " +
-          (word.empty() ? "the end of the array" : quoted(word)),
+      throw FormatError(std::string("expected ") + kind_of_word<T> + number_of(i, count) +
+          ", got " + (word.empty() ? "the end of the array" : quoted(word)),
         this->where_of(array, i));
     }
   }
@@ -246,7 +232,7 @@ void VtkXml::read_binary(
   const std::int64_t good = load_numbers(array.type, bytes.data(), count, numbers.data());
   if (good < count)
   {
-    throw FormatError(std::string("expected ") + kind_of<T> + " of 64 bits" +
+    throw FormatError(std::string("expected ") + kind_of_word<T> + " of 64 bits" +
         number_of(good, count) + ", got another",
       this->where(array));
   }
