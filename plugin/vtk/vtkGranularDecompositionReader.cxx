@@ -122,7 +122,7 @@ void vtkGranularDecompositionReader::Read(vtkInformation* request, vtkInformatio
     const granular::FramePiece& first = pieces.front();
     progress.set_part(0.4, 0.8);
     granular::check_subdomains(
-      all.subdomains, checks, granular::where_of(first.file.path, first.entry), notices, progress);
+      all.subdomains, checks, granular::where_of(first), notices, progress);
 
     granular::FrameHeader header;
     const granular::Subdomain bounds = granular::bounds_of(all.subdomains);

@@ -59,7 +59,7 @@ struct vtkGranularDumpReader::Internals
     granular::DumpRequest Request;
   };
 
-  void UpdateSelection(const granular::FrameIndex& index);
+  void UpdateSelection(const granular::RunIndex& index);
   granular::DumpRequest MakeRequest(Self* self, vtkInformation* output);
   void FindTask(Self* self, vtkInformation* request, vtkInformationVector* outputs, Task& task);
   std::string FormOf(const Task& task) const;
@@ -73,7 +73,7 @@ struct vtkGranularDumpReader::Internals
 
 //------------------------------------------------------------------------------
 // The arrays of all frames, in the order in which they occur.
-void vtkGranularDumpReader::Internals::UpdateSelection(const granular::FrameIndex& index)
+void vtkGranularDumpReader::Internals::UpdateSelection(const granular::RunIndex& index)
 {
   std::set<const granular::FrameKind*> seen;
   this->Arrays.Begin();
@@ -137,7 +137,7 @@ void vtkGranularDumpReader::Internals::FindTask(
 std::string vtkGranularDumpReader::Internals::FormOf(const Task& task) const
 {
   granular::DumpRequest request = task.Request;
-  granular::Packer form;
+  granular::ArchiveWriter form;
   std::size_t frame = task.Frame;
   form.number(frame);
   form.number(request.coordinates);
@@ -199,8 +199,7 @@ void vtkGranularDumpReader::Internals::FillOutputs(Self* self, vtkInformationVec
     !FillBox(box, frame.header.box, frame.coordinates, task.Request.point_origin))
   {
     const granular::FramePiece piece = self->Series->Index.first_piece(task.Frame);
-    notices.push_back(
-      { granular::where_of(piece.file.path, piece.entry), "the box is not finite and not shown" });
+    notices.push_back({ granular::where_of(piece), "the box is not finite and not shown" });
   }
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {

@@ -59,7 +59,7 @@ struct Form
 };
 
 template <class Archive>
-void pass(Archive& archive, Form& form)
+void pass(Archive& archive, typename Archive::template Passed<Form>& form)
 {
   archive.text(form.Path);
   archive.number(form.Step);
@@ -251,9 +251,9 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
     return *this->Known;
   }
   Form form;
-  const auto look = [&](granular::Packer& packer)
+  const auto look = [&](granular::ArchiveWriter& packer)
   {
-    const granular::FrameIndex& index = self->Series->Index;
+    const granular::RunIndex& index = self->Series->Index;
     std::size_t frame = 0;
     while (frame + 1 < index.size() && index.first_piece(frame).entry.rows == 0)
     {
@@ -280,7 +280,7 @@ const Form& vtkGranularEulerReader::Internals::Look(Self* self)
     }
     pass(packer, form);
   };
-  const auto take = [&](granular::Unpacker& unpacker)
+  const auto take = [&](granular::ArchiveReader& unpacker)
   {
     pass(unpacker, form);
     this->Known = std::move(form);
@@ -370,7 +370,7 @@ void vtkGranularEulerReader::Internals::Read(
     const std::size_t index = self->Series->FindFrame(self, request, outputs, time);
     const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(index);
     const granular::FramePiece& piece = pieces.front();
-    const granular::Where where = granular::where_of(piece.file.path, piece.entry);
+    const granular::Where where = granular::where_of(piece);
     granular::Notices notices;
     std::vector<granular::RegularGrid> grids;
     progress.set_part(0, 0.9);

@@ -9,7 +9,7 @@
 #include "private/request/processes.h"
 #include "private/request/text_of.h"
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/common/words.h"
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
@@ -73,7 +73,7 @@ std::vector<std::string> NamesIn(std::string list, const granular::FrameView& pa
     }
     for (const granular::ArrayView& array : particles.arrays)
     {
-      if (array.type != granular::ScalarType::Text && array.name != "id")
+      if (array.type != granular::ValueType::Text && array.name != "id")
       {
         names.push_back(array.name);
       }
@@ -92,7 +92,7 @@ struct KnownNames
 };
 
 template <class Archive>
-void pass(Archive& archive, KnownNames& known)
+void pass(Archive& archive, typename Archive::template Passed<KnownNames>& known)
 {
   archive.number(known.HasParticles);
   granular::pass(archive, known.Names);
@@ -238,7 +238,7 @@ private:
     const std::array<const char*, 2> given = { this->Self->Averages, this->Self->Differences };
     for (std::size_t i = 0; i < lists.size(); ++i)
     {
-      granular::Packer own;
+      granular::ArchiveWriter own;
       granular::do_together(ranks,
         [&]
         {
@@ -253,7 +253,7 @@ private:
           KnownNames best;
           for (std::size_t rank = 0; rank < all.size() && !best.HasParticles; ++rank)
           {
-            granular::Unpacker unpacker{ all[rank] };
+            granular::ArchiveReader unpacker{ all[rank] };
             pass(unpacker, best);
           }
           *lists[i] = std::move(best.Names);

@@ -47,7 +47,7 @@ struct Meaning
 };
 
 template <class Archive>
-void pass(Archive& archive, Meaning& meaning)
+void pass(Archive& archive, typename Archive::template Passed<Meaning>& meaning)
 {
   granular::pass(archive, meaning.Names);
   archive.text(meaning.Error);
@@ -93,7 +93,7 @@ Meaning vtkGranularLocalReader::Internals::FindMeaning(
     columns.push_back(column.name);
   }
   Meaning meaning;
-  meaning.Where = granular::where_of(piece.file.path, piece.entry);
+  meaning.Where = granular::where_of(piece);
   try
   {
     if (!this->ColumnMap.empty())
@@ -134,12 +134,12 @@ void vtkGranularLocalReader::Internals::Look(Self* self)
   {
     return;
   }
-  const auto look = [&](granular::Packer& packer)
+  const auto look = [&](granular::ArchiveWriter& packer)
   {
     AlgorithmProgress progress(self);
     Meanings found;
     std::set<const granular::FrameKind*> seen;
-    const granular::FrameIndex& index = self->Series->Index;
+    const granular::RunIndex& index = self->Series->Index;
     for (std::size_t frame = 0; frame < index.size(); ++frame)
     {
       const granular::FramePiece piece = index.first_piece(frame);
@@ -162,7 +162,7 @@ void vtkGranularLocalReader::Internals::Look(Self* self)
       pass(packer, meaning);
     }
   };
-  const auto take = [&](granular::Unpacker& unpacker)
+  const auto take = [&](granular::ArchiveReader& unpacker)
   {
     std::size_t count = 0;
     unpacker.number(count);
@@ -208,7 +208,7 @@ std::string vtkGranularLocalReader::Internals::FormOf(
   const granular::LocalRequest& request, std::size_t frame) const
 {
   granular::LineRequest lines = request.lines;
-  granular::Packer form;
+  granular::ArchiveWriter form;
   form.number(frame);
   form.number(lines.periodic);
   form.number(lines.point_origin);
@@ -287,8 +287,7 @@ void vtkGranularLocalReader::Internals::Run(
     [&]
     {
       const granular::FramePiece& first = pieces.front();
-      this->FillOutputs(
-        outputs, wanted, frame, time, granular::where_of(first.file.path, first.entry), notices);
+      this->FillOutputs(outputs, wanted, frame, time, granular::where_of(first), notices);
       if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
       {
         self->Series->Tell(self, notices, false);

@@ -51,7 +51,7 @@ struct ArrayName
 using ArrayNames = std::vector<ArrayName>;
 
 template <class Archive>
-void pass(Archive& archive, ArrayName& array)
+void pass(Archive& archive, typename Archive::template Passed<ArrayName>& array)
 {
   archive.text(array.Name);
   archive.number(array.IsUsual);
@@ -136,13 +136,13 @@ void vtkGranularRestartReader::Internals::Look(Self* self)
   {
     return;
   }
-  const auto look = [&](granular::Packer& packer)
+  const auto look = [&](granular::ArchiveWriter& packer)
   {
     ArrayNames particles;
     ArrayNames bonds;
     AlgorithmProgress progress(self);
     granular::Notices notices; // are given again where the frame is shown
-    const granular::FrameIndex& index = self->Series->Index;
+    const granular::RunIndex& index = self->Series->Index;
     for (const std::size_t frame : std::set<std::size_t>{ 0, index.size() - 1 })
     {
       const auto source = granular::open_indexed(index.first_piece(frame).file);
@@ -160,7 +160,7 @@ void vtkGranularRestartReader::Internals::Look(Self* self)
     granular::pass(packer, particles);
     granular::pass(packer, bonds);
   };
-  const auto take = [&](granular::Unpacker& unpacker)
+  const auto take = [&](granular::ArchiveReader& unpacker)
   {
     ArrayNames names;
     granular::pass(unpacker, names);
@@ -243,8 +243,7 @@ void vtkGranularRestartReader::Internals::Run(
       granular::read_restart(*source, layout, wanted, notices, progress);
     this->Points.CheckNames(piece.file.path, notices, NamesOf(restart.particles.schema));
     this->Cells.CheckNames(piece.file.path, notices, NamesOf(restart.bonds.table.schema));
-    this->FillOutputs(
-      self, outputs, wanted, restart, granular::where_of(piece.file.path, piece.entry), notices);
+    this->FillOutputs(self, outputs, wanted, restart, granular::where_of(piece), notices);
     vtkPolyData::GetData(outputs, 0)
       ->GetFieldData()
       ->AddArray(MakeStrings("Groups", layout.groups));

@@ -52,12 +52,12 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
       options.format = this->Format;
       options.column_names = this->ColumnNames;
       options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
-      options.index_file = static_cast<granular::IndexFile>(self->IndexFile);
+      options.keep_index = static_cast<granular::KeepIndex>(self->IndexFile);
       options.threads = ChooseThreads(self->Threads, ranks);
     });
   granular::Notices notices;
   AlgorithmProgress progress(self);
-  granular::update_frame_index(this->Index, ranks, this->FileNames, options, notices, progress);
+  granular::update_run_index(this->Index, ranks, this->FileNames, options, notices, progress);
   granular::do_together(ranks,
     [&]
     {
@@ -131,7 +131,7 @@ std::size_t vtkGranularSeriesReader::Internals::FindFrame(
   std::size_t frame = 0;
   if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
   {
-    frame = granular::FrameIndex::find(
+    frame = granular::RunIndex::find(
       times, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
   }
   time = times[frame];

@@ -123,9 +123,10 @@ void measure(benchmark::State& state, const Rows& form, std::int64_t rows_a_chun
 void add_benchmarks(const Size& size)
 {
   const std::int64_t rows = size.pick(1'000'000, 3'000);
-  const Array vector = { Kind::Float64, 3 };
+  const Array vector = { ValueType::Float64, 3 };
   Rows custom = make_rows(Form::Custom, 0);
-  Rows scaled = { "id type xs ys zs", { { Kind::Int64, 1 }, { Kind::Int32, 1 }, vector }, 0, {} };
+  Rows scaled = { "id type xs ys zs", { { ValueType::Int64, 1 }, { ValueType::Int32, 1 }, vector },
+    0, {} };
   Rows doubles = { "x y z vx vy vz fx fy fz omegax omegay omegaz",
     { vector, vector, vector, vector }, 0, {} };
   custom.count = scaled.count = doubles.count = rows;

@@ -422,7 +422,7 @@ void measure_reading(benchmark::State& state, const Text& text, const OpenStream
 }
 
 /// Whether the index has every frame where it is in the text.
-bool lists(const granular::FrameIndex& index, const Text& text)
+bool lists(const granular::RunIndex& index, const Text& text)
 {
   bool right = static_cast<std::int64_t>(index.size()) == text.frames;
   std::int64_t end = 0;
@@ -439,8 +439,8 @@ bool lists(const granular::FrameIndex& index, const Text& text)
 void measure_index(benchmark::State& state, const Text& text, const OpenStream& library,
   const TemporaryFile& packed, const TemporaryFile& plain)
 {
-  granular::FrameIndex of_packed;
-  granular::FrameIndex of_plain;
+  granular::RunIndex of_packed;
+  granular::RunIndex of_plain;
   Reading reading(library);
   Rounds rounds;
   rounds.add("library", [&] { return reading.read(text.bytes, true); });
@@ -472,8 +472,8 @@ void measure_index(benchmark::State& state, const Text& text, const OpenStream& 
   tell(state, "spread", spread_of_ratio(rounds.of("index"), rounds.of("library")), "1");
   tell(state, "time against plain text", median_ratio(rounds.of("index"), rounds.of("plain")), "1");
   const auto& points = of_packed.files().front().points;
-  tell(state, "restart points", points ? static_cast<double>(points->points.size()) : 0, "count");
-  tell(state, "restart points",
+  tell(state, "seek points", points ? static_cast<double>(points->points.size()) : 0, "count");
+  tell(state, "seek points",
     points ? static_cast<double>(points->bytes()) / static_cast<double>(1 << 20) : 0, "MiB");
 }
 
@@ -484,8 +484,8 @@ void measure_frame(benchmark::State& state, const Text& text, const TemporaryFil
   const std::int64_t middle = text.frames / 2;
   const auto number = static_cast<std::size_t>(middle);
   const Output truth = text.truth(middle);
-  const granular::FrameIndex of_packed = index_of({ packed.path() });
-  const granular::FrameIndex of_plain = index_of({ plain.path() });
+  const granular::RunIndex of_packed = index_of({ packed.path() });
+  const granular::RunIndex of_plain = index_of({ plain.path() });
   const granular::FrameEntry& entry = of_packed.first_piece(number).entry;
   granular::DumpFrame frames[3];
   Rounds rounds;

@@ -138,7 +138,7 @@ struct Data
     std::ranges::shuffle(bisected, random);
     frame.rows = each.particles;
     frame.has_box = false;
-    frame.points = granular::view_rows("points", granular::ScalarType::Float64, points.data(), 3);
+    frame.points = granular::view_rows("points", granular::ValueType::Float64, points.data(), 3);
   }
 
   bool is_all(const ParticleCounts& counted) const

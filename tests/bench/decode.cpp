@@ -91,7 +91,7 @@ struct Work
     const std::vector<ColumnSink> to = expected.sinks(slice.row);
     for (std::size_t i = first_column; i < first_column + columns; ++i)
     {
-      const std::size_t bytes = from[i].kind == Kind::Int32 ? 4 : 8;
+      const std::size_t bytes = from[i].type == ValueType::Int32 ? 4 : 8;
       for (std::ptrdiff_t row = 0; row < slice.rows; ++row)
       {
         std::memcpy(to[i].data + row * to[i].stride, from[i].data + row * from[i].stride, bytes);

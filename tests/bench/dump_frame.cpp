@@ -73,10 +73,10 @@ std::string binary_header(const Rows& form, std::int32_t chunks)
 }
 }
 
-granular::FrameIndex index_of(
+granular::RunIndex index_of(
   const std::vector<std::string>& files, const granular::IndexOptions& options)
 {
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update(files, options, notices, progress);
@@ -85,7 +85,7 @@ granular::FrameIndex index_of(
 }
 
 granular::DumpFrame read_frame(
-  const granular::FrameIndex& index, std::size_t frame, const granular::DumpRequest& request)
+  const granular::RunIndex& index, std::size_t frame, const granular::DumpRequest& request)
 {
   granular::Notices notices;
   granular::Progress progress;
@@ -149,11 +149,11 @@ void BinaryFrame::make_values()
       const std::int64_t wide = number;
       const double value = random.between(-1, 1);
       const void* const sources[] = { &number, &wide, &value };
-      const auto kind = static_cast<std::size_t>(sink.kind);
+      const auto kind = static_cast<std::size_t>(sink.type);
       std::memcpy(sink.data, sources[kind],
-        sink.kind == Kind::Int32 ? sizeof(std::int32_t) : sizeof(std::int64_t));
+        sink.type == ValueType::Int32 ? sizeof(std::int32_t) : sizeof(std::int64_t));
       sink.data += sink.stride;
-      values.push_back(sink.kind == Kind::Float64 ? value : number);
+      values.push_back(sink.type == ValueType::Float64 ? value : number);
     }
   }
 }

@@ -7,7 +7,7 @@
 
 #include "granular/dump/formats/dump_files.h"
 #include "granular/dump/read/dump_reader.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,13 +17,13 @@
 namespace bench
 {
 /// The index of a run. Throws where there is anything to notice.
-granular::FrameIndex index_of(const std::vector<std::string>& files,
+granular::RunIndex index_of(const std::vector<std::string>& files,
   const granular::IndexOptions& options = { .format = &granular::dump_format() });
 
 /// A frame of it: double points and all arrays unless the request is for others. Throws where there is
 /// anything to notice.
 granular::DumpFrame read_frame(
-  const granular::FrameIndex& index, std::size_t frame, const granular::DumpRequest& request = {});
+  const granular::RunIndex& index, std::size_t frame, const granular::DumpRequest& request = {});
 
 /// The same of a file that is open.
 granular::DumpFrame read_frame(
@@ -41,7 +41,7 @@ struct TextFrame
   Output truth; ///< of rows
   TemporaryFile file;
   std::int64_t count; ///< of the rows in the file
-  granular::FrameIndex index;
+  granular::RunIndex index;
 };
 
 /// The same as LAMMPS' binary dump.
@@ -55,7 +55,7 @@ struct BinaryFrame
   std::vector<double> values; ///< row-major
   std::string bytes;          ///< of the file
   TemporaryFile file;
-  granular::FrameIndex index;
+  granular::RunIndex index;
 
 private:
   void make_values();

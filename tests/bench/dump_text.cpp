@@ -21,11 +21,6 @@ namespace
 {
 using granular::ColumnSink;
 
-std::size_t size_of(Kind kind)
-{
-  return kind == Kind::Int32 ? sizeof(std::int32_t) : sizeof(std::int64_t);
-}
-
 /// Ids in no order, as several processes leave them: each once if count is a power of ten.
 std::int64_t id_of(std::int64_t row, std::int64_t count)
 {
@@ -89,12 +84,13 @@ void append_integers(std::string& text, Random& random)
 
 const std::vector<Array>& arrays_of(Form form)
 {
-  static const std::vector<Array> atom = { { Kind::Int64, 1 }, { Kind::Int32, 1 },
-    { Kind::Float64, 3 }, { Kind::Int32, 3 } };
-  static const std::vector<Array> custom = { { Kind::Int64, 1 }, { Kind::Int32, 1 },
-    { Kind::Float64, 3 }, { Kind::Float64, 3 }, { Kind::Float64, 3 }, { Kind::Float64, 1 } };
-  static const std::vector<Array> integers = { { Kind::Int64, 1 }, { Kind::Int32, 1 },
-    { Kind::Int64, 10 } };
+  static const std::vector<Array> atom = { { ValueType::Int64, 1 }, { ValueType::Int32, 1 },
+    { ValueType::Float64, 3 }, { ValueType::Int32, 3 } };
+  static const std::vector<Array> custom = { { ValueType::Int64, 1 }, { ValueType::Int32, 1 },
+    { ValueType::Float64, 3 }, { ValueType::Float64, 3 }, { ValueType::Float64, 3 },
+    { ValueType::Float64, 1 } };
+  static const std::vector<Array> integers = { { ValueType::Int64, 1 }, { ValueType::Int32, 1 },
+    { ValueType::Int64, 10 } };
   return form == Form::Atom ? atom : form == Form::Integers ? integers : custom;
 }
 
@@ -281,9 +277,9 @@ const char* parse_plainly(
   {
     for (Output::Place& place : places)
     {
-      first = place.array.kind == Kind::Float64 ? store<double>(first, last, place)
-        : place.array.kind == Kind::Int32       ? store<std::int32_t>(first, last, place)
-                                                : store<std::int64_t>(first, last, place);
+      first = place.array.kind == ValueType::Float64 ? store<double>(first, last, place)
+        : place.array.kind == ValueType::Int32       ? store<std::int32_t>(first, last, place)
+                                                     : store<std::int64_t>(first, last, place);
       if (!first)
       {
         return nullptr;
@@ -300,7 +296,7 @@ bool parse_slowly(const char* first, std::span<ColumnSink> sinks, std::int64_t r
     for (ColumnSink& sink : sinks)
     {
       char* end = nullptr;
-      if (sink.kind == Kind::Float64)
+      if (sink.type == ValueType::Float64)
       {
         const double value = std::strtod(first, &end);
         std::memcpy(sink.data, &value, sizeof value);
@@ -310,8 +306,8 @@ bool parse_slowly(const char* first, std::span<ColumnSink> sinks, std::int64_t r
         const std::int64_t value = std::strtoll(first, &end, 10);
         const auto narrow = static_cast<std::int32_t>(value);
         const void* const from =
-          sink.kind == Kind::Int32 ? static_cast<const void*>(&narrow) : &value;
-        std::memcpy(sink.data, from, size_of(sink.kind));
+          sink.type == ValueType::Int32 ? static_cast<const void*>(&narrow) : &value;
+        std::memcpy(sink.data, from, size_of(sink.type));
       }
       if (end == first)
       {

@@ -15,7 +15,7 @@
 
 namespace bench
 {
-using Kind = granular::ColumnSink::Kind;
+using granular::ValueType;
 
 /// Numbers that look random and are the same everywhere (splitmix64, S. Vigna).
 class Random
@@ -60,7 +60,7 @@ void append(std::string& text, std::int64_t value);
 /// An array that columns become: neighbouring columns, row-major.
 struct Array
 {
-  Kind kind;
+  ValueType kind;
   std::size_t components;
 
   std::size_t bytes_a_row() const;

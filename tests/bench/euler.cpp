@@ -103,11 +103,11 @@ struct Case
     FrameView frame;
     frame.rows = this->count();
     frame.has_box = false;
-    frame.points = view_rows("points", ScalarType::Float64, grains.positions.data()->data(), 3);
-    frame.arrays = { view_rows("v", ScalarType::Float64, grains.velocities.data()->data(), 3),
-      view_rows("radius", ScalarType::Float64, radii.data()),
-      view_rows("mass", ScalarType::Float64, grains.mass.data()),
-      view_rows("stress", ScalarType::Float64, grains.stresses.data(), 6) };
+    frame.points = view_rows("points", ValueType::Float64, grains.positions.data()->data(), 3);
+    frame.arrays = { view_rows("v", ValueType::Float64, grains.velocities.data()->data(), 3),
+      view_rows("radius", ValueType::Float64, radii.data()),
+      view_rows("mass", ValueType::Float64, grains.mass.data()),
+      view_rows("stress", ValueType::Float64, grains.stresses.data(), 6) };
     EulerAverageRequest request;
     request.grid = grid;
     request.cells = options;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finding the frames of a file: scan_lines and FrameIndex against counting line feeds with memchr.
+// Finding the frames of a file: scan_lines and RunIndex against counting line feeds with memchr.
 #include "bench.h"
 #include "dump_text.h"
 
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 #include "granular/text/line_scan.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ struct Dump
 };
 
 /// Whether the index has every frame, each with its rows where they are.
-bool check(const Dump& dump, const granular::FrameIndex& index, const granular::Notices& notices)
+bool check(const Dump& dump, const granular::RunIndex& index, const granular::Notices& notices)
 {
   bool right = notices.empty() && static_cast<std::int64_t>(index.size()) == dump.frames;
   std::int64_t end = 0;
@@ -95,7 +95,7 @@ void index_file(benchmark::State& state, Form form, std::int64_t frames, std::in
   rounds.add("index",
     [&dump]
     {
-      granular::FrameIndex index;
+      granular::RunIndex index;
       granular::Notices notices;
       granular::Progress progress;
       index.update({ dump.file.path() }, { .format = &granular::dump_format() }, notices, progress);

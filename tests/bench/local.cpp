@@ -59,10 +59,10 @@ struct Joining
     this->make_lines(each);
     view.rows = each.particles;
     view.has_box = false;
-    view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
-    view.arrays = { view_rows("id", ScalarType::Int64, ids.data()),
-      view_rows("v", ScalarType::Float64, velocities.data(), 3),
-      view_rows("radius", ScalarType::Float64, radii.data()) };
+    view.points = view_rows("points", ValueType::Float64, points.data(), 3);
+    view.arrays = { view_rows("id", ValueType::Int64, ids.data()),
+      view_rows("v", ValueType::Float64, velocities.data(), 3),
+      view_rows("radius", ValueType::Float64, radii.data()) };
     if (each.arrays)
     {
       request.means = { "radius", "v" };

@@ -104,8 +104,8 @@ struct Contacts
   std::int64_t rows;
   std::unique_ptr<TemporaryFile> local;
   std::unique_ptr<TemporaryFile> dump;
-  FrameIndex dump_index;
-  FrameIndex local_index;
+  RunIndex dump_index;
+  RunIndex local_index;
   std::vector<std::string> local_columns{ "x1", "y1", "z1", "x2", "y2", "z2", "id1", "id2",
     "periodic", "forcex", "forcey", "forcez" };
   std::shared_ptr<BlockPool> pool;

@@ -4,7 +4,7 @@
 // process ever had [KiB].
 #include "granular/dump/formats/dump_files.h"
 #include "granular/dump/read/dump_reader.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include <cstdio>
 #include <exception>
@@ -37,7 +37,7 @@ try
     std::fputs("usage: bench_peak_memory FILE\n", stderr);
     return 1;
   }
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ argv[1] }, { .format = &granular::dump_format() }, notices, progress);

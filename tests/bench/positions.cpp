@@ -95,7 +95,7 @@ struct Dump
   Dump(const Text& how, double lo, std::int64_t count);
 
   TemporaryFile file;
-  granular::FrameIndex index;
+  granular::RunIndex index;
   std::vector<double> truth;
   std::vector<Quad> told;
   std::vector<Quad> slack; ///< what rounding the words of the text to doubles may move

@@ -84,7 +84,7 @@ public:
   }
 
   /// Seconds from one barrier to the other.
-  double read(const granular::FrameIndex& index, bool sort)
+  double read(const granular::RunIndex& index, bool sort)
   {
     granular::Notices notices;
     granular::Progress progress;
@@ -152,7 +152,7 @@ Order read_order()
 /// Until there are no more questions.
 void serve(const std::string& path, std::int64_t count)
 {
-  const granular::FrameIndex index = bench::index_of({ path });
+  const granular::RunIndex index = bench::index_of({ path });
   const Rows rows = bench::make_rows(bench::Form::Custom, count);
   Output truth(rows, count);
   std::vector<granular::ColumnSink> sinks = truth.sinks(0);

@@ -327,7 +327,7 @@ PARTS = (
           Target(r"^binary", "speed against other:1", ">=", 0.7),
           Target(r"", "speed of 2 threads:1", ">=", 1.4)]),
     Part("index", "Index: where the frames of a file are",
-         """file: FrameIndex::update, against reading the file (in the page cache) the same way and
+         """file: RunIndex::update, against reading the file (in the page cache) the same way and
          counting line feeds with memchr. memory: scan_lines against memchr in a window of 256 KiB
          that is in the cache. ratio is our time by memchr's.""",
          [cases_by_metrics(r"",
@@ -378,7 +378,7 @@ PARTS = (
          (level 6), one frame of Zstandard (level 3). MB of text a second. library is zlib's inflate
          (which checks the CRC) or ZSTD_decompressStream alone; both sides read the file in the page
          cache and hand out 256 KiB at a time. in order: unpack(), which keeps the last MiB and notes
-         where it could start again; index: FrameIndex::update, against decompressing alone. A frame
+         where it could start again; index: RunIndex::update, against decompressing alone. A frame
          in the middle is read by an index that knows where to start, and without that from the start
          of the file; plain is the frame of the same text uncompressed. What is one frame of Zstandard
          has no places to start from.""",
@@ -388,7 +388,7 @@ PARTS = (
                            Column("time against library", "time against library:1", ".2f"),
                            Column("spread", "spread:1", ".0%"),
                            Column("time against plain text", "time against plain text:1", ".1f"),
-                           Column("restart points MiB", "restart points:MiB", ".1f")),
+                           Column("seek points MiB", "seek points:MiB", ".1f")),
           cases_by_metrics(r"middle$",
                            Column("indexed ms", "indexed:ms", ".2f"),
                            Column("from the start ms", "from the start:ms", ".1f"),
@@ -399,7 +399,7 @@ PARTS = (
          """Rows of 8 columns, in the page cache. 1000 frames are of 10^4 rows each in one file; 10^4
          files have a frame of 100 rows each; of 1000 frames of 4 files each piece has 100 rows.
          yardstick: of one file, to read it and count line feeds with memchr; of many, to open each,
-         read its first 4 KiB and close it. index is FrameIndex::update; from index file the same
+         read its first 4 KiB and close it. index is RunIndex::update; from index file the same
          where the index of an earlier one lies beside the dump; again an update where nothing
          changed. Memory is what operator new gave and still has out, peak the most on the way; each
          frame counts once, however many files it has. The last frame is read alone: no byte of

@@ -20,8 +20,8 @@ namespace bench
 {
 namespace
 {
-using granular::FrameIndex;
-using granular::IndexFile;
+using granular::KeepIndex;
+using granular::RunIndex;
 
 /// A folder that is gone when this is.
 class TemporaryFolder
@@ -114,7 +114,7 @@ private:
 };
 
 /// Whether the index has every frame of the run, each where it lies.
-bool lists(const FrameIndex& index, const Run& run)
+bool lists(const RunIndex& index, const Run& run)
 {
   if (static_cast<std::int64_t>(index.size()) != run.frames)
   {
@@ -204,10 +204,10 @@ bool look_into(const std::vector<std::string>& paths)
 /// An index that is made anew, from the files or from an index file.
 struct Indexing
 {
-  explicit Indexing(const Run& a_run, IndexFile where = IndexFile::Never)
+  explicit Indexing(const Run& a_run, KeepIndex where = KeepIndex::Never)
     : run(a_run)
   {
-    options.index_file = where;
+    options.keep_index = where;
     // pieces with the same particles are none unless somebody says so
     options.repeated_steps =
       run.pieces > 1 ? granular::RepeatedSteps::Merge : granular::RepeatedSteps::Auto;
@@ -221,14 +221,14 @@ struct Indexing
 
   const Run& run;
   granular::IndexOptions options = { .format = &granular::dump_format() };
-  FrameIndex index;
+  RunIndex index;
 };
 
 /// Times of indexing a run, against a yardstick, and of the other ways to come by its index.
 void measure_index(benchmark::State& state, const Run& run, const std::function<bool()>& yardstick)
 {
   Indexing anew(run);
-  Indexing kept(run, IndexFile::Beside);
+  Indexing kept(run, KeepIndex::Beside);
   kept(); // writes the index file
   Rounds rounds;
   rounds.add("yardstick", yardstick);
@@ -271,12 +271,12 @@ void measure_index(benchmark::State& state, const Run& run, const std::function<
 void tell_memory(benchmark::State& state, const Run& run)
 {
   const auto frames = static_cast<double>(run.frames);
-  for (const IndexFile where : { IndexFile::Never, IndexFile::Beside })
+  for (const KeepIndex where : { KeepIndex::Never, KeepIndex::Beside })
   {
     Indexing indexing(run, where);
     const HeapCount count;
     indexing();
-    const std::string way = where == IndexFile::Never ? "" : " from index file";
+    const std::string way = where == KeepIndex::Never ? "" : " from index file";
     tell(state, "memory" + way, static_cast<double>(count.live()) / frames, "B/frame");
     tell(state, "peak" + way, static_cast<double>(count.peak()) / frames, "B/frame");
     if (!lists(indexing.index, run))
@@ -289,7 +289,7 @@ void tell_memory(benchmark::State& state, const Run& run)
 /// The last frame of a file alone.
 void measure_last_frame(benchmark::State& state, const Run& run)
 {
-  const FrameIndex index = index_of(run.paths);
+  const RunIndex index = index_of(run.paths);
   Output truth(run.rows, run.rows.count);
   std::vector<granular::ColumnSink> sinks = truth.sinks(0);
   const bool parsed = parse_slowly(run.rows.text.c_str(), sinks, run.rows.count);

@@ -46,7 +46,7 @@ std::string name_of(int threads)
 /// A file, its only frame, and what must come out: these rows, over and over.
 struct Subject
 {
-  const granular::FrameIndex& index;
+  const granular::RunIndex& index;
   const Output& truth;
   std::int64_t truth_rows;
   std::int64_t rows;
@@ -225,7 +225,7 @@ void packed(
   std::ifstream in(frame.file.path(), std::ios::binary);
   TemporaryFile file;
   file.append(pack(std::string(std::istreambuf_iterator<char>(in), {})));
-  const granular::FrameIndex index = index_of({ file.path() });
+  const granular::RunIndex index = index_of({ file.path() });
   measure(state, { index, frame.truth, frame.rows.count, frame.count }, { &memory, nullptr });
 }
 }

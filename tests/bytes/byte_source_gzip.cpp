@@ -14,7 +14,7 @@
 
 namespace
 {
-using granular::RestartPoints;
+using granular::SeekPoints;
 using packing::expect_content;
 using packing::gzip;
 using packing::open;
@@ -248,7 +248,7 @@ TEST(Gzip, RandomReadsOfManyMembers)
   packing::expect_random_reads(*open(packed, points), content, 300, 13);
   packing::expect_random_reads(*open(packed, points), content, 300, 14);
   EXPECT_GT(points->points.size(), 50u);
-  for (const RestartPoints::Point& point : points->points)
+  for (const SeekPoints::Point& point : points->points)
   {
     EXPECT_TRUE(!point.window.empty() ||
       packed.compare(static_cast<std::size_t>(point.packed), 3, "\x1f\x8b\x08") == 0);
@@ -344,7 +344,7 @@ TEST(Gzip, ManyPointsAreThinned)
   EXPECT_GE(points->points.size(), 500u);
   EXPECT_EQ(points->spacing, 4000);
   std::int64_t last = 0;
-  for (const RestartPoints::Point& point : points->points)
+  for (const SeekPoints::Point& point : points->points)
   {
     EXPECT_GE(point.offset - last, 4000);
     EXPECT_LE(point.offset - last, 8000);

@@ -12,7 +12,7 @@
 
 namespace
 {
-using granular::RestartPoints;
+using granular::SeekPoints;
 using packing::expect_content;
 using packing::open;
 using packing::Outcomes;
@@ -200,7 +200,7 @@ TEST(Zstd, RandomReads)
   packing::expect_random_reads(*unpack(packing::open_medium(medium), points), content, 2000, 21);
   const std::size_t found = points->points.size();
   EXPECT_EQ(found, (content.size() - 1) / 150000); // every third frame
-  EXPECT_EQ(points->bytes(), points->points.capacity() * sizeof(RestartPoints::Point));
+  EXPECT_EQ(points->bytes(), points->points.capacity() * sizeof(SeekPoints::Point));
 
   medium.read = 0;
   const auto again = unpack(packing::open_medium(medium), points);

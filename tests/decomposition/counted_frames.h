@@ -24,7 +24,7 @@ inline granular::FrameView frame_of(const Points& points)
   frame.has_box = false;
   frame.rows = static_cast<std::int64_t>(points.size());
   frame.points = granular::view_rows(
-    "points", granular::ScalarType::Float64, reinterpret_cast<const double*>(points.data()), 3);
+    "points", granular::ValueType::Float64, reinterpret_cast<const double*>(points.data()), 3);
   return frame;
 }
 

@@ -61,10 +61,10 @@ TEST(CountedRows, FloatsStridesAndOriginsAreAbsolutePositions)
   const std::vector<float> floats = { 1, 0, 0, 7, 4, 0, 0, 7, 3.9999998F, 1, 1, 7 };
   FrameView frame = frame_of({});
   frame.rows = 3;
-  frame.points = view_rows("points", ScalarType::Float32, floats.data(), 4);
+  frame.points = view_rows("points", ValueType::Float32, floats.data(), 4);
   EXPECT_EQ(count(frame, two_halves()), (ParticleCounts{ { 2, 1 }, 0 }));
   const std::vector<double> strided = { 1, 0, 0, 7, 4, 0, 0, 7, std::nextafter(4, 0), 1, 1, 7 };
-  frame.points = view_rows("points", ScalarType::Float64, strided.data(), 4);
+  frame.points = view_rows("points", ValueType::Float64, strided.data(), 4);
   EXPECT_EQ(count(frame, two_halves()), (ParticleCounts{ { 2, 1 }, 0 }));
   frame.point_origin = { 1, 0, 0 };
   EXPECT_EQ(count(frame, two_halves()), (ParticleCounts{ { 1, 2 }, 0 }));

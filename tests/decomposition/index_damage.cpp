@@ -9,7 +9,7 @@
 
 namespace
 {
-std::string shown(const granular::FrameIndex& index, std::size_t frame)
+std::string shown(const granular::RunIndex& index, std::size_t frame)
 {
   const granular::FramePiece piece = index.first_piece(frame);
   granular::Notices notices;
@@ -56,10 +56,10 @@ TEST(DecompositionIndex, ThatHasMoreCellsThanTheFileHasBytesIsUsed)
   EXPECT_EQ(index_damage::open_and_show(run, notices), first);
   EXPECT_EQ(notices.size(), 0U);
 
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Progress progress;
   index.update(run.files, run.options, notices, progress);
-  granular::FrameIndex elsewhere;
+  granular::RunIndex elsewhere;
   elsewhere.decode(index.encode());
   EXPECT_EQ(elsewhere.first_piece(0).entry.rows, 4096);
 }

@@ -37,13 +37,13 @@ Subdomains bounds(const FrameView& frame, int threads = 1)
 
 /// By the scalar type and one after the other.
 template <class Value>
-ArrayView processes(ScalarType type, const std::vector<Value>& values)
+ArrayView processes(ValueType type, const std::vector<Value>& values)
 {
   return view_rows("proc", type, values.data());
 }
 
 template <class Value>
-std::string error_of(ScalarType type, const std::vector<Value>& values, int size = 1)
+std::string error_of(ValueType type, const std::vector<Value>& values, int size = 1)
 {
   const Points points(values.size() / static_cast<std::size_t>(size));
   try
@@ -68,9 +68,9 @@ TEST(ParticleBounds, OfEachProcessByRank)
   const std::vector<std::int8_t> bytes = { 5, 5, 0, 5, 90 };
   const std::vector<std::uint64_t> unsigned_ones = { 5, 5, 0, 5, 90 };
   const std::vector<double> doubles = { 5, 5, -0.0, 5, 90 };
-  EXPECT_EQ(bounds(frame, processes(ScalarType::Int8, bytes)), expected);
-  EXPECT_EQ(bounds(frame, processes(ScalarType::UInt64, unsigned_ones)), expected);
-  EXPECT_EQ(bounds(frame, processes(ScalarType::Float64, doubles)), expected);
+  EXPECT_EQ(bounds(frame, processes(ValueType::Int8, bytes)), expected);
+  EXPECT_EQ(bounds(frame, processes(ValueType::UInt64, unsigned_ones)), expected);
+  EXPECT_EQ(bounds(frame, processes(ValueType::Float64, doubles)), expected);
   EXPECT_EQ(bounds(frame), (Subdomains{ made_subdomain({ -1, -1, 0 }, { 7, 7, 7 }, 5, 0) }));
 }
 
@@ -83,14 +83,14 @@ TEST(ParticleBounds, WhatHasNoPlaceAndDuplicatesAreLeftOut)
   FrameView frame = frame_of(points);
   frame.ghosts = ghosts.data();
   const Subdomain one = made_subdomain({ 1, 2, 1 }, { 3, 2, 3 }, 2, 1);
-  EXPECT_EQ(bounds(frame, processes(ScalarType::Int32, proc)), Subdomains{ one });
+  EXPECT_EQ(bounds(frame, processes(ValueType::Int32, proc)), Subdomains{ one });
   EXPECT_EQ(bounds(frame), (Subdomains{ made_subdomain(one.lo, one.hi, 2, 0) }));
   EXPECT_EQ(bounds(frame_of({})), Subdomains{});
-  EXPECT_EQ(bounds(frame_of({}), processes(ScalarType::Int32, std::vector<int>{})), Subdomains{});
+  EXPECT_EQ(bounds(frame_of({}), processes(ValueType::Int32, std::vector<int>{})), Subdomains{});
   Progress progress;
   EXPECT_EQ(bounds_of_particles(frame, Executor(2), progress).outside, 3);
   EXPECT_EQ(
-    bounds_by_process(frame, processes(ScalarType::Int32, proc), Executor(1), progress).outside, 3);
+    bounds_by_process(frame, processes(ValueType::Int32, proc), Executor(1), progress).outside, 3);
 }
 
 TEST(ParticleBounds, PositionsAreAbsoluteAndNotWrapped)
@@ -115,7 +115,7 @@ TEST(ParticleBounds, ThreadsDoNotShow)
     process = static_cast<std::int64_t>(random() % 1000) * (most / 1000);
   }
   const FrameView frame = frame_of(points);
-  const Subdomains one = bounds(frame, processes(ScalarType::Int64, proc), 1);
+  const Subdomains one = bounds(frame, processes(ValueType::Int64, proc), 1);
   ASSERT_EQ(one.size(), 1000u);
   Subdomains expected;
   for (int rank = 0; rank < 1000; ++rank)
@@ -139,7 +139,7 @@ TEST(ParticleBounds, ThreadsDoNotShow)
   EXPECT_EQ(one, expected);
   for (const int threads : { 2, 3 })
   {
-    const Subdomains more = bounds(frame, processes(ScalarType::Int64, proc), threads);
+    const Subdomains more = bounds(frame, processes(ValueType::Int64, proc), threads);
     ASSERT_EQ(more, one);
     for (std::size_t i = 0; i < one.size(); ++i)
     {
@@ -153,16 +153,16 @@ TEST(ParticleBounds, SaysWhatIsNoProcess)
 {
   const std::string expected =
     "column 'proc': expected whole numbers of processes, from 0 to 2147483647, got ";
-  EXPECT_EQ(error_of<int>(ScalarType::Int32, { 0, most, -1, -2 }), expected + "-1");
-  EXPECT_EQ(error_of<std::int64_t>(ScalarType::Int64, { 0, std::int64_t{ most } + 1 }),
+  EXPECT_EQ(error_of<int>(ValueType::Int32, { 0, most, -1, -2 }), expected + "-1");
+  EXPECT_EQ(error_of<std::int64_t>(ValueType::Int64, { 0, std::int64_t{ most } + 1 }),
     expected + "2147483648");
-  EXPECT_EQ(error_of<double>(ScalarType::Float64, { 0, 1.5 }), expected + "1.5");
-  EXPECT_EQ(error_of<double>(ScalarType::Float64, { no_number }), expected + "nan");
-  EXPECT_EQ(error_of<float>(ScalarType::Float32, { HUGE_VALF }), expected + "inf");
-  EXPECT_EQ(error_of<int>(ScalarType::Int32, { 0, most }), "");
-  EXPECT_EQ(error_of<int>(ScalarType::Int32, { 0, 1, 2 }, 3),
+  EXPECT_EQ(error_of<double>(ValueType::Float64, { 0, 1.5 }), expected + "1.5");
+  EXPECT_EQ(error_of<double>(ValueType::Float64, { no_number }), expected + "nan");
+  EXPECT_EQ(error_of<float>(ValueType::Float32, { HUGE_VALF }), expected + "inf");
+  EXPECT_EQ(error_of<int>(ValueType::Int32, { 0, most }), "");
+  EXPECT_EQ(error_of<int>(ValueType::Int32, { 0, 1, 2 }, 3),
     "column 'proc': expected one whole number a row, got 3 values");
-  EXPECT_EQ(error_of<std::string>(ScalarType::Text, { "0" }),
+  EXPECT_EQ(error_of<std::string>(ValueType::Text, { "0" }),
     "column 'proc': expected one whole number a row, got texts");
   FrameView frame;
   frame.rows = 1;
@@ -183,7 +183,7 @@ TEST(ParticleBounds, TheFirstErrorIsTold)
   {
     try
     {
-      bounds(frame_of(points), processes(ScalarType::Int32, proc), threads);
+      bounds(frame_of(points), processes(ValueType::Int32, proc), threads);
       ADD_FAILURE();
     }
     catch (const Error& error)
@@ -226,7 +226,7 @@ TEST(JoinByProcess, RanksDoNotShow)
   {
     process = static_cast<int>(random() % 50);
   }
-  const Subdomains expected = bounds(frame_of(points), processes(ScalarType::Int32, proc));
+  const Subdomains expected = bounds(frame_of(points), processes(ValueType::Int32, proc));
   ASSERT_EQ(expected.size(), 50u);
   for (const int size : { 1, 2, 3 })
   {
@@ -239,9 +239,9 @@ TEST(JoinByProcess, RanksDoNotShow)
           5000 * static_cast<std::size_t>(ranks.rank() + 1) / static_cast<std::size_t>(size);
         FrameView frame = frame_of(points);
         frame.rows = static_cast<std::int64_t>(last - first);
-        frame.points = view_rows("points", ScalarType::Float64, points[first].data(), 3);
+        frame.points = view_rows("points", ValueType::Float64, points[first].data(), 3);
         const Subdomains own =
-          bounds(frame, view_rows("proc", ScalarType::Int32, proc.data() + first));
+          bounds(frame, view_rows("proc", ValueType::Int32, proc.data() + first));
         EXPECT_EQ(join_by_process(own, ranks), expected);
       });
   }

@@ -68,14 +68,14 @@ std::string path_of(const std::string& file)
   return std::string(GRANULAR_DATA) + "/bad/" + file;
 }
 
-void open(granular::FrameIndex& index, const std::string& path)
+void open(granular::RunIndex& index, const std::string& path)
 {
   granular::Notices notices;
   granular::Progress progress;
   index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
 }
 
-granular::DumpFrame read(const granular::FrameIndex& index, std::size_t frame)
+granular::DumpFrame read(const granular::RunIndex& index, std::size_t frame)
 {
   granular::Notices notices;
   granular::Progress progress;
@@ -87,7 +87,7 @@ TEST(BadInput, SaidWhenOpened)
 {
   for (const Bad& bad : when_opened)
   {
-    granular::FrameIndex index;
+    granular::RunIndex index;
     EXPECT_EQ(error_of([&] { open(index, path_of(bad.file)); }), path_of(bad.file) + bad.said);
     EXPECT_EQ(index.size(), 0u);
     // and the same index reads a good file afterwards
@@ -100,7 +100,7 @@ TEST(BadInput, SaidWhenRead)
 {
   for (const Bad& bad : when_read)
   {
-    granular::FrameIndex index;
+    granular::RunIndex index;
     EXPECT_EQ(error_of([&] { open(index, path_of(bad.file)); }), "") << bad.file;
     EXPECT_EQ(error_of([&] { read(index, 0); }), path_of(bad.file) + bad.said);
   }

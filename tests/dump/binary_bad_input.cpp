@@ -4,7 +4,7 @@
 #include "granular/dump/formats/binary_dump.h"
 #include "granular/dump/formats/binary_header.h"
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
@@ -431,7 +431,7 @@ TEST(BinaryBadInput, AFileThatGrows)
       options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
         "radius" };
     }
-    granular::FrameIndex index;
+    granular::RunIndex index;
     for (std::size_t size = 0; size < whole.bytes.size(); size += 37)
     {
       SCOPED_TRACE(form.name + " up to " + std::to_string(size + 37));

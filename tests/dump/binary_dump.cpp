@@ -4,7 +4,7 @@
 #include "granular/dump/formats/dump_files.h"
 
 #include "granular/dump/formats/binary_header.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include "../support/binary_dumps.h"
 #include "../support/byte_source_packing.h"
@@ -463,7 +463,7 @@ TEST(BinaryDump, TheStepsAreInTheUnitsAndTimesOfTheFile)
     EXPECT_EQ(dump.entry(i).time, *frames[i].time);
   }
   const Folder folder;
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ folder.write("a.bin", binary::write(form, frames).bytes) },
@@ -876,7 +876,7 @@ TEST(BinaryDump, OneFileAProcess)
       options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
         "radius" };
     }
-    granular::FrameIndex index;
+    granular::RunIndex index;
     index.update(files, options, notices, progress);
     EXPECT_EQ(lines_of(notices), "");
     ASSERT_EQ(index.size(), 2u);
@@ -903,7 +903,7 @@ TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
   const Bytes second =
     binary::write(form, { frame_of(form, columns, 5, { 2, 1, 0, 0, 0, 1, 2.5, 0, 0, 0 }) });
   folder.write("a.1.bin", second.bytes);
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ folder.path("a.0.bin"), folder.path("a.1.bin") },
@@ -946,7 +946,7 @@ TEST(BinaryDump, CancelledWithinTheFileThenWhole)
   int cancelled = 0;
   for (int after = 0; after < 6; ++after)
   {
-    granular::FrameIndex index;
+    granular::RunIndex index;
     granular::Notices notices;
     granular::Progress progress;
     Stop stop(after);
@@ -981,7 +981,7 @@ TEST(BinaryDump, NamesThatChange)
   const Folder folder;
   const std::string path = folder.write(
     "a.bin", binary::write(form, { frame_of(form, "", 5, { 1, 2, 0.5, 0.25, 0.75 }) }).bytes);
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Progress progress;
   granular::Notices notices;
   granular::IndexOptions options = { .format = &granular::dump_format() };

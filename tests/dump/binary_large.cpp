@@ -2,7 +2,7 @@
 // Frames of more than 2^31 values and files of more than 4 GiB: sparse files, whose holes read as
 // zeros.
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
@@ -143,7 +143,7 @@ granular::IndexOptions names()
   return options;
 }
 
-void expect_small_frame(const granular::FrameIndex& index, std::size_t number, const Frame& frame)
+void expect_small_frame(const granular::RunIndex& index, std::size_t number, const Frame& frame)
 {
   granular::Progress progress;
   Decoded got;
@@ -180,7 +180,7 @@ TEST(BinaryLarge, TrapMoreValuesThan31Bits)
     ASSERT_GT(12 * rows, std::int64_t{ 1 } << 31);
     ASSERT_GT(large_end, std::int64_t{ 1 } << 34);
 
-    granular::FrameIndex index;
+    granular::RunIndex index;
     granular::Notices notices;
     granular::Progress progress;
     index.update({ file.path() }, names(), notices, progress);
@@ -225,7 +225,7 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   {
     options.column_names.push_back("c" + std::to_string(i));
   }
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ file.path() }, options, notices, progress);

@@ -20,10 +20,10 @@
 #include <functional>
 #include <span>
 
-using granular::FrameIndex;
 using granular::FramePiece;
 using granular::Notices;
 using granular::Progress;
+using granular::RunIndex;
 
 namespace
 {
@@ -48,9 +48,9 @@ std::string text_of(const FrameContent& content)
 }
 
 /// All that a frame holds.
-using Content = std::string (*)(const FrameIndex& index, std::size_t frame, Notices& notices);
+using Content = std::string (*)(const RunIndex& index, std::size_t frame, Notices& notices);
 
-std::string dump_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+std::string dump_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
   return text_of(
@@ -63,7 +63,7 @@ std::string lines_content(const granular::LocalFrame& frame)
     std::string(static_cast<const char*>(frame.lines.points.data()), frame.lines.points.bytes());
 }
 
-std::string local_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+std::string local_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
   granular::SerialCommunicator alone;
@@ -82,7 +82,7 @@ std::string local_content(const FrameIndex& index, std::size_t frame, Notices& n
     granular::read_local(index.pieces(frame), request, alone, notices, progress));
 }
 
-std::string restart_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+std::string restart_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
   const auto source = granular::open_indexed(index.first_piece(frame).file);
@@ -92,7 +92,7 @@ std::string restart_content(const FrameIndex& index, std::size_t frame, Notices&
   return text_of(content_of(read.particles)) + lines_content(read.bonds);
 }
 
-std::string euler_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+std::string euler_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
   const FramePiece piece = index.first_piece(frame);
@@ -107,7 +107,7 @@ std::string euler_content(const FrameIndex& index, std::size_t frame, Notices& n
   return text;
 }
 
-std::string decomposition_content(const FrameIndex& index, std::size_t frame, Notices& notices)
+std::string decomposition_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
   std::string text;
@@ -270,14 +270,14 @@ protected:
   }
 
   /// What there is to be seen with an index that may know the files already.
-  Seen look(FrameIndex& index) const
+  Seen look(RunIndex& index) const
   {
     Seen seen;
     Notices notices;
     Progress progress;
     granular::IndexOptions options = { .format = &granular::dump_format() };
     options.format = &this->kind().format();
-    options.index_file = index_file;
+    options.keep_index = keep_index;
     options.column_names = this->kind().columns;
     try
     {
@@ -295,7 +295,7 @@ protected:
     return seen;
   }
 
-  Seen look_with(const FailingCalls& calls, FrameIndex& index, long& possible, long& made) const
+  Seen look_with(const FailingCalls& calls, RunIndex& index, long& possible, long& made) const
   {
     make_fail(calls);
     Seen seen = this->look(index);
@@ -307,11 +307,11 @@ protected:
 
   /// Fails every call of a look at files, which prepare makes an index for, in every way. Whatever is seen, the next look sees `whole`.
   void try_all(
-    const Seen& whole, std::span<const Case> cases, const std::function<FrameIndex()>& prepare)
+    const Seen& whole, std::span<const Case> cases, const std::function<RunIndex()>& prepare)
   {
     long possible = 0;
     long usual = 0;
-    FrameIndex first = prepare();
+    RunIndex first = prepare();
     const Seen clean = this->look_with({}, first, possible, usual);
     ASSERT_EQ(clean.frames, whole.frames);
     std::size_t bytes = 0;
@@ -325,7 +325,7 @@ protected:
       for (bool fired = true; fired; ++number)
       {
         SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
-        FrameIndex index = prepare();
+        RunIndex index = prepare();
         long made = 0;
         const Seen seen = this->look_with({ one.fault, number, one.count }, index, possible, made);
         fired = possible >= number;
@@ -363,7 +363,7 @@ protected:
       << seen.frames.size() << " of " << clean.frames.size() << " frames, and " << seen.said;
   }
 
-  granular::IndexFile index_file = granular::IndexFile::Never;
+  granular::KeepIndex keep_index = granular::KeepIndex::Never;
   Folder folder_;
   std::vector<std::string> texts_;
   std::vector<std::string> paths_;
@@ -379,24 +379,24 @@ std::string name_of(const ::testing::TestParamInfo<std::size_t>& info)
 
 TEST_P(FailingReads, OfAFirstLook)
 {
-  FrameIndex index;
+  RunIndex index;
   const Seen whole = this->look(index);
   ASSERT_EQ(whole.error, "");
   ASSERT_EQ(whole.frames.size(), this->kind().frames);
-  this->try_all(whole, all_cases, [] { return FrameIndex(); });
+  this->try_all(whole, all_cases, [] { return RunIndex(); });
 }
 
 /// The index knows the files as they were before the last one grew.
 TEST_P(FailingReads, OfAFileThatGrew)
 {
-  FrameIndex index;
+  RunIndex index;
   const Seen whole = this->look(index);
   const std::string& text = texts_.back();
   this->try_all(whole, some_cases,
     [&]
     {
       this->write(texts_.size() - 1, text.substr(0, 2 * text.size() / 3));
-      FrameIndex before;
+      RunIndex before;
       this->look(before);
       this->write(texts_.size() - 1, text);
       return before;
@@ -406,34 +406,34 @@ TEST_P(FailingReads, OfAFileThatGrew)
 /// The index is in a file.
 TEST_P(FailingReads, OfAKeptIndex)
 {
-  FrameIndex index;
+  RunIndex index;
   const Seen whole = this->look(index);
-  index_file = granular::IndexFile::Beside;
+  keep_index = granular::KeepIndex::Beside;
   this->try_all(whole, some_cases,
     [&]
     {
       std::filesystem::remove(paths_.front() + std::string(granular::index_file_suffix));
-      FrameIndex before;
+      RunIndex before;
       this->look(before);
-      return FrameIndex();
+      return RunIndex();
     });
 }
 
 /// Nor does a look that fails leave anything in the file of the index.
 TEST_P(FailingReads, OfAnIndexThatIsMade)
 {
-  FrameIndex index;
+  RunIndex index;
   const Seen whole = this->look(index);
-  index_file = granular::IndexFile::Beside;
+  keep_index = granular::KeepIndex::Beside;
   const std::string kept = paths_.front() + std::string(granular::index_file_suffix);
   long possible = 0;
   for (long number = 1; number <= possible + 1; ++number)
   {
     std::filesystem::remove(kept);
-    FrameIndex failing;
+    RunIndex failing;
     long made = 0;
     this->look_with({ CallFault::Error, number, 1 }, failing, possible, made);
-    FrameIndex opened;
+    RunIndex opened;
     EXPECT_TRUE(this->look(opened).frames == whole.frames) << number;
   }
 }

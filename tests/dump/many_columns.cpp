@@ -123,7 +123,7 @@ TEST(ManyColumns, OfAKeptIndex)
   for (int time = 0; time < 2; ++time)
   {
     Series run;
-    run.options.index_file = granular::IndexFile::Beside;
+    run.options.keep_index = granular::KeepIndex::Beside;
     run.update({ path });
     ASSERT_EQ(run.index.size(), 1u);
     EXPECT_EQ(run.read(0).texts("word_3"), std::vector<std::string>({ "a3", "b3" }));

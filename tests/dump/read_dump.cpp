@@ -683,7 +683,7 @@ std::string plain(std::int64_t step, int rows)
   return text;
 }
 
-std::string read_error(const granular::FrameIndex& index, std::size_t frame)
+std::string read_error(const granular::RunIndex& index, std::size_t frame)
 {
   return error_of(
     [&]
@@ -700,7 +700,7 @@ TEST(ReadDump, AFileThatChangedSinceItWasIndexed)
   const Folder folder;
   const std::string text = plain(0, 3) + plain(100, 3);
   const std::string path = folder.write("a.dump", text);
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ path }, { .format = &granular::dump_format() }, notices, progress);

@@ -2,7 +2,7 @@
 // The files of tests/data/good: runs that LAMMPS and LIGGGHTS wrote in many forms at once. All forms
 // must show the same particles, as far as their digits go.
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include "../support/dumps.h"
 #include "../support/quad.h"
@@ -650,7 +650,7 @@ TEST(RealFiles, CompressedFilesOneAStep)
 {
   for (const std::string run : { "ortho", "tri" })
   {
-    granular::FrameIndex index;
+    granular::RunIndex index;
     granular::Notices notices;
     granular::Progress progress;
     index.update({ path_of(run + "_000050.dump.gz"), path_of(run + "_000000.dump.gz"),
@@ -777,7 +777,7 @@ granular::IndexOptions with_names(const std::string& names)
   return options;
 }
 
-Decoded read(const granular::FrameIndex& index, std::size_t frame, const DumpRequest& request)
+Decoded read(const granular::RunIndex& index, std::size_t frame, const DumpRequest& request)
 {
   granular::Progress progress;
   Decoded got;
@@ -788,7 +788,7 @@ Decoded read(const granular::FrameIndex& index, std::size_t frame, const DumpReq
 
 TEST(RealFiles, PlainBinaryOfLiggghts)
 {
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ path_of("grains.bin") }, with_names(grain_names), notices, progress);
@@ -834,7 +834,7 @@ TEST(RealFiles, PlainBinaryOfLiggghts)
 // frame has none.
 TEST(RealFiles, PlainBinaryOfLiggghtsWithoutNames)
 {
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update(
@@ -877,7 +877,7 @@ TEST(RealFiles, PiecesOfLiggghts)
   std::mt19937 random(3);
   for (int round = 0; round < 10; ++round)
   {
-    granular::FrameIndex index;
+    granular::RunIndex index;
     granular::Notices notices;
     granular::Progress progress;
     index.update(files, { .format = &granular::dump_format() }, notices, progress);
@@ -945,7 +945,7 @@ TEST(RealFiles, LabelsOfLiggghts)
 
 TEST(RealFiles, FilesOfLiggghtsOneAStep)
 {
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update(

@@ -58,11 +58,11 @@ struct Cube
     FrameView view;
     view.header.box = box;
     view.rows = count;
-    view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
-    view.arrays = { view_rows("v", ScalarType::Float64, velocities.data(), 3) };
+    view.points = view_rows("points", ValueType::Float64, points.data(), 3);
+    view.arrays = { view_rows("v", ValueType::Float64, velocities.data(), 3) };
     if (with_radii)
     {
-      view.arrays.push_back(view_rows("radius", ScalarType::Float64, radii.data()));
+      view.arrays.push_back(view_rows("radius", ValueType::Float64, radii.data()));
     }
     return view;
   }

@@ -26,11 +26,11 @@ struct TwoGrains
     frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 10, 10, 10 });
     frame.header.box.boundary = "pp pp pp";
     frame.rows = 2;
-    frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+    frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
   }
 
   template <class Value>
-  void add(const std::string& name, ScalarType type, const std::vector<Value>& values)
+  void add(const std::string& name, ValueType type, const std::vector<Value>& values)
   {
     frame.arrays.push_back(
       view_rows(name, type, values.data(), static_cast<int>(values.size() / 2)));
@@ -93,9 +93,9 @@ TEST(WriteColumns, vectors)
   const std::vector<double> v = { 0.5, -1, 2, 3, 4e-7, 5 };
   const std::vector<float> quat = { 1, 0, 0, 0, 0.5F, 0.5F, 0.5F, 0.5F };
   const std::vector<double> stress = { 1, 2, 3, 4, 5, 6, 11, 12, 13, 14, 15, 16 };
-  grains.add("v", ScalarType::Float64, v);
-  grains.add("quat", ScalarType::Float32, quat);
-  grains.add("c_stress", ScalarType::Float64, stress);
+  grains.add("v", ValueType::Float64, v);
+  grains.add("quat", ValueType::Float32, quat);
+  grains.add("c_stress", ValueType::Float64, stress);
   EXPECT_EQ(write(grains.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
   EXPECT_EQ(write(grains.frame, { "v" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
   EXPECT_EQ(write(grains.frame, { "vz", "vx" }).body, "vz vx\n2 0.5\n5 3\n");
@@ -123,7 +123,7 @@ TEST(WriteColumns, frameWithoutGrains)
   EXPECT_EQ(any.body, "id type x vx vy vz radius speed c_stress\n");
   EXPECT_EQ(any.said + any.error, "");
   const std::vector<double> speeds = { 1, 2 };
-  grains.add("speed", ScalarType::Float64, speeds);
+  grains.add("speed", ValueType::Float64, speeds);
   EXPECT_EQ(write(grains.frame, { "id", "radius" }).error,
     "column 'radius': expected an array to make it from, got none: there are speed");
 }
@@ -152,8 +152,8 @@ TEST(WriteColumns, names)
   TwoGrains grains;
   const std::vector<double> heat = { 1.5, 2.5 };
   const std::vector<double> two = { 1, 2, 3, 4 };
-  grains.add("heat flux", ScalarType::Float64, heat);
-  grains.add("my\tpair of numbers", ScalarType::Float64, two);
+  grains.add("heat flux", ValueType::Float64, heat);
+  grains.add("my\tpair of numbers", ValueType::Float64, two);
   EXPECT_EQ(write(grains.frame, { "heat_flux" }).body, "heat_flux\n1.5\n2.5\n");
   EXPECT_EQ(write(grains.frame, { "my_pair_of_numbers" }).body,
     "my_pair_of_numbers[1] my_pair_of_numbers[2]\n1 2\n3 4\n");
@@ -170,7 +170,7 @@ TEST(WriteColumns, names)
 TEST(WriteColumns, every_type)
 {
   TwoGrains grains;
-  const auto check = [&]<class Value>(ScalarType type, Value low, Value high)
+  const auto check = [&]<class Value>(ValueType type, Value low, Value high)
   {
     TwoGrains own;
     const std::vector<Value> values = { low, high };
@@ -181,23 +181,23 @@ TEST(WriteColumns, every_type)
     EXPECT_EQ(write(own.frame, { "a", "type" }).body, "a type\n" + rows);
     DumpFormat sorted;
     sorted.sort_by_id = true;
-    own.add("id", ScalarType::Int64, ids);
+    own.add("id", ValueType::Int64, ids);
     EXPECT_EQ(write(own.frame, { "type" }, sorted).body,
       "type\n" + std::to_string(high) + "\n" + std::to_string(low) + "\n");
   };
-  const auto of_limits = [&]<class Value>(ScalarType type, Value)
+  const auto of_limits = [&]<class Value>(ValueType type, Value)
   { check(type, std::numeric_limits<Value>::min(), std::numeric_limits<Value>::max()); };
-  of_limits(ScalarType::Int8, std::int8_t{});
-  of_limits(ScalarType::UInt8, std::uint8_t{});
-  of_limits(ScalarType::Int16, std::int16_t{});
-  of_limits(ScalarType::UInt16, std::uint16_t{});
-  of_limits(ScalarType::Int32, std::int32_t{});
-  of_limits(ScalarType::UInt32, std::uint32_t{});
-  of_limits(ScalarType::Int64, std::int64_t{});
-  check(ScalarType::UInt64, std::uint64_t{ 0 }, std::uint64_t{ (1ULL << 63) - 1 });
+  of_limits(ValueType::Int8, std::int8_t{});
+  of_limits(ValueType::UInt8, std::uint8_t{});
+  of_limits(ValueType::Int16, std::int16_t{});
+  of_limits(ValueType::UInt16, std::uint16_t{});
+  of_limits(ValueType::Int32, std::int32_t{});
+  of_limits(ValueType::UInt32, std::uint32_t{});
+  of_limits(ValueType::Int64, std::int64_t{});
+  check(ValueType::UInt64, std::uint64_t{ 0 }, std::uint64_t{ (1ULL << 63) - 1 });
 
   const std::vector<std::uint64_t> huge = { 1, 1ULL << 63 };
-  grains.add("a", ScalarType::UInt64, huge);
+  grains.add("a", ValueType::UInt64, huge);
   EXPECT_EQ(write(grains.frame, { "a" }).error,
     "column 'a': expected integers below 2^63, got 9223372036854775808");
 }
@@ -207,7 +207,7 @@ TEST(WriteColumns, steps)
 {
   TwoGrains grains;
   const std::vector<std::int16_t> mixed = { 1, 2, 3, 4, 5, 6, 7, 8 };
-  ArrayView view = view_rows("a", ScalarType::Int16, mixed.data() + 1, 2);
+  ArrayView view = view_rows("a", ValueType::Int16, mixed.data() + 1, 2);
   view.step = 4;
   std::swap(view.components[0], view.components[1]);
   grains.frame.arrays.push_back(view);
@@ -219,8 +219,8 @@ TEST(WriteColumns, big_ids)
   TwoGrains grains;
   const std::vector<std::int64_t> big = { (std::int64_t{ 1 } << 31) + 5,
     (std::int64_t{ 1 } << 53) + 1 };
-  grains.add("id", ScalarType::Int64, big);
-  grains.add("mol", ScalarType::Int64, big);
+  grains.add("id", ValueType::Int64, big);
+  grains.add("mol", ValueType::Int64, big);
   EXPECT_EQ(write(grains.frame, { "id", "mol" }).body,
     "id mol\n2147483653 2147483653\n9007199254740993 9007199254740993\n");
   std::string error;
@@ -231,8 +231,8 @@ TEST(WriteColumns, big_ids)
   const std::vector<std::int64_t> exact = { -(std::int64_t{ 1 } << 53), std::int64_t{ 1 } << 60 };
   const std::vector<std::int64_t> last = { 1, std::numeric_limits<std::int64_t>::max() };
   grains.frame.arrays = {};
-  grains.add("id", ScalarType::Int64, exact);
-  grains.add("mol", ScalarType::Int64, last);
+  grains.add("id", ValueType::Int64, exact);
+  grains.add("mol", ValueType::Int64, last);
   EXPECT_EQ(write_binary(grains.frame, { "id" }), (std::vector<double>{ -0x1p53, 0x1p60 }));
   write_binary(grains.frame, { "mol" }, &error);
   EXPECT_NE(error.find("got 9223372036854775807"), error.npos);
@@ -247,11 +247,11 @@ TEST(WriteColumns, whole_numbers_in_real_arrays)
   const std::vector<double> odd = { 1.5, 1e300 };
   const std::vector<double> none = { std::numeric_limits<double>::quiet_NaN(),
     -std::numeric_limits<double>::infinity() };
-  grains.add("id", ScalarType::Float64, real_ids);
-  grains.add("type", ScalarType::Float32, real_types);
-  grains.add("mol", ScalarType::Float64, odd);
-  grains.add("proc", ScalarType::Float64, none);
-  grains.add("mass", ScalarType::Float64, real_ids);
+  grains.add("id", ValueType::Float64, real_ids);
+  grains.add("type", ValueType::Float32, real_types);
+  grains.add("mol", ValueType::Float64, odd);
+  grains.add("proc", ValueType::Float64, none);
+  grains.add("mass", ValueType::Float64, real_ids);
   EXPECT_EQ(write(grains.frame, { "id", "type", "mol", "proc", "mass" }).body,
     "id type mol proc mass\n12345678 16777216 1.5 nan 1.23457e+07\n0 2 1e+300 -inf -0\n");
   DumpFormat sorted;
@@ -265,18 +265,18 @@ TEST(WriteColumns, radius_and_diameter)
 {
   TwoGrains grains;
   const std::vector<float> radius = { 0.25F, 0.1F };
-  grains.add("radius", ScalarType::Float32, radius);
+  grains.add("radius", ValueType::Float32, radius);
   EXPECT_EQ(
     write(grains.frame, { "diameter", "radius" }).body, "diameter radius\n0.5 0.25\n0.2 0.1\n");
   EXPECT_EQ(write_binary(grains.frame, { "diameter" }),
     (std::vector<double>{ 0.5, 2 * static_cast<double>(0.1F) }));
   const std::vector<std::int32_t> diameter = { 3, 4 };
   grains.frame.arrays = {};
-  grains.add("diameter", ScalarType::Int32, diameter);
+  grains.add("diameter", ValueType::Int32, diameter);
   EXPECT_EQ(write(grains.frame, { "radius" }).body, "radius\n1.5\n2\n");
   DumpFormat sorted;
   sorted.sort_by_id = true;
-  grains.add("id", ScalarType::Int64, ids);
+  grains.add("id", ValueType::Int64, ids);
   EXPECT_EQ(write(grains.frame, { "radius" }, sorted).body, "radius\n2\n1.5\n");
 
   // a file with diameters is read as radii, and gets its diameters back, and no radii
@@ -289,13 +289,13 @@ TEST(WriteColumns, images)
 {
   TwoGrains grains;
   const std::vector<std::int32_t> image = { 1, -2, 0, 1048576, 0, -1048576 };
-  grains.add("image", ScalarType::Int32, image);
+  grains.add("image", ValueType::Int32, image);
   EXPECT_EQ(write(grains.frame, { "ix", "iy", "iz", "xu" }).body,
     "ix iy iz xu\n1 -2 0 11\n1048576 0 -1048576 1.04858e+07\n");
   EXPECT_EQ(write(grains.frame, { "image" }).body, "ix iy iz\n1 -2 0\n1048576 0 -1048576\n");
   const std::vector<std::int64_t> one = { 5, 6 };
   grains.frame.arrays = {};
-  grains.add("iy", ScalarType::Int64, one);
+  grains.add("iy", ValueType::Int64, one);
   const Text text = write(grains.frame, { "ix", "iy", "iz" });
   EXPECT_EQ(text.body, "ix iy iz\n0 5 0\n0 6 0\n");
   EXPECT_EQ(text.said, "");
@@ -305,13 +305,13 @@ TEST(WriteColumns, elements)
 {
   TwoGrains grains;
   const std::vector<std::string> elements = { "Fe", "C" };
-  grains.add("element", ScalarType::Text, elements);
+  grains.add("element", ValueType::Text, elements);
   EXPECT_EQ(write(grains.frame, { "element" }).body, "element\nFe\nC\n");
   EXPECT_EQ(write_binary(grains.frame, { "element" }), (std::vector<double>{ 1, 1 }));
-  grains.add("type", ScalarType::Int32, types);
+  grains.add("type", ValueType::Int32, types);
   EXPECT_EQ(write_binary(grains.frame, { "element" }), (std::vector<double>{ 2, 1 }));
   const std::vector<std::string> words = { "a", "b" };
-  grains.add("state", ScalarType::Text, words);
+  grains.add("state", ValueType::Text, words);
   std::string error;
   write_binary(grains.frame, { "state" }, &error);
   EXPECT_EQ(error, "column 'state': expected numbers for a binary dump, got texts");
@@ -319,7 +319,7 @@ TEST(WriteColumns, elements)
   {
     const std::vector<std::string> texts = { "good", bad };
     grains.frame.arrays = {};
-    grains.add("state", ScalarType::Text, texts);
+    grains.add("state", ValueType::Text, texts);
     EXPECT_EQ(write(grains.frame, { "state" }).error,
       std::string("column 'state': expected a word, got '") + bad + "'");
   }
@@ -351,8 +351,8 @@ TEST(WriteColumns, default_columns)
   EXPECT_EQ(write(read.view, {}).body, "vx id xs ys zs vy vz q\n1 1 0.5 0.5 0.5 2 3 9\n");
   const std::vector<double> speed = { 3.75 };
   const std::vector<double> force = { 7, 8, 9 };
-  read.view.arrays.push_back(view_rows("speed", ScalarType::Float64, speed.data()));
-  read.view.arrays.push_back(view_rows("f", ScalarType::Float64, force.data(), 3));
+  read.view.arrays.push_back(view_rows("speed", ValueType::Float64, speed.data()));
+  read.view.arrays.push_back(view_rows("f", ValueType::Float64, force.data(), 3));
   EXPECT_EQ(write(read.view, {}).body,
     "vx id xs ys zs vy vz q speed fx fy fz\n1 1 0.5 0.5 0.5 2 3 9 3.75 7 8 9\n");
   std::erase_if(read.view.arrays, [](const ArrayView& array) { return array.name == "q"; });
@@ -361,8 +361,8 @@ TEST(WriteColumns, default_columns)
   EXPECT_EQ(less.said, "columns of the input without an array are left out: q\n");
 
   TwoGrains grains;
-  grains.add("type", ScalarType::Int32, types);
-  grains.add("id", ScalarType::Int64, ids);
+  grains.add("type", ValueType::Int32, types);
+  grains.add("id", ValueType::Int64, ids);
   EXPECT_EQ(write(grains.frame, {}).body, "id type x y z\n7 2 1 2 3\n3 1 4 5 6\n");
 }
 
@@ -372,8 +372,8 @@ TEST(WriteColumns, first_of_two_arrays)
   TwoGrains grains;
   const std::vector<double> one = { 1, 2 };
   const std::vector<double> three = { 3, 4, 5, 6, 7, 8 };
-  grains.add("v", ScalarType::Float64, one);
-  grains.add("v", ScalarType::Float64, three);
+  grains.add("v", ValueType::Float64, one);
+  grains.add("v", ValueType::Float64, three);
   EXPECT_EQ(write(grains.frame, { "v", "vy" }).body, "v vy\n1 4\n2 7\n");
 }
 
@@ -384,8 +384,8 @@ TEST(WriteColumns, arrays_named_like_parts)
   TwoGrains grains;
   const std::vector<double> vx = { 70, 80 };
   const std::vector<double> v = { 3, 4, 5, 6, 7, 8 };
-  grains.add("v", ScalarType::Float64, v);
-  grains.add("vx", ScalarType::Float64, vx);
+  grains.add("v", ValueType::Float64, v);
+  grains.add("vx", ValueType::Float64, vx);
   EXPECT_EQ(write(grains.frame, { "vx" }).body, "vx\n70\n80\n");
   EXPECT_EQ(write(grains.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n70 4 5\n80 7 8\n");
 }
@@ -395,10 +395,10 @@ TEST(WriteColumns, two_names_that_are_one_word)
   TwoGrains grains;
   const std::vector<double> one = { 1, 2 };
   const std::vector<double> two = { 3, 4 };
-  grains.add("id", ScalarType::Int64, ids);
-  grains.add("type", ScalarType::Int32, types);
-  grains.add("my array", ScalarType::Float64, one);
-  grains.add("my_array", ScalarType::Float64, two);
+  grains.add("id", ValueType::Int64, ids);
+  grains.add("type", ValueType::Int32, types);
+  grains.add("my array", ValueType::Float64, one);
+  grains.add("my_array", ValueType::Float64, two);
   const Text text = write(grains.frame, {});
   EXPECT_EQ(text.body, "id type x y z my_array\n7 2 1 2 3 3\n3 1 4 5 6 4\n");
   EXPECT_EQ(text.said, "arrays without a column of their own are left out: my array\n");
@@ -409,9 +409,9 @@ TEST(WriteColumns, texts_that_nobody_asked_for)
 {
   TwoGrains grains;
   const std::vector<std::string> words = { "a", "b" };
-  grains.add("id", ScalarType::Int64, ids);
-  grains.add("type", ScalarType::Int32, types);
-  grains.add("word", ScalarType::Text, words);
+  grains.add("id", ValueType::Int64, ids);
+  grains.add("type", ValueType::Int32, types);
+  grains.add("word", ValueType::Text, words);
   const Folder folder;
   DumpFormat format;
   format.binary = true;
@@ -427,7 +427,7 @@ TEST(WriteColumns, points_of_integers)
 {
   const std::vector<std::int64_t> points = { 1, 2, 3, 4, 5, 6 };
   TwoGrains grains;
-  grains.frame.points = view_rows("points", ScalarType::Int64, points.data(), 3);
+  grains.frame.points = view_rows("points", ValueType::Int64, points.data(), 3);
   grains.frame.has_box = false;
   EXPECT_EQ(write(grains.frame, { "x", "ys" }).body, "x ys\n1 0\n4 1\n");
   EXPECT_EQ(write_binary(grains.frame, { "x", "zs" }), (std::vector<double>{ 1, 0, 4, 1 }));
@@ -441,7 +441,7 @@ TEST(WriteColumns, image_counts_that_are_none)
   {
     TwoGrains grains;
     const std::vector<double> counts = { 1, count };
-    grains.add("ix", ScalarType::Float64, counts);
+    grains.add("ix", ValueType::Float64, counts);
     EXPECT_EQ(write(grains.frame, { "ix" }).error,
       std::string("column 'ix': expected image counts of whole numbers below 2^31, got ") + text);
   }

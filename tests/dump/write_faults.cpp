@@ -149,7 +149,7 @@ TEST(WriteFaults, other_arrays)
   DumpFormat format;
   format.sort_by_id = true;
   format.columns = { "type", "x" };
-  const ArrayView real_ids = view_rows("id", ScalarType::Float64, real.data());
+  const ArrayView real_ids = view_rows("id", ValueType::Float64, real.data());
   expect_error(with("id", &real_ids), format, others("id"), "real ids");
   expect_error(with("id", nullptr), format, others("id"), "no ids");
   format.columns = { "type", "ix" };
@@ -157,7 +157,7 @@ TEST(WriteFaults, other_arrays)
   format.columns = { "id" };
   expect_error(with("id", &real_ids), format, others("id"), "real ids that are written");
   format.columns = { "element" };
-  const ArrayView numbers = view_rows("element", ScalarType::Float64, real.data());
+  const ArrayView numbers = view_rows("element", ValueType::Float64, real.data());
   expect_error(with("element", &numbers), format, others("element"), "numbers for texts");
 }
 

@@ -163,7 +163,7 @@ Points random_points(
 /// The most that any value is off, in units of the bound.
 template <class Value>
 double worst(const ReferenceBox& box, Coordinates coordinates, std::int32_t most_images,
-  const Vector3& origin, ScalarType type)
+  const Vector3& origin, ValueType type)
 {
   constexpr std::size_t rows = 1000;
   const Points points = random_points(box, coordinates, most_images, rows);
@@ -178,7 +178,7 @@ double worst(const ReferenceBox& box, Coordinates coordinates, std::int32_t most
   frame.points = view_rows("points", type, held.data(), 3);
   frame.coordinates = coordinates;
   frame.point_origin = origin;
-  frame.arrays.push_back(view_rows("image", ScalarType::Int32, points.images.data(), 3));
+  frame.arrays.push_back(view_rows("image", ValueType::Int32, points.images.data(), 3));
   const std::vector<double> values = written_values(frame);
   double most = 0;
   for (std::size_t row = 0; row < rows; ++row)
@@ -213,9 +213,9 @@ TEST(WritePositions, from_all_forms)
       {
         for (const std::int32_t images : { 0, 3, 1 << 20 })
         {
-          EXPECT_LE(worst<double>(box, coordinates, images, origin, ScalarType::Float64), 1)
+          EXPECT_LE(worst<double>(box, coordinates, images, origin, ValueType::Float64), 1)
             << box.lo[0] << " " << to_string(coordinates) << " " << origin[0] << " " << images;
-          EXPECT_LE(worst<float>(box, coordinates, images, origin, ScalarType::Float32), 1)
+          EXPECT_LE(worst<float>(box, coordinates, images, origin, ValueType::Float32), 1)
             << box.lo[0] << " " << to_string(coordinates) << " " << origin[0] << " " << images;
         }
       }
@@ -232,7 +232,7 @@ TEST(WritePositions, wrapped)
   frame.header.box = box_of(box);
   frame.header.box.boundary = "pp ff pp";
   frame.rows = 2000;
-  frame.points = view_rows("points", ScalarType::Float64, points.values.data(), 3);
+  frame.points = view_rows("points", ValueType::Float64, points.values.data(), 3);
   frame.coordinates = Coordinates::Unwrapped;
   std::string said;
   const std::vector<double> values = written_values(frame, &said);
@@ -295,7 +295,7 @@ TEST(WritePositions, not_finite)
   frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 4, 4, 4 });
   frame.header.box.boundary = "pp pp pp";
   frame.rows = 3;
-  frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+  frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
   DumpFormat format;
   format.columns = { "x", "y", "z", "xs", "ys", "zs" };
   const Folder folder;

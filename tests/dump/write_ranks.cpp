@@ -279,7 +279,7 @@ TEST(WriteRanks, sorted_columns_that_are_made)
   MadeRows rows(20000, small_box(false));
   FrameView frame = rows.view();
   std::erase_if(frame.arrays, [](const ArrayView& array) { return array.name == "radius"; });
-  frame.arrays.push_back(view_rows("diameter", ScalarType::Int32, rows.types.data()));
+  frame.arrays.push_back(view_rows("diameter", ValueType::Int32, rows.types.data()));
   DumpFormat format;
   format.sort_by_id = true;
   format.columns = { "id", "radius", "diameter", "x", "xu", "element" };

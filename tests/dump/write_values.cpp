@@ -123,7 +123,7 @@ TEST(WriteValues, flat_box)
   const std::vector<double> points = { 1, 2, 3 };
   FrameView frame = frame_in(Box::from_bounds({ 0, 2, 0 }, { 4, 2, 4 }));
   frame.rows = 1;
-  frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+  frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
   const Folder folder;
   DumpFormat format;
   format.columns = { "x", "y", "z", "xu" };
@@ -153,7 +153,7 @@ TEST(WriteValues, no_box)
   frame.has_box = false;
   frame.rows = 4;
   frame.ghosts = ghosts.data();
-  frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+  frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
   frame.point_origin = { 10, 0, 0 };
   DumpFormat format;
   format.dialect = Dialect::Liggghts;
@@ -172,21 +172,21 @@ TEST(WriteValues, no_box)
   {
     frame.arrays = {};
     EXPECT_EQ(box(shares), "ff ff ff\n11 14\n-5 2\n3 6\n");
-    frame.arrays.push_back(view_rows("diameter", ScalarType::Float64, diameter.data()));
+    frame.arrays.push_back(view_rows("diameter", ValueType::Float64, diameter.data()));
     EXPECT_EQ(box(shares), "ff ff ff\n10 16.5\n-7.5 3\n2 8.5\n");
-    frame.arrays.push_back(view_rows("radius", ScalarType::Int32, radius.data()));
+    frame.arrays.push_back(view_rows("radius", ValueType::Int32, radius.data()));
     EXPECT_EQ(box(shares), "ff ff ff\n10 16\n-7 3\n2 8\n");
   }
   frame.rows = 0;
   frame.points.reset();
   format.columns = { "id" };
-  frame.arrays.push_back(view_rows("id", ScalarType::Int32, radius.data()));
+  frame.arrays.push_back(view_rows("id", ValueType::Int32, radius.data()));
   EXPECT_EQ(box({ 1 }), "ff ff ff\n0 0\n0 0\n0 0\n");
 
   frame.rows = 2;
   EXPECT_EQ(write_dump(folder.path("a"), Frames{ frame }, format).error,
     "column 'x': expected an array to make it from, got none: there are diameter, radius, id");
-  frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+  frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
   frame.coordinates = Coordinates::Scaled;
   EXPECT_EQ(write_dump(folder.path("a"), Frames{ frame }, format).error,
     "expected a box for Scaled points, got none");
@@ -225,7 +225,7 @@ TEST(WriteValues, digits_of_the_box)
     FrameView frame = frame_in(box);
     frame.header.box.boundary = "pp pp pp";
     frame.rows = 1;
-    frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+    frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
     format.columns = { column };
     const Written made = write_dump(folder.path("a"), Frames{ frame }, format);
     EXPECT_EQ(made.said, "");
@@ -370,7 +370,7 @@ TEST(WriteValues, boxes_that_are_none)
     FrameView frame = frame_in(box);
     frame.header.box.boundary = "pp pp pp";
     frame.rows = 1;
-    frame.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+    frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
     DumpFormat format;
     format.columns = { column };
     const Folder folder;

@@ -9,7 +9,7 @@
 
 namespace
 {
-std::string shown(const granular::FrameIndex& index, std::size_t frame)
+std::string shown(const granular::RunIndex& index, std::size_t frame)
 {
   const granular::FramePiece piece = index.first_piece(frame);
   granular::Notices notices;

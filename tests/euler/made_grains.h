@@ -53,7 +53,7 @@ public:
     const auto view = [&](const char* name, const double* values, int size)
     {
       granular::ArrayView array =
-        granular::view_rows(name, granular::ScalarType::Float64, values, size);
+        granular::view_rows(name, granular::ValueType::Float64, values, size);
       array.step = step;
       return array;
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run that writes while somebody looks: never a part of a frame, none missed, and files that are
 // replaced or removed meanwhile.
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
@@ -395,7 +395,7 @@ TEST(GrowingRun, GzipThatIsFlushed)
 
 TEST(GrowingRun, GzipOfLargeFrames)
 {
-  // content of several MiB: restart points come into play
+  // content of several MiB: seek points come into play
   const Folder folder;
   const std::string text = all_frames(text_frame, 30, 20000);
   follow(folder.path("a.dump.gz"), gzip_flushed(text, 500), 30, 20000, 100, cut_short);

@@ -28,7 +28,7 @@ std::string text_run()
     "1 1 Si 1.5 abc 4 1 1 1\n2 1 O 2 d 5 1 1.5 1\n3 2 C 1e10 e 6 1 1 1.25\n";
 }
 
-std::string shown(const granular::FrameIndex& index, std::size_t frame)
+std::string shown(const granular::RunIndex& index, std::size_t frame)
 {
   std::string seen;
   for (const int parts : { 1, 2 })
@@ -56,7 +56,7 @@ std::string shown(const granular::FrameIndex& index, std::size_t frame)
 }
 
 /// Of the last frame alone, as somebody sees who goes there at once.
-std::string last_points(const granular::FrameIndex& index, std::size_t frame)
+std::string last_points(const granular::RunIndex& index, std::size_t frame)
 {
   if (frame + 1 < index.size())
   {
@@ -108,7 +108,7 @@ TEST(IndexDamage, Zstandard)
 }
 
 // Of a long file the index has windows, which what is behind them is made from. Of 40,000 bytes every thousandth is changed.
-TEST(IndexDamage, RestartPoints)
+TEST(IndexDamage, SeekPoints)
 {
   const Folder folder;
   std::string text;

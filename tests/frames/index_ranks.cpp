@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One index for all ranks: rank 0 makes it, and all can read every frame.
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
@@ -18,10 +18,10 @@
 namespace
 {
 using granular::Communicator;
-using granular::FrameIndex;
 using granular::IndexOptions;
 using granular::Notices;
 using granular::Progress;
+using granular::RunIndex;
 
 /// Counts the bytes that rank 0 sends.
 class Counting final : public Communicator
@@ -77,7 +77,7 @@ struct Rank
   {
     Notices notices;
     Progress progress;
-    granular::update_frame_index(index, ranks, files, options, notices, progress);
+    granular::update_run_index(index, ranks, files, options, notices, progress);
     return lines_of(notices);
   }
 
@@ -101,7 +101,7 @@ struct Rank
   }
 
   Counting ranks;
-  FrameIndex index;
+  RunIndex index;
 };
 
 constexpr int ranks_of_tests = 3;
@@ -229,7 +229,7 @@ TEST(IndexRanks, CancelledOnAll)
       Rank rank(communicator);
       Notices notices;
       Stop stop;
-      EXPECT_THROW(granular::update_frame_index(rank.index, rank.ranks, files,
+      EXPECT_THROW(granular::update_run_index(rank.index, rank.ranks, files,
                      { .format = &granular::dump_format() }, notices, stop),
         granular::Cancelled);
       EXPECT_EQ(rank.index.size(), 0u);
@@ -258,7 +258,7 @@ TEST(IndexRanks, BytesThatAreNoIndex)
   Series alone;
   alone.update(mixed_run(folder));
   const std::string good = alone.index.encode();
-  FrameIndex index;
+  RunIndex index;
   index.decode(good);
   EXPECT_TRUE(index.encode() == good);
   for (std::size_t cut = 0; cut < good.size(); cut += 97)

@@ -2,8 +2,8 @@
 // An index does not depend on how many threads make it: of one file in which several pass over a frame,
 // and of many files.
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
-#include "granular/frames/index_bytes.h"
+#include "granular/frames/run_index.h"
+#include "granular/frames/saved_index.h"
 #include "granular/frames/update_files.h"
 
 #include "../support/byte_source_packing.h"
@@ -278,7 +278,7 @@ TEST(IndexThreads, CancelledAtAnyReportThenWhole)
   }
 }
 
-TEST(IndexThreads, RestartPointsOfTheFirstFiles)
+TEST(IndexThreads, SeekPointsOfTheFirstFiles)
 {
   const Folder folder;
   std::string text;

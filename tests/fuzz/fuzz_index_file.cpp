@@ -3,7 +3,7 @@
 // believe the rest. Whatever they are, there is an Error, or files in which all is within bounds,
 // and which come back as they are when they are written and read again.
 #include "granular/common/hash.h"
-#include "granular/frames/index_bytes.h"
+#include "granular/frames/saved_index.h"
 
 #include <cstddef>
 #include <cstdint>

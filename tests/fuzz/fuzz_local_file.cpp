@@ -58,7 +58,7 @@ void index(std::string_view text, FileIndex& index)
   require(index.resume_offset >= 0 && index.resume_offset <= size, "where to go on");
 }
 
-LocalFrame read(const FrameIndex& run, std::size_t frame, LocalRequest request)
+LocalFrame read(const RunIndex& run, std::size_t frame, LocalRequest request)
 {
   SerialCommunicator alone;
   Notices notices;
@@ -67,7 +67,7 @@ LocalFrame read(const FrameIndex& run, std::size_t frame, LocalRequest request)
 }
 
 /// As many values and ends of lines as rows; two parts have each row once.
-void check(const FrameIndex& run, std::size_t number)
+void check(const RunIndex& run, std::size_t number)
 {
   std::int64_t rows = 0;
   for (const FramePiece& piece : run.pieces(number))
@@ -117,7 +117,7 @@ void check(const FrameIndex& run, std::size_t number)
 
 void read_all(const std::vector<std::string>& files)
 {
-  FrameIndex run;
+  RunIndex run;
   IndexOptions options;
   options.format = &local_format();
   Notices notices;

@@ -76,7 +76,7 @@ void check_integer(
 
 /// The word in a row of its own.
 template <typename T>
-RowStatus decode(const std::string& word, ColumnSink::Kind kind, granular::Simd simd, T& value)
+RowStatus decode(const std::string& word, granular::ValueType kind, granular::Simd simd, T& value)
 {
   granular::PaddedBuffer buffer(word.size() + 1);
   std::copy(word.begin(), word.end(), buffer.data());
@@ -98,11 +98,11 @@ void check_rows(
       continue;
     }
     double d = 0;
-    const RowStatus as_double = decode(word, ColumnSink::Kind::Float64, simd, d);
+    const RowStatus as_double = decode(word, granular::ValueType::Float64, simd, d);
     require((as_double == RowStatus::Done) == is_number, "row: status of a double", word);
     require(!is_number || same(d, number), "row: value of a double", word);
     std::int64_t i = 0;
-    const RowStatus as_integer = decode(word, ColumnSink::Kind::Int64, simd, i);
+    const RowStatus as_integer = decode(word, granular::ValueType::Int64, simd, i);
     const RowStatus expected = is_integer ? RowStatus::Done
       : is_number                         ? RowStatus::NotExact
                                           : RowStatus::NotANumber;

@@ -38,9 +38,8 @@ RowResult decode(const char* first, const char* last, std::size_t columns, bool 
   std::vector<ColumnSink> sinks;
   for (std::size_t i = 0; i < columns; ++i)
   {
-    sinks.push_back(
-      { static_cast<std::uint32_t>(i), texts ? ColumnSink::Kind::Text : ColumnSink::Kind::Float64,
-        memory.data() + i * slot, static_cast<std::ptrdiff_t>(columns * slot) });
+    sinks.push_back({ static_cast<std::uint32_t>(i), texts ? ValueType::Text : ValueType::Float64,
+      memory.data() + i * slot, static_cast<std::ptrdiff_t>(columns * slot) });
   }
   const RowResult result = decode_rows(first, last, static_cast<std::uint32_t>(columns), sinks,
     static_cast<std::int64_t>(lines), simd);

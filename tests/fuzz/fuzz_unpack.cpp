@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A compressed file from memory. Whatever the bytes are, there is an Error or content; the content
-// is the same from the start, from anywhere, and from restart points that another source found.
+// is the same from the start, from anywhere, and from seek points that another source found.
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
 
@@ -87,7 +87,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view packed(reinterpret_cast<const char*>(data), size);
   const Content content = read_all(*unpack(open_memory(packed)), std::size_t{ 1 } << 18);
 
-  const auto points = std::make_shared<RestartPoints>();
+  const auto points = std::make_shared<SeekPoints>();
   points->spacing = 1;
   const Content pieces = read_all(*unpack(open_memory(packed), points), 777);
   if (content.text.size() < most_content && pieces.text.size() < most_content)

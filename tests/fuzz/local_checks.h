@@ -18,7 +18,7 @@ namespace granular
 /// Guesses names from the rows; where they tell nothing, those that otherwise(columns) gives.
 template <class Otherwise>
 std::vector<std::string> guess_names(
-  const FrameIndex& run, const FramePiece& first, const Otherwise& otherwise)
+  const RunIndex& run, const FramePiece& first, const Otherwise& otherwise)
 {
   std::vector<std::string> columns;
   std::ranges::transform(
@@ -28,7 +28,7 @@ std::vector<std::string> guess_names(
   try
   {
     const LocalSample sample = read_sample(run, *first.entry.kind, progress);
-    const Where where = where_of(first.file.path, first.entry);
+    const Where where = where_of(first);
     const std::vector<std::string> names = find_columns(columns, sample, where, notices);
     require(names.size() == columns.size(), "a name for each column");
     return names;

@@ -10,7 +10,7 @@
 #include "granular/dump/formats/dump_files.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 #include "granular/local/local_file.h"
 #include "granular/memory/block_pool.h"
 #include "granular/restart/restart_file.h"
@@ -154,7 +154,7 @@ std::string content_of(const DumpFrame& frame)
 }
 
 DumpFrame read_once(
-  const FrameIndex& run, std::size_t frame, DumpRequest request, int threads, std::size_t chunk)
+  const RunIndex& run, std::size_t frame, DumpRequest request, int threads, std::size_t chunk)
 {
   Notices notices;
   Progress progress;
@@ -165,7 +165,7 @@ DumpFrame read_once(
   return read;
 }
 
-void read_particles(const FrameIndex& run, std::size_t frame, Random& random, Session& session)
+void read_particles(const RunIndex& run, std::size_t frame, Random& random, Session& session)
 {
   std::vector<DumpRequest> all = requests();
   DumpRequest& request = all[below(random, all.size())];
@@ -196,7 +196,7 @@ std::vector<std::string> choose_names(const std::vector<std::string>& columns, R
   }
 }
 
-void read_rows(const FrameIndex& run, std::size_t frame, Random& random, Session& session)
+void read_rows(const RunIndex& run, std::size_t frame, Random& random, Session& session)
 {
   LocalRequest request;
   request.columns = guess_names(run, run.first_piece(frame),
@@ -226,7 +226,7 @@ void read_rows(const FrameIndex& run, std::size_t frame, Random& random, Session
   }
 }
 
-void read_cells(const FrameIndex& run, std::size_t frame, Random&, Session&)
+void read_cells(const RunIndex& run, std::size_t frame, Random&, Session&)
 {
   const FramePiece piece = run.first_piece(frame);
   Notices notices;
@@ -238,7 +238,7 @@ void read_cells(const FrameIndex& run, std::size_t frame, Random&, Session&)
   static_cast<void>(find_regular_grids(cells, notices));
 }
 
-void read_subdomains(const FrameIndex& run, std::size_t frame, Random&, Session&)
+void read_subdomains(const RunIndex& run, std::size_t frame, Random&, Session&)
 {
   const FramePiece piece = run.first_piece(frame);
   Notices notices;
@@ -249,7 +249,7 @@ void read_subdomains(const FrameIndex& run, std::size_t frame, Random&, Session&
   }
 }
 
-void read_records(const FrameIndex& run, std::size_t frame, Random& random, Session& session)
+void read_records(const RunIndex& run, std::size_t frame, Random& random, Session& session)
 {
   Notices notices;
   Progress progress;
@@ -263,7 +263,7 @@ void read_records(const FrameIndex& run, std::size_t frame, Random& random, Sess
   check_arrays(read.bonds.table);
 }
 
-using ReadFrame = void (*)(const FrameIndex&, std::size_t, Random&, Session&);
+using ReadFrame = void (*)(const RunIndex&, std::size_t, Random&, Session&);
 
 /// A kind of files, and the run that has had all files of it so far.
 struct Kind
@@ -271,7 +271,7 @@ struct Kind
   const FileFormat& (*format)() noexcept;
   ReadFrame read;
   const char* columns; ///< of binary files that do not name them; null: nobody has said
-  FrameIndex run = {};
+  RunIndex run = {};
 };
 
 void read_files(Kind& kind, const std::vector<std::string>& paths, Random& random, Session& session)

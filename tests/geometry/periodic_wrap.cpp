@@ -48,7 +48,7 @@ std::vector<double> wrapped(
   }
   FrameView view;
   view.rows = static_cast<std::int64_t>(xs.size());
-  view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+  view.points = view_rows("points", ValueType::Float64, points.data(), 3);
   view.header.box = Box::from_bounds({ lo, -1, -1 }, { hi, 1, 1 });
   view.header.box.boundary = "pp ff ff";
   view.point_origin = { origin, 0, 0 };

@@ -10,7 +10,7 @@
 
 namespace
 {
-std::string shown(const granular::FrameIndex& index, std::size_t frame)
+std::string shown(const granular::RunIndex& index, std::size_t frame)
 {
   granular::DumpRequest request;
   request.points = false;

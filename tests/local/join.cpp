@@ -45,8 +45,8 @@ struct Three
   {
     view.rows = 3;
     view.has_box = false;
-    view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
-    view.arrays = { view_rows("id", ScalarType::Int64, ids.data()) };
+    view.points = view_rows("points", ValueType::Float64, points.data(), 3);
+    view.arrays = { view_rows("id", ValueType::Int64, ids.data()) };
   }
 
   std::vector<Id> ids = { 4, 5, 6 };
@@ -82,7 +82,7 @@ std::string error_of(const Call& call)
 }
 
 template <class Value>
-void expect_ids_of(ScalarType type)
+void expect_ids_of(ValueType type)
 {
   Three three;
   const std::vector<Value> ids = { 4, 5, 6 };
@@ -96,7 +96,7 @@ void expect_ids_of(ScalarType type)
 
 /// The message for an id of that type.
 template <class Value>
-std::string refusal(ScalarType type, Value value)
+std::string refusal(ValueType type, Value value)
 {
   Three three;
   const std::vector<Value> ids = { 4, 5, value };
@@ -146,8 +146,8 @@ TEST(LocalJoin, AMillionPartners)
         FrameView view;
         view.rows = std::ssize(ids);
         view.has_box = false;
-        view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
-        view.arrays = { view_rows("id", ScalarType::Int64, ids.data()) };
+        view.points = view_rows("points", ValueType::Float64, points.data(), 3);
+        view.arrays = { view_rows("id", ValueType::Int64, ids.data()) };
         const std::int64_t rows = ranks.rank() == size - 1 ? partners + 1 : 0;
         const std::vector<std::int64_t> id1(static_cast<std::size_t>(rows), id_of(hub));
         std::vector<std::int64_t> id2;
@@ -193,16 +193,16 @@ TEST(LocalJoin, ToItself)
 
 TEST(LocalJoin, IdsOfAnyType)
 {
-  expect_ids_of<std::int8_t>(ScalarType::Int8);
-  expect_ids_of<std::uint8_t>(ScalarType::UInt8);
-  expect_ids_of<std::int16_t>(ScalarType::Int16);
-  expect_ids_of<std::uint16_t>(ScalarType::UInt16);
-  expect_ids_of<std::int32_t>(ScalarType::Int32);
-  expect_ids_of<std::uint32_t>(ScalarType::UInt32);
-  expect_ids_of<std::int64_t>(ScalarType::Int64);
-  expect_ids_of<std::uint64_t>(ScalarType::UInt64);
-  expect_ids_of<float>(ScalarType::Float32);
-  expect_ids_of<double>(ScalarType::Float64);
+  expect_ids_of<std::int8_t>(ValueType::Int8);
+  expect_ids_of<std::uint8_t>(ValueType::UInt8);
+  expect_ids_of<std::int16_t>(ValueType::Int16);
+  expect_ids_of<std::uint16_t>(ValueType::UInt16);
+  expect_ids_of<std::int32_t>(ValueType::Int32);
+  expect_ids_of<std::uint32_t>(ValueType::UInt32);
+  expect_ids_of<std::int64_t>(ValueType::Int64);
+  expect_ids_of<std::uint64_t>(ValueType::UInt64);
+  expect_ids_of<float>(ValueType::Float32);
+  expect_ids_of<double>(ValueType::Float64);
 }
 
 TEST(LocalJoin, IdsThatAreNone)
@@ -212,13 +212,13 @@ TEST(LocalJoin, IdsThatAreNone)
     return "column 'id': expected a 64-bit integer as id, got " + value +
       " in row 2 (the first is 0)";
   };
-  EXPECT_EQ(refusal(ScalarType::Float64, 6.5), text("6.5"));
-  EXPECT_EQ(refusal(ScalarType::Float32, 0.25F), text("0.25"));
-  EXPECT_EQ(refusal(ScalarType::Float64, no_number), text("nan"));
-  EXPECT_EQ(refusal(ScalarType::Float64, -infinity), text("-inf"));
-  EXPECT_EQ(refusal(ScalarType::Float64, 0x1p63), text("9223372036854775808"));
-  EXPECT_EQ(refusal(ScalarType::UInt64, ~std::uint64_t{ 0 }), text("18446744073709551615"));
-  EXPECT_EQ(refusal(ScalarType::Float64, -0x1p63), "no error");
+  EXPECT_EQ(refusal(ValueType::Float64, 6.5), text("6.5"));
+  EXPECT_EQ(refusal(ValueType::Float32, 0.25F), text("0.25"));
+  EXPECT_EQ(refusal(ValueType::Float64, no_number), text("nan"));
+  EXPECT_EQ(refusal(ValueType::Float64, -infinity), text("-inf"));
+  EXPECT_EQ(refusal(ValueType::Float64, 0x1p63), text("9223372036854775808"));
+  EXPECT_EQ(refusal(ValueType::UInt64, ~std::uint64_t{ 0 }), text("18446744073709551615"));
+  EXPECT_EQ(refusal(ValueType::Float64, -0x1p63), "no error");
 }
 
 TEST(LocalJoin, MeansAndDifferences)
@@ -228,10 +228,10 @@ TEST(LocalJoin, MeansAndDifferences)
   const std::vector<double> small = { least, least, 3 * least };
   const std::vector<double> odd = { infinity, no_number, infinity };
   const std::vector<std::uint8_t> bytes = { 250, 255, 0 };
-  three.view.arrays.push_back(view_rows("large", ScalarType::Float64, values.data()));
-  three.view.arrays.push_back(view_rows("small", ScalarType::Float64, small.data()));
-  three.view.arrays.push_back(view_rows("odd", ScalarType::Float64, odd.data()));
-  three.view.arrays.push_back(view_rows("bytes", ScalarType::UInt8, bytes.data()));
+  three.view.arrays.push_back(view_rows("large", ValueType::Float64, values.data()));
+  three.view.arrays.push_back(view_rows("small", ValueType::Float64, small.data()));
+  three.view.arrays.push_back(view_rows("odd", ValueType::Float64, odd.data()));
+  three.view.arrays.push_back(view_rows("bytes", ValueType::UInt8, bytes.data()));
   const JoinedLines joined = join_alone(three.view, { { 4, 5 }, { 5, 6 }, { 4, 6 } },
     { { "large", "small", "odd", "bytes" }, { "large", "bytes" }, 1, nullptr });
   ASSERT_EQ(joined.arrays.size(), 6U);
@@ -268,7 +268,7 @@ TEST(LocalJoin, PointsOfAllKinds)
 
   const std::vector<float> floats(three.points.begin(), three.points.end());
   three.view.coordinates = Coordinates::Absolute;
-  three.view.points = view_rows("points", ScalarType::Float32, floats.data(), 3);
+  three.view.points = view_rows("points", ValueType::Float32, floats.data(), 3);
   EXPECT_EQ(
     numbers(join_alone(three.view, lines).second), (std::vector<double>{ 2, 20, 200, 1, 10, 100 }));
 }
@@ -281,12 +281,12 @@ TEST(LocalJoin, Errors)
   Three three;
   const std::vector<std::string> texts(3);
   EXPECT_EQ(message(three.view, { "v" }), "expected an array 'v' of the particles, got none");
-  three.view.arrays.push_back(view_rows("element", ScalarType::Text, texts.data()));
+  three.view.arrays.push_back(view_rows("element", ValueType::Text, texts.data()));
   EXPECT_EQ(message(three.view, { "element" }),
     "expected numbers in array 'element' of the particles, got texts");
-  three.view.arrays = { view_rows("id", ScalarType::Text, texts.data()) };
+  three.view.arrays = { view_rows("id", ValueType::Text, texts.data()) };
   EXPECT_EQ(message(three.view), "column 'id': expected one number a row, got texts");
-  three.view.arrays = { view_rows("id", ScalarType::Float64, three.points.data(), 3) };
+  three.view.arrays = { view_rows("id", ValueType::Float64, three.points.data(), 3) };
   EXPECT_EQ(message(three.view), "column 'id': expected one number a row, got 3");
   three.view.arrays.clear();
   EXPECT_EQ(message(three.view), "expected an array 'id' of the particles, got none");
@@ -315,7 +315,7 @@ TEST(LocalJoin, ErrorsOfOneRank)
 
       Three sizes;
       sizes.view.arrays.push_back(
-        view_rows("v", ScalarType::Float64, sizes.points.data(), ranks.rank() == 2 ? 1 : 3));
+        view_rows("v", ValueType::Float64, sizes.points.data(), ranks.rank() == 2 ? 1 : 3));
       EXPECT_EQ(error_of(
                   [&] {
                     join(sizes.view, {}, { { "v" }, {}, 1, nullptr }, ranks);

@@ -62,7 +62,7 @@ struct Arrays
 
   granular::FrameView view() const
   {
-    using granular::ScalarType;
+    using granular::ValueType;
     granular::FrameView frame;
     frame.has_box = false;
     if (ids.empty())
@@ -70,11 +70,11 @@ struct Arrays
       return frame; // a process without particles may know of no arrays
     }
     frame.rows = static_cast<std::int64_t>(ids.size());
-    frame.points = granular::view_rows("points", ScalarType::Float64, points.data(), 3);
-    frame.arrays = { granular::view_rows("id", ScalarType::Int64, ids.data()),
-      granular::view_rows("v", ScalarType::Float64, velocities.data(), 3),
-      granular::view_rows("radius", ScalarType::Float32, radii.data()),
-      granular::view_rows("type", ScalarType::Int32, types.data()) };
+    frame.points = granular::view_rows("points", ValueType::Float64, points.data(), 3);
+    frame.arrays = { granular::view_rows("id", ValueType::Int64, ids.data()),
+      granular::view_rows("v", ValueType::Float64, velocities.data(), 3),
+      granular::view_rows("radius", ValueType::Float32, radii.data()),
+      granular::view_rows("type", ValueType::Int32, types.data()) };
     frame.ghosts = ghosts.data();
     return frame;
   }

@@ -68,7 +68,7 @@ public:
     index_.update(paths, options, notices_, progress);
   }
 
-  const granular::FrameIndex& index() const { return index_; }
+  const granular::RunIndex& index() const { return index_; }
   std::size_t size() const { return index_.size(); }
   std::int64_t step(std::size_t frame) const { return index_.first_piece(frame).entry.timestep; }
   std::size_t pieces(std::size_t frame) const { return index_.pieces(frame).size(); }
@@ -89,8 +89,8 @@ public:
     granular::Progress progress;
     const granular::FramePiece piece = index_.first_piece(frame);
     const granular::LocalSample sample = granular::read_sample(index_, *piece.entry.kind, progress);
-    found_ = granular::find_columns(
-      this->columns(frame), sample, granular::where_of(piece.file.path, piece.entry), notices_);
+    found_ =
+      granular::find_columns(this->columns(frame), sample, granular::where_of(piece), notices_);
     return granular::join_words(found_);
   }
 
@@ -118,7 +118,7 @@ public:
   }
 
 private:
-  granular::FrameIndex index_;
+  granular::RunIndex index_;
   granular::Notices notices_;
   std::vector<std::string> found_;
 };

@@ -113,7 +113,7 @@ TEST(LocalReader, ForcesAddUp)
   LocalRun run({ local_file("settled_contacts.dump.gz") });
   const granular::LocalFrame contacts = run.read(0);
   ASSERT_EQ(contacts.table.rows, 698);
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ local_file("settled_grains.dump.gz") }, { .format = &granular::dump_format() },

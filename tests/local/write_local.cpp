@@ -56,7 +56,7 @@ struct Table
           row.begin() + static_cast<std::ptrdiff_t>(end));
       }
       view.arrays.push_back(view_rows(end - begin > 1 ? base(begin) : text.columns[begin],
-        ScalarType::Float64, values.data(), static_cast<int>(end - begin)));
+        ValueType::Float64, values.data(), static_cast<int>(end - begin)));
     }
   }
 
@@ -180,9 +180,9 @@ struct Made
     view.header.box = Box::from_bounds({ 0, 0, 0 }, { 1, 2, 3 });
     view.header.box.boundary = "pp pp ff";
     view.rows = 3;
-    view.arrays.push_back(view_rows("id1", ScalarType::Int64, first.data()));
-    view.arrays.push_back(view_rows("id2", ScalarType::Float64, second.data()));
-    view.arrays.push_back(view_rows("force", ScalarType::Float64, force.data(), 3));
+    view.arrays.push_back(view_rows("id1", ValueType::Int64, first.data()));
+    view.arrays.push_back(view_rows("id2", ValueType::Float64, second.data()));
+    view.arrays.push_back(view_rows("force", ValueType::Float64, force.data(), 3));
     return view;
   }
 };
@@ -210,7 +210,7 @@ TEST(WriteLocal, LostDigitsOfEndsAreTold)
   FrameView view = made.view();
   view.header.box = Box::from_bounds({ 1e6, 0, 0 }, { 1e6 + 1, 2, 3 });
   view.header.box.boundary = "pp pp ff";
-  view.arrays.push_back(view_rows("position1", ScalarType::Float64, ends.data(), 3));
+  view.arrays.push_back(view_rows("position1", ValueType::Float64, ends.data(), 3));
   view.arrays.back().columns = { "x1", "y1", "z1" };
   view.arrays.back().places = true;
   DumpFormat format = local(Dialect::Lammps, "BONDS");
@@ -241,8 +241,8 @@ TEST(WriteLocal, ColumnsAreArraysByTheirNames)
 {
   const Made made;
   FrameView view = made.view();
-  view.arrays.push_back(view_rows("kind of it", ScalarType::Text, made.kinds.data()));
-  view.arrays.push_back(view_rows("x", ScalarType::Float64, made.second.data())); // no coordinate
+  view.arrays.push_back(view_rows("kind of it", ValueType::Text, made.kinds.data()));
+  view.arrays.push_back(view_rows("x", ValueType::Float64, made.second.data())); // no coordinate
   DumpFormat format = local(Dialect::Lammps);
   format.columns = { "force[3]", "x", "kind_of_it", "force", "id1" };
   format.numbers.digits = 10;
@@ -264,7 +264,7 @@ TEST(WriteLocal, NamesOfParticleColumnsMeanNothing)
   const Made made;
   DumpFormat format = local(Dialect::Liggghts);
   FrameView view = made.view();
-  view.arrays.push_back(view_rows("f", ScalarType::Float64, made.force.data(), 3));
+  view.arrays.push_back(view_rows("f", ValueType::Float64, made.force.data(), 3));
   for (const char* name : { "id", "type", "x", "ix", "fx", "diameter" })
   {
     format.columns = { name };
@@ -372,7 +372,7 @@ TEST(WriteLocal, ManyRows)
   FrameView view;
   view.has_box = false;
   view.rows = static_cast<std::int64_t>(ids.size());
-  view.arrays.push_back(view_rows("id1", ScalarType::Int64, ids.data()));
+  view.arrays.push_back(view_rows("id1", ValueType::Int64, ids.data()));
   const Folder folder;
   for (const std::vector<std::int64_t>& shares :
     std::vector<std::vector<std::int64_t>>{ { 100000 }, { 1, 70000, 100000 } })
@@ -403,7 +403,7 @@ TEST(WriteLocal, WhatRowsAreCalled)
   }
   // it is nothing to dumps of particles, whose rows are atoms
   FrameView view = made.view();
-  view.points = view_rows("points", ScalarType::Float64, made.force.data(), 3);
+  view.points = view_rows("points", ValueType::Float64, made.force.data(), 3);
   DumpFormat custom = local(Dialect::Lammps, "");
   custom.style = DumpStyle::Custom;
   view.header.counted = "BONDS";

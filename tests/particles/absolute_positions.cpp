@@ -22,7 +22,7 @@ FrameView view_of(const std::vector<double>& points)
 {
   FrameView view;
   view.rows = static_cast<std::int64_t>(points.size() / 3);
-  view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
+  view.points = view_rows("points", ValueType::Float64, points.data(), 3);
   view.header.box = Box::from_bounds({ -1, 0, 2 }, { 3, 8, 4 });
   view.header.box.boundary = "pp pp ff";
   return view;
@@ -102,7 +102,7 @@ TEST(AbsolutePositions, UnwrappedPointsLoseTheirCounts)
   view.coordinates = Coordinates::Unwrapped;
   EXPECT_EQ(load(view, false), (std::vector<double>{ 1, 2, 3, -1, 2, 3 })); // wrapped
   const std::vector<std::int32_t> image = { 2, 0, 0, -1, 1, 0 };
-  view.arrays.push_back(view_rows("image", ScalarType::Int32, image.data(), 3));
+  view.arrays.push_back(view_rows("image", ValueType::Int32, image.data(), 3));
   EXPECT_EQ(load(view, false), (std::vector<double>{ 1, 2, 3, -1, 2, 3 }));
 }
 
@@ -111,10 +111,10 @@ TEST(AbsolutePositions, FloatsAndStridedRows)
   const std::vector<float> points = { 1, 2, 3, 99, 4, 5, 6, 99 };
   FrameView view = view_of({});
   view.rows = 2;
-  view.points = view_rows("points", ScalarType::Float32, points.data(), 4);
+  view.points = view_rows("points", ValueType::Float32, points.data(), 4);
   EXPECT_EQ(load(view, false), (std::vector<double>{ 1, 2, 3, 4, 5, 6 }));
   const std::vector<double> doubles = { 1, 2, 3, 99, 4, 5, 6, 99 };
-  view.points = view_rows("points", ScalarType::Float64, doubles.data(), 4);
+  view.points = view_rows("points", ValueType::Float64, doubles.data(), 4);
   EXPECT_EQ(load(view, false), (std::vector<double>{ 1, 2, 3, 4, 5, 6 }));
 }
 

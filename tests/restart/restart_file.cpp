@@ -7,7 +7,7 @@
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using restart_builder::RestartBuilder;
 /// An index of restart files, and what it says.
 struct Indexed
 {
-  granular::FrameIndex index;
+  granular::RunIndex index;
   std::string said;
 
   void update(const std::vector<std::string>& files)

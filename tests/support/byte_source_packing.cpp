@@ -105,7 +105,7 @@ std::string zstd_skippable(std::string_view bytes, char kind)
 }
 
 std::unique_ptr<ByteSource> open(
-  std::string_view packed, std::shared_ptr<granular::RestartPoints> points, std::string name)
+  std::string_view packed, std::shared_ptr<granular::SeekPoints> points, std::string name)
 {
   return granular::unpack(granular::open_memory(packed, std::move(name)), std::move(points));
 }
@@ -264,9 +264,9 @@ void expect_random_reads(
   }
 }
 
-std::shared_ptr<granular::RestartPoints> spaced(std::int64_t spacing)
+std::shared_ptr<granular::SeekPoints> spaced(std::int64_t spacing)
 {
-  auto points = std::make_shared<granular::RestartPoints>();
+  auto points = std::make_shared<granular::SeekPoints>();
   points->spacing = spacing;
   return points;
 }

@@ -44,14 +44,14 @@ std::string zstd_frames(std::string_view content, std::size_t frame_bytes);
 /// A frame to be passed over.
 std::string zstd_skippable(std::string_view bytes, char kind = '\x50');
 
-/// Restart points that far apart.
-std::shared_ptr<granular::RestartPoints> spaced(std::int64_t spacing);
+/// Seek points that far apart.
+std::shared_ptr<granular::SeekPoints> spaced(std::int64_t spacing);
 
 /// That a packed file is known as one, whole, and has that content, however it is read.
 void expect_content(const std::string& packed, const std::string& content);
 
 std::unique_ptr<granular::ByteSource> open(std::string_view packed,
-  std::shared_ptr<granular::RestartPoints> points = nullptr, std::string name = "packed");
+  std::shared_ptr<granular::SeekPoints> points = nullptr, std::string name = "packed");
 
 /// From an offset to the end, in pieces.
 std::string read_all(

@@ -18,21 +18,14 @@ using namespace granular;
 
 namespace
 {
-ScalarType scalar_of(ValueType type)
-{
-  constexpr ScalarType scalars[] = { ScalarType::Int32, ScalarType::Int64, ScalarType::Float64,
-    ScalarType::Text };
-  return scalars[static_cast<std::size_t>(type)];
-}
-
-const void* advanced(const void* data, ScalarType type, std::int64_t values)
+const void* advanced(const void* data, ValueType type, std::int64_t values)
 {
   constexpr std::size_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, sizeof(std::string) };
   return static_cast<const char*>(data) +
     static_cast<std::ptrdiff_t>(sizes[static_cast<std::size_t>(type)]) * values;
 }
 
-ArrayView view_of(const std::string& name, ScalarType type, const void* data, std::size_t size)
+ArrayView view_of(const std::string& name, ValueType type, const void* data, std::size_t size)
 {
   ArrayView view{ name, type, {}, static_cast<std::int64_t>(size) };
   for (std::size_t i = 0; i < size; ++i)
@@ -101,7 +94,7 @@ ReadFrameView::ReadFrameView(DumpFrame read)
   const bool single =
     frame.points.bytes() == 3 * static_cast<std::size_t>(frame.rows) * sizeof(float);
   view.points =
-    view_of("points", single ? ScalarType::Float32 : ScalarType::Float64, frame.points.data(), 3);
+    view_of("points", single ? ValueType::Float32 : ValueType::Float64, frame.points.data(), 3);
   for (const ColumnInfo& column : frame.schema.columns())
   {
     view.columns.push_back(column.name);
@@ -118,7 +111,7 @@ ReadFrameView::ReadFrameView(DumpFrame read)
       data = words.data();
     }
     view.arrays.push_back(
-      view_of(array.info.name, scalar_of(array.info.type), data, array.info.columns.size()));
+      view_of(array.info.name, array.info.type, data, array.info.columns.size()));
   }
 }
 
@@ -156,13 +149,13 @@ FrameView MadeRows::view() const
   view.header.timestep = 100;
   view.header.box = box;
   view.rows = static_cast<std::int64_t>(ids.size());
-  view.points = view_rows("points", ScalarType::Float64, points.data(), 3);
-  view.arrays.push_back(view_rows("id", ScalarType::Int64, ids.data()));
-  view.arrays.push_back(view_rows("type", ScalarType::Int32, types.data()));
-  view.arrays.push_back(view_rows("radius", ScalarType::Float32, radii.data()));
-  view.arrays.push_back(view_rows("v", ScalarType::Float64, v.data(), 3));
-  view.arrays.push_back(view_rows("image", ScalarType::Int32, images.data(), 3));
-  view.arrays.push_back(view_rows("element", ScalarType::Text, words.data()));
+  view.points = view_rows("points", ValueType::Float64, points.data(), 3);
+  view.arrays.push_back(view_rows("id", ValueType::Int64, ids.data()));
+  view.arrays.push_back(view_rows("type", ValueType::Int32, types.data()));
+  view.arrays.push_back(view_rows("radius", ValueType::Float32, radii.data()));
+  view.arrays.push_back(view_rows("v", ValueType::Float64, v.data(), 3));
+  view.arrays.push_back(view_rows("image", ValueType::Int32, images.data(), 3));
+  view.arrays.push_back(view_rows("element", ValueType::Text, words.data()));
   return view;
 }
 

@@ -6,7 +6,7 @@
 
 #include "granular/common/hash.h"
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ struct Run
 {
   std::vector<std::string> files;
   granular::IndexOptions options = { .format = &granular::dump_format() };
-  std::function<std::string(const granular::FrameIndex& index, std::size_t frame)> show;
+  std::function<std::string(const granular::RunIndex& index, std::size_t frame)> show;
 
   std::string kept() const { return files.front() + std::string(granular::index_file_suffix); }
 };
@@ -101,8 +101,8 @@ inline std::string sealed(std::string bytes)
 inline std::string open_and_show(const Run& run, granular::Notices& notices)
 {
   granular::IndexOptions options = run.options;
-  options.index_file = granular::IndexFile::Beside;
-  granular::FrameIndex index;
+  options.keep_index = granular::KeepIndex::Beside;
+  granular::RunIndex index;
   granular::Progress progress;
   index.update(run.files, options, notices, progress);
   std::string seen;

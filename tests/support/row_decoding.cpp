@@ -9,6 +9,7 @@ using granular::ColumnSink;
 using granular::PaddedBuffer;
 using granular::RowStatus;
 using granular::Simd;
+using granular::ValueType;
 
 namespace
 {
@@ -16,9 +17,9 @@ namespace
 constexpr std::size_t slot = sizeof(std::string_view);
 static_assert(slot == 16);
 
-std::size_t width(ColumnSink::Kind kind)
+std::size_t width(ValueType type)
 {
-  return kind == ColumnSink::Kind::Text ? slot : kind == ColumnSink::Kind::Int32 ? 4 : 8;
+  return type == ValueType::Text ? slot : type == ValueType::Int32 ? 4 : 8;
 }
 }
 
@@ -65,7 +66,7 @@ Decoded decode(std::string_view text, std::uint32_t columns, const std::vector<W
   for (const Wanted& one : wanted)
   {
     memory.emplace_back(lines * slot, '\x5a');
-    sinks.push_back({ one.column, one.kind, memory.back().data(), slot });
+    sinks.push_back({ one.column, one.type, memory.back().data(), slot });
   }
   const granular::RowResult result = granular::decode_rows(
     buffer.data(), buffer.data() + text.size(), columns, sinks, max_rows, simd);
@@ -81,14 +82,14 @@ Decoded decode(std::string_view text, std::uint32_t columns, const std::vector<W
     {
       std::string_view word;
       std::uint64_t value = 0;
-      if (wanted[i].kind == ColumnSink::Kind::Text)
+      if (wanted[i].type == ValueType::Text)
       {
         std::memcpy(&word, from, sizeof word);
         texts.emplace_back(word);
       }
       else
       {
-        std::memcpy(&value, from, width(wanted[i].kind));
+        std::memcpy(&value, from, width(wanted[i].type));
         bits.push_back(value);
       }
     }

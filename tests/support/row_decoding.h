@@ -17,7 +17,7 @@ const char* name_of(granular::Simd simd);
 struct Wanted
 {
   std::uint32_t column;
-  granular::ColumnSink::Kind kind;
+  granular::ValueType type;
 };
 
 /// What decode_rows did, free of pointers, so that two of them can be compared.

@@ -5,7 +5,7 @@
 #define granular_tests_support_series_h
 
 #include "granular/dump/formats/dump_files.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
 #include "dumps.h"
 
@@ -54,7 +54,7 @@ inline std::string grains(std::int64_t step, const Ids& ids, const std::string& 
 /// An index, and what it said last.
 struct Series
 {
-  granular::FrameIndex index;
+  granular::RunIndex index;
   granular::IndexOptions options = { .format = &granular::dump_format() };
   std::string said;
 

@@ -21,7 +21,7 @@ namespace
 using granular::ColumnSink;
 using granular::RowStatus;
 using granular::Simd;
-using Kind = ColumnSink::Kind;
+using granular::ValueType;
 
 constexpr std::int64_t all_rows = std::int64_t{ 1 } << 60;
 
@@ -48,9 +48,9 @@ Word as_int64(std::string_view word)
   return { good ? RowStatus::Done : otherwise, static_cast<std::uint64_t>(value) };
 }
 
-void expect_word(std::string_view word, Kind kind, Simd simd)
+void expect_word(std::string_view word, ValueType kind, Simd simd)
 {
-  const Word expected = kind == Kind::Float64 ? as_double(word) : as_int64(word);
+  const Word expected = kind == ValueType::Float64 ? as_double(word) : as_int64(word);
   const Decoded got = decode(std::string(word) + '\n', 1, { { 0, kind } }, all_rows, simd);
   const bool good = expected.status == RowStatus::Done;
   ASSERT_EQ(got.status, expected.status) << '"' << word << "\" " << name_of(simd);
@@ -100,7 +100,7 @@ TEST(DecodeRows, NumbersAsByParseDoubleToTheBit)
   std::vector<Wanted> wanted;
   for (std::uint32_t i = 0; i < columns; ++i)
   {
-    wanted.push_back({ i, Kind::Float64 });
+    wanted.push_back({ i, ValueType::Float64 });
   }
   const std::int64_t rows = numbers_to_try(1'000'000) / columns;
   for (std::int64_t row = 0; row < rows && !HasFailure(); ++row)
@@ -135,7 +135,7 @@ void expect_alike(const std::vector<std::string>& words, const std::string& what
   std::vector<Wanted> wanted;
   for (std::uint32_t i = 0; i < columns; ++i)
   {
-    wanted.push_back({ i, Kind::Float64 });
+    wanted.push_back({ i, ValueType::Float64 });
   }
   std::string text;
   for (std::size_t i = 0; i < words.size() / columns * columns; ++i)
@@ -220,7 +220,7 @@ TEST(DecodeRows, OneThatIsDifferent)
       }
       for (std::size_t i = 0; i < 32; ++i)
       {
-        const Decoded got = decode_all(words[i] + "\n", 1, { { 0, Kind::Float64 } });
+        const Decoded got = decode_all(words[i] + "\n", 1, { { 0, ValueType::Float64 } });
         ASSERT_EQ(got.rows, 1) << words[i];
       }
       std::string text;
@@ -228,7 +228,7 @@ TEST(DecodeRows, OneThatIsDifferent)
       {
         text += word + "\n";
       }
-      const Decoded got = decode_all(text, 1, { { 0, Kind::Float64 } });
+      const Decoded got = decode_all(text, 1, { { 0, ValueType::Float64 } });
       ASSERT_EQ(got.rows, 32) << other;
       for (std::size_t i = 0; i < 32; ++i)
       {
@@ -255,10 +255,10 @@ TEST(DecodeRows, OneThatIsNoNumber)
         doubles += (i == place ? std::string(wrong) : "-0.25e-05") + "\n";
         integers += (i == place ? std::string(wrong) : "-12345") + "\n";
       }
-      const Decoded got = decode_all(doubles, 1, { { 0, Kind::Float64 } });
+      const Decoded got = decode_all(doubles, 1, { { 0, ValueType::Float64 } });
       ASSERT_EQ(got.status, RowStatus::NotANumber) << wrong;
       ASSERT_EQ(got.rows, place) << wrong;
-      const Decoded whole = decode_all(integers, 1, { { 0, Kind::Int64 } });
+      const Decoded whole = decode_all(integers, 1, { { 0, ValueType::Int64 } });
       ASSERT_EQ(whole.status, RowStatus::NotANumber) << wrong;
       ASSERT_EQ(whole.rows, place) << wrong;
     }
@@ -282,7 +282,7 @@ TEST(DecodeRows, IntegersOfEveryLengthAmongTheirLike)
         text += word + "\n";
         expected.push_back(static_cast<std::uint64_t>(std::strtoll(word.c_str(), nullptr, 10)));
       }
-      ASSERT_EQ(decode_all(text, 1, { { 0, Kind::Int64 } }).bits[0], expected) << digits;
+      ASSERT_EQ(decode_all(text, 1, { { 0, ValueType::Int64 } }).bits[0], expected) << digits;
     }
   }
 }
@@ -300,8 +300,8 @@ TEST(DecodeRows, EveryShortWord)
     {
       for (const Simd simd : sets)
       {
-        expect_word(word, Kind::Float64, simd);
-        expect_word(word, Kind::Int64, simd);
+        expect_word(word, ValueType::Float64, simd);
+        expect_word(word, ValueType::Int64, simd);
       }
       for (carry = 0; carry < length; ++carry)
       {
@@ -333,8 +333,8 @@ TEST(DecodeRows, RandomWords)
     }
     for (const Simd simd : sets)
     {
-      expect_word(word, Kind::Float64, simd);
-      expect_word(word, Kind::Int64, simd);
+      expect_word(word, ValueType::Float64, simd);
+      expect_word(word, ValueType::Int64, simd);
     }
   }
 }
@@ -350,7 +350,8 @@ TEST(DecodeRows, WordsAtEveryAlignment)
     for (std::size_t before = 0; before < 130; ++before)
     {
       const std::string text = std::string(before, ' ') + word + " 7\n";
-      const Decoded got = decode_all(text, 2, { { 0, Kind::Float64 }, { 1, Kind::Int64 } });
+      const Decoded got =
+        decode_all(text, 2, { { 0, ValueType::Float64 }, { 1, ValueType::Int64 } });
       ASSERT_EQ(got.rows, 1) << word << " behind " << before << " blanks";
       ASSERT_EQ(got.bits[0][0], as_double(word).bits) << word << " behind " << before << " blanks";
       ASSERT_EQ(got.bits[1][0], 7u);
@@ -361,8 +362,9 @@ TEST(DecodeRows, WordsAtEveryAlignment)
 TEST(DecodeRows, TrapSignsExponentsAndSpellings)
 {
   const Decoded got = decode_all("+1.5 -0 1e-005 1.#INF -1.#IND nan -inf +12\n", 8,
-    { { 0, Kind::Float64 }, { 1, Kind::Float64 }, { 2, Kind::Float64 }, { 3, Kind::Float64 },
-      { 4, Kind::Float64 }, { 5, Kind::Float64 }, { 6, Kind::Float64 }, { 7, Kind::Int32 } });
+    { { 0, ValueType::Float64 }, { 1, ValueType::Float64 }, { 2, ValueType::Float64 },
+      { 3, ValueType::Float64 }, { 4, ValueType::Float64 }, { 5, ValueType::Float64 },
+      { 6, ValueType::Float64 }, { 7, ValueType::Int32 } });
   ASSERT_EQ(got.rows, 1);
   EXPECT_EQ(number(got.bits[0][0]), 1.5);
   EXPECT_EQ(got.bits[1][0], std::uint64_t{ 1 } << 63);
@@ -376,7 +378,7 @@ TEST(DecodeRows, TrapSignsExponentsAndSpellings)
 
 TEST(DecodeRows, Int32HasItsOwnRange)
 {
-  const std::vector<Wanted> wanted = { { 0, Kind::Int32 } };
+  const std::vector<Wanted> wanted = { { 0, ValueType::Int32 } };
   const Decoded good = decode_all("2147483647\n-2147483648\n1e3\n-0\n", 1, wanted);
   ASSERT_EQ(good.rows, 4);
   EXPECT_EQ(good.bits[0], (std::vector<std::uint64_t>{ 0x7fffffffu, 0x80000000u, 1000u, 0u }));
@@ -397,7 +399,7 @@ TEST(DecodeRows, Int32HasItsOwnRange)
 TEST(DecodeRows, PicksTheColumnsWanted)
 {
   const Decoded got =
-    decode_all("1 2 aa 4\n5 6 bb 8\n", 4, { { 1, Kind::Float64 }, { 2, Kind::Text } });
+    decode_all("1 2 aa 4\n5 6 bb 8\n", 4, { { 1, ValueType::Float64 }, { 2, ValueType::Text } });
   EXPECT_EQ(got.rows, 2);
   EXPECT_EQ(got.status, RowStatus::Done);
   EXPECT_EQ(got.stopped_at, 18);
@@ -408,7 +410,7 @@ TEST(DecodeRows, PicksTheColumnsWanted)
 
 TEST(DecodeRows, WordsThatNobodyWantsAreNotLookedAt)
 {
-  const Decoded got = decode_all("x 2 #!\n? 6 \xff\n", 3, { { 1, Kind::Int64 } });
+  const Decoded got = decode_all("x 2 #!\n? 6 \xff\n", 3, { { 1, ValueType::Int64 } });
   EXPECT_EQ(got.rows, 2);
   EXPECT_EQ(got.bits[0], (std::vector<std::uint64_t>{ 2, 6 }));
   EXPECT_EQ(decode_all("x 2 #!\n? 6 \xff\n", 3, {}).rows, 2);
@@ -416,8 +418,8 @@ TEST(DecodeRows, WordsThatNobodyWantsAreNotLookedAt)
 
 TEST(DecodeRows, NothingToDecode)
 {
-  EXPECT_EQ(decode_all("", 3, { { 0, Kind::Float64 } }).rows, 0);
-  const Decoded blank = decode_all("\n \n\t\r\n\n", 3, { { 0, Kind::Float64 } });
+  EXPECT_EQ(decode_all("", 3, { { 0, ValueType::Float64 } }).rows, 0);
+  const Decoded blank = decode_all("\n \n\t\r\n\n", 3, { { 0, ValueType::Float64 } });
   EXPECT_EQ(blank.rows, 0);
   EXPECT_EQ(blank.status, RowStatus::Done);
   EXPECT_EQ(blank.stopped_at, 7);
@@ -426,7 +428,7 @@ TEST(DecodeRows, NothingToDecode)
 TEST(DecodeRows, TrapBlanksTabsCarriageReturnsAndBlankLines)
 {
   const Decoded got = decode_all("\n1 2\r\n \t3\t4 \t\r\n\r\n\n  5    6   \n \n7\v8\f\n", 2,
-    { { 0, Kind::Float64 }, { 1, Kind::Float64 } });
+    { { 0, ValueType::Float64 }, { 1, ValueType::Float64 } });
   EXPECT_EQ(got.rows, 4);
   EXPECT_EQ(got.status, RowStatus::Done);
   EXPECT_EQ(numbers(got.bits[0]), (std::vector<double>{ 1, 3, 5, 7 }));
@@ -436,9 +438,9 @@ TEST(DecodeRows, TrapBlanksTabsCarriageReturnsAndBlankLines)
 TEST(DecodeRows, StopsAtTheRowsAskedFor)
 {
   const std::string text = "1\n\n2\n3\n";
-  EXPECT_EQ(decode_all(text, 1, { { 0, Kind::Int64 } }, 0).stopped_at, 0);
-  EXPECT_EQ(decode_all(text, 1, { { 0, Kind::Int64 } }, 1).stopped_at, 2);
-  const Decoded two = decode_all(text, 1, { { 0, Kind::Int64 } }, 2);
+  EXPECT_EQ(decode_all(text, 1, { { 0, ValueType::Int64 } }, 0).stopped_at, 0);
+  EXPECT_EQ(decode_all(text, 1, { { 0, ValueType::Int64 } }, 1).stopped_at, 2);
+  const Decoded two = decode_all(text, 1, { { 0, ValueType::Int64 } }, 2);
   EXPECT_EQ(two.rows, 2);
   EXPECT_EQ(two.stopped_at, 5);
   EXPECT_EQ(two.bits[0], (std::vector<std::uint64_t>{ 1, 2 }));
@@ -446,7 +448,7 @@ TEST(DecodeRows, StopsAtTheRowsAskedFor)
 
 TEST(DecodeRows, RowTooShort)
 {
-  const Decoded got = decode_all("1 2 3\n\n 4 5\n6 7 8\n", 3, { { 0, Kind::Float64 } });
+  const Decoded got = decode_all("1 2 3\n\n 4 5\n6 7 8\n", 3, { { 0, ValueType::Float64 } });
   EXPECT_EQ(got.status, RowStatus::TooFew);
   EXPECT_EQ(got.rows, 1);
   EXPECT_EQ(got.stopped_at, 7);
@@ -456,7 +458,7 @@ TEST(DecodeRows, RowTooShort)
 TEST(DecodeRows, WordThatIsNoNumber)
 {
   const Decoded got =
-    decode_all("1 2 3\n4 x5 6\n", 3, { { 0, Kind::Float64 }, { 1, Kind::Float64 } });
+    decode_all("1 2 3\n4 x5 6\n", 3, { { 0, ValueType::Float64 }, { 1, ValueType::Float64 } });
   EXPECT_EQ(got.status, RowStatus::NotANumber);
   EXPECT_EQ(got.rows, 1);
   EXPECT_EQ(got.column, 1);
@@ -466,13 +468,13 @@ TEST(DecodeRows, WordThatIsNoNumber)
 // Two things wrong in one row: every path must name the same one.
 TEST(DecodeRows, ShortRowWithAWordThatIsNoNumber)
 {
-  decode_all("1 2 3\nx 5\n", 3, { { 0, Kind::Float64 }, { 2, Kind::Float64 } });
-  decode_all("1 2 3\n4.5 5\n", 3, { { 0, Kind::Int64 }, { 2, Kind::Float64 } });
+  decode_all("1 2 3\nx 5\n", 3, { { 0, ValueType::Float64 }, { 2, ValueType::Float64 } });
+  decode_all("1 2 3\n4.5 5\n", 3, { { 0, ValueType::Int64 }, { 2, ValueType::Float64 } });
 }
 
 TEST(DecodeRows, RowWithMoreWordsThanColumns)
 {
-  const Decoded got = decode_all("1 2\n3 4 5 x\n6 7\n", 2, { { 1, Kind::Int64 } });
+  const Decoded got = decode_all("1 2\n3 4 5 x\n6 7\n", 2, { { 1, ValueType::Int64 } });
   EXPECT_EQ(got.status, RowStatus::Done);
   EXPECT_TRUE(got.surplus);
   EXPECT_EQ(got.bits[0], (std::vector<std::uint64_t>{ 2, 4, 7 }));
@@ -483,11 +485,11 @@ TEST(DecodeRows, BytesThatNoTextShouldHold)
 {
   using namespace std::string_view_literals;
   const Decoded got =
-    decode_all("1\0002\n\x7f\x80 \xff\n"sv, 2, { { 0, Kind::Text }, { 1, Kind::Text } });
+    decode_all("1\0002\n\x7f\x80 \xff\n"sv, 2, { { 0, ValueType::Text }, { 1, ValueType::Text } });
   EXPECT_EQ(got.rows, 2);
   EXPECT_EQ(got.texts[0], (std::vector<std::string>{ "1", "\x7f\x80" }));
   EXPECT_EQ(got.texts[1], (std::vector<std::string>{ "2", "\xff" }));
-  EXPECT_EQ(decode_all("1 2\0x\n"sv, 3, { { 1, Kind::Float64 } }).rows, 1);
+  EXPECT_EQ(decode_all("1 2\0x\n"sv, 3, { { 1, ValueType::Float64 } }).rows, 1);
 }
 
 // The decoder works through 16 KiB at a time.
@@ -505,7 +507,8 @@ TEST(DecodeRows, TrapHundredsAndThousandsOfColumns)
       text += "\n";
     }
     const Decoded got = decode_all(text, columns,
-      { { 0, Kind::Int64 }, { columns / 2, Kind::Float64 }, { columns - 1, Kind::Int64 } });
+      { { 0, ValueType::Int64 }, { columns / 2, ValueType::Float64 },
+        { columns - 1, ValueType::Int64 } });
     ASSERT_EQ(got.rows, 3) << columns;
     for (std::uint32_t row = 0; row < 3; ++row)
     {
@@ -523,7 +526,7 @@ TEST(DecodeRows, WordsAcrossTheEndOfABatch)
     // one line of one word and many blanks, then rows that lie across 16384
     const std::string text =
       "1" + std::string(shift - 60, ' ') + "2\n-1.25e+03 12345678901234567\n0.5 3\n\n7 8\n";
-    const Decoded got = decode_all(text, 2, { { 0, Kind::Float64 }, { 1, Kind::Int64 } });
+    const Decoded got = decode_all(text, 2, { { 0, ValueType::Float64 }, { 1, ValueType::Int64 } });
     ASSERT_EQ(got.rows, 4) << shift;
     ASSERT_EQ(numbers(got.bits[0]), (std::vector<double>{ 1, -1250, 0.5, 7 }));
     ASSERT_EQ(got.bits[1], (std::vector<std::uint64_t>{ 2, 12345678901234567, 3, 8 }));
@@ -533,8 +536,8 @@ TEST(DecodeRows, WordsAcrossTheEndOfABatch)
 TEST(DecodeRows, AWordLongerThanABatch)
 {
   const std::string digits(40000, '3');
-  const Decoded got =
-    decode_all("0." + digits + " 1\n2 3\n", 2, { { 0, Kind::Float64 }, { 1, Kind::Int64 } });
+  const Decoded got = decode_all(
+    "0." + digits + " 1\n2 3\n", 2, { { 0, ValueType::Float64 }, { 1, ValueType::Int64 } });
   ASSERT_EQ(got.rows, 2);
   EXPECT_EQ(number(got.bits[0][0]), 1.0 / 3);
 }
@@ -621,7 +624,8 @@ private:
 
 std::vector<Wanted> some_columns(RandomText& random, std::uint32_t columns)
 {
-  constexpr Kind kinds[] = { Kind::Float64, Kind::Float64, Kind::Text, Kind::Int64, Kind::Int32 };
+  constexpr ValueType kinds[] = { ValueType::Float64, ValueType::Float64, ValueType::Text,
+    ValueType::Int64, ValueType::Int32 };
   const std::uint64_t density = 1 + random.below(4);
   std::vector<Wanted> wanted;
   for (std::uint32_t i = 0; i < columns; ++i)

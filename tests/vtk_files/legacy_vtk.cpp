@@ -211,7 +211,7 @@ TEST(LegacyVtk, ManyNumbersInAnyLines)
   ASSERT_GT(numbers.size(), std::size_t{ 4 } << 18);
   const std::string before = header("ASCII", "POLYDATA");
   const std::string all = before + numbers + "\nNEXT 1\n";
-  const VtkArray array = { "", VtkType::Float, 1, 120'000 };
+  const VtkArray array = { "", ValueType::Float32, 1, 120'000 };
   Text text(all);
   text.file.read_header();
   std::vector<double> read;
@@ -253,7 +253,7 @@ TEST(LegacyVtk, WordsThatAreNoNumbers)
       const auto count = static_cast<std::int64_t>(far) + 1;
       EXPECT_EQ(error_of(
                   [&] {
-                    text.file.take({ "", VtkType::Int32, 1, count }, keep, read);
+                    text.file.take({ "", ValueType::Int32, 1, count }, keep, read);
                   }),
         "memory:6: expected a number (" + std::to_string(far + 1) + " of " + std::to_string(count) +
           "), got 'POINTS'");
@@ -275,7 +275,7 @@ TEST(LegacyVtk, ClaimsAreHeldAgainstTheBytes)
         Text text(header(form, "POLYDATA") + "1 2 3 4 5 6 7 8 9 0 1 2 3 4 5 6 7 8 9 0\n");
         text.file.read_header();
         std::vector<double> read;
-        const VtkArray array = { "", VtkType::Int16, 1, claim };
+        const VtkArray array = { "", ValueType::Int16, 1, claim };
         EXPECT_NE(error_of([&] { text.file.take(array, keep, read); }), "");
         EXPECT_TRUE(text.file.ended());
         EXPECT_LE(read.capacity(), 64u);
@@ -284,10 +284,10 @@ TEST(LegacyVtk, ClaimsAreHeldAgainstTheBytes)
     Text text(header(form, "POLYDATA") + "1 2 3 4 5 6 7 8 9 0 1 2 3 4 5 6 7 8 9 0\n");
     text.file.read_header();
     std::vector<double> read;
-    text.file.read({ "", VtkType::Int16, 2, 10 }, read);
+    text.file.read({ "", ValueType::Int16, 2, 10 }, read);
     EXPECT_EQ(read.size(), 20u);
   }
-  EXPECT_EQ((VtkArray{ "", VtkType::Bit, 3, std::int64_t{ 1 } << 62 }).size(),
+  EXPECT_EQ((VtkArray{ "", ValueType::Bit, 3, std::int64_t{ 1 } << 62 }).size(),
     std::numeric_limits<std::int64_t>::max());
 }
 
@@ -335,7 +335,7 @@ TEST(LegacyVtk, Strings)
   std::vector<double> numbers;
   EXPECT_EQ(error_of(
               [&] {
-                text.file.read({ "", VtkType::String, 1, 1 }, numbers);
+                text.file.read({ "", ValueType::Text, 1, 1 }, numbers);
               }),
     "memory:11: expected numbers, got 'END'");
 }

@@ -56,7 +56,7 @@ public:
 
 /// Places of a compressed file where decompression can start, found while it is read. Sources of
 /// the same file share them, one after the other.
-struct RestartPoints
+struct SeekPoints
 {
   struct Point
   {
@@ -102,7 +102,7 @@ std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std:
 /// Throws IoError; reading also FormatError and LimitError (a Zstandard window above 128 MiB), and
 /// the same again from then on: what lies before the place of damage may be wrong, too.
 std::unique_ptr<ByteSource> unpack(
-  std::unique_ptr<ByteSource> packed, std::shared_ptr<RestartPoints> points = nullptr);
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points = nullptr);
 
 /// A buffer that may be read up to `padding` bytes before its start and after its end: what
 /// the 64-byte steps of the row decoder need. The padding holds line feeds.

@@ -107,7 +107,7 @@ public:
   using Decoder::Decoder;
 
   const char* name() const noexcept override { return "gzip"; }
-  void restart(const RestartPoints::Point& point) override;
+  void restart(const SeekPoints::Point& point) override;
   std::size_t decode(char* out, std::size_t bytes) override;
 
 private:
@@ -132,7 +132,7 @@ private:
   std::uint32_t member_bytes_ = 0; ///< of the member so far, modulo 2^32
 };
 
-void GzipDecoder::restart(const RestartPoints::Point& point)
+void GzipDecoder::restart(const SeekPoints::Point& point)
 {
   in_.seek(point.packed);
   offset_ = point.offset;
@@ -374,7 +374,7 @@ bool GzipDecoder::read_trailer()
 }
 }
 
-std::unique_ptr<Decoder> make_gzip_decoder(const ByteSource& packed, RestartPoints& points)
+std::unique_ptr<Decoder> make_gzip_decoder(const ByteSource& packed, SeekPoints& points)
 {
   return std::make_unique<GzipDecoder>(packed, points);
 }

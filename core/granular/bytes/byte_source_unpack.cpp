@@ -24,11 +24,11 @@ constexpr std::size_t least_step = std::size_t{ 1 } << 16;
 constexpr std::size_t largest_step = std::size_t{ 1 } << 18;
 
 /// Leaves out points that are closer to the one before than the spacing.
-void thin(RestartPoints& all)
+void thin(SeekPoints& all)
 {
   std::int64_t last = 0;
   std::erase_if(all.points,
-    [&](const RestartPoints::Point& point)
+    [&](const SeekPoints::Point& point)
     {
       const bool close = point.offset - last < all.spacing;
       last = close ? last : point.offset;
@@ -40,7 +40,7 @@ void thin(RestartPoints& all)
 class Unpacker
 {
 public:
-  Unpacker(std::unique_ptr<Decoder> decoder, std::shared_ptr<const RestartPoints> points)
+  Unpacker(std::unique_ptr<Decoder> decoder, std::shared_ptr<const SeekPoints> points)
     : decoder_(std::move(decoder))
     , points_(std::move(points))
     , ring_(new char[ring_bytes]) // not value-initialised: many files are smaller
@@ -53,13 +53,13 @@ public:
 
 private:
   void go_to(std::int64_t offset);
-  void start_at(const RestartPoints::Point& point);
-  void compare_window(const RestartPoints::Point& before, const RestartPoints::Point& point);
+  void start_at(const SeekPoints::Point& point);
+  void compare_window(const SeekPoints::Point& before, const SeekPoints::Point& point);
   std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
   bool advance(std::int64_t target);
 
   std::unique_ptr<Decoder> decoder_;
-  std::shared_ptr<const RestartPoints> points_;
+  std::shared_ptr<const SeekPoints> points_;
   std::unique_ptr<char[]> ring_; ///< the byte at an offset lies at offset % ring_bytes
   std::int64_t begin_ = 0;       ///< of the bytes in the ring
   std::int64_t end_ = 0;         ///< where the decoder stands, too, unless lost
@@ -100,11 +100,10 @@ std::size_t Unpacker::read(std::int64_t offset, char* buffer, std::size_t bytes)
 /// Starts again where that is needed to read at an offset, or saves decompressing much.
 void Unpacker::go_to(std::int64_t offset)
 {
-  static const RestartPoints::Point start;
+  static const SeekPoints::Point start;
   const auto after = std::upper_bound(points_->points.begin(), points_->points.end(), offset,
-    [](std::int64_t value, const RestartPoints::Point& point) { return value < point.offset; });
-  const RestartPoints::Point& nearest =
-    after == points_->points.begin() ? start : *std::prev(after);
+    [](std::int64_t value, const SeekPoints::Point& point) { return value < point.offset; });
+  const SeekPoints::Point& nearest = after == points_->points.begin() ? start : *std::prev(after);
   const bool far_ahead = nearest.offset > end_ + static_cast<std::int64_t>(largest_step);
   if (lost_ || offset < begin_ || far_ahead)
   {
@@ -118,7 +117,7 @@ void Unpacker::go_to(std::int64_t offset)
   }
 }
 
-void Unpacker::start_at(const RestartPoints::Point& point)
+void Unpacker::start_at(const SeekPoints::Point& point)
 {
   lost_ = true;
   decoder_->restart(point);
@@ -129,7 +128,7 @@ void Unpacker::start_at(const RestartPoints::Point& point)
 
 /// Gets to a point from the one before. Throws if the window of the point is not what lies before it: bytes that were made
 /// with another one would be other data.
-void Unpacker::compare_window(const RestartPoints::Point& before, const RestartPoints::Point& point)
+void Unpacker::compare_window(const SeekPoints::Point& before, const SeekPoints::Point& point)
 {
   this->start_at(before);
   while (end_ < point.offset && this->advance(point.offset))
@@ -187,9 +186,9 @@ bool Unpacker::advance(std::int64_t target)
 class UnpackedSource final : public ByteSource
 {
 public:
-  using MakeDecoder = std::unique_ptr<Decoder> (*)(const ByteSource&, RestartPoints&);
+  using MakeDecoder = std::unique_ptr<Decoder> (*)(const ByteSource&, SeekPoints&);
 
-  UnpackedSource(std::unique_ptr<ByteSource> packed, const std::shared_ptr<RestartPoints>& points,
+  UnpackedSource(std::unique_ptr<ByteSource> packed, const std::shared_ptr<SeekPoints>& points,
     MakeDecoder make_decoder)
     : packed_(std::move(packed))
     , unpacker_(std::make_unique<Unpacker>(make_decoder(*packed_, *points), points))
@@ -229,7 +228,7 @@ bool is_skippable_frame(std::string_view data)
 }
 }
 
-std::size_t RestartPoints::bytes() const noexcept
+std::size_t SeekPoints::bytes() const noexcept
 {
   std::size_t bytes = points.capacity() * sizeof(Point);
   for (const Point& point : points)
@@ -281,7 +280,7 @@ std::int64_t Decoder::to_next_point() const noexcept
     std::int64_t{ 0 }, std::max(std::int64_t{ 1 }, points_.spacing) - (offset_ - last));
 }
 
-void Decoder::add_point(RestartPoints::Point point)
+void Decoder::add_point(SeekPoints::Point point)
 {
   points_.points.push_back(std::move(point));
   while (points_.points.size() > most_points && points_.spacing < widest_spacing)
@@ -299,7 +298,7 @@ void Decoder::fail(const std::string& why) const
 }
 
 std::unique_ptr<ByteSource> unpack(
-  std::unique_ptr<ByteSource> packed, std::shared_ptr<RestartPoints> points)
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points)
 {
   std::array<char, 4> first = {};
   const std::string_view magic(first.data(), packed->read(0, first.data(), first.size()));
@@ -316,7 +315,7 @@ std::unique_ptr<ByteSource> unpack(
   {
     return packed;
   }
-  return std::make_unique<UnpackedSource>(std::move(packed),
-    points ? std::move(points) : std::make_shared<RestartPoints>(), make_decoder);
+  return std::make_unique<UnpackedSource>(
+    std::move(packed), points ? std::move(points) : std::make_shared<SeekPoints>(), make_decoder);
 }
 }

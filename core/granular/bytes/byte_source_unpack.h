@@ -47,15 +47,15 @@ private:
 class Decoder
 {
 public:
-  Decoder(const ByteSource& packed, RestartPoints& points)
+  Decoder(const ByteSource& packed, SeekPoints& points)
     : in_(packed)
     , points_(points)
   {
   }
   virtual ~Decoder() = default;
 
-  /// Goes on at a point; RestartPoints::Point{} is the start of the file.
-  virtual void restart(const RestartPoints::Point& point) = 0;
+  /// Goes on at a point; SeekPoints::Point{} is the start of the file.
+  virtual void restart(const SeekPoints::Point& point) = 0;
 
   /// Writes the next bytes of the content, as many as there are at once; 0 only at the end of what
   /// the file holds. Throws IoError, FormatError and LimitError; restart() is due after each.
@@ -75,7 +75,7 @@ public:
 protected:
   /// Bytes of content up to where the next point is due; 0: it is.
   std::int64_t to_next_point() const noexcept;
-  void add_point(RestartPoints::Point point);
+  void add_point(SeekPoints::Point point);
 
   /// Says that the end of the file was met, within the data or behind them. Gives false.
   bool end_of_file(bool cut) noexcept
@@ -91,11 +91,11 @@ protected:
   std::int64_t offset_ = 0; ///< of the next byte of the content
 
 private:
-  RestartPoints& points_;
+  SeekPoints& points_;
   bool cut_ = false;
 };
 
-std::unique_ptr<Decoder> make_gzip_decoder(const ByteSource& packed, RestartPoints& points);
-std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, RestartPoints& points);
+std::unique_ptr<Decoder> make_gzip_decoder(const ByteSource& packed, SeekPoints& points);
+std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, SeekPoints& points);
 }
 #endif

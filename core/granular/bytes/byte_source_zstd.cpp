@@ -25,7 +25,7 @@ struct FreeStream
 class ZstdDecoder final : public Decoder
 {
 public:
-  ZstdDecoder(const ByteSource& packed, RestartPoints& points)
+  ZstdDecoder(const ByteSource& packed, SeekPoints& points)
     : Decoder(packed, points)
     , stream_(ZSTD_createDStream())
   {
@@ -37,7 +37,7 @@ public:
   }
 
   const char* name() const noexcept override { return "zstd"; }
-  void restart(const RestartPoints::Point& point) override;
+  void restart(const SeekPoints::Point& point) override;
   std::size_t decode(char* out, std::size_t bytes) override;
 
 private:
@@ -50,7 +50,7 @@ private:
   bool flushed_ = false; ///< the stream holds no content back
 };
 
-void ZstdDecoder::restart(const RestartPoints::Point& point)
+void ZstdDecoder::restart(const SeekPoints::Point& point)
 {
   in_.seek(point.packed);
   offset_ = point.offset;
@@ -118,7 +118,7 @@ void ZstdDecoder::fail_with(std::size_t status) const
 }
 }
 
-std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, RestartPoints& points)
+std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, SeekPoints& points)
 {
   return std::make_unique<ZstdDecoder>(packed, points);
 }

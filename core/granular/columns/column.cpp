@@ -198,12 +198,6 @@ void add_radius(const ColumnSchema& schema, std::vector<ArrayInfo>& arrays)
 }
 }
 
-std::size_t size_of(ValueType type) noexcept
-{
-  return type == ValueType::Int32 || type == ValueType::Text ? sizeof(std::int32_t)
-                                                             : sizeof(double);
-}
-
 std::span<const KnownColumn> known_columns() noexcept
 {
   return known_column_table;

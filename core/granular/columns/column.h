@@ -2,6 +2,8 @@
 #ifndef granular_columns_column_h
 #define granular_columns_column_h
 
+#include "granular/common/value_type.h"
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,17 +12,6 @@
 
 namespace granular
 {
-enum class ValueType : std::uint8_t
-{
-  Int32,
-  Int64,
-  Float64,
-  Text
-};
-
-/// Bytes of a value in an array; of a text the index of its word, std::int32_t.
-std::size_t size_of(ValueType type) noexcept;
-
 /// What a column means, where code must know; all else is Other. A role is the first column's that
 /// has it.
 enum class ColumnRole : std::uint8_t

@@ -4,89 +4,190 @@
 
 #include "granular/common/error.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace granular
 {
-/// Writes the parts of a thing one behind the other, for a process of the same program. It and Unpacker have
-/// the same functions, so that one description of a thing, pass(archive, thing), does for both.
-struct Packer
+/// Appends the parts of a thing to bytes, for another rank or for a file. ArchiveReader has the same functions, so that one
+/// description of a thing, pass(archive, thing), serves both. Numbers are as in memory.
+class ArchiveWriter
 {
-  std::string bytes = {};
+public:
+  /// Type of a thing whose parts are passed.
+  template <typename Thing>
+  using Passed = const Thing;
 
-  template <class Value>
-  void number(Value& value)
+  /// Returns a writer; paths below the folder are written relative to it. The folder ends in a slash, or is empty.
+  explicit ArchiveWriter(std::string folder = {})
+    : folder_(std::move(folder))
   {
+  }
+
+  std::string bytes; ///< written so far
+
+  template <typename T>
+  void number(const T& value)
+  {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
 
-  void text(std::string& value)
+  void count(std::size_t value) { this->number(std::uint64_t{ value }); }
+  void flag(bool value) { bytes.push_back(value ? '\1' : '\0'); }
+
+  void text(std::string_view value)
   {
-    const std::size_t size = value.size();
-    this->number(size);
-    bytes += value;
+    this->count(value.size());
+    bytes.append(value);
   }
+
+  /// Writes the path of a file: relative to the folder if it lies below, as it is otherwise.
+  void path(const std::string& value)
+  {
+    const bool elsewhere = folder_.empty() && value.starts_with('/');
+    const bool below = value.starts_with(folder_) && !elsewhere;
+    this->flag(below);
+    this->text(below ? value.substr(folder_.size()) : value);
+  }
+
+  template <typename Item, typename Each>
+  void list(const std::vector<Item>& items, const Each& each)
+  {
+    this->count(items.size());
+    std::for_each(items.begin(), items.end(), each);
+  }
+
+  /// Writes the content of an optional or a shared_ptr, if there is any.
+  template <typename Holder, typename Each>
+  void perhaps(const Holder& holder, const Each& each)
+  {
+    this->flag(static_cast<bool>(holder));
+    if (holder)
+    {
+      each(*holder);
+    }
+  }
+
+private:
+  std::string folder_;
 };
 
-/// Takes them apart again. The bytes are what a Packer made: they are not checked.
-struct Unpacker
+/// Throws FormatError unless the bytes of an archive are good.
+inline void require(bool good, const char* expected)
 {
-  std::string_view bytes;
-
-  template <class Value>
-  void number(Value& value)
+  if (!good)
   {
-    std::memcpy(&value, bytes.data(), sizeof value);
-    bytes.remove_prefix(sizeof value);
+    throw FormatError(std::string("expected ") + expected + ", got something else");
+  }
+}
+
+/// Takes what an ArchiveWriter wrote. Every function throws FormatError where the bytes do not hold what is taken; nothing is
+/// allocated for more than is there.
+class ArchiveReader
+{
+public:
+  template <typename Thing>
+  using Passed = Thing;
+
+  explicit ArchiveReader(std::string_view bytes, std::string folder = {})
+    : bytes_(bytes)
+    , folder_(std::move(folder))
+  {
   }
 
-  void text(std::string& value)
+  template <typename T>
+  void number(T& value)
   {
-    std::size_t size = 0;
-    this->number(size);
-    value = bytes.substr(0, size);
-    bytes.remove_prefix(size);
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    std::memcpy(&value, this->take(sizeof value).data(), sizeof value);
   }
+
+  /// Takes a number of things, each of which takes at least so many bytes.
+  std::size_t count(std::size_t bytes)
+  {
+    std::uint64_t value = 0;
+    this->number(value);
+    require(value <= bytes_.size() / bytes, "a number of things that are there");
+    return static_cast<std::size_t>(value);
+  }
+
+  void flag(bool& value)
+  {
+    const char byte = this->take(1).front();
+    value = byte != '\0';
+    require(byte == (value ? '\1' : '\0'), "yes or no");
+  }
+
+  void text(std::string& value) { value = this->take(this->count(1)); }
+
+  void path(std::string& value)
+  {
+    bool below = false;
+    this->flag(below);
+    this->text(value);
+    if (below)
+    {
+      value.insert(0, folder_);
+    }
+  }
+
+  template <typename Item, typename Each>
+  void list(std::vector<Item>& items, const Each& each)
+  {
+    items.clear();
+    for (std::size_t left = this->count(1); left > 0; --left)
+    {
+      each(items.emplace_back());
+    }
+    items.shrink_to_fit();
+  }
+
+  template <typename Holder, typename Each>
+  void perhaps(Holder& holder, const Each& each)
+  {
+    bool there = false;
+    this->flag(there);
+    if (there)
+    {
+      each(make(holder));
+    }
+  }
+
+  bool ended() const noexcept { return bytes_.empty(); }
+
+private:
+  template <typename T>
+  static T& make(std::optional<T>& holder)
+  {
+    return holder.emplace();
+  }
+
+  template <typename T>
+  static T& make(std::shared_ptr<T>& holder)
+  {
+    return *(holder = std::make_shared<T>());
+  }
+
+  std::string_view take(std::size_t bytes)
+  {
+    require(bytes <= bytes_.size(), "more bytes");
+    const std::string_view taken = bytes_.substr(0, bytes);
+    bytes_.remove_prefix(bytes);
+    return taken;
+  }
+
+  std::string_view bytes_; ///< not yet taken
+  std::string folder_;
 };
-
-template <class Archive>
-void pass(Archive& archive, Where& where)
-{
-  archive.text(where.path);
-  archive.number(where.line);
-  archive.number(where.byte);
-  archive.text(where.column);
-}
-
-template <class Archive>
-void pass(Archive& archive, Notice& notice)
-{
-  pass(archive, notice.where);
-  archive.text(notice.text);
-  archive.text(notice.topic);
-}
-
-template <class Archive>
-void pass(Archive& archive, std::string& text)
-{
-  archive.text(text);
-}
-
-/// A list of things that pass() knows.
-template <class Archive, class Thing>
-void pass(Archive& archive, std::vector<Thing>& things)
-{
-  std::size_t count = things.size();
-  archive.number(count);
-  things.resize(count);
-  for (Thing& thing : things)
-  {
-    pass(archive, thing);
-  }
-}
 }
 #endif

@@ -14,7 +14,7 @@
 
 namespace granular
 {
-/// The files of dump decomposition/vtk, for a FrameIndex: legacy VTK files with a rectilinear grid
+/// The files of dump decomposition/vtk, for a RunIndex: legacy VTK files with a rectilinear grid
 /// (LIGGGHTS-PUBLIC, PFM), or with an unstructured one (LIGGGHTS-INL, this library; versions 2.0 to 5.1, ASCII and
 /// BINARY), and .vtu files, which are a frame each.
 ///

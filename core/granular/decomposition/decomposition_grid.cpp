@@ -178,7 +178,7 @@ void GridReader::read_cells()
 
 void GridReader::read_types()
 {
-  const VtkArray array = { {}, VtkType::Int32, 1, file_.count(1) };
+  const VtkArray array = { {}, ValueType::Int32, 1, file_.count(1) };
   types_ = array.tuples;
   types_place_ = file_.line_place();
   std::vector<std::int64_t> types;

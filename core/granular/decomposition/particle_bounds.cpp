@@ -92,10 +92,10 @@ public:
   explicit Processes(const ArrayView* array)
     : array_(array)
   {
-    if (array && (array->size() != 1 || array->type == ScalarType::Text))
+    if (array && (array->size() != 1 || array->type == ValueType::Text))
     {
       throw Error("expected one whole number a row, got " +
-          (array->type == ScalarType::Text ? "texts" : std::to_string(array->size()) + " values"),
+          (array->type == ValueType::Text ? "texts" : std::to_string(array->size()) + " values"),
         { .column = array->name });
     }
   }
@@ -240,7 +240,7 @@ ParticleBounds bounds_of_particles(
 
 std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communicator& ranks)
 {
-  Packer packer;
+  ArchiveWriter packer;
   do_together(ranks,
     [&]
     {
@@ -259,8 +259,8 @@ std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communica
       BoundsByRank joined;
       for (const std::string& bytes : all)
       {
-        Unpacker unpacker{ bytes };
-        while (!unpacker.bytes.empty())
+        ArchiveReader unpacker{ bytes };
+        while (!unpacker.ended())
         {
           Subdomain subdomain;
           unpacker.number(subdomain);

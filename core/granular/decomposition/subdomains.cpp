@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/subdomains.h"
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/geometry/compensated.h"
 
 #include <algorithm>
@@ -122,7 +122,7 @@ Decomposition decomposition_of(const GatheredBounds& bounds)
 
 Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks)
 {
-  Packer packer;
+  ArchiveWriter packer;
   do_together(ranks,
     [&]
     {
@@ -137,7 +137,7 @@ Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks
       for (const std::string& bytes : all)
       {
         Decomposition part;
-        Unpacker unpacker{ bytes };
+        ArchiveReader unpacker{ bytes };
         pass(unpacker, part);
         if (part.subdomains.empty())
         {

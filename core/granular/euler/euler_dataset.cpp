@@ -228,7 +228,7 @@ void DatasetReader::read_cells()
 
 void DatasetReader::read_types()
 {
-  const VtkArray array = { {}, VtkType::Int32, 1, file_.count(1) };
+  const VtkArray array = { {}, ValueType::Int32, 1, file_.count(1) };
   types_ = array.tuples;
   types_place_ = file_.line_place();
   std::vector<std::int64_t> types;
@@ -257,7 +257,7 @@ bool DatasetReader::take(const VtkArray& array)
   {
     return false;
   }
-  if (array.type >= VtkType::String)
+  if (!is_number(array.type))
   {
     dataset_.texts.push_back(array.name);
     return false;

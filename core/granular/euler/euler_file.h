@@ -16,7 +16,7 @@
 
 namespace granular
 {
-/// The files of dump euler/vtk, for a FrameIndex: one frame each, legacy VTK of versions 1.0 to 5.1, ASCII or BINARY.
+/// The files of dump euler/vtk, for a RunIndex: one frame each, legacy VTK of versions 1.0 to 5.1, ASCII or BINARY.
 /// Points with a vertex each (LIGGGHTS, its forks), or, of PFM, a rectilinear grid or hexahedra with the data in the
 /// cells. Timesteps are those of the names. A file that is not complete is left out silently, one that is not as the format
 /// says with a notice. LIGGGHTS' own must have all of v_avg, volumefraction, radius and pressure, others the first two.

@@ -20,7 +20,7 @@ constexpr double too_large = 0x1p290;
 
 void check_numbers(const ValueSource& source, const std::string& name)
 {
-  if (source.type == ScalarType::Text)
+  if (source.type == ValueType::Text)
   {
     throw Error("expected an array '" + name + "' of numbers, got texts");
   }
@@ -80,7 +80,7 @@ const double* load(const std::array<std::optional<ValueSource>, size>& sources, 
   bool plain = is_consecutive(rows);
   for (std::size_t k = 0; plain && k < size; ++k)
   {
-    plain = sources[k]->type == ScalarType::Float64 && sources[k]->step == step &&
+    plain = sources[k]->type == ValueType::Float64 && sources[k]->step == step &&
       sources[k]->factor == 1 && sources[k]->data == first + k;
   }
   if (plain)

@@ -143,7 +143,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   index.ends_hash = hash_ends(*packed, stamp.size);
   if (!index.points)
   {
-    index.points = std::make_shared<RestartPoints>();
+    index.points = std::make_shared<SeekPoints>();
   }
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();

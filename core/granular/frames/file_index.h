@@ -48,7 +48,7 @@ struct FileIndex
   bool compressed = false;  ///< gzip or Zstandard
   bool loaded = false;      ///< from an index file: to be held against the file first
   std::vector<std::string> column_names; ///< of the user, for such a file
-  std::shared_ptr<RestartPoints> points; ///< of a compressed file
+  std::shared_ptr<SeekPoints> points;    ///< of a compressed file
   std::shared_ptr<FrameKinds> kinds;     ///< may be shared by files; made where it is missing
   const FileFormat* format = nullptr;    ///< must be there to be updated
 };

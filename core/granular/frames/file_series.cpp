@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/file_series.h"
 
-#include "granular/frames/index_archive.h"
+#include "granular/common/archive.h"
 #include "granular/frames/piece_sets.h"
 
 #include <algorithm>
@@ -301,13 +301,13 @@ std::span<const FileSeries::Place> FileSeries::pieces(std::size_t frame) const n
     : std::span(places_).subspan(starts_[frame], starts_[frame + 1] - starts_[frame]);
 }
 
-void FileSeries::write(IndexWriter& out) const
+void FileSeries::write(ArchiveWriter& out) const
 {
   out.list(places_, [&](const Place& place) { out.number(place); });
   out.list(starts_, [&](std::uint32_t start) { out.number(start); });
 }
 
-FileSeries FileSeries::read(IndexReader& in, const std::vector<FileIndex>& files)
+FileSeries FileSeries::read(ArchiveReader& in, const std::vector<FileIndex>& files)
 {
   FileSeries series;
   in.list(series.places_,

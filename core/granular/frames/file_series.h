@@ -12,8 +12,8 @@
 
 namespace granular
 {
-class IndexReader;
-class IndexWriter;
+class ArchiveReader;
+class ArchiveWriter;
 
 /// What frames of the same timestep in several files are.
 enum class RepeatedSteps : std::uint8_t
@@ -55,8 +55,8 @@ public:
   std::span<const Place> pieces(std::size_t frame) const noexcept;
 
   /// To bytes and back; files are those of before. Throws FormatError.
-  void write(IndexWriter& out) const;
-  static FileSeries read(IndexReader& in, const std::vector<FileIndex>& files);
+  void write(ArchiveWriter& out) const;
+  static FileSeries read(ArchiveReader& in, const std::vector<FileIndex>& files);
 
 private:
   std::vector<Place> places_;         ///< frame after frame

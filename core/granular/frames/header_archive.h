@@ -2,7 +2,7 @@
 #ifndef granular_frames_header_archive_h
 #define granular_frames_header_archive_h
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/frames/frame.h"
 
 namespace granular

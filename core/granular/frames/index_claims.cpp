@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/index_claims.h"
 
-#include "granular/frames/index_archive.h"
+#include "granular/common/archive.h"
 
 #include <algorithm>
 #include <limits>
@@ -75,18 +75,17 @@ void check_points(const FileIndex& file)
 {
   constexpr std::size_t largest_window = std::size_t{ 1 } << 15;
   std::int64_t last = 0;
-  require(file.compressed, "restart points of a compressed file");
-  for (const RestartPoints::Point& point : file.points->points)
+  require(file.compressed, "seek points of a compressed file");
+  for (const SeekPoints::Point& point : file.points->points)
   {
-    require(
-      point.offset >= last && point.offset <= most_content(file), "increasing restart points");
+    require(point.offset >= last && point.offset <= most_content(file), "increasing seek points");
     require(
       point.packed >= (point.bits > 0 ? 1 : 0) && point.packed <= file.stamp.size && point.bits < 8,
-      "a restart point within its file");
+      "a seek point within its file");
     require(point.window.size() <= largest_window, "a window of gzip");
     last = point.offset;
   }
-  require(file.points->spacing > 0, "a spacing of restart points");
+  require(file.points->spacing > 0, "a spacing of seek points");
 }
 }
 

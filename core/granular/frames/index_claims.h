@@ -7,7 +7,7 @@
 namespace granular
 {
 /// Holds the numbers that an index file says of a file against the size that it says of it: places of frames and rows, their order,
-/// restart points. Memory that is made for them is bounded by the bytes of the file then. Throws FormatError.
+/// seek points. Memory that is made for them is bounded by the bytes of the file then. Throws FormatError.
 void check_claims(const FileIndex& file);
 }
 #endif

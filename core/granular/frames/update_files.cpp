@@ -14,7 +14,7 @@ namespace granular
 {
 namespace
 {
-/// Sees to it that the restart points of all files take no more than there is for them, also while
+/// Sees to it that the seek points of all files take no more than there is for them, also while
 /// they are found. In whatever order files are done, it keeps those of the first ones.
 class RestartBudget
 {
@@ -110,12 +110,12 @@ private:
 }
 
 bool update_files(std::vector<FileIndex>& files, const std::vector<std::string>& column_names,
-  int threads, Progress& progress, std::size_t most_restart_bytes)
+  int threads, Progress& progress, std::size_t most_seek_bytes)
 {
   const Executor executor(threads);
   ScanAhead ahead;
   ahead.threads = executor.threads() / static_cast<int>(executor.workers(files.size()));
-  RestartBudget budget(files, most_restart_bytes);
+  RestartBudget budget(files, most_seek_bytes);
   FilesProgress all(progress, files.size());
   std::atomic<bool> changed = false;
   const auto update = [&](std::size_t file, std::size_t worker)

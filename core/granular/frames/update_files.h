@@ -12,10 +12,10 @@
 namespace granular
 {
 /// update_file_index for each of many files, on several threads: each takes one file at a time; where
-/// there are fewer files than threads, these share large frames. Restart points are kept for the first
+/// there are fewer files than threads, these share large frames. Seek points are kept for the first
 /// compressed files, as far as they fit; reading a frame of the others starts at the beginning of the file.
 /// Returns whether anything was read. If this throws, the files are good for nothing.
 bool update_files(std::vector<FileIndex>& files, const std::vector<std::string>& column_names,
-  int threads, Progress& progress, std::size_t most_restart_bytes = std::size_t{ 1 } << 28);
+  int threads, Progress& progress, std::size_t most_seek_bytes = std::size_t{ 1 } << 28);
 }
 #endif

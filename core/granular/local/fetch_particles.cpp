@@ -234,7 +234,7 @@ void view_packed(ParticleValues& values, std::size_t width)
   next += 3;
   for (ArrayView& array : values.arrays)
   {
-    array.type = ScalarType::Float64;
+    array.type = ValueType::Float64;
     array.step = values.point_step;
     for (const void*& component : array.components)
     {

@@ -29,7 +29,7 @@ constexpr std::int64_t some = 1024; // rows at once
 void load_integers(const ValueSource& source, std::span<const std::int64_t> rows, std::int64_t* to)
 {
   load_numbers(source, rows, to);
-  for (std::size_t i = 0; source.type == ScalarType::UInt64 && i < rows.size(); ++i)
+  for (std::size_t i = 0; source.type == ValueType::UInt64 && i < rows.size(); ++i)
   {
     if (to[i] < 0)
     {
@@ -57,13 +57,13 @@ void load_integral(const ValueSource& source, std::span<const std::int64_t> rows
 Ids::Ids(const ArrayView& array, std::int64_t rows, const Executor& executor, Progress& progress)
 try
 {
-  if (array.type == ScalarType::Text || array.size() != 1)
+  if (array.type == ValueType::Text || array.size() != 1)
   {
     throw Error(std::string("expected one number a row, got ") +
-      (array.type == ScalarType::Text ? "texts" : std::to_string(array.size())));
+      (array.type == ValueType::Text ? "texts" : std::to_string(array.size())));
   }
   const ValueSource source = component_of(array, 0);
-  if (source.type == ScalarType::Int64 && source.step == 1)
+  if (source.type == ValueType::Int64 && source.step == 1)
   {
     values_ = { static_cast<const std::int64_t*>(source.data), static_cast<std::size_t>(rows) };
     return;

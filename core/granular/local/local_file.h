@@ -9,7 +9,7 @@
 
 namespace granular
 {
-/// The files of dump local, for a FrameIndex: as text dumps of particles, but something else than ATOMS is counted, and
+/// The files of dump local, for a RunIndex: as text dumps of particles, but something else than ATOMS is counted, and
 /// there need be no box (LIGGGHTS 2). A `%` in the name of such a dump gives the first process a header, of its own rows,
 /// and the others files of rows alone: these belong to the file whose name has 0 in the same place, if that has one
 /// frame; rows of several frames (a name without `*`) cannot be told apart: these frames are left out with a notice.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_reader.h"
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/local/local_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/particles/point_loss.h"
@@ -251,7 +251,7 @@ bool is_end_array(std::string_view name) noexcept
   return std::ranges::find(end_arrays, name) != std::end(end_arrays);
 }
 
-LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress& progress)
+LocalSample read_sample(const RunIndex& index, const FrameKind& kind, Progress& progress)
 {
   constexpr std::int64_t most_rows = 100'000;
   const auto rows_of = [&](std::size_t frame)
@@ -322,11 +322,11 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       const ColumnSchema schema = schema_for(request.columns, first.entry.kind->schema);
       local.has_lines = has_ends(schema);
       table = table_request(request, schema);
-      where = where_of(first.file.path, first.entry);
+      where = where_of(first);
       forward.set_part(0, 0.8);
     });
   local.table = read_dump(pieces, table, ranks, std::nullopt, notices, forward);
-  Packer packer;
+  ArchiveWriter packer;
   do_together(ranks,
     [&]
     {
@@ -363,7 +363,7 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       Remarks sum;
       for (const std::string& bytes : all)
       {
-        Unpacker unpacker{ bytes };
+        ArchiveReader unpacker{ bytes };
         Remarks of_rank;
         pass(unpacker, of_rank);
         local.first_row += &bytes - all.data() < ranks.rank() ? of_rank.rows : 0;

@@ -40,7 +40,7 @@ struct LocalFrame
 bool is_end_array(std::string_view name) noexcept;
 
 /// Some rows of a run, those of the frame with most of them: to find out what the columns are. `kind` of frames.
-LocalSample read_sample(const FrameIndex& index, const FrameKind& kind, Progress& progress);
+LocalSample read_sample(const RunIndex& index, const FrameKind& kind, Progress& progress);
 
 /// Decodes a frame, as read_dump does and by the same means. Collective. Ids that are no integers are an error; such
 /// as were printed with an exponent, so that digits are lost, are counted in a notice; so are lines whose column `dist` says that

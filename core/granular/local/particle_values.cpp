@@ -31,7 +31,7 @@ bool is_plain(const FrameView& frame) noexcept
   const ArrayView& points = *frame.points;
   const auto* const first = static_cast<const double*>(points.components[0]);
   return frame.coordinates != Coordinates::Scaled && frame.point_origin == Vector3{} &&
-    points.type == ScalarType::Float64 && points.components[1] == first + 1 &&
+    points.type == ValueType::Float64 && points.components[1] == first + 1 &&
     points.components[2] == first + 2;
 }
 
@@ -70,7 +70,7 @@ ArrayView view_array(const FrameView& frame, const std::string& name)
   {
     throw Error("expected an array '" + name + "' of the particles, got none");
   }
-  if (array && array->type == ScalarType::Text)
+  if (array && array->type == ValueType::Text)
   {
     throw Error("expected numbers in array '" + name + "' of the particles, got texts");
   }

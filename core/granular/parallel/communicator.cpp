@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/parallel/communicator.h"
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/common/progress.h"
 
 #include <algorithm>
@@ -118,7 +118,7 @@ std::string pack(const std::exception_ptr& failure) noexcept
   try
   {
     Failure described = describe(failure);
-    Packer packer;
+    ArchiveWriter packer;
     pass(packer, described);
     return std::move(packer.bytes);
   }
@@ -135,7 +135,7 @@ Failure unpack_failure(std::string_view bytes)
     return { Kind::Limit, "out of memory" };
   }
   Failure failure;
-  Unpacker unpacker{ bytes };
+  ArchiveReader unpacker{ bytes };
   pass(unpacker, failure);
   return failure;
 }

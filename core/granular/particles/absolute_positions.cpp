@@ -19,7 +19,7 @@ namespace
 bool is_plain(const ArrayView& points) noexcept
 {
   const auto* first = static_cast<const double*>(points.components[0]);
-  return points.type == ScalarType::Float64 && points.step == 3 &&
+  return points.type == ValueType::Float64 && points.step == 3 &&
     points.components[1] == first + 1 && points.components[2] == first + 2;
 }
 }

@@ -16,7 +16,7 @@ namespace granular
 /// Values of one kind in someone else's memory, a row after the other.
 struct ValueSource
 {
-  ScalarType type = ScalarType::Float64;
+  ValueType type = ValueType::Float64;
   const void* data = nullptr;
   std::int64_t step = 1; ///< values from one row to the next
   double factor = 1;     ///< 2: a diameter of radii; 0.5: a radius of diameters

@@ -5,11 +5,6 @@
 
 namespace granular
 {
-bool is_integer(ScalarType type) noexcept
-{
-  return type != ScalarType::Float32 && type != ScalarType::Float64 && type != ScalarType::Text;
-}
-
 const ArrayView* FrameView::find(std::string_view name) const noexcept
 {
   const auto found = std::find_if(

@@ -2,6 +2,7 @@
 #ifndef granular_particles_frame_view_h
 #define granular_particles_frame_view_h
 
+#include "granular/common/value_type.h"
 #include "granular/frames/frame.h"
 #include "granular/geometry/positions.h"
 
@@ -14,29 +15,11 @@
 
 namespace granular
 {
-/// What is in the memory of an array that is to be written.
-enum class ScalarType : std::uint8_t
-{
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Float32,
-  Float64,
-  Text ///< std::string
-};
-
-bool is_integer(ScalarType type) noexcept;
-
 /// An array in someone else's memory: rows of one or more values.
 struct ArrayView
 {
   std::string name = {};
-  ScalarType type = ScalarType::Float64;
+  ValueType type = ValueType::Float64;      ///< up to Text, std::string
   std::vector<const void*> components = {}; ///< the first row's value of each
   std::int64_t step = 1;                    ///< values from one row to the next
   std::vector<std::string> columns = {};    ///< in local data: what its components are called
@@ -47,7 +30,7 @@ struct ArrayView
 
 /// An array whose rows lie one after the other, `size` values each.
 template <class Value>
-ArrayView view_rows(std::string name, ScalarType type, const Value* values, int size = 1)
+ArrayView view_rows(std::string name, ValueType type, const Value* values, int size = 1)
 {
   ArrayView view{ std::move(name), type, {}, size };
   for (int i = 0; i < size; ++i)

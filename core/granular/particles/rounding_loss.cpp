@@ -94,13 +94,13 @@ std::string RoundingLoss::text(
 
 RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks)
 {
-  Packer packer;
+  ArchiveWriter packer;
   do_together(ranks, [&] { packer.number(own); });
   const std::vector<std::string> all = ranks.all_gather(packer.bytes);
   RoundingLoss sum;
   for (const std::string& bytes : all)
   {
-    Unpacker unpacker{ bytes };
+    ArchiveReader unpacker{ bytes };
     unpacker.number(own);
     sum.add(own);
   }

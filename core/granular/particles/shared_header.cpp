@@ -63,7 +63,7 @@ void share_header(FrameView& frame, Communicator& ranks)
     [&]
     {
       Known known{ frame.rows, frame.has_box, frame.header, frame.coordinates, frame.point_origin };
-      Packer packer;
+      ArchiveWriter packer;
       pass(packer, known);
       own = std::move(packer.bytes);
     });
@@ -74,7 +74,7 @@ void share_header(FrameView& frame, Communicator& ranks)
       std::vector<Known> known(all.size());
       for (std::size_t i = 0; i < all.size(); ++i)
       {
-        Unpacker unpacker{ all[i] };
+        ArchiveReader unpacker{ all[i] };
         pass(unpacker, known[i]);
       }
       const auto less = [](const Known& a, const Known& b)

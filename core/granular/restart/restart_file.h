@@ -8,7 +8,7 @@
 
 namespace granular
 {
-/// Restart files of LIGGGHTS, for a FrameIndex: one frame each, of which the header says the timestep. A file that is not complete
+/// Restart files of LIGGGHTS, for a RunIndex: one frame each, of which the header says the timestep. A file that is not complete
 /// is left out with a notice that says what was understood. Files of processes beside their base are passed over.
 const FileFormat& restart_format() noexcept;
 

@@ -21,9 +21,9 @@ void store_text(const char* first, const char* last, char* data) noexcept
 
 namespace
 {
-RowStatus store_integer(std::int64_t value, ColumnSink::Kind kind, char* data) noexcept
+RowStatus store_integer(std::int64_t value, ValueType type, char* data) noexcept
 {
-  if (kind == ColumnSink::Kind::Int64)
+  if (type == ValueType::Int64)
   {
     std::memcpy(data, &value, sizeof value);
     return RowStatus::Done;
@@ -36,22 +36,22 @@ RowStatus store_integer(std::int64_t value, ColumnSink::Kind kind, char* data) n
 /// A word of any kind.
 RowStatus store(const char* first, const char* last, const ColumnSink& sink) noexcept
 {
-  if (sink.kind == ColumnSink::Kind::Text)
+  if (sink.type == ValueType::Text)
   {
     store_text(first, last, sink.data);
     return RowStatus::Done;
   }
   double number = 0;
   std::int64_t whole = 0;
-  if (sink.kind != ColumnSink::Kind::Float64 && parse_int64(first, last, whole))
+  if (sink.type != ValueType::Float64 && parse_int64(first, last, whole))
   {
-    return store_integer(whole, sink.kind, sink.data);
+    return store_integer(whole, sink.type, sink.data);
   }
   if (!parse_double(first, last, number))
   {
     return RowStatus::NotANumber;
   }
-  if (sink.kind != ColumnSink::Kind::Float64)
+  if (sink.type != ValueType::Float64)
   {
     return RowStatus::NotExact;
   }
@@ -71,20 +71,20 @@ const char* scan_word(const char* word, const char* last, Value& value) noexcept
 /// that counts, for all other words.
 const char* store_plain(const char* word, const char* last, const ColumnSink& sink) noexcept
 {
-  if (sink.kind == ColumnSink::Kind::Float64)
+  if (sink.type == ValueType::Float64)
   {
     double number = 0;
     const char* const end = scan_word(word, last, number);
     std::memcpy(sink.data, &number, sizeof number);
     return end;
   }
-  if (sink.kind == ColumnSink::Kind::Text)
+  if (sink.type == ValueType::Text)
   {
     return nullptr;
   }
   std::int64_t whole = 0;
   const char* const end = scan_word(word, last, whole);
-  return store_integer(whole, sink.kind, sink.data) == RowStatus::Done ? end : nullptr;
+  return store_integer(whole, sink.type, sink.data) == RowStatus::Done ? end : nullptr;
 }
 
 const char* skip_blanks(const char* at) noexcept
@@ -184,10 +184,10 @@ void decode_plain(
 }
 }
 
-RowStatus check_word(std::string_view word, ColumnSink::Kind kind) noexcept
+RowStatus check_word(std::string_view word, ValueType type) noexcept
 {
   char value[sizeof(std::string_view)];
-  return row_text::store(word.data(), word.data() + word.size(), { 0, kind, value, 0 });
+  return row_text::store(word.data(), word.data() + word.size(), { 0, type, value, 0 });
 }
 
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,

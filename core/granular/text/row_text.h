@@ -4,6 +4,7 @@
 
 #include "granular/bytes/byte_source.h"
 #include "granular/common/simd.h"
+#include "granular/common/value_type.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,16 +16,9 @@ namespace granular
 /// A column of a text that is wanted, and where its next value goes.
 struct ColumnSink
 {
-  enum class Kind : std::uint8_t
-  {
-    Int32,   ///< std::int32_t
-    Int64,   ///< std::int64_t
-    Float64, ///< double
-    Text     ///< std::string_view into the text
-  };
-
   std::uint32_t column = 0; ///< place of the word in its row, from 0
-  Kind kind = Kind::Float64;
+  ValueType type =
+    ValueType::Float64; ///< Int32, Int64, Float64, or Text: std::string_view into the text
   char* data = nullptr;
   std::ptrdiff_t stride = 0; ///< bytes from one row's value to the next's
 };
@@ -34,7 +28,8 @@ enum class RowStatus : std::uint8_t
   Done,       ///< the text or the rows asked for are used up
   TooFew,     ///< a row has fewer words than there are columns
   NotANumber, ///< a word that should be a number is none
-  NotExact    ///< a number that an integer column cannot hold
+  NotExact,   ///< a number that an integer column cannot hold
+  TooMany     ///< more rows than there is room for
 };
 
 /// What decode_rows did. After an error, ptr is the start of the row at fault (TooFew) or of the
@@ -60,6 +55,6 @@ RowResult decode_rows(const char* first, const char* last, std::uint32_t columns
   std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd = best_simd()) noexcept;
 
 /// What decode_rows says of a single word: Done, NotANumber or NotExact.
-RowStatus check_word(std::string_view word, ColumnSink::Kind kind) noexcept;
+RowStatus check_word(std::string_view word, ValueType type) noexcept;
 }
 #endif

@@ -96,7 +96,7 @@ public:
 
   /// A word as a count, 0 or more, or as a type.
   std::int64_t count(std::size_t word) const;
-  VtkType type(std::size_t word) const;
+  ValueType type(std::size_t word) const;
 
   /// The values behind a line "KEYWORD tuples type".
   VtkArray values(std::int64_t components) const;
@@ -157,7 +157,7 @@ private:
   void read_text(T* numbers, std::int64_t first, std::int64_t last, std::int64_t count);
   template <class T>
   void read_binary(
-    VtkType type, T* numbers, std::int64_t first, std::int64_t last, std::int64_t count);
+    ValueType type, T* numbers, std::int64_t first, std::int64_t last, std::int64_t count);
   void skip_text(std::int64_t count);
   const char* skip_words(
     const char* at, const char* last, const char* end, std::int64_t& done, std::int64_t count);

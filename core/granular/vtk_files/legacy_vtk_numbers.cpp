@@ -59,7 +59,7 @@ template <class T>
 void LegacyVtk::read_numbers(const VtkArray& array, std::vector<T>& numbers)
 {
   constexpr std::int64_t step = std::int64_t{ 1 } << 16; // a multiple of 8: whole bytes of bits
-  if (array.type >= VtkType::String)
+  if (!is_number(array.type))
   {
     this->fail("numbers", line_text_);
   }
@@ -182,9 +182,9 @@ void LegacyVtk::read_text(T* numbers, std::int64_t first, std::int64_t last, std
 
 template <class T>
 void LegacyVtk::read_binary(
-  VtkType type, T* numbers, std::int64_t first, std::int64_t last, std::int64_t count)
+  ValueType type, T* numbers, std::int64_t first, std::int64_t last, std::int64_t count)
 {
-  const bool bits = type == VtkType::Bit;
+  const bool bits = type == ValueType::Bit;
   const auto bytes = static_cast<std::size_t>(bits ? 1 : bytes_of(type));
   std::int64_t done = first;
   while (done < last)
@@ -211,10 +211,10 @@ void LegacyVtk::skip(const VtkArray& array)
 {
   components_ = array.components;
   const std::int64_t count = array.size();
-  if (array.type >= VtkType::String)
+  if (!is_number(array.type))
   {
     // a variant is a line of its type and its value, also in binary files
-    if (binary_ && array.type == VtkType::String)
+    if (binary_ && array.type == ValueType::Text)
     {
       this->skip_strings(count);
     }

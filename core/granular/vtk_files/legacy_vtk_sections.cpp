@@ -12,30 +12,30 @@ namespace
 struct TypeName
 {
   std::string_view name;
-  VtkType type;
+  ValueType type;
 };
 
 // clang-format off
 constexpr TypeName type_names[] = {
-  { "bit", VtkType::Bit },
-  { "char", VtkType::Int8 },
-  { "signed_char", VtkType::Int8 },
-  { "unsigned_char", VtkType::UInt8 },
-  { "short", VtkType::Int16 },
-  { "unsigned_short", VtkType::UInt16 },
-  { "int", VtkType::Int32 },
-  { "vtkidtype", VtkType::Int32 },
-  { "vtktypeint32", VtkType::Int32 },
-  { "unsigned_int", VtkType::UInt32 },
-  { "long", VtkType::Int64 },
-  { "vtktypeint64", VtkType::Int64 },
-  { "unsigned_long", VtkType::UInt64 },
-  { "vtktypeuint64", VtkType::UInt64 },
-  { "float", VtkType::Float },
-  { "double", VtkType::Double },
-  { "string", VtkType::String },
-  { "utf8_string", VtkType::String },
-  { "variant", VtkType::Variant },
+  { "bit", ValueType::Bit },
+  { "char", ValueType::Int8 },
+  { "signed_char", ValueType::Int8 },
+  { "unsigned_char", ValueType::UInt8 },
+  { "short", ValueType::Int16 },
+  { "unsigned_short", ValueType::UInt16 },
+  { "int", ValueType::Int32 },
+  { "vtkidtype", ValueType::Int32 },
+  { "vtktypeint32", ValueType::Int32 },
+  { "unsigned_int", ValueType::UInt32 },
+  { "long", ValueType::Int64 },
+  { "vtktypeint64", ValueType::Int64 },
+  { "unsigned_long", ValueType::UInt64 },
+  { "vtktypeuint64", ValueType::UInt64 },
+  { "float", ValueType::Float32 },
+  { "double", ValueType::Float64 },
+  { "string", ValueType::Text },
+  { "utf8_string", ValueType::Text },
+  { "variant", ValueType::Variant },
 };
 
 /// A line that begins one array: "KEYWORD name ..."; numbers are places of words, 0: there is none.
@@ -70,7 +70,7 @@ bool equal_but_capitals(std::string_view word, std::string_view small)
 }
 }
 
-VtkType LegacyVtk::type(std::size_t word) const
+ValueType LegacyVtk::type(std::size_t word) const
 {
   const std::string_view name = word < words_.size() ? words_[word] : std::string_view();
   const auto* const found = std::find_if(std::begin(type_names), std::end(type_names),
@@ -106,7 +106,7 @@ bool LegacyVtk::take_arrays(std::int64_t tuples, const TakeArray& take)
   }
   VtkArray array;
   array.name = words_[1];
-  array.type = found->type_word > 0 ? this->type(found->type_word) : VtkType::UInt8;
+  array.type = found->type_word > 0 ? this->type(found->type_word) : ValueType::UInt8;
   const bool says = found->components_word > 0 && found->components_word < words_.size();
   array.components = says ? this->count(found->components_word) : found->components;
   array.tuples = found->tuples_word > 0 ? this->count(found->tuples_word) : tuples;
@@ -189,7 +189,7 @@ VtkCells LegacyVtk::cells(bool keep)
   const bool has_offsets = this->have(offsets.size()) &&
     equal_but_capitals(this->text().substr(0, offsets.size()), "offsets");
   cells.size = has_offsets ? std::max(std::int64_t{ 1 }, first) - 1 : first;
-  cells.values = { {}, VtkType::Int32, 1, second };
+  cells.values = { {}, ValueType::Int32, 1, second };
   if (has_offsets)
   {
     this->need("OFFSETS");

@@ -84,14 +84,14 @@ std::int64_t load_bits(const char* bytes, To* numbers, std::int64_t count)
 template <class To>
 using Load = std::int64_t (*)(const char*, To*, std::int64_t);
 
-/// By VtkType.
+/// By ValueType; words are none.
 template <class To>
-constexpr Load<To> loads[] = { &load_bits<To>, &load<std::uint8_t, std::int8_t, To>,
+constexpr Load<To> loads[] = { &load<std::uint8_t, std::int8_t, To>,
   &load<std::uint8_t, std::uint8_t, To>, &load<std::uint16_t, std::int16_t, To>,
   &load<std::uint16_t, std::uint16_t, To>, &load<std::uint32_t, std::int32_t, To>,
   &load<std::uint32_t, std::uint32_t, To>, &load<std::uint64_t, std::int64_t, To>,
   &load<std::uint64_t, std::uint64_t, To>, &load<std::uint32_t, float, To>,
-  &load<std::uint64_t, double, To> };
+  &load<std::uint64_t, double, To>, nullptr, nullptr, &load_bits<To> };
 }
 
 std::int64_t VtkArray::size() const noexcept
@@ -105,25 +105,25 @@ std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcep
   std::int64_t cells = 1;
   for (const std::int64_t along : positions)
   {
-    cells = VtkArray{ {}, VtkType::Double, cells, std::max(along, std::int64_t{ 1 }) - 1 }.size();
+    cells =
+      VtkArray{ {}, ValueType::Float64, cells, std::max(along, std::int64_t{ 1 }) - 1 }.size();
   }
   return cells;
 }
 
-std::int64_t bytes_of(VtkType type) noexcept
+std::int64_t bytes_of(ValueType type) noexcept
 {
-  constexpr std::int64_t bytes[] = { 0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 0, 0 };
-  return bytes[static_cast<std::size_t>(type)];
+  return is_number(type) ? static_cast<std::int64_t>(size_of(type)) : 0;
 }
 
 std::int64_t load_numbers(
-  VtkType type, const char* bytes, std::int64_t count, double* numbers) noexcept
+  ValueType type, const char* bytes, std::int64_t count, double* numbers) noexcept
 {
   return loads<double>[static_cast<std::size_t>(type)](bytes, numbers, count);
 }
 
 std::int64_t load_numbers(
-  VtkType type, const char* bytes, std::int64_t count, std::int64_t* numbers) noexcept
+  ValueType type, const char* bytes, std::int64_t count, std::int64_t* numbers) noexcept
 {
   return loads<std::int64_t>[static_cast<std::size_t>(type)](bytes, numbers, count);
 }

@@ -2,36 +2,19 @@
 #ifndef granular_vtk_files_vtk_values_h
 #define granular_vtk_files_vtk_values_h
 
+#include "granular/common/value_type.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
 
 namespace granular
 {
-/// Types of values that legacy VTK files name. Binary numbers have the most significant byte first, `long` has
-/// eight bytes, vtkIdType four.
-enum class VtkType : std::uint8_t
-{
-  Bit,
-  Int8,
-  UInt8,
-  Int16,
-  UInt16,
-  Int32,
-  UInt32,
-  Int64,
-  UInt64,
-  Float,
-  Double,
-  String,
-  Variant
-};
-
 /// Values that stand together in a file.
 struct VtkArray
 {
   std::string name = {}; ///< as the file spells it
-  VtkType type = VtkType::Double;
+  ValueType type = ValueType::Float64;
   std::int64_t components = 1;
   std::int64_t tuples = 0;
 
@@ -42,13 +25,14 @@ struct VtkArray
 /// is, where there are more.
 std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcept;
 
-/// Bytes of a binary number; 0: bits, of which eight are a byte, and what is no number.
-std::int64_t bytes_of(VtkType type) noexcept;
+/// Returns the bytes of a binary number in a VTK file; 0 for bits, of which eight are a byte, and for words. Binary numbers have
+/// the most significant byte first, `long` has eight bytes, vtkIdType four.
+std::int64_t bytes_of(ValueType type) noexcept;
 
 /// Converts binary numbers. Returns how many could be: all, or those before the first that is not whole or does not fit.
 std::int64_t load_numbers(
-  VtkType type, const char* bytes, std::int64_t count, double* numbers) noexcept;
+  ValueType type, const char* bytes, std::int64_t count, double* numbers) noexcept;
 std::int64_t load_numbers(
-  VtkType type, const char* bytes, std::int64_t count, std::int64_t* numbers) noexcept;
+  ValueType type, const char* bytes, std::int64_t count, std::int64_t* numbers) noexcept;
 }
 #endif

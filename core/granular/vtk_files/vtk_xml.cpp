@@ -24,10 +24,10 @@ constexpr Choice<std::size_t> header_types[] = { { "UInt32", 4 }, { "UInt64", 8 
 constexpr Choice<bool> encodings[] = { { "base64", true }, { "raw", false } };
 constexpr Choice<VtkXmlArray::Form> forms[] = { { "ascii", VtkXmlArray::Form::Ascii },
   { "binary", VtkXmlArray::Form::Binary }, { "appended", VtkXmlArray::Form::Appended } };
-constexpr Choice<VtkType> types[] = { { "Int8", VtkType::Int8 }, { "UInt8", VtkType::UInt8 },
-  { "Int16", VtkType::Int16 }, { "UInt16", VtkType::UInt16 }, { "Int32", VtkType::Int32 },
-  { "UInt32", VtkType::UInt32 }, { "Int64", VtkType::Int64 }, { "UInt64", VtkType::UInt64 },
-  { "Float32", VtkType::Float }, { "Float64", VtkType::Double } };
+constexpr Choice<ValueType> types[] = { { "Int8", ValueType::Int8 }, { "UInt8", ValueType::UInt8 },
+  { "Int16", ValueType::Int16 }, { "UInt16", ValueType::UInt16 }, { "Int32", ValueType::Int32 },
+  { "UInt32", ValueType::UInt32 }, { "Int64", ValueType::Int64 }, { "UInt64", ValueType::UInt64 },
+  { "Float32", ValueType::Float32 }, { "Float64", ValueType::Float64 } };
 
 /// What an attribute of the element says; the first choice where it is optional and not there.
 template <class T, std::size_t N>

@@ -26,7 +26,7 @@ struct VtkXmlArray
   };
 
   std::string_view name;
-  VtkType type = VtkType::Double;
+  ValueType type = ValueType::Float64;
   Form form = Form::Ascii;
   std::int64_t components = 1;
   std::int64_t offset = 0; ///< of appended values

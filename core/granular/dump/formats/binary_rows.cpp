@@ -74,12 +74,17 @@ const char* convert_column(
 
 using ConvertColumn = const char* (*)(const char*, std::size_t, std::size_t, ColumnSink&) noexcept;
 
-/// By ColumnSink::Kind and byte order. There are no texts in binary files.
+/// Of Int32, Int64 and Float64, by byte order. There are no texts in binary files.
 constexpr ConvertColumn convert_columns[][2] = {
   { convert_column<std::int32_t, false>, convert_column<std::int32_t, true> },
   { convert_column<std::int64_t, false>, convert_column<std::int64_t, true> },
   { convert_column<double, false>, convert_column<double, true> },
 };
+
+constexpr std::size_t place_of(ValueType type) noexcept
+{
+  return type == ValueType::Int32 ? 0 : type == ValueType::Int64 ? 1 : 2;
+}
 }
 
 BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
@@ -127,18 +132,13 @@ std::unique_ptr<RowReader> BinaryRows::reader() const
   return std::make_unique<BinaryReader>(*this);
 }
 
-std::vector<Misfit> BinaryRows::describe(const RowFault& fault) const
+void BinaryRows::locate(Misfits& misfits) const
 {
-  std::vector<Misfit> misfits;
-  const auto add = [&](const RowFault& one)
+  for (Misfit& misfit : misfits)
   {
-    misfits.push_back({ one.column, one.status, one.text,
-      { source_.path(), 0, one.offset,
-        entry_.kind->schema.columns()[static_cast<std::size_t>(one.column)].name } });
-  };
-  add(fault);
-  std::ranges::for_each(fault.rest, add);
-  return misfits;
+    misfit.where = { source_.path(), 0, misfit.offset,
+      entry_.kind->schema.columns()[static_cast<std::size_t>(misfit.column)].name };
+  }
 }
 
 void BinaryRows::fail_short(std::int64_t end) const
@@ -300,7 +300,7 @@ std::int64_t BinaryReader::decode(std::span<ColumnSink> sinks, std::int64_t max_
 const char* BinaryReader::convert_column(
   const char* row, std::size_t rows, ColumnSink& sink) const noexcept
 {
-  return convert_columns[static_cast<std::size_t>(sink.kind)][of_.swapped_](
+  return convert_columns[place_of(sink.type)][of_.swapped_](
     row + sink.column * sizeof(double), static_cast<std::size_t>(of_.row_bytes_), rows, sink);
 }
 
@@ -328,24 +328,21 @@ void BinaryReader::convert(std::span<ColumnSink> sinks, const char* from, std::s
 /// Throws what does not fit in these rows, of each column the first.
 void BinaryReader::fail(std::span<const ColumnSink> sinks, const char* from, std::size_t rows) const
 {
-  std::vector<std::pair<const char*, const ColumnSink*>> misfits;
+  Misfits misfits;
   for (const ColumnSink& sink : sinks)
   {
     double number = 0;
-    ColumnSink nowhere = { sink.column, sink.kind, reinterpret_cast<char*>(&number), 0 };
+    ColumnSink nowhere = { sink.column, sink.type, reinterpret_cast<char*>(&number), 0 };
     if (const char* const value = this->convert_column(from, rows, nowhere))
     {
-      misfits.emplace_back(value, &sink);
+      misfits.push_back(this->misfit_of(sink, value));
     }
   }
-  std::ranges::sort(misfits);
-  RowFault fault = this->fault_of(*misfits.front().second, misfits.front().first);
-  std::transform(misfits.begin() + 1, misfits.end(), std::back_inserter(fault.rest),
-    [this](const auto& misfit) { return this->fault_of(*misfit.second, misfit.first); });
-  throw fault;
+  std::ranges::sort(misfits, {}, &Misfit::offset);
+  throw misfits;
 }
 
-RowFault BinaryReader::fault_of(const ColumnSink& sink, const char* value) const
+Misfit BinaryReader::misfit_of(const ColumnSink& sink, const char* value) const
 {
   const double number = of_.swapped_ ? load<true>(value) : load<false>(value);
   char word[32];

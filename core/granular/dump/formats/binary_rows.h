@@ -19,7 +19,7 @@ public:
 
   const FrameHeader& header() const noexcept override { return header_; }
   std::unique_ptr<RowReader> reader() const override;
-  std::vector<Misfit> describe(const RowFault& fault) const override;
+  void locate(Misfits& misfits) const override;
 
 private:
   friend class BinaryReader;
@@ -71,7 +71,7 @@ private:
   void convert(std::span<ColumnSink> sinks, const char* from, std::size_t rows) const;
   [[noreturn]] void fail(
     std::span<const ColumnSink> sinks, const char* from, std::size_t rows) const;
-  RowFault fault_of(const ColumnSink& sink, const char* value) const;
+  Misfit misfit_of(const ColumnSink& sink, const char* value) const;
 
   const BinaryRows& of_;
   std::vector<BinaryRows::Run> runs_; ///< their rows, all or some of them

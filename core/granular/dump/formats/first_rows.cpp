@@ -44,7 +44,7 @@ void decode_first(const FileIndex& file, const FrameEntry& entry, std::size_t mo
   catch (const Error&)
   {
   }
-  catch (const RowFault&)
+  catch (const Misfits&)
   {
   }
 }
@@ -60,7 +60,7 @@ FirstRows find_first_ids(const FileIndex& file, const FrameEntry& entry)
   constexpr std::size_t most = 20'000;
   std::vector<std::int64_t> ids(most);
   std::size_t count = 0;
-  ColumnSink sink = { static_cast<std::uint32_t>(column), ColumnSink::Kind::Int64,
+  ColumnSink sink = { static_cast<std::uint32_t>(column), ValueType::Int64,
     reinterpret_cast<char*>(ids.data()), sizeof ids[0] };
   decode_first(file, entry, most, { &sink, 1 }, [&](std::size_t rows) { count += rows; });
   ids.resize(count);
@@ -84,9 +84,9 @@ FirstRows find_first_rows(const FileIndex& file, const FrameEntry& entry)
   std::vector<ColumnSink> sinks;
   for (std::size_t i = 0; i < columns; ++i)
   {
-    sinks.push_back({ static_cast<std::uint32_t>(i), ColumnSink::Kind::Text,
-      reinterpret_cast<char*>(words.data() + i),
-      static_cast<std::ptrdiff_t>(columns * sizeof words[0]) });
+    sinks.push_back(
+      { static_cast<std::uint32_t>(i), ValueType::Text, reinterpret_cast<char*>(words.data() + i),
+        static_cast<std::ptrdiff_t>(columns * sizeof words[0]) });
   }
   std::vector<std::int64_t> hashes;
   const auto take = [&](std::size_t rows)

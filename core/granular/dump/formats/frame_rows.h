@@ -12,29 +12,26 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace granular
 {
-/// A value that does not fit the type of its column, where another type would do.
+/// A word that does not fit the type of its column, or a row that cannot be decoded.
 struct Misfit
 {
-  int column;
-  RowStatus status; ///< NotExact: a number that an integer column cannot hold; NotANumber
-  std::string word;
-  Where where;
+  RowStatus
+    status; ///< NotExact: a number that an integer column cannot hold; NotANumber; TooFew; TooMany
+  int column;              ///< -1: of TooFew and TooMany
+  std::string word;        ///< or the row
+  std::int64_t offset = 0; ///< of the word in the content of the file
+  std::int64_t lines = 0;  ///< of a text: from the first misfit to this one
+  std::size_t piece = 0;   ///< of the frame
+  Where where = {};        ///< set by FrameRows::locate
 };
 
-/// What a RowReader throws of a row that cannot be decoded; FrameRows::describe says it in full.
-struct RowFault
-{
-  RowStatus status;
-  int column;                    ///< -1: of TooFew
-  std::string text;              ///< the word at fault, or the row
-  std::int64_t offset;           ///< of it in the content of the file
-  std::int64_t lines_behind = 0; ///< of a text: behind the fault that it is in the rest of
-  std::vector<RowFault>
-    rest = {}; ///< those behind it that were read with it, of each column the first
-};
+/// Misfits that were found together, by place: a RowReader throws the first one, and the first of every other column in the rows
+/// that were read with it.
+using Misfits = std::vector<Misfit>;
 
 /// The size of a frame in its own measure, by which it is cut into pieces and chunks: bytes of a text,
 /// header and rows; rows of a binary dump.
@@ -64,7 +61,7 @@ public:
   virtual bool surplus() const noexcept { return false; }
 
   /// Decodes the next rows, at most max_rows, into the sinks and moves them on. Returns how many; 0 only
-  /// if max_rows is 0 or there are no more. Throws RowFault. Texts stay valid until the next open.
+  /// if max_rows is 0 or there are no more. Throws Misfits. Texts stay valid until the next open.
   virtual std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) = 0;
 };
 
@@ -79,9 +76,9 @@ public:
   /// Who reads rows of it, as long as this lives.
   virtual std::unique_ptr<RowReader> reader() const = 0;
 
-  /// The misfit that a fault is, and those behind it of the rows that were read with it: fewer passes over the frame. Throws
-  /// the FormatError if the fault is none. May read the source.
-  virtual std::vector<Misfit> describe(const RowFault& fault) const = 0;
+  /// Says where misfits are, and keeps those before the first that no other type of its column would mend, which is met again:
+  /// fewer passes over the frame. Throws FormatError if that is the first of all. May read the source.
+  virtual void locate(Misfits& misfits) const = 0;
 };
 
 /// Reads the header at the place of a frame and makes the rows behind it ready. Throws IoError if

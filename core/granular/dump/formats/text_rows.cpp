@@ -79,44 +79,40 @@ std::unique_ptr<RowReader> TextRows::reader() const
   return std::make_unique<TextReader>(*this);
 }
 
-bool TextRows::is_misfit(const RowFault& fault) const
+/// Whether another type of the column holds the word.
+bool TextRows::is_mended(const Misfit& misfit) const
 {
-  return fault.status == RowStatus::NotExact ||
-    (fault.status == RowStatus::NotANumber &&
-      !entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].known);
+  return misfit.status == RowStatus::NotExact ||
+    (misfit.status == RowStatus::NotANumber &&
+      !entry_.kind->schema.columns()[static_cast<std::size_t>(misfit.column)].known);
 }
 
-std::vector<Misfit> TextRows::describe(const RowFault& fault) const
+void TextRows::locate(Misfits& misfits) const
 {
-  if (this->is_misfit(fault))
+  const Misfit& first = misfits.front();
+  const Where where = this->where(first);
+  if (!this->is_mended(first))
   {
-    const Where first = this->where(fault);
-    std::vector<Misfit> misfits = { { fault.column, fault.status, fault.text, first } };
-    for (const RowFault& next : fault.rest)
-    {
-      if (!this->is_misfit(next))
-      {
-        break; // it is met again
-      }
-      misfits.push_back({ next.column, next.status, next.text,
-        { first.path, first.line + next.lines_behind, first.byte, this->name_of(next) } });
-    }
-    return misfits;
+    throw FormatError(first.status == RowStatus::NotANumber
+        ? "expected a number, got " + quoted(first.word)
+        : "expected " + std::to_string(entry_.kind->schema.columns().size()) +
+          " words in a row, got " + std::to_string(split_words(first.word).size()),
+      where);
   }
-  if (fault.status == RowStatus::NotANumber)
+  misfits.erase(std::ranges::find_if_not(
+                  misfits, [this](const Misfit& misfit) { return this->is_mended(misfit); }),
+    misfits.end());
+  for (Misfit& misfit : misfits)
   {
-    throw FormatError("expected a number, got " + quoted(fault.text), this->where(fault));
+    misfit.where = { where.path, where.line + misfit.lines, where.byte, this->name_of(misfit) };
   }
-  throw FormatError("expected " + std::to_string(entry_.kind->schema.columns().size()) +
-      " words in a row, got " + std::to_string(split_words(fault.text).size()),
-    this->where(fault));
 }
 
 /// The line is counted only now.
-Where TextRows::where(const RowFault& fault) const
+Where TextRows::where(const Misfit& misfit) const
 {
   Where where{ source_.path(), rows_line_ };
-  std::int64_t left = fault.offset - rows_offset_;
+  std::int64_t left = misfit.offset - rows_offset_;
   std::string part(std::size_t{ 1 } << 18, ' ');
   for (std::int64_t at = rows_offset_; left > 0;)
   {
@@ -126,16 +122,16 @@ Where TextRows::where(const RowFault& fault) const
     at += static_cast<std::int64_t>(got);
     left = got == wanted ? left - static_cast<std::int64_t>(got) : 0;
   }
-  if (fault.column >= 0)
+  if (misfit.column >= 0)
   {
-    where.column = this->name_of(fault);
+    where.column = this->name_of(misfit);
   }
   return where;
 }
 
-std::string TextRows::name_of(const RowFault& fault) const
+std::string TextRows::name_of(const Misfit& misfit) const
 {
-  return entry_.kind->schema.columns()[static_cast<std::size_t>(fault.column)].name;
+  return entry_.kind->schema.columns()[static_cast<std::size_t>(misfit.column)].name;
 }
 
 /// Brings [from, to) of the content behind what is in the buffer.
@@ -256,21 +252,20 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
   return result.rows;
 }
 
-/// Adds to the fault what does not fit behind its word, which ends at `from`. A column that must change is looked at as
-/// what it becomes.
+/// Adds to the first misfit those behind its word, which ends at `from`. A column that must change is looked at as what it
+/// becomes.
 void TextReader::find_misfits(
-  const char* from, std::span<const ColumnSink> sinks, RowFault& fault) const
+  const char* from, std::span<const ColumnSink> sinks, Misfits& misfits) const
 {
-  using Kind = ColumnSink::Kind;
-  std::vector<Kind> kinds;
-  std::ranges::transform(sinks, std::back_inserter(kinds), &ColumnSink::kind);
+  std::vector<ValueType> types;
+  std::ranges::transform(sinks, std::back_inserter(types), &ColumnSink::type);
   const auto change = [&](std::size_t sink, RowStatus status)
-  { kinds[sink] = status == RowStatus::NotExact ? Kind::Float64 : Kind::Text; };
-  const auto at_fault = std::ranges::find_if(
-    sinks, [&](const ColumnSink& sink) { return static_cast<int>(sink.column) == fault.column; });
-  change(static_cast<std::size_t>(at_fault - sinks.begin()), fault.status);
+  { types[sink] = status == RowStatus::NotExact ? ValueType::Float64 : ValueType::Text; };
+  int column = misfits.front().column; // that of the last word that was taken
+  const auto first = std::ranges::find_if(
+    sinks, [&](const ColumnSink& sink) { return static_cast<int>(sink.column) == column; });
+  change(static_cast<std::size_t>(first - sinks.begin()), misfits.front().status);
   const char* const last = buffer_.data() + end_;
-  int column = fault.column; // that of the last word that was taken
   for (std::int64_t line = 0; from < last; ++line, column = -1)
   {
     const char* const end = std::find(from, last, '\n');
@@ -290,10 +285,10 @@ void TextReader::find_misfits(
       {
         break; // a row of fewer words, or a blank line
       }
-      const RowStatus status = check_word(word, kinds[sink]);
+      const RowStatus status = check_word(word, types[sink]);
       if (status != RowStatus::Done)
       {
-        fault.rest.push_back(
+        misfits.push_back(
           { status, column, std::string(word), offset_ + (word.data() - buffer_.data()), line });
         change(sink, status);
       }
@@ -308,12 +303,13 @@ void TextReader::fail(const RowResult& result, std::span<const ColumnSink> sinks
   const char* const end = result.status == RowStatus::TooFew
     ? std::find(result.ptr, last, '\n')
     : std::find_if(result.ptr, last, is_blank);
-  RowFault fault{ result.status, result.status == RowStatus::TooFew ? -1 : result.column,
-    std::string(result.ptr, end), offset_ + (result.ptr - buffer_.data()) };
-  if (fault.column >= 0)
+  const bool too_few = result.status == RowStatus::TooFew;
+  Misfits misfits = { { result.status, too_few ? -1 : result.column, std::string(result.ptr, end),
+    offset_ + (result.ptr - buffer_.data()) } };
+  if (!too_few)
   {
-    this->find_misfits(end, sinks, fault);
+    this->find_misfits(end, sinks, misfits);
   }
-  throw fault;
+  throw misfits;
 }
 }

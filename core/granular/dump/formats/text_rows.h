@@ -20,16 +20,16 @@ public:
 
   const FrameHeader& header() const noexcept override { return header_; }
   std::unique_ptr<RowReader> reader() const override;
-  std::vector<Misfit> describe(const RowFault& fault) const override;
+  void locate(Misfits& misfits) const override;
 
 private:
   friend class TextReader;
 
   std::vector<std::string> read_header();
   std::vector<std::string_view> first_row(TextScanner& scanner) const;
-  bool is_misfit(const RowFault& fault) const;
-  Where where(const RowFault& fault) const;
-  std::string name_of(const RowFault& fault) const;
+  bool is_mended(const Misfit& misfit) const;
+  Where where(const Misfit& misfit) const;
+  std::string name_of(const Misfit& misfit) const;
 
   const ByteSource& source_;
   FrameEntry entry_;
@@ -57,7 +57,7 @@ private:
   void load(std::int64_t from, std::int64_t to);
   std::size_t load_line(std::size_t at);
   void check_length(std::size_t first, std::size_t end) const;
-  void find_misfits(const char* from, std::span<const ColumnSink> sinks, RowFault& fault) const;
+  void find_misfits(const char* from, std::span<const ColumnSink> sinks, Misfits& misfits) const;
   [[noreturn]] void fail(const RowResult& result, std::span<const ColumnSink> sinks) const;
 
   const TextRows& of_;

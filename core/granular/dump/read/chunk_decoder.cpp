@@ -63,7 +63,7 @@ ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
 {
   for (const auto& [column, wire] : layout.wires)
   {
-    sinks_.push_back({ static_cast<std::uint32_t>(column), wire.kind, nullptr, wire.first.stride });
+    sinks_.push_back({ static_cast<std::uint32_t>(column), wire.type, nullptr, wire.first.stride });
   }
   if (request.stride > 1 || layout.region)
   {
@@ -142,7 +142,7 @@ void ChunkDecoder::measure(std::size_t count, std::vector<ValueRange>& ranges) c
       case ValueType::Float64:
         add(ranges[i + 1], static_cast<const double*>(data), components);
         break;
-      case ValueType::Text:
+      default: // texts have no range
         break;
     }
   }
@@ -200,19 +200,19 @@ void ChunkDecoder::copy_batch(std::size_t count)
     for (const Wire::Copy& copy : wire.copies)
     {
       char* const to = copy.to.at(row_, scratch_.get());
-      switch (wire.kind)
+      switch (wire.type)
       {
-        case ColumnSink::Kind::Int32:
+        case ValueType::Int32:
           copy_scaled<std::int32_t>(from, wire.first.stride, to, copy.to.stride, copy.scale, count);
           break;
-        case ColumnSink::Kind::Int64:
+        case ValueType::Int64:
           copy_scaled<std::int64_t>(from, wire.first.stride, to, copy.to.stride, copy.scale, count);
           break;
-        case ColumnSink::Kind::Float64:
+        case ValueType::Float64:
           copy_scaled<double>(from, wire.first.stride, to, copy.to.stride, copy.scale, count);
           break;
-        case ColumnSink::Kind::Text:
-          break; // no text is ever copied to a number
+        default: // no text is ever copied to a number
+          break;
       }
     }
   }
@@ -292,7 +292,7 @@ void ChunkDecoder::choose_by_number(std::size_t count, std::int64_t number)
       keep_[i] = (number + static_cast<std::int64_t>(i)) % request_.stride == 0;
       continue;
     }
-    if (id->second.kind == ColumnSink::Kind::Float64)
+    if (id->second.type == ValueType::Float64)
     {
       double value = 0;
       std::memcpy(&value, from, sizeof value);

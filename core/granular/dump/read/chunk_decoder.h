@@ -37,7 +37,7 @@ public:
 
   /// Decodes the rows that a reader has opened, at most room of them, to chunk.row on. number is that
   /// of the first of them in the frame. ranges, as FrameLayout::ranges makes them, take the rows that stay
-  /// into account. Throws RowFault; LimitError at where.
+  /// into account. Throws Misfits; LimitError at where.
   void decode(RowReader& reader, std::int64_t number, std::int64_t room, const Where& where,
     DecodedChunk& chunk, std::vector<ValueRange>& ranges);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/read/dump_reader.h"
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/common/shares.h"
 #include "granular/dump/formats/text_header.h"
 #include "granular/dump/read/frame_chunks.h"
@@ -20,7 +20,7 @@
 namespace granular
 {
 template <class Archive>
-static void pass(Archive& archive, Misfit& misfit)
+static void pass(Archive& archive, typename Archive::template Passed<Misfit>& misfit)
 {
   archive.number(misfit.column);
   archive.number(misfit.status);
@@ -62,8 +62,7 @@ void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchem
 
 /// Integer columns that hold other numbers are read again as doubles, columns that the table does
 /// not know and that hold a word as texts. What must be what it is taken for is left to the next pass, unless it is first.
-void widen(
-  const std::vector<Misfit>& misfits, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
+void widen(const Misfits& misfits, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
 {
   std::vector<ColumnSchema::TypeChange> changes;
   const std::vector<int> arrays = schema.arrays_of_columns();
@@ -87,21 +86,21 @@ void widen(
 
 /// The columns of all pieces, which must be the same; what holds texts in one piece does in all, unless it is known to
 /// hold numbers.
-ColumnSchema join_schemas(const PieceList& pieces, const DumpRequest& request)
+ColumnSchema join_schemas(const FramePieces& pieces, const DumpRequest& request)
 {
-  const FrameEntry& first = *pieces.entries.front();
+  const FrameEntry& first = pieces.front().entry;
   if (request.schema && request.schema->columns().size() != first.kind->schema.columns().size())
   {
     throw FormatError("expected " + std::to_string(request.schema->columns().size()) +
         " columns, got " + std::to_string(first.kind->schema.columns().size()) + ": " +
         first.kind->schema.text(),
-      pieces.where(0));
+      where_of(pieces.front()));
   }
   ColumnSchema schema = request.schema.value_or(first.kind->schema);
   std::set<int> texts;
-  for (std::size_t i = 1; i < pieces.entries.size(); ++i)
+  for (std::size_t i = 1; i < pieces.size(); ++i)
   {
-    const FrameEntry& entry = *pieces.entries[i];
+    const FrameEntry& entry = pieces[i].entry;
     const ColumnSchema& other = entry.kind->schema;
     const bool same_form = entry.kind->is_text() == first.kind->is_text();
     if (!same_form || entry.shape != first.shape)
@@ -111,7 +110,7 @@ ColumnSchema join_schemas(const PieceList& pieces, const DumpRequest& request)
           std::string(!same_form ? "text where others are binary"
               : same_columns     ? "another box"
                                  : "the columns " + other.text()),
-        pieces.where(i));
+        where_of(pieces[i]));
     }
     for (std::size_t column = 0; column < other.columns().size(); ++column)
     {
@@ -155,7 +154,7 @@ void check(const DumpRequest& request)
   }
 }
 
-DumpPart decode(const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request,
+DumpPart decode(const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request,
   Progress& progress)
 {
   DumpPart part;
@@ -177,7 +176,7 @@ void share_remarks(Communicator& ranks, DumpPart& part)
   {
     return;
   }
-  Packer packer;
+  ArchiveWriter packer;
   do_together(ranks,
     [&]
     {
@@ -194,8 +193,8 @@ void share_remarks(Communicator& ranks, DumpPart& part)
       std::set<std::string> said;
       for (const std::string& bytes : all)
       {
-        Unpacker unpacker{ bytes };
-        std::vector<Misfit> of_rank;
+        ArchiveReader unpacker{ bytes };
+        Misfits of_rank;
         Notices notices;
         pass(unpacker, of_rank);
         pass(unpacker, notices);
@@ -210,7 +209,7 @@ void share_remarks(Communicator& ranks, DumpPart& part)
 }
 
 /// The parts of all ranks must have the rows that the headers promise: none of them sees them all.
-void check_counts(Communicator& ranks, const PieceList& pieces, DumpPart& part)
+void check_counts(Communicator& ranks, const FramePieces& pieces, DumpPart& part)
 {
   if (ranks.size() == 1)
   {
@@ -219,12 +218,12 @@ void check_counts(Communicator& ranks, const PieceList& pieces, DumpPart& part)
   ranks.sum(part.counts);
   for (std::size_t piece = 0; piece < part.counts.size(); ++piece)
   {
-    const std::int64_t rows = pieces.entries[piece]->rows;
+    const std::int64_t rows = pieces[piece].entry.rows;
     if (part.counts[piece] != rows)
     {
       throw FormatError("expected " + std::to_string(rows) + " rows, got " +
           (part.counts[piece] > rows ? "more" : std::to_string(part.counts[piece])),
-        pieces.where(piece));
+        where_of(pieces[piece]));
     }
   }
 }
@@ -263,9 +262,10 @@ void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const
     keep_rows(part.frame, first, end - first);
   }
 }
+}
 
-DumpFrame read(const PieceList& pieces, const DumpRequest& request, Communicator& ranks,
-  std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
+DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
+  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
 {
   check(request);
   DumpRequest own;
@@ -278,14 +278,14 @@ DumpFrame read(const PieceList& pieces, const DumpRequest& request, Communicator
     [&]
     {
       own = own_request(request, ranks.size() > 1);
-      where = pieces.where(0);
+      where = where_of(pieces.front());
       schema = join_schemas(pieces, request);
       part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, forward);
       ahead.reset();
     });
   for (share_remarks(ranks, part); !part.misfits.empty(); share_remarks(ranks, part))
   {
-    const FrameKind& kind = *pieces.entries.front()->kind;
+    const FrameKind& kind = *pieces.front().entry.kind;
     check_misfit(part.misfits.front(), kind, *schema);
     do_together(ranks,
       [&]
@@ -307,27 +307,6 @@ DumpFrame read(const PieceList& pieces, const DumpRequest& request, Communicator
   return std::move(part.frame);
 }
 
-PieceList list_of(const std::vector<FramePiece>& pieces)
-{
-  PieceList list;
-  for (const FramePiece& piece : pieces)
-  {
-    list.entries.push_back(&piece.entry);
-    list.paths.push_back(piece.file.path);
-  }
-  list.open = [&pieces](std::size_t i) { return open_indexed(pieces[i].file); };
-  return list;
-}
-}
-
-DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
-  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
-{
-  PieceList list;
-  do_together(ranks, [&] { list = list_of(pieces); });
-  return read(list, request, ranks, std::move(ahead), notices, progress);
-}
-
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   Notices& notices, Progress& progress)
 {
@@ -338,18 +317,15 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
 DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
   Notices& notices, Progress& progress)
 {
-  const auto lent = [](const ByteSource*) {};
-  const PieceList list = { { &entry }, { source.path() },
-    [&](std::size_t) { return std::shared_ptr<const ByteSource>(&source, lent); } };
-  SerialCommunicator alone;
-  return read(list, request, alone, std::nullopt, notices, progress);
+  FileIndex file;
+  file.path = source.path();
+  return read_dump({ { file, entry, &source } }, request, notices, progress);
 }
 
 DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   bool together, Progress& progress)
 {
   check(request);
-  const PieceList list = list_of(pieces);
-  return decode(list, join_schemas(list, request), own_request(request, together), progress);
+  return decode(pieces, join_schemas(pieces, request), own_request(request, together), progress);
 }
 }

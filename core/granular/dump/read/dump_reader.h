@@ -6,7 +6,7 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/dump/read/dump_request.h"
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/dump_frame.h"
 

@@ -51,8 +51,8 @@ bool is_wanted(const std::function<bool(const ArrayInfo&)>& wanted, const ArrayI
 struct DumpPart
 {
   DumpFrame frame;
-  Block ids;                   ///< for sorting, where the frame has no array of them
-  std::vector<Misfit> misfits; ///< the first, and those found with it; then there is no frame
+  Block ids;       ///< for sorting, where the frame has no array of them
+  Misfits misfits; ///< then there is no frame
   Notices notices;
   RoundingLoss loss;                ///< of the points
   std::vector<std::int64_t> counts; ///< of each piece of the frame, the rows that are in this part

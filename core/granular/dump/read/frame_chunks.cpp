@@ -15,31 +15,26 @@ namespace
 constexpr std::int64_t some_rows = 4096;
 }
 
-std::int64_t PieceList::rows() const noexcept
+std::int64_t rows_of(const FramePieces& pieces) noexcept
 {
-  return std::accumulate(entries.begin(), entries.end(), std::int64_t{ 0 },
-    [](std::int64_t rows, const FrameEntry* entry) { return rows + entry->rows; });
+  return std::accumulate(pieces.begin(), pieces.end(), std::int64_t{ 0 },
+    [](std::int64_t rows, const FramePiece& piece) { return rows + piece.entry.rows; });
 }
 
-Where PieceList::where(std::size_t piece) const
-{
-  return where_of(paths[piece], *entries[piece]);
-}
-
-std::vector<PieceRows> cut_frame(const PieceList& pieces, int part, int parts)
+std::vector<PieceRows> cut_frame(const FramePieces& pieces, int part, int parts)
 {
   std::int64_t all = 0;
-  for (const FrameEntry* const entry : pieces.entries)
+  for (const FramePiece& piece : pieces)
   {
-    all += extent_of(*entry);
+    all += extent_of(piece.entry);
   }
   const std::int64_t first = begin_of_part(all, part, parts);
   const std::int64_t last = begin_of_part(all, part + 1, parts);
   std::vector<PieceRows> ranges;
   std::int64_t begin = 0;
-  for (std::size_t piece = 0; piece < pieces.entries.size(); ++piece)
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
   {
-    const std::int64_t extent = extent_of(*pieces.entries[piece]);
+    const std::int64_t extent = extent_of(pieces[piece].entry);
     const PieceRows range = { piece, std::max(first - begin, std::int64_t{ 0 }),
       std::min(last - begin, extent) };
     if (range.first < range.last)
@@ -51,19 +46,19 @@ std::vector<PieceRows> cut_frame(const PieceList& pieces, int part, int parts)
   return ranges;
 }
 
-std::int64_t most_rows(const PieceList& pieces, const std::vector<PieceRows>& ranges)
+std::int64_t most_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges)
 {
   return std::accumulate(ranges.begin(), ranges.end(), std::int64_t{ 0 },
     [&](std::int64_t rows, const PieceRows& range)
-    { return rows + pieces.entries[range.piece]->rows; });
+    { return rows + pieces[range.piece].entry.rows; });
 }
 
-std::int64_t likely_rows(const PieceList& pieces, const std::vector<PieceRows>& ranges)
+std::int64_t likely_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges)
 {
   std::int64_t rows = 0;
   for (const PieceRows& range : ranges)
   {
-    const FrameEntry& entry = *pieces.entries[range.piece];
+    const FrameEntry& entry = pieces[range.piece].entry;
     const double share =
       static_cast<double>(range.last - range.first) / static_cast<double>(extent_of(entry));
     const double likely = 1.25 * share * static_cast<double>(entry.rows) + some_rows;
@@ -87,12 +82,12 @@ std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source)
 }
 
 ChunkCuts::ChunkCuts(
-  const PieceList& pieces, const std::vector<PieceRows>& ranges, std::size_t chunk_bytes)
+  const FramePieces& pieces, const std::vector<PieceRows>& ranges, std::size_t chunk_bytes)
 {
   const std::size_t bytes = std::min(chunk_bytes, TextScanner::longest_line);
   for (const PieceRows& range : ranges)
   {
-    const std::int64_t step = chunk_extent(*pieces.entries[range.piece], bytes);
+    const std::int64_t step = chunk_extent(pieces[range.piece].entry, bytes);
     const std::int64_t chunks =
       range.first < range.last ? (range.last - 1) / step - range.first / step + 1 : 0;
     cuts_.push_back({ range, step, this->size() + static_cast<std::size_t>(chunks) });

@@ -3,27 +3,17 @@
 #define granular_dump_read_frame_chunks_h
 
 #include "granular/bytes/byte_source.h"
-#include "granular/frames/frame.h"
+#include "granular/frames/run_index.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
 namespace granular
 {
-/// The pieces of a frame, and how to get at their bytes.
-struct PieceList
-{
-  std::vector<const FrameEntry*> entries;
-  std::vector<std::string> paths;
-  std::function<std::shared_ptr<const ByteSource>(std::size_t piece)> open;
+using FramePieces = std::vector<FramePiece>;
 
-  std::int64_t rows() const noexcept;   ///< of all pieces
-  Where where(std::size_t piece) const; ///< its place
-};
+std::int64_t rows_of(const FramePieces& pieces) noexcept;
 
 /// Part of a piece: the rows that begin in [first, last) of its extent.
 struct PieceRows
@@ -35,14 +25,14 @@ struct PieceRows
 
 /// Part `part` of `parts` of a frame: its pieces, one behind the other, cut by their extents. The parts
 /// hold each row once, in their order; there may be more of them than rows.
-std::vector<PieceRows> cut_frame(const PieceList& pieces, int part, int parts);
+std::vector<PieceRows> cut_frame(const FramePieces& pieces, int part, int parts);
 
 /// As many rows as the ranges have at most, if the pieces have what their headers promise: no part has more than the pieces that
 /// it is of.
-std::int64_t most_rows(const PieceList& pieces, const std::vector<PieceRows>& ranges);
+std::int64_t most_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges);
 
 /// As many as they have as a rule: rows of a text differ in length, but a part of it rarely has many more than its share.
-std::int64_t likely_rows(const PieceList& pieces, const std::vector<PieceRows>& ranges);
+std::int64_t likely_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges);
 
 /// The rows of a frame, or as many as the bytes of its file can be: of a packed one as they are packed as a rule.
 std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source);
@@ -53,7 +43,8 @@ std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source);
 class ChunkCuts
 {
 public:
-  ChunkCuts(const PieceList& pieces, const std::vector<PieceRows>& ranges, std::size_t chunk_bytes);
+  ChunkCuts(
+    const FramePieces& pieces, const std::vector<PieceRows>& ranges, std::size_t chunk_bytes);
 
   std::size_t size() const noexcept { return cuts_.empty() ? 0 : cuts_.back().end; }
   PieceRows operator[](std::size_t chunk) const noexcept;

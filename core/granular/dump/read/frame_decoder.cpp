@@ -11,24 +11,8 @@
 
 namespace granular
 {
-namespace
-{
-/// A fault, and the piece that it is in.
-struct PieceFault
-{
-  std::size_t piece;
-  RowFault fault;
-};
-
-/// There are more rows than there is room for.
-struct TooManyRows
-{
-  std::size_t piece;
-};
-}
-
-FrameDecoder::FrameDecoder(
-  const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request, Notices& notices)
+FrameDecoder::FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema,
+  const DumpRequest& request, Notices& notices)
   : pieces_(pieces)
   , schema_(schema)
   , request_(request)
@@ -36,12 +20,12 @@ FrameDecoder::FrameDecoder(
   , executor_(request.threads)
   , ranges_(cut_frame(pieces, request.piece, request.pieces))
   , chunks_(pieces, ranges_, request.chunk_bytes)
-  , sources_(pieces.entries.size())
+  , sources_(pieces.size())
 {
   first_ = this->open(0);
-  where_ = pieces.where(0);
+  where_ = where_of(pieces.front());
   header_ = first_->rows->header();
-  header_.rows = pieces.rows();
+  header_.rows = rows_of(pieces);
 }
 
 std::shared_ptr<const FrameDecoder::Source> FrameDecoder::open(std::size_t piece)
@@ -50,8 +34,8 @@ std::shared_ptr<const FrameDecoder::Source> FrameDecoder::open(std::size_t piece
   std::shared_ptr<const Source> source = sources_[piece].lock();
   if (!source)
   {
-    std::shared_ptr<const ByteSource> bytes = pieces_.open(piece);
-    std::unique_ptr<const FrameRows> rows = open_rows(*bytes, *pieces_.entries[piece]);
+    std::shared_ptr<const ByteSource> bytes = open_piece(pieces_[piece]);
+    std::unique_ptr<const FrameRows> rows = open_rows(*bytes, pieces_[piece].entry);
     source = std::make_shared<const Source>(Source{ std::move(bytes), std::move(rows) });
     sources_[piece] = source;
   }
@@ -83,7 +67,7 @@ std::int64_t FrameDecoder::first_room()
   for (const PieceRows& range : ranges_)
   {
     const std::shared_ptr<const Source> source = this->open(range.piece); // reads the header
-    possible += possible_rows(*pieces_.entries[range.piece], *source->bytes);
+    possible += possible_rows(pieces_[range.piece].entry, *source->bytes);
   }
   return std::min(likely, possible);
 }
@@ -99,9 +83,9 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
   std::int64_t before = 0;
   for (std::size_t piece = 0; piece < range.piece; ++piece)
   {
-    before += pieces_.entries[piece]->rows;
+    before += pieces_[piece].entry.rows;
   }
-  if (!pieces_.entries[range.piece]->kind->is_text())
+  if (!pieces_[range.piece].entry.kind->is_text())
   {
     return before + range.first;
   }
@@ -128,7 +112,7 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
   return rows;
 }
 
-std::vector<Misfit> FrameDecoder::run(Progress& whole)
+Misfits FrameDecoder::run(Progress& whole)
 {
   PartialProgress progress(whole);
   try
@@ -142,13 +126,15 @@ std::vector<Misfit> FrameDecoder::run(Progress& whole)
       room = std::min(most_rows(pieces_, ranges_), 4 * room); // there are more than that
     }
   }
-  catch (const PieceFault& found)
+  catch (Misfits& misfits)
   {
+    const std::size_t piece = misfits.front().piece;
     this->count_rows();
-    this->check_counts(found.piece); // those before come first
-    return this->open(found.piece)->rows->describe(found.fault);
+    this->check_counts(piece); // those before come first
+    this->open(piece)->rows->locate(misfits);
+    return std::move(misfits);
   }
-  this->check_counts(pieces_.entries.size());
+  this->check_counts(pieces_.size());
   this->note_surplus();
   this->join_words();
   progress.step(1);
@@ -180,16 +166,21 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
       [&](std::size_t chunk, std::size_t worker) { this->decode_chunk(chunk, workers[worker]); },
       progress);
   }
-  catch (const TooManyRows& found)
+  catch (const Misfits& misfits)
   {
+    if (misfits.front().status != RowStatus::TooMany)
+    {
+      throw;
+    }
     if (room < most_rows(pieces_, ranges_))
     {
       return false;
     }
+    const std::size_t piece = misfits.front().piece;
     this->count_rows();
-    this->check_counts(found.piece);
-    counts_[found.piece] = pieces_.entries[found.piece]->rows + 1;
-    this->check_counts(found.piece + 1);
+    this->check_counts(piece);
+    counts_[piece] = pieces_[piece].entry.rows + 1;
+    this->check_counts(piece + 1);
   }
   this->count_rows();
   this->join_ranges(workers);
@@ -260,13 +251,14 @@ void FrameDecoder::decode_rows(
     worker.decoder->decode(*worker.reader, first_number_ + number,
       std::min(layout_->rows - number, most), where_, decoded, worker.ranges);
   }
-  catch (RowFault& fault)
+  catch (Misfits& misfits)
   {
-    throw PieceFault{ piece, std::move(fault) };
+    misfits.front().piece = piece;
+    throw;
   }
   if (worker.reader->more())
   {
-    throw TooManyRows{ piece };
+    throw Misfits{ { .status = RowStatus::TooMany, .column = -1, .word = {}, .piece = piece } };
   }
 }
 
@@ -323,7 +315,7 @@ void FrameDecoder::join_ranges(const std::vector<Worker>& workers)
 
 void FrameDecoder::count_rows()
 {
-  counts_.assign(pieces_.entries.size(), 0);
+  counts_.assign(pieces_.size(), 0);
   next_row_ = 0;
   for (std::size_t chunk = 0; chunk < decoded_.size(); ++chunk)
   {
@@ -341,14 +333,14 @@ void FrameDecoder::check_counts(std::size_t pieces) const
     {
       return;
     }
-    const FrameEntry& entry = *pieces_.entries[range.piece];
+    const FrameEntry& entry = pieces_[range.piece].entry;
     const std::int64_t count = counts_[range.piece];
     const bool all = range.first == 0 && range.last == extent_of(entry);
     if (count > entry.rows || (all && count < entry.rows))
     {
       throw FormatError("expected " + std::to_string(entry.rows) + " rows, got " +
           (count > entry.rows ? "more" : std::to_string(count)),
-        pieces_.where(range.piece));
+        where_of(pieces_[range.piece]));
     }
   }
 }
@@ -356,13 +348,13 @@ void FrameDecoder::check_counts(std::size_t pieces) const
 /// Says once a piece that there were more words in its rows than columns.
 void FrameDecoder::note_surplus()
 {
-  std::size_t said = pieces_.entries.size();
+  std::size_t said = pieces_.size();
   for (std::size_t chunk = 0; chunk < decoded_.size(); ++chunk)
   {
     const std::size_t piece = chunks_[chunk].piece;
     if (decoded_[chunk].surplus && piece != said)
     {
-      notices_.push_back({ pieces_.where(piece),
+      notices_.push_back({ where_of(pieces_[piece]),
         "expected " + std::to_string(schema_.columns().size()) +
           " words in a row, got more in some rows; the rest of them was ignored" });
       said = piece;

@@ -26,11 +26,11 @@ namespace granular
 class FrameDecoder
 {
 public:
-  FrameDecoder(const PieceList& pieces, const ColumnSchema& schema, const DumpRequest& request,
+  FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request,
     Notices& notices);
 
-  /// Decodes all rows, or up to a value that does not fit: returns those of its row.
-  std::vector<Misfit> run(Progress& progress);
+  /// Decodes all rows, or up to a value that does not fit: returns it, and those found with it.
+  Misfits run(Progress& progress);
 
   /// The frame; ids gets the ids where they are needed for sorting and no array of the frame.
   DumpFrame take(Block& ids);
@@ -77,7 +77,7 @@ private:
   void note_surplus();
   void join_words();
 
-  const PieceList& pieces_;
+  const FramePieces& pieces_;
   const ColumnSchema& schema_;
   const DumpRequest& request_;
   Notices& notices_;

@@ -11,13 +11,6 @@ namespace granular
 {
 namespace
 {
-constexpr ColumnSink::Kind kind_of(ValueType type) noexcept
-{
-  constexpr ColumnSink::Kind kinds[] = { ColumnSink::Kind::Int32, ColumnSink::Kind::Int64,
-    ColumnSink::Kind::Float64, ColumnSink::Kind::Text };
-  return kinds[static_cast<std::size_t>(type)];
-}
-
 /// Texts need memory for a batch, each column by itself: many of them get a shorter one.
 std::size_t batch_for(const ColumnSchema& schema) noexcept
 {
@@ -78,11 +71,11 @@ void FrameLayout::want(int column, ValueType type, Destination to, double scale)
   }
   else if (scale == 1)
   {
-    wires[column] = { kind_of(type), to, {} };
+    wires[column] = { type, to, {} };
   }
   else
   {
-    wires[column] = { kind_of(type), this->scratch(size_of(type)), { { to, scale } } };
+    wires[column] = { type, this->scratch(size_of(type)), { { to, scale } } };
   }
 }
 

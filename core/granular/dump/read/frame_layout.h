@@ -38,7 +38,7 @@ struct Wire
     double scale;
   };
 
-  ColumnSink::Kind kind;
+  ValueType type;
   Destination first;
   std::vector<Copy> copies;
 };

@@ -30,12 +30,12 @@ FrameView view_atoms(const AtomRows& atoms, const FrameHeader& header)
   FrameView frame;
   frame.header = header;
   frame.rows = atoms.rows;
-  frame.points = view_rows("points", ScalarType::Float64, atoms.positions, 3);
-  frame.arrays.push_back(view_rows("id", ScalarType::Int64, atoms.ids));
-  frame.arrays.push_back(view_rows("type", ScalarType::Int32, atoms.types));
+  frame.points = view_rows("points", ValueType::Float64, atoms.positions, 3);
+  frame.arrays.push_back(view_rows("id", ValueType::Int64, atoms.ids));
+  frame.arrays.push_back(view_rows("type", ValueType::Int32, atoms.types));
   if (atoms.images)
   {
-    frame.arrays.push_back(view_rows("image", ScalarType::Int32, atoms.images, 3));
+    frame.arrays.push_back(view_rows("image", ValueType::Int32, atoms.images, 3));
   }
   return frame;
 }

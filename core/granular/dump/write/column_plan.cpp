@@ -26,7 +26,7 @@ std::vector<ArrayView> known_arrays()
   {
     if (known.components > 1 && known.component == 0)
     {
-      arrays.push_back({ std::string(known.array), ScalarType::Float64,
+      arrays.push_back({ std::string(known.array), ValueType::Float64,
         std::vector<const void*>(static_cast<std::size_t>(known.components)) });
     }
   }
@@ -47,7 +47,7 @@ std::optional<ColumnSource> find_source(
     source.kind = Kind::Coordinate;
     source.role = role;
     source.axis = known->component;
-    source.own = values && values->type != ScalarType::Text;
+    source.own = values && values->type != ValueType::Text;
     source.values = source.own ? *values : ValueSource{};
     return frame.points || frame.rows == 0 ? std::optional(source) : std::nullopt;
   }
@@ -130,13 +130,13 @@ void take_as_they_are(ColumnPlan& plan, const FrameView& frame)
 bool is_lost(
   const std::string& name, const std::optional<ValueSource>& values, bool binary) noexcept
 {
-  return binary && values && values->type == ScalarType::Text && name != "element";
+  return binary && values && values->type == ValueType::Text && name != "element";
 }
 
 /// A text has no place in a binary file; the element is the type there.
 void replace_text(ColumnSource& column, const FrameView& frame)
 {
-  if (column.kind != Kind::Array || column.values.type != ScalarType::Text)
+  if (column.kind != Kind::Array || column.values.type != ValueType::Text)
   {
     return;
   }

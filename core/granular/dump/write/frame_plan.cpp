@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/frame_plan.h"
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/common/words.h"
 #include "granular/dump/write/grain_bounds.h"
 #include "granular/dump/write/print_loss.h"
@@ -98,7 +98,7 @@ void pass(Archive& archive, Lead& lead)
 template <class Item>
 std::string pack(Item item)
 {
-  Packer packer;
+  ArchiveWriter packer;
   pass(packer, item);
   return std::move(packer.bytes);
 }
@@ -107,7 +107,7 @@ template <class Item>
 Item unpack(std::string_view bytes)
 {
   Item item;
-  Unpacker unpacker{ bytes };
+  ArchiveReader unpacker{ bytes };
   pass(unpacker, item);
   return item;
 }
@@ -257,7 +257,7 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat&
     const ColumnSource& other = lead.columns.columns[i];
     if (own.kind != other.kind || own.own != other.own ||
       is_integer(own.values.type) != is_integer(other.values.type) ||
-      (own.values.type == ScalarType::Text) != (other.values.type == ScalarType::Text))
+      (own.values.type == ValueType::Text) != (other.values.type == ValueType::Text))
     {
       fail_others(names[i]);
     }

@@ -13,8 +13,8 @@ namespace
 {
 double radius_of(const RowValues::Column& column, std::size_t row) noexcept
 {
-  return column.type == ScalarType::Int64 ? static_cast<double>(column.integers[row])
-                                          : column.reals[row];
+  return column.type == ValueType::Int64 ? static_cast<double>(column.integers[row])
+                                         : column.reals[row];
 }
 }
 
@@ -50,7 +50,7 @@ GrainBounds bounds_of_grains(const FrameView& frame)
   const auto is_there = [&](const char* name)
   {
     const ArrayView* array = frame.find(name);
-    return array && array->size() == 1 && array->type != ScalarType::Text;
+    return array && array->size() == 1 && array->type != ValueType::Text;
   };
   const bool spheres = is_there("radius") || is_there("diameter");
   if (spheres)

@@ -60,7 +60,7 @@ double smallest_radius(const FrameView& frame)
 {
   const std::optional<ValueSource> radii = find_values(frame, "radius");
   RoundingLoss loss;
-  if (!radii || radii->type == ScalarType::Text)
+  if (!radii || radii->type == ValueType::Text)
   {
     return loss.radius();
   }
@@ -172,7 +172,7 @@ void PrintLoss::measure(const RowValues& values, RoundingLoss& loss) const
   for (const Place& place : places_)
   {
     const RowValues::Column& column = values.columns()[place.column];
-    if (column.type == ScalarType::Float64)
+    if (column.type == ValueType::Float64)
     {
       this->measure_place(place, column.reals, loss);
     }
@@ -208,7 +208,7 @@ void PrintLoss::measure_place(
 void PrintLoss::measure_values(
   std::size_t column, const RowValues::Column& values, RoundingLoss& loss) const
 {
-  if (values.type != ScalarType::Float64)
+  if (values.type != ValueType::Float64)
   {
     return;
   }

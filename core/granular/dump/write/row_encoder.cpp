@@ -22,7 +22,7 @@ std::size_t most_text_bytes(std::span<const Column> columns, std::size_t rows)
   std::size_t bytes = rows * (columns.size() * (most_number_chars + 1) + 2);
   for (const Column& column : columns)
   {
-    for (std::size_t row = 0; column.type == ScalarType::Text && row < rows; ++row)
+    for (std::size_t row = 0; column.type == ValueType::Text && row < rows; ++row)
     {
       bytes += column.texts[row]->size();
     }
@@ -45,11 +45,11 @@ void check_texts(const Column& column, const std::string& name)
 [[gnu::always_inline]] inline char* print_value(
   char* to, const Column& column, std::size_t row, NumberFormat format)
 {
-  if (column.type == ScalarType::Int64)
+  if (column.type == ValueType::Int64)
   {
     return print_integer(to, column.integers[row]);
   }
-  if (column.type == ScalarType::Text)
+  if (column.type == ValueType::Text)
   {
     const std::string& text = *column.texts[row];
     return std::copy(text.begin(), text.end(), to);
@@ -96,7 +96,7 @@ void pack_rows(
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     const Column& column = columns[i];
-    if (column.type != ScalarType::Int64)
+    if (column.type != ValueType::Int64)
     {
       scatter(column.reals.data() + first, count, to + i * sizeof(double), step);
       continue;
@@ -152,7 +152,7 @@ void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
   const std::span<const Column> columns = values.columns();
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
-    if (columns[i].type == ScalarType::Text)
+    if (columns[i].type == ValueType::Text)
     {
       check_texts(columns[i], plan_.columns[i].name);
     }

@@ -36,28 +36,28 @@ void check_unsigned(const ColumnSource& source, Rows rows)
 void load_array(const ColumnSource& source, Rows rows, bool as_doubles, RowValues::Column& column)
 {
   const ValueSource& values = source.values;
-  if (values.type == ScalarType::Text)
+  if (values.type == ValueType::Text)
   {
     const auto* texts = static_cast<const std::string*>(values.data);
-    column.type = ScalarType::Text;
+    column.type = ValueType::Text;
     column.texts.resize(rows.size());
     std::transform(rows.begin(), rows.end(), column.texts.begin(),
       [&](std::int64_t row) { return texts + row * values.step; });
   }
   else if (is_integer(values.type) && values.factor == 1 &&
-    !(as_doubles && values.type < ScalarType::Int64))
+    !(as_doubles && values.type < ValueType::Int64))
   {
-    if (values.type == ScalarType::UInt64)
+    if (values.type == ValueType::UInt64)
     {
       check_unsigned(source, rows);
     }
-    column.type = ScalarType::Int64;
+    column.type = ValueType::Int64;
     column.integers.resize(rows.size());
     load_numbers(values, rows, column.integers.data());
   }
   else
   {
-    column.type = ScalarType::Float64;
+    column.type = ValueType::Float64;
     column.reals.resize(rows.size());
     load_numbers(values, rows, column.reals.data());
     for (double& value : column.reals)
@@ -182,7 +182,7 @@ void RowValues::load_coordinate(
   }
   // the file's own number, where it is that of the point within rounding: its last digits are its own
   load_numbers(source.values, std::span(kept_).first(rows_), own_.data());
-  const double unit = frame.points->type == ScalarType::Float32 ? 0x1p-22 : 0x1p-50;
+  const double unit = frame.points->type == ValueType::Float32 ? 0x1p-22 : 0x1p-50;
   const double magnitude = magnitudes(box, box_, source.role)[axis];
   const double biased = source.role == ColumnRole::ScaledUnwrappedPosition ? image_rounding : 0;
   for (std::size_t i = 0; i < rows_; ++i)
@@ -222,7 +222,7 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
   {
     const ColumnSource& source = plan.columns[i];
     Column& column = columns_[i];
-    column.type = ScalarType::Float64;
+    column.type = ValueType::Float64;
     column.whole = source.whole;
     switch (source.kind)
     {
@@ -241,7 +241,7 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
         this->load_coordinate(frame, box, source, column.reals);
         break;
       case Kind::Image:
-        column.type = ScalarType::Int64;
+        column.type = ValueType::Int64;
         column.integers.resize(rows_);
         for (std::size_t row = 0; row < rows_; ++row)
         {
@@ -250,12 +250,12 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
         }
         break;
       case Kind::RowNumber:
-        column.type = ScalarType::Int64;
+        column.type = ValueType::Int64;
         column.integers.resize(rows_);
         std::iota(column.integers.begin(), column.integers.end(), row_number + 1);
         break;
       case Kind::One:
-        column.type = ScalarType::Int64;
+        column.type = ValueType::Int64;
         column.integers.assign(rows_, 1);
         break;
     }

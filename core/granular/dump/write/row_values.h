@@ -21,8 +21,8 @@ public:
   /// One column: whole numbers, real numbers or texts.
   struct Column
   {
-    ScalarType type = ScalarType::Float64; ///< Int64, Float64 or Text
-    bool whole = false;                    ///< reals: integral ones are shown with all their digits
+    ValueType type = ValueType::Float64; ///< Int64, Float64 or Text
+    bool whole = false;                  ///< reals: integral ones are shown with all their digits
     std::vector<std::int64_t> integers = {};
     std::vector<double> reals = {};
     std::vector<const std::string*> texts = {};

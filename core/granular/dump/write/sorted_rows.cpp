@@ -20,9 +20,9 @@ ValueType type_of(const ColumnSource& column) noexcept
   const bool array = column.kind == Kind::Array;
   const bool integer = array ? is_integer(column.values.type) && column.values.factor == 1
                              : column.kind != Kind::Coordinate;
-  return array && column.values.type == ScalarType::Text ? ValueType::Text
-    : integer                                            ? ValueType::Int64
-                                                         : ValueType::Float64;
+  return array && column.values.type == ValueType::Text ? ValueType::Text
+    : integer                                           ? ValueType::Int64
+                                                        : ValueType::Float64;
 }
 
 template <class Value>
@@ -113,9 +113,7 @@ void SortedRows::show(FramePlan& plan)
     ColumnSource& column = plan.columns.columns[i];
     column.kind = Kind::Array;
     column.own = false;
-    column.values = { array.info.type == ValueType::Float64 ? ScalarType::Float64
-                                                            : ScalarType::Int64,
-      array.block.data() };
+    column.values = { array.info.type, array.block.data() };
     if (array.info.type == ValueType::Text)
     {
       std::vector<std::string>& texts = texts_.emplace_back();
@@ -124,7 +122,7 @@ void SortedRows::show(FramePlan& plan)
       {
         texts.push_back(array.words[static_cast<std::size_t>(indices[row])]);
       }
-      column.values = { ScalarType::Text, texts.data() };
+      column.values = { ValueType::Text, texts.data() };
     }
   }
 }

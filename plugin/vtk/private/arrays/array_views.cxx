@@ -12,28 +12,28 @@ namespace vtkGranularPrivate
 {
 namespace
 {
-using granular::ScalarType;
+using granular::ValueType;
 
 static_assert(sizeof(vtkStdString) == sizeof(std::string), "texts are viewed as std::string");
 
 /**
  * The type of the core for a type of VTK, by kind and size.
  */
-std::optional<ScalarType> TypeOf(int type)
+std::optional<ValueType> TypeOf(int type)
 {
   if (type == VTK_FLOAT || type == VTK_DOUBLE)
   {
-    return type == VTK_FLOAT ? ScalarType::Float32 : ScalarType::Float64;
+    return type == VTK_FLOAT ? ValueType::Float32 : ValueType::Float64;
   }
   struct Integer
   {
     int Bytes;
-    ScalarType Signed;
-    ScalarType Unsigned;
+    ValueType Signed;
+    ValueType Unsigned;
   };
-  constexpr Integer integers[] = { { 1, ScalarType::Int8, ScalarType::UInt8 },
-    { 2, ScalarType::Int16, ScalarType::UInt16 }, { 4, ScalarType::Int32, ScalarType::UInt32 },
-    { 8, ScalarType::Int64, ScalarType::UInt64 } };
+  constexpr Integer integers[] = { { 1, ValueType::Int8, ValueType::UInt8 },
+    { 2, ValueType::Int16, ValueType::UInt16 }, { 4, ValueType::Int32, ValueType::UInt32 },
+    { 8, ValueType::Int64, ValueType::UInt64 } };
   for (const Integer& integer : integers)
   {
     if (vtkDataArray::GetDataTypeSize(type) == integer.Bytes)
@@ -64,12 +64,12 @@ std::optional<granular::ArrayView> ArrayViews::See(
   if (auto* texts = vtkStringArray::SafeDownCast(array))
   {
     const std::string* first = array->GetNumberOfValues() > 0 ? texts->GetPointer(0) : nullptr;
-    view = granular::view_rows(name, ScalarType::Text, first, size);
+    view = granular::view_rows(name, ValueType::Text, first, size);
     return view;
   }
   auto* numbers = vtkDataArray::SafeDownCast(array);
   const bool bits = numbers && numbers->GetDataType() == VTK_BIT;
-  const auto type = bits ? ScalarType::UInt8
+  const auto type = bits ? ValueType::UInt8
     : numbers            ? TypeOf(numbers->GetDataType())
                          : std::nullopt;
   if (!type || size == 0)

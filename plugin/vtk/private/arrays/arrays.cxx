@@ -135,10 +135,9 @@ vtkSmartPointer<vtkAbstractArray> TakeValues(granular::DumpArray& array, vtkIdTy
       return TakeBlock<vtkTypeInt64Array>(array.block, rows, components);
     case granular::ValueType::Float64:
       return TakeBlock<vtkDoubleArray>(array.block, rows, components);
-    case granular::ValueType::Text:
-      break;
+    default:
+      return TakeTexts(array, rows);
   }
-  return TakeTexts(array, rows);
 }
 
 void Describe(vtkAbstractArray* taken, const granular::DumpArray& array,

@@ -161,7 +161,7 @@ void LocalInput::AddEnds(vtkPolyData* lines, const LocalRows& rows)
       const auto tuple = static_cast<std::size_t>(parts[0][row]);
       std::copy_n(points.data() + 3 * ids[end], 3, this->Ends.data() + 6 * tuple + 3 * end);
     }
-    granular::ArrayView view{ ArraysOfEnds[end], granular::ScalarType::Float64, {}, 6 };
+    granular::ArrayView view{ ArraysOfEnds[end], granular::ValueType::Float64, {}, 6 };
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       view.components.push_back(this->Ends.data() + 3 * end + axis);

@@ -155,11 +155,11 @@ granular::ArrayView LocalRows::See(const char* name)
     throw granular::Error("expected an array '" + std::string(name) + "' of the lines, got none");
   }
   const auto view = this->Arrays.See(array, name, this->AllTuples);
-  if (!view || view->type == granular::ScalarType::Text || view->size() != 1)
+  if (!view || view->type == granular::ValueType::Text || view->size() != 1)
   {
     throw granular::Error("expected one number a row in the array '" + std::string(name) +
       "' of the lines, got " +
-      (view && view->type != granular::ScalarType::Text
+      (view && view->type != granular::ValueType::Text
           ? std::to_string(view->size())
           : std::string("the type ") + array->GetDataTypeAsString()));
   }

@@ -2,7 +2,7 @@
 #ifndef vtkGranularLookTogether_h
 #define vtkGranularLookTogether_h
 
-#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/parallel/communicator.h"
 
 namespace vtkGranularPrivate
@@ -14,7 +14,7 @@ namespace vtkGranularPrivate
 template <typename Look, typename Take>
 void LookTogether(granular::Communicator& ranks, const Look& look, const Take& take)
 {
-  granular::Packer packer;
+  granular::ArchiveWriter packer;
   granular::do_together(ranks,
     [&]
     {
@@ -27,7 +27,7 @@ void LookTogether(granular::Communicator& ranks, const Look& look, const Take& t
   granular::do_together(ranks,
     [&]
     {
-      granular::Unpacker unpacker{ packer.bytes };
+      granular::ArchiveReader unpacker{ packer.bytes };
       take(unpacker);
     });
 }

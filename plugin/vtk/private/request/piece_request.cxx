@@ -32,7 +32,7 @@ std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) 
 
 bool AskTogether(const PieceRequest& wanted, const std::string& form, granular::Communicator& ranks)
 {
-  granular::Packer packer;
+  granular::ArchiveWriter packer;
   granular::do_together(ranks,
     [&]
     {

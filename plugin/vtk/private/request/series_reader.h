@@ -7,7 +7,7 @@
 #include "private/request/guard.h"
 #include "private/request/processes.h"
 
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 #include "granular/memory/block_pool.h"
 
 #include <memory>
@@ -28,7 +28,7 @@ struct vtkGranularSeriesReader::Internals
   std::vector<std::string> FileNames;
   const granular::FileFormat* Format = nullptr; // set by the constructors of readers
   std::vector<std::string> ColumnNames;         ///< for files that do not name their columns
-  granular::FrameIndex Index;
+  granular::RunIndex Index;
   std::vector<std::string> IndexedNames; ///< what Index was made from
   bool Valid = false;                    ///< Index is what the last look at the files gave
   bool Stale = false;                    ///< the files are to be looked at again

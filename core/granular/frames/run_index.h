@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_frames_frame_index_h
-#define granular_frames_frame_index_h
+#ifndef granular_frames_run_index_h
+#define granular_frames_run_index_h
 
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/frames/file_index.h"
 #include "granular/frames/file_series.h"
 #include "granular/frames/frame_times.h"
-#include "granular/frames/index_file.h"
+#include "granular/frames/saved_index.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,7 @@ struct IndexOptions
   const FileFormat* format = nullptr;         ///< of the files; must be there
   std::vector<std::string> column_names = {}; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
-  IndexFile index_file = IndexFile::Never;
+  KeepIndex keep_index = KeepIndex::Never;
   int threads = 1; ///< >= 1; what is found does not depend on it
 };
 
@@ -33,7 +34,13 @@ struct FramePiece
 {
   const FileIndex& file;
   const FrameEntry& entry;
+  const ByteSource* source = nullptr; ///< the content of the file, if it is open already
 };
+
+/// Returns the content of the file of a piece: see open_indexed.
+std::shared_ptr<const ByteSource> open_piece(const FramePiece& piece);
+
+Where where_of(const FramePiece& piece);
 
 /// All complete frames of a run, dumps or other files, found at scan speed without decoding rows.
 ///
@@ -42,7 +49,7 @@ struct FramePiece
 /// frame that is not complete is left out: its writer is still at work. Frames in the middle that are
 /// not what their header says are left out with a notice. Files with `boundingBox` in their names,
 /// which LIGGGHTS writes beside some dumps, and index files are passed over.
-class FrameIndex
+class RunIndex
 {
 public:
   /// Brings the index up to what the files hold now. Files that only grew are read from where the
@@ -82,7 +89,7 @@ public:
   void decode(std::string_view bytes);
 
 private:
-  friend void update_frame_index(FrameIndex& index, Communicator& ranks,
+  friend void update_run_index(RunIndex& index, Communicator& ranks,
     const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
 
@@ -99,13 +106,12 @@ private:
   std::uint64_t shared_ = 0; ///< hash of the bytes that all ranks have, 0: none
 };
 
-/// Collective: FrameIndex::update on rank 0, which alone looks at files, has notices and reports; then
+/// Collective: RunIndex::update on rank 0, which alone looks at files, has notices and reports; then
 /// all ranks have the same index. Throws the same on all, and then their indexes have no frames.
-void update_frame_index(FrameIndex& index, Communicator& ranks,
-  const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
-  Progress& progress);
+void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
+  const IndexOptions& options, Notices& notices, Progress& progress);
 
-/// Collective: FrameIndex::changed on rank 0, for all.
-bool is_changed(const FrameIndex& index, Communicator& ranks);
+/// Collective: RunIndex::changed on rank 0, for all.
+bool is_changed(const RunIndex& index, Communicator& ranks);
 }
 #endif

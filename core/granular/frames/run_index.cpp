@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 
+#include "granular/common/archive.h"
 #include "granular/common/hash.h"
-#include "granular/frames/index_archive.h"
-#include "granular/frames/index_bytes.h"
+#include "granular/frames/saved_index.h"
 #include "granular/frames/update_files.h"
 
 #include <algorithm>
@@ -68,7 +68,19 @@ bool is_beside(const std::string& path)
 }
 }
 
-void FrameIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
+std::shared_ptr<const ByteSource> open_piece(const FramePiece& piece)
+{
+  const auto lent = [](const ByteSource*) {};
+  return piece.source ? std::shared_ptr<const ByteSource>(piece.source, lent)
+                      : open_indexed(piece.file);
+}
+
+Where where_of(const FramePiece& piece)
+{
+  return where_of(piece.file.path, piece.entry);
+}
+
+void RunIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
   Notices& notices, Progress& progress)
 {
   if (options.format == nullptr)
@@ -97,12 +109,12 @@ void FrameIndex::update(const std::vector<std::string>& files, const IndexOption
   this->note_times(notices);
 }
 
-void FrameIndex::update_files(const std::vector<std::string>& files, const IndexOptions& options,
+void RunIndex::update_files(const std::vector<std::string>& files, const IndexOptions& options,
   Notices& notices, Progress& progress)
 {
   std::map<std::string, FileIndex> known;
   const auto kinds = files_.empty() ? std::make_shared<FrameKinds>() : files_.front().kinds;
-  const std::string kept = files.empty() ? "" : index_file_path(options.index_file, files.front());
+  const std::string kept = files.empty() ? "" : index_file_path(options.keep_index, files.front());
   if (files_.empty() && !kept.empty())
   {
     files_ = load_index(kept, files.front(), kinds, notices);
@@ -143,18 +155,18 @@ void FrameIndex::update_files(const std::vector<std::string>& files, const Index
   }
 }
 
-bool FrameIndex::changed() const
+bool RunIndex::changed() const
 {
   return std::ranges::any_of(files_, [](const FileIndex& file) { return is_changed(file); });
 }
 
-FramePiece FrameIndex::first_piece(std::size_t frame) const
+FramePiece RunIndex::first_piece(std::size_t frame) const
 {
   const FileSeries::Place place = series_.pieces(frame).front();
   return { files_[place.file], files_[place.file].frames[place.frame] };
 }
 
-std::vector<FramePiece> FrameIndex::pieces(std::size_t frame) const
+std::vector<FramePiece> RunIndex::pieces(std::size_t frame) const
 {
   std::vector<FramePiece> pieces;
   for (const FileSeries::Place place : series_.pieces(frame))
@@ -165,7 +177,7 @@ std::vector<FramePiece> FrameIndex::pieces(std::size_t frame) const
 }
 
 /// Says which files cannot be read or checked, and, once, that columns have names that are not in the file.
-void FrameIndex::note_files(Notices& notices) const
+void RunIndex::note_files(Notices& notices) const
 {
   for (const FileIndex& file : files_)
   {
@@ -190,7 +202,7 @@ void FrameIndex::note_files(Notices& notices) const
 }
 
 /// Says so if only some frames have a time, or times that do not increase.
-void FrameIndex::note_times(Notices& notices) const
+void RunIndex::note_times(Notices& notices) const
 {
   const std::vector<FrameInstant> frames = this->instants();
   const auto has_time = [](const FrameInstant& frame) { return !std::isnan(frame.time); };
@@ -203,7 +215,7 @@ void FrameIndex::note_times(Notices& notices) const
   }
 }
 
-void FrameIndex::fail(const Notices& notices) const
+void RunIndex::fail(const Notices& notices) const
 {
   if (files_.empty())
   {
@@ -228,7 +240,7 @@ void FrameIndex::fail(const Notices& notices) const
   throw FormatError(defect.text, defect.where);
 }
 
-std::vector<FrameInstant> FrameIndex::instants() const
+std::vector<FrameInstant> RunIndex::instants() const
 {
   std::vector<FrameInstant> frames;
   frames.reserve(this->size());
@@ -240,19 +252,19 @@ std::vector<FrameInstant> FrameIndex::instants() const
   return frames;
 }
 
-std::vector<double> FrameIndex::times(double timestep_size, Notices& notices) const
+std::vector<double> RunIndex::times(double timestep_size, Notices& notices) const
 {
   return frame_times(this->instants(), timestep_size,
     this->size() > 0 ? this->first_piece(0).file.path : std::string(), notices);
 }
 
-std::vector<double> FrameIndex::times(double timestep_size) const
+std::vector<double> RunIndex::times(double timestep_size) const
 {
   Notices told_elsewhere;
   return this->times(timestep_size, told_elsewhere);
 }
 
-std::size_t FrameIndex::find(const std::vector<double>& times, double time) noexcept
+std::size_t RunIndex::find(const std::vector<double>& times, double time) noexcept
 {
   constexpr double tolerance = 1e-9; // of the distance between two frames
   const auto after = std::upper_bound(times.begin(), times.end(), time);
@@ -262,19 +274,18 @@ std::size_t FrameIndex::find(const std::vector<double>& times, double time) noex
   return next == 0 || nearly ? next : next - 1;
 }
 
-std::string FrameIndex::encode() const
+std::string RunIndex::encode() const
 {
-  std::string bytes;
-  IndexWriter out(bytes, "");
+  ArchiveWriter out;
   out.text(encode_files(files_));
   series_.write(out);
-  return bytes;
+  return std::move(out.bytes);
 }
 
-void FrameIndex::decode(std::string_view bytes)
+void RunIndex::decode(std::string_view bytes)
 {
-  IndexReader in(bytes, "");
-  FrameIndex index;
+  ArchiveReader in(bytes);
+  RunIndex index;
   std::string files;
   in.text(files);
   index.files_ = decode_index(files, "", std::make_shared<FrameKinds>());
@@ -283,9 +294,8 @@ void FrameIndex::decode(std::string_view bytes)
   *this = std::move(index);
 }
 
-void update_frame_index(FrameIndex& index, Communicator& ranks,
-  const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
-  Progress& progress)
+void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
+  const IndexOptions& options, Notices& notices, Progress& progress)
 {
   const bool looks = ranks.rank() == 0;
   try
@@ -322,7 +332,7 @@ void update_frame_index(FrameIndex& index, Communicator& ranks,
   }
 }
 
-bool is_changed(const FrameIndex& index, Communicator& ranks)
+bool is_changed(const RunIndex& index, Communicator& ranks)
 {
   std::int64_t changed = 0;
   do_together(ranks, [&] { changed = ranks.rank() == 0 && index.changed() ? 1 : 0; });

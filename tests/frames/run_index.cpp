@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Series of files on disk, as a run writes them and as they change while somebody looks.
-#include "granular/frames/frame_index.h"
+#include "granular/frames/run_index.h"
 #include "granular/dump/formats/dump_files.h"
 
 #include "../support/series.h"
@@ -19,9 +19,9 @@
 namespace
 {
 namespace fs = std::filesystem;
-using granular::FrameIndex;
 using granular::Notices;
 using granular::Progress;
+using granular::RunIndex;
 using Times = std::vector<double>;
 
 /// A frame of rows grains, whose x is the timestep.
@@ -45,7 +45,7 @@ std::string at_time(double time, std::int64_t step)
 
 // ---- one file, many files ----------------------------------------------------------------------
 
-TEST(FrameIndex, ManyFramesInAFile)
+TEST(RunIndex, ManyFramesInAFile)
 {
   const Folder folder;
   Series run;
@@ -57,7 +57,7 @@ TEST(FrameIndex, ManyFramesInAFile)
   EXPECT_EQ(run.read(2).rows(), 0);
 }
 
-TEST(FrameIndex, FilesOfOneFrameAreSortedByTimestep)
+TEST(RunIndex, FilesOfOneFrameAreSortedByTimestep)
 {
   const Folder folder;
   Series run;
@@ -69,7 +69,7 @@ TEST(FrameIndex, FilesOfOneFrameAreSortedByTimestep)
   EXPECT_EQ(run.read(2).points()[0], 1000);
 }
 
-TEST(FrameIndex, TrapRepeatedTimestepsTheLastOneStays)
+TEST(RunIndex, TrapRepeatedTimestepsTheLastOneStays)
 {
   const Folder folder;
   // restarted at 100, and appended to the same file
@@ -89,7 +89,7 @@ TEST(FrameIndex, TrapRepeatedTimestepsTheLastOneStays)
   EXPECT_EQ(run.read(1).rows(), 1);
 }
 
-TEST(FrameIndex, TrapDecreasingAndNegativeTimesteps)
+TEST(RunIndex, TrapDecreasingAndNegativeTimesteps)
 {
   const Folder folder;
   Series run;
@@ -99,7 +99,7 @@ TEST(FrameIndex, TrapDecreasingAndNegativeTimesteps)
   EXPECT_EQ(run.read(3).rows(), 7);
 }
 
-TEST(FrameIndex, TheSameFileTwice)
+TEST(RunIndex, TheSameFileTwice)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(0) + frame(100));
@@ -109,7 +109,7 @@ TEST(FrameIndex, TheSameFileTwice)
   EXPECT_EQ(run.read(1).points()[0], 100);
 }
 
-TEST(FrameIndex, UnitsAreOfTheirFile)
+TEST(RunIndex, UnitsAreOfTheirFile)
 {
   const Folder folder;
   Series run;
@@ -122,7 +122,7 @@ TEST(FrameIndex, UnitsAreOfTheirFile)
 
 // ---- time --------------------------------------------------------------------------------------
 
-TEST(FrameIndex, TrapTimeIsTheTimestepTimesItsSize)
+TEST(RunIndex, TrapTimeIsTheTimestepTimesItsSize)
 {
   const Folder folder;
   Series run;
@@ -131,7 +131,7 @@ TEST(FrameIndex, TrapTimeIsTheTimestepTimesItsSize)
   EXPECT_EQ(run.index.times(0.5), (Times{ 0, 50, 125 }));
 }
 
-TEST(FrameIndex, TimeOfTheHeadersIfEveryFrameHasOneAndTheyIncrease)
+TEST(RunIndex, TimeOfTheHeadersIfEveryFrameHasOneAndTheyIncrease)
 {
   const Folder folder;
   const auto times = [&](const std::string& text)
@@ -151,7 +151,7 @@ TEST(FrameIndex, TimeOfTheHeadersIfEveryFrameHasOneAndTheyIncrease)
     times(at_time(0, 0) + at_time(9, 100) + at_time(1, 100) + at_time(2, 200)), (Times{ 0, 1, 2 }));
 }
 
-TEST(FrameIndex, TimesThatAreNoNumbersAreNotTaken)
+TEST(RunIndex, TimesThatAreNoNumbersAreNotTaken)
 {
   const Folder folder;
   for (const double time : { std::nan(""), HUGE_VAL, -HUGE_VAL })
@@ -162,22 +162,22 @@ TEST(FrameIndex, TimesThatAreNoNumbersAreNotTaken)
   }
 }
 
-TEST(FrameIndex, FindsTheLastFrameAtOrBeforeATime)
+TEST(RunIndex, FindsTheLastFrameAtOrBeforeATime)
 {
   const Times times = { 0, 1, 2.5 };
-  EXPECT_EQ(FrameIndex::find(times, -1), 0u);
-  EXPECT_EQ(FrameIndex::find(times, 0), 0u);
-  EXPECT_EQ(FrameIndex::find(times, 0.999), 0u);
-  EXPECT_EQ(FrameIndex::find(times, 1), 1u);
-  EXPECT_EQ(FrameIndex::find(times, 2.49), 1u);
-  EXPECT_EQ(FrameIndex::find(times, 2.5), 2u);
-  EXPECT_EQ(FrameIndex::find(times, 1e300), 2u);
-  EXPECT_EQ(FrameIndex::find({}, 1), 0u);
+  EXPECT_EQ(RunIndex::find(times, -1), 0u);
+  EXPECT_EQ(RunIndex::find(times, 0), 0u);
+  EXPECT_EQ(RunIndex::find(times, 0.999), 0u);
+  EXPECT_EQ(RunIndex::find(times, 1), 1u);
+  EXPECT_EQ(RunIndex::find(times, 2.49), 1u);
+  EXPECT_EQ(RunIndex::find(times, 2.5), 2u);
+  EXPECT_EQ(RunIndex::find(times, 1e300), 2u);
+  EXPECT_EQ(RunIndex::find({}, 1), 0u);
 }
 
 // ---- files that change -------------------------------------------------------------------------
 
-TEST(FrameIndex, TrapCutAtEveryByteAndThenCompleted)
+TEST(RunIndex, TrapCutAtEveryByteAndThenCompleted)
 {
   const Folder folder;
   const std::string text = frame(0) + frame(100) + frame(200);
@@ -207,7 +207,7 @@ TEST(FrameIndex, TrapCutAtEveryByteAndThenCompleted)
   }
 }
 
-TEST(FrameIndex, GrowsWithItsFile)
+TEST(RunIndex, GrowsWithItsFile)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", "ITEM: UNITS\nsi\n" + frame(0));
@@ -230,7 +230,7 @@ TEST(FrameIndex, GrowsWithItsFile)
   }
 }
 
-TEST(FrameIndex, SaysWhatItLeavesOutOnce)
+TEST(RunIndex, SaysWhatItLeavesOutOnce)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(0) + "garbage\n" + frame(100));
@@ -245,7 +245,7 @@ TEST(FrameIndex, SaysWhatItLeavesOutOnce)
   EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
 }
 
-TEST(FrameIndex, AFileThatWasShortenedIsReadAnew)
+TEST(RunIndex, AFileThatWasShortenedIsReadAnew)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(0) + frame(100) + frame(200));
@@ -259,7 +259,7 @@ TEST(FrameIndex, AFileThatWasShortenedIsReadAnew)
   EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
 }
 
-TEST(FrameIndex, AFileThatWasWrittenAnewIsReadAnew)
+TEST(RunIndex, AFileThatWasWrittenAnewIsReadAnew)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(0) + frame(100));
@@ -280,7 +280,7 @@ TEST(FrameIndex, AFileThatWasWrittenAnewIsReadAnew)
   EXPECT_EQ(run.steps()[0], 8);
 }
 
-TEST(FrameIndex, TheSameSizeWrittenAgain)
+TEST(RunIndex, TheSameSizeWrittenAgain)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(100) + frame(200));
@@ -292,7 +292,7 @@ TEST(FrameIndex, TheSameSizeWrittenAgain)
   EXPECT_EQ(run.steps(), (Steps{ 300, 400 }));
 }
 
-TEST(FrameIndex, AFileThatDidNotChangeIsNotRead)
+TEST(RunIndex, AFileThatDidNotChangeIsNotRead)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(100) + frame(200));
@@ -306,7 +306,7 @@ TEST(FrameIndex, AFileThatDidNotChangeIsNotRead)
   EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
 }
 
-TEST(FrameIndex, FilesComeAndGo)
+TEST(RunIndex, FilesComeAndGo)
 {
   const Folder folder;
   const std::string a = folder.write("a.dump", frame(0));
@@ -327,7 +327,7 @@ TEST(FrameIndex, FilesComeAndGo)
   EXPECT_EQ(run.index.files()[0].path, b);
 }
 
-TEST(FrameIndex, AFileWithoutFramesAmongOthers)
+TEST(RunIndex, AFileWithoutFramesAmongOthers)
 {
   const Folder folder;
   const std::string good = folder.write("a.dump", frame(0));
@@ -339,7 +339,7 @@ TEST(FrameIndex, AFileWithoutFramesAmongOthers)
       ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'not a dump'; the frame is left out\n");
 }
 
-TEST(FrameIndex, AfterAnErrorItStartsOver)
+TEST(RunIndex, AfterAnErrorItStartsOver)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(0));
@@ -351,7 +351,7 @@ TEST(FrameIndex, AfterAnErrorItStartsOver)
   EXPECT_EQ(run.steps(), Steps{ 0 });
 }
 
-TEST(FrameIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
+TEST(RunIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
 {
   const Folder folder;
   const std::string bad = "ITEM: TIMESTEP\nx\n";
@@ -368,7 +368,7 @@ TEST(FrameIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
   }
 }
 
-TEST(FrameIndex, CancelledAtAnyReportThenWhole)
+TEST(RunIndex, CancelledAtAnyReportThenWhole)
 {
   class Stop final : public Progress
   {
@@ -413,7 +413,7 @@ TEST(FrameIndex, CancelledAtAnyReportThenWhole)
 
 // ---- what is no dump ---------------------------------------------------------------------------
 
-TEST(FrameIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
+TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
 {
   const Folder folder;
   const auto error = [](const std::string& path)
@@ -462,7 +462,7 @@ TEST(FrameIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
 
 // ---- real files --------------------------------------------------------------------------------
 
-TEST(FrameIndex, FilesOfTheRealPrograms)
+TEST(RunIndex, FilesOfTheRealPrograms)
 {
   const std::string good = std::string(GRANULAR_DATA) + "/good/";
   Series run;
@@ -487,7 +487,7 @@ TEST(FrameIndex, FilesOfTheRealPrograms)
 
 // ---- rewritten in place ------------------------------------------------------------------------
 
-TEST(FrameIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
+TEST(RunIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
 {
   const Folder folder;
   const std::string before = replaced(frame(0), "id x y z\n", "id xs ys zs vx\n");
@@ -511,7 +511,7 @@ TEST(FrameIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
   EXPECT_EQ(run.read(0).points().front(), 4);
 }
 
-TEST(FrameIndex, ARerunThatGrewWithTheSameFirstHeader)
+TEST(RunIndex, ARerunThatGrewWithTheSameFirstHeader)
 {
   const Folder folder;
   const std::string path = folder.write("a.dump", frame(0));
@@ -528,7 +528,7 @@ TEST(FrameIndex, ARerunThatGrewWithTheSameFirstHeader)
 
 // ---- what is said of a series ------------------------------------------------------------------
 
-TEST(FrameIndex, AFileOfWhichNothingIsShownIsSaid)
+TEST(RunIndex, AFileOfWhichNothingIsShownIsSaid)
 {
   const Folder folder;
   Series run;
@@ -547,7 +547,7 @@ TEST(FrameIndex, AFileOfWhichNothingIsShownIsSaid)
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
 }
 
-TEST(FrameIndex, TimesThatCannotBeUsedAreSaid)
+TEST(RunIndex, TimesThatCannotBeUsedAreSaid)
 {
   const Folder folder;
   const auto said = [](const std::string& got)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An index file: a head, the kinds of frames, the files with their frames, a hash of all that.
 // Numbers are as in memory; what another byte order or another version wrote is not read.
-#include "granular/frames/index_bytes.h"
+#include "granular/frames/saved_index.h"
 
 #include "granular/common/hash.h"
-#include "granular/frames/index_archive.h"
+#include "granular/common/pass.h"
 #include "granular/frames/index_claims.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Head
   std::uint32_t byte_order = 0x01020304;
   /// To be raised with every change of what is written here, or of what it means: of the hashes, of
   /// how frames are found, of how columns become arrays.
-  std::uint32_t version = 2;
+  std::uint32_t version = 3;
 };
 
 /// A frame as it is kept.
@@ -54,17 +54,6 @@ std::uint64_t hash_of(std::string_view bytes)
   return hash.value();
 }
 
-/// The parts of a notice, for an IndexWriter or an IndexReader.
-template <typename Archive, typename Said>
-void visit_notice(Archive& archive, Said& notice)
-{
-  archive.path(notice.where.path);
-  archive.number(notice.where.line);
-  archive.number(notice.where.byte);
-  archive.text(notice.where.column);
-  archive.text(notice.text);
-}
-
 template <typename Archive, typename Points>
 void visit_points(Archive& archive, Points& all)
 {
@@ -86,7 +75,7 @@ void visit_points(Archive& archive, Points& all)
 template <typename Archive, typename File>
 void visit_file(Archive& archive, File& file)
 {
-  const auto notice = [&](auto& said) { visit_notice(archive, said); };
+  const auto notice = [&](auto& said) { pass(archive, said); };
   const auto known = [&](auto& one)
   {
     archive.path(one.path);
@@ -138,7 +127,7 @@ public:
     return last_number_;
   }
 
-  void write(IndexWriter& out) const
+  void write(ArchiveWriter& out) const
   {
     out.list(kinds_,
       [&](const FrameKind* kind)
@@ -199,7 +188,7 @@ ColumnSchema make_schema(const std::vector<KeptColumn>& columns, bool text)
 
 using Kinds = std::vector<std::shared_ptr<const FrameKind>>;
 
-Kinds read_kinds(IndexReader& in, FrameKinds& store)
+Kinds read_kinds(ArchiveReader& in, FrameKinds& store)
 {
   Kinds kinds;
   in.list(kinds,
@@ -227,7 +216,7 @@ Kinds read_kinds(IndexReader& in, FrameKinds& store)
   return kinds;
 }
 
-void write_frames(IndexWriter& out, const std::vector<FrameEntry>& frames, KindTable& kinds)
+void write_frames(ArchiveWriter& out, const std::vector<FrameEntry>& frames, KindTable& kinds)
 {
   out.list(frames,
     [&](const FrameEntry& frame)
@@ -237,7 +226,7 @@ void write_frames(IndexWriter& out, const std::vector<FrameEntry>& frames, KindT
     });
 }
 
-void read_frames(IndexReader& in, FileIndex& file, const Kinds& kinds)
+void read_frames(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
 {
   std::vector<FrameEntry>& frames = file.frames;
   const std::size_t count = in.count(sizeof(FrameRecord));
@@ -253,7 +242,7 @@ void read_frames(IndexReader& in, FileIndex& file, const Kinds& kinds)
   }
 }
 
-void read_file(IndexReader& in, FileIndex& file, const Kinds& kinds)
+void read_file(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
 {
   visit_file(in, file);
   read_frames(in, file, kinds);
@@ -310,9 +299,8 @@ std::string_view body_of(std::string_view bytes)
 
 std::string encode(const std::vector<const FileIndex*>& files, const std::string& folder)
 {
-  std::string bytes;
-  bytes.reserve(estimate(files));
-  IndexWriter out(bytes, folder);
+  ArchiveWriter out(folder);
+  out.bytes.reserve(estimate(files));
   KindTable kinds(files);
   out.number(Head());
   kinds.write(out);
@@ -322,8 +310,8 @@ std::string encode(const std::vector<const FileIndex*>& files, const std::string
       visit_file(out, *file);
       write_frames(out, file->frames, kinds);
     });
-  out.number(hash_of(bytes));
-  return bytes;
+  out.number(hash_of(out.bytes));
+  return std::move(out.bytes);
 }
 }
 
@@ -350,7 +338,7 @@ std::string encode_files(const std::vector<FileIndex>& files)
 std::vector<FileIndex> decode_index(
   std::string_view bytes, const std::string& first_file, const std::shared_ptr<FrameKinds>& kinds)
 {
-  IndexReader in(body_of(bytes), folder_of(first_file));
+  ArchiveReader in(body_of(bytes), folder_of(first_file));
   const Kinds table = read_kinds(in, *kinds);
   std::vector<FileIndex> files;
   in.list(files,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is known of the files of a run, kept in a file between openings: it must come back as it
 // was, or not at all, and never stand against what the files hold.
-#include "granular/frames/index_file.h"
+#include "granular/frames/saved_index.h"
 #include "granular/dump/formats/dump_files.h"
 
 #include "../support/own_folder.h"
 
 #include "granular/common/hash.h"
 #include "granular/dump/formats/binary_header.h"
-#include "granular/frames/frame_index.h"
-#include "granular/frames/index_bytes.h"
+#include "granular/frames/run_index.h"
+#include "granular/frames/saved_index.h"
 
 #include <gtest/gtest.h>
 
@@ -117,14 +117,14 @@ FileIndex binary_file(const std::string& path)
   return file;
 }
 
-/// Compressed: with restart points.
+/// Compressed: with seek points.
 FileIndex compressed_file(const std::string& path)
 {
   FileIndex file = text_file(path);
   file.defect.reset();
   file.notices.clear();
   file.compressed = true;
-  file.points = std::make_shared<RestartPoints>();
+  file.points = std::make_shared<SeekPoints>();
   file.points->spacing = 3 << 20;
   file.points->points = { { 1000, 100, 0, 0, 0, "" },
     { 1'000'000, 12'345, 5, 0xdeadbeef, 999'000, std::string(100, '\0') + "window" } };
@@ -181,8 +181,8 @@ std::string text_of(const FileIndex& file)
     out << "'" << name << "' ";
   }
   out << (file.points ? "points " + std::to_string(file.points->spacing) : "no points") << "\n";
-  for (const RestartPoints::Point& point :
-    file.points ? file.points->points : decltype(RestartPoints::points)())
+  for (const SeekPoints::Point& point :
+    file.points ? file.points->points : decltype(SeekPoints::points)())
   {
     out << point.offset << " " << point.packed << " " << int{ point.bits } << " " << point.check
         << " " << point.member_bytes << " '" << point.window << "'\n";
@@ -336,12 +336,12 @@ TEST_F(IndexFileTest, PlaceOfTheIndexFile)
 {
   ::setenv("HOME", "/home/somebody", 1);
   ::unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(index_file_path(IndexFile::Never, "a.dump"), "");
-  EXPECT_EQ(index_file_path(IndexFile::Beside, "r/a.dump"), "r/a.dump.granular.idx");
-  EXPECT_EQ(index_file_path(IndexFile::Beside, ""), "");
-  EXPECT_EQ(index_file_path(IndexFile::Cache, ""), "");
+  EXPECT_EQ(index_file_path(KeepIndex::Never, "a.dump"), "");
+  EXPECT_EQ(index_file_path(KeepIndex::Beside, "r/a.dump"), "r/a.dump.granular.idx");
+  EXPECT_EQ(index_file_path(KeepIndex::Beside, ""), "");
+  EXPECT_EQ(index_file_path(KeepIndex::Cache, ""), "");
 
-  const std::string cached = index_file_path(IndexFile::Cache, "/r/a.dump");
+  const std::string cached = index_file_path(KeepIndex::Cache, "/r/a.dump");
   const std::string folder = "/home/somebody/.cache/granular/";
   const std::string end = "-a.dump.granular.idx";
   ASSERT_TRUE(cached.starts_with(folder)) << cached;
@@ -351,27 +351,27 @@ TEST_F(IndexFileTest, PlaceOfTheIndexFile)
   EXPECT_EQ(digits.size(), 16u);
   EXPECT_EQ(digits.find_first_not_of("0123456789abcdef"), digits.npos) << digits;
   // the same file, and another one of that name
-  EXPECT_EQ(index_file_path(IndexFile::Cache, "/r/b/../a.dump"), cached);
-  EXPECT_NE(index_file_path(IndexFile::Cache, "/s/a.dump"), cached);
+  EXPECT_EQ(index_file_path(KeepIndex::Cache, "/r/b/../a.dump"), cached);
+  EXPECT_NE(index_file_path(KeepIndex::Cache, "/s/a.dump"), cached);
   const std::string here = fs::current_path().string() + "/a.dump";
-  EXPECT_EQ(index_file_path(IndexFile::Cache, "./a.dump"), index_file_path(IndexFile::Cache, here));
+  EXPECT_EQ(index_file_path(KeepIndex::Cache, "./a.dump"), index_file_path(KeepIndex::Cache, here));
   // a name as long as may be
   EXPECT_LE(
-    fs::path(index_file_path(IndexFile::Cache, std::string(255, 'x'))).filename().string().size(),
+    fs::path(index_file_path(KeepIndex::Cache, std::string(255, 'x'))).filename().string().size(),
     255u);
 
   ::setenv("XDG_CACHE_HOME", "/cache", 1);
-  EXPECT_EQ(index_file_path(IndexFile::Cache, "/r/a.dump"), "/cache/granular/" + digits + end);
+  EXPECT_EQ(index_file_path(KeepIndex::Cache, "/r/a.dump"), "/cache/granular/" + digits + end);
   for (const char* none : { "", "relative/cache" })
   {
     ::setenv("XDG_CACHE_HOME", none, 1);
-    EXPECT_EQ(index_file_path(IndexFile::Cache, "/r/a.dump"), cached);
+    EXPECT_EQ(index_file_path(KeepIndex::Cache, "/r/a.dump"), cached);
   }
   ::setenv("HOME", "relative/home", 1);
-  EXPECT_EQ(index_file_path(IndexFile::Cache, "/r/a.dump"), "");
+  EXPECT_EQ(index_file_path(KeepIndex::Cache, "/r/a.dump"), "");
   ::unsetenv("HOME");
   ::unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(index_file_path(IndexFile::Cache, "/r/a.dump"), "");
+  EXPECT_EQ(index_file_path(KeepIndex::Cache, "/r/a.dump"), "");
 }
 
 TEST_F(IndexFileTest, TheFolderOfTheCacheIsMadeAndNoOther)
@@ -381,7 +381,7 @@ TEST_F(IndexFileTest, TheFolderOfTheCacheIsMadeAndNoOther)
   std::string said;
   for (int time = 0; time < 2; ++time)
   {
-    const std::string path = index_file_path(IndexFile::Cache, "/r/a.dump");
+    const std::string path = index_file_path(KeepIndex::Cache, "/r/a.dump");
     Notices notices;
     save_index(path, files, notices);
     EXPECT_EQ(lines_of(notices), "");
@@ -390,7 +390,7 @@ TEST_F(IndexFileTest, TheFolderOfTheCacheIsMadeAndNoOther)
   }
   const std::string mistyped = this->path("mistyped/a.dump");
   Notices notices;
-  save_index(index_file_path(IndexFile::Beside, mistyped), { text_file(mistyped) }, notices);
+  save_index(index_file_path(KeepIndex::Beside, mistyped), { text_file(mistyped) }, notices);
   EXPECT_EQ(lines_of(notices),
     mistyped +
       ".granular.idx: cannot write the index file: No such file or directory; the index is "
@@ -610,9 +610,9 @@ TEST_F(IndexFileTest, RowsMayBeInTheFilesOfProcesses)
   EXPECT_EQ(refusal(file), "expected a frame within its file, got something else");
 }
 
-TEST_F(IndexFileTest, TrapRestartPointsThatNoFileHas)
+TEST_F(IndexFileTest, TrapSeekPointsThatNoFileHas)
 {
-  const auto with = [](const RestartPoints::Point& point, std::int64_t spacing)
+  const auto with = [](const SeekPoints::Point& point, std::int64_t spacing)
   {
     FileIndex file = compressed_file("a");
     file.stamp.size = 20'000;
@@ -621,7 +621,7 @@ TEST_F(IndexFileTest, TrapRestartPointsThatNoFileHas)
     return refusal(file);
   };
   const std::string window(32768, 'w');
-  const std::string outside = "expected a restart point within its file, got something else";
+  const std::string outside = "expected a seek point within its file, got something else";
   EXPECT_EQ(with({ 2'000'000, 20'000, 7, 0, 0, window }, 1), "");
   EXPECT_EQ(with({ 2'000'000, 20'001, 7, 0, 0, window }, 1), outside);
   EXPECT_EQ(with({ 2'000'000, -1, 0, 0, 0, "" }, 1), outside);
@@ -629,10 +629,10 @@ TEST_F(IndexFileTest, TrapRestartPointsThatNoFileHas)
   EXPECT_EQ(with({ 2'000'000, 1000, 8, 0, 0, window }, 1), outside);
   EXPECT_EQ(with({ 2'000'000, 1000, 0, 0, 0, window + "w" }, 1),
     "expected a window of gzip, got something else");
-  EXPECT_EQ(with({ 999'999, 1000, 0, 0, 0, "" }, 1),
-    "expected increasing restart points, got something else");
+  EXPECT_EQ(
+    with({ 999'999, 1000, 0, 0, 0, "" }, 1), "expected increasing seek points, got something else");
   EXPECT_EQ(with({ 2'000'000, 1000, 0, 0, 0, "" }, 0),
-    "expected a spacing of restart points, got something else");
+    "expected a spacing of seek points, got something else");
 }
 
 TEST_F(IndexFileTest, AnythingBehindAHashThatFits)
@@ -695,15 +695,15 @@ Steps steps_from(std::int64_t first, int count)
 /// As when a user opens the files in a program just started. said: all notices, one a line.
 struct Opened
 {
-  explicit Opened(const Names& files, IndexFile where = IndexFile::Beside)
+  explicit Opened(const Names& files, KeepIndex where = KeepIndex::Beside)
   {
     this->update(files, where);
   }
 
-  void update(const Names& files, IndexFile where = IndexFile::Beside)
+  void update(const Names& files, KeepIndex where = KeepIndex::Beside)
   {
     IndexOptions options = { .format = &granular::dump_format() };
-    options.index_file = where;
+    options.keep_index = where;
     Notices notices;
     Progress progress;
     index.update(files, options, notices, progress);
@@ -720,7 +720,7 @@ struct Opened
     return steps;
   }
 
-  FrameIndex index;
+  RunIndex index;
   std::string said;
 };
 
@@ -781,7 +781,7 @@ TEST_F(IndexFileTest, ASecondOpeningDoesNotReadTheFile)
   EXPECT_EQ(first.said, "");
   EXPECT_TRUE(fs::exists(path + ".granular.idx"));
   spoil(path);
-  ASSERT_LT(Opened({ path }, IndexFile::Never).steps().size(), 20u) << "who reads it sees it";
+  ASSERT_LT(Opened({ path }, KeepIndex::Never).steps().size(), 20u) << "who reads it sees it";
   const Opened second({ path });
   EXPECT_EQ(second.steps(), steps_from(0, 20));
   EXPECT_EQ(second.said, "");
@@ -793,23 +793,23 @@ TEST_F(IndexFileTest, InTheCacheOfTheUser)
 {
   ::setenv("XDG_CACHE_HOME", this->path("cache").c_str(), 1);
   const std::string path = this->write("a.dump", frames(0, 20));
-  Opened first({ path }, IndexFile::Cache);
+  Opened first({ path }, KeepIndex::Cache);
   EXPECT_FALSE(fs::exists(path + ".granular.idx"));
   spoil(path);
-  EXPECT_EQ(Opened({ path }, IndexFile::Cache).steps(), steps_from(0, 20));
+  EXPECT_EQ(Opened({ path }, KeepIndex::Cache).steps(), steps_from(0, 20));
   // spelled in another way
   const fs::path before = fs::current_path();
   fs::current_path(fs::path(path).parent_path());
-  EXPECT_EQ(Opened({ "a.dump" }, IndexFile::Cache).steps(), steps_from(0, 20));
+  EXPECT_EQ(Opened({ "a.dump" }, KeepIndex::Cache).steps(), steps_from(0, 20));
   fs::current_path(before);
-  EXPECT_EQ(Opened({ path }, IndexFile::Cache).steps(), steps_from(0, 20));
+  EXPECT_EQ(Opened({ path }, KeepIndex::Cache).steps(), steps_from(0, 20));
 }
 
 TEST_F(IndexFileTest, NeverMeansNever)
 {
   ::setenv("XDG_CACHE_HOME", this->path("cache").c_str(), 1);
   const std::string path = this->write("a.dump", frames(0, 20));
-  Opened({ path }, IndexFile::Never);
+  Opened({ path }, KeepIndex::Never);
   EXPECT_FALSE(fs::exists(path + ".granular.idx"));
   EXPECT_FALSE(fs::exists(this->path("cache")));
 }

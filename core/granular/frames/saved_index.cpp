@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/frames/index_file.h"
+#include "granular/frames/saved_index.h"
 
 #include "granular/bytes/byte_sink.h"
 #include "granular/common/hash.h"
-#include "granular/frames/index_bytes.h"
+#include "granular/frames/saved_index.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -55,13 +55,13 @@ std::string path_in_cache(const std::string& first_file)
 }
 }
 
-std::string index_file_path(IndexFile where, const std::string& first_file)
+std::string index_file_path(KeepIndex where, const std::string& first_file)
 {
-  if (where == IndexFile::Never || first_file.empty())
+  if (where == KeepIndex::Never || first_file.empty())
   {
     return {};
   }
-  return where == IndexFile::Cache ? path_in_cache(first_file)
+  return where == KeepIndex::Cache ? path_in_cache(first_file)
                                    : first_file + std::string(index_file_suffix);
 }
 
@@ -112,7 +112,7 @@ void save_index(const std::string& path, const std::vector<FileIndex>& files, No
   {
     return;
   }
-  if (path == index_file_path(IndexFile::Cache, files.front().path))
+  if (path == index_file_path(KeepIndex::Cache, files.front().path))
   {
     std::error_code ignored; // without a folder the file cannot be written either
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
