@@ -5,7 +5,7 @@
 // leaves its slab goes to the next process, with its bonds and their history; at the end the first process
 // looks whether every bond and value is where it should be. The simulation is a toy: nobody meets anybody.
 #include "granular/bonds/exchange_packing.h"
-#include "mpi/mpi_communicator.h"
+#include "granular/mpi/mpi_communicator.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -6,7 +6,7 @@
 // .bin gives a binary file. The simulation is a toy - grains fly through a periodic box and meet
 // nobody - but its atoms lie in memory as those of a real one do.
 #include "granular/dump/write/dump_writer.h"
-#include "mpi/mpi_communicator.h"
+#include "granular/mpi/mpi_communicator.h"
 
 #include <cstddef>
 #include <cstdint>

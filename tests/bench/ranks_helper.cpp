@@ -4,7 +4,7 @@
 #include "dump_frame.h"
 
 #include "granular/memory/block_pool.h"
-#include "mpi/mpi_communicator.h"
+#include "granular/mpi/mpi_communicator.h"
 
 #include <algorithm>
 #include <chrono>

@@ -7,7 +7,7 @@
 
 #include "../support/rank_tests.h"
 
-#include "mpi/mpi_communicator.h"
+#include "granular/mpi/mpi_communicator.h"
 
 #include "vtkErrorCode.h"
 #include "vtkMPIController.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Run by mpirun: the bytes of one process from real ranks, and their errors.
-#include "mpi/mpi_communicator.h"
+#include "granular/mpi/mpi_communicator.h"
 
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"

@@ -3,7 +3,8 @@
 
     core/granular/ROOM     its own folder, the rooms that ROOMS says, the C++ standard library; the
                            system only where SYSTEM_HEADERS says so; no more files than MOST_FILES
-    core/mpi               what ROOMS says, its own folder, mpi.h
+    core/granular/mpi      the same, and mpi.h; no other room may include it
+    core/granular/granular.h  any header of any room but mpi
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/,
                            whose rooms include each other as PRIVATE_ROOMS says
@@ -37,7 +38,7 @@ SYSTEM_HEADERS = (
     (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
     (r"sys/mman\.h", r"core/granular/memory/mapping\.cpp"),
     (r"immintrin\.h", r"core/granular/(text|memory)/(line_scan|row_text|value_range)\w*\.(cpp|h|inc)"),
-    (r"mpi\.h", r"core/mpi/.*"),
+    (r"mpi\.h", r"core/granular/mpi/.*"),
 )
 
 # The rooms below core/granular/, and which others each may include: those above it in this list alone.
@@ -65,8 +66,8 @@ ROOMS = {room: words.split() for room, words in (
     ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
               "dump/read"),
     ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
+    ("mpi", "common bytes parallel"),
 )}
-MPI_MAY_USE = ["common", "bytes", "parallel"]
 MOST_FILES = 40
 
 # The rooms below plugin/vtk/private/, and which others each may include.
@@ -103,13 +104,14 @@ def core_complaint(path, bracket, name):
         if owners:
             return f"<{name}> is not for this file (see SYSTEM_HEADERS in tests/lint/layering.py)"
         return f"<{name}> is not a header of the C++ standard library"
-    if path.startswith("core/mpi/"):
-        allowed = [f"granular/{room}/" for room in MPI_MAY_USE] + ["mpi/"]
+    own = room_of(path)
+    if path == "core/granular/granular.h":
+        rooms = [room for room in ROOMS if room != "mpi"]
+    elif own is None:
+        return "is in no room of the core (see ROOMS in tests/lint/layering.py)"
     else:
-        own = room_of(path)
-        if own is None:
-            return "is in no room of the core (see ROOMS in tests/lint/layering.py)"
-        allowed = [f"granular/{room}/" for room in ROOMS[own] + [own]]
+        rooms = ROOMS[own] + [own]
+    allowed = [f"granular/{room}/" for room in rooms]
     if name.startswith(tuple(allowed)):
         return None
     return f'"{name}": only {" ".join(allowed)} may be included here, by their whole path'
@@ -163,15 +165,15 @@ def check_vtk_source(root, path):
             yield path, line, (f'"{name}": only {" ".join(PRIVATE_ROOMS[own] + [own])} of private/ may be '
                                "included here")
             continue
-        if name.startswith("granular/") or (bracket == "<" and name in STANDARD):
+        if name.startswith("granular/mpi/") and not private:
+            yield path, line, f"{name}: MPI is known in plugin/vtk/private/ only"
+        elif name.startswith("granular/") or (bracket == "<" and name in STANDARD):
             continue
         # vtkSMPTools and its kin are of VTK.
         if re.match(r"vtk(PV|SI|SMPV|SM(?!P[A-Z]))[A-Z]", name):
             yield path, line, f"{name} is of ParaView: the VTK layer stands on VTK alone"
         elif re.match(r"(pq[A-Z]|Q[A-Z]|Qt)", name):
             yield path, line, f"{name} is of a user interface: the VTK layer stands on VTK alone"
-        elif name.startswith("mpi/") and not private:
-            yield path, line, f"{name}: MPI is known in plugin/vtk/private/ only"
         elif bracket == "<" and not re.match(r"vtk_", name):
             if not (private and name == "mpi.h"):
                 yield path, line, f"<{name}> is neither of VTK nor of the C++ standard library"

@@ -61,13 +61,13 @@ class Layering(unittest.TestCase):
             core__granular__dump__d_dot_cpp='#include "granular/common/c.h"\n',
             core__granular__euler__e_dot_cpp='#include "granular/frames/f.h"\n#include <mpi.h>\n',
             core__granular__restart__r_dot_cpp='#include "granular/bonds/b.h"\n',
-            core__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/bytes/b.h"\n'
+            core__granular__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/bytes/b.h"\n'
             '#include "granular/frames/d.h"\n'), [
                 "core/granular/bytes/a.h:3", "core/granular/bytes/a.h:5", "core/granular/bytes/a.h:6",
                 "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_x.h:1",
                 "core/granular/bytes/compression.cpp:2", "core/granular/dump/d.cpp:1",
                 "core/granular/dump/read/r.cpp:2", "core/granular/dump/read/r.cpp:3",
-                "core/granular/euler/e.cpp:2", "core/granular/memory/mapping.cpp:2", "core/mpi/m.cpp:3"])
+                "core/granular/euler/e.cpp:2", "core/granular/memory/mapping.cpp:2", "core/granular/mpi/m.cpp:3"])
 
     def test_rooms(self):
         files = {f"core__granular__text__a{i}_dot_h": "" for i in range(layering.MOST_FILES)}
@@ -96,8 +96,8 @@ class Layering(unittest.TestCase):
             plugin__vtk__a_dot_cxx='#include "granular/common/a.h"\n#include "vtkNew.h"\n'
             '#include "private/request/guard.h"\n#include <string>\n#include "vtkSMProxy.h"\n'
             '#include "vtkPVSession.h"\n#include <QWidget>\n#include "pqApplicationCore.h"\n'
-            '#include <mpi.h>\n#include "vtkSMPTools.h"\n#include "mpi/m.h"\n',
-            plugin__vtk__private__request__mpi_glue_dot_h='#include <mpi.h>\n#include "mpi/m.h"\n',
+            '#include <mpi.h>\n#include "vtkSMPTools.h"\n#include "granular/mpi/m.h"\n',
+            plugin__vtk__private__request__mpi_glue_dot_h='#include <mpi.h>\n#include "granular/mpi/m.h"\n',
             plugin__vtk__private__dump__d_dot_h='#include "private/request/r.h"\n#include "private/dump/e.h"\n'
             '#include "private/euler/e.h"\n',
             plugin__vtk__private__p_dot_h='#include <vector>\n'), [

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A program outside the project: prints the version it found and how the core names a place, and
 // unpacks a few bytes.
-#include "granular/bytes/byte_source.h"
-#include "granular/common/error.h"
+#include "granular/granular.h"
 
 #include <cstddef>
 #include <cstdio>

@@ -6,7 +6,7 @@
 #include "vtkMultiProcessController.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
-#include "mpi/mpi_communicator.h"
+#include "granular/mpi/mpi_communicator.h"
 
 #include "vtkMPI.h"
 #include "vtkMPICommunicator.h"

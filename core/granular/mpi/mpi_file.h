@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef mpi_mpi_file_h
-#define mpi_mpi_file_h
+#ifndef granular_mpi_mpi_file_h
+#define granular_mpi_mpi_file_h
 
 #include "granular/bytes/byte_sink.h"
 #include "granular/parallel/communicator.h"

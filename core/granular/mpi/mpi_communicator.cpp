@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mpi/mpi_communicator.h"
+#include "granular/mpi/mpi_communicator.h"
 
-#include "mpi/mpi_file.h"
+#include "granular/mpi/mpi_file.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mpi/mpi_file.h"
+#include "granular/mpi/mpi_file.h"
 
 #include "granular/common/error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef mpi_mpi_communicator_h
-#define mpi_mpi_communicator_h
+#ifndef granular_mpi_mpi_communicator_h
+#define granular_mpi_mpi_communicator_h
 
 #include "granular/parallel/communicator.h"
 
