@@ -85,7 +85,6 @@ struct Meeting
 {
   struct Shown
   {
-    std::string bytes;
     std::vector<std::int64_t> counts;
     const char* data = nullptr;
   };
@@ -160,44 +159,6 @@ public:
   int size() const noexcept override { return static_cast<int>(meeting_.shown.size()); }
   int node_size() const noexcept override { return this->size(); }
 
-  void broadcast(std::string& bytes, int root) override
-  {
-    bytes = this->all_gather(bytes)[static_cast<std::size_t>(root)];
-  }
-
-  std::vector<std::string> all_gather(std::string_view bytes) override
-  {
-    std::vector<std::string> all;
-    this->meet(
-      { std::string(bytes), {} }, [&](const Meeting::Shown& other) { all.push_back(other.bytes); });
-    return all;
-  }
-
-  void sum(std::span<std::int64_t> values) override
-  {
-    std::vector<std::int64_t> total(values.size());
-    this->meet({ {}, { values.begin(), values.end() } },
-      [&](const Meeting::Shown& other)
-      {
-        std::transform(
-          total.begin(), total.end(), other.counts.begin(), total.begin(), std::plus<>());
-      });
-    std::copy(total.begin(), total.end(), values.begin());
-  }
-
-  void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
-    std::span<const std::int64_t> to_bytes) override
-  {
-    this->meet({ {}, { from_bytes.begin(), from_bytes.end() }, from },
-      [&, source = std::size_t{ 0 }](const Meeting::Shown& other) mutable
-      {
-        const auto begin = other.counts.begin();
-        to = std::copy_n(other.data + std::accumulate(begin, begin + rank_, std::int64_t{ 0 }),
-          other.counts[static_cast<std::size_t>(rank_)], to);
-        matched_ = matched_ && other.counts[static_cast<std::size_t>(rank_)] == to_bytes[source++];
-      });
-  }
-
   void send(std::string_view bytes, int to) override
   {
     this->expect_other(to);
@@ -232,7 +193,62 @@ public:
   /// Whether all exchanges said what was sent.
   bool matched() const noexcept { return matched_; }
 
+  /// Bytes that were broadcast.
+  std::size_t broadcast_bytes() const noexcept { return broadcast_bytes_; }
+
 private:
+  void do_broadcast(std::span<char> bytes, int root) override
+  {
+    broadcast_bytes_ += bytes.size();
+    this->show({ {}, bytes.data() },
+      [&, rank = 0](const Meeting::Shown& other) mutable
+      {
+        if (rank++ == root && root != rank_)
+        {
+          std::copy_n(other.data, bytes.size(), bytes.data());
+        }
+      });
+  }
+
+  void do_gather(char* parts, std::span<const std::int64_t> counts) override
+  {
+    this->show({ {}, parts },
+      [&, rank = 0, begin = std::int64_t{ 0 }](const Meeting::Shown& other) mutable
+      {
+        const std::int64_t count = counts[static_cast<std::size_t>(rank)];
+        if (rank++ != rank_)
+        {
+          std::copy_n(other.data + begin, count, parts + begin);
+        }
+        begin += count;
+      });
+  }
+
+  void do_sum(std::span<std::int64_t> values) override
+  {
+    std::vector<std::int64_t> total(values.size());
+    this->show({ { values.begin(), values.end() } },
+      [&](const Meeting::Shown& other)
+      {
+        std::transform(
+          total.begin(), total.end(), other.counts.begin(), total.begin(), std::plus<>());
+      });
+    std::copy(total.begin(), total.end(), values.begin());
+  }
+
+  void do_exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+    std::span<const std::int64_t> to_bytes) override
+  {
+    this->show({ { from_bytes.begin(), from_bytes.end() }, from },
+      [&, source = std::size_t{ 0 }](const Meeting::Shown& other) mutable
+      {
+        const auto begin = other.counts.begin();
+        to = std::copy_n(other.data + std::accumulate(begin, begin + rank_, std::int64_t{ 0 }),
+          other.counts[static_cast<std::size_t>(rank_)], to);
+        matched_ = matched_ && other.counts[static_cast<std::size_t>(rank_)] == to_bytes[source++];
+      });
+  }
+
   void expect_other(int rank) const
   {
     if (rank == rank_)
@@ -241,7 +257,7 @@ private:
     }
   }
 
-  void meet(Meeting::Shown own, std::function<void(const Meeting::Shown&)> look)
+  void show(Meeting::Shown own, std::function<void(const Meeting::Shown&)> look)
   {
     meeting_.shown[static_cast<std::size_t>(rank_)] = std::move(own);
     meeting_.barrier.arrive_and_wait();
@@ -252,6 +268,7 @@ private:
   Meeting& meeting_;
   int rank_;
   bool matched_ = true;
+  std::size_t broadcast_bytes_ = 0;
 };
 
 /// Runs work on each of `size` ranks.

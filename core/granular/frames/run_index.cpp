@@ -300,10 +300,10 @@ void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<st
   const bool looks = ranks.rank() == 0;
   try
   {
-    std::string bytes; // empty: nothing is new
-    do_together(ranks,
+    do_together(ranks, // or rank 0 would believe that all have it
       [&]
       {
+        std::string bytes; // empty: nothing is new
         if (looks)
         {
           index.update(files, options, notices, progress);
@@ -313,11 +313,7 @@ void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<st
           bytes = hash.value() == index.shared_ ? "" : std::move(bytes);
           index.shared_ = hash.value();
         }
-      });
-    ranks.broadcast(bytes, 0);
-    do_together(ranks,
-      [&]
-      {
+        ranks.broadcast(bytes, 0);
         if (!looks && !bytes.empty())
         {
           index.decode(bytes);
@@ -334,9 +330,12 @@ void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<st
 
 bool is_changed(const RunIndex& index, Communicator& ranks)
 {
-  std::int64_t changed = 0;
-  do_together(ranks, [&] { changed = ranks.rank() == 0 && index.changed() ? 1 : 0; });
-  ranks.sum({ &changed, 1 });
-  return changed != 0;
+  return do_together(ranks,
+    [&]
+    {
+      std::int64_t changed = ranks.rank() == 0 && index.changed() ? 1 : 0;
+      ranks.sum({ &changed, 1 });
+      return changed != 0;
+    });
 }
 }

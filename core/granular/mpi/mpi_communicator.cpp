@@ -42,26 +42,6 @@ void in_parts(std::int64_t count, std::int64_t most, const Call& call)
   }
 }
 
-/// Makes room on all ranks or on none: no rank must wait for one that has left.
-template <class Make>
-void make_room(MPI_Comm ranks, const Make& make)
-{
-  int enough = 1;
-  try
-  {
-    make();
-  }
-  catch (const std::exception&)
-  {
-    enough = 0;
-  }
-  check(MPI_Allreduce(MPI_IN_PLACE, &enough, 1, MPI_INT, MPI_MIN, ranks));
-  if (!enough)
-  {
-    throw std::bad_alloc();
-  }
-}
-
 /// Waits for messages, and looks into each if something is wrong with any. There is room for the states.
 void wait(std::vector<MPI_Request>& messages, std::vector<MPI_Status>& states)
 {
@@ -102,79 +82,39 @@ MpiCommunicator::~MpiCommunicator()
   }
 }
 
-void MpiCommunicator::broadcast(char* bytes, std::int64_t count, int root)
+void MpiCommunicator::do_broadcast(std::span<char> bytes, int root)
 {
-  in_parts(count, most_bytes_,
+  in_parts(std::ssize(bytes), most_bytes_,
     [&](std::int64_t offset, int part)
-    { check(MPI_Bcast(bytes + offset, part, MPI_BYTE, root, ranks_)); });
+    { check(MPI_Bcast(bytes.data() + offset, part, MPI_BYTE, root, ranks_)); });
 }
 
-void MpiCommunicator::broadcast(std::string& bytes, int root)
+void MpiCommunicator::prepare_gather(std::span<const std::int64_t> counts)
 {
-  auto count = static_cast<std::int64_t>(bytes.size());
-  check(MPI_Bcast(&count, 1, MPI_INT64_T, root, ranks_));
-  make_room(ranks_, [&] { bytes.resize(static_cast<std::size_t>(count)); });
-  this->broadcast(bytes.data(), count, root);
-}
-
-std::vector<std::string> MpiCommunicator::all_gather(std::string_view bytes)
-{
-  std::vector<std::int64_t> counts;
-  std::vector<std::int64_t> begins;
-  std::vector<std::string> all;
-  make_room(ranks_,
-    [&]
-    {
-      counts.resize(static_cast<std::size_t>(size_));
-      begins.resize(counts.size());
-      all.resize(counts.size());
-    });
-  const auto count = static_cast<std::int64_t>(bytes.size());
-  check(MPI_Allgather(&count, 1, MPI_INT64_T, counts.data(), 1, MPI_INT64_T, ranks_));
-  std::exclusive_scan(counts.begin(), counts.end(), begins.begin(), std::int64_t{ 0 });
-  const std::int64_t total = begins.back() + counts.back();
-  if (total == 0)
+  parts_.clear();
+  offsets_.clear();
+  if (std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 }) <= most_bytes_)
   {
-    return all;
+    parts_.assign(counts.begin(), counts.end());
+    offsets_.resize(parts_.size());
+    std::exclusive_scan(parts_.begin(), parts_.end(), offsets_.begin(), 0);
   }
+}
 
-  std::string joined;
-  std::vector<int> parts;
-  std::vector<int> offsets;
-  make_room(ranks_,
-    [&]
-    {
-      joined.resize(static_cast<std::size_t>(total));
-      if (total <= most_bytes_)
-      {
-        parts.assign(counts.begin(), counts.end());
-        offsets.assign(begins.begin(), begins.end());
-      }
-      for (std::size_t rank = 0; rank < all.size(); ++rank)
-      {
-        all[rank].reserve(static_cast<std::size_t>(counts[rank]));
-      }
-    });
-  const std::int64_t own = begins[static_cast<std::size_t>(rank_)];
-  std::copy(bytes.begin(), bytes.end(), joined.begin() + own);
-  if (total <= most_bytes_)
+void MpiCommunicator::do_gather(char* parts, std::span<const std::int64_t> counts)
+{
+  if (!parts_.empty())
   {
     check(MPI_Allgatherv(
-      MPI_IN_PLACE, 0, MPI_BYTE, joined.data(), parts.data(), offsets.data(), MPI_BYTE, ranks_));
+      MPI_IN_PLACE, 0, MPI_BYTE, parts, parts_.data(), offsets_.data(), MPI_BYTE, ranks_));
+    return;
   }
-  else
+  for (int rank = 0; rank < size_; ++rank)
   {
-    for (std::size_t rank = 0; rank < all.size(); ++rank)
-    {
-      this->broadcast(joined.data() + begins[rank], counts[rank], static_cast<int>(rank));
-    }
+    const std::span part(parts, static_cast<std::size_t>(counts[static_cast<std::size_t>(rank)]));
+    this->do_broadcast(part, rank);
+    parts += part.size();
   }
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
-  {
-    all[rank].assign(
-      joined, static_cast<std::size_t>(begins[rank]), static_cast<std::size_t>(counts[rank]));
-  }
-  return all;
 }
 
 void MpiCommunicator::call_off()
@@ -211,7 +151,7 @@ void MpiCommunicator::settle(std::int64_t callers)
   calls_.clear();
 }
 
-void MpiCommunicator::sum(std::span<std::int64_t> values)
+void MpiCommunicator::do_sum(std::span<std::int64_t> values)
 {
   constexpr auto width = static_cast<std::int64_t>(sizeof(std::int64_t));
   in_parts(static_cast<std::int64_t>(values.size()), most_bytes_ / width,
@@ -222,14 +162,9 @@ void MpiCommunicator::sum(std::span<std::int64_t> values)
     });
 }
 
-void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
-  std::span<const std::int64_t> to_bytes)
+void MpiCommunicator::prepare_exchange(
+  std::span<const std::int64_t> from_bytes, std::span<const std::int64_t> to_bytes)
 {
-  const auto begin = [](std::span<const std::int64_t> counts, int rank)
-  { return std::accumulate(counts.begin(), counts.begin() + rank, std::int64_t{ 0 }); };
-  const auto own = static_cast<std::size_t>(rank_);
-  std::copy_n(from + begin(from_bytes, rank_), from_bytes[own], to + begin(to_bytes, rank_));
-
   const auto parts_of = [&](std::span<const std::int64_t> counts)
   {
     const auto add = [&](std::int64_t sum, std::int64_t count)
@@ -237,14 +172,17 @@ void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> f
     return static_cast<std::size_t>(
       std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 }, add));
   };
-  std::vector<MPI_Request> messages;
-  std::vector<MPI_Status> states;
-  make_room(ranks_,
-    [&]
-    {
-      messages.reserve(parts_of(from_bytes) + parts_of(to_bytes));
-      states.reserve(messages.capacity());
-    });
+  messages_.reserve(parts_of(from_bytes) + parts_of(to_bytes));
+  states_.reserve(messages_.capacity());
+}
+
+void MpiCommunicator::do_exchange(const char* from, std::span<const std::int64_t> from_bytes,
+  char* to, std::span<const std::int64_t> to_bytes)
+{
+  const auto begin = [](std::span<const std::int64_t> counts, int rank)
+  { return std::accumulate(counts.begin(), counts.begin() + rank, std::int64_t{ 0 }); };
+  const auto own = static_cast<std::size_t>(rank_);
+  std::copy_n(from + begin(from_bytes, rank_), from_bytes[own], to + begin(to_bytes, rank_));
 
   // one partner to send to and one to receive from at a time: messages of one pair stay in order
   for (int step = 1; step < size_; ++step)
@@ -255,15 +193,15 @@ void MpiCommunicator::exchange(const char* from, std::span<const std::int64_t> f
       [&, into = to + begin(to_bytes, source)](std::int64_t offset, int part)
       {
         check(MPI_Irecv(into + offset, part, MPI_BYTE, source, data_tag, ranks_,
-          &messages.emplace_back(MPI_REQUEST_NULL)));
+          &messages_.emplace_back(MPI_REQUEST_NULL)));
       });
     in_parts(from_bytes[static_cast<std::size_t>(target)], most_bytes_,
       [&, out = from + begin(from_bytes, target)](std::int64_t offset, int part)
       {
         check(MPI_Isend(out + offset, part, MPI_BYTE, target, data_tag, ranks_,
-          &messages.emplace_back(MPI_REQUEST_NULL)));
+          &messages_.emplace_back(MPI_REQUEST_NULL)));
       });
-    wait(messages, states);
+    wait(messages_, states_);
   }
 }
 

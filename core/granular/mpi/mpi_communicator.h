@@ -28,24 +28,30 @@ public:
   int rank() const noexcept override { return rank_; }
   int size() const noexcept override { return size_; }
   int node_size() const noexcept override { return node_size_; }
-  void broadcast(std::string& bytes, int root) override;
-  std::vector<std::string> all_gather(std::string_view bytes) override;
   void call_off() override;
   bool called_off() override;
-  void settle(std::int64_t callers) override;
-  void sum(std::span<std::int64_t> values) override;
-  void exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
-    std::span<const std::int64_t> to_bytes) override;
   void send(std::string_view bytes, int to) override;
   void receive(std::string& bytes, int from) override;
   std::unique_ptr<OutputFile> open_together(const std::string& path) override;
 
 private:
+  void do_sum(std::span<std::int64_t> values) override;
+  void do_broadcast(std::span<char> bytes, int root) override;
+  void prepare_gather(std::span<const std::int64_t> counts) override;
+  void do_gather(char* parts, std::span<const std::int64_t> counts) override;
+  void prepare_exchange(
+    std::span<const std::int64_t> from_bytes, std::span<const std::int64_t> to_bytes) override;
+  void do_exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+    std::span<const std::int64_t> to_bytes) override;
+  void settle(std::int64_t callers) override;
   void expect_other(int rank) const;
-  void broadcast(char* bytes, std::int64_t count, int root);
 
   MPI_Comm ranks_ = MPI_COMM_NULL;
-  std::vector<MPI_Request> calls_; ///< on their way, of call_off; has room for them
+  std::vector<MPI_Request> calls_;    ///< on their way, of call_off; has room for them
+  std::vector<MPI_Request> messages_; ///< of do_exchange; has room for them
+  std::vector<MPI_Status> states_;    ///< of messages_
+  std::vector<int> parts_;   ///< of do_gather: bytes of each rank, where they fit MPI's counts
+  std::vector<int> offsets_; ///< of parts_
   std::int64_t most_bytes_;
   int rank_ = 0;
   int size_ = 1;

@@ -5,7 +5,9 @@
 #include "granular/common/progress.h"
 
 #include <algorithm>
+#include <array>
 #include <new>
+#include <numeric>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -139,14 +141,192 @@ Failure unpack_failure(std::string_view bytes)
   pass(unpacker, failure);
   return failure;
 }
-}
 
-std::vector<std::string> SerialCommunicator::all_gather(std::string_view bytes)
+template <class Work>
+std::exception_ptr attempt(const Work& work) noexcept
 {
-  return { std::string(bytes) };
+  try
+  {
+    work();
+    return {};
+  }
+  catch (...)
+  {
+    return std::current_exception();
+  }
+}
 }
 
-void SerialCommunicator::exchange(const char* from, std::span<const std::int64_t> from_bytes,
+/// Adds up the status of all ranks, and a few values beside it. Returns how many ranks have failed.
+std::int64_t Communicator::add_up(bool failed, std::span<std::int64_t> beside)
+{
+  std::array<std::int64_t, most_beside + 1> values = { failed ? 1 : 0 };
+  std::ranges::copy(beside, values.begin() + 1);
+  this->do_sum(values); // as many in every collective: they must meet
+  std::copy_n(values.begin() + 1, beside.size(), beside.begin());
+  return values[0];
+}
+
+void Communicator::meet(const std::exception_ptr& failure, std::span<std::int64_t> beside)
+{
+  if (failure && (this->size() == 1 || failure == told_))
+  {
+    std::rethrow_exception(failure);
+  }
+  if (this->size() == 1)
+  {
+    return;
+  }
+  if (failure)
+  {
+    this->call_off();
+  }
+  const std::int64_t failed = this->add_up(failure != nullptr, beside);
+  if (failed == 0)
+  {
+    return;
+  }
+  this->settle(failed);
+  try
+  {
+    this->fail_together(failure);
+  }
+  catch (...)
+  {
+    told_ = std::current_exception();
+    throw;
+  }
+}
+
+/// Throws the error of the lowest rank that has one.
+void Communicator::fail_together(const std::exception_ptr& failure)
+{
+  const auto status = [this](const std::exception_ptr& own, std::span<std::int64_t> beside)
+  {
+    if (this->add_up(own != nullptr, beside) > 0)
+    {
+      throw LimitError("out of memory");
+    }
+  };
+  const std::vector<std::string> answers = this->gather(pack(failure), status);
+  for (std::size_t rank = 0; rank < answers.size(); ++rank)
+  {
+    if (answers[rank].empty())
+    {
+      continue;
+    }
+    const Failure told = unpack_failure(answers[rank]);
+    if (told.kind != Kind::Cancelled)
+    {
+      raise(
+        told, " (on rank " + std::to_string(rank) + " of " + std::to_string(answers.size()) + ")");
+    }
+  }
+  throw Cancelled{};
+}
+
+/// status(failure, values) adds up values over the ranks and throws on all if one has failed.
+template <class Status>
+std::vector<std::string> Communicator::gather(std::string_view bytes, const Status& status)
+{
+  const auto own = static_cast<std::size_t>(this->rank());
+  std::array<std::int64_t, most_beside> few = {};
+  std::vector<std::int64_t> counts;
+  std::vector<std::string> all;
+  std::string joined;
+  const std::exception_ptr no_room = attempt(
+    [&]
+    {
+      counts.resize(static_cast<std::size_t>(this->size()));
+      all.resize(counts.size());
+    });
+  const bool fits = static_cast<std::size_t>(this->size()) <= few.size();
+  few[fits ? own : 0] = fits ? static_cast<std::int64_t>(bytes.size()) : 0;
+  status(no_room, few);
+  if (fits)
+  {
+    std::copy_n(few.begin(), counts.size(), counts.begin());
+  }
+  else
+  {
+    counts[own] = static_cast<std::int64_t>(bytes.size());
+    this->do_sum(counts);
+  }
+  const std::int64_t total = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+  if (total == 0)
+  {
+    return all;
+  }
+  status(attempt(
+           [&]
+           {
+             joined.resize(static_cast<std::size_t>(total));
+             for (std::size_t rank = 0; rank < all.size(); ++rank)
+             {
+               all[rank].reserve(static_cast<std::size_t>(counts[rank]));
+             }
+             this->prepare_gather(counts);
+           }),
+    {});
+  std::ranges::copy(bytes,
+    joined.begin() +
+      std::accumulate(counts.begin(), counts.begin() + this->rank(), std::int64_t{ 0 }));
+  this->do_gather(joined.data(), counts);
+  std::size_t begin = 0;
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    all[rank].assign(joined, begin, static_cast<std::size_t>(counts[rank]));
+    begin += static_cast<std::size_t>(counts[rank]);
+  }
+  return all;
+}
+
+std::vector<std::string> Communicator::all_gather(std::string_view bytes)
+{
+  if (this->size() == 1)
+  {
+    return { std::string(bytes) };
+  }
+  return this->gather(bytes,
+    [this](const std::exception_ptr& failure, std::span<std::int64_t> beside)
+    { this->meet(failure, beside); });
+}
+
+void Communicator::broadcast(std::string& bytes, int root)
+{
+  auto count = this->rank() == root ? static_cast<std::int64_t>(bytes.size()) : std::int64_t{ 0 };
+  this->meet({}, { &count, 1 });
+  if (this->size() == 1)
+  {
+    return;
+  }
+  if (count == 0)
+  {
+    bytes.clear();
+    return;
+  }
+  this->meet(attempt([&] { bytes.resize(static_cast<std::size_t>(count)); }), {});
+  this->do_broadcast(bytes, root);
+}
+
+void Communicator::sum(std::span<std::int64_t> values)
+{
+  const bool few = values.size() <= most_beside;
+  this->meet({}, few ? values : std::span<std::int64_t>());
+  if (!few)
+  {
+    this->do_sum(values);
+  }
+}
+
+void Communicator::exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
+  std::span<const std::int64_t> to_bytes)
+{
+  this->meet(attempt([&] { this->prepare_exchange(from_bytes, to_bytes); }), {});
+  this->do_exchange(from, from_bytes, to, to_bytes);
+}
+
+void SerialCommunicator::do_exchange(const char* from, std::span<const std::int64_t> from_bytes,
   char* to, std::span<const std::int64_t>)
 {
   std::copy_n(from, from_bytes[0], to);
@@ -165,48 +345,5 @@ void SerialCommunicator::receive(std::string&, int)
 std::unique_ptr<OutputFile> SerialCommunicator::open_together(const std::string& path)
 {
   return std::make_unique<NewFile>(path);
-}
-
-void agree(Communicator& ranks, const std::exception_ptr& failure)
-{
-  if (ranks.size() == 1)
-  {
-    if (failure)
-    {
-      std::rethrow_exception(failure);
-    }
-    return;
-  }
-  if (failure)
-  {
-    ranks.call_off();
-  }
-  std::int64_t failed = failure ? 1 : 0;
-  ranks.sum({ &failed, 1 });
-  if (failed == 0)
-  {
-    return;
-  }
-  ranks.settle(failed);
-  const std::vector<std::string> answers = ranks.all_gather(pack(failure));
-  bool cancelled = false;
-  for (std::size_t rank = 0; rank < answers.size(); ++rank)
-  {
-    if (answers[rank].empty())
-    {
-      continue;
-    }
-    const Failure told = unpack_failure(answers[rank]);
-    if (told.kind != Kind::Cancelled)
-    {
-      raise(
-        told, " (on rank " + std::to_string(rank) + " of " + std::to_string(answers.size()) + ")");
-    }
-    cancelled = true;
-  }
-  if (cancelled)
-  {
-    throw Cancelled{};
-  }
 }
 }
