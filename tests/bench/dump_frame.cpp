@@ -148,10 +148,10 @@ void BinaryFrame::make_values()
       const auto number = static_cast<std::int32_t>(1 + random.bits() % 1'000'000);
       const std::int64_t wide = number;
       const double value = random.between(-1, 1);
-      const void* const sources[] = { &number, &wide, &value };
-      const auto kind = static_cast<std::size_t>(sink.type);
-      std::memcpy(sink.data, sources[kind],
-        sink.type == ValueType::Int32 ? sizeof(std::int32_t) : sizeof(std::int64_t));
+      const void* const source = sink.type == ValueType::Float64 ? static_cast<const void*>(&value)
+        : sink.type == ValueType::Int32                          ? &number
+                                                                 : static_cast<const void*>(&wide);
+      std::memcpy(sink.data, source, granular::size_of(sink.type));
       sink.data += sink.stride;
       values.push_back(sink.type == ValueType::Float64 ? value : number);
     }
