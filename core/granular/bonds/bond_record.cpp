@@ -23,18 +23,6 @@ bool is_whole(double number) noexcept
     " of the bond/gran part of a record, got " + got);
 }
 
-/// A whole number from 0 to most.
-std::int64_t load_count(
-  std::span<const double> block, std::size_t at, std::int64_t most, const std::string& of)
-{
-  const double number = block[at];
-  if (!is_whole(number) || number < 0 || number > static_cast<double>(most))
-  {
-    refuse("a number of " + of + " from 0 to " + std::to_string(most), at, to_text(number));
-  }
-  return static_cast<std::int64_t>(number);
-}
-
 /// How many history values each of some bonds has, of which the number may stand at a place; -1: it does not. There
 /// it is a whole number that fits the values behind it.
 std::int64_t find_history(std::span<const double> block, std::size_t at, std::int64_t bonds,
@@ -137,7 +125,13 @@ BondBlock look_at_bonds(std::span<const double> block, bool may_have_more,
       " doubles in the bond/gran part of a record, got " + std::to_string(block.size()));
   }
   BondBlock found;
-  found.bonds = load_count(block, RecordSlots::bonds, most_bonds, "bonds");
+  const double bonds = block[RecordSlots::bonds];
+  if (!is_whole(bonds) || bonds < 0 || bonds > static_cast<double>(most_bonds))
+  {
+    refuse("a number of bonds from 0 to " + std::to_string(most_bonds), RecordSlots::bonds,
+      to_text(bonds));
+  }
+  found.bonds = static_cast<std::int64_t>(bonds);
   const std::size_t behind = block.size() - RecordSlots::first_bond;
   if (static_cast<std::uint64_t>(found.bonds) > behind / 2)
   {

@@ -173,10 +173,7 @@ struct Records
       partners[k] = number_to_id(*from++);
     }
     const auto history = particles.history(row);
-    if (!history.empty())
-    {
-      std::memcpy(history.data(), from, history.size_bytes());
-    }
+    std::copy_n(from, history.size(), history.begin());
     return from + history.size() + special_counts;
   }
 
@@ -188,7 +185,7 @@ struct Records
       place = check(particles, buffer, place, count);
     }
     const std::size_t first = particles.size();
-    particles.resize(first + count, set_of(std::span<const PackField>(fields)));
+    particles.resize(first + count, Table::set);
     const auto arrays = Table::arrays_of(particles);
     const double* from = buffer.data();
     for (std::size_t row = first; row < first + count; ++row)
