@@ -23,29 +23,23 @@ bool is_whole(double number) noexcept
     " of the bond/gran part of a record, got " + got);
 }
 
-/// How many history values each of some bonds has, of which the number may stand at a place; -1: it does not. There
+/// How many history values each of some bonds has, of which the number may stand first behind them; 0: it does not. There
 /// it is a whole number that fits the values behind it.
-std::int64_t find_history(std::span<const double> block, std::size_t at, std::int64_t bonds,
-  bool may_have_more, std::int64_t history_values)
+std::int64_t find_history(std::span<const double> behind, std::int64_t bonds, bool may_have_more,
+  std::int64_t history_values)
 {
-  if (history_values == 0 || at >= block.size())
+  if (behind.empty() || (history_values < 0 && bonds == 0 && may_have_more))
   {
-    return -1;
+    return 0;
   }
-  const double number = block[at];
-  const auto behind = static_cast<std::int64_t>(block.size() - at - 1);
-  const bool whole = is_whole(number) && number >= 1 && number < 0x1p31;
-  if (history_values > 0)
+  if (history_values >= 0)
   {
-    return number == static_cast<double>(history_values) ? history_values : -1;
+    return behind[0] == static_cast<double>(history_values) ? history_values : 0;
   }
-  if (!whole || (bonds == 0 && may_have_more))
-  {
-    return -1;
-  }
-  const auto values = static_cast<std::int64_t>(number);
-  const bool fits = bonds == 0 || values <= behind / bonds;
-  return fits && (may_have_more || values * bonds == behind) ? values : -1;
+  const auto room = static_cast<std::int64_t>(behind.size()) - 1;
+  const auto values = static_cast<std::int64_t>(length_of(behind[0], 1, 0x7fffffff));
+  const bool fits = bonds == 0 || values <= room / bonds;
+  return fits && (may_have_more || values * bonds == room) ? values : 0;
 }
 }
 
@@ -141,8 +135,9 @@ BondBlock look_at_bonds(std::span<const double> block, bool may_have_more,
   found.pairs = block.data() + RecordSlots::first_bond;
   found.size = RecordSlots::first_bond + 2 * static_cast<std::size_t>(found.bonds);
   const std::size_t at = found.size;
-  const std::int64_t values = find_history(block, at, found.bonds, may_have_more, history_values);
-  if (values < 0 && history_values > 0 && found.bonds > 0)
+  const std::int64_t values =
+    find_history(block.subspan(at), found.bonds, may_have_more, history_values);
+  if (values == 0 && history_values > 0 && found.bonds > 0)
   {
     refuse("the number of history values of a bond, " + std::to_string(history_values) +
         " as in other records,",

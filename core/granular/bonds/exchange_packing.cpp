@@ -69,7 +69,7 @@ struct Packer : PackTable<fields>
   using Table = PackTable<fields>;
 
   /// An array that is sent as it is.
-  static constexpr bool is_array = Table::size == 1 && is_vector(fields[0]);
+  static constexpr bool is_array = fields.size() == 1 && is_vector(fields[0]);
 
   template <class Rows, class Numbers>
   static void put_rows(const auto& arrays, const Rows& rows, std::size_t begin, std::size_t end,

@@ -40,7 +40,6 @@ auto arrays_of(Particles& particles) noexcept
 template <const auto& fields>
 struct PackTable
 {
-  static constexpr std::size_t size = fields.size();
   static constexpr std::size_t doubles = doubles_of(std::span<const PackField>(fields));
   static constexpr PackFieldSet set = set_of(std::span<const PackField>(fields));
 
@@ -52,7 +51,7 @@ struct PackTable
     {
       (visit(std::integral_constant<std::size_t, k>{}), ...);
     }
-    (std::make_index_sequence<size>{});
+    (std::make_index_sequence<fields.size()>{});
   }
 
   /// The arrays of the fields, in turn.
@@ -64,7 +63,7 @@ struct PackTable
     {
       return std::tuple(std::get<static_cast<std::size_t>(fields[k])>(all)...);
     }
-    (std::make_index_sequence<size>{});
+    (std::make_index_sequence<fields.size()>{});
   }
 
   /// Where the doubles of a field are.
