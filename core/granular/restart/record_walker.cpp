@@ -34,41 +34,34 @@ bool is_whole_in(double number, std::int64_t low, std::int64_t high) noexcept
 }
 
 RecordWalker::RecordWalker(const ByteSource& source, bool swapped, const RestartHeader& header,
-  bool in_box, Progress& progress)
-  : bytes_(source, swapped)
+  SearchBudget& budget, Progress& progress)
+  : bytes_(source, swapped, &budget)
   , header_(header)
+  , budget_(budget)
+  , bounds_(header.box.bounds())
   , progress_(progress)
 {
-  if (!in_box)
-  {
-    return;
-  }
-  BoxBounds bounds = header.box.bounds();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double length = bounds.hi[axis] - bounds.lo[axis];
-    bounds.lo[axis] -= length;
-    bounds.hi[axis] += length;
+    const double length = bounds_.hi[axis] - bounds_.lo[axis];
+    bounds_.lo[axis] -= length;
+    bounds_.hi[axis] += length;
   }
-  bounds_ = bounds;
 }
 
-bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles, SearchBudget& budget)
+bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles)
 {
   const std::int64_t end = offset + doubles * 8;
-  const std::int64_t read_before = bytes_.read_bytes();
-  const std::int64_t may_read = budget.bytes;
   for (at_ = offset; at_ < end;)
   {
     const std::int64_t left = (end - at_) / 8;
     const std::string_view record = bytes_.view(at_, least_doubles * 8);
-    budget.bytes = may_read - (bytes_.read_bytes() - read_before);
-    --budget.steps;
-    if (budget.spent() || left < least_doubles || record.size() < least_doubles * 8)
+    --budget_.steps;
+    if (budget_.spent() || left < least_doubles || record.size() < least_doubles * 8)
     {
       return false;
     }
-    const double length = bytes_.double_in(slot(record.data(), RecordSlots::length));
+    const double length = bytes_.load<double>(slot(record.data(), RecordSlots::length));
     if (!is_whole_in(length, least_doubles, left) || !this->is_record(record.data()))
     {
       return false;
@@ -88,23 +81,24 @@ bool RecordWalker::is_record(const char* record) const noexcept
   constexpr std::int64_t most_value = std::int64_t{ 1 } << 53;
   const char* const tag = slot(record, RecordSlots::tag);
   const char* const mask = slot(record, RecordSlots::mask);
-  const std::int64_t type_bits = bytes_.int64_in(slot(record, RecordSlots::type));
+  const std::int64_t type_bits = bytes_.load<std::int64_t>(slot(record, RecordSlots::type));
   if (type_bits >= 1 && type_bits <= header_.types)
   {
-    return (header_.tag_bytes == 8 || in_range(bytes_.int64_in(tag), -most_int - 1, most_int)) &&
-      in_range(bytes_.int64_in(mask), -most_int - 1, most_int) && this->near_box(record);
+    return (header_.tag_bytes == 8 ||
+             in_range(bytes_.load<std::int64_t>(tag), -most_int - 1, most_int)) &&
+      in_range(bytes_.load<std::int64_t>(mask), -most_int - 1, most_int) && this->near_box(record);
   }
-  return is_whole_in(bytes_.double_in(slot(record, RecordSlots::type)), 1, header_.types) &&
-    is_whole_in(bytes_.double_in(tag), -most_value, most_value) &&
-    is_whole_in(bytes_.double_in(mask), -most_int - 1, most_int) && this->near_box(record);
+  return is_whole_in(bytes_.load<double>(slot(record, RecordSlots::type)), 1, header_.types) &&
+    is_whole_in(bytes_.load<double>(tag), -most_value, most_value) &&
+    is_whole_in(bytes_.load<double>(mask), -most_int - 1, most_int) && this->near_box(record);
 }
 
 bool RecordWalker::near_box(const char* record) const noexcept
 {
-  for (std::size_t axis = 0; bounds_ && axis < 3; ++axis)
+  for (std::size_t axis = 0; in_box_ && axis < 3; ++axis)
   {
-    const double x = bytes_.double_in(slot(record, RecordSlots::x + axis));
-    if (!(x >= bounds_->lo[axis] && x <= bounds_->hi[axis])) // nor is it nan
+    const double x = bytes_.load<double>(slot(record, RecordSlots::x + axis));
+    if (!(x >= bounds_.lo[axis] && x <= bounds_.hi[axis])) // nor is it nan
     {
       return false;
     }

@@ -48,7 +48,7 @@ public:
     {
       layout_.begin = search.begin;
       layout_.chunks = std::move(search.chunks);
-      layout_.records = search.records;
+      layout_.records = layout_.header.atoms;
       this->take_fixes(layout_.begin);
     }
     else
@@ -63,25 +63,22 @@ private:
   void read_groups()
   {
     constexpr std::int32_t most = 32; ///< bits of a mask
-    const std::int32_t count = bytes_.int32_at(at_, "the number of groups");
+    const auto count = bytes_.next<std::int32_t>(at_, "the number of groups");
     if (count < 1 || count > most)
     {
-      throw FormatError(
-        "expected the number of groups, 1 to 32, got " + std::to_string(count), bytes_.where(at_));
+      bytes_.refuse("the number of groups, 1 to 32", std::to_string(count), at_ - 4);
     }
-    at_ += 4;
     for (std::int32_t seen = 0; seen < count;)
     {
       if (layout_.groups.size() == most)
       {
-        throw FormatError("expected the names of " + std::to_string(count) +
-            " groups in 32 places, got " + std::to_string(seen),
-          bytes_.where(at_));
+        bytes_.refuse("the names of " + std::to_string(count) + " groups in 32 places",
+          std::to_string(seen), at_);
       }
-      const bool is_free = bytes_.int32_at(at_, "the name of a group") == 0;
-      layout_.groups.push_back(is_free ? "" : bytes_.text_at(at_, "the name of a group"));
-      const std::string& name = layout_.groups.back();
-      at_ += 4 + (is_free ? 0 : static_cast<std::int64_t>(name.size()) + 1);
+      constexpr const char* what = "the name of a group";
+      const bool is_free = bytes_.number_at<std::int32_t>(at_, what) == 0;
+      layout_.groups.push_back(is_free ? "" : bytes_.next_text(at_, what));
+      at_ += is_free ? 4 : 0;
       seen += is_free ? 0 : 1;
     }
   }
@@ -90,25 +87,21 @@ private:
   void read_masses()
   {
     constexpr const char* what = "the masses of types (0), or their end (-1)";
-    std::int32_t kind = bytes_.int32_at(at_, what);
-    const auto types = static_cast<std::size_t>(layout_.header.types);
-    layout_.masses.assign(types, std::numeric_limits<double>::quiet_NaN());
+    auto kind = bytes_.next<std::int32_t>(at_, what);
+    layout_.masses.assign(
+      static_cast<std::size_t>(layout_.header.types), std::numeric_limits<double>::quiet_NaN());
     if (kind == 0)
     {
-      for (std::size_t type = 0; type < types; ++type)
+      for (double& mass : layout_.masses)
       {
-        layout_.masses[type] =
-          bytes_.double_at(at_ + 4 + 8 * static_cast<std::int64_t>(type), "the mass of a type");
+        mass = bytes_.next<double>(at_, "the mass of a type");
       }
-      at_ += 4 + 8 * static_cast<std::int64_t>(types);
-      kind = bytes_.int32_at(at_, "the end of the masses of types (-1)");
+      kind = bytes_.next<std::int32_t>(at_, "the end of the masses of types (-1)");
     }
     if (kind != -1)
     {
-      throw FormatError(
-        std::string("expected ") + what + ", got " + std::to_string(kind), bytes_.where(at_));
+      bytes_.refuse(what, std::to_string(kind), at_ - 4);
     }
-    at_ += 4;
   }
 
   /// What is stored of fixes lies right before `end`.
@@ -160,7 +153,7 @@ private:
     {
       text += "; gave up, as too much of the file looks like particles";
     }
-    throw FormatError(text, bytes_.where(at_));
+    throw FormatError(text, { bytes_.source().path(), 0, at_ });
   }
 
   RestartBytes bytes_;
