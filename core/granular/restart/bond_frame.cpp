@@ -48,10 +48,7 @@ void add_notice(
 {
   if (count > 0)
   {
-    Notice notice;
-    notice.where = where;
-    notice.text = of_what + ": " + std::to_string(count);
-    notices.push_back(notice);
+    notices.push_back({ where, of_what + ": " + std::to_string(count) });
   }
 }
 
@@ -78,12 +75,10 @@ void check_layout(int asked, std::int64_t values, const Where& where, Notices& n
   const HistoryLayout& layout = layouts[static_cast<std::size_t>(asked)];
   if (static_cast<std::int64_t>(layout.columns.size()) != values)
   {
-    Notice notice;
-    notice.where = where;
-    notice.text = "expected " + std::to_string(layout.columns.size()) +
-      " history values of a bond, as " + std::string(layout.name) + " has them, got " +
-      std::to_string(values) + ": they are named history1, history2, ...";
-    notices.push_back(notice);
+    notices.push_back({ where,
+      "expected " + std::to_string(layout.columns.size()) + " history values of a bond, as " +
+        std::string(layout.name) + " has them, got " + std::to_string(values) +
+        ": they are named history1, history2, ..." });
   }
 }
 

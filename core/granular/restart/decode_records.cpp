@@ -295,11 +295,9 @@ DumpFrame ParticleStore::take(const Where& where, Notices& notices)
 {
   if (misfits_ > 0)
   {
-    Notice notice;
-    notice.where = where;
-    notice.text = "what fixes have of particles is left out: of " + std::to_string(misfits_) +
-      " it is not where it should be";
-    notices.push_back(notice);
+    notices.push_back({ where,
+      "what fixes have of particles is left out: of " + std::to_string(misfits_) +
+        " it is not where it should be" });
     for (auto i = fix_arrays_.rbegin(); i != fix_arrays_.rend(); ++i)
     {
       frame_.arrays.erase(frame_.arrays.begin() + static_cast<std::ptrdiff_t>(*i));

@@ -41,10 +41,7 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
   index.resume_line = 1;
   if (is_process_file(source))
   {
-    Notice notice;
-    notice.where.path = source.path();
-    notice.text = part_text;
-    set_defect(index, notice);
+    set_defect(index, { { source.path() }, std::string(part_text) });
     return;
   }
   try

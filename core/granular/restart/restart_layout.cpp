@@ -170,12 +170,9 @@ RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& 
     RestartLayout layout = LayoutReader(source, progress).read();
     if (!layout.has_fixes && layout.records > 0)
     {
-      Notice notice;
-      notice.where = { source.path(), 0, layout.begin };
-      notice.text =
+      notices.push_back({ { source.path(), 0, layout.begin },
         "expected what fixes have stored before the particles, found nothing: what they "
-        "add to particles has no names";
-      notices.push_back(std::move(notice));
+        "add to particles has no names" });
     }
     return layout;
   }
