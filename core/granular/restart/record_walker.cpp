@@ -3,7 +3,6 @@
 
 #include "granular/bonds/bond_record.h"
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -15,11 +14,6 @@ constexpr auto least_doubles = static_cast<std::int64_t>(RecordSlots::common);
 constexpr std::int64_t records_a_report = 65536;
 constexpr std::int64_t most_int = std::numeric_limits<std::int32_t>::max();
 
-const char* slot(const char* record, std::size_t number) noexcept
-{
-  return record + number * sizeof(double);
-}
-
 bool in_range(std::int64_t number, std::int64_t low, std::int64_t high) noexcept
 {
   return number >= low && number <= high;
@@ -29,7 +23,7 @@ bool in_range(std::int64_t number, std::int64_t low, std::int64_t high) noexcept
 bool is_whole_in(double number, std::int64_t low, std::int64_t high) noexcept
 {
   return number >= static_cast<double>(low) && number <= static_cast<double>(high) &&
-    number == std::floor(number);
+    number == static_cast<double>(static_cast<std::int64_t>(number));
 }
 }
 
@@ -61,8 +55,9 @@ bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles)
     {
       return false;
     }
-    const double length = bytes_.load<double>(slot(record.data(), RecordSlots::length));
-    if (!is_whole_in(length, least_doubles, left) || !this->is_record(record.data()))
+    const std::size_t length = length_of(
+      bytes_.load<double>(record.data()), RecordSlots::common, static_cast<std::size_t>(left));
+    if (length == 0 || !this->is_record(record.data()))
     {
       return false;
     }
@@ -78,26 +73,26 @@ bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles)
 /// Whole numbers are bits, or values: the type, which is at least 1, tells.
 bool RecordWalker::is_record(const char* record) const noexcept
 {
+  constexpr std::int64_t least_int = -most_int - 1;
   constexpr std::int64_t most_value = std::int64_t{ 1 } << 53;
-  const char* const tag = slot(record, RecordSlots::tag);
-  const char* const mask = slot(record, RecordSlots::mask);
-  const std::int64_t type_bits = bytes_.load<std::int64_t>(slot(record, RecordSlots::type));
-  if (type_bits >= 1 && type_bits <= header_.types)
+  using Slots = RecordSlots;
+  const auto bits = [&](std::size_t slot) { return this->load<std::int64_t>(record, slot); };
+  const auto value = [&](std::size_t slot) { return this->load<double>(record, slot); };
+  if (in_range(bits(Slots::type), 1, header_.types))
   {
-    return (header_.tag_bytes == 8 ||
-             in_range(bytes_.load<std::int64_t>(tag), -most_int - 1, most_int)) &&
-      in_range(bytes_.load<std::int64_t>(mask), -most_int - 1, most_int) && this->near_box(record);
+    return (header_.tag_bytes == 8 || in_range(bits(Slots::tag), least_int, most_int)) &&
+      in_range(bits(Slots::mask), least_int, most_int) && this->near_box(record);
   }
-  return is_whole_in(bytes_.load<double>(slot(record, RecordSlots::type)), 1, header_.types) &&
-    is_whole_in(bytes_.load<double>(tag), -most_value, most_value) &&
-    is_whole_in(bytes_.load<double>(mask), -most_int - 1, most_int) && this->near_box(record);
+  return is_whole_in(value(Slots::type), 1, header_.types) &&
+    is_whole_in(value(Slots::tag), -most_value, most_value) &&
+    is_whole_in(value(Slots::mask), least_int, most_int) && this->near_box(record);
 }
 
 bool RecordWalker::near_box(const char* record) const noexcept
 {
   for (std::size_t axis = 0; in_box_ && axis < 3; ++axis)
   {
-    const double x = bytes_.load<double>(slot(record, RecordSlots::x + axis));
+    const auto x = this->load<double>(record, RecordSlots::x + axis);
     if (!(x >= bounds_.lo[axis] && x <= bounds_.hi[axis])) // nor is it nan
     {
       return false;

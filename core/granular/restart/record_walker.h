@@ -33,6 +33,12 @@ public:
   std::int64_t at() const noexcept { return at_; }
 
 private:
+  template <class Number>
+  Number load(const char* record, std::size_t slot) const noexcept
+  {
+    return bytes_.load<Number>(record + slot * sizeof(Number));
+  }
+
   bool is_record(const char* record) const noexcept;
   bool near_box(const char* record) const noexcept;
 

@@ -84,19 +84,17 @@ public:
     Notices& notices, Progress& progress)
   {
     RestartFrame frame;
+    FrameHeader& header = frame.bonds.table.header;
+    header = particles_.header();
+    header.rows = 0;
+    header.counted = "BONDS";
     if (bonds_)
     {
-      frame.bonds =
-        make_bond_frame(*bonds_, layout, request, first_, end_, where, notices, progress);
+      make_bond_frame(
+        *bonds_, layout, request, first_, end_, where, frame.bonds, notices, progress);
     }
     frame.particles = particles_.take(where, notices);
     note_loss(frame.particles, request, where, notices);
-    if (!bonds_)
-    {
-      frame.bonds.table.header = frame.particles.header;
-      frame.bonds.table.header.rows = 0;
-      frame.bonds.table.header.counted = "BONDS";
-    }
     return frame;
   }
 
