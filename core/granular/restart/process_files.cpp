@@ -84,11 +84,11 @@ std::vector<ProcessNames> process_names(const std::string& base_path)
   return names;
 }
 
-ProcessNames find_process_names(const std::vector<ProcessNames>& candidates)
+const ProcessNames* find_process_names(const std::vector<ProcessNames>& candidates)
 {
   const auto found = std::ranges::find_if(
     candidates, [](const ProcessNames& names) { return is_there(names.of(0)); });
-  return found == candidates.end() ? candidates.front() : *found;
+  return found == candidates.end() ? nullptr : &*found;
 }
 
 bool is_there(const std::string& path)

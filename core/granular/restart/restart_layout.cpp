@@ -34,11 +34,13 @@ public:
     this->read_masses();
     progress_.set_part(0, 0.8);
     const std::vector<ProcessNames> names = process_names(bytes_.source().path());
-    if (layout_.header.atoms == 0 && !names.empty() && is_there(find_process_names(names).of(0)))
+    const ProcessNames* const files =
+      layout_.header.atoms == 0 ? find_process_names(names) : nullptr;
+    if (files)
     {
       // before the zeros at the end of the file, which may be counts of fixes
       this->take_fixes(layout_.size);
-      this->read_files(find_process_names(names));
+      this->read_files(*files);
       return std::move(layout_);
     }
     ChunkSearch search =
@@ -127,14 +129,11 @@ private:
     constexpr std::int64_t worth = std::int64_t{ 1 } << 20;
     const bool look = !names.empty() || layout_.size - at_ < worth;
     const FixSearch fixes = look ? this->take_fixes(layout_.size) : FixSearch{};
-    if (!names.empty())
+    const ProcessNames* const files = find_process_names(names);
+    if (files || (fixes.found && !names.empty()))
     {
-      const ProcessNames found = find_process_names(names);
-      if (fixes.found || is_there(found.of(0)))
-      {
-        this->read_files(found);
-        return;
-      }
+      this->read_files(files ? *files : names.front()); // the first says which file is missing
+      return;
     }
     std::string text = "expected " + std::to_string(layout_.header.atoms) + " particles of " +
       std::to_string(layout_.header.processes) + " processes" +
