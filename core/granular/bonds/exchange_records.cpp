@@ -19,11 +19,6 @@ std::size_t bond_doubles(const BondedParticles& particles) noexcept
   return 2 + static_cast<std::size_t>(particles.history_values());
 }
 
-bool is_count(double number, double most) noexcept
-{
-  return number >= 0 && number <= most && is_int32(number);
-}
-
 /// Records of the particles of a dialect: length, fields, number of bonds, type and partner of each, history, special counts.
 template <const auto& fields>
 struct Records
@@ -103,7 +98,7 @@ struct Records
     Table::check(buffer, place + 1, particle);
 
     const double bonds = buffer[place + bonds_at];
-    if (!is_count(bonds, particles.most_bonds()))
+    if (!(bonds >= 0 && bonds <= particles.most_bonds()) || !is_int32(bonds))
     {
       refuse_number("a number of bonds from 0 to " + std::to_string(particles.most_bonds()),
         particle, place + bonds_at, bonds);
