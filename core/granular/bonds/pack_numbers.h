@@ -72,13 +72,17 @@ public:
 
   void from_number(double number, std::int64_t& id) noexcept
   {
-    const std::uint64_t bits = this->to_bits(number);
+    const double biased = number + integer_bias;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(biased) - bias;
+    differences_ |= difference(biased - integer_bias, number);
     ranges_ |= bits + limit;
     id = static_cast<std::int64_t>(bits);
   }
   void from_number(double number, std::int32_t& value) noexcept
   {
-    const std::uint64_t bits = this->to_bits(number);
+    const double biased = number + integer_bias;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(biased) - bias;
+    differences_ |= difference(biased - integer_bias, number);
     small_ranges_ |= bits + small_limit;
     value = static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
   }
@@ -97,14 +101,7 @@ public:
   }
 
 private:
-  /// The bits of an integer, right if that is what the number is.
-  std::uint64_t to_bits(double number) noexcept
-  {
-    const double biased = number + integer_bias;
-    differences_ |= difference(biased - integer_bias, number);
-    return std::bit_cast<std::uint64_t>(biased) - std::bit_cast<std::uint64_t>(integer_bias);
-  }
-
+  static constexpr std::uint64_t bias = std::bit_cast<std::uint64_t>(integer_bias);
   static constexpr std::uint64_t limit = std::uint64_t{ 1 } << 51;
   static constexpr std::uint64_t small_limit = std::uint64_t{ 1 } << 31;
 
