@@ -43,25 +43,24 @@ struct Bond
   std::size_t copy;   ///< in its block
 };
 
-void add_notice(
-  Notices& notices, const Where& where, std::int64_t count, const std::string& of_what)
-{
-  if (count > 0)
-  {
-    notices.push_back({ where, of_what + ": " + std::to_string(count) });
-  }
-}
-
 void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
 {
-  add_notice(notices, where, counts.repeated_ids,
-    "particles that have the id of another one, where bonds end at the first that has it");
-  add_notice(notices, where, counts.without_partner,
-    "bonds that are left out, as their partner is not in the file");
-  add_notice(notices, where, counts.of_itself, "bonds of a particle with itself");
-  add_notice(notices, where, counts.differing,
-    "bonds whose two particles do not hold the same history, of which that of the lower id is "
-    "taken");
+  const std::pair<std::int64_t, std::string> said[] = {
+    { counts.repeated_ids,
+      "particles that have the id of another one, where bonds end at the first that has it" },
+    { counts.without_partner, "bonds that are left out, as their partner is not in the file" },
+    { counts.of_itself, "bonds of a particle with itself" },
+    { counts.differing,
+      "bonds whose two particles do not hold the same history, of which that of the lower id is "
+      "taken" },
+  };
+  for (const auto& [count, of_what] : said)
+  {
+    if (count > 0)
+    {
+      notices.push_back({ where, of_what + ": " + std::to_string(count) });
+    }
+  }
 }
 
 /// A layout that was asked for, and is not that of the file.

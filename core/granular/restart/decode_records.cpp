@@ -113,24 +113,23 @@ void ParticleStore::add_array(
   const std::size_t bytes = width * info.columns.size();
   array.block = Block(bytes * static_cast<std::size_t>(frame_.rows), request.lines.pool);
   auto* to = static_cast<char*>(array.block.data());
-  bool fix = false;
-  std::vector<Doubles> runs;
+  const auto column_of = [&](int number) -> const RecordColumn&
+  { return plan.columns()[static_cast<std::size_t>(number)]; };
+  const bool fix = column_of(info.columns.front()).kind == Kind::OfAFix;
+  std::vector<Doubles>& all = fix ? of_fixes_ : doubles_;
+  const std::size_t others = all.size();
   for (const int number : info.columns)
   {
-    const RecordColumn& column = plan.columns()[static_cast<std::size_t>(number)];
-    fix = fix || column.kind == Kind::OfAFix;
-    if (column.kind == Kind::Double || column.kind == Kind::OfAFix)
+    const RecordColumn& column = column_of(number);
+    const std::size_t part = column.part + (fix ? styles_ : 0);
+    if (all.size() > others && all.back().part == part &&
+      all.back().slot + all.back().count == column.slot)
     {
-      const std::size_t part = column.part + (fix ? styles_ : 0);
-      if (!runs.empty() && runs.back().part == part &&
-        runs.back().slot + runs.back().count == column.slot)
-      {
-        ++runs.back().count;
-      }
-      else
-      {
-        runs.push_back({ part, column.slot, 1, to, bytes });
-      }
+      ++all.back().count;
+    }
+    else if (fix || column.kind == Kind::Double)
+    {
+      all.push_back({ part, column.slot, 1, to, bytes });
     }
     else
     {
@@ -138,8 +137,6 @@ void ParticleStore::add_array(
     }
     to += width;
   }
-  std::vector<Doubles>& all = fix ? of_fixes_ : doubles_;
-  all.insert(all.end(), runs.begin(), runs.end());
   if (fix)
   {
     fix_arrays_.push_back(frame_.arrays.size());
