@@ -18,6 +18,10 @@
 #include "granular/dump/write/dump_writer.h"
 #include "granular/packing/packing.h"
 
+// ---- particles and bonds of data files -------------------------------------------------------------
+#include "granular/data_file/data_file.h"
+#include "granular/data_file/read_data.h"
+
 // ---- contacts and bonds -------------------------------------------------------------------------
 #include "granular/bonds/exchange_packing.h"
 #include "granular/bonds/restart_record.h"

@@ -66,6 +66,8 @@ ROOMS = {room: words.split() for room, words in (
     ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
               "dump/read"),
     ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
+    ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
+                  "dump/read local"),
     ("mpi", "common bytes parallel"),
 )}
 MOST_FILES = 40

@@ -5,7 +5,6 @@
 #include "granular/dump/formats/text_dump.h"
 #include "granular/frames/file_index.h"
 #include "granular/frames/numbered_name.h"
-#include "granular/local/data_bonds.h"
 #include "granular/numbers/number.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace granular
 {
 namespace
 {
-/// What rows without a header are, the header of another file says; that of a data file is not looked at again when they are read.
+/// What rows without a header are, the header of another file says.
 bool local_fits(const ByteSource& source, const FileIndex& index)
 {
   const FrameEntry& first = index.frames.front();
@@ -113,11 +112,7 @@ void index_local(
     index.resume_line = 1;
   }
   const std::string first_bytes = first_bytes_of(source);
-  if (is_data_with_bonds(first_bytes))
-  {
-    index_data_bonds(source, index, progress);
-  }
-  else if (is_bare(first_bytes))
+  if (is_bare(first_bytes))
   {
     index_bare(source, index, progress, ahead);
   }
@@ -218,7 +213,7 @@ bool has_bare_sibling(const std::string& path)
     try
     {
       const std::string bytes = first_bytes_of(*unpack(open_file(sibling)));
-      if (!is_data_with_bonds(bytes) && is_bare(bytes))
+      if (is_bare(bytes))
       {
         return true;
       }
@@ -308,7 +303,7 @@ const FileFormat& local_format() noexcept
 
 bool is_local(std::string_view first_bytes)
 {
-  return is_text_of_others(first_bytes) || is_data_with_bonds(first_bytes);
+  return is_text_of_others(first_bytes);
 }
 
 bool is_local_file(const std::string& path) noexcept

@@ -13,12 +13,9 @@ namespace granular
 /// there need be no box (LIGGGHTS 2). A `%` in the name of such a dump gives the first process a header, of its own rows,
 /// and the others files of rows alone: these belong to the file whose name has 0 in the same place, if that has one
 /// frame; rows of several frames (a name without `*`) cannot be told apart: these frames are left out with a notice.
-///
-/// A data file of LAMMPS has one frame: the section Bonds, with the columns bond_id btype id1 id2, of the timestep that
-/// its first line says, or 0.
 const FileFormat& local_format() noexcept;
 
-/// Whether the first bytes of a file, uncompressed, are those of a dump of local data, or of a data file with bonds.
+/// Whether the first bytes of a file, uncompressed, are those of a dump of local data.
 bool is_local(std::string_view first_bytes);
 
 /// The same of a file by name, which may be compressed: looks at its first 64 KiB. Never throws: what cannot be

@@ -26,7 +26,9 @@ struct DumpRequest
   Coordinates coordinates = Coordinates::Absolute;
   bool points = true; ///< false: none are made, and coordinates are columns like others
   std::optional<ColumnSchema>
-    schema = {};                 ///< what the columns are, if they are not what their names say
+    schema = {}; ///< what the columns are, if they are not what their names say
+  std::optional<FrameHeader>
+    header = {}; ///< of rows without a header, such as a section of a file; their number is theirs
   bool single_precision = false; ///< points as float instead of double
   Vector3 point_origin = {};     ///< subtracted from the points in double before any rounding
   bool sort_by_id = false;

@@ -24,7 +24,7 @@ FrameDecoder::FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema
 {
   first_ = this->open(0);
   where_ = where_of(pieces.front());
-  header_ = first_->rows->header();
+  header_ = request.header.value_or(first_->rows->header());
   header_.rows = rows_of(pieces);
 }
 

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/data_file/atom_styles.h"
+
+#include "granular/common/words.h"
+#include "granular/numbers/number.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace granular
+{
+namespace
+{
+using Words = std::vector<std::string_view>;
+
+constexpr std::string_view image_columns = "ix iy iz";
+constexpr std::string_view spins = "id vx vy vz omegax omegay omegaz";
+
+constexpr AtomStyle styles[] = {
+  { .name = "atomic", .columns = "id type x y z" },
+  { .name = "charge", .columns = "id type q x y z" },
+  { .name = "bond", .columns = "id mol type x y z", .has_bonds = true },
+  { .name = "angle", .columns = "id mol type x y z", .has_bonds = true },
+  { .name = "molecular", .columns = "id mol type x y z", .has_bonds = true },
+  { .name = "full", .columns = "id mol type q x y z", .has_bonds = true },
+  { .name = "sphere", .columns = "id type diameter density x y z", .velocities = spins },
+  { .name = "granular", .columns = "id type diameter density x y z", .velocities = spins },
+  { .name = "ellipsoid",
+    .columns = "id type ellipsoidflag density x y z",
+    .velocities = "id vx vy vz angmomx angmomy angmomz" },
+};
+
+/// Columns whose numbers are written as integers.
+constexpr std::string_view integers[] = { "id", "mol", "type", "ellipsoidflag", "ix", "iy", "iz" };
+
+/// The columns of rows of so many words: with image counts, or without; none where a style has others.
+Words columns_of(const AtomStyle& style, std::size_t words)
+{
+  Words columns = split_words(style.columns);
+  if (words == columns.size() + 3)
+  {
+    append_words(image_columns, columns);
+  }
+  return columns.size() == words ? columns : Words();
+}
+
+/// Whether the rows may be those of a style: as many words, integers where columns are, and as many velocities.
+bool fits(const AtomStyle& style, const DataLayout& layout)
+{
+  const Words row = split_words(layout.particles->first_row);
+  const Words columns = columns_of(style, row.size());
+  if (columns.empty() || (layout.bonds > 0 && !style.has_bonds))
+  {
+    return false;
+  }
+  for (std::size_t i = 0; i < row.size(); ++i)
+  {
+    std::int64_t value = 0;
+    if (std::ranges::find(integers, columns[i]) != std::end(integers) &&
+      !parse_int64(row[i].data(), row[i].data() + row[i].size(), value))
+    {
+      return false;
+    }
+  }
+  return !layout.velocities ||
+    split_words(layout.velocities->first_row).size() == split_words(style.velocities).size();
+}
+
+std::string names_of(const std::vector<const AtomStyle*>& list)
+{
+  Words names;
+  std::ranges::transform(
+    list, std::back_inserter(names), [](const AtomStyle* style) { return style->name; });
+  return join_words(names);
+}
+
+std::vector<const AtomStyle*> all_styles()
+{
+  std::vector<const AtomStyle*> all;
+  std::ranges::transform(
+    styles, std::back_inserter(all), [](const AtomStyle& style) { return &style; });
+  return all;
+}
+
+std::vector<const AtomStyle*> styles_that_fit(const DataLayout& layout)
+{
+  std::vector<const AtomStyle*> fitting = all_styles();
+  std::erase_if(fitting, [&](const AtomStyle* style) { return !fits(*style, layout); });
+  return fitting;
+}
+
+/// "those of sphere granular fit: set AtomStyle".
+std::string advice(const DataLayout& layout)
+{
+  const std::vector<const AtomStyle*> fitting = styles_that_fit(layout);
+  return fitting.empty() ? "none of these fits the first rows: make a dump of the file"
+                         : "those of " + names_of(fitting) + " fit the first rows: set AtomStyle";
+}
+
+/// The only style that fits, up to others with the same columns.
+const AtomStyle& guess(const DataLayout& layout, const Where& where, Notices& notices)
+{
+  const std::vector<const AtomStyle*> fitting = styles_that_fit(layout);
+  std::set<std::string_view> columns;
+  std::ranges::transform(fitting, std::inserter(columns, columns.end()),
+    [](const AtomStyle* style) { return style->columns; });
+  const std::size_t words = split_words(layout.particles->first_row).size();
+  if (columns.size() != 1)
+  {
+    throw FormatError("expected the atom style as in 'Atoms # sphere', got none, and rows of " +
+        std::to_string(words) + " words; of the styles " + names_of(all_styles()) + ", " +
+        advice(layout),
+      where);
+  }
+  notices.push_back({ where,
+    "the atom style is not in the file: the columns are taken for those of " + names_of(fitting) +
+      ", " + join_words(columns_of(*fitting.front(), words)) +
+      "; if they are others, set AtomStyle" });
+  return *fitting.front();
+}
+
+std::vector<std::string> to_strings(const Words& words)
+{
+  return { words.begin(), words.end() };
+}
+}
+
+std::span<const AtomStyle> atom_styles() noexcept
+{
+  return styles;
+}
+
+DataColumns find_data_columns(
+  const DataLayout& layout, std::string_view asked, const std::string& path, Notices& notices)
+{
+  const bool automatic = asked.empty() || asked == "automatic";
+  const Where where{ path, layout.particles ? layout.particles->name_line : 1 };
+  const std::string named =
+    automatic ? (layout.particles ? layout.particles->comment : "") : std::string(asked);
+  const auto known = std::ranges::find(styles, named, &AtomStyle::name);
+  if (known == std::end(styles) && !named.empty())
+  {
+    throw FormatError("expected an atom style of " + names_of(all_styles()) + ", got " +
+        quoted(named) + (layout.particles ? "; " + advice(layout) : ""),
+      where);
+  }
+  if (!layout.particles)
+  {
+    return { to_strings(split_words((known == std::end(styles) ? styles[0] : *known).columns)),
+      {} };
+  }
+  const bool empty = layout.particles->rows == 0;
+  const AtomStyle& style = known != std::end(styles) ? *known
+    : empty                                          ? styles[0]
+                                                     : guess(layout, where, notices);
+  const std::size_t usual = split_words(style.columns).size();
+  const std::size_t words = empty ? usual : split_words(layout.particles->first_row).size();
+  DataColumns columns{ to_strings(columns_of(style, words)), {} };
+  if (columns.particles.empty())
+  {
+    throw FormatError("expected rows of " + std::to_string(usual) + " or " +
+        std::to_string(usual + 3) + " words, as atom style " + named + " has them (" +
+        std::string(style.columns) + ", and image counts), got " + std::to_string(words) + "; " +
+        advice(layout),
+      where);
+  }
+  if (layout.velocities)
+  {
+    columns.velocities = to_strings(split_words(style.velocities));
+  }
+  return columns;
+}
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_data_file_atom_styles_h
+#define granular_data_file_atom_styles_h
+
+#include "granular/common/error.h"
+#include "granular/data_file/data_layout.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// What rows of the sections Atoms and Velocities hold under an atom style: names of columns as dumps have them. Three
+/// image counts ix iy iz may follow in all rows of Atoms.
+struct AtomStyle
+{
+  std::string_view name;
+  std::string_view columns;
+  std::string_view velocities = "id vx vy vz";
+  bool has_bonds = false; ///< particles of the style may have bonds
+};
+
+/// THE table of atom styles, after the documentation of LAMMPS (read_data) and the sources of LIGGGHTS.
+std::span<const AtomStyle> atom_styles() noexcept;
+
+/// The columns of a data file.
+struct DataColumns
+{
+  std::vector<std::string> particles;
+  std::vector<std::string> velocities; ///< the first is id; empty: the file has none
+};
+
+/// Finds out what the columns are: those of the style that the user names, else of the one in the comment `Atoms # style`,
+/// else of the only one that fits the first rows, which a notice says. asked: empty or "automatic" leaves it to the file.
+/// Throws FormatError that says which styles would fit.
+DataColumns find_data_columns(
+  const DataLayout& layout, std::string_view asked, const std::string& path, Notices& notices);
+}
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/data_file/data_file.h"
+
+#include "granular/data_file/data_layout.h"
+#include "granular/frames/file_index.h"
+
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+void index_data_file(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
+{
+  if (!index.kinds)
+  {
+    index.kinds = std::make_shared<FrameKinds>();
+  }
+  index.frames.clear(); // the file is read as a whole, whatever was there before
+  index.defect.reset();
+  index.resume_offset = 0;
+  index.resume_line = 1;
+  try
+  {
+    const DataLayout layout = read_data_layout(source, progress);
+    FrameEntry entry;
+    entry.timestep = layout.timestep;
+    entry.rows = layout.atoms;
+    entry.end = index.stamp.size;
+    entry.line = 1;
+    entry.kind = index.kinds->share(FrameKind{});
+    index.frames.push_back(std::move(entry));
+    index.resume_offset = index.stamp.size;
+  }
+  catch (const FormatError& error)
+  {
+    if (error.where().byte >= 0)
+    {
+      throw; // compressed data that are damaged
+    }
+    set_defect(index, { error.where(), error.text() });
+    index.notices.push_back({ error.where(), error.text() + "; the file is left out" });
+  }
+}
+
+/// Whether an index says what the header does: all else is read again with the rows.
+bool header_fits(const ByteSource& source, const FileIndex& index)
+{
+  const FrameEntry& frame = index.frames.front();
+  const DataLayout layout = read_data_header(source);
+  return index.frames.size() == 1 && frame.timestep == layout.timestep &&
+    frame.rows == layout.atoms;
+}
+}
+
+const FileFormat& data_file_format() noexcept
+{
+  static constexpr FileFormat format = {
+    .name = "a data file", .index = &index_data_file, .fits = &header_fits
+  };
+  return format;
+}
+
+bool is_data_file(const std::string& path) noexcept
+{
+  try
+  {
+    return starts_data_file(first_bytes_of(*unpack(open_file(path))));
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+}

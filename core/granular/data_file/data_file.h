@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_data_file_data_file_h
+#define granular_data_file_data_file_h
+
+#include "granular/frames/file_format.h"
+
+#include <string>
+
+namespace granular
+{
+/// Data files of LAMMPS and LIGGGHTS (read_data, write_data), for a RunIndex: one frame each, of the timestep that the title says,
+/// or 0.
+const FileFormat& data_file_format() noexcept;
+
+/// Whether a file is one of these, by content: a title and a header that counts atoms. Looks at the first 64 KiB of what is inside.
+/// Never throws: what cannot be read is none.
+bool is_data_file(const std::string& path) noexcept;
+}
+#endif

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/data_file/read_data.h"
+
+#include "granular/common/shares.h"
+#include "granular/data_file/uncommented.h"
+#include "granular/data_file/velocities.h"
+#include "granular/local/join.h"
+#include "granular/local/local_columns.h"
+#include "granular/parallel/gather.h"
+#include "granular/sorting/sort_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+const std::vector<std::string> bond_columns = { "bond_id", "btype", "id1", "id2" };
+
+/// Array by its name; null: there is none.
+DumpArray* find_array(DumpFrame& frame, std::string_view name)
+{
+  const auto found = std::ranges::find_if(
+    frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
+  return found == frame.arrays.end() ? nullptr : &*found;
+}
+
+template <class Value>
+std::span<const Value> values_of(const DumpArray& array)
+{
+  return { static_cast<const Value*>(array.block.data()), array.block.bytes() / sizeof(Value) };
+}
+
+/// The rows of a section as a piece of a frame.
+class SectionRows
+{
+public:
+  SectionRows(const FramePiece& file, const ByteSource& source, const DataSection& section,
+    const std::vector<std::string>& columns)
+    : file_(file.file)
+    , source_(source)
+    , uncommented_(source, section.offset)
+    , has_comments_(section.has_comments)
+    , entry_(file.entry)
+  {
+    FrameKind kind;
+    kind.schema = ColumnSchema(columns);
+    kind.layout = FrameKind::bare;
+    entry_.kind = std::make_shared<const FrameKind>(std::move(kind));
+    entry_.rows = section.rows;
+    entry_.offset = section.offset;
+    entry_.line = section.line;
+    entry_.end = section.end;
+  }
+
+  std::vector<FramePiece> pieces() const
+  {
+    const ByteSource& plain = source_;
+    return { { file_, entry_, has_comments_ ? &uncommented_ : &plain } };
+  }
+
+private:
+  const FileIndex& file_;
+  const ByteSource& source_;
+  Uncommented uncommented_;
+  bool has_comments_;
+  FrameEntry entry_;
+};
+
+/// The columns of all, with the types that those of the particles have come to be.
+ColumnSchema join_schemas(const DataColumns& columns, const ColumnSchema& particles)
+{
+  ColumnSchema schema = make_particle_schema(columns);
+  std::vector<ColumnSchema::TypeChange> changes;
+  for (std::size_t i = 0; i < particles.columns().size(); ++i)
+  {
+    if (particles.columns()[i].type != schema.columns()[i].type)
+    {
+      changes.push_back({ static_cast<int>(i), particles.columns()[i].type });
+    }
+  }
+  schema.set_types(changes);
+  return schema;
+}
+
+/// Leaves lines of which both ends were found.
+void keep_found(DumpFrame& table, const JoinedLines& joined)
+{
+  for (DumpArray& array : table.arrays)
+  {
+    const std::size_t bytes = size_of(array.info.type);
+    auto* const data = static_cast<char*>(array.block.data());
+    for (std::size_t i = 0; i < joined.rows.size(); ++i)
+    {
+      std::memmove(
+        data + i * bytes, data + static_cast<std::size_t>(joined.rows[i]) * bytes, bytes);
+    }
+  }
+  keep_rows(table, 0, joined.count);
+}
+
+/// Reads one data file, by one rank or by all.
+class DataReader
+{
+public:
+  DataReader(const FramePiece& file, const DataRequest& request, Communicator& ranks,
+    Notices& notices, Progress& progress)
+    : file_(file)
+    , request_(request)
+    , ranks_(ranks)
+    , notices_(notices)
+    , progress_(progress)
+    , source_(open_piece(file))
+  {
+  }
+
+  DataFrame read()
+  {
+    progress_.set_part(0, 0.1);
+    layout_ = read_data_layout(*source_, progress_);
+    if (layout_.timestep != file_.entry.timestep || layout_.atoms != file_.entry.rows)
+    {
+      throw IoError("the file was changed after it was indexed", where_of(file_));
+    }
+    columns_ = find_data_columns(layout_, request_.atom_style, source_->path(), notices_);
+    own_ = request_.particles;
+    if (ranks_.size() == 1)
+    {
+      own_.piece = 0; // of all: velocities and bonds may name any particle
+      own_.pieces = 1;
+      own_.ranges = own_.ranges && request_.particles.pieces == 1;
+    }
+    DataFrame frame;
+    this->read_particles(frame.particles);
+    this->read_bonds(frame);
+    this->keep_piece(frame.particles);
+    return frame;
+  }
+
+private:
+  FrameHeader header() const
+  {
+    FrameHeader header;
+    header.timestep = layout_.timestep;
+    header.units = layout_.units;
+    header.box = layout_.box;
+    header.box.boundary = request_.boundary.empty() ? "" : parse_boundary(request_.boundary);
+    return header;
+  }
+
+  bool is_wanted(const ArrayInfo& array) const
+  {
+    const auto& wanted = request_.particles.wanted;
+    return wanted ? granular::is_wanted(wanted, array) : !array.position_form;
+  }
+
+  /// A section of so many rows, as an empty one where the file has none.
+  DumpFrame read_rows(const std::optional<DataSection>& section,
+    const std::vector<std::string>& columns, const DumpRequest& request)
+  {
+    const SectionRows rows(file_, *source_, section.value_or(DataSection{}), columns);
+    return read_dump(rows.pieces(), request, ranks_, std::nullopt, notices_, progress_);
+  }
+
+  /// With the ids, which velocities and bonds need, whether they are wanted or not.
+  void read_particles(DumpFrame& frame)
+  {
+    progress_.set_part(0.1, 0.5);
+    DumpRequest request = own_;
+    request.header = this->header();
+    request.wanted = [this](const ArrayInfo& array)
+    { return array.name == "id" || array.name == "image" || this->is_wanted(array); };
+    frame = this->read_rows(layout_.particles, columns_.particles, request);
+    if (request_.boundary.empty())
+    {
+      this->find_boundary(frame);
+    }
+    frame.schema = join_schemas(columns_, frame.schema);
+    progress_.set_part(0.5, 0.7);
+    this->read_velocities(frame);
+  }
+
+  /// What the image counts show: where a particle has crossed a face, there are others beyond it.
+  void find_boundary(DumpFrame& frame)
+  {
+    std::array<std::int64_t, 3> crossed = {};
+    const DumpArray* const images = find_array(frame, "image");
+    if (images && images->info.type == ValueType::Int32)
+    {
+      const auto counts = values_of<std::int32_t>(*images);
+      for (std::size_t i = 0; i < counts.size(); ++i)
+      {
+        crossed[i % 3] += counts[i] != 0 ? 1 : 0;
+      }
+    }
+    ranks_.sum(crossed);
+    if (crossed != std::array<std::int64_t, 3>{})
+    {
+      const auto flag = [&](std::size_t axis) { return crossed[axis] > 0 ? 'p' : 'f'; };
+      frame.header.box.boundary = parse_boundary({ flag(0), ' ', flag(1), ' ', flag(2) });
+    }
+  }
+
+  void read_velocities(DumpFrame& frame)
+  {
+    const bool wanted = std::ranges::any_of(frame.schema.arrays(),
+      [&](const ArrayInfo& array)
+      {
+        const auto own = static_cast<int>(columns_.particles.size());
+        return array.columns.front() >= own && this->is_wanted(array);
+      });
+    if (!wanted)
+    {
+      return;
+    }
+    DumpRequest request = this->table_request();
+    request.ranges = false;
+    const DumpFrame table = this->read_rows(layout_.velocities, columns_.velocities, request);
+    add_velocities(frame, table, frame.schema, *source_, *layout_.velocities, own_.pool, ranks_);
+  }
+
+  /// All rows of a section, or this rank's share of them.
+  DumpRequest table_request() const
+  {
+    DumpRequest request;
+    request.points = false;
+    request.piece = own_.piece;
+    request.pieces = own_.pieces;
+    request.threads = own_.threads;
+    request.pool = own_.pool;
+    request.chunk_bytes = own_.chunk_bytes;
+    return request;
+  }
+
+  void read_bonds(DataFrame& frame)
+  {
+    progress_.set_part(0.7, 0.8);
+    DumpFrame& table = frame.bonds.table;
+    DumpRequest request = this->table_request();
+    request.schema = make_data_bond_schema();
+    table = this->read_rows(layout_.bond_rows, bond_columns, request);
+    table.header = frame.particles.header;
+    table.header.counted = "BONDS";
+    const bool scaled = frame.particles.coordinates == Coordinates::Scaled;
+    table.coordinates = scaled ? Coordinates::Absolute : frame.particles.coordinates;
+    progress_.set_part(0.8, 0.9);
+    const JoinedLines joined = join_lines(this->view_particles(frame.particles),
+      values_of<std::int64_t>(*find_array(table, "id1")),
+      values_of<std::int64_t>(*find_array(table, "id2")), { {}, {}, own_.threads, own_.pool },
+      ranks_, progress_);
+    if (joined.count < table.rows)
+    {
+      keep_found(table, joined);
+    }
+    this->note_bonds(joined);
+    progress_.set_part(0.9, 1);
+    this->make_bond_lines(frame.bonds, joined);
+    std::erase_if(table.arrays,
+      [&](const DumpArray& array)
+      { return request_.wanted_bonds && !request_.wanted_bonds(array.info.name); });
+  }
+
+  FrameView view_particles(const DumpFrame& frame) const
+  {
+    FrameView view;
+    view.header = frame.header;
+    view.rows = frame.rows;
+    view.points =
+      view_rows("", ValueType::Float64, static_cast<const double*>(frame.points.data()), 3);
+    view.coordinates = frame.coordinates;
+    view.point_origin = own_.point_origin;
+    for (const DumpArray& array : frame.arrays)
+    {
+      if (array.info.name == "id")
+      {
+        view.arrays = { view_rows(
+          "id", ValueType::Int64, static_cast<const std::int64_t*>(array.block.data())) };
+      }
+    }
+    return view;
+  }
+
+  void note_bonds(const JoinedLines& joined)
+  {
+    if (!layout_.bond_rows)
+    {
+      return;
+    }
+    const Where where{ source_->path(), layout_.bond_rows->name_line };
+    if (joined.missing > 0)
+    {
+      notices_.push_back({ where,
+        "bonds that are left out, as a particle of theirs is not there: " +
+          std::to_string(joined.missing) });
+    }
+    if (joined.repeated > 0)
+    {
+      notices_.push_back({ where,
+        "particles that have the id of another one, where bonds end at the first that has it: " +
+          std::to_string(joined.repeated) });
+    }
+  }
+
+  /// Lines between the ends that were found, of this rank's piece.
+  void make_bond_lines(LocalFrame& bonds, const JoinedLines& joined)
+  {
+    std::int64_t first = 0;
+    std::int64_t end = joined.count;
+    const std::vector<std::int64_t> rows = gather(ranks_, joined.count);
+    bonds.table.header.rows = std::accumulate(rows.begin(), rows.end(), std::int64_t{ 0 });
+    bonds.first_row =
+      std::accumulate(rows.begin(), rows.begin() + ranks_.rank(), std::int64_t{ 0 });
+    if (ranks_.size() == 1)
+    {
+      std::tie(first, end) = this->share_of(joined.count);
+      keep_rows(bonds.table, first, end - first);
+      bonds.first_row = first;
+    }
+    const auto ends = [&](const Block& block)
+    {
+      return std::span(static_cast<const double*>(block.data()), block.bytes() / sizeof(double))
+        .subspan(3 * static_cast<std::size_t>(first), 3 * static_cast<std::size_t>(end - first));
+    };
+    LineRequest lines{ request_.periodic_lines, own_.point_origin, own_.threads, own_.pool };
+    if (bonds.table.coordinates == Coordinates::Unwrapped && lines.periodic == PeriodicLines::Split)
+    {
+      lines.periodic = PeriodicLines::MinimumImage; // there are no faces between
+    }
+    bonds.lines =
+      make_lines(ends(joined.first), ends(joined.second), bonds.table.header.box, lines, progress_);
+    bonds.has_lines = true;
+  }
+
+  /// The rows of a rank alone that wants one of several pieces.
+  std::pair<std::int64_t, std::int64_t> share_of(std::int64_t rows) const
+  {
+    const int piece = request_.particles.piece;
+    const int pieces = request_.particles.pieces;
+    return { begin_of_part(rows, piece, pieces), begin_of_part(rows, piece + 1, pieces) };
+  }
+
+  void keep_piece(DumpFrame& frame)
+  {
+    std::erase_if(
+      frame.arrays, [&](const DumpArray& array) { return !this->is_wanted(array.info); });
+    if (ranks_.size() == 1 && request_.particles.pieces > 1)
+    {
+      const auto [first, end] = this->share_of(frame.rows);
+      keep_rows(frame, first, end - first);
+    }
+  }
+
+  const FramePiece& file_;
+  const DataRequest& request_;
+  Communicator& ranks_;
+  Notices& notices_;
+  PartialProgress progress_;
+  std::shared_ptr<const ByteSource> source_;
+  DataLayout layout_;
+  DataColumns columns_;
+  DumpRequest own_; ///< of the particles, as this rank decodes them
+};
+}
+
+ColumnSchema make_particle_schema(const DataColumns& columns)
+{
+  std::vector<std::string> names = columns.particles;
+  if (!columns.velocities.empty())
+  {
+    names.insert(names.end(), columns.velocities.begin() + 1, columns.velocities.end());
+  }
+  return ColumnSchema(names);
+}
+
+ColumnSchema make_data_bond_schema()
+{
+  return make_local_schema(bond_columns);
+}
+
+DataFrame read_data(const FramePiece& file, const DataRequest& request, Communicator& ranks,
+  Notices& notices, Progress& progress)
+{
+  SharedProgress shared(progress, ranks);
+  return do_together(
+    ranks, [&] { return DataReader(file, request, ranks, notices, shared).read(); });
+}
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_data_file_read_data_h
+#define granular_data_file_read_data_h
+
+#include "granular/data_file/atom_styles.h"
+#include "granular/data_file/data_layout.h"
+#include "granular/local/local_reader.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace granular
+{
+/// What of a data file is wanted.
+struct DataRequest
+{
+  DumpRequest
+    particles; ///< as of a dump, with points in double precision; says threads, memory and piece of bonds, too
+  std::string atom_style; ///< see find_data_columns
+  std::string
+    boundary; ///< see parse_boundary; empty: axes that image counts say particles have crossed are periodic
+  std::function<bool(std::string_view name)> wanted_bonds; ///< arrays of bonds; empty: all
+  PeriodicLines periodic_lines = PeriodicLines::MinimumImage;
+};
+
+/// A decoded data file.
+struct DataFrame
+{
+  DumpFrame particles; ///< with the velocities of the same ids, and the box
+  LocalFrame bonds;    ///< with lines between the particles
+};
+
+/// Returns the columns that particles have in the end: those of the section Atoms, and the velocities.
+ColumnSchema make_particle_schema(const DataColumns& columns);
+
+/// Returns the columns of the section Bonds: bond_id btype id1 id2.
+ColumnSchema make_data_bond_schema();
+
+/// Decodes a data file. Particles are decoded as read_dump does it, from the section Atoms; velocities get to them by their
+/// ids, in any order of rows. Bonds of which a particle is not there, or left out by the request, are left out, with a
+/// notice. Lines are in absolute coordinates where points are scaled.
+///
+/// Collective: with several ranks each decodes its share of the rows, and particles.piece must be the rank, particles.pieces the number
+/// of ranks. A rank alone that wants one of several pieces decodes all, and keeps its piece.
+///
+/// Throws FormatError with path, line and column: also where a particle has no velocity, or an id several; IoError; LimitError;
+/// Cancelled; std::bad_alloc.
+DataFrame read_data(const FramePiece& file, const DataRequest& request, Communicator& ranks,
+  Notices& notices, Progress& progress);
+}
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_data_file_uncommented_h
+#define granular_data_file_uncommented_h
+
+#include "granular/bytes/byte_source.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace granular
+{
+/// A text in which each comment, from # to the end of its line, is blank. The source must outlive it.
+class Uncommented final : public ByteSource
+{
+public:
+  /// begin: the start of a line; nothing before it is looked at.
+  Uncommented(const ByteSource& source, std::int64_t begin)
+    : source_(source)
+    , begin_(begin)
+  {
+  }
+
+  const std::string& path() const override { return source_.path(); }
+  FileStamp stamp() const override { return source_.stamp(); }
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override;
+  double fraction(std::int64_t offset) const override { return source_.fraction(offset); }
+  bool compressed() const override { return source_.compressed(); }
+  bool concurrent() const override { return source_.concurrent(); }
+  std::string unchecked() const override { return source_.unchecked(); }
+
+private:
+  bool is_comment(std::int64_t offset) const;
+
+  const ByteSource& source_;
+  std::int64_t begin_;
+};
+}
+#endif

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/data_file/velocities.h"
+
+#include "granular/common/words.h"
+#include "granular/local/fetch_particles.h"
+#include "granular/local/id_finder.h"
+#include "granular/numbers/number.h"
+#include "granular/text/text_scanner.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+using Ids = std::span<const std::int64_t>;
+
+const DumpArray& array_of(const DumpFrame& frame, std::string_view name)
+{
+  return *std::ranges::find_if(
+    frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
+}
+
+Ids ids_of(const DumpFrame& frame)
+{
+  return { static_cast<const std::int64_t*>(array_of(frame, "id").block.data()),
+    static_cast<std::size_t>(frame.rows) };
+}
+
+/// Says which row has the id of an earlier one: the text is looked at again.
+[[noreturn]] void fail_repeated(const ByteSource& source, const DataSection& section)
+{
+  TextScanner scanner(source, section.offset, section.line);
+  IdTable lines;
+  std::string_view line;
+  while (scanner.offset() < section.end && scanner.next(line))
+  {
+    const std::string_view word = take_word(line);
+    std::int64_t id = 0;
+    if (parse_int64(word.data(), word.data() + word.size(), id) &&
+      !lines.add(id, scanner.last_line()))
+    {
+      Where where = scanner.where();
+      where.column = "id";
+      throw FormatError("expected one velocity of each particle, got another one of particle " +
+          std::to_string(id) + "; the first is in line " + std::to_string(lines.find(id)),
+        where);
+    }
+  }
+  throw FormatError(
+    "expected one velocity of each particle, got several", { source.path(), section.name_line });
+}
+
+/// The values of the table, of which v is where the places of particles are otherwise.
+ParticleValues values_of(const DumpFrame& table)
+{
+  ParticleValues values;
+  values.points = static_cast<const double*>(array_of(table, "v").block.data());
+  for (const DumpArray& array : table.arrays)
+  {
+    if (array.info.name != "id" && array.info.name != "v")
+    {
+      values.arrays.push_back(view_rows(array.info.name, ValueType::Float64,
+        static_cast<const double*>(array.block.data()), array.info.components()));
+    }
+  }
+  return values;
+}
+}
+
+void add_velocities(DumpFrame& particles, const DumpFrame& table, const ColumnSchema& schema,
+  const ByteSource& source, const DataSection& section, const std::shared_ptr<BlockPool>& pool,
+  Communicator& ranks)
+{
+  const bool alone = ranks.size() == 1;
+  const Ids wanted = ids_of(particles);
+  const ParticleValues own = values_of(table);
+  FetchedParticles fetched;
+  if (!alone)
+  {
+    fetched = fetch_particles({ ids_of(table), nullptr, own }, wanted, wanted, ranks);
+  }
+  const ParticleValues& values = alone ? own : fetched.values;
+  const IdFinder finder(alone ? ids_of(table) : Ids(fetched.ids));
+  std::int64_t repeated = alone ? finder.repeated() : fetched.repeated;
+  ranks.sum({ &repeated, 1 });
+  if (repeated > 0)
+  {
+    fail_repeated(source, section);
+  }
+  std::vector<std::int64_t> places(wanted.size());
+  finder.find(wanted, places.data());
+  const auto missing = std::ranges::find(places, IdFinder::nowhere);
+  if (missing != places.end())
+  {
+    throw FormatError("expected a velocity of particle " +
+        std::to_string(wanted[static_cast<std::size_t>(missing - places.begin())]) +
+        " in the section Velocities, got none",
+      { source.path(), section.name_line });
+  }
+  std::vector<ArrayView> views = values.arrays;
+  views.push_back(view_rows("v", ValueType::Float64, values.points, 3));
+  views.back().step = values.point_step;
+  for (const ArrayView& view : views)
+  {
+    const auto size = static_cast<std::size_t>(view.size());
+    DumpArray array{ schema.arrays()[static_cast<std::size_t>(schema.find_array(view.name))], {},
+      {}, {} };
+    array.block = Block(size * places.size() * sizeof(double), pool);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      gather_numbers(
+        view, static_cast<int>(i), places, static_cast<double*>(array.block.data()) + i, size);
+    }
+    particles.arrays.push_back(std::move(array));
+  }
+}
+}
