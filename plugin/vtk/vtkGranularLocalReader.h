@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularLocalReader
- * @brief   Reads contacts and bonds: the files of dump local, and the bonds of LAMMPS' data files.
+ * @brief   Reads contacts and bonds: the files of dump local.
  *
  * Reads the text files of `dump local` of LIGGGHTS and LAMMPS, whatever they count (ENTRIES, or the word of `dump_modify
- * label`), with and without a box, of one process each (`%`: all but the first of these have no header), and the section Bonds
- * of data files of LAMMPS, as one frame. Which frames there are: see vtkGranularSeriesReader.
+ * label`), with and without a box, of one process each (`%`: all but the first of these have no header). Which frames there
+ * are: see vtkGranularSeriesReader. vtkGranularDataFileReader reads the bonds of data files.
  *
  * Output port 0 holds lines (vtkPolyData), one cell a row with two points of its own, if the columns say where the ends
  * are; else it is empty. Output port 1 holds the rows as a table (vtkTable), which vtkGranularLocalJoin makes lines of by the ids of
@@ -128,8 +128,8 @@ public:
   virtual vtkDataArraySelection* GetCellDataArraySelection();
 
   /**
-   * True if the first 64 KiB, decompressed, are those of a text of dump local (ITEM: NUMBER OF something that is not ATOMS), or
-   * of a data file of LAMMPS that counts bonds. False, silently, for all else, missing files and directories included.
+   * True if the first 64 KiB, decompressed, are those of a text of dump local (ITEM: NUMBER OF something that is not
+   * ATOMS). False, silently, for all else, missing files and directories included.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

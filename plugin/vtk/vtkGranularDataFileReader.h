@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularDataFileReader
+ * @brief   Reads the data files of LAMMPS and LIGGGHTS: particles, bonds and the box.
+ *
+ * Reads the text files that `read_data` reads and `write_data` writes, also compressed with gzip or Zstandard: the sections
+ * Atoms, Velocities and Bonds; all others are passed over. Each file is a frame, of the timestep in its title, or 0: see
+ * vtkGranularSeriesReader. A file that is not complete is left out with a warning.
+ *
+ * Output port 0 holds the particles (vtkPolyData) in the order of the section Atoms, with the arrays that a dump reader gives
+ * them: `id`, `type`, `radius` (and `diameter`) and `density` of sphere, `mol`, `q`, `ellipsoidflag` as the atom style has them,
+ * `image` where rows have image counts, and, where there are velocities, `v`, `omega` of sphere, `angmom` of ellipsoid.
+ *
+ * Output port 1 holds the bonds as lines (vtkPolyData) with the arrays `bond_id`, `btype`, `id1`, `id2` and `length` of their
+ * cells. Bonds of which a particle is not there, or left out by Stride or RegionOfInterest, are left out with a warning. Lines
+ * are in absolute coordinates where Coordinates is SCALED.
+ *
+ * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid). All carry field data as those of
+ * vtkGranularDumpReader.
+ *
+ * A pipeline may ask for any piece of any number: the pieces hold each particle and bond once, in the order of the whole.
+ */
+
+#ifndef vtkGranularDataFileReader_h
+#define vtkGranularDataFileReader_h
+
+#include "vtkGranularModule.h" // For export macro
+#include "vtkGranularSeriesReader.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkDataArraySelection;
+class vtkPolyData;
+
+class VTKGRANULAR_EXPORT vtkGranularDataFileReader : public vtkGranularSeriesReader
+{
+public:
+  static vtkGranularDataFileReader* New();
+  vtkTypeMacro(vtkGranularDataFileReader, vtkGranularSeriesReader);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The particles, and the bonds.
+   */
+  vtkPolyData* GetOutput();
+  vtkPolyData* GetBonds();
+  ///@}
+
+  enum CoordinatesType
+  {
+    ABSOLUTE = 0,
+    UNWRAPPED = 1,
+    SCALED = 2
+  };
+
+  enum PeriodicLinesType
+  {
+    MINIMUM_IMAGE = 0,
+    SPLIT = 1,
+    AS_WRITTEN = 2
+  };
+
+  ///@{
+  /**
+   * The atom style, which says what the columns are: atomic, charge, bond, angle, molecular, full, sphere, granular or ellipsoid.
+   * Empty or "automatic", the default: that of the comment `Atoms # style`; without one the only style that fits the first rows,
+   * with a warning, or else an error that lists those that fit.
+   */
+  void SetAtomStyle(const char* style);
+  const char* GetAtomStyle();
+  ///@}
+
+  ///@{
+  /**
+   * The boundaries of the box, which data files do not say: "p p f" or "pp pp ff", see granular::parse_boundary. Empty, the
+   * default: periodic along the axes along which the image count of some particle is not 0.
+   */
+  void SetBoundary(const char* boundary);
+  const char* GetBoundary();
+  ///@}
+
+  ///@{
+  /**
+   * As of vtkGranularDumpReader. ABSOLUTE by default.
+   */
+  vtkSetClampMacro(Coordinates, int, ABSOLUTE, SCALED);
+  vtkGetMacro(Coordinates, int);
+  ///@}
+
+  ///@{
+  /**
+   * How bonds across the periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the second
+   * particle. SPLIT: from both particles to the faces. AS_WRITTEN: from particle to particle, through the whole box.
+   */
+  vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
+  vtkGetMacro(PeriodicLines, int);
+  ///@}
+
+  ///@{
+  /**
+   * Subtracted from the points of all outputs, in double precision and before any rounding. Any finite numbers; (0, 0, 0) by default.
+   */
+  vtkSetVector3Macro(PointOrigin, double);
+  vtkGetVector3Macro(PointOrigin, double);
+  ///@}
+
+  ///@{
+  /**
+   * Sorts the particles by id. Off by default.
+   */
+  vtkSetMacro(SortById, bool);
+  vtkGetMacro(SortById, bool);
+  vtkBooleanMacro(SortById, bool);
+  ///@}
+
+  ///@{
+  /**
+   * n keeps the particles whose id is a multiple of n. Below 1 is an error and changes nothing. 1 by default: all particles.
+   */
+  void SetStride(vtkTypeInt64 stride);
+  vtkGetMacro(Stride, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * Keeps the particles whose centres are in xmin xmax ymin ymax zmin zmax, faces included, in absolute coordinates. An axis with min >
+   * max is free. (1, -1, 1, -1, 1, -1), all, by default.
+   */
+  vtkSetVector6Macro(RegionOfInterest, double);
+  vtkGetVector6Macro(RegionOfInterest, double);
+  ///@}
+
+  ///@{
+  /**
+   * Which arrays of particles and of bonds are read. Filled by UpdateInformation() with those of the first and the last file: all
+   * on, but for coordinate columns.
+   */
+  virtual vtkDataArraySelection* GetPointDataArraySelection();
+  virtual vtkDataArraySelection* GetCellDataArraySelection();
+  ///@}
+
+  /**
+   * True if the first bytes are a title and a header that counts atoms. False, silently, for all else, missing files and
+   * directories included.
+   */
+  static int CanReadFile(VTK_FILEPATH const char* fileName);
+
+protected:
+  vtkGranularDataFileReader();
+  ~vtkGranularDataFileReader() override;
+
+  void ForgetFrames() override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  void InspectFrames(vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkGranularDataFileReader(const vtkGranularDataFileReader&) = delete;
+  void operator=(const vtkGranularDataFileReader&) = delete;
+
+  int Coordinates = ABSOLUTE;
+  int PeriodicLines = MINIMUM_IMAGE;
+  double PointOrigin[3] = { 0, 0, 0 };
+  bool SortById = false;
+  vtkTypeInt64 Stride = 1;
+  double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
