@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of particles: against the dumps that the programs wrote of the same step, and by hand.
+#include "granular/dump/formats/dump_files.h"
+
+#include "data_run.h"
+
+#include <map>
+
+namespace
+{
+using Numbers = std::vector<double>;
+using Ids = std::vector<std::int64_t>;
+
+granular::DumpFrame dump_of(const std::string& path, bool sorted)
+{
+  granular::RunIndex index;
+  granular::IndexOptions options;
+  options.format = &granular::dump_format();
+  granular::Notices notices;
+  granular::Progress progress;
+  index.update({ path }, options, notices, progress);
+  granular::DumpRequest request;
+  request.sort_by_id = sorted;
+  return granular::read_dump(index.pieces(0), request, notices, progress);
+}
+
+void expect_near(const Numbers& found, const Numbers& wanted, const std::string& what)
+{
+  ASSERT_EQ(found.size(), wanted.size()) << what;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    // LAMMPS writes 16 digits here
+    EXPECT_NEAR(found[i], wanted[i], 1e-15 * (1 + std::abs(wanted[i]))) << what << " " << i;
+  }
+}
+
+std::string three(const std::string& style, const std::string& rows, const std::string& velocities)
+{
+  return data_text(3, "Atoms # " + style + "\n\n" + rows + "\nVelocities\n\n" + velocities);
+}
+
+const std::string rows = "3 1 3 0 0 0 0 -1\n1 1 1 0 0 0 2 0\n2 2 2 0 0 0 0 0\n";
+}
+
+TEST(DataParticles, AsTheProgramsDumpThem)
+{
+  const std::map<std::string, std::vector<std::string>> arrays = {
+    { "sphere", { "v", "omega", "radius" } }, { "ellipsoid", { "v", "angmom" } },
+    { "full", { "v", "q" } }, { "granular", { "v", "omega", "radius", "density" } }
+  };
+  for (const auto& [style, names] : arrays)
+  {
+    DataRun run(good_data("data_file/" + style + ".data"));
+    granular::DataRequest request;
+    request.particles.sort_by_id = true;
+    request.particles.threads = 2;
+    const granular::DumpFrame found = run.read(request).particles;
+    const granular::DumpFrame wanted = dump_of(good_data("data_file/" + style + ".dump"), true);
+    EXPECT_EQ(found.rows, wanted.rows);
+    EXPECT_EQ(array_of<std::int64_t>(found, "id"), array_of<std::int64_t>(wanted, "id")) << style;
+    EXPECT_EQ(array_of<std::int32_t>(found, "type"), array_of<std::int32_t>(wanted, "type"))
+      << style;
+    expect_near(points_of(found), points_of(wanted), style);
+    for (const std::string& name : names)
+    {
+      expect_near(array_of(found, name), array_of(wanted, name), style + " " + name);
+    }
+    if (style != "granular")
+    {
+      EXPECT_EQ(array_of<std::int32_t>(found, "image"), array_of<std::int32_t>(wanted, "image"))
+        << style;
+      EXPECT_EQ(found.header.box.corner(1, 1, 1), wanted.header.box.corner(1, 1, 1)) << style;
+      EXPECT_EQ(found.header.timestep, wanted.header.timestep) << style;
+      EXPECT_EQ(found.header.box.boundary, "pp pp ff") << style; // image counts along x and y
+      EXPECT_EQ(run.said(), "") << style;
+    }
+  }
+}
+
+TEST(DataParticles, VelocitiesInAnyOrder)
+{
+  DataRun run(write_data(three("atomic", rows, "2 2 2 2\n3 3 3 3\n1 1 1 1\n")));
+  const granular::DataFrame frame = run.read();
+  EXPECT_EQ(array_of(frame.particles, "v"), (Numbers{ 3, 3, 3, 1, 1, 1, 2, 2, 2 }));
+  EXPECT_EQ(frame.particles.header.box.boundary, "ff pp pp");
+  granular::DataRequest request;
+  request.particles.sort_by_id = true;
+  EXPECT_EQ(array_of(run.read(request).particles, "v"), (Numbers{ 1, 1, 1, 2, 2, 2, 3, 3, 3 }));
+  request.particles.stride = 2;
+  EXPECT_EQ(array_of(run.read(request).particles, "v"), (Numbers{ 2, 2, 2 }));
+}
+
+TEST(DataParticles, WhatDumpsCanDo)
+{
+  DataRun run(write_data(three("atomic", rows, "2 2 2 2\n3 3 3 3\n1 1 1 1\n")));
+  granular::DataRequest request;
+  request.particles.coordinates = granular::Coordinates::Unwrapped;
+  EXPECT_EQ(points_of(run.read(request).particles), (Numbers{ 3, 0, -10, 1, 20, 0, 2, 0, 0 }));
+  request.particles.coordinates = granular::Coordinates::Scaled;
+  EXPECT_EQ(points_of(run.read(request).particles), (Numbers{ 0.3, 0, 0, 0.1, 0, 0, 0.2, 0, 0 }));
+  request = {};
+  request.particles.point_origin = { 1, 1, 1 };
+  request.particles.region = { 1.5, 9, 1, -1, 1, -1 };
+  const granular::DumpFrame some = run.read(request).particles;
+  EXPECT_EQ(points_of(some), (Numbers{ 2, -1, -1, 1, -1, -1 }));
+  EXPECT_EQ(array_of(some, "v"), (Numbers{ 3, 3, 3, 2, 2, 2 }));
+  request = {};
+  request.boundary = "p f f";
+  EXPECT_EQ(run.read(request).particles.header.box.boundary, "pp ff ff");
+  request = {};
+  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "v"; };
+  EXPECT_EQ(names_of(run.read(request).particles), "v"); // by ids that nobody sees
+  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "type"; };
+  EXPECT_EQ(names_of(run.read(request).particles), "type");
+}
+
+// A rank alone that wants pieces: each particle and bond once.
+TEST(DataParticles, Pieces)
+{
+  DataRun run(good_data("data_file/full.data"));
+  const granular::DataFrame whole = run.read();
+  for (const int pieces : { 2, 3, 7, 50 })
+  {
+    Ids ids;
+    Numbers v;
+    Ids bonds;
+    for (int piece = 0; piece < pieces; ++piece)
+    {
+      granular::DataRequest request;
+      request.particles.piece = piece;
+      request.particles.pieces = pieces;
+      const granular::DataFrame part = run.read(request);
+      const auto add = [](auto& all, const auto& some)
+      { all.insert(all.end(), some.begin(), some.end()); };
+      add(ids, array_of<std::int64_t>(part.particles, "id"));
+      add(v, array_of(part.particles, "v"));
+      add(bonds, array_of<std::int64_t>(part.bonds.table, "bond_id"));
+      EXPECT_EQ(part.bonds.lines.count, part.bonds.table.rows);
+      EXPECT_EQ(part.particles.header.rows, 40);
+    }
+    EXPECT_EQ(ids, array_of<std::int64_t>(whole.particles, "id")) << pieces;
+    EXPECT_EQ(v, array_of(whole.particles, "v")) << pieces;
+    EXPECT_EQ(bonds, (Ids{ 1, 2, 3 })) << pieces;
+  }
+}
+
+TEST(DataParticles, Errors)
+{
+  const auto velocities = [](const std::string& text)
+  { return data_error(three("atomic", rows, text)); };
+  EXPECT_EQ(velocities("2 2 2 2\n4 3 3 3\n1 1 1 1\n"),
+    ":15: expected a velocity of particle 3 in the section Velocities, got none");
+  EXPECT_EQ(velocities("2 2 2 2\n3 3 3 3\n\n2 1 1 1\n"),
+    ":20: column 'id': expected one velocity of each particle, got another one of particle 2; the "
+    "first is in line 17");
+  EXPECT_EQ(velocities("2 2 2 2\n3 3 fast 3\n1 1 1 1\n"),
+    ":18: column 'vy': expected a number, got 'fast'");
+  EXPECT_EQ(velocities("2 2 2 2\n3 3 3\n1 1 1 1\n"), ":18: expected 4 words in a row, got 3");
+  EXPECT_EQ(velocities("2 2 2 2\n3.5 3 3 3\n1 1 1 1\n"),
+    ":18: column 'id': expected an integer, got '3.5'");
+  EXPECT_EQ(data_error(data_text(2, "Atoms # atomic\n\n1 1 0 0 0\n2 1 0 0\n")),
+    ":12: expected 5 words in a row, got 4");
+  EXPECT_EQ(data_error(data_text(2, "Atoms # atomic\n\n1 1 0 0 0\n2 1 0 0 # 0\n")),
+    ":12: expected 5 words in a row, got 4");
+  EXPECT_EQ(data_error(data_text(2, "Atoms # atomic\n\n1 1 0 0 0\n2 C 0 0 0\n")),
+    ":12: column 'type': expected a number, got 'C'");
+  EXPECT_EQ(data_error(data_text(1, "Atoms # sphere\n\n1 1 0,3 1 0 0 0\n")),
+    ":11: column 'diameter': expected a number, got '0,3'");
+  granular::DataRequest request;
+  request.boundary = "periodic";
+  EXPECT_NE(data_error(data_text(0, ""), request).find("expected boundaries as in 'pp pp ff'"),
+    std::string::npos);
+}
