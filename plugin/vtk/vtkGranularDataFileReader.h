@@ -12,7 +12,8 @@
  * `image` where rows have image counts, and, where there are velocities, `v`, `omega` of sphere, `angmom` of ellipsoid.
  *
  * Output port 1 holds the bonds as lines (vtkPolyData) with the arrays `bond_id`, `btype`, `id1`, `id2` and `length` of their
- * cells. Bonds of which a particle is not there, or left out by Stride or RegionOfInterest, are left out with a warning. Lines
+ * cells. Bonds of which a particle is not there are left out with a warning; so are, without one, bonds of particles that Stride or
+ * RegionOfInterest leave out. Lines
  * are in absolute coordinates where Coordinates is SCALED.
  *
  * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid). All carry field data as those of

@@ -91,6 +91,7 @@ TEST(DataBonds, WithoutTheirParticles)
   granular::DataRequest request;
   request.particles.stride = 5;
   EXPECT_EQ(run.read(request).bonds.table.rows, 0);
+  EXPECT_EQ(run.said().find("theirs"), run.said().rfind("theirs")); // who wants few knows
   request = {};
   request.wanted_bonds = [](std::string_view name) { return name == "id2"; };
   request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "type"; };

@@ -108,7 +108,7 @@ TEST(DataFile, NotComplete)
   EXPECT_EQ(data_error("title\n\n2 atoms"),
     ":3: expected a header that counts atoms, got a last line without its line feed");
   EXPECT_EQ(data_error("title\n\n-2 atoms\n"), ":3: expected a number of atoms, got '-2'");
-  EXPECT_EQ(data_error("title\n\n2e3 atoms\n"), ":3: expected a number of atoms, got '2e3'");
+  EXPECT_EQ(data_error("title\n\n2.5 atoms\n"), ":3: expected a number of atoms, got '2.5'");
   EXPECT_EQ(data_error("title\n\n2 atoms\n0 l xlo xhi\n"), ":4: expected a number, got 'l'");
   EXPECT_EQ(data_error(data_text(2, "Masses\n\n1 1\n")),
     ":12: expected a section Atoms with 2 rows, got none");

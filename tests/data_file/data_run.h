@@ -83,7 +83,8 @@ inline std::string data_error(const std::string& text, const granular::DataReque
   }
   catch (const granular::Error& error)
   {
-    return std::string(error.what()).substr(path.size());
+    const std::string what = error.what();
+    return what.starts_with(path) ? what.substr(path.size()) : what;
   }
   return "";
 }

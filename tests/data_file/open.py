@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data files as ParaView's users meet them: names, properties, documentation, and what follows the reader."""
+import os
+import shutil
+
+import numpy
+import plain_data
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+data = os.path.join(os.environ["GRANULAR_DATA"], "good")
+sphere = os.path.join(data, "data_file", "sphere.data")
+
+# ---- files open as what they are ------------------------------------------------------------------------
+
+for name in ("data.sphere", "x.lmp", "x.data"):
+    shutil.copyfile(sphere, name)
+    reader = OpenDataFile(os.path.abspath(name))
+    assert reader is not None and reader.GetXMLName() == "GranularDataFileReader", (name, reader)
+    reader.UpdatePipeline()
+    assert reader.GetDataInformation().GetNumberOfPoints() == 40
+    Delete(reader)
+
+# ---- names, defaults, words ------------------------------------------------------------------------------
+
+reader = OpenDataFile(sphere)
+defaults = {"AtomStyle": "automatic", "Boundary": "", "Coordinates": "Absolute", "PeriodicLines": "MinimumImage",
+            "PointOrigin": [0, 0, 0], "SortById": 0, "Stride": 1, "RegionOfInterest": [1, -1, 1, -1, 1, -1],
+            "TimestepSize": 1, "RefreshOnUpdate": 0, "Threads": 0}
+for name, default in defaults.items():
+    found = getattr(reader, name)
+    assert (list(found) if isinstance(default, list) else found) == default, (name, found)
+for name in ("FileNames", "PointArrayStatus", "CellArrayStatus", *defaults):
+    words = reader.SMProxy.GetProperty(name).GetDocumentation()
+    assert words and len(words.GetDescription().strip()) > 40, name
+assert reader.PointArrayStatus[:] == ["id", "type", "diameter", "density", "image", "v", "omega", "radius"]
+assert reader.CellArrayStatus[:] == ["bond_id", "btype", "id1", "id2"]
+assert list(reader.TimestepValues) == [3000]
+styles = reader.SMProxy.GetProperty("AtomStyle").FindDomain("vtkSMStringListDomain")
+assert [styles.GetString(i) for i in range(styles.GetNumberOfStrings())][:2] == ["automatic", "atomic"]
+view = CreateRenderView()
+assert Show(reader, view).Representation == "Grains"
+assert Show(OutputPort(reader, "Box"), view).Representation == "Wireframe"
+OutputPort(reader, "Bonds").GetDataInformation()
+
+# ---- what follows it: cells, and bonds between particles that a filter has moved ------------------------------
+
+average = GranularEulerAverage(Input=reader)
+average.UpdatePipeline()
+counted = servermanager.Fetch(average)
+total = sum(counted.GetCellData().GetArray(i).GetRange()[1] for i in range(counted.GetCellData().GetNumberOfArrays())
+            if counted.GetCellData().GetArrayName(i) == "count")
+assert counted.GetNumberOfCells() + counted.GetNumberOfPoints() > 0 and total >= 0
+
+chain = OpenDataFile(os.path.join(data, "local", "chain.data"), AtomStyle="bond")
+moved = Transform(Input=chain)
+lines = GranularLocalJoin(Input=moved, Lines=OutputPort(chain, 1))
+lines.UpdatePipeline()
+joined = servermanager.Fetch(lines)
+assert joined.GetNumberOfCells() == 96
+assert (vtk_to_numpy(joined.GetCellData().GetArray("length")) == 1).all()
+# a table of the bonds, as before, joins with the particles of the run's dumps
+dump = OpenDataFile(os.path.join(data, "local", "chain.dump"))
+lines = GranularLocalJoin(Input=dump, Lines=OutputPort(chain, 1))
+lines.UpdatePipeline(500)
+assert lines.GetDataInformation().GetNumberOfCells() == 96
+
+# ---- a style that the file does not say -----------------------------------------------------------------------
+
+plain = plain_data.Data(os.path.join(data, "data_file", "sphere.data"))
+with open(sphere) as file:
+    text = file.read().replace("Atoms # sphere", "Atoms")
+head, rows = text.split("Atoms\n")
+with open("silent.data", "w") as file:
+    file.write(head.replace("40 atoms", "1 atoms") + "Atoms\n\n1 2 1 5 3 4 5\n")
+unsure = OpenDataFile(os.path.abspath("silent.data"))
+unsure.UpdatePipeline()
+assert unsure.GetDataInformation().GetNumberOfPoints() == 0
+unsure.AtomStyle = "sphere"
+unsure.UpdatePipeline()
+assert unsure.GetDataInformation().GetNumberOfPoints() == 1
+assert "radius" in unsure.PointArrayStatus.Available
+print("set once", flush=True)
+guessed = OpenDataFile(os.path.join(data, "local", "chain.data"))
+guessed.UpdatePipeline()
+assert guessed.GetDataInformation().GetNumberOfPoints() == 100
+print("opened")

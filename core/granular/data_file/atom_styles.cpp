@@ -2,7 +2,6 @@
 #include "granular/data_file/atom_styles.h"
 
 #include "granular/common/words.h"
-#include "granular/numbers/number.h"
 
 #include <algorithm>
 #include <iterator>
@@ -45,6 +44,12 @@ Words columns_of(const AtomStyle& style, std::size_t words)
   return columns.size() == words ? columns : Words();
 }
 
+/// Whether a word is written as integers are: "1", and not "1.0" or "1e0".
+bool is_whole(std::string_view word) noexcept
+{
+  return word.find_first_not_of("0123456789", word.starts_with('-') ? 1 : 0) == word.npos;
+}
+
 /// Whether the rows may be those of a style: as many words, integers where columns are, and as many velocities.
 bool fits(const AtomStyle& style, const DataLayout& layout)
 {
@@ -56,9 +61,7 @@ bool fits(const AtomStyle& style, const DataLayout& layout)
   }
   for (std::size_t i = 0; i < row.size(); ++i)
   {
-    std::int64_t value = 0;
-    if (std::ranges::find(integers, columns[i]) != std::end(integers) &&
-      !parse_int64(row[i].data(), row[i].data() + row[i].size(), value))
+    if (std::ranges::find(integers, columns[i]) != std::end(integers) && !is_whole(row[i]))
     {
       return false;
     }

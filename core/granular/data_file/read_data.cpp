@@ -289,6 +289,14 @@ private:
     return view;
   }
 
+  /// Whether particles are left out because the user wants few.
+  bool is_filtered() const
+  {
+    const auto& region = own_.region;
+    return own_.stride > 1 || region[0] <= region[1] || region[2] <= region[3] ||
+      region[4] <= region[5];
+  }
+
   void note_bonds(const JoinedLines& joined)
   {
     if (!layout_.bond_rows)
@@ -296,7 +304,7 @@ private:
       return;
     }
     const Where where{ source_->path(), layout_.bond_rows->name_line };
-    if (joined.missing > 0)
+    if (joined.missing > 0 && !this->is_filtered())
     {
       notices_.push_back({ where,
         "bonds that are left out, as a particle of theirs is not there: " +

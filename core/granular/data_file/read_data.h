@@ -38,8 +38,8 @@ ColumnSchema make_particle_schema(const DataColumns& columns);
 ColumnSchema make_data_bond_schema();
 
 /// Decodes a data file. Particles are decoded as read_dump does it, from the section Atoms; velocities get to them by their
-/// ids, in any order of rows. Bonds of which a particle is not there, or left out by the request, are left out, with a
-/// notice. Lines are in absolute coordinates where points are scaled.
+/// ids, in any order of rows. Bonds of which a particle is not there are left out, with a notice; without one if stride
+/// or region leave out particles. Lines are in absolute coordinates where points are scaled.
 ///
 /// Collective: with several ranks each decodes its share of the rows, and particles.piece must be the rank, particles.pieces the number
 /// of ranks. A rank alone that wants one of several pieces decodes all, and keeps its piece.
