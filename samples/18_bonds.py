@@ -44,7 +44,7 @@ for step in 0, 500, 1000:
           f"strained by {strain.min():+.3f} to {strain.max():+.3f}")
 
 # The bonds of a data file do as well: the ids are the same.
-pairs = OpenDataFile(str(data / "chain.data"))
+pairs = OpenDataFile(str(data / "chain.data"), AtomStyle="bond")
 again = GranularLocalJoin(Input=beads, Lines=OutputPort(pairs, 1))
 again.UpdatePipeline(time)
 lines.UpdatePipeline(time)

@@ -83,7 +83,7 @@ for style, name in (("sphere", "data_file/sphere.data"), ("ellipsoid", "data_fil
     xy, xz, yz = tilts[0] if tilts else (0, 0, 0)
     assert read.box.GetNumberOfCells() == 1 and (corners[0] == low).all()
     assert numpy.allclose(corners[6], high + [xy + xz, yz, 0], rtol=0, atol=1e-15), corners
-    assert vtk_to_numpy(read.particles.GetFieldData().GetArray("BoxVectors"))[3] == xy
+    assert vtk_to_numpy(read.particles.GetFieldData().GetArray("BoxVectors")).ravel()[3] == xy
 
 # ---- the same as of dumps --------------------------------------------------------------------------------
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every call of the system that a reader makes fails in turn, once or for ever. The reference is the run in which none does.
+#include "granular/data_file/data_file.h"
+#include "granular/data_file/read_data.h"
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/dump/formats/dump_files.h"
 #include "granular/euler/euler_file.h"
@@ -82,6 +84,15 @@ std::string local_content(const RunIndex& index, std::size_t frame, Notices& not
     granular::read_local(index.pieces(frame), request, alone, notices, progress));
 }
 
+std::string data_content(const RunIndex& index, std::size_t frame, Notices& notices)
+{
+  Progress progress;
+  granular::SerialCommunicator alone;
+  const granular::DataFrame read =
+    granular::read_data(index.first_piece(frame), {}, alone, notices, progress);
+  return text_of(content_of(read.particles)) + lines_content(read.bonds);
+}
+
 std::string restart_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
@@ -155,7 +166,8 @@ const std::vector<Kind>& kinds()
     { "contacts, compressed", { "local/settled_contacts.dump.gz" }, local_format, local_content, 1 },
     { "contacts, rows alone", { "local/pieces_3000.0.dump", "local/pieces_3000.1.dump", "local/pieces_3000.2.dump",
       "local/pieces_3000.3.dump" }, local_format, local_content, 1 },
-    { "bonds of a data file", { "local/chain.data" }, local_format, local_content, 1 },
+    { "data file", { "data_file/full.data" }, data_file_format, data_content, 1 },
+    { "data file that does not say its style", { "local/chain.data" }, data_file_format, data_content, 1 },
     { "restart", { "restart/fibres.restart" }, restart_format, restart_content, 1 },
     { "restart of another program", { "restart/pfm.restart" }, restart_format, restart_content, 1 },
     { "restart without particles", { "restart/none.restart" }, restart_format, restart_content, 1 },

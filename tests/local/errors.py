@@ -5,7 +5,7 @@ import os
 import all_ranks
 from paraview.simple import *
 
-good = os.path.join(os.environ["GRANULAR_DATA"], "good", "local", "chain.data")
+good = os.path.join(os.environ["GRANULAR_DATA"], "good", "local", "chain_bonds.dump")
 HEAD = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1000\nITEM: ENTRIES "
 rows = [f"0.5 0.5 0.5 0.6 0.5 0.5 {i:04d} {i + 1:04d}\n" for i in range(1000)]
 bad = rows[:900] + [rows[900].replace("0.6 ", "O.6 ")] + rows[901:]

@@ -32,9 +32,6 @@ TEST(LocalColumns, RealFiles)
   EXPECT_NE(force.said().find("not for BondsForce WallContactsForce"), std::string::npos);
   LocalRun chain(std::vector{ local_file("chain_bonds.dump") });
   EXPECT_EQ(chain.found(), "btype id1 id2 dist engpot forcex forcey forcez");
-  LocalRun data(std::vector{ local_file("chain.data") });
-  EXPECT_EQ(data.found(), "bond_id btype id1 id2");
-  EXPECT_EQ(data.said(), "");
 }
 
 TEST(LocalColumns, NamesThatSayIt)

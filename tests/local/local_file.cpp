@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of dump local, of its pieces without headers, and of data files.
+// Frames of dump local, and of its pieces without headers.
 #include "local_files.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(LocalFile, WhatItIs)
 {
   EXPECT_TRUE(granular::is_local_file(local_file("contacts.dump")));
   EXPECT_TRUE(granular::is_local_file(local_file("chain_bonds.dump")));
-  EXPECT_TRUE(granular::is_local_file(local_file("chain.data")));
+  EXPECT_FALSE(granular::is_local_file(local_file("chain.data")));
   EXPECT_FALSE(granular::is_local_file(local_file("pieces_3000.2.dump"))) << "any table is like it";
   EXPECT_FALSE(granular::is_local_file(std::string(GRANULAR_DATA) + "/good/chain.dump"));
   EXPECT_FALSE(granular::is_local_file("/no/such/file"));
@@ -240,56 +240,13 @@ TEST(LocalFile, Labels)
   }
 }
 
-TEST(LocalFile, DataFiles)
-{
-  LocalRun run({ local_file("chain.data") });
-  ASSERT_EQ(run.size(), 1u);
-  const granular::LocalFrame frame = run.read(0);
-  EXPECT_EQ(frame.table.rows, 96);
-  const auto types = values<std::int32_t>(frame, "btype");
-  const auto first = values<std::int64_t>(frame, "id1");
-  const auto second = values<std::int64_t>(frame, "id2");
-  for (std::size_t i = 0; i < 96; ++i) // four chains of 25
-  {
-    const auto atom = static_cast<std::int64_t>(i / 24 * 25 + i % 24 + 1);
-    EXPECT_EQ(first[i], atom);
-    EXPECT_EQ(second[i], atom + 1);
-    EXPECT_TRUE(types[i] == 1 || types[i] == 2);
-  }
-  EXPECT_FALSE(frame.has_lines);
-  const std::string path = write_text("write_data.data",
-    "LAMMPS data file via write_data, version 29 Sep 2021, timestep = 2000, units = lj\n\n"
-    "3 atoms\n1 atom types\n2 bonds # of three\n1 bond types\n\n0 1 xlo xhi\n\n"
-    "Bond Coeffs # harmonic\n\n1 200 1.05\n\nAtoms # bond\n\n1 1 1 0 0 0\n2 1 1 0 0 1\n3 1 1 0 0 "
-    "2\n\n"
-    "Bonds # ids\n\n1 1 1 2\n\n2 1 2 3 # last\n\nVelocities\n\n1 0 0 0\n2 0 0 0\n3 0 0 0\n");
-  LocalRun written({ path });
-  EXPECT_EQ(written.step(0), 2000);
-  EXPECT_EQ(written.read(0).table.rows, 2);
-}
-
-TEST(LocalFile, DataFilesThatAreNotComplete)
-{
-  const std::string head = "title\n\n2 atoms\n1 bonds\n\nAtoms\n\n1 1 1 0 0 0\n2 1 1 0 0 1\n";
-  EXPECT_EQ(text_error("title\n\n2 atoms\n1 bonds"),
-    ":4: expected a header that counts bonds, got the end of the file");
-  EXPECT_EQ(text_error(head), ":10: expected a section Bonds with 1 rows, got none");
-  EXPECT_EQ(text_error(head + "\nBonds\n\n1 1 1 2"),
-    ":12: expected 1 rows in the section Bonds, got 0, and a last line without its line feed");
-  EXPECT_EQ(text_error(head + "\nBonds\n\n"), ":12: expected 1 rows in the section Bonds, got 0");
-  EXPECT_EQ(
-    text_error("title\n\n2 atoms\n3 bonds\n\nBonds\n\n1 1 1 2\n2 1 2 1\n\nAtoms\n\n1 1 1 0 0 0\n"),
-    ":7: expected 3 rows in the section Bonds, got 2");
-  const std::string none =
-    write_text("none.data", "title\n\n2 atoms\n0 bonds\n\nAtoms\n\n1 1 1 0 0 0\n");
-  EXPECT_EQ(LocalRun({ none }).read(0).table.rows, 0);
-}
-
 TEST(LocalFile, BadInput)
 {
   EXPECT_EQ(text_error(""), ": expected a dump of local data, got an empty file");
   EXPECT_EQ(text_error("Step Atoms KinEng\n"),
     ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'Step Atoms KinEng'");
+  EXPECT_EQ(text_error("a data file\n\n2 atoms\n1 bonds\n"),
+    ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'a data file'");
   EXPECT_EQ(text_error("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\n"),
     ":3: expected ITEM: NUMBER OF ENTRIES, or of other things than ATOMS, got 'ITEM: NUMBER OF "
     "ATOMS'");

@@ -13,7 +13,7 @@ contacts = os.path.join(data, "local", "contacts.dump")
 
 # ---- files open as what they are ------------------------------------------------------------------------
 
-for name, kind in (("local/contacts.dump", "Local"), ("local/chain_bonds.dump", "Local"), ("local/chain.data", "Local"),
+for name, kind in (("local/contacts.dump", "Local"), ("local/chain_bonds.dump", "Local"), ("local/chain.data", "DataFile"),
                    ("local/label.dump", "Local"), ("grains.dump", "Dump"), ("local/chain.dump", "Dump"),
                    ("grains.bin", "Dump")):
     reader = OpenDataFile(os.path.join(data, name))

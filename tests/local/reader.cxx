@@ -736,12 +736,13 @@ TEST(LocalReaderVtk, IsStopped)
 
 TEST(LocalReaderVtk, CanReadFile)
 {
-  for (const char* name : { "contacts.dump", "chain_bonds.dump", "chain.data", "label.dump" })
+  for (const char* name : { "contacts.dump", "chain_bonds.dump", "label.dump" })
   {
     EXPECT_TRUE(vtkGranularLocalReader::CanReadFile(local_file(name).c_str())) << name;
   }
   for (const std::string& path : { Good("grains.dump"), Good("grains.bin"), Good("euler_1000.vtk"),
-         local_file("pieces_3000.2.dump"), std::string("/"), std::string("/no/such") })
+         local_file("pieces_3000.2.dump"), local_file("chain.data"), std::string("/"),
+         std::string("/no/such") })
   {
     EXPECT_FALSE(vtkGranularLocalReader::CanReadFile(path.c_str())) << path;
   }

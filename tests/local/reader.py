@@ -121,15 +121,6 @@ for frame in plain_local.read(good("chain_bonds.dump")):
     said = [text.split("): ")[1] for text in bonds.said]
     assert len(said) == 1 and "BondTypeIdsForce" in said[0] and "not for BondIdsForce" in said[0], said
 
-bonds = Read(good("chain.data"))
-assert bonds.said == []
-with open(good("chain.data")) as file:
-    text = file.read()
-rows = numpy.array([line.split() for line in text[text.index("Bonds\n"):].splitlines()[2:98]], dtype=int)
-assert len(rows) == 96
-for k, name in enumerate(("bond_id", "btype", "id1", "id2")):
-    assert (bonds.column(name) == rows[:, k]).all(), name
-
 # ---- other columns, other labels --------------------------------------------------------------------------
 
 frame = plain_local.read(good("all.dump"))[0]

@@ -2,7 +2,7 @@
 #include "granular/data_file/read_data.h"
 
 #include "granular/common/shares.h"
-#include "granular/data_file/uncommented.h"
+#include "granular/data_file/section_rows.h"
 #include "granular/data_file/velocities.h"
 #include "granular/local/join.h"
 #include "granular/local/local_columns.h"
@@ -39,42 +39,6 @@ std::span<const Value> values_of(const DumpArray& array)
 {
   return { static_cast<const Value*>(array.block.data()), array.block.bytes() / sizeof(Value) };
 }
-
-/// The rows of a section as a piece of a frame.
-class SectionRows
-{
-public:
-  SectionRows(const FramePiece& file, const ByteSource& source, const DataSection& section,
-    const std::vector<std::string>& columns)
-    : file_(file.file)
-    , source_(source)
-    , uncommented_(source, section.offset)
-    , has_comments_(section.has_comments)
-    , entry_(file.entry)
-  {
-    FrameKind kind;
-    kind.schema = ColumnSchema(columns);
-    kind.layout = FrameKind::bare;
-    entry_.kind = std::make_shared<const FrameKind>(std::move(kind));
-    entry_.rows = section.rows;
-    entry_.offset = section.offset;
-    entry_.line = section.line;
-    entry_.end = section.end;
-  }
-
-  std::vector<FramePiece> pieces() const
-  {
-    const ByteSource& plain = source_;
-    return { { file_, entry_, has_comments_ ? &uncommented_ : &plain } };
-  }
-
-private:
-  const FileIndex& file_;
-  const ByteSource& source_;
-  Uncommented uncommented_;
-  bool has_comments_;
-  FrameEntry entry_;
-};
 
 /// The columns of all, with the types that those of the particles have come to be.
 ColumnSchema join_schemas(const DataColumns& columns, const ColumnSchema& particles)
