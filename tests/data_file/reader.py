@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Data files of LAMMPS and LIGGGHTS: every number of the class's outputs against plain parsing."""
+import gzip
 import os
 
 import numpy
@@ -133,8 +134,6 @@ for name in ("id", "type", "diameter", "radius", "v", "omega", "image"):
 
 # ---- many in one series, compressed ones, and one that is not complete ---------------------------------------
 
-import gzip
-
 with open(path) as file:
     text = file.read()
 for step in 1000, 2000:
@@ -151,7 +150,7 @@ reader.UpdateTimeStep(2000)
 key = granular.vtkGranularDataFileReader.GetExecutive(reader).TIME_STEPS()
 assert reader.GetOutputInformation(0).Get(key) == (1000, 2000, 3000)
 assert (vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("v")) == read.points("v")).all()
-assert len(said) == 1 and "in the section Velocities, got " in said[0] and "left out" in said[0], said
+assert len(said) == 1 and "in the section Atoms, got 36" in said[0] and "left out" in said[0], said
 assert "AtomStyle" in str(reader) and "RegionOfInterest" in str(reader)
 for name in ("grains.dump", "local/contacts.dump", "restart/fibres.restart"):
     assert not granular.vtkGranularDataFileReader.CanReadFile(os.path.join(data, name))

@@ -6,6 +6,8 @@
 #include "dump_checks.h"
 #include "local_checks.h"
 
+#include "granular/data_file/data_file.h"
+#include "granular/data_file/read_data.h"
 #include "granular/decomposition/decomposition_file.h"
 #include "granular/dump/formats/dump_files.h"
 #include "granular/euler/euler_file.h"
@@ -263,6 +265,25 @@ void read_records(const RunIndex& run, std::size_t frame, Random& random, Sessio
   check_arrays(read.bonds.table);
 }
 
+void read_sections(const RunIndex& run, std::size_t frame, Random& random, Session& session)
+{
+  DataRequest request;
+  request.atom_style = atom_styles()[below(random, atom_styles().size())].name;
+  request.atom_style = below(random, 2) == 0 ? "" : request.atom_style;
+  request.periodic_lines = static_cast<PeriodicLines>(below(random, 3));
+  request.particles.threads = static_cast<int>(below(random, 3)) + 1;
+  request.particles.pool = session.pool;
+  request.particles.chunk_bytes = below(random, 2) == 0 ? 200 : request.particles.chunk_bytes;
+  session.pool->next_frame();
+  SerialCommunicator alone;
+  Notices notices;
+  Progress progress;
+  const DataFrame read = read_data(run.first_piece(frame), request, alone, notices, progress);
+  check_arrays(read.particles);
+  check_arrays(read.bonds.table);
+  require(read.bonds.lines.count >= read.bonds.table.rows, "as many lines as bonds");
+}
+
 using ReadFrame = void (*)(const RunIndex&, std::size_t, Random&, Session&);
 
 /// A kind of files, and the run that has had all files of it so far.
@@ -361,6 +382,7 @@ int main(int argc, char** argv)
     { euler_format, read_cells, nullptr },
     { decomposition_format, read_subdomains, nullptr },
     { restart_format, read_records, nullptr },
+    { data_file_format, read_sections, nullptr },
   };
   const std::filesystem::path folder =
     std::filesystem::temp_directory_path() / ("granular_mutate." + std::to_string(getpid()));
