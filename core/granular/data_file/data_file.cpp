@@ -4,6 +4,7 @@
 #include "granular/data_file/data_layout.h"
 #include "granular/frames/file_index.h"
 
+#include <cmath>
 #include <utility>
 
 namespace granular
@@ -50,7 +51,7 @@ bool header_fits(const ByteSource& source, const FileIndex& index)
   const FrameEntry& frame = index.frames.front();
   const DataLayout layout = read_data_header(source);
   return index.frames.size() == 1 && frame.timestep == layout.timestep &&
-    frame.rows == layout.atoms;
+    frame.rows == layout.atoms && frame.line == 1 && std::isnan(frame.time);
 }
 }
 

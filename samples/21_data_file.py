@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a simulation begins with: the particles, bonds and box of a data file."""
+from pathlib import Path
+
+import numpy as np
+from paraview.simple import *
+
+data = Path(__file__).parent / "data" / "bonds"
+# The comment `Atoms # bond` would say the style; this file does not have it.
+chains = OpenDataFile(str(data / "chain.data"), AtomStyle="bond")
+bonds = OutputPort(chains, 1)
+
+LoadPalette("WhiteBackground")
+view = CreateRenderView(OrientationAxesVisibility=0, ViewSize=[1000, 500])
+beads = Show(chains, view, Representation="Grains", GrainScale=0.3, GrainRadiusArray="")
+ColorBy(beads, ("POINTS", "mol"))
+shown = Show(Tube(Input=bonds, Radius=0.12), view)
+ColorBy(shown, ("CELLS", "btype"))
+Show(OutputPort(chains, 2), view, AmbientColor=[0.4] * 3, DiffuseColor=[0.4] * 3)
+Render(view)
+SetProperties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
+              CameraViewUp=[0, 0, 1], CameraParallelScale=9)
+SaveScreenshot("data_file.png", view)
+
+particles, lines = (servermanager.Fetch(chains, idx=port) for port in (0, 1))
+lengths = np.array(lines.GetCellData().GetArray("length"))
+assert particles.GetNumberOfPoints() == 100 and lines.GetNumberOfCells() == 96
+# Image counts say that chains cross the box along x: no bond is drawn through the whole box.
+assert (lengths == 1).all()
+print(f"{particles.GetNumberOfPoints()} beads, {len(lengths)} bonds of length {lengths.min()} to {lengths.max()}")
+# The rest of the pipeline does not mind where particles come from.
+chains.Stride = 5
+chains.UpdatePipeline()
+assert chains.GetDataInformation().GetNumberOfPoints() == 20
