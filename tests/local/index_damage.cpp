@@ -51,10 +51,3 @@ TEST(LocalIndexDamage, FilesOfProcesses)
   expect_none({ write_text("a.0.dump", local_frame("id1 id2 btype", { "1 2 1" }, "", "BONDS", 5)),
     write_text("a.1.dump", "3 4 1 \n5 67 1 \n") });
 }
-
-TEST(LocalIndexDamage, BondsOfDataFiles)
-{
-  expect_none({ write_text("a.data",
-    "made, timestep = 70\n\n3 atoms\n2 bonds\n\nAtoms\n\n1 1 1 0 0 0\n2 1 1 0 0 1\n3 1 1 0 0 2\n\n"
-    "Bonds\n\n1 1 1 2\n2 1 2 34\n\nAngles\n\n1 1 1 2 3\n") });
-}
