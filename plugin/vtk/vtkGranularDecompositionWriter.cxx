@@ -89,15 +89,11 @@ protected:
   void Gather(granular::Notices& notices, granular::Progress& progress) override
   {
     this->All = granular::gather_decomposition(this->All, this->Ranks);
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        granular::SubdomainChecks checks; // that a file can be read at all
-        checks.overlap = granular::Answer::None;
-        checks.gap = granular::Answer::None;
-        granular::check_subdomains(
-          this->All.subdomains, checks, { .path = this->Form.Path }, notices, progress);
-      });
+    granular::SubdomainChecks checks; // that a file can be read at all
+    checks.overlap = granular::Answer::None;
+    checks.gap = granular::Answer::None;
+    granular::check_subdomains(
+      this->All.subdomains, checks, { .path = this->Form.Path }, notices, progress);
   }
 
   std::string Encode(

@@ -132,8 +132,8 @@ int vtkGranularWriter::Write()
   this->SetAbortOutput(false);
   this->InvokeEvent(vtkCommand::StartEvent);
   this->UpdateProgress(0);
-  const Outcome outcome =
-    Guard(this, this->GetExecutive()->GetOutputInformation(), [&] { this->WriteFrames(); });
+  const Outcome outcome = Guard(
+    this, shared.Ranks, this->GetExecutive()->GetOutputInformation(), [&] { this->WriteFrames(); });
   shared.Tell(this);
   shared.File.reset(); // what is not finished leaves nothing
   this->Written = outcome == Outcome::Done;
