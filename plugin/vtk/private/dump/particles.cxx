@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/dump/particles.h"
 
+#include "private/request/expect_data.h"
+
 #include "granular/common/error.h"
 #include "granular/particles/shared_header.h"
 
-#include "vtkCompositeDataSet.h"
 #include "vtkPointSet.h"
 
 #include <algorithm>
@@ -16,16 +17,9 @@ namespace vtkGranularPrivate
 {
 Particles::Particles(vtkDataObject* input, granular::Communicator& ranks)
 {
-  auto* points = vtkPointSet::SafeDownCast(input);
-  if (!points)
-  {
-    throw granular::UnsupportedError("expected a vtkPointSet of particles, got " +
-      (input ? std::string("a ") + input->GetClassName() : "nothing") +
-      (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it" : ""));
-  }
+  auto* points = ExpectData<vtkPointSet>(input, "a vtkPointSet of particles");
   granular::Notices ofArrays; // that have no use here
   this->Input.emplace(points, ofArrays);
-
   granular::share_header(this->Input->View, ranks);
 }
 
