@@ -2,8 +2,10 @@
 #include "granular/local/fetch_particles.h"
 
 #include "granular/local/id_finder.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <numeric>
@@ -203,6 +205,7 @@ std::size_t width_of(const ParticleValues& values)
 std::vector<double> pack(const ParticleValues& values, const Numbers& rows)
 {
   constexpr std::size_t some = 1024; // rows at once, that stay in the cache
+  std::array<double, some> numbers;
   const std::size_t width = width_of(values);
   std::vector<double> packed(rows.size() * width);
   for (std::size_t first = 0; first < rows.size(); first += some)
@@ -218,7 +221,12 @@ std::vector<double> pack(const ParticleValues& values, const Numbers& rows)
     {
       for (int component = 0; component < array.size(); ++component)
       {
-        gather_numbers(array, component, now, to++, width);
+        load_numbers(component_of(array, component), now, numbers.data());
+        for (std::size_t i = 0; i < now.size(); ++i)
+        {
+          to[i * width] = numbers[i];
+        }
+        ++to;
       }
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_reader.h"
 
-#include "granular/common/pass.h"
+#include "granular/common/archive.h"
 #include "granular/local/local_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/particles/point_loss.h"
@@ -237,15 +237,6 @@ struct Remarks
 };
 }
 
-template <class Archive>
-static void pass(Archive& archive, Remarks& remarks)
-{
-  archive.number(remarks.rows);
-  archive.number(remarks.rounded);
-  archive.number(remarks.misfits);
-  archive.number(remarks.loss);
-}
-
 bool is_end_array(std::string_view name) noexcept
 {
   return std::ranges::find(end_arrays, name) != std::end(end_arrays);
@@ -354,7 +345,7 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         remarks.misfits = as_written ? 0 : count_misfits(lengths, dist, first, second);
       }
       drop_unwanted(request, frame);
-      pass(packer, remarks);
+      packer.number(remarks);
     });
   const std::vector<std::string> all = ranks.all_gather(packer.bytes);
   do_together(ranks,
@@ -365,7 +356,7 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       {
         ArchiveReader unpacker{ bytes };
         Remarks of_rank;
-        pass(unpacker, of_rank);
+        unpacker.number(of_rank);
         local.first_row += &bytes - all.data() < ranks.rank() ? of_rank.rows : 0;
         sum.add(of_rank);
       }

@@ -77,17 +77,6 @@ ArrayView view_array(const FrameView& frame, const std::string& name)
   return array ? *array : ArrayView{ name };
 }
 
-template <class Value>
-void gather(const void* data, std::int64_t step, std::span<const std::int64_t> rows, double* to,
-  std::size_t to_step)
-{
-  const auto* const from = static_cast<const Value*>(data);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    to[i * to_step] = static_cast<double>(from[rows[i] * step]);
-  }
-}
-
 /// What a rank tells of itself: whether it has rows, and the sizes of the arrays.
 std::string pack_sizes(const ParticleValues& particles, std::int64_t rows)
 {
@@ -173,17 +162,5 @@ void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ran
         array.components.resize(static_cast<std::size_t>(size_among(told, i + 1, array.name)));
       }
     });
-}
-
-void gather_numbers(const ArrayView& array, int component, std::span<const std::int64_t> rows,
-  double* to, std::size_t to_step) noexcept
-{
-  using Gather =
-    void (*)(const void*, std::int64_t, std::span<const std::int64_t>, double*, std::size_t);
-  constexpr Gather gathers[] = { gather<std::int8_t>, gather<std::uint8_t>, gather<std::int16_t>,
-    gather<std::uint16_t>, gather<std::int32_t>, gather<std::uint32_t>, gather<std::int64_t>,
-    gather<std::uint64_t>, gather<float>, gather<double> };
-  gathers[static_cast<std::size_t>(array.type)](
-    array.components[static_cast<std::size_t>(component)], array.step, rows, to, to_step);
 }
 }

@@ -6,6 +6,7 @@
 #include "granular/frames/frame.h"
 #include "granular/geometry/positions.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -69,7 +70,11 @@ struct FrameView
   }
 
   /// The first array of that name, or null.
-  const ArrayView* find(std::string_view name) const noexcept;
+  const ArrayView* find(std::string_view name) const noexcept
+  {
+    const auto found = std::ranges::find(arrays, name, &ArrayView::name);
+    return found == arrays.end() ? nullptr : &*found;
+  }
 };
 }
 #endif

@@ -5,7 +5,7 @@
 #include "granular/frames/header_archive.h"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,45 +14,28 @@ namespace granular
 {
 namespace
 {
-/// What a rank knows of a frame.
-struct Known
-{
-  std::int64_t rows = 0;
-  bool has_box = false;
-  FrameHeader header = {};
-  Coordinates coordinates = Coordinates::Absolute;
-  Vector3 point_origin = {};
-};
-
+/// What ranks tell each other of a frame.
 template <class Archive>
-void pass(Archive& archive, Known& known)
+void pass(Archive& archive, FrameView& frame)
 {
-  archive.number(known.rows);
-  archive.number(known.has_box);
-  pass(archive, known.header);
-  archive.number(known.coordinates);
-  archive.number(known.point_origin);
+  archive.number(frame.rows);
+  archive.number(frame.has_box);
+  pass(archive, frame.header);
+  archive.number(frame.coordinates);
+  archive.number(frame.point_origin);
 }
 
-bool same_box(const Known& a, const Known& b)
+bool same_box(const FrameView& a, const FrameView& b)
 {
-  const auto values = [](const Box& box)
-  {
-    std::vector<double> all;
-    for (const Twofold3& vector : { box.origin, box.vectors[0], box.vectors[1], box.vectors[2] })
-    {
-      for (const Twofold& value : vector)
-      {
-        all.push_back(value.value());
-      }
-    }
-    return all;
-  };
-  const auto same_bits = [](const std::vector<double>& left, const std::vector<double>& right)
-  { return std::memcmp(left.data(), right.data(), left.size() * sizeof(double)) == 0; };
+  const auto bits = [](const Twofold& value)
+  { return std::bit_cast<std::uint64_t>(value.value()); }; // nan is nan
+  const auto same = [&](const Twofold3& left, const Twofold3& right)
+  { return std::ranges::equal(left, right, {}, bits, bits); };
+  const Box& box = a.header.box;
+  const Box& other = b.header.box;
   return a.has_box == b.has_box && a.coordinates == b.coordinates &&
-    a.point_origin == b.point_origin && a.header.box.boundary == b.header.box.boundary &&
-    same_bits(values(a.header.box), values(b.header.box)); // nan is nan
+    a.point_origin == b.point_origin && box.boundary == other.boundary &&
+    same(box.origin, other.origin) && std::ranges::equal(box.vectors, other.vectors, same);
 }
 }
 
@@ -62,24 +45,23 @@ void share_header(FrameView& frame, Communicator& ranks)
   do_together(ranks,
     [&]
     {
-      Known known{ frame.rows, frame.has_box, frame.header, frame.coordinates, frame.point_origin };
       ArchiveWriter packer;
-      pass(packer, known);
+      pass(packer, frame);
       own = std::move(packer.bytes);
     });
   const std::vector<std::string> all = ranks.all_gather(own);
   do_together(ranks,
     [&]
     {
-      std::vector<Known> known(all.size());
+      std::vector<FrameView> known(all.size());
       for (std::size_t i = 0; i < all.size(); ++i)
       {
         ArchiveReader unpacker{ all[i] };
         pass(unpacker, known[i]);
       }
-      const auto less = [](const Known& a, const Known& b)
+      const auto less = [](const FrameView& a, const FrameView& b)
       { return std::pair(a.rows > 0, a.has_box) < std::pair(b.rows > 0, b.has_box); };
-      const Known& best = *std::ranges::max_element(known, less);
+      const FrameView& best = *std::ranges::max_element(known, less);
       for (std::size_t i = 0; i < known.size(); ++i)
       {
         if (known[i].rows > 0 && !same_box(known[i], best))
