@@ -19,14 +19,11 @@ namespace
 {
 const std::int64_t* find_ids(const DumpFrame& frame, const Block& ids) noexcept
 {
-  for (const DumpArray& array : frame.arrays)
-  {
-    if (array.info.role == ColumnRole::Id && array.info.type == ValueType::Int64)
-    {
-      return static_cast<const std::int64_t*>(array.block.data());
-    }
-  }
-  return static_cast<const std::int64_t*>(ids.data());
+  const auto found = std::ranges::find_if(frame.arrays,
+    [](const DumpArray& array)
+    { return array.info.role == ColumnRole::Id && array.info.type == ValueType::Int64; });
+  return static_cast<const std::int64_t*>(
+    found == frame.arrays.end() ? ids.data() : found->block.data());
 }
 
 std::size_t row_width(const DumpArray& array) noexcept
