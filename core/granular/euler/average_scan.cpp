@@ -190,31 +190,20 @@ void AveragePasses::make_cells()
   sums.mass.resize(kept);
   sums.momentum.resize(3 * kept);
   sums.volume.resize(kept);
-  const CellRange& range = request_.wanted.range;
-  std::array<std::int64_t, 3> cell;
-  for (cell[2] = range.first[2]; cell[2] < range.last[2]; ++cell[2])
-  {
-    for (cell[1] = range.first[1]; cell[1] < range.last[1]; ++cell[1])
+  request_.wanted.range.each(
+    [&](const std::array<std::int64_t, 3>& cell)
     {
-      for (cell[0] = range.first[0]; cell[0] < range.last[0]; ++cell[0])
+      const std::int64_t place = request_.wanted.place(grid, cell);
+      const auto to = static_cast<std::size_t>(place);
+      for (std::size_t axis = 0; place >= 0 && axis < 3; ++axis)
       {
-        const std::int64_t place = request_.wanted.place(grid, cell);
-        if (place < 0)
-        {
-          continue;
-        }
-        const auto to = static_cast<std::size_t>(place);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          cells.centres[3 * to + axis] = grid.centre(axis, cell[axis]);
-        }
-        if (kept > 0)
-        {
-          sums.volume[to] = this->volume_of(cell);
-        }
+        cells.centres[3 * to + axis] = grid.centre(axis, cell[axis]);
       }
-    }
-  }
+      if (place >= 0 && kept > 0)
+      {
+        sums.volume[to] = this->volume_of(cell);
+      }
+    });
 }
 
 double AveragePasses::volume_of(const std::array<std::int64_t, 3>& cell) const noexcept

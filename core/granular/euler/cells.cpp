@@ -48,9 +48,8 @@ using Told = std::array<std::int64_t, 2>;
 std::vector<Told> tell_all(std::int64_t cells, std::size_t values, Communicator& ranks)
 {
   const Told own = { cells, static_cast<std::int64_t>(values) };
-  std::array<char, sizeof own> bytes;
-  std::memcpy(bytes.data(), own.data(), bytes.size());
-  const std::vector<std::string> gathered = ranks.all_gather({ bytes.data(), bytes.size() });
+  const std::vector<std::string> gathered =
+    ranks.all_gather({ reinterpret_cast<const char*>(own.data()), sizeof own });
   std::vector<Told> all;
   do_together(ranks,
     [&]
