@@ -14,6 +14,8 @@ namespace granular
 {
 namespace
 {
+using Rows = std::span<const std::int64_t>;
+
 constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
 constexpr std::int64_t rows_of_chunk = 65536;
 
@@ -21,20 +23,27 @@ constexpr std::int64_t rows_of_chunk = 65536;
 constexpr int stress_bits = 192;
 }
 
-/// Calls take(rows) for the rows of a chunk, some at a time.
+/// Calls take(rows, chunk, worker, grains) for the rows of so many chunks, some at a time; grains: room for them.
 template <class Take>
-void AveragePasses::each_block(std::size_t chunk, const Take& take) const
+void AveragePasses::each_block(std::size_t chunks, const Take& take)
 {
-  std::array<std::int64_t, GrainBlock::most_rows> buffer;
-  const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
-  const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
-  for (std::int64_t first = start; first < end; first += rows_of_block)
-  {
-    const std::span<std::int64_t> rows =
-      std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
-    std::iota(rows.begin(), rows.end(), first);
-    take(rows);
-  }
+  executor_.parallel_for(
+    chunks,
+    [&](std::size_t chunk, std::size_t worker)
+    {
+      GrainBlock grains;
+      std::array<std::int64_t, GrainBlock::most_rows> buffer;
+      const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
+      const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
+      for (std::int64_t first = start; first < end; first += rows_of_block)
+      {
+        const std::span<std::int64_t> rows =
+          std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
+        std::iota(rows.begin(), rows.end(), first);
+        take(rows, chunk, worker, grains);
+      }
+    },
+    progress_);
 }
 
 void AveragePasses::scan()
@@ -45,15 +54,9 @@ void AveragePasses::scan()
       const auto chunks =
         static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
       std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
-      executor_.parallel_for(
-        chunks,
-        [&](std::size_t chunk, std::size_t worker)
-        {
-          GrainBlock grains;
-          this->each_block(chunk,
-            [&](std::span<const std::int64_t> rows) { grains_.scan(rows, grains, scans[worker]); });
-        },
-        progress_);
+      this->each_block(chunks,
+        [&](Rows rows, std::size_t, std::size_t worker, GrainBlock& grains)
+        { grains_.scan(rows, grains, scans[worker]); });
       for (const GrainValues::Scan& scan : scans)
       {
         scanned_.add(scan);
@@ -83,21 +86,12 @@ void AveragePasses::locate()
         static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
       std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
       std::vector<std::int64_t> counts(executor_.workers(entries.size()));
-      executor_.parallel_for(
-        entries.size(),
-        [&](std::size_t chunk, std::size_t worker)
+      this->each_block(entries.size(),
+        [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
         {
-          GrainBlock grains;
-          std::int64_t first = 0;
-          this->each_block(chunk,
-            [&](std::span<const std::int64_t> rows)
-            {
-              grains_.load(rows, grains);
-              counts[worker] += this->find_blocks(grains, first, entries[chunk]);
-              first += static_cast<std::int64_t>(rows.size());
-            });
-        },
-        progress_);
+          grains_.load(rows, grains);
+          counts[worker] += this->find_blocks(grains, rows.front() % rows_of_chunk, entries[chunk]);
+        });
       outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
       block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
                                        : BlockRows::all(frame_.rows);

@@ -150,9 +150,6 @@ void check_bounds(const Box& box)
 
 void check_volume(const Box& box)
 {
-  const Twofold3& a = box.vectors[0];
-  const Twofold3& b = box.vectors[1];
-  const Twofold3& c = box.vectors[2];
   for (std::size_t axis = 0; !box.general && axis < 3; ++axis)
   {
     const double length = box.vectors[axis][axis].hi;
@@ -162,10 +159,8 @@ void check_volume(const Box& box)
         " to scale coordinates by, got one of length " + (length == 0 ? "0" : "nan"));
     }
   }
-  const auto minor = [&](std::size_t i, std::size_t j)
-  { return b[i].value() * c[j].value() - b[j].value() * c[i].value(); };
   const double volume =
-    a[0].value() * minor(1, 2) + a[1].value() * minor(2, 0) + a[2].value() * minor(0, 1);
+    dot(values_of(box.vectors[0]), cross(values_of(box.vectors[1]), values_of(box.vectors[2])));
   if (box.general && !(std::abs(volume) > 0))
   {
     throw Error("expected a box with a volume to scale coordinates by, got a flat one");

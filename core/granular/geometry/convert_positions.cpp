@@ -269,7 +269,7 @@ Twofold volume_of(const Box& box) noexcept
 bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexcept
 {
   return point_origin != Vector3{} ||
-    std::any_of(plan.axes.begin(), plan.axes.end(),
+    std::ranges::any_of(plan.axes,
       [&](const PositionPlan::Axis& axis) { return axis.shift != 0 || is_rescaled(plan, axis); });
 }
 

@@ -28,11 +28,8 @@ FrameView as_shown(const FrameView& frame)
 /// Doubles x y z of each row, one after the other, as they are wanted.
 bool is_plain(const FrameView& frame) noexcept
 {
-  const ArrayView& points = *frame.points;
-  const auto* const first = static_cast<const double*>(points.components[0]);
   return frame.coordinates != Coordinates::Scaled && frame.point_origin == Vector3{} &&
-    points.type == ValueType::Float64 && points.components[1] == first + 1 &&
-    points.components[2] == first + 2;
+    frame.points->are_triples();
 }
 
 void compute_points(
