@@ -2,12 +2,14 @@
 #include "granular/euler/average_passes.h"
 #include "granular/euler/sphere_box.h"
 #include "granular/numbers/number_print.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -48,28 +50,18 @@ void AveragePasses::each_block(std::size_t chunks, const Take& take)
 
 void AveragePasses::scan()
 {
-  do_together(ranks_,
-    [&]
-    {
-      const auto chunks =
-        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-      std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
-      this->each_block(chunks,
-        [&](Rows rows, std::size_t, std::size_t worker, GrainBlock& grains)
-        { grains_.scan(rows, grains, scans[worker]); });
-      for (const GrainValues::Scan& scan : scans)
-      {
-        scanned_.add(scan);
-      }
-      grains_.trust(scanned_);
-    });
-  const std::vector<std::string> all =
-    ranks_.all_gather({ reinterpret_cast<const char*>(&scanned_), sizeof scanned_ });
-  scanned_ = {};
-  for (const std::string& bytes : all)
+  const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
+  std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
+  this->each_block(chunks,
+    [&](Rows rows, std::size_t, std::size_t worker, GrainBlock& grains)
+    { grains_.scan(rows, grains, scans[worker]); });
+  for (const GrainValues::Scan& scan : scans)
   {
-    GrainValues::Scan scan;
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&scan));
+    scanned_.add(scan);
+  }
+  grains_.trust(scanned_);
+  for (const GrainValues::Scan& scan : gather(ranks_, std::exchange(scanned_, {})))
+  {
     scanned_.add(scan);
   }
   result_.broken = scanned_.broken;
@@ -78,33 +70,26 @@ void AveragePasses::scan()
 /// In which blocks grains are; a single one has them all.
 void AveragePasses::locate()
 {
-  std::int64_t outside = 0;
-  do_together(ranks_,
-    [&]
+  const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
+  std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
+  std::vector<std::int64_t> counts(executor_.workers(entries.size()));
+  this->each_block(entries.size(),
+    [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
     {
-      const auto chunks =
-        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-      std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
-      std::vector<std::int64_t> counts(executor_.workers(entries.size()));
-      this->each_block(entries.size(),
-        [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
-        {
-          grains_.load(rows, grains);
-          counts[worker] += this->find_blocks(grains, rows.front() % rows_of_chunk, entries[chunk]);
-        });
-      outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
-      block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
-                                       : BlockRows::all(frame_.rows);
-      found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
-      counts_.resize(static_cast<std::size_t>(blocks_.size()));
-      for (std::size_t block = 0; block < counts_.size(); ++block)
-      {
-        counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
-      }
+      grains_.load(rows, grains);
+      counts[worker] += this->find_blocks(grains, rows.front() % rows_of_chunk, entries[chunk]);
     });
+  result_.outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+  block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
+                                   : BlockRows::all(frame_.rows);
+  found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
+  counts_.resize(static_cast<std::size_t>(blocks_.size()));
+  for (std::size_t block = 0; block < counts_.size(); ++block)
+  {
+    counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
+  }
   ranks_.sum(counts_);
-  ranks_.sum({ &outside, 1 });
-  result_.outside = outside;
+  ranks_.sum({ &result_.outside, 1 });
 }
 
 /// Adds an entry for each block that a grain may have a share in. Returns how many have none.

@@ -3,6 +3,7 @@
 
 #include "granular/common/error.h"
 #include "granular/frames/header_archive.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,17 +15,6 @@ namespace granular
 {
 namespace
 {
-/// What ranks tell each other of a frame.
-template <class Archive>
-void pass(Archive& archive, FrameView& frame)
-{
-  archive.number(frame.rows);
-  archive.number(frame.has_box);
-  pass(archive, frame.header);
-  archive.number(frame.coordinates);
-  archive.number(frame.point_origin);
-}
-
 bool same_box(const FrameView& a, const FrameView& b)
 {
   const auto bits = [](const Twofold& value)
@@ -39,26 +29,23 @@ bool same_box(const FrameView& a, const FrameView& b)
 }
 }
 
+/// What ranks tell each other of a frame.
+template <class Archive>
+static void pass(Archive& archive, typename Archive::template Passed<FrameView>& frame)
+{
+  archive.number(frame.rows);
+  archive.number(frame.has_box);
+  pass(archive, frame.header);
+  archive.number(frame.coordinates);
+  archive.number(frame.point_origin);
+}
+
 void share_header(FrameView& frame, Communicator& ranks)
 {
-  std::string own;
   do_together(ranks,
     [&]
     {
-      ArchiveWriter packer;
-      pass(packer, frame);
-      own = std::move(packer.bytes);
-    });
-  const std::vector<std::string> all = ranks.all_gather(own);
-  do_together(ranks,
-    [&]
-    {
-      std::vector<FrameView> known(all.size());
-      for (std::size_t i = 0; i < all.size(); ++i)
-      {
-        ArchiveReader unpacker{ all[i] };
-        pass(unpacker, known[i]);
-      }
+      const std::vector<FrameView> known = gather(ranks, frame);
       const auto less = [](const FrameView& a, const FrameView& b)
       { return std::pair(a.rows > 0, a.has_box) < std::pair(b.rows > 0, b.has_box); };
       const FrameView& best = *std::ranges::max_element(known, less);
