@@ -3,10 +3,10 @@
 
 #include "granular/common/error.h"
 #include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -52,23 +52,11 @@ std::vector<Told> tell_all(std::int64_t cells, std::size_t values, Communicator&
 }
 
 /// Values of all ranks one after the other, on rank 0.
-std::vector<double> gather_values(
-  std::span<const double> own, const std::vector<Told>& told, Communicator& ranks)
+std::vector<double> gather_values(std::span<const double> own, Communicator& ranks)
 {
-  constexpr auto bytes_of_value = static_cast<std::int64_t>(sizeof(double));
-  std::vector<std::int64_t> from_bytes(told.size());
-  std::vector<std::int64_t> to_bytes(told.size());
-  from_bytes[0] = static_cast<std::int64_t>(own.size_bytes());
-  std::size_t total = 0;
-  for (std::size_t i = 0; ranks.rank() == 0 && i < told.size(); ++i)
-  {
-    to_bytes[i] = told[i][1] * bytes_of_value;
-    total += static_cast<std::size_t>(told[i][1]);
-  }
-  std::vector<double> all(total);
-  ranks.exchange(reinterpret_cast<const char*>(own.data()), from_bytes,
-    reinterpret_cast<char*>(all.data()), to_bytes);
-  return all;
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks.size()));
+  counts[0] = static_cast<std::int64_t>(own.size());
+  return trade(own, counts, swap_numbers(counts, ranks), ranks);
 }
 
 void expect_size(std::size_t got, std::size_t expected)
@@ -157,7 +145,7 @@ std::vector<double> gather_packed(
             " cells of process " + std::to_string(i) + ", got " + std::to_string(values));
         }
       }
-      return gather_values(own, told, ranks);
+      return gather_values(own, ranks);
     });
 }
 
@@ -181,7 +169,7 @@ EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
         if (std::ranges::all_of(
               told, [&](const Told& each) { return each[1] == array.components * each[0]; }))
         {
-          all.*array.values = gather_values(values, told, ranks);
+          all.*array.values = gather_values(values, ranks);
         }
       }
       return all;
