@@ -9,6 +9,7 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace granular
 {
@@ -23,25 +24,15 @@ constexpr EulerArray arrays[] = {
   { "tau", 3, &EulerCells::shear_stress, true },
 };
 
-/// The values of a packed cell, in their order: an array and which of its values.
-struct PackedValue
-{
-  std::vector<double> EulerCells::*values;
-  std::size_t components;
-  std::size_t component;
+/// The arrays of a packed cell, in their order, and how many values each has of it.
+constexpr std::pair<std::vector<double> EulerCells::*, std::size_t> packed_arrays[] = {
+  { &EulerCells::centres, 3 },
+  { &EulerCells::velocities, 3 },
+  { &EulerCells::volume_fraction, 1 },
+  { &EulerCells::radius, 1 },
+  { &EulerCells::pressure, 1 },
 };
-
-constexpr std::array<PackedValue, values_of_cell> packed_values = { {
-  { &EulerCells::centres, 3, 0 },
-  { &EulerCells::centres, 3, 1 },
-  { &EulerCells::centres, 3, 2 },
-  { &EulerCells::velocities, 3, 0 },
-  { &EulerCells::velocities, 3, 1 },
-  { &EulerCells::velocities, 3, 2 },
-  { &EulerCells::volume_fraction, 1, 0 },
-  { &EulerCells::radius, 1, 0 },
-  { &EulerCells::pressure, 1, 0 },
-} };
+constexpr auto packed_size = static_cast<std::size_t>(values_of_cell);
 
 /// What a rank tells the others of what it has: numbers of cells and of values.
 using Told = std::array<std::int64_t, 2>;
@@ -95,36 +86,37 @@ std::span<const EulerArray> euler_arrays() noexcept
 void pack_cells(const EulerCells& cells, std::span<double> buffer)
 {
   const std::size_t count = size_of(cells);
-  expect_size(buffer.size(), packed_values.size() * count);
-  for (std::size_t j = 0; j < packed_values.size(); ++j)
+  expect_size(buffer.size(), packed_size * count);
+  double* to = buffer.data();
+  for (const auto& [array, size] : packed_arrays)
   {
-    const PackedValue& packed = packed_values[j];
-    const std::vector<double>& values = cells.*packed.values;
-    expect_size(values.size(), packed.components * count);
+    const std::vector<double>& values = cells.*array;
+    expect_size(values.size(), size * count);
     for (std::size_t i = 0; i < count; ++i)
     {
-      buffer[packed_values.size() * i + j] = values[packed.components * i + packed.component];
+      std::copy_n(values.data() + size * i, size, to + packed_size * i);
     }
+    to += size;
   }
 }
 
 EulerCells unpack_cells(std::span<const double> buffer)
 {
-  if (buffer.size() % packed_values.size() != 0)
+  if (buffer.size() % packed_size != 0)
   {
     throw FormatError(
       "expected 9 values for each cell, got " + std::to_string(buffer.size()) + " values");
   }
   EulerCells cells;
-  cells.resize(static_cast<std::int64_t>(buffer.size() / packed_values.size()));
-  for (std::size_t j = 0; j < packed_values.size(); ++j)
+  cells.resize(static_cast<std::int64_t>(buffer.size() / packed_size));
+  const double* from = buffer.data();
+  for (const auto& [array, size] : packed_arrays)
   {
-    const PackedValue& packed = packed_values[j];
-    std::vector<double>& values = cells.*packed.values;
     for (std::size_t i = 0; i < size_of(cells); ++i)
     {
-      values[packed.components * i + packed.component] = buffer[packed_values.size() * i + j];
+      std::copy_n(from + packed_size * i, size, (cells.*array).data() + size * i);
     }
+    from += size;
   }
   return cells;
 }
@@ -154,7 +146,7 @@ EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
   return do_together(ranks,
     [&]
     {
-      std::vector<double> packed(packed_values.size() * size_of(own));
+      std::vector<double> packed(packed_size * size_of(own));
       pack_cells(own, packed);
       EulerCells all = unpack_cells(gather_packed(packed, own.count(), ranks));
       for (const EulerArray& array : arrays)

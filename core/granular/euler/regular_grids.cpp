@@ -238,10 +238,10 @@ void GridFinder::find_spacings(Notices& notices)
     if (spans_[axis][0].spacing == 0)
     {
       spans_[axis][0].spacing = sum / known;
-      notices.push_back({ {},
-        std::string("there is one cell along ") + "xyz"[axis] +
-          ", and the file does not say how thick it is: it is taken to be " +
-          to_text(sum / known, { 6 }) + ", the mean of the other axes" });
+      Notice& notice = notices.emplace_back();
+      notice.text = std::string("there is one cell along ") + "xyz"[axis] +
+        ", and the file does not say how thick it is: it is taken to be " +
+        to_text(sum / known, { 6 }) + ", the mean of the other axes";
     }
   }
 }
