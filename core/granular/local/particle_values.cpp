@@ -2,11 +2,12 @@
 #include "granular/local/particle_values.h"
 
 #include "granular/common/error.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <iterator>
 #include <string_view>
 
 namespace granular
@@ -75,32 +76,17 @@ ArrayView view_array(const FrameView& frame, const std::string& name)
 }
 
 /// What a rank tells of itself: whether it has rows, and the sizes of the arrays.
-std::string pack_sizes(const ParticleValues& particles, std::int64_t rows)
-{
-  std::vector<std::int32_t> told = { rows > 0 };
-  for (const ArrayView& array : particles.arrays)
-  {
-    told.push_back(array.size());
-  }
-  return { reinterpret_cast<const char*>(told.data()), told.size() * sizeof told[0] };
-}
-
-std::int32_t number_at(const std::string& told, std::size_t place) noexcept
-{
-  std::int32_t number = 0;
-  std::memcpy(&number, told.data() + place * sizeof number, sizeof number);
-  return number;
-}
+using Told = std::vector<int>;
 
 /// Of the ranks with rows, who must agree; if none has any, of the first that knows it.
-int size_among(const std::vector<std::string>& told, std::size_t place, const std::string& name)
+int size_among(const std::vector<Told>& all, std::size_t place, const std::string& name)
 {
   int size = 0;
   bool counted = false; // on a rank with rows
-  for (const std::string& one : told)
+  for (const Told& told : all)
   {
-    const std::int32_t here = number_at(one, place);
-    const bool counts = number_at(one, 0) != 0;
+    const int here = told[place];
+    const bool counts = told[0] != 0;
     if (counts && counted && here != size)
     {
       throw Error("expected as many numbers a particle in array '" + name +
@@ -147,11 +133,13 @@ ParticleValues view_particles(const FrameView& frame, std::span<const std::strin
 
 void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks)
 {
-  const std::vector<std::string> told = ranks.all_gather(pack_sizes(particles, rows));
+  Told own = { rows > 0 ? 1 : 0 };
+  std::ranges::transform(particles.arrays, std::back_inserter(own), &ArrayView::size);
+  const std::vector<Told> all = gather(ranks, own);
   for (std::size_t i = 0; i < particles.arrays.size(); ++i)
   {
     ArrayView& array = particles.arrays[i];
-    array.components.resize(static_cast<std::size_t>(size_among(told, i + 1, array.name)));
+    array.components.resize(static_cast<std::size_t>(size_among(all, i + 1, array.name)));
   }
 }
 }
