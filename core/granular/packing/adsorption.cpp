@@ -10,10 +10,8 @@ namespace
 {
 double square_distance(const Vector3& a, const Vector3& b)
 {
-  const double x = a[0] - b[0];
-  const double y = a[1] - b[1];
-  const double z = a[2] - b[2];
-  return x * x + y * y + z * z;
+  const Vector3 way = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+  return dot(way, way);
 }
 
 double square(double value)
@@ -285,25 +283,13 @@ void Adsorption::for_layers(
     progress);
 }
 
-void Adsorption::keep(const Arrivals& round, const Executor& executor)
-{
-  Progress none_told;
-  Level& level = levels_[grid_.level_of(round.size_class)];
-  this->for_layers(
-    round, executor, none_told, [&](std::size_t i) { this->keep(round, level.layers[i]); });
-  settled_ = true;
-}
-
 bool Adsorption::follow(
   const std::vector<Arrivals>& rounds, const Executor& executor, Progress& progress)
 {
   Progress none_told;
   while (rounds_ < rounds.size())
   {
-    if (!settled_)
-    {
-      this->keep(rounds[rounds_ - 1], executor);
-    }
+    this->finish(rounds, executor);
     const Arrivals& arrivals = rounds[rounds_++];
     const Round round(grid_, arrivals);
     Level& level = levels_[round.level];
@@ -332,10 +318,8 @@ bool Adsorption::follow(
 std::vector<std::uint64_t> Adsorption::moments() const
 {
   std::vector<std::uint64_t> found;
-  for (std::size_t level = 0; first_ < last_ && level < levels_.size(); ++level)
-  {
-    const std::int64_t end = grid_.first_layer(level, last_);
-    for (std::int64_t at = grid_.first_layer(level, first_); at < end; ++at)
+  grid_.for_layers(first_, last_,
+    [&](std::size_t level, std::int64_t at)
     {
       const Layer& layer = *this->find(level, at);
       for (std::size_t i = 0; i < layer.fresh.size(); ++i)
@@ -345,33 +329,33 @@ std::vector<std::uint64_t> Adsorption::moments() const
           found.push_back(layer.fresh[i].moment);
         }
       }
-    }
-  }
+    });
   return found;
 }
 
 void Adsorption::finish(const std::vector<Arrivals>& rounds, const Executor& executor)
 {
-  if (!settled_)
+  if (settled_)
   {
-    this->keep(rounds[rounds_ - 1], executor);
+    return;
   }
+  const Arrivals& last = rounds[rounds_ - 1];
+  Progress none_told;
+  Level& level = levels_[grid_.level_of(last.size_class)];
+  this->for_layers(
+    last, executor, none_told, [&](std::size_t i) { this->keep(last, level.layers[i]); });
+  settled_ = true;
 }
 
 bool Adsorption::has(std::int64_t first, std::int64_t last) const noexcept
 {
-  for (std::size_t level = 0; level < levels_.size(); ++level)
-  {
-    const std::int64_t end = grid_.first_layer(level, last);
-    for (std::int64_t at = grid_.first_layer(level, first); at < end; ++at)
+  bool known = true;
+  grid_.for_layers(first, last,
+    [&](std::size_t level, std::int64_t at)
     {
       const Layer* const layer = this->find(level, at);
-      if (layer == nullptr || layer->dim)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+      known = known && layer != nullptr && !layer->dim;
+    });
+  return known;
 }
 }

@@ -101,7 +101,6 @@ private:
   Fate fate(const Round& round, const Layer& layer, std::size_t index) const;
   void settle(const Round& round, Layer& layer) const;
   void keep(const Arrivals& round, Layer& layer) const;
-  void keep(const Arrivals& round, const Executor& executor);
   template <class Work>
   void for_layers(
     const Arrivals& round, const Executor& executor, Progress& progress, const Work& work);

@@ -11,11 +11,6 @@ namespace
 {
 constexpr double below_one = 1 - 0x1p-53;
 
-double unit(std::uint64_t bits)
-{
-  return static_cast<double>(bits >> 11) * 0x1p-53;
-}
-
 /// The distribution function of Poisson's numbers. Sums, products and quotients alone: the same on all machines.
 std::vector<double> poisson(double mean)
 {
@@ -38,7 +33,7 @@ std::vector<double> poisson(double mean)
 double part_of(std::int64_t whole, std::uint64_t bits, std::int64_t cells)
 {
   return std::min(
-    (static_cast<double>(whole) + unit(bits)) / static_cast<double>(cells), below_one);
+    (static_cast<double>(whole) + unit_of(bits)) / static_cast<double>(cells), below_one);
 }
 }
 
@@ -56,7 +51,7 @@ Round::Round(const AdsorptionGrid& grid, const Arrivals& arrivals)
 
 std::uint64_t Round::count(std::int64_t layer, std::int64_t line) const noexcept
 {
-  const double drawn = unit(scramble(counts_seed_ ^ this->number(layer, line)));
+  const double drawn = unit_of(scramble(counts_seed_ ^ this->number(layer, line)));
   const auto found = std::upper_bound(up_to_.begin(), up_to_.end() - 1, drawn);
   return static_cast<std::uint64_t>(found - up_to_.begin());
 }
@@ -70,7 +65,7 @@ std::uint64_t Round::moment(
 
 Vector3 Round::place(std::int64_t layer, std::int64_t line, std::uint64_t moment) const noexcept
 {
-  return { unit(scramble(moment ^ 1)), part_of(line, scramble(moment ^ 2), cells[1]),
+  return { unit_of(scramble(moment ^ 1)), part_of(line, scramble(moment ^ 2), cells[1]),
     part_of(layer, scramble(moment ^ 3), cells[2]) };
 }
 }

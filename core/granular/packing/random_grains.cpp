@@ -175,18 +175,15 @@ void RandomGrains::count(Communicator& ranks)
       rows_.assign(shelves + 1, 0);
       for (std::int64_t shelf = own_.shelves.first; shelf < own_.shelves.last; ++shelf)
       {
-        for (std::size_t level = 0; level < grid_.levels(); ++level)
-        {
-          const std::int64_t end = grid_.first_layer(level, shelf + 1);
-          for (std::int64_t at = grid_.first_layer(level, shelf); at < end; ++at)
+        std::int64_t* const counts = &counts_[(static_cast<std::size_t>(shelf) + 1) * classes];
+        grid_.for_layers(shelf, shelf + 1,
+          [&](std::size_t level, std::int64_t layer)
           {
-            for (const Adsorption::Grain& grain : own_.found->grains(level, at))
+            for (const Adsorption::Grain& grain : own_.found->grains(level, layer))
             {
-              ++counts_[(static_cast<std::size_t>(shelf) + 1) * classes +
-                static_cast<std::size_t>(grain.size_class)];
+              ++counts[grain.size_class];
             }
-          }
-        }
+          });
       }
     });
   ranks.sum(counts_);
@@ -261,12 +258,10 @@ void RandomGrains::place(const Adsorption& found, std::int64_t shelf, const Grai
     counts_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(shelf) * classes.size());
   std::vector<std::int64_t> counts(before, before + static_cast<std::ptrdiff_t>(classes.size()));
   std::int64_t row = rows_[static_cast<std::size_t>(shelf)] - rows.first;
-  for (std::size_t level = 0; level < grid_.levels(); ++level)
-  {
-    const std::int64_t end = grid_.first_layer(level, shelf + 1);
-    for (std::int64_t at = grid_.first_layer(level, shelf); at < end; ++at)
+  grid_.for_layers(shelf, shelf + 1,
+    [&](std::size_t level, std::int64_t layer)
     {
-      for (const Adsorption::Grain& grain : found.grains(level, at))
+      for (const Adsorption::Grain& grain : found.grains(level, layer))
       {
         const auto i = static_cast<std::size_t>(grain.size_class);
         const std::int64_t number = counts[i]++;
@@ -281,8 +276,7 @@ void RandomGrains::place(const Adsorption& found, std::int64_t shelf, const Grai
         }
         ++row;
       }
-    }
-  }
+    });
 }
 
 std::vector<RowRange> RandomGrains::rows_near(const RowRange& rows, double distance) const

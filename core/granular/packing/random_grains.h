@@ -5,8 +5,8 @@
 #include "granular/common/progress.h"
 #include "granular/packing/adsorption.h"
 #include "granular/packing/adsorption_grid.h"
+#include "granular/packing/grain_rows.h"
 #include "granular/packing/radii.h"
-#include "granular/packing/row_range.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstdint>
@@ -15,14 +15,6 @@
 
 namespace granular
 {
-/// Rows of grains, and where they go.
-struct GrainRows : RowRange
-{
-  double* points = nullptr; ///< three a row
-  double* radius = nullptr;
-  std::int32_t* type = nullptr;
-};
-
 /// Grains at random places: exactly random sequential adsorption, the largest grains first. Grains of a size arrive until
 /// there are as many as asked for; that moment alone depends on the whole box. Then any rows are found from what
 /// arrived near to them.

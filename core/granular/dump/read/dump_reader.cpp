@@ -228,15 +228,6 @@ void check_counts(Communicator& ranks, const FramePieces& pieces, DumpPart& part
   }
 }
 
-void forget_ranges(DumpFrame& frame)
-{
-  frame.points_range = ValueRange();
-  for (DumpArray& array : frame.arrays)
-  {
-    array.range = ValueRange();
-  }
-}
-
 /// Sorts the rows if that is asked for. Collective.
 void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const Where& where)
 {
@@ -247,7 +238,7 @@ void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const
   const Executor executor(request.threads);
   if (ranks.size() > 1 || request.pieces > 1)
   {
-    forget_ranges(part.frame); // the rows will be others
+    FrameRanges(part.frame).store(part.frame); // of none: the rows will be others
   }
   if (ranks.size() > 1)
   {
