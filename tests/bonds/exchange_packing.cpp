@@ -153,7 +153,6 @@ TEST(Packing, sizes_are_the_styles)
     const auto which = static_cast<PackRoutine>(routine);
     EXPECT_EQ(granular::packed_doubles(which, pfm), sizes[routine][0]);
     EXPECT_EQ(granular::packed_doubles(which, plain), sizes[routine][1]);
-    EXPECT_EQ(granular::doubles_of(granular::fields_of(which, pfm)), sizes[routine][0]);
   }
 }
 

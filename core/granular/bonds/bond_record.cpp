@@ -23,41 +23,23 @@ bool is_whole(double number) noexcept
     " of the bond/gran part of a record, got " + got);
 }
 
-/// A whole number from 0 to most.
-std::int64_t load_count(
-  std::span<const double> block, std::size_t at, std::int64_t most, const std::string& of)
-{
-  const double number = block[at];
-  if (!is_whole(number) || number < 0 || number > static_cast<double>(most))
-  {
-    refuse("a number of " + of + " from 0 to " + std::to_string(most), at, to_text(number));
-  }
-  return static_cast<std::int64_t>(number);
-}
-
-/// How many history values each of some bonds has, of which the number may stand at a place; -1: it does not. There
+/// How many history values each of some bonds has, of which the number may stand first behind them; 0: it does not. There
 /// it is a whole number that fits the values behind it.
-std::int64_t find_history(std::span<const double> block, std::size_t at, std::int64_t bonds,
-  bool may_have_more, std::int64_t history_values)
+std::int64_t find_history(std::span<const double> behind, std::int64_t bonds, bool may_have_more,
+  std::int64_t history_values)
 {
-  if (history_values == 0 || at >= block.size())
+  if (behind.empty() || (history_values < 0 && bonds == 0 && may_have_more))
   {
-    return -1;
+    return 0;
   }
-  const double number = block[at];
-  const auto behind = static_cast<std::int64_t>(block.size() - at - 1);
-  const bool whole = is_whole(number) && number >= 1 && number < 0x1p31;
-  if (history_values > 0)
+  if (history_values >= 0)
   {
-    return number == static_cast<double>(history_values) ? history_values : -1;
+    return behind[0] == static_cast<double>(history_values) ? history_values : 0;
   }
-  if (!whole || (bonds == 0 && may_have_more))
-  {
-    return -1;
-  }
-  const auto values = static_cast<std::int64_t>(number);
-  const bool fits = bonds == 0 || values <= behind / bonds;
-  return fits && (may_have_more || values * bonds == behind) ? values : -1;
+  const auto room = static_cast<std::int64_t>(behind.size()) - 1;
+  const auto values = static_cast<std::int64_t>(length_of(behind[0], 1, 0x7fffffff));
+  const bool fits = bonds == 0 || values <= room / bonds;
+  return fits && (may_have_more || values * bonds == room) ? values : 0;
 }
 }
 
@@ -137,7 +119,13 @@ BondBlock look_at_bonds(std::span<const double> block, bool may_have_more,
       " doubles in the bond/gran part of a record, got " + std::to_string(block.size()));
   }
   BondBlock found;
-  found.bonds = load_count(block, RecordSlots::bonds, most_bonds, "bonds");
+  const double bonds = block[RecordSlots::bonds];
+  if (!is_whole(bonds) || bonds < 0 || bonds > static_cast<double>(most_bonds))
+  {
+    refuse("a number of bonds from 0 to " + std::to_string(most_bonds), RecordSlots::bonds,
+      to_text(bonds));
+  }
+  found.bonds = static_cast<std::int64_t>(bonds);
   const std::size_t behind = block.size() - RecordSlots::first_bond;
   if (static_cast<std::uint64_t>(found.bonds) > behind / 2)
   {
@@ -147,8 +135,9 @@ BondBlock look_at_bonds(std::span<const double> block, bool may_have_more,
   found.pairs = block.data() + RecordSlots::first_bond;
   found.size = RecordSlots::first_bond + 2 * static_cast<std::size_t>(found.bonds);
   const std::size_t at = found.size;
-  const std::int64_t values = find_history(block, at, found.bonds, may_have_more, history_values);
-  if (values < 0 && history_values > 0 && found.bonds > 0)
+  const std::int64_t values =
+    find_history(block.subspan(at), found.bonds, may_have_more, history_values);
+  if (values == 0 && history_values > 0 && found.bonds > 0)
   {
     refuse("the number of history values of a bond, " + std::to_string(history_values) +
         " as in other records,",

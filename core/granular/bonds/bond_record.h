@@ -29,6 +29,14 @@ struct RecordSlots
     13; ///< type and partner of each; then, if n_h > 0, n_h and the history
 };
 
+/// A double that is a length, a whole number from least to most; 0: it is none.
+inline std::size_t length_of(double number, std::size_t least, std::size_t most) noexcept
+{
+  const bool in_range = number >= static_cast<double>(least) && number <= static_cast<double>(most);
+  const std::size_t length = in_range ? static_cast<std::size_t>(number) : 0;
+  return static_cast<double>(length) == number ? length : 0;
+}
+
 /// How whole numbers stand in doubles.
 enum class WholeNumbers : std::uint8_t
 {

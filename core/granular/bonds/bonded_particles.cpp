@@ -27,15 +27,6 @@ constexpr std::size_t element_bytes(const std::unique_ptr<T[]>&) noexcept
   return sizeof(T);
 }
 
-template <class T>
-void copy(const T* from, std::size_t elements, T* to) noexcept
-{
-  if (elements > 0)
-  {
-    std::memcpy(to, from, elements * sizeof(T));
-  }
-}
-
 /// All bits zero, which is 0 of what is here. Of many bytes faster than a loop: what is overwritten is not read.
 template <class T>
 void fill_zero(T* to, std::size_t elements) noexcept
@@ -86,7 +77,7 @@ BondedParticles& BondedParticles::operator=(BondedParticles&& other) noexcept
   return *this;
 }
 
-/// The one list of what there is.
+/// The one list of what there is: fields in the order of PackField, then bonds.
 template <class Visit>
 void BondedParticles::for_arrays(const Visit& visit) const
 {
@@ -95,10 +86,10 @@ void BondedParticles::for_arrays(const Visit& visit) const
     visit(array, 1);
   }
   visit(&Arrays::tag, 1);
-  visit(&Arrays::molecule, 1);
   visit(&Arrays::type, 1);
   visit(&Arrays::mask, 1);
   visit(&Arrays::image, 1);
+  visit(&Arrays::molecule, 1);
   visit(&Arrays::bonds, 1);
   visit(&Arrays::bond_types, this->width());
   visit(&Arrays::partners, this->width());
@@ -141,9 +132,11 @@ void BondedParticles::grow(std::size_t capacity)
   }
   Arrays grown;
   this->for_arrays(
-    [&](auto array, std::size_t width) { allocate(grown.*array, capacity * width); });
-  this->for_arrays([&](auto array, std::size_t width)
-    { copy((arrays_.*array).get(), size_ * width, (grown.*array).get()); });
+    [&](auto array, std::size_t width)
+    {
+      allocate(grown.*array, capacity * width);
+      std::copy_n((arrays_.*array).get(), size_ * width, (grown.*array).get());
+    });
   arrays_ = std::move(grown);
   capacity_ = capacity;
 }
@@ -160,25 +153,18 @@ void BondedParticles::reserve(std::size_t size)
 void BondedParticles::set_defaults(
   std::size_t first, std::size_t end, PackFieldSet written) noexcept
 {
-  const auto is_missing = [&](PackField field) { return (written & set_of(field)) == 0; };
-  const auto clear = [&](auto array, PackField field)
-  {
-    if (is_missing(field))
+  constexpr unsigned bonds = static_cast<unsigned>(PackField::Molecule) + 1;
+  unsigned place = 0;
+  this->for_arrays(
+    [&](auto array, std::size_t)
     {
-      fill_zero((arrays_.*array).get() + first, end - first);
-    }
-  };
-  clear(&Arrays::x, PackField::X);
-  clear(&Arrays::v, PackField::V);
-  clear(&Arrays::f, PackField::F);
-  clear(&Arrays::x_mol, PackField::XMol);
-  clear(&Arrays::v_mol, PackField::VMol);
-  clear(&Arrays::tag, PackField::Tag);
-  clear(&Arrays::type, PackField::Type);
-  clear(&Arrays::image, PackField::Image);
-  clear(&Arrays::molecule, PackField::Molecule);
-  fill_zero(arrays_.bonds.get() + first, end - first);
-  if (is_missing(PackField::Mask))
+      if (place <= bonds && (written >> place & 1) == 0) // set_bonds clears what is behind
+      {
+        fill_zero((arrays_.*array).get() + first, end - first);
+      }
+      ++place;
+    });
+  if ((written & set_of(PackField::Mask)) == 0)
   {
     std::fill_n(arrays_.mask.get() + first, end - first, 1);
   }
@@ -216,7 +202,8 @@ void BondedParticles::add_bond(
   this->set_bonds(i, bond + 1);
   this->bond_types(i)[bond] = type;
   this->partners(i)[bond] = partner;
-  copy(history.data(), history.size(), this->history(i).data() + bond * this->values());
+  std::ranges::copy(
+    history, this->history(i).begin() + static_cast<std::ptrdiff_t>(bond * this->values()));
 }
 
 void BondedParticles::set_bonds(std::size_t i, std::size_t count)
@@ -248,7 +235,7 @@ void BondedParticles::remove(std::size_t i)
       [&](auto array, std::size_t width)
       {
         auto* const rows = (arrays_.*array).get();
-        copy(rows + last * width, width, rows + i * width);
+        std::copy_n(rows + last * width, width, rows + i * width);
       });
   }
   size_ = last;

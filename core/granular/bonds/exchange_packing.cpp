@@ -28,23 +28,17 @@ Vector3 sum_of(const std::array<int, 6>& counts, const std::array<double, 6>& am
   return { terms[0] + terms[5] + terms[4], terms[1] + terms[3], terms[2] };
 }
 
+/// Borders of a tilted box are in units of the box.
 Displacement displacement_of(const PeriodicShift& shift, bool border) noexcept
 {
-  Displacement found;
-  const bool tilted = shift.triclinic && !border;
-  if (border && shift.triclinic)
+  const auto [x, y, z] = shift.lengths;
+  std::array<double, 6> amounts = { x, y, z, 0, 0, 0 };
+  if (shift.triclinic)
   {
-    found.x = sum_of(shift.counts, { 1, 1, 1, 0, 0, 0 });
+    amounts = border ? std::array<double, 6>{ 1, 1, 1, 0, 0, 0 }
+                     : std::array<double, 6>{ x, y, z, shift.yz, shift.xz, shift.xy };
   }
-  else
-  {
-    found.x = sum_of(shift.counts,
-      { shift.lengths[0], shift.lengths[1], shift.lengths[2], tilted ? shift.yz : 0,
-        tilted ? shift.xz : 0, tilted ? shift.xy : 0 });
-  }
-  found.v = sum_of(shift.counts, shift.rates);
-  found.moving_groups = shift.moving_groups;
-  return found;
+  return { sum_of(shift.counts, amounts), sum_of(shift.counts, shift.rates), shift.moving_groups };
 }
 
 void add_to(double* to, const Vector3& change) noexcept
@@ -75,7 +69,7 @@ struct Packer : PackTable<fields>
   using Table = PackTable<fields>;
 
   /// An array that is sent as it is.
-  static constexpr bool is_array = Table::size == 1 && is_vector(fields[0]);
+  static constexpr bool is_array = fields.size() == 1 && is_vector(fields[0]);
 
   template <class Rows, class Numbers>
   static void put_rows(const auto& arrays, const Rows& rows, std::size_t begin, std::size_t end,
@@ -192,10 +186,7 @@ struct Packer : PackTable<fields>
     }
     else if constexpr (is_array)
     {
-      if (some.count > 0)
-      {
-        std::memcpy(std::get<0>(arrays) + first, from, some.count * sizeof(Vector3));
-      }
+      std::memcpy(std::get<0>(arrays) + first, from, some.count * sizeof(Vector3));
       return;
     }
     FastNumbers fast;
@@ -207,53 +198,55 @@ struct Packer : PackTable<fields>
       get_rows(from, arrays, { first, some.count }, exact);
     }
   }
+
+  /// All particles of a buffer, into rows of which the last may be new. Throws FormatError.
+  static void unpack_rows(
+    std::span<const double> buffer, BondedParticles& particles, ParticleRange rows)
+  {
+    const std::size_t old = particles.size();
+    if (rows.first < old)
+    {
+      check(buffer, { 0, rows.count }); // there is no way back later
+    }
+    try
+    {
+      // forces are added, and not written
+      particles.resize(std::max(old, rows.first + rows.count), Table::set & ~set_of(PackField::F));
+      for (std::size_t i = 0; i < rows.count; i += rows_a_block)
+      {
+        unpack(buffer, { i, std::min(rows_a_block, rows.count - i) }, particles, rows[i]);
+      }
+    }
+    catch (const FormatError&)
+    {
+      particles.resize(old);
+      throw;
+    }
+  }
 };
 
-/// A routine in a dialect.
-struct Routine
-{
-  std::span<const PackField> fields;
-  PackFieldSet written; ///< by unpack: not forces, which are added
-  std::size_t doubles;
-  void (*pack)(const BondedParticles&, const ParticleRows&, double*);
-  void (*move)(const BondedParticles&, const ParticleRows&, const Displacement&, double*);
-  void (*check)(std::span<const double>, ParticleRange);
-  void (*unpack)(std::span<const double>, ParticleRange, BondedParticles&, std::size_t);
-};
-
-template <const auto& fields>
-constexpr Routine routine_of() noexcept
-{
-  return { fields, set_of(std::span<const PackField>(fields)) & ~set_of(PackField::F),
-    Packer<fields>::doubles,
-    [](const BondedParticles& particles, const ParticleRows& rows, double* to)
-    { std::visit([&](const auto& some) { Packer<fields>::pack(particles, some, to); }, rows); },
-    [](const BondedParticles& particles, const ParticleRows& rows, const Displacement& change,
-      double* to) {
-      std::visit(
-        [&](const auto& some) { Packer<fields>::move(particles, some, change, to); }, rows);
-    },
-    &Packer<fields>::check, &Packer<fields>::unpack };
-}
-
-/// By routine, then by dialect.
-const Routine& find(PackRoutine routine, PackDialect dialect) noexcept
+/// Calls work with the packer of a routine in a dialect.
+template <class Work>
+auto with_packer(PackRoutine routine, PackDialect dialect, const Work& work)
 {
   using namespace pack_tables;
-  static constexpr std::array<std::array<Routine, 2>, 6> routines{ {
-    { routine_of<comm_pfm>(), routine_of<comm_plain>() },
-    { routine_of<comm_velocity_pfm>(), routine_of<comm_velocity_plain>() },
-    { routine_of<border_pfm>(), routine_of<border_plain>() },
-    { routine_of<border_velocity_pfm>(), routine_of<border_velocity_plain>() },
-    { routine_of<border_hybrid>(), routine_of<border_hybrid>() },
-    { routine_of<reverse>(), routine_of<reverse>() },
-  } };
-  return routines[static_cast<std::size_t>(routine)][static_cast<std::size_t>(dialect)];
-}
-
-std::size_t size_of(const ParticleRows& rows) noexcept
-{
-  return std::visit([](const auto& some) { return some.size(); }, rows);
+  const bool pfm = dialect == PackDialect::Pfm;
+  switch (routine)
+  {
+    case PackRoutine::Comm:
+      return pfm ? work(Packer<comm_pfm>{}) : work(Packer<comm_plain>{});
+    case PackRoutine::CommVelocity:
+      return pfm ? work(Packer<comm_velocity_pfm>{}) : work(Packer<comm_velocity_plain>{});
+    case PackRoutine::Border:
+      return pfm ? work(Packer<border_pfm>{}) : work(Packer<border_plain>{});
+    case PackRoutine::BorderVelocity:
+      return pfm ? work(Packer<border_velocity_pfm>{}) : work(Packer<border_velocity_plain>{});
+    case PackRoutine::BorderHybrid:
+      return work(Packer<border_hybrid>{});
+    case PackRoutine::Reverse:
+      break;
+  }
+  return work(Packer<reverse>{});
 }
 
 bool is_border(PackRoutine routine) noexcept
@@ -262,36 +255,35 @@ bool is_border(PackRoutine routine) noexcept
 }
 }
 
-std::span<const PackField> fields_of(PackRoutine routine, PackDialect dialect) noexcept
-{
-  return find(routine, dialect).fields;
-}
-
 std::size_t packed_doubles(PackRoutine routine, PackDialect dialect) noexcept
 {
-  return find(routine, dialect).doubles;
+  return with_packer(routine, dialect, [](auto packer) { return packer.doubles; });
 }
 
 void pack(const BondedParticles& particles, PackRoutine routine, PackDialect dialect,
   const ParticleRows& rows, const PeriodicShift& shift, std::span<double> buffer)
 {
-  const Routine& found = find(routine, dialect);
   expect_rows(particles, rows);
-  expect_size(size_of(rows) * found.doubles, buffer.size());
-  found.pack(particles, rows, buffer.data());
-  if (!shift.is_none())
+  const auto pack_rows = [&](auto packer, const auto& some)
   {
-    found.move(particles, rows, displacement_of(shift, is_border(routine)), buffer.data());
-  }
+    expect_size(some.size() * packer.doubles, buffer.size());
+    packer.pack(particles, some, buffer.data());
+    if (!shift.is_none())
+    {
+      packer.move(particles, some, displacement_of(shift, is_border(routine)), buffer.data());
+    }
+  };
+  with_packer(routine, dialect,
+    [&](auto packer) { std::visit([&](const auto& some) { pack_rows(packer, some); }, rows); });
 }
 
 void unpack(BondedParticles& particles, PackRoutine routine, PackDialect dialect,
   ParticleRange rows, std::span<const double> buffer)
 {
-  const Routine& found = find(routine, dialect);
-  if (buffer.size() % found.doubles != 0 || buffer.size() / found.doubles != rows.count)
+  const std::size_t doubles = packed_doubles(routine, dialect);
+  if (buffer.size() % doubles != 0 || buffer.size() / doubles != rows.count)
   {
-    throw FormatError("expected " + std::to_string(found.doubles) + " doubles of each of " +
+    throw FormatError("expected " + std::to_string(doubles) + " doubles of each of " +
       std::to_string(rows.count) + " particles, got " + std::to_string(buffer.size()));
   }
   if (rows.first > particles.size())
@@ -299,25 +291,7 @@ void unpack(BondedParticles& particles, PackRoutine routine, PackDialect dialect
     throw LimitError("expected a first row of at most " + std::to_string(particles.size()) +
       ", got " + std::to_string(rows.first));
   }
-  const std::size_t old = particles.size();
-  if (rows.first < old)
-  {
-    found.check(buffer, { 0, rows.count }); // there is no way back later
-  }
-  try
-  {
-    particles.resize(std::max(old, rows.first + rows.count), found.written);
-    for (std::size_t i = 0; i < rows.count; i += rows_a_block)
-    {
-      const std::size_t count = std::min(rows_a_block, rows.count - i);
-      found.unpack(buffer, { i, count }, particles, rows[i]);
-    }
-  }
-  catch (const FormatError&)
-  {
-    particles.resize(old);
-    throw;
-  }
+  with_packer(routine, dialect, [&](auto packer) { packer.unpack_rows(buffer, particles, rows); });
 }
 
 void unpack_reverse(BondedParticles& particles, ParticleList rows, std::span<const double> buffer)

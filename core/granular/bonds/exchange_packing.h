@@ -31,9 +31,6 @@ enum class PackRoutine : std::uint8_t
   Reverse         ///< the force on a copy, back to the particle: 3; unpacking adds it
 };
 
-/// What is sent of a particle, in turn.
-std::span<const PackField> fields_of(PackRoutine routine, PackDialect dialect) noexcept;
-
 /// Doubles of a particle.
 std::size_t packed_doubles(PackRoutine routine, PackDialect dialect) noexcept;
 

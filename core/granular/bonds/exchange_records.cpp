@@ -19,11 +19,6 @@ std::size_t bond_doubles(const BondedParticles& particles) noexcept
   return 2 + static_cast<std::size_t>(particles.history_values());
 }
 
-bool is_count(double number, double most) noexcept
-{
-  return number >= 0 && number <= most && is_int32(number);
-}
-
 /// Records of the particles of a dialect: length, fields, number of bonds, type and partner of each, history, special counts.
 template <const auto& fields>
 struct Records
@@ -103,7 +98,7 @@ struct Records
     Table::check(buffer, place + 1, particle);
 
     const double bonds = buffer[place + bonds_at];
-    if (!is_count(bonds, particles.most_bonds()))
+    if (!(bonds >= 0 && bonds <= particles.most_bonds()) || !is_int32(bonds))
     {
       refuse_number("a number of bonds from 0 to " + std::to_string(particles.most_bonds()),
         particle, place + bonds_at, bonds);
@@ -173,10 +168,7 @@ struct Records
       partners[k] = number_to_id(*from++);
     }
     const auto history = particles.history(row);
-    if (!history.empty())
-    {
-      std::memcpy(history.data(), from, history.size_bytes());
-    }
+    std::copy_n(from, history.size(), history.begin());
     return from + history.size() + special_counts;
   }
 
@@ -188,7 +180,7 @@ struct Records
       place = check(particles, buffer, place, count);
     }
     const std::size_t first = particles.size();
-    particles.resize(first + count, set_of(std::span<const PackField>(fields)));
+    particles.resize(first + count, Table::set);
     const auto arrays = Table::arrays_of(particles);
     const double* from = buffer.data();
     for (std::size_t row = first; row < first + count; ++row)

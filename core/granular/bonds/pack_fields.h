@@ -29,17 +29,12 @@ constexpr bool is_vector(PackField field) noexcept
   return field <= PackField::VMol;
 }
 
-constexpr std::size_t doubles_of(PackField field) noexcept
-{
-  return is_vector(field) ? 3 : 1;
-}
-
 constexpr std::size_t doubles_of(std::span<const PackField> fields) noexcept
 {
   std::size_t doubles = 0;
   for (const PackField field : fields)
   {
-    doubles += doubles_of(field);
+    doubles += is_vector(field) ? 3U : 1U;
   }
   return doubles;
 }

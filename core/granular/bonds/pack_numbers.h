@@ -109,20 +109,5 @@ private:
   std::uint64_t ranges_ = 0;
   std::uint64_t small_ranges_ = 0;
 };
-
-/// What is wrong with the number of a field; null: nothing.
-template <PackField field>
-const char* fault_of(double number) noexcept
-{
-  if constexpr (field == PackField::Type || field == PackField::Mask)
-  {
-    return is_int32(number) ? nullptr : "a whole number of 32 bits";
-  }
-  else if constexpr (field == PackField::Image)
-  {
-    return number_to_id(number) >= 0 ? nullptr : "an image of three counts of 21 bits";
-  }
-  return nullptr;
-}
 }
 #endif

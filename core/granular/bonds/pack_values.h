@@ -40,8 +40,8 @@ auto arrays_of(Particles& particles) noexcept
 template <const auto& fields>
 struct PackTable
 {
-  static constexpr std::size_t size = fields.size();
   static constexpr std::size_t doubles = doubles_of(std::span<const PackField>(fields));
+  static constexpr PackFieldSet set = set_of(std::span<const PackField>(fields));
 
   /// Calls visit(k) with the place of each field as a constant.
   template <class Visit>
@@ -51,7 +51,7 @@ struct PackTable
     {
       (visit(std::integral_constant<std::size_t, k>{}), ...);
     }
-    (std::make_index_sequence<size>{});
+    (std::make_index_sequence<fields.size()>{});
   }
 
   /// The arrays of the fields, in turn.
@@ -63,7 +63,7 @@ struct PackTable
     {
       return std::tuple(std::get<static_cast<std::size_t>(fields[k])>(all)...);
     }
-    (std::make_index_sequence<size>{});
+    (std::make_index_sequence<fields.size()>{});
   }
 
   /// Where the doubles of a field are.
@@ -136,12 +136,19 @@ struct PackTable
     for_each(
       [&](auto k)
       {
-        if constexpr (!is_vector(fields[k]))
+        const std::size_t at = place + offset<k>;
+        if constexpr (fields[k] == PackField::Type || fields[k] == PackField::Mask)
         {
-          const double number = buffer[place + offset<k>];
-          if (const char* const expected = fault_of<fields[k]>(number)) [[unlikely]]
+          if (!is_int32(buffer[at])) [[unlikely]]
           {
-            refuse_number(expected, particle, place + offset<k>, number);
+            refuse_number("a whole number of 32 bits", particle, at, buffer[at]);
+          }
+        }
+        else if constexpr (fields[k] == PackField::Image)
+        {
+          if (number_to_id(buffer[at]) < 0) [[unlikely]]
+          {
+            refuse_number("an image of three counts of 21 bits", particle, at, buffer[at]);
           }
         }
       });

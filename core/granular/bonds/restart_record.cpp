@@ -49,53 +49,20 @@ void append_bonds(const BondedParticles& particles, std::size_t i, std::vector<d
   }
 }
 
-/// What stands in a record other than bonds.
-struct Head
+ImageCounts read_image(double number, const RecordForm& form)
 {
-  std::int64_t tag;
-  std::int64_t molecule;
-  std::int32_t type;
-  std::int32_t mask;
-  ImageCounts image;
-};
-
-Head read_head(std::span<const double> record, const RecordForm& form)
-{
-  const WholeNumbers numbers = whole_numbers_of(record);
-  Head head{};
-  head.tag = to_whole(record[Slots::tag], numbers);
-  head.molecule = to_whole(record[Slots::molecule], WholeNumbers::Values);
-  head.type = to_int32(record[Slots::type], numbers, "a type");
-  head.mask = to_int32(record[Slots::mask], numbers, "a mask");
-  const std::int64_t image = to_whole(record[Slots::image], form.image);
-  head.image = unpack_image(image, form.image_bits);
+  const std::int64_t image = to_whole(number, form.image);
+  const ImageCounts counts = unpack_image(image, form.image_bits);
   try
   {
-    pack_image(head.image, form.image_bits);
+    pack_image(counts, form.image_bits);
   }
   catch (const LimitError&)
   {
     throw FormatError("expected an image of three counts of " + std::to_string(form.image_bits) +
       " bits, got " + std::to_string(image));
   }
-  return head;
-}
-
-struct BondPair
-{
-  std::int32_t type;
-  std::int64_t partner;
-};
-
-std::vector<BondPair> read_pairs(const BondBlock& block)
-{
-  std::vector<BondPair> pairs(static_cast<std::size_t>(block.bonds));
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-  {
-    pairs[k] = { to_int32(block.pairs[2 * k], WholeNumbers::Values, "a bond type"),
-      to_whole(block.pairs[2 * k + 1], WholeNumbers::Values) };
-  }
-  return pairs;
+  return counts;
 }
 
 std::span<const double> find_record(std::span<const double> chunk, std::size_t place)
@@ -106,13 +73,13 @@ std::span<const double> find_record(std::span<const double> chunk, std::size_t p
   }
   const std::size_t room = chunk.size() - place;
   const double length = chunk[place];
-  if (!(length >= Slots::first_bond && length <= static_cast<double>(room)) ||
-    static_cast<double>(static_cast<std::size_t>(length)) != length)
+  const std::size_t doubles = length_of(length, Slots::first_bond, room);
+  if (doubles == 0)
   {
     throw FormatError("expected the length of a record from " + std::to_string(Slots::first_bond) +
       " to " + std::to_string(room) + ", got " + to_text(length));
   }
-  return chunk.subspan(place, static_cast<std::size_t>(length));
+  return chunk.subspan(place, doubles);
 }
 
 RecordRead add_record(std::span<const double> record, const RecordForm& form,
@@ -125,20 +92,20 @@ RecordRead add_record(std::span<const double> record, const RecordForm& form,
   }
   const BondBlock bonds = look_at_bonds(record.first(record.size() - fix_doubles), false,
     particles.history_values(), particles.most_bonds());
-  const Head head = read_head(record, form);
-  const std::vector<BondPair> pairs = read_pairs(bonds);
-
-  const std::size_t i = particles.add(head.type, { record[1], record[2], record[3] });
+  const WholeNumbers numbers = whole_numbers_of(record);
+  const std::size_t i = particles.add(0, { record[1], record[2], record[3] });
+  particles.tag()[i] = to_whole(record[Slots::tag], numbers);
+  particles.molecule()[i] = to_whole(record[Slots::molecule], WholeNumbers::Values);
+  particles.type()[i] = to_int32(record[Slots::type], numbers, "a type");
+  particles.mask()[i] = to_int32(record[Slots::mask], numbers, "a mask");
+  particles.image()[i] = read_image(record[Slots::image], form);
   std::copy_n(record.begin() + Slots::v, 3, particles.v()[i].begin());
-  particles.tag()[i] = head.tag;
-  particles.molecule()[i] = head.molecule;
-  particles.mask()[i] = head.mask;
-  particles.image()[i] = head.image;
-  particles.set_bonds(i, pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k)
+  particles.set_bonds(i, static_cast<std::size_t>(bonds.bonds));
+  const double* pair = bonds.pairs;
+  for (std::size_t k = 0; k < particles.partners(i).size(); ++k, pair += 2)
   {
-    particles.bond_types(i)[k] = pairs[k].type;
-    particles.partners(i)[k] = pairs[k].partner;
+    particles.bond_types(i)[k] = to_int32(pair[0], WholeNumbers::Values, "a bond type");
+    particles.partners(i)[k] = to_whole(pair[1], WholeNumbers::Values);
   }
   const auto history = particles.history(i);
   std::copy_n(bonds.history, history.size(), history.begin());
@@ -191,14 +158,16 @@ void append_record(const BondedParticles& particles, std::size_t i, const Record
 RecordRead read_record(std::span<const double> chunk, std::size_t place, const RecordForm& form,
   std::size_t fix_doubles, BondedParticles& particles)
 {
+  const std::size_t old = particles.size();
   try
   {
     return add_record(find_record(chunk, place), form, fix_doubles, particles);
   }
   catch (const FormatError& error)
   {
-    throw FormatError(error.text() + ", in the record of particle " +
-      std::to_string(particles.size()) + " from double " + std::to_string(place) + " on");
+    particles.resize(old);
+    throw FormatError(error.text() + ", in the record of particle " + std::to_string(old) +
+      " from double " + std::to_string(place) + " on");
   }
 }
 }

@@ -7,6 +7,7 @@
 #include "granular/common/error.h"
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace granular
@@ -34,17 +35,30 @@ void pass(Archive& archive, typename Archive::template Passed<std::string>& text
   archive.text(text);
 }
 
-/// Passes a list of things that pass() knows.
+/// Passes one of many things: plain numbers as they are in memory, others as pass() knows them.
+template <typename Archive, typename Thing>
+void pass_item(Archive& archive, Thing& thing)
+{
+  if constexpr (std::is_trivially_copyable_v<Thing>)
+  {
+    archive.number(thing);
+  }
+  else
+  {
+    pass(archive, thing);
+  }
+}
+
 template <typename Thing>
 void pass(ArchiveWriter& archive, const std::vector<Thing>& things)
 {
-  archive.list(things, [&](const Thing& thing) { pass(archive, thing); });
+  archive.list(things, [&](const Thing& thing) { pass_item(archive, thing); });
 }
 
 template <typename Thing>
 void pass(ArchiveReader& archive, std::vector<Thing>& things)
 {
-  archive.list(things, [&](Thing& thing) { pass(archive, thing); });
+  archive.list(things, [&](Thing& thing) { pass_item(archive, thing); });
 }
 }
 #endif

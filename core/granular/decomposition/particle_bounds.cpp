@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/common/archive.h"
 #include "granular/common/error.h"
 #include "granular/decomposition/count_particles.h"
 #include "granular/numbers/number_print.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/point_forms.h"
@@ -61,7 +61,7 @@ public:
     std::ranges::for_each(others, [this](const Subdomain& other) { this->add(other); });
   }
 
-  std::span<const Subdomain> all() const noexcept { return bounds_; }
+  const std::vector<Subdomain>& all() const noexcept { return bounds_; }
 
   /// By rank. Which of -0 and 0 came first must not show: all are 0.
   std::vector<Subdomain> sorted() &&
@@ -240,35 +240,17 @@ ParticleBounds bounds_of_particles(
 
 std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communicator& ranks)
 {
-  ArchiveWriter packer;
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
       BoundsByRank joined; // one a process is sent
       joined.add(own);
-      for (Subdomain subdomain : joined.all())
+      BoundsByRank all;
+      for (const std::vector<Subdomain>& subdomains : gather(ranks, joined.all()))
       {
-        packer.number(subdomain);
+        all.add(subdomains);
       }
+      return std::move(all).sorted();
     });
-  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
-  std::vector<Subdomain> subdomains;
-  do_together(ranks,
-    [&]
-    {
-      BoundsByRank joined;
-      for (const std::string& bytes : all)
-      {
-        ArchiveReader unpacker{ bytes };
-        while (!unpacker.ended())
-        {
-          Subdomain subdomain;
-          unpacker.number(subdomain);
-          joined.add(subdomain);
-        }
-      }
-      subdomains = std::move(joined).sorted();
-    });
-  return subdomains;
 }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/subdomains.h"
 
-#include "granular/common/pass.h"
 #include "granular/geometry/compensated.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <limits>
@@ -45,8 +45,8 @@ struct Gathering
     }
   }
 
-  /// From what was told, without new memory.
-  void fill_bounds() noexcept
+  /// From what was told.
+  void fill_bounds()
   {
     double* const data[3] = { bounds.x_data.data(), bounds.y_data.data(), bounds.z_data.data() };
     for (std::size_t p = 0; p < told.size(); ++p)
@@ -69,32 +69,28 @@ void expect_size(const char* name, std::size_t got, std::size_t expected)
       std::to_string(got));
   }
 }
+}
 
 template <class Archive>
-void pass(Archive& archive, Decomposition& decomposition)
+static void pass(Archive& archive, typename Archive::template Passed<Decomposition>& decomposition)
 {
   archive.number(decomposition.has_particles);
   archive.number(decomposition.has_ranks);
-  std::size_t count = decomposition.subdomains.size();
-  archive.number(count);
-  decomposition.subdomains.resize(count);
-  for (Subdomain& subdomain : decomposition.subdomains)
-  {
-    archive.number(subdomain);
-  }
-}
+  pass(archive, decomposition.subdomains);
 }
 
 GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks)
 {
-  const Told told = { own.lo, own.hi, own.particles };
-  std::vector<Gathering> gathering;
-  do_together(ranks, [&] { gathering.emplace_back(ranks); });
-  Gathering& all = gathering[0];
-  ranks.exchange(reinterpret_cast<const char*>(&told), all.from_bytes,
-    reinterpret_cast<char*>(all.told.data()), all.to_bytes);
-  all.fill_bounds();
-  return std::move(all.bounds);
+  return do_together(ranks,
+    [&]
+    {
+      const Told told = { own.lo, own.hi, own.particles };
+      Gathering all(ranks);
+      ranks.exchange(reinterpret_cast<const char*>(&told), all.from_bytes,
+        reinterpret_cast<char*>(all.told.data()), all.to_bytes);
+      all.fill_bounds();
+      return std::move(all.bounds);
+    });
 }
 
 Decomposition decomposition_of(const GatheredBounds& bounds)
@@ -122,23 +118,12 @@ Decomposition decomposition_of(const GatheredBounds& bounds)
 
 Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks)
 {
-  ArchiveWriter packer;
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
-      Decomposition copy = own;
-      pass(packer, copy);
-    });
-  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
-  Decomposition joined;
-  do_together(ranks,
-    [&]
-    {
-      for (const std::string& bytes : all)
+      Decomposition joined;
+      for (const Decomposition& part : gather(ranks, own))
       {
-        Decomposition part;
-        ArchiveReader unpacker{ bytes };
-        pass(unpacker, part);
         if (part.subdomains.empty())
         {
           continue; // nothing is known of arrays where there are no cells
@@ -152,8 +137,8 @@ Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks
       {
         joined.subdomains[i].rank = static_cast<int>(i);
       }
+      return joined;
     });
-  return joined;
 }
 
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept

@@ -3,6 +3,7 @@
 
 #include "granular/euler/average_passes.h"
 #include "granular/memory/mapping.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
@@ -118,40 +119,31 @@ std::int64_t WantedCells::place(
 EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,
   Communicator& ranks, const Executor& executor, Notices& notices, Progress& progress)
 {
-  GrainSources sources;
-  Known known;
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
       if (frame.rows > 0 && !frame.points)
       {
         throw Error("expected points to average, got none");
       }
-      sources = find_grain_sources(frame, request.arrays);
+      const GrainSources sources = find_grain_sources(frame, request.arrays);
       const std::int64_t holds = frame.rows > 0 ? 1 : 0;
-      known = { frame.rows, sources.velocity[0] ? holds : 0, sources.radius ? holds : 0,
-        sources.mass || sources.density ? holds : 0, holds };
-    });
-  std::int64_t counts[] = { known.rows, known.velocity, known.radius, known.mass, known.holders };
-  ranks.sum(counts);
-  known = { counts[0], counts[1], counts[2], counts[3], counts[4] };
-  std::optional<AveragePasses> passes;
-  do_together(ranks,
-    [&]
-    {
+      std::int64_t counts[] = { frame.rows, sources.velocity[0] ? holds : 0,
+        sources.radius ? holds : 0, sources.mass || sources.density ? holds : 0, holds };
+      ranks.sum(counts);
+      const Known known = { counts[0], counts[1], counts[2], counts[3], counts[4] };
       check_known(known, request, notices);
       check_memory(request);
-      passes.emplace(frame, sources, known.rows, request, ranks, executor, progress);
+      return AveragePasses(frame, sources, known.rows, request, ranks, executor, progress).run();
     });
-  return passes->run();
 }
 
 double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks)
 {
-  double largest = 0;
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
+      double largest = 0;
       const std::optional<ValueSource> radius =
         find_grain_sources(frame, { .velocity = {}, .radius = arrays.radius, .mass = {} }).radius;
       if (frame.rows > 0 && !radius)
@@ -173,15 +165,7 @@ double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communi
           largest = std::isfinite(value) ? std::max(largest, value) : largest;
         }
       }
+      return std::ranges::max(gather(ranks, largest));
     });
-  const std::vector<std::string> all =
-    ranks.all_gather({ reinterpret_cast<const char*>(&largest), sizeof largest });
-  for (const std::string& bytes : all)
-  {
-    double other = 0;
-    std::memcpy(&other, bytes.data(), sizeof other);
-    largest = std::max(largest, other);
-  }
-  return largest;
 }
 }

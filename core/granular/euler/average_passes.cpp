@@ -86,7 +86,7 @@ EulerAverages AveragePasses::run()
 {
   progress_.set_part(0, 0.2);
   this->scan();
-  do_together(ranks_, [&] { this->plan(); });
+  this->plan();
   progress_.set_part(0.2, 0.3);
   this->locate();
   const std::int64_t block_bytes =
@@ -135,7 +135,7 @@ void AveragePasses::sum_group(const Group& group)
     ranks_.sum({ &outside_, 1 });
     result_.outside = outside_;
   }
-  do_together(ranks_, [&] { this->finish_means(group); });
+  this->finish_means(group);
   this->add_grains(Pass::Stress, group,
     [](Batch& batch, const double* means)
     {
@@ -157,7 +157,7 @@ void AveragePasses::sum_group(const Group& group)
         }
       }
     });
-  do_together(ranks_, [&] { this->finish_stress(group); });
+  this->finish_stress(group);
 }
 
 /// The cells of grains that have one each, whose places among those of all blocks begin there. The first pass keeps
@@ -276,30 +276,26 @@ void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& m
         scale.add(std::span(batch.terms).first(batch.size), batch.cell.data(), sums);
       });
   };
-  do_together(ranks_,
-    [&]
-    {
-      integers_.resize(static_cast<std::size_t>(group.parts * part_size));
-      const auto tasks = static_cast<std::size_t>(group.blocks() * group.parts);
-      if (pass == Pass::Means)
-      {
-        kept_.assign(tasks, { .most = most_kept / tasks });
-      }
-      std::vector<Batch> batches(executor_.workers(tasks));
-      executor_.parallel_for(
-        tasks, [&](std::size_t task, std::size_t worker) { do_task(task, batches[worker]); },
-        progress_);
-      outside_ = 0;
-      for (const Batch& batch : batches)
-      {
-        outside_ += batch.outside;
-      }
-      for (std::int64_t part = 1; part < group.parts; ++part)
-      {
-        const auto from = integers_.begin() + part * part_size;
-        std::transform(from, from + part_size, integers_.begin(), integers_.begin(), std::plus<>());
-      }
-    });
+  integers_.resize(static_cast<std::size_t>(group.parts * part_size));
+  const auto tasks = static_cast<std::size_t>(group.blocks() * group.parts);
+  if (pass == Pass::Means)
+  {
+    kept_.assign(tasks, { .most = most_kept / tasks });
+  }
+  std::vector<Batch> batches(executor_.workers(tasks));
+  executor_.parallel_for(
+    tasks, [&](std::size_t task, std::size_t worker) { do_task(task, batches[worker]); },
+    progress_);
+  outside_ = 0;
+  for (const Batch& batch : batches)
+  {
+    outside_ += batch.outside;
+  }
+  for (std::int64_t part = 1; part < group.parts; ++part)
+  {
+    const auto from = integers_.begin() + part * part_size;
+    std::transform(from, from + part_size, integers_.begin(), integers_.begin(), std::plus<>());
+  }
   ranks_.sum({ integers_.data(), static_cast<std::size_t>(part_size) });
 }
 

@@ -2,12 +2,14 @@
 #include "granular/euler/average_passes.h"
 #include "granular/euler/sphere_box.h"
 #include "granular/numbers/number_print.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -39,34 +41,24 @@ void AveragePasses::each_block(std::size_t chunk, const Take& take) const
 
 void AveragePasses::scan()
 {
-  do_together(ranks_,
-    [&]
+  const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
+  std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
+  executor_.parallel_for(
+    chunks,
+    [&](std::size_t chunk, std::size_t worker)
     {
-      const auto chunks =
-        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-      std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
-      executor_.parallel_for(
-        chunks,
-        [&](std::size_t chunk, std::size_t worker)
-        {
-          GrainBlock grains;
-          this->each_block(chunk,
-            [&](std::span<const std::int64_t> rows) { grains_.scan(rows, grains, scans[worker]); });
-        },
-        progress_);
-      for (const GrainValues::Scan& scan : scans)
-      {
-        scanned_.add(scan);
-      }
-      grains_.trust(scanned_);
-    });
-  const std::vector<std::string> all =
-    ranks_.all_gather({ reinterpret_cast<const char*>(&scanned_), sizeof scanned_ });
-  scanned_ = {};
-  for (const std::string& bytes : all)
+      GrainBlock grains;
+      this->each_block(chunk,
+        [&](std::span<const std::int64_t> rows) { grains_.scan(rows, grains, scans[worker]); });
+    },
+    progress_);
+  for (const GrainValues::Scan& scan : scans)
   {
-    GrainValues::Scan scan;
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(&scan));
+    scanned_.add(scan);
+  }
+  grains_.trust(scanned_);
+  for (const GrainValues::Scan& scan : gather(ranks_, std::exchange(scanned_, {})))
+  {
     scanned_.add(scan);
   }
   result_.broken = scanned_.broken;
@@ -76,38 +68,33 @@ void AveragePasses::scan()
 void AveragePasses::locate()
 {
   std::int64_t outside = 0;
-  do_together(ranks_,
-    [&]
+  const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
+  std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
+  std::vector<std::int64_t> counts(executor_.workers(entries.size()));
+  executor_.parallel_for(
+    entries.size(),
+    [&](std::size_t chunk, std::size_t worker)
     {
-      const auto chunks =
-        static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-      std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
-      std::vector<std::int64_t> counts(executor_.workers(entries.size()));
-      executor_.parallel_for(
-        entries.size(),
-        [&](std::size_t chunk, std::size_t worker)
+      GrainBlock grains;
+      std::int64_t first = 0;
+      this->each_block(chunk,
+        [&](std::span<const std::int64_t> rows)
         {
-          GrainBlock grains;
-          std::int64_t first = 0;
-          this->each_block(chunk,
-            [&](std::span<const std::int64_t> rows)
-            {
-              grains_.load(rows, grains);
-              counts[worker] += this->find_blocks(grains, first, entries[chunk]);
-              first += static_cast<std::int64_t>(rows.size());
-            });
-        },
-        progress_);
-      outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
-      block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
-                                       : BlockRows::all(frame_.rows);
-      found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
-      counts_.resize(static_cast<std::size_t>(blocks_.size()));
-      for (std::size_t block = 0; block < counts_.size(); ++block)
-      {
-        counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
-      }
-    });
+          grains_.load(rows, grains);
+          counts[worker] += this->find_blocks(grains, first, entries[chunk]);
+          first += static_cast<std::int64_t>(rows.size());
+        });
+    },
+    progress_);
+  outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+  block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
+                                   : BlockRows::all(frame_.rows);
+  found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
+  counts_.resize(static_cast<std::size_t>(blocks_.size()));
+  for (std::size_t block = 0; block < counts_.size(); ++block)
+  {
+    counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
+  }
   ranks_.sum(counts_);
   ranks_.sum({ &outside, 1 });
   result_.outside = outside;

@@ -2,6 +2,7 @@
 #include "granular/euler/cells.h"
 
 #include "granular/common/error.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <array>
@@ -47,21 +48,7 @@ using Told = std::array<std::int64_t, 2>;
 
 std::vector<Told> tell_all(std::int64_t cells, std::size_t values, Communicator& ranks)
 {
-  const Told own = { cells, static_cast<std::int64_t>(values) };
-  std::array<char, sizeof own> bytes;
-  std::memcpy(bytes.data(), own.data(), bytes.size());
-  const std::vector<std::string> gathered = ranks.all_gather({ bytes.data(), bytes.size() });
-  std::vector<Told> all;
-  do_together(ranks,
-    [&]
-    {
-      all.resize(gathered.size());
-      for (std::size_t i = 0; i < all.size(); ++i)
-      {
-        std::memcpy(all[i].data(), gathered[i].data(), sizeof(Told));
-      }
-    });
-  return all;
+  return gather(ranks, Told{ cells, static_cast<std::int64_t>(values) });
 }
 
 /// Values of all ranks one after the other, on rank 0.
@@ -69,23 +56,16 @@ std::vector<double> gather_values(
   std::span<const double> own, const std::vector<Told>& told, Communicator& ranks)
 {
   constexpr auto bytes_of_value = static_cast<std::int64_t>(sizeof(double));
-  std::vector<std::int64_t> from_bytes;
-  std::vector<std::int64_t> to_bytes;
-  std::vector<double> all;
-  do_together(ranks,
-    [&]
-    {
-      from_bytes.resize(told.size());
-      to_bytes.resize(told.size());
-      from_bytes[0] = static_cast<std::int64_t>(own.size_bytes());
-      std::size_t total = 0;
-      for (std::size_t i = 0; ranks.rank() == 0 && i < told.size(); ++i)
-      {
-        to_bytes[i] = told[i][1] * bytes_of_value;
-        total += static_cast<std::size_t>(told[i][1]);
-      }
-      all.resize(total);
-    });
+  std::vector<std::int64_t> from_bytes(told.size());
+  std::vector<std::int64_t> to_bytes(told.size());
+  from_bytes[0] = static_cast<std::int64_t>(own.size_bytes());
+  std::size_t total = 0;
+  for (std::size_t i = 0; ranks.rank() == 0 && i < told.size(); ++i)
+  {
+    to_bytes[i] = told[i][1] * bytes_of_value;
+    total += static_cast<std::size_t>(told[i][1]);
+  }
+  std::vector<double> all(total);
   ranks.exchange(reinterpret_cast<const char*>(own.data()), from_bytes,
     reinterpret_cast<char*>(all.data()), to_bytes);
   return all;
@@ -164,10 +144,10 @@ EulerCells unpack_cells(std::span<const double> buffer)
 std::vector<double> gather_packed(
   std::span<const double> own, std::int64_t own_cells, Communicator& ranks)
 {
-  const std::vector<Told> told = tell_all(own_cells, own.size(), ranks);
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
+      const std::vector<Told> told = tell_all(own_cells, own.size(), ranks);
       for (std::size_t i = 0; i < told.size(); ++i)
       {
         const auto [cells, values] = told[i];
@@ -177,37 +157,34 @@ std::vector<double> gather_packed(
             " cells of process " + std::to_string(i) + ", got " + std::to_string(values));
         }
       }
+      return gather_values(own, told, ranks);
     });
-  return gather_values(own, told, ranks);
 }
 
 EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
 {
-  std::vector<double> packed;
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
-      packed.resize(packed_values.size() * size_of(own));
+      std::vector<double> packed(packed_values.size() * size_of(own));
       pack_cells(own, packed);
+      EulerCells all = unpack_cells(gather_packed(packed, own.count(), ranks));
+      for (const EulerArray& array : arrays)
+      {
+        if (!array.optional)
+        {
+          continue;
+        }
+        const std::vector<double>& values = own.*array.values;
+        const std::vector<Told> told = tell_all(own.count(), values.size(), ranks);
+        // known where all who have cells know it
+        if (std::ranges::all_of(
+              told, [&](const Told& each) { return each[1] == array.components * each[0]; }))
+        {
+          all.*array.values = gather_values(values, told, ranks);
+        }
+      }
+      return all;
     });
-  EulerCells all;
-  const std::vector<double> gathered = gather_packed(packed, own.count(), ranks);
-  do_together(ranks, [&] { all = unpack_cells(gathered); });
-  for (const EulerArray& array : arrays)
-  {
-    if (!array.optional)
-    {
-      continue;
-    }
-    const std::vector<double>& values = own.*array.values;
-    const std::vector<Told> told = tell_all(own.count(), values.size(), ranks);
-    // known where all who have cells know it
-    if (std::ranges::all_of(
-          told, [&](const Told& each) { return each[1] == array.components * each[0]; }))
-    {
-      all.*array.values = gather_values(values, told, ranks);
-    }
-  }
-  return all;
 }
 }

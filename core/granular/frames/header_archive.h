@@ -9,7 +9,7 @@ namespace granular
 {
 /// All of a header but the rows.
 template <class Archive>
-void pass(Archive& archive, FrameHeader& header)
+void pass(Archive& archive, typename Archive::template Passed<FrameHeader>& header)
 {
   archive.number(header.timestep);
   archive.number(header.time);

@@ -31,14 +31,8 @@ struct Traffic
 /// Tells all how many come; out holds a number a rank. Collective.
 Traffic announce(Numbers out, Communicator& ranks)
 {
-  Traffic traffic{ std::move(out), {} };
-  Numbers bytes;
-  do_together(ranks,
-    [&]
-    {
-      traffic.in.resize(traffic.out.size());
-      bytes.assign(traffic.out.size(), sizeof(std::int64_t));
-    });
+  const Numbers bytes(out.size(), sizeof(std::int64_t));
+  Traffic traffic{ std::move(out), Numbers(bytes.size()) };
   ranks.exchange(reinterpret_cast<const char*>(traffic.out.data()), bytes,
     reinterpret_cast<char*>(traffic.in.data()), bytes);
   return traffic;
@@ -49,21 +43,18 @@ template <class Value>
 std::vector<Value> trade(const std::vector<Value>& values, const Numbers& out, const Numbers& in,
   std::size_t width, Communicator& ranks)
 {
-  std::vector<Value> came;
-  Numbers out_bytes;
-  Numbers in_bytes;
-  do_together(ranks,
-    [&]
+  const auto to_bytes = [&](Numbers counts)
+  {
+    for (std::int64_t& count : counts)
     {
-      const auto all = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
-      came.resize(width * static_cast<std::size_t>(all));
-      const auto to_bytes = [&](std::int64_t count)
-      { return count * static_cast<std::int64_t>(width * sizeof(Value)); };
-      std::ranges::transform(out, std::back_inserter(out_bytes), to_bytes);
-      std::ranges::transform(in, std::back_inserter(in_bytes), to_bytes);
-    });
-  ranks.exchange(reinterpret_cast<const char*>(values.data()), out_bytes,
-    reinterpret_cast<char*>(came.data()), in_bytes);
+      count *= static_cast<std::int64_t>(width * sizeof(Value));
+    }
+    return counts;
+  };
+  const auto all = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
+  std::vector<Value> came(width * static_cast<std::size_t>(all));
+  ranks.exchange(reinterpret_cast<const char*>(values.data()), to_bytes(out),
+    reinterpret_cast<char*>(came.data()), to_bytes(in));
   return came;
 }
 
@@ -143,30 +134,19 @@ public:
   Directory(const OwnParticles& own, Communicator& ranks)
   {
     const auto size = static_cast<std::size_t>(ranks.size());
-    Sorted sorted;
-    Numbers ids;
-    do_together(ranks,
-      [&]
+    Sorted sorted = sort_by_rank(own.ids.size(), size,
+      [&](std::size_t row)
       {
-        sorted = sort_by_rank(own.ids.size(), size,
-          [&](std::size_t row)
-          {
-            const bool left_out =
-              FrameView::is_duplicate(own.ghosts, static_cast<std::int64_t>(row));
-            return left_out ? size : keeper_of(own.ids[row], size);
-          });
-        ids = pick(own.ids, sorted.places);
+        const bool left_out = FrameView::is_duplicate(own.ghosts, static_cast<std::int64_t>(row));
+        return left_out ? size : keeper_of(own.ids[row], size);
       });
+    Numbers ids = pick(own.ids, sorted.places);
     const Traffic traffic = announce(std::move(sorted.counts), ranks);
     ids = trade(ids, traffic.out, traffic.in, 1, ranks);
     rows_ = trade(sorted.places, traffic.out, traffic.in, 1, ranks);
-    do_together(ranks,
-      [&]
-      {
-        finder_ = IdFinder(ids);
-        ends_.resize(size);
-        std::inclusive_scan(traffic.in.begin(), traffic.in.end(), ends_.begin());
-      });
+    finder_ = IdFinder(ids);
+    ends_.resize(size);
+    std::inclusive_scan(traffic.in.begin(), traffic.in.end(), ends_.begin());
   }
 
   std::int64_t repeated() const noexcept { return finder_.repeated(); }
@@ -247,46 +227,36 @@ void view_packed(ParticleValues& values, std::size_t width)
 FetchedParticles fetch_particles(const OwnParticles& own, std::span<const std::int64_t> id1,
   std::span<const std::int64_t> id2, Communicator& ranks)
 {
-  const auto size = static_cast<std::size_t>(ranks.size());
-  const Directory directory(own, ranks);
-  Sorted sorted;
-  Numbers asked; // the ids
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
+      const auto size = static_cast<std::size_t>(ranks.size());
+      const Directory directory(own, ranks);
       const Numbers wanted = find_distinct(id1, id2);
-      sorted = sort_by_rank(
+      Sorted sorted = sort_by_rank(
         wanted.size(), size, [&](std::size_t i) { return keeper_of(wanted[i], size); });
-      asked = pick(wanted, sorted.places);
-    });
-  const Traffic questions = announce(std::move(sorted.counts), ranks);
-  const Numbers told = trade(asked, questions.out, questions.in, 1, ranks);
-  std::vector<Home> homes;
-  do_together(ranks, [&] { homes = directory.find(told); });
-  homes = trade(homes, questions.in, questions.out, 1, ranks);
+      const Numbers asked = pick(wanted, sorted.places);
+      const Traffic questions = announce(std::move(sorted.counts), ranks);
+      const Numbers told = trade(asked, questions.out, questions.in, 1, ranks);
+      const std::vector<Home> homes =
+        trade(directory.find(told), questions.in, questions.out, 1, ranks);
 
-  FetchedParticles fetched;
-  Numbers rows;
-  do_together(ranks,
-    [&]
-    {
+      FetchedParticles fetched;
       sorted = sort_by_rank(homes.size(), size,
         [&](std::size_t i)
         { return homes[i].rank < 0 ? size : static_cast<std::size_t>(homes[i].rank); });
       fetched.ids = pick(asked, sorted.places);
-      rows.resize(sorted.places.size());
+      Numbers rows(sorted.places.size());
       std::ranges::transform(sorted.places, rows.begin(),
         [&](std::int64_t place) { return homes[static_cast<std::size_t>(place)].row; });
       fetched.values.arrays = own.values.arrays;
+      const Traffic requests = announce(std::move(sorted.counts), ranks);
+      rows = trade(rows, requests.out, requests.in, 1, ranks);
+      const std::size_t width = width_of(own.values);
+      fetched.values.own = trade(pack(own.values, rows), requests.in, requests.out, width, ranks);
+      view_packed(fetched.values, width);
+      fetched.repeated = directory.repeated();
+      return fetched;
     });
-  const Traffic requests = announce(std::move(sorted.counts), ranks);
-  rows = trade(rows, requests.out, requests.in, 1, ranks);
-  std::vector<double> packed;
-  do_together(ranks, [&] { packed = pack(own.values, rows); });
-  const std::size_t width = width_of(own.values);
-  fetched.values.own = trade(packed, requests.in, requests.out, width, ranks);
-  view_packed(fetched.values, width);
-  fetched.repeated = directory.repeated();
-  return fetched;
 }
 }

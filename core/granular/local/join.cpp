@@ -254,9 +254,7 @@ JoinedLines join_lines(const FrameView& particles, std::span<const std::int64_t>
 {
   SharedProgress shared(progress, ranks);
   PartialProgress parts(shared);
-  Ids ids;
-  ParticleValues values;
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
       if (id1.size() != id2.size())
@@ -266,30 +264,25 @@ JoinedLines join_lines(const FrameView& particles, std::span<const std::int64_t>
       }
       const Executor executor(request.threads);
       parts.set_part(0, 0.1);
-      ids = find_ids(particles, executor, parts);
+      const Ids ids = find_ids(particles, executor, parts);
       parts.set_part(0.1, 0.2);
-      values = view_particles(particles, distinct_names(request), executor, parts);
-    });
-  share_sizes(values, particles.rows, ranks);
-  FetchedParticles fetched;
-  if (ranks.size() > 1)
-  {
-    fetched = fetch_particles({ ids.values(), particles.ghosts, values }, id1, id2, ranks);
-  }
-  JoinedLines lines;
-  do_together(ranks,
-    [&]
-    {
+      ParticleValues values = view_particles(particles, distinct_names(request), executor, parts);
+      share_sizes(values, particles.rows, ranks);
       const bool alone = ranks.size() == 1;
+      FetchedParticles fetched;
+      if (!alone)
+      {
+        fetched = fetch_particles({ ids.values(), particles.ghosts, values }, id1, id2, ranks);
+      }
       const IdFinder finder(alone ? ids.values() : fetched.ids, alone ? particles.ghosts : nullptr);
       const ParticleValues& ends = alone ? values : fetched.values;
-      lines = join_here(ends, finder, id1, id2, request, parts);
+      JoinedLines lines = join_here(ends, finder, id1, id2, request, parts);
       lines.repeated = alone ? finder.repeated() : fetched.repeated;
+      std::array<std::int64_t, 2> sums = { lines.missing, lines.repeated };
+      ranks.sum(sums);
+      lines.missing = sums[0];
+      lines.repeated = sums[1];
+      return lines;
     });
-  std::array<std::int64_t, 2> sums = { lines.missing, lines.repeated };
-  ranks.sum(sums);
-  lines.missing = sums[0];
-  lines.repeated = sums[1];
-  return lines;
 }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_reader.h"
 
-#include "granular/common/pass.h"
 #include "granular/local/local_columns.h"
 #include "granular/numbers/number_print.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/point_loss.h"
 
 #include <algorithm>
@@ -238,7 +238,7 @@ struct Remarks
 }
 
 template <class Archive>
-static void pass(Archive& archive, Remarks& remarks)
+static void pass(Archive& archive, typename Archive::template Passed<Remarks>& remarks)
 {
   archive.number(remarks.rows);
   archive.number(remarks.rounded);
@@ -310,26 +310,19 @@ LocalSample read_sample(const RunIndex& index, const FrameKind& kind, Progress& 
 LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest& request,
   Communicator& ranks, Notices& notices, Progress& progress)
 {
-  LocalFrame local;
-  DumpRequest table;
-  Where where;
   SharedProgress shared(progress, ranks);
   PartialProgress forward(shared);
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
-      const FramePiece& first = pieces.front();
-      const ColumnSchema schema = schema_for(request.columns, first.entry.kind->schema);
+      LocalFrame local;
+      const FramePiece& piece = pieces.front();
+      const ColumnSchema schema = schema_for(request.columns, piece.entry.kind->schema);
       local.has_lines = has_ends(schema);
-      table = table_request(request, schema);
-      where = where_of(first);
+      const DumpRequest table = table_request(request, schema);
+      const Where where = where_of(piece);
       forward.set_part(0, 0.8);
-    });
-  local.table = read_dump(pieces, table, ranks, std::nullopt, notices, forward);
-  ArchiveWriter packer;
-  do_together(ranks,
-    [&]
-    {
+      local.table = read_dump(pieces, table, ranks, std::nullopt, notices, forward);
       DumpFrame& frame = local.table;
       Remarks remarks;
       remarks.rows = frame.rows;
@@ -354,25 +347,17 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         remarks.misfits = as_written ? 0 : count_misfits(lengths, dist, first, second);
       }
       drop_unwanted(request, frame);
-      pass(packer, remarks);
-    });
-  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
-  do_together(ranks,
-    [&]
-    {
+      const std::vector<Remarks> all = gather(ranks, remarks);
       Remarks sum;
-      for (const std::string& bytes : all)
+      for (const Remarks& of_rank : all)
       {
-        ArchiveReader unpacker{ bytes };
-        Remarks of_rank;
-        pass(unpacker, of_rank);
-        local.first_row += &bytes - all.data() < ranks.rank() ? of_rank.rows : 0;
+        local.first_row += &of_rank - all.data() < ranks.rank() ? of_rank.rows : 0;
         sum.add(of_rank);
       }
       sum.note(where, notices);
       note_point_loss(
-        sum.loss, local.table.header.box, request.lines.point_origin, false, where, notices);
+        sum.loss, frame.header.box, request.lines.point_origin, false, where, notices);
+      return local;
     });
-  return local;
 }
 }

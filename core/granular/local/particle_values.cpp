@@ -161,18 +161,12 @@ ParticleValues view_particles(const FrameView& frame, std::span<const std::strin
 
 void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks)
 {
-  std::string own;
-  do_together(ranks, [&] { own = pack_sizes(particles, rows); });
-  const std::vector<std::string> told = ranks.all_gather(own);
-  do_together(ranks,
-    [&]
-    {
-      for (std::size_t i = 0; i < particles.arrays.size(); ++i)
-      {
-        ArrayView& array = particles.arrays[i];
-        array.components.resize(static_cast<std::size_t>(size_among(told, i + 1, array.name)));
-      }
-    });
+  const std::vector<std::string> told = ranks.all_gather(pack_sizes(particles, rows));
+  for (std::size_t i = 0; i < particles.arrays.size(); ++i)
+  {
+    ArrayView& array = particles.arrays[i];
+    array.components.resize(static_cast<std::size_t>(size_among(told, i + 1, array.name)));
+  }
 }
 
 void gather_numbers(const ArrayView& array, int component, std::span<const std::int64_t> rows,

@@ -83,7 +83,7 @@ bool RandomGrains::adsorb_all(
       return false;
     }
   }
-  do_together(ranks, [&] { own_.found->finish(rounds_, executor); });
+  own_.found->finish(rounds_, executor);
   return true;
 }
 
@@ -108,15 +108,10 @@ bool RandomGrains::adsorb(std::size_t size_class, Communicator& ranks, Tries& tr
     const double done = static_cast<double>(placed) / all;
     progress.set_part(done, done);
     const double mean = this->arrivals_on_a_line(size_class, missing, staying);
-    std::vector<std::uint64_t> moments;
-    do_together(ranks,
-      [&]
-      {
-        const std::uint64_t seed = RandomNumbers(seed_, Stream::Places, rounds_begun_++).bits();
-        rounds_.push_back({ size_class, seed, mean });
-        this->follow(own_, executor, progress);
-        moments = own_.found->moments();
-      });
+    const std::uint64_t seed = RandomNumbers(seed_, Stream::Places, rounds_begun_++).bits();
+    rounds_.push_back({ size_class, seed, mean });
+    this->follow(own_, executor, progress);
+    const std::vector<std::uint64_t> moments = own_.found->moments();
     std::array<std::int64_t, 1> stayed = { static_cast<std::int64_t>(moments.size()) };
     ranks.sum(stayed);
     if (stayed[0] > missing)
@@ -168,24 +163,20 @@ void RandomGrains::count(Communicator& ranks)
 {
   const std::size_t classes = grid_.classes().size();
   const auto shelves = static_cast<std::size_t>(grid_.shelves());
-  do_together(ranks,
-    [&]
-    {
-      counts_.assign((shelves + 1) * classes, 0);
-      rows_.assign(shelves + 1, 0);
-      for (std::int64_t shelf = own_.shelves.first; shelf < own_.shelves.last; ++shelf)
+  counts_.assign((shelves + 1) * classes, 0);
+  rows_.assign(shelves + 1, 0);
+  for (std::int64_t shelf = own_.shelves.first; shelf < own_.shelves.last; ++shelf)
+  {
+    std::int64_t* const counts = &counts_[(static_cast<std::size_t>(shelf) + 1) * classes];
+    grid_.for_layers(shelf, shelf + 1,
+      [&](std::size_t level, std::int64_t layer)
       {
-        std::int64_t* const counts = &counts_[(static_cast<std::size_t>(shelf) + 1) * classes];
-        grid_.for_layers(shelf, shelf + 1,
-          [&](std::size_t level, std::int64_t layer)
-          {
-            for (const Adsorption::Grain& grain : own_.found->grains(level, layer))
-            {
-              ++counts[grain.size_class];
-            }
-          });
-      }
-    });
+        for (const Adsorption::Grain& grain : own_.found->grains(level, layer))
+        {
+          ++counts[grain.size_class];
+        }
+      });
+  }
   ranks.sum(counts_);
   for (std::size_t shelf = 1; shelf <= shelves; ++shelf)
   {

@@ -198,7 +198,7 @@ void Communicator::meet(const std::exception_ptr& failure, std::span<std::int64_
   }
 }
 
-/// Throws the error of the lowest rank that has one.
+/// Throws the error of the lowest rank that has one; without its rank if all have the same.
 void Communicator::fail_together(const std::exception_ptr& failure)
 {
   const auto status = [this](const std::exception_ptr& own, std::span<std::int64_t> beside)
@@ -209,6 +209,8 @@ void Communicator::fail_together(const std::exception_ptr& failure)
     }
   };
   const std::vector<std::string> answers = this->gather(pack(failure), status);
+  const bool same = std::ranges::all_of(
+    answers, [&](const std::string& answer) { return answer == answers.front(); });
   for (std::size_t rank = 0; rank < answers.size(); ++rank)
   {
     if (answers[rank].empty())
@@ -218,8 +220,9 @@ void Communicator::fail_together(const std::exception_ptr& failure)
     const Failure told = unpack_failure(answers[rank]);
     if (told.kind != Kind::Cancelled)
     {
-      raise(
-        told, " (on rank " + std::to_string(rank) + " of " + std::to_string(answers.size()) + ")");
+      const std::string where =
+        " (on rank " + std::to_string(rank) + " of " + std::to_string(answers.size()) + ")";
+      raise(told, same ? "" : where);
     }
   }
   throw Cancelled{};

@@ -120,7 +120,7 @@ private:
 
 /// Ends a step of work in which any rank may have failed: returns on all ranks if none did, else throws
 /// the same on all: the error of the lowest rank that has one, with the rank in its text ("... (on rank
-/// 2 of 3)"), of the same kind, place and code; memory that ran out becomes a LimitError, an exception of
+/// 2 of 3)"; not where all have the same), of the same kind, place and code; memory that ran out becomes a LimitError, an exception of
 /// another kind an Error; Cancelled if some were cancelled and none has an error. A single process
 /// throws its own exception as it is. failure is null where nothing is wrong; then this needs no memory. An exception that all
 /// ranks have thrown together before is thrown again, and no rank waits.

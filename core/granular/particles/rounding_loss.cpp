@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/particles/rounding_loss.h"
 
-#include "granular/common/archive.h"
 #include "granular/numbers/number_print.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <limits>
@@ -94,15 +94,10 @@ std::string RoundingLoss::text(
 
 RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks)
 {
-  ArchiveWriter packer;
-  do_together(ranks, [&] { packer.number(own); });
-  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
   RoundingLoss sum;
-  for (const std::string& bytes : all)
+  for (const RoundingLoss& loss : gather(ranks, own))
   {
-    ArchiveReader unpacker{ bytes };
-    unpacker.number(own);
-    sum.add(own);
+    sum.add(loss);
   }
   return sum;
 }

@@ -3,6 +3,7 @@
 
 #include "granular/common/error.h"
 #include "granular/frames/header_archive.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <cstring>
@@ -25,7 +26,7 @@ struct Known
 };
 
 template <class Archive>
-void pass(Archive& archive, Known& known)
+void pass(Archive& archive, typename Archive::template Passed<Known>& known)
 {
   archive.number(known.rows);
   archive.number(known.has_box);
@@ -58,25 +59,11 @@ bool same_box(const Known& a, const Known& b)
 
 void share_header(FrameView& frame, Communicator& ranks)
 {
-  std::string own;
   do_together(ranks,
     [&]
     {
-      Known known{ frame.rows, frame.has_box, frame.header, frame.coordinates, frame.point_origin };
-      ArchiveWriter packer;
-      pass(packer, known);
-      own = std::move(packer.bytes);
-    });
-  const std::vector<std::string> all = ranks.all_gather(own);
-  do_together(ranks,
-    [&]
-    {
-      std::vector<Known> known(all.size());
-      for (std::size_t i = 0; i < all.size(); ++i)
-      {
-        ArchiveReader unpacker{ all[i] };
-        pass(unpacker, known[i]);
-      }
+      const std::vector<Known> known = gather(ranks,
+        Known{ frame.rows, frame.has_box, frame.header, frame.coordinates, frame.point_origin });
       const auto less = [](const Known& a, const Known& b)
       { return std::pair(a.rows > 0, a.has_box) < std::pair(b.rows > 0, b.has_box); };
       const Known& best = *std::ranges::max_element(known, less);

@@ -43,28 +43,24 @@ struct Bond
   std::size_t copy;   ///< in its block
 };
 
-void add_notice(
-  Notices& notices, const Where& where, std::int64_t count, const std::string& of_what)
-{
-  if (count > 0)
-  {
-    Notice notice;
-    notice.where = where;
-    notice.text = of_what + ": " + std::to_string(count);
-    notices.push_back(notice);
-  }
-}
-
 void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
 {
-  add_notice(notices, where, counts.repeated_ids,
-    "particles that have the id of another one, where bonds end at the first that has it");
-  add_notice(notices, where, counts.without_partner,
-    "bonds that are left out, as their partner is not in the file");
-  add_notice(notices, where, counts.of_itself, "bonds of a particle with itself");
-  add_notice(notices, where, counts.differing,
-    "bonds whose two particles do not hold the same history, of which that of the lower id is "
-    "taken");
+  const std::pair<std::int64_t, std::string> said[] = {
+    { counts.repeated_ids,
+      "particles that have the id of another one, where bonds end at the first that has it" },
+    { counts.without_partner, "bonds that are left out, as their partner is not in the file" },
+    { counts.of_itself, "bonds of a particle with itself" },
+    { counts.differing,
+      "bonds whose two particles do not hold the same history, of which that of the lower id is "
+      "taken" },
+  };
+  for (const auto& [count, of_what] : said)
+  {
+    if (count > 0)
+    {
+      notices.push_back({ where, of_what + ": " + std::to_string(count) });
+    }
+  }
 }
 
 /// A layout that was asked for, and is not that of the file.
@@ -78,37 +74,29 @@ void check_layout(int asked, std::int64_t values, const Where& where, Notices& n
   const HistoryLayout& layout = layouts[static_cast<std::size_t>(asked)];
   if (static_cast<std::int64_t>(layout.columns.size()) != values)
   {
-    Notice notice;
-    notice.where = where;
-    notice.text = "expected " + std::to_string(layout.columns.size()) +
-      " history values of a bond, as " + std::string(layout.name) + " has them, got " +
-      std::to_string(values) + ": they are named history1, history2, ...";
-    notices.push_back(notice);
+    notices.push_back({ where,
+      "expected " + std::to_string(layout.columns.size()) + " history values of a bond, as " +
+        std::string(layout.name) + " has them, got " + std::to_string(values) +
+        ": they are named history1, history2, ..." });
   }
 }
 
 class FrameMaker
 {
 public:
-  FrameMaker(BondCollector& bonds, const RestartLayout& layout, const RestartRequest& request,
-    std::int64_t first, std::int64_t end)
+  FrameMaker(const BondCollector& bonds, const RestartLayout& layout, const RestartRequest& request,
+    std::int64_t first, std::int64_t end, LocalFrame& local)
     : bonds_(bonds)
     , request_(request)
     , version_(layout.header.version)
     , first_row_(first)
     , end_row_(end)
     , executor_(request.lines.threads)
+    , local_(local)
   {
-    FrameHeader& header = local_.table.header;
-    header.timestep = layout.header.timestep;
-    header.time = layout.header.time;
-    header.units = layout.header.units;
-    header.box = layout.header.box;
-    header.counted = "BONDS";
-    local_.has_lines = true;
   }
 
-  LocalFrame make(Progress& progress)
+  void make(Progress& progress)
   {
     PartialProgress part(progress);
     this->count();
@@ -121,7 +109,7 @@ public:
     local_.lines = make_lines(std::span(static_cast<const double*>(ends_[0].data()), rows),
       std::span(static_cast<const double*>(ends_[1].data()), rows), local_.table.header.box,
       request_.lines, part);
-    return std::move(local_);
+    local_.has_lines = true;
   }
 
 private:
@@ -133,9 +121,13 @@ private:
     for (const BondCopies& copies : bonds_.copies())
     {
       first_bonds_.push_back(static_cast<std::size_t>(table.rows));
-      for_bonds(copies, first_row_, end_row_, [&](std::int64_t, std::size_t) { ++table.rows; });
-      for_bonds(copies, 0, last, [&](std::int64_t, std::size_t) { ++table.header.rows; });
-      for_bonds(copies, 0, first_row_, [&](std::int64_t, std::size_t) { ++local_.first_row; });
+      for_bonds(copies, 0, last,
+        [&](std::int64_t row, std::size_t)
+        {
+          ++table.header.rows;
+          local_.first_row += row < first_row_ ? 1 : 0;
+          table.rows += row >= first_row_ && row < end_row_ ? 1 : 0;
+        });
     }
   }
 
@@ -144,10 +136,8 @@ private:
   {
     DumpFrame& table = local_.table;
     const auto values = static_cast<std::int64_t>(bonds_.history_values());
-    const HistoryLayout* const layout =
-      find_history_layout(request_.history_layout, version_, values);
-    unsigned_from_ =
-      layout ? static_cast<std::size_t>(layout->unsigned_from) : bonds_.history_values();
+    const bool known = find_history_layout(request_.history_layout, version_, values);
+    unsigned_from_ = known ? HistoryLayout::unsigned_from : bonds_.history_values();
     table.schema = make_bond_schema(request_.history_layout, version_, values);
     const auto rows = static_cast<std::size_t>(table.rows);
     for (const ArrayInfo& info : table.schema.arrays())
@@ -237,13 +227,13 @@ private:
     }
   }
 
-  BondCollector& bonds_;
+  const BondCollector& bonds_;
   const RestartRequest& request_;
   const std::string& version_; ///< of the program
   std::int64_t first_row_;
   std::int64_t end_row_;
   Executor executor_;
-  LocalFrame local_;
+  LocalFrame& local_;
   std::size_t unsigned_from_ = 0;
   std::vector<std::size_t> first_bonds_; ///< of each block in the table
   Block ends_[2];
@@ -259,9 +249,9 @@ ColumnSchema make_bond_schema(
   return make_local_schema(names);
 }
 
-LocalFrame make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
+void make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
   const RestartRequest& request, std::int64_t first, std::int64_t end, const Where& where,
-  Notices& notices, Progress& progress)
+  LocalFrame& local, Notices& notices, Progress& progress)
 {
   PartialProgress part(progress);
   part.set_part(0, 0.4);
@@ -271,6 +261,6 @@ LocalFrame make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
   check_layout(
     request.history_layout, static_cast<std::int64_t>(bonds.history_values()), where, notices);
   part.set_part(0.4, 1);
-  return FrameMaker(bonds, layout, request, first, end).make(part);
+  FrameMaker(bonds, layout, request, first, end, local).make(part);
 }
 }

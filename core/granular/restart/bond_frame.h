@@ -9,9 +9,10 @@
 
 namespace granular
 {
-/// The collected bonds of which the first particle is in rows from first to end, as lines. Uses up the collector.
-LocalFrame make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
+/// The collected bonds of which the first particle is in rows from first to end, as lines of a frame whose header is there. Uses up the
+/// collector.
+void make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
   const RestartRequest& request, std::int64_t first, std::int64_t end, const Where& where,
-  Notices& notices, Progress& progress);
+  LocalFrame& local, Notices& notices, Progress& progress);
 }
 #endif

@@ -30,6 +30,7 @@ public:
   std::span<const std::int64_t> ids() const noexcept { return { ids_, rows_ }; }
   const double* point(std::int64_t row) const noexcept { return points_ + 3 * row; }
   std::vector<BondCopies>& copies() noexcept { return copies_; }
+  const std::vector<BondCopies>& copies() const noexcept { return copies_; }
 
 private:
   std::size_t history_values_;

@@ -36,23 +36,6 @@ std::int32_t load_mask(double number, WholeNumbers form)
   }
   return static_cast<std::int32_t>(mask);
 }
-
-template <class Value>
-void store_value(char* to, Value value) noexcept
-{
-  std::memcpy(to, &value, sizeof value);
-}
-
-/// Rows of an array, from doubles that lie one behind the other in each record.
-template <std::size_t count>
-void copy_doubles(const double* const* parts, std::size_t stride, std::size_t slot,
-  std::size_t rows, char* to, std::size_t bytes) noexcept
-{
-  for (std::size_t row = 0; row < rows; ++row, parts += stride, to += bytes)
-  {
-    std::memcpy(to, *parts + slot, count * sizeof(double));
-  }
-}
 }
 
 RecordRows::RecordRows(const RecordPlan& plan)
@@ -104,11 +87,7 @@ ParticleStore::ParticleStore(const RecordPlan& plan, const RestartLayout& layout
 {
   const RestartHeader& header = layout.header;
   frame_.rows = end - first;
-  frame_.header.timestep = header.timestep;
-  frame_.header.time = header.time;
-  frame_.header.units = header.units;
-  frame_.header.rows = layout.records;
-  frame_.header.box = header.box;
+  frame_.header = { header.timestep, header.time, {}, header.units, layout.records, header.box };
   frame_.points =
     Block(static_cast<std::size_t>(frame_.rows) * sizeof(Vector3), request.lines.pool);
   std::vector<std::string> names;
@@ -134,24 +113,23 @@ void ParticleStore::add_array(
   const std::size_t bytes = width * info.columns.size();
   array.block = Block(bytes * static_cast<std::size_t>(frame_.rows), request.lines.pool);
   auto* to = static_cast<char*>(array.block.data());
-  bool fix = false;
-  std::vector<Doubles> runs;
+  const auto column_of = [&](int number) -> const RecordColumn&
+  { return plan.columns()[static_cast<std::size_t>(number)]; };
+  const bool fix = column_of(info.columns.front()).kind == Kind::OfAFix;
+  std::vector<Doubles>& all = fix ? of_fixes_ : doubles_;
+  const std::size_t others = all.size();
   for (const int number : info.columns)
   {
-    const RecordColumn& column = plan.columns()[static_cast<std::size_t>(number)];
-    fix = fix || column.kind == Kind::OfAFix;
-    if (column.kind == Kind::Double || column.kind == Kind::OfAFix)
+    const RecordColumn& column = column_of(number);
+    const std::size_t part = column.part + (fix ? styles_ : 0);
+    if (all.size() > others && all.back().part == part &&
+      all.back().slot + all.back().count == column.slot)
     {
-      const std::size_t part = column.part + (fix ? styles_ : 0);
-      if (!runs.empty() && runs.back().part == part &&
-        runs.back().slot + runs.back().count == column.slot)
-      {
-        ++runs.back().count;
-      }
-      else
-      {
-        runs.push_back({ part, column.slot, 1, to, bytes });
-      }
+      ++all.back().count;
+    }
+    else if (fix || column.kind == Kind::Double)
+    {
+      all.push_back({ part, column.slot, 1, to, bytes });
     }
     else
     {
@@ -159,8 +137,6 @@ void ParticleStore::add_array(
     }
     to += width;
   }
-  std::vector<Doubles>& all = fix ? of_fixes_ : doubles_;
-  all.insert(all.end(), runs.begin(), runs.end());
   if (fix)
   {
     fix_arrays_.push_back(frame_.arrays.size());
@@ -176,69 +152,64 @@ const std::int64_t* ParticleStore::ids() const noexcept
                                       : static_cast<const std::int64_t*>(found->block.data());
 }
 
-void ParticleStore::store_doubles(
-  const Doubles& doubles, const RecordRows& rows, std::size_t begin, std::size_t end) const
+void ParticleStore::store_doubles(const Doubles& doubles, const RecordRows& rows, const Part& part)
 {
-  const auto row =
-    static_cast<std::size_t>(rows.first_row - first_ + static_cast<std::int64_t>(begin));
-  const double* const* const parts = rows.parts.data() + begin * rows.stride + doubles.part;
-  char* const to = doubles.to + row * doubles.stride;
+  const auto copy = [&](auto count)
+  {
+    char* to = doubles.to + part.row * doubles.stride;
+    for (std::size_t i = part.begin; i < part.end; ++i, to += doubles.stride)
+    {
+      const double* const from = rows.parts[i * rows.stride + doubles.part] + doubles.slot;
+      std::memcpy(to, from, count * sizeof(double));
+    }
+  };
   switch (doubles.count)
   {
     case 1:
-      copy_doubles<1>(parts, rows.stride, doubles.slot, end - begin, to, doubles.stride);
-      break;
+      return copy(std::integral_constant<std::size_t, 1>());
     case 3:
-      copy_doubles<3>(parts, rows.stride, doubles.slot, end - begin, to, doubles.stride);
-      break;
+      return copy(std::integral_constant<std::size_t, 3>());
     default:
-      for (std::size_t i = 0; i < end - begin; ++i)
-      {
-        std::memcpy(to + i * doubles.stride, parts[i * rows.stride] + doubles.slot,
-          doubles.count * sizeof(double));
-      }
+      return copy(doubles.count);
   }
 }
 
-void ParticleStore::store_number(
-  const Number& number, const RecordRows& rows, std::size_t begin, std::size_t end) const
+void ParticleStore::store_number(const Number& number, const RecordRows& rows, const Part& part)
 {
-  const auto first =
-    static_cast<std::size_t>(rows.first_row - first_ + static_cast<std::int64_t>(begin));
-  const auto for_rows = [&](const auto& value_of)
+  const auto store = [&](const auto& value_of)
   {
-    char* to = number.to + first * number.stride;
-    for (std::size_t i = begin; i < end; ++i, to += number.stride)
+    char* to = number.to + part.row * number.stride;
+    for (std::size_t i = part.begin; i < part.end; ++i, to += number.stride)
     {
-      store_value(to, value_of(i));
+      const auto value = value_of(i);
+      std::memcpy(to, &value, sizeof value);
     }
   };
   switch (number.column.kind)
   {
     case Kind::Id:
-      return for_rows([&](std::size_t i) { return rows.ids[i]; });
+      return store([&](std::size_t i) { return rows.ids[i]; });
     case Kind::Type:
-      return for_rows([&](std::size_t i) { return rows.types[i]; });
+      return store([&](std::size_t i) { return rows.types[i]; });
     case Kind::Mask:
-      return for_rows([&](std::size_t i) { return rows.masks[i]; });
+      return store([&](std::size_t i) { return rows.masks[i]; });
     case Kind::Image:
     {
       constexpr std::int32_t ImageCounts::*axes[] = { &ImageCounts::x, &ImageCounts::y,
         &ImageCounts::z };
       const auto axis = axes[number.column.slot];
-      return for_rows([&](std::size_t i) { return rows.images[i].*axis; });
+      return store([&](std::size_t i) { return rows.images[i].*axis; });
     }
     default:
-      return for_rows([&](std::size_t i) { return rows.molecules[i]; });
+      return store([&](std::size_t i) { return rows.molecules[i]; });
   }
 }
 
-void ParticleStore::store_points(const RecordRows& rows, std::size_t begin, std::size_t end)
+void ParticleStore::store_points(const RecordRows& rows, const Part& part)
 {
-  auto* to = static_cast<double*>(frame_.points.data()) +
-    3 * (rows.first_row - first_ + static_cast<std::int64_t>(begin));
+  auto* to = static_cast<double*>(frame_.points.data()) + 3 * part.row;
   const auto [x, y, z] = point_origin_;
-  for (std::size_t i = begin; i < end; ++i, to += 3)
+  for (std::size_t i = part.begin; i < part.end; ++i, to += 3)
   {
     const double* const from = rows.parts[i * rows.stride] + RecordSlots::x;
     to[0] = from[0] - x;
@@ -247,16 +218,12 @@ void ParticleStore::store_points(const RecordRows& rows, std::size_t begin, std:
   }
 }
 
-std::int64_t ParticleStore::count_misfits(const RecordRows& rows)
+std::int64_t ParticleStore::count_misfits(const RecordRows& rows) const noexcept
 {
   std::int64_t misfits = 0;
   for (std::size_t i = 0; !of_fixes_.empty() && i < rows.count; ++i)
   {
     misfits += rows.parts[i * rows.stride + styles_] ? 0 : 1;
-  }
-  if (misfits > 0)
-  {
-    misfits_ += misfits;
   }
   return misfits;
 }
@@ -265,28 +232,32 @@ void ParticleStore::store(const RecordRows& rows)
 {
   const auto count = static_cast<std::int64_t>(rows.count);
   const std::int64_t misfits = this->count_misfits(rows);
+  if (misfits > 0)
+  {
+    misfits_ += misfits; // of all threads
+  }
   const std::int64_t first = std::clamp<std::int64_t>(first_ - rows.first_row, 0, count);
   const std::int64_t last = std::clamp<std::int64_t>(end_ - rows.first_row, 0, count);
   if (first >= last)
   {
     return;
   }
-  const auto begin = static_cast<std::size_t>(first);
-  const auto end = static_cast<std::size_t>(last);
-  this->store_points(rows, begin, end);
+  const Part part = { static_cast<std::size_t>(first), static_cast<std::size_t>(last),
+    static_cast<std::size_t>(rows.first_row + first - first_) };
+  this->store_points(rows, part);
   for (const Doubles& doubles : doubles_)
   {
-    this->store_doubles(doubles, rows, begin, end);
+    store_doubles(doubles, rows, part);
   }
   for (const Number& number : numbers_)
   {
-    this->store_number(number, rows, begin, end);
+    store_number(number, rows, part);
   }
   if (misfits == 0)
   {
     for (const Doubles& doubles : of_fixes_)
     {
-      this->store_doubles(doubles, rows, begin, end);
+      store_doubles(doubles, rows, part);
     }
   }
 }
@@ -295,11 +266,9 @@ DumpFrame ParticleStore::take(const Where& where, Notices& notices)
 {
   if (misfits_ > 0)
   {
-    Notice notice;
-    notice.where = where;
-    notice.text = "what fixes have of particles is left out: of " + std::to_string(misfits_) +
-      " it is not where it should be";
-    notices.push_back(notice);
+    notices.push_back({ where,
+      "what fixes have of particles is left out: of " + std::to_string(misfits_) +
+        " it is not where it should be" });
     for (auto i = fix_arrays_.rbegin(); i != fix_arrays_.rend(); ++i)
     {
       frame_.arrays.erase(frame_.arrays.begin() + static_cast<std::ptrdiff_t>(*i));

@@ -59,6 +59,8 @@ public:
   /// Coordinates of the points.
   const double* points() const noexcept { return static_cast<const double*>(frame_.points.data()); }
 
+  const FrameHeader& header() const noexcept { return frame_.header; }
+
   DumpFrame take(const Where& where, Notices& notices);
 
 private:
@@ -80,13 +82,19 @@ private:
     std::size_t stride;
   };
 
+  /// Records that are wanted, and where they belong.
+  struct Part
+  {
+    std::size_t begin;
+    std::size_t end;
+    std::size_t row; ///< of the frame, that of the first
+  };
+
   void add_array(const RecordPlan& plan, const ArrayInfo& info, const RestartRequest& request);
-  void store_doubles(
-    const Doubles& doubles, const RecordRows& rows, std::size_t begin, std::size_t end) const;
-  void store_number(
-    const Number& number, const RecordRows& rows, std::size_t begin, std::size_t end) const;
-  std::int64_t count_misfits(const RecordRows& rows);
-  void store_points(const RecordRows& rows, std::size_t begin, std::size_t end);
+  static void store_doubles(const Doubles& doubles, const RecordRows& rows, const Part& part);
+  static void store_number(const Number& number, const RecordRows& rows, const Part& part);
+  std::int64_t count_misfits(const RecordRows& rows) const noexcept;
+  void store_points(const RecordRows& rows, const Part& part);
 
   DumpFrame frame_;
   Vector3 point_origin_;

@@ -6,7 +6,6 @@
 #include "granular/restart/restart_bytes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <utility>
@@ -17,7 +16,6 @@ namespace
 {
 constexpr std::int64_t count_bytes = 4;
 constexpr auto least_doubles = static_cast<std::int64_t>(RecordSlots::common);
-constexpr std::size_t scan_window = std::size_t{ 1 } << 17;
 
 /// A complete file needs one walk over its records, and a hop for each process, each of which has a count there.
 SearchBudget budget_of(std::int64_t bytes, std::int64_t processes)
@@ -27,37 +25,17 @@ SearchBudget budget_of(std::int64_t bytes, std::int64_t processes)
     2 * bytes + (std::int64_t{ 1 } << 28) };
 }
 
-constexpr std::size_t pair_bytes = 12; ///< of a count and the length of a record
-
-/// The next place from `at` on of a count, not above `most`, and the length of a record that fits into so many doubles; the end of what
-/// can be such a place if there is none. As one loop for each byte order: it goes over all bytes of a file.
-template <bool Swapped>
-std::size_t next_pair(std::string_view bytes, std::size_t at, std::int64_t most) noexcept
+/// Whether there may be a count and the length of a record that fits into so many doubles.
+constexpr auto is_pair = [](const char* bytes, bool swapped, std::int64_t left) noexcept
 {
-  const std::size_t end = bytes.size() - (pair_bytes - 1);
-  const auto range = static_cast<std::uint64_t>(most - least_doubles);
-  for (; at < end; ++at)
+  const std::int64_t count = load_number<std::int32_t>(bytes, swapped);
+  const auto range = static_cast<std::uint64_t>(left / 8 - least_doubles);
+  if (static_cast<std::uint64_t>(count - least_doubles) > range)
   {
-    const std::int64_t count = load_number<std::int32_t>(bytes.data() + at, Swapped);
-    if (static_cast<std::uint64_t>(count - least_doubles) > range)
-    {
-      continue;
-    }
-    const double length = load_number<double>(bytes.data() + at + count_bytes, Swapped);
-    if (length >= least_doubles && length <= static_cast<double>(count) &&
-      length == std::floor(length))
-    {
-      return at;
-    }
+    return false;
   }
-  return end;
-}
-
-/// Where the search is for.
-enum class Behind : std::uint8_t
-{
-  End,     ///< the end of the file
-  Anything ///< meshes
+  const auto length = load_number<double>(bytes + count_bytes, swapped);
+  return length_of(length, RecordSlots::common, static_cast<std::size_t>(count)) > 0;
 };
 
 class ChunkFinder
@@ -67,13 +45,10 @@ public:
     std::int64_t begin, Progress& progress)
     : header_(header)
     , begin_(begin)
+    , hops_(source, swapped, &budget_)
+    , walker_(source, swapped, header, budget_, progress)
+    , size_(hops_.size())
     , progress_(progress)
-    , scan_(source, swapped)
-    , hops_(source, swapped)
-    , walker_(source, swapped, header, false, progress)
-    , walker_in_box_(source, swapped, header, true, progress)
-    , size_(scan_.size())
-    , budget_(budget_of(size_, header.processes))
   {
   }
 
@@ -84,11 +59,10 @@ public:
       this->find_none();
       return std::move(result_);
     }
-    this->scan(Behind::End);
+    this->search([&](std::int64_t at) { return this->try_to_end(at); });
     if (!result_.found && header_.time)
     {
-      budget_ = budget_of(size_, header_.processes);
-      this->scan(Behind::Anything);
+      this->search([&](std::int64_t at) { return this->try_inside(at); });
     }
     return std::move(result_);
   }
@@ -104,47 +78,27 @@ private:
   /// No particles: a zero for each process. With meshes behind them they cannot be told from what comes before.
   void find_none()
   {
+    budget_ = budget_of(size_, header_.processes);
     const std::int64_t first = size_ - header_.processes * count_bytes;
-    if (first >= begin_ && this->zeros(first, size_))
-    {
-      this->take(first, size_);
-    }
-    else if (header_.time)
-    {
-      result_.found = true;
-      result_.begin = size_;
-    }
+    const bool there = first >= begin_ && this->zeros(first, size_);
+    result_.found = there || header_.time;
+    this->take(there ? first : size_, size_);
   }
 
-  void scan(Behind behind)
+  template <class TryAt>
+  void search(const TryAt& try_at)
   {
-    const auto next = scan_.swapped() ? &next_pair<true> : &next_pair<false>;
-    for (std::int64_t at = begin_; size_ - at >= 8 * least_doubles;)
-    {
-      progress_.step(static_cast<double>(at) / static_cast<double>(size_));
-      const std::string_view bytes = scan_.view(at, scan_window);
-      if (bytes.size() < pair_bytes)
+    budget_ = budget_of(size_, header_.processes);
+    constexpr std::size_t pair_bytes = count_bytes + sizeof(double);
+    search_pairs<pair_bytes>(
+      hops_.source(), hops_.swapped(), begin_, size_, 8 * least_doubles, is_pair,
+      [&](std::int64_t at)
       {
-        return;
-      }
-      const std::size_t end = bytes.size() - (pair_bytes - 1);
-      const std::int64_t most = (size_ - at) / 8;
-      for (std::size_t i = next(bytes, 0, most); i < end; i = next(bytes, i + 1, most))
-      {
-        if (this->try_at(at + static_cast<std::int64_t>(i), behind) || result_.gave_up)
-        {
-          return;
-        }
-      }
-      at += static_cast<std::int64_t>(end);
-    }
-  }
-
-  bool try_at(std::int64_t at, Behind behind)
-  {
-    const bool found = behind == Behind::End ? this->try_to_end(at) : this->try_inside(at);
-    result_.gave_up = !found && budget_.spent();
-    return found;
+        result_.found = try_at(at);
+        result_.gave_up = !result_.found && budget_.spent();
+        return result_.found || result_.gave_up;
+      },
+      progress_);
   }
 
   /// From a chunk that has records to the end of the file.
@@ -160,11 +114,11 @@ private:
     {
       return false;
     }
-    walker_.reset();
+    walker_.restart(false);
     for (std::int64_t chunk = at; chunk < size_;)
     {
       const std::int64_t doubles = this->doubles_at(chunk); // which may be others by now
-      if (doubles < 0 || !walker_.walk(chunk + count_bytes, doubles, budget_))
+      if (doubles < 0 || !walker_.walk(chunk + count_bytes, doubles))
       {
         return false;
       }
@@ -201,19 +155,19 @@ private:
   bool try_inside(std::int64_t at)
   {
     Run run = { 0, at };
-    walker_in_box_.reset();
-    while (walker_in_box_.records() < header_.atoms)
+    walker_.restart(true);
+    while (walker_.records() < header_.atoms)
     {
       const std::int64_t doubles =
         run.chunks < header_.processes && !budget_.spent() ? this->doubles_at(run.end) : -1;
-      if (doubles < 0 || !walker_in_box_.walk(run.end + count_bytes, doubles, budget_))
+      if (doubles < 0 || !walker_.walk(run.end + count_bytes, doubles))
       {
         return false;
       }
       run.end += count_bytes + doubles * 8;
       ++run.chunks;
     }
-    if (walker_in_box_.records() != header_.atoms)
+    if (walker_.records() != header_.atoms)
     {
       return false;
     }
@@ -240,37 +194,27 @@ private:
   /// The count of a chunk, for whose doubles there is room; -1 where there is none.
   std::int64_t doubles_at(std::int64_t at)
   {
-    const std::int64_t before = hops_.read_bytes();
     const std::string_view bytes = hops_.view(at, count_bytes);
     --budget_.steps;
-    budget_.bytes -= hops_.read_bytes() - before;
-    const std::int64_t doubles = bytes.size() < count_bytes ? -1 : hops_.int32_in(bytes.data());
+    const std::int64_t doubles =
+      bytes.size() < count_bytes ? -1 : hops_.load<std::int32_t>(bytes.data());
     return doubles > (size_ - at - count_bytes) / 8 ? -1 : doubles;
   }
 
+  /// Whether there are only chunks without records.
   bool zeros(std::int64_t first, std::int64_t end)
   {
-    while (first < end)
+    while (first < end && !budget_.spent() && this->doubles_at(first) == 0)
     {
-      const std::int64_t before = hops_.read_bytes();
-      const std::string_view there = hops_.view(first, 1);
-      --budget_.steps;
-      budget_.bytes -= hops_.read_bytes() - before;
-      const std::string_view part = there.substr(0, static_cast<std::size_t>(end - first));
-      if (part.empty() || budget_.spent() || part.find_first_not_of('\0') != part.npos)
-      {
-        return false;
-      }
-      first += static_cast<std::int64_t>(part.size());
+      first += count_bytes;
     }
-    return true;
+    return first == end;
   }
 
   /// All chunks were there a moment ago.
   void take(std::int64_t first, std::int64_t end)
   {
     result_.begin = first;
-    result_.records = header_.atoms;
     for (std::int64_t at = first; at < end;)
     {
       const std::int64_t doubles = this->doubles_at(at);
@@ -278,23 +222,20 @@ private:
       {
         throw IoError("the file changed while it was read: expected the number of doubles of a "
                       "process, got another one",
-          scan_.where(at));
+          { hops_.source().path(), 0, at });
       }
       result_.chunks.push_back({ {}, at + count_bytes, doubles });
       at += count_bytes + doubles * 8;
     }
-    result_.found = true;
   }
 
   const RestartHeader& header_;
   std::int64_t begin_;
-  Progress& progress_;
-  RestartBytes scan_;
+  SearchBudget budget_;
   RestartBytes hops_;
   RecordWalker walker_;
-  RecordWalker walker_in_box_;
   std::int64_t size_;
-  SearchBudget budget_;
+  Progress& progress_;
   ChunkSearch result_;
 };
 }

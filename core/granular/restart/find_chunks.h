@@ -19,7 +19,6 @@ struct ChunkSearch
   bool found = false;
   std::int64_t begin = 0; ///< byte of the count of the first chunk
   std::vector<RestartChunk> chunks;
-  std::int64_t records = 0;
   std::optional<std::int64_t>
     misfit;             ///< the most records of chunks that were right but for this number
   bool gave_up = false; ///< too many places looked like chunks

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/find_fixes.h"
 
-#include "granular/restart/record_walker.h"
 #include "granular/restart/restart_bytes.h"
 
 #include <cstddef>
@@ -13,73 +12,47 @@ namespace granular
 {
 namespace
 {
-constexpr std::size_t scan_window = std::size_t{ 1 } << 17;
-constexpr std::int64_t least_bytes = 16; ///< of a fix
-constexpr std::size_t pair_bytes = 8;    ///< of two counts, the least that there is
+constexpr std::int64_t count_bytes = 4;
+constexpr std::int64_t none_bytes = 2 * count_bytes; ///< of no fixes of either kind
+constexpr std::int64_t least_bytes = 16;             ///< of a fix
 
-/// The next place from `at` on of two counts: of fixes, at most so many, and of the bytes of the first id, or of fixes of the other
-/// kind. The end of what can be such a place if there is none. As one loop for each byte order.
-template <bool Swapped>
-std::size_t next_pair(std::string_view bytes, std::size_t at, std::int64_t most) noexcept
+/// Whether there may be two counts: of fixes, and of the bytes of the first id, or of fixes of the other kind. Not two zeros, of which
+/// files are full.
+constexpr auto is_pair = [](const char* bytes, bool swapped, std::int64_t left) noexcept
 {
-  const std::size_t end = bytes.size() - (pair_bytes - 1);
-  for (; at < end; ++at)
+  const std::int64_t most = left / least_bytes;
+  const std::int64_t first = load_number<std::int32_t>(bytes, swapped);
+  if (first < 0 || first > most)
   {
-    const std::int64_t first = load_number<std::int32_t>(bytes.data() + at, Swapped);
-    if (first < 0 || first > most)
-    {
-      continue;
-    }
-    const std::int64_t second = load_number<std::int32_t>(bytes.data() + at + 4, Swapped);
-    if (second >= 0 && second <= (first == 0 ? most : RestartBytes::most_text))
-    {
-      return at;
-    }
+    return false;
   }
-  return end;
-}
+  const std::int64_t second = load_number<std::int32_t>(bytes + count_bytes, swapped);
+  return first == 0 ? second > 0 && second <= most
+                    : second >= 0 && second <= RestartBytes::most_text;
+};
 
 class FixFinder
 {
 public:
-  FixFinder(const ByteSource& source, bool swapped, std::int64_t end)
-    : scan_(source, swapped)
-    , bytes_(source, swapped)
+  FixFinder(const ByteSource& source, bool swapped, std::int64_t begin, std::int64_t end)
+    : budget_{ (end - begin) / 8 + 1'000'000, 4 * (end - begin) + (std::int64_t{ 1 } << 28) }
+    , bytes_(source, swapped, &budget_)
+    , begin_(begin)
     , end_(end)
   {
   }
 
-  FixSearch find(std::int64_t begin, Progress& progress)
+  FixSearch find(Progress& progress)
   {
-    budget_ = { (end_ - begin) / 8 + 1'000'000, 4 * (end_ - begin) + (std::int64_t{ 1 } << 28) };
-    const auto next = scan_.swapped() ? &next_pair<true> : &next_pair<false>;
-    for (std::int64_t at = begin; end_ - at >= static_cast<std::int64_t>(pair_bytes);)
+    const auto try_at = [&](std::int64_t at) { return this->read_at(at) || budget_.spent(); };
+    search_pairs<none_bytes>(
+      bytes_.source(), bytes_.swapped(), begin_, end_, none_bytes, is_pair, try_at, progress);
+    const std::int64_t none = end_ - none_bytes;
+    if (!result_.found && !budget_.spent() && none >= begin_)
     {
-      progress.step(static_cast<double>(at - begin) / static_cast<double>(end_ - begin));
-      const std::string_view bytes = scan_.view(at, scan_window);
-      if (bytes.size() < pair_bytes)
-      {
-        break;
-      }
-      const std::size_t end = bytes.size() - (pair_bytes - 1);
-      const std::int64_t most = (end_ - at) / least_bytes;
-      for (std::size_t i = next(bytes, 0, most); i < end; i = next(bytes, i + 1, most))
-      {
-        const std::int64_t place = at + static_cast<std::int64_t>(i);
-        const std::int64_t both = scan_.int64_in(bytes.data() + i);
-        const bool is_none = both == 0 && place + static_cast<std::int64_t>(pair_bytes) != end_;
-        if (!is_none && this->read_at(place))
-        {
-          return std::move(result_);
-        }
-        if (budget_.spent())
-        {
-          return {};
-        }
-      }
-      at += static_cast<std::int64_t>(end);
+      this->read_at(none);
     }
-    return {};
+    return result_.found ? std::move(result_) : FixSearch{};
   }
 
 private:
@@ -87,18 +60,14 @@ private:
   {
     at_ = place;
     result_.fixes.clear();
-    const std::int64_t read_before = bytes_.read_bytes();
     result_.found = this->read_global() && this->read_peratom() && at_ == end_;
-    budget_.bytes -= bytes_.read_bytes() - read_before;
     return result_.found;
   }
 
   bool read_global()
   {
-    std::int64_t count = 0;
-    bool right = this->next_count(count);
-    result_.global = count;
-    for (std::int64_t i = 0; right && i < count; ++i)
+    bool right = this->next_count(result_.global);
+    for (std::int64_t i = 0; right && i < result_.global; ++i)
     {
       std::int64_t bytes = 0;
       right =
@@ -115,7 +84,7 @@ private:
     for (std::int64_t i = 0; right && i < count; ++i)
     {
       RestartFix fix;
-      right = this->next_text(fix.id) && this->next_text(fix.style) && this->next_count(fix.most);
+      right = this->pass_text(&fix.id) && this->pass_text(&fix.style) && this->next_count(fix.most);
       result_.fixes.push_back(std::move(fix));
     }
     return right;
@@ -123,39 +92,39 @@ private:
 
   bool next_count(std::int64_t& count)
   {
-    const std::string_view there = bytes_.view(at_, 4);
+    const std::string_view there = bytes_.view(at_, count_bytes);
     --budget_.steps;
-    if (there.size() < 4 || at_ + 4 > end_ || budget_.steps <= 0)
+    if (there.size() < count_bytes || at_ + count_bytes > end_ || budget_.steps <= 0)
     {
       return false;
     }
-    count = bytes_.int32_in(there.data());
-    at_ += 4;
+    count = bytes_.load<std::int32_t>(there.data());
+    at_ += count_bytes;
     return count >= 0;
   }
 
-  bool pass_text()
+  bool pass_text(std::string* text = nullptr)
   {
     constexpr std::int64_t cost = 64; ///< to look at the longest text, in steps
     budget_.steps -= cost;
     const std::int64_t behind = bytes_.text_end(at_);
-    at_ = behind < 0 ? at_ : behind;
-    return behind >= 0 && behind <= end_ && budget_.steps > 0;
+    if (behind < 0 || behind > end_ || budget_.steps <= 0)
+    {
+      return false;
+    }
+    if (text)
+    {
+      *text = bytes_.next_text(at_, "a fix");
+    }
+    at_ = behind;
+    return true;
   }
 
-  bool next_text(std::string& text)
-  {
-    const std::int64_t begin = at_;
-    const bool right = this->pass_text();
-    text = right ? bytes_.text_at(begin, "a fix") : std::string();
-    return right;
-  }
-
-  RestartBytes scan_;
+  SearchBudget budget_;
   RestartBytes bytes_;
+  std::int64_t begin_;
   std::int64_t end_;
   std::int64_t at_ = 0;
-  SearchBudget budget_;
   FixSearch result_;
 };
 }
@@ -163,6 +132,6 @@ private:
 FixSearch find_fixes(
   const ByteSource& source, bool swapped, std::int64_t begin, std::int64_t end, Progress& progress)
 {
-  return FixFinder(source, swapped, end).find(begin, progress);
+  return FixFinder(source, swapped, begin, end).find(progress);
 }
 }

@@ -2,6 +2,7 @@
 #include "granular/restart/history_layout.h"
 
 #include <cstddef>
+#include <iterator>
 
 namespace granular
 {
@@ -24,11 +25,6 @@ constexpr HistoryLayout layouts[] = {
   { "FlexibleFibers", "", std::span(fibers).first(13) },
   { "FlexibleFibersDamage", "", fibers },
 };
-
-bool has_values(const HistoryLayout& layout, std::int64_t values) noexcept
-{
-  return static_cast<std::int64_t>(layout.columns.size()) == values;
-}
 }
 
 std::span<const HistoryLayout> history_layouts() noexcept
@@ -46,7 +42,7 @@ const HistoryLayout* find_history_layout(
     const bool asked = layout == automatic_history || layout == place++;
     const bool says_so =
       found && !found->version.empty() && version.find(found->version) != version.npos;
-    found = asked && has_values(candidate, values) && !says_so ? &candidate : found;
+    found = asked && std::ssize(candidate.columns) == values && !says_so ? &candidate : found;
   }
   return found;
 }

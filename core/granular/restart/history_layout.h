@@ -17,8 +17,9 @@ struct HistoryLayout
   std::string_view
     version; ///< a word in the header of its files that no others have; empty: there is none
   std::span<const std::string_view> columns; ///< in turn, as make_local_schema takes them
-  int unsigned_from =
-    12; ///< values from here on have no sign, whichever copy of the bond they are of
+
+  /// Values from here on have no sign, whichever copy of the bond they are of.
+  static constexpr std::size_t unsigned_from = 12;
 };
 
 /// The table: WITH-BONDS (12 values), PFM (13), Flexible_Fibers until 2021 (13), Flexible_Fibers and SEAICE (14).

@@ -49,10 +49,7 @@ bool differs(const Doubtful& copies, std::span<const double> largest) noexcept
 {
   for (std::size_t i = 0; i < largest.size(); ++i)
   {
-    const double one = copies.lower[i];
-    const double other = copies.higher[i];
-    if (!same_value(one, other, std::max(std::abs(one), std::abs(other))) &&
-      !same_value(one, other, largest[kind_of(i, largest.size())]))
+    if (!same_value(copies.lower[i], copies.higher[i], largest[kind_of(i, largest.size())]))
     {
       return true;
     }
@@ -100,7 +97,8 @@ public:
     sum.repeated_ids = finder.repeated();
     for (const BondCounts& of_block : counts)
     {
-      sum += of_block;
+      sum.without_partner += of_block.without_partner;
+      sum.of_itself += of_block.of_itself;
     }
     return sum;
   }
@@ -152,7 +150,6 @@ private:
   {
     std::vector<Doubtful> doubtful; ///< at most one of each bond
     std::vector<Copy> lower;
-    std::vector<Copy> left[2]; ///< of a pair of particles, without one of the same type
   };
 
   static std::size_t index(std::int64_t row) noexcept { return static_cast<std::size_t>(row); }
@@ -236,7 +233,7 @@ private:
     {
       const std::size_t of_all = index(copies.first_row) + row;
       const std::size_t first = of_all == 0 ? 0 : begins_[of_all - 1];
-      const auto higher = std::span(higher_).subspan(first, begins_[of_all] - first);
+      auto higher = std::span(higher_).subspan(first, begins_[of_all] - first);
       if (higher.empty())
       {
         continue;
@@ -254,72 +251,39 @@ private:
       }
       std::sort(scratch.lower.begin(), scratch.lower.end());
       std::sort(higher.begin(), higher.end());
-      this->match_row(scratch, higher);
+      // those of the same type go together first
+      std::span<Copy> lower = scratch.lower;
+      this->take_pairs(
+        scratch, lower, higher, [](const Copy& copy) { return std::pair(copy.other, copy.type); });
+      this->take_pairs(scratch, lower, higher, [](const Copy& copy) { return copy.other; });
     }
   }
 
-  /// The end of the copies between the same particles, from a place on.
-  static std::size_t end_of_pair(std::span<const Copy> copies, std::size_t begin) noexcept
+  /// Takes two copies of the same key for one bond, as often as there are two. Both are in the order of the key; what is left is kept
+  /// in its order.
+  template <class Key>
+  void take_pairs(Scratch& scratch, std::span<Copy>& lower, std::span<Copy>& higher, const Key& key)
   {
-    std::size_t end = begin + 1;
-    while (end < copies.size() && copies[end].other == copies[begin].other)
-    {
-      ++end;
-    }
-    return end;
-  }
-
-  void match_row(Scratch& scratch, std::span<const Copy> higher)
-  {
-    const std::span<const Copy> lower = scratch.lower;
-    for (std::size_t i = 0, j = 0; i < lower.size() && j < higher.size();)
-    {
-      if (lower[i].other != higher[j].other)
-      {
-        (lower[i].other < higher[j].other ? i : j) += 1;
-        continue;
-      }
-      const std::size_t i_end = end_of_pair(lower, i);
-      const std::size_t j_end = end_of_pair(higher, j);
-      this->match_pair(scratch, lower.subspan(i, i_end - i), higher.subspan(j, j_end - j));
-      i = i_end;
-      j = j_end;
-    }
-  }
-
-  /// Of two particles.
-  void match_pair(Scratch& scratch, std::span<const Copy> lower, std::span<const Copy> higher)
-  {
-    if (lower.size() == 1 && higher.size() == 1)
-    {
-      this->take(scratch, lower[0], higher[0]);
-      return;
-    }
-    scratch.left[0].clear();
-    scratch.left[1].clear();
-    std::size_t i = 0;
-    std::size_t j = 0;
-    while (i < lower.size() || j < higher.size())
+    std::size_t lower_left = 0;
+    std::size_t higher_left = 0;
+    for (std::size_t i = 0, j = 0; i < lower.size() || j < higher.size();)
     {
       const bool both = i < lower.size() && j < higher.size();
-      if (both && lower[i].type == higher[j].type)
+      if (both && key(lower[i]) == key(higher[j]))
       {
         this->take(scratch, lower[i++], higher[j++]);
       }
-      else if (j == higher.size() || (both && lower[i].type < higher[j].type))
+      else if (j == higher.size() || (both && key(lower[i]) < key(higher[j])))
       {
-        scratch.left[0].push_back(lower[i++]);
+        lower[lower_left++] = lower[i++];
       }
       else
       {
-        scratch.left[1].push_back(higher[j++]);
+        higher[higher_left++] = higher[j++];
       }
     }
-    const std::size_t pairs = std::min(scratch.left[0].size(), scratch.left[1].size());
-    for (std::size_t pair = 0; pair < pairs; ++pair)
-    {
-      this->take(scratch, scratch.left[0][pair], scratch.left[1][pair]);
-    }
+    lower = lower.first(lower_left);
+    higher = higher.first(higher_left);
   }
 
   /// Two copies of one bond.
@@ -342,15 +306,6 @@ private:
   std::vector<Copy> higher_;
   std::vector<Scratch> scratch_; ///< of each worker
 };
-}
-
-BondCounts& BondCounts::operator+=(const BondCounts& other) noexcept
-{
-  without_partner += other.without_partner;
-  of_itself += other.of_itself;
-  differing += other.differing;
-  repeated_ids += other.repeated_ids;
-  return *this;
 }
 
 BondCounts match_bonds(std::vector<BondCopies>& blocks, std::span<const std::int64_t> ids,

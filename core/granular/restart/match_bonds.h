@@ -41,8 +41,6 @@ struct BondCounts
   std::int64_t of_itself = 0; ///< between a particle and itself
   std::int64_t differing = 0; ///< copies with another history, but for sign and rounding
   std::int64_t repeated_ids = 0;
-
-  BondCounts& operator+=(const BondCounts& other) noexcept;
 };
 
 /// Finds the rows of the partners, by ids, those of all rows, and which copies there are of each bond: both (once: each copy is a

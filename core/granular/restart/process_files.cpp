@@ -6,7 +6,6 @@
 #include "granular/restart/restart_bytes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -35,21 +34,22 @@ RestartChunk read_process_file(
     source = open_memory(content, path);
   }
   RestartBytes bytes(*source, layout.swapped);
-  const std::int64_t doubles = bytes.int32_at(0, "how many numbers a process has written");
+  const std::int64_t doubles =
+    bytes.number_at<std::int32_t>(0, "how many numbers a process has written");
   if (doubles < 0 || bytes.size() != count_bytes + 8 * doubles)
   {
-    throw FormatError("expected as many doubles behind the count as it says, got a count of " +
-        std::to_string(doubles) + " and " + std::to_string(bytes.size() - count_bytes) + " bytes",
-      bytes.where(0));
+    bytes.refuse("as many doubles behind the count as it says",
+      "a count of " + std::to_string(doubles) + " and " +
+        std::to_string(bytes.size() - count_bytes) + " bytes",
+      0);
   }
-  RecordWalker walker(*source, layout.swapped, layout.header, false, progress);
   constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
   SearchBudget budget = { any, any };
-  if (!walker.walk(count_bytes, doubles, budget))
+  RecordWalker walker(*source, layout.swapped, layout.header, budget, progress);
+  if (!walker.walk(count_bytes, doubles))
   {
-    throw FormatError("expected the record of a particle, got other numbers (" +
-        std::to_string(walker.records()) + " were before it)",
-      bytes.where(walker.at()));
+    bytes.refuse("the record of a particle",
+      "other numbers (" + std::to_string(walker.records()) + " were before it)", walker.at());
   }
   records += walker.records();
   return { path, count_bytes, doubles, stamp };
@@ -84,11 +84,11 @@ std::vector<ProcessNames> process_names(const std::string& base_path)
   return names;
 }
 
-ProcessNames find_process_names(const std::vector<ProcessNames>& candidates)
+const ProcessNames* find_process_names(const std::vector<ProcessNames>& candidates)
 {
   const auto found = std::ranges::find_if(
     candidates, [](const ProcessNames& names) { return is_there(names.of(0)); });
-  return found == candidates.end() ? candidates.front() : *found;
+  return found == candidates.end() ? nullptr : &*found;
 }
 
 bool is_there(const std::string& path)
@@ -144,23 +144,19 @@ void read_process_files(const ProcessNames& names, RestartLayout& layout, Progre
 
 bool is_process_file(const ByteSource& source)
 {
+  constexpr std::size_t least = RecordSlots::common;
   for (const bool swapped : { false, true })
   {
     RestartBytes bytes(source, swapped);
-    const std::int64_t doubles = bytes.has(0, count_bytes) ? bytes.int32_at(0, "") : -1;
-    if (doubles == 0 && bytes.has(0, count_bytes) && !bytes.has(count_bytes, 1))
-    {
-      return true;
-    }
+    const std::int64_t doubles =
+      bytes.has(0, count_bytes) ? bytes.number_at<std::int32_t>(0, "") : -1;
     const std::int64_t end = count_bytes + 8 * doubles;
-    if (doubles < static_cast<std::int64_t>(RecordSlots::common) || !bytes.has(end - 1, 1) ||
-      bytes.has(end, 1))
+    if (doubles < 0 || !bytes.has(end - 1, 1) || bytes.has(end, 1))
     {
       continue;
     }
-    const double length = bytes.double_at(count_bytes, "");
-    if (length >= static_cast<double>(RecordSlots::common) &&
-      length <= static_cast<double>(doubles) && length == std::floor(length))
+    if (doubles == 0 ||
+      length_of(bytes.number_at<double>(count_bytes, ""), least, static_cast<std::size_t>(doubles)))
     {
       return true;
     }

@@ -25,8 +25,8 @@ struct ProcessNames
 /// The names that a path could stand for: one for each `base` in the name of the file, the last one first.
 std::vector<ProcessNames> process_names(const std::string& base_path);
 
-/// The one of these of which there is a file of process 0; if there is none, the first.
-ProcessNames find_process_names(const std::vector<ProcessNames>& candidates);
+/// The one of these of which there is a file of process 0, or null.
+const ProcessNames* find_process_names(const std::vector<ProcessNames>& candidates);
 
 /// Whether there is a file, or anything else, of this name. Throws IoError where the system does not say.
 bool is_there(const std::string& path);

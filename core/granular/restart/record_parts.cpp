@@ -10,12 +10,6 @@ namespace granular
 {
 namespace
 {
-[[noreturn]] void refuse_part(const std::string& style, std::size_t least, std::size_t got)
-{
-  throw FormatError("expected at least " + std::to_string(least) +
-    " doubles in the part of style " + style + ", got " + std::to_string(got));
-}
-
 /// The bonds of a list.
 FoundBonds look_at_list(std::span<const double> block, const StyleLayout& style)
 {
@@ -57,7 +51,9 @@ std::size_t RecordPlan::length_of_part(
   const auto rest = record.subspan(at);
   if (rest.size() < RecordSlots::common)
   {
-    refuse_part(parts_[part].name, RecordSlots::common, rest.size());
+    throw FormatError("expected at least " + std::to_string(RecordSlots::common) +
+      " doubles in the part of style " + parts_[part].name + ", got " +
+      std::to_string(rest.size()));
   }
   const std::size_t length = length_of(rest[0], RecordSlots::common, rest.size());
   if (length == 0)
@@ -75,75 +71,50 @@ std::size_t RecordPlan::length_of_part(
   return length;
 }
 
-/// Where the first part ends: its length is that of the whole record.
-std::size_t RecordPlan::end_of_first(std::span<const double> record, FoundBonds& bonds) const
+/// Where what a style has in a part ends, and its bonds if they are those that are read. may_have_more: other parts may be behind it.
+std::size_t RecordPlan::measure_style(
+  std::span<const double> block, std::size_t part, bool may_have_more, FoundBonds& bonds) const
 {
-  const Part& part = parts_.front();
-  if (part.searched)
+  const StyleLayout* const style = parts_[part].style;
+  const bool has_bonds = part == bonds_;
+  if (!style || (style->history && !has_bonds))
   {
-    return search_next(record);
+    return block.size();
   }
-  if (!part.style)
+  if (style->history)
   {
-    return record.size();
-  }
-  if (part.style->history && bonds_ == 0)
-  {
-    bonds.block = look_at_bonds(record, true, history_values_, part.most_bonds);
-    bonds.form = WholeNumbers::Values;
+    bonds = { look_at_bonds(block, may_have_more, history_values_, parts_[part].most_bonds) };
     return bonds.block.size;
   }
-  const std::size_t end = measure_lists(record, *part.style);
-  if (part.style->bonds && bonds_ == 0)
+  const std::size_t end = measure_lists(block, *style);
+  if (has_bonds)
   {
-    bonds = look_at_list(record, *part.style);
+    bonds = look_at_list(block, *style);
   }
   return end;
 }
 
-std::size_t RecordPlan::end_of_part(
-  std::span<const double> record, std::size_t at, std::size_t number, FoundBonds& bonds) const
+/// Where the first part ends: its length is that of the whole record.
+std::size_t RecordPlan::end_of_first(std::span<const double> record, FoundBonds& bonds) const
 {
-  const Part& part = parts_[number];
-  const std::size_t length = this->length_of_part(record, at, number);
-  const auto block = record.subspan(at, length);
-  std::size_t end = length;
-  if (part.style && part.style->history)
-  {
-    if (number == bonds_)
-    {
-      bonds.block = look_at_bonds(block, false, history_values_, part.most_bonds);
-      bonds.form = WholeNumbers::Values;
-    }
-  }
-  else if (part.style)
-  {
-    end = measure_lists(block, *part.style);
-    if (part.style->bonds && number == bonds_)
-    {
-      bonds = look_at_list(block, *part.style);
-    }
-  }
+  return parts_.front().searched ? search_next(record)
+                                 : this->measure_style(record, 0, true, bonds);
+}
+
+std::size_t RecordPlan::end_of_part(
+  std::span<const double> record, std::size_t at, std::size_t part, FoundBonds& bonds) const
+{
+  const std::size_t length = this->length_of_part(record, at, part);
+  const std::size_t end = this->measure_style(record.subspan(at, length), part, false, bonds);
   if (end != length)
   {
     throw FormatError("expected " + std::to_string(end) + " doubles in the part of style " +
-      part.name + ", got " + std::to_string(length));
+      parts_[part].name + ", got " + std::to_string(length));
   }
   return at + length;
 }
 
-std::size_t RecordPlan::find_styles_end(std::span<const double> record) const
-{
-  FoundBonds bonds;
-  std::size_t at = this->end_of_first(record, bonds);
-  for (std::size_t part = 1; part < parts_.size(); ++part)
-  {
-    at = this->end_of_part(record, at, part, bonds);
-  }
-  return at;
-}
-
-void RecordPlan::find_parts(
+std::size_t RecordPlan::find_styles(
   std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const
 {
   parts[0] = record.data();
@@ -153,13 +124,20 @@ void RecordPlan::find_parts(
     parts[part] = record.data() + at;
     at = this->end_of_part(record, at, part, bonds);
   }
+  return at;
+}
+
+void RecordPlan::find_parts(
+  std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const
+{
+  const std::size_t end = this->find_styles(record, parts, bonds);
   if (fix_lengths_.empty())
   {
     return;
   }
   bool same = true;
   const auto of_fixes = parts.subspan(parts_.size());
-  const bool found = walk_fixes(record, at, known_fixes_,
+  const bool found = walk_fixes(record, end, known_fixes_,
     [&](std::size_t part, std::size_t begin, std::size_t length)
     {
       const std::size_t fix = fix_order_[part];

@@ -5,7 +5,6 @@
 #include "granular/bonds/bond_record.h"
 
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,14 +13,6 @@
 
 namespace granular
 {
-/// A length from least to most, or 0.
-inline std::size_t length_of(double word, std::size_t least, std::size_t most) noexcept
-{
-  const bool is_length = word >= static_cast<double>(least) && word <= static_cast<double>(most) &&
-    std::trunc(word) == word;
-  return is_length ? static_cast<std::size_t>(word) : 0;
-}
-
 inline bool has_position_of(std::span<const double> part, std::span<const double> record) noexcept
 {
   return std::memcmp(

@@ -87,7 +87,7 @@ RecordPlan::RecordPlan(
   , image_bits_(layout.header.image_bits())
 {
   const Where where{ source.path() };
-  this->find_styles(layout, where, notices);
+  this->name_styles(layout, where, notices);
   known_fixes_ = has_fixes_ ? layout.fixes.size() : 0;
   RecordScan scan(source, layout, doubles_at_first);
   bool first = true;
@@ -120,11 +120,7 @@ RecordPlan::RecordPlan(
       scan.stop();
     }
   };
-  scan.run(Executor(), 1, look, progress);
-  if (this->needs_history())
-  {
-    scan.run(Executor(), layout.records, look, progress);
-  }
+  scan.run(Executor(), this->needs_history() ? layout.records : 1, look, progress);
   if (layout.records == 0)
   {
     this->find_fixes(layout, {}, where, notices);
@@ -133,21 +129,13 @@ RecordPlan::RecordPlan(
   this->add_columns(layout);
 }
 
-void RecordPlan::find_styles(const RestartLayout& layout, const Where& where, Notices& notices)
+void RecordPlan::name_styles(const RestartLayout& layout, const Where& where, Notices& notices)
 {
-  std::vector<RestartStyle> styles = layout.header.styles;
-  if (styles.empty())
+  for (const RestartStyle& style : layout.header.styles)
   {
-    styles.push_back({ layout.header.atom_style });
-  }
-  for (const RestartStyle& style : styles)
-  {
-    Part part;
-    part.style = find_style(style.name);
-    part.name = style.name;
-    part.most_bonds =
+    const std::int64_t most_bonds =
       style.bonds_per_atom > 0 ? style.bonds_per_atom : std::numeric_limits<std::int32_t>::max();
-    parts_.push_back(std::move(part));
+    parts_.push_back({ find_style(style.name), style.name, false, most_bonds });
     if (!parts_.back().style)
     {
       this->give_up(parts_.size() - 1, "nobody has told", where, notices);
@@ -170,18 +158,14 @@ void RecordPlan::give_up(
   parts_[part].style = nullptr;
   history_values_ = bonds_ == part ? 0 : history_values_;
   bonds_ = bonds_ == part ? parts_.size() : bonds_;
-  Notice notice;
-  notice.where = where;
-  notice.text = "what particles of atom style '" + parts_[part].name + "' have in restart files " +
-    why + ": only what all styles have is read of it";
-  notices.push_back(notice);
+  notices.push_back({ where,
+    "what particles of atom style '" + parts_[part].name + "' have in restart files " + why +
+      ": only what all styles have is read of it" });
 }
 
 /// Looks whether the parts of the first record are as long as the table says.
 void RecordPlan::look_at(std::span<const double> record, const Where& where, Notices& notices)
 {
-  const auto other_length = [](const StyleLayout* style, std::size_t length)
-  { return style && !style->has_lists() && style->values != length; };
   if (parts_.size() == 1)
   {
     return;
@@ -217,7 +201,8 @@ void RecordPlan::look_at(std::span<const double> record, const Where& where, Not
   for (std::size_t part = 1; part < parts_.size(); ++part)
   {
     const std::size_t length = this->length_of_part(record, at, part);
-    if (other_length(parts_[part].style, length))
+    const StyleLayout* const style = parts_[part].style;
+    if (style && !style->has_lists() && style->values != length)
     {
       this->give_up(part, "is not known of this program", where, notices);
     }
@@ -287,10 +272,10 @@ void RecordPlan::look_at_history(std::span<const double> record)
     const std::size_t end = none + 1 + values * static_cast<std::size_t>(b);
     const bool may = values > 0 && end <= record.size();
     const bool has = may && (this->fits(record, end) || (b > 0 && !this->fits(record, none)));
-    const bool has_none = !has && b > 0;
-    const bool either = b == 0 && this->fits(record, none);
-    history_values_ = has && !either ? static_cast<std::int64_t>(values) : history_values_;
-    history_values_ = has_none ? 0 : history_values_;
+    if (b > 0 || (has && !this->fits(record, none)))
+    {
+      history_values_ = has ? static_cast<std::int64_t>(values) : 0;
+    }
   }
   if (history_values_ > most_history)
   {
@@ -355,7 +340,9 @@ void RecordPlan::find_fixes(
   {
     return;
   }
-  const std::size_t end = this->find_styles_end(record);
+  std::vector<const double*> parts(parts_.size());
+  FoundBonds bonds;
+  const std::size_t end = this->find_styles(record, parts, bonds);
   std::vector<std::size_t> lengths;
   const bool found = walk_fixes(record, end, known_fixes_,
     [&](std::size_t, std::size_t, std::size_t length) { lengths.push_back(length); });
@@ -368,10 +355,8 @@ void RecordPlan::find_fixes(
   if (!found || (wanted && fix_order_.empty()))
   {
     fix_lengths_.clear();
-    Notice notice;
-    notice.where = where;
-    notice.text = "what fixes have of particles is not where it should be, and is left out";
-    notices.push_back(notice);
+    notices.push_back(
+      { where, "what fixes have of particles is not where it should be, and is left out" });
   }
   if (!wanted)
   {

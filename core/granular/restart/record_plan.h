@@ -79,7 +79,7 @@ private:
     std::int64_t most_bonds = 0;
   };
 
-  void find_styles(const RestartLayout& layout, const Where& where, Notices& notices);
+  void name_styles(const RestartLayout& layout, const Where& where, Notices& notices);
   void give_up(std::size_t part, const std::string& why, const Where& where, Notices& notices);
   void look_at(std::span<const double> record, const Where& where, Notices& notices);
   void look_at_end(std::span<const double> record, const Where& where, Notices& notices);
@@ -94,10 +94,13 @@ private:
   static std::size_t search_next(std::span<const double> record);
   std::size_t length_of_part(
     std::span<const double> record, std::size_t at, std::size_t part) const;
+  std::size_t measure_style(
+    std::span<const double> block, std::size_t part, bool may_have_more, FoundBonds& bonds) const;
   std::size_t end_of_first(std::span<const double> record, FoundBonds& bonds) const;
   std::size_t end_of_part(
-    std::span<const double> record, std::size_t at, std::size_t number, FoundBonds& bonds) const;
-  std::size_t find_styles_end(std::span<const double> record) const;
+    std::span<const double> record, std::size_t at, std::size_t part, FoundBonds& bonds) const;
+  std::size_t find_styles(
+    std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const;
 
   std::vector<Part> parts_;
   std::vector<RecordColumn> columns_;

@@ -6,7 +6,6 @@
 #include "granular/restart/restart_bytes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <limits>
 
@@ -161,13 +160,12 @@ void RecordScan::hop(std::size_t number, RecordBatch& batch, Buffer& buffer)
   while (at < block.last)
   {
     const double* const record = buffer.doubles.get() + (at - block.first);
-    const double length = *record;
-    if (!(length >= static_cast<double>(least_length) &&
-          length <= static_cast<double>(doubles - at)) ||
-      std::trunc(length) != length)
+    const std::size_t length =
+      length_of(*record, RecordSlots::common, static_cast<std::size_t>(doubles - at));
+    if (length == 0)
     {
       refuse("expected the length of a record, from " + std::to_string(least_length) + " to " +
-          std::to_string(doubles - at) + " doubles, got " + to_text(length),
+          std::to_string(doubles - at) + " doubles, got " + to_text(*record),
         row_, std::span(record, static_cast<std::size_t>(block.last - at)), *batch.path,
         batch.byte + (at - block.first) * double_bytes);
     }
@@ -197,7 +195,7 @@ bool RecordScan::read_block(std::size_t number, Buffer& buffer, Turn& turn, Reco
   }
   const RecordBlock& block = blocks_[number];
   const RestartChunk& chunk = layout_.chunks[block.chunk];
-  const bool in_turn = chunk.path.empty() ? !source_.concurrent() : false;
+  const bool in_turn = chunk.path.empty() && !source_.concurrent();
   const auto there = static_cast<std::size_t>(block.last - block.first);
   const ByteSource* source = nullptr;
   std::exception_ptr failure;

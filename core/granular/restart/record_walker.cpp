@@ -3,7 +3,6 @@
 
 #include "granular/bonds/bond_record.h"
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -15,11 +14,6 @@ constexpr auto least_doubles = static_cast<std::int64_t>(RecordSlots::common);
 constexpr std::int64_t records_a_report = 65536;
 constexpr std::int64_t most_int = std::numeric_limits<std::int32_t>::max();
 
-const char* slot(const char* record, std::size_t number) noexcept
-{
-  return record + number * sizeof(double);
-}
-
 bool in_range(std::int64_t number, std::int64_t low, std::int64_t high) noexcept
 {
   return number >= low && number <= high;
@@ -29,47 +23,41 @@ bool in_range(std::int64_t number, std::int64_t low, std::int64_t high) noexcept
 bool is_whole_in(double number, std::int64_t low, std::int64_t high) noexcept
 {
   return number >= static_cast<double>(low) && number <= static_cast<double>(high) &&
-    number == std::floor(number);
+    number == static_cast<double>(static_cast<std::int64_t>(number));
 }
 }
 
 RecordWalker::RecordWalker(const ByteSource& source, bool swapped, const RestartHeader& header,
-  bool in_box, Progress& progress)
-  : bytes_(source, swapped)
+  SearchBudget& budget, Progress& progress)
+  : bytes_(source, swapped, &budget)
   , header_(header)
+  , budget_(budget)
+  , bounds_(header.box.bounds())
   , progress_(progress)
 {
-  if (!in_box)
-  {
-    return;
-  }
-  BoxBounds bounds = header.box.bounds();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double length = bounds.hi[axis] - bounds.lo[axis];
-    bounds.lo[axis] -= length;
-    bounds.hi[axis] += length;
+    const double length = bounds_.hi[axis] - bounds_.lo[axis];
+    bounds_.lo[axis] -= length;
+    bounds_.hi[axis] += length;
   }
-  bounds_ = bounds;
 }
 
-bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles, SearchBudget& budget)
+bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles)
 {
   const std::int64_t end = offset + doubles * 8;
-  const std::int64_t read_before = bytes_.read_bytes();
-  const std::int64_t may_read = budget.bytes;
   for (at_ = offset; at_ < end;)
   {
     const std::int64_t left = (end - at_) / 8;
     const std::string_view record = bytes_.view(at_, least_doubles * 8);
-    budget.bytes = may_read - (bytes_.read_bytes() - read_before);
-    --budget.steps;
-    if (budget.spent() || left < least_doubles || record.size() < least_doubles * 8)
+    --budget_.steps;
+    if (budget_.spent() || left < least_doubles || record.size() < least_doubles * 8)
     {
       return false;
     }
-    const double length = bytes_.double_in(slot(record.data(), RecordSlots::length));
-    if (!is_whole_in(length, least_doubles, left) || !this->is_record(record.data()))
+    const std::size_t length = length_of(
+      bytes_.load<double>(record.data()), RecordSlots::common, static_cast<std::size_t>(left));
+    if (length == 0 || !this->is_record(record.data()))
     {
       return false;
     }
@@ -85,26 +73,27 @@ bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles, SearchBudget&
 /// Whole numbers are bits, or values: the type, which is at least 1, tells.
 bool RecordWalker::is_record(const char* record) const noexcept
 {
+  constexpr std::int64_t least_int = -most_int - 1;
   constexpr std::int64_t most_value = std::int64_t{ 1 } << 53;
-  const char* const tag = slot(record, RecordSlots::tag);
-  const char* const mask = slot(record, RecordSlots::mask);
-  const std::int64_t type_bits = bytes_.int64_in(slot(record, RecordSlots::type));
-  if (type_bits >= 1 && type_bits <= header_.types)
+  using Slots = RecordSlots;
+  const auto bits = [&](std::size_t slot) { return this->load<std::int64_t>(record, slot); };
+  const auto value = [&](std::size_t slot) { return this->load<double>(record, slot); };
+  if (in_range(bits(Slots::type), 1, header_.types))
   {
-    return (header_.tag_bytes == 8 || in_range(bytes_.int64_in(tag), -most_int - 1, most_int)) &&
-      in_range(bytes_.int64_in(mask), -most_int - 1, most_int) && this->near_box(record);
+    return (header_.tag_bytes == 8 || in_range(bits(Slots::tag), least_int, most_int)) &&
+      in_range(bits(Slots::mask), least_int, most_int) && this->near_box(record);
   }
-  return is_whole_in(bytes_.double_in(slot(record, RecordSlots::type)), 1, header_.types) &&
-    is_whole_in(bytes_.double_in(tag), -most_value, most_value) &&
-    is_whole_in(bytes_.double_in(mask), -most_int - 1, most_int) && this->near_box(record);
+  return is_whole_in(value(Slots::type), 1, header_.types) &&
+    is_whole_in(value(Slots::tag), -most_value, most_value) &&
+    is_whole_in(value(Slots::mask), least_int, most_int) && this->near_box(record);
 }
 
 bool RecordWalker::near_box(const char* record) const noexcept
 {
-  for (std::size_t axis = 0; bounds_ && axis < 3; ++axis)
+  for (std::size_t axis = 0; in_box_ && axis < 3; ++axis)
   {
-    const double x = bytes_.double_in(slot(record, RecordSlots::x + axis));
-    if (!(x >= bounds_->lo[axis] && x <= bounds_->hi[axis])) // nor is it nan
+    const auto x = this->load<double>(record, RecordSlots::x + axis);
+    if (!(x >= bounds_.lo[axis] && x <= bounds_.hi[axis])) // nor is it nan
     {
       return false;
     }

@@ -7,43 +7,46 @@
 #include "granular/restart/restart_header.h"
 
 #include <cstdint>
-#include <optional>
 
 namespace granular
 {
-/// What a search may cost, whatever a file is made of: it is over when this is used up.
-struct SearchBudget
-{
-  std::int64_t steps = 0; ///< counts, strings and records that may still be looked at
-  std::int64_t bytes = 0; ///< that may still be read from the file
-
-  bool spent() const noexcept { return steps <= 0 || bytes <= 0; }
-};
-
 /// Goes from record to record, and looks whether each could be one of a particle.
 class RecordWalker
 {
 public:
-  /// in_box: positions must lie in the box, or no further away than it is long.
-  RecordWalker(const ByteSource& source, bool swapped, const RestartHeader& header, bool in_box,
-    Progress& progress);
+  RecordWalker(const ByteSource& source, bool swapped, const RestartHeader& header,
+    SearchBudget& budget, Progress& progress);
+
+  /// Forgets the records. in_box: from now on positions must lie in the box, or no further away than it is long.
+  void restart(bool in_box) noexcept
+  {
+    records_ = 0;
+    in_box_ = in_box;
+  }
 
   /// Walks the records of a chunk, which must end where the chunk does: each of a whole length, with a whole id of at least 0, a type of
   /// those that there are, and a whole mask. False if they do not, at() is then the record that is none; or when the budget is spent.
-  bool walk(std::int64_t offset, std::int64_t doubles, SearchBudget& budget);
+  bool walk(std::int64_t offset, std::int64_t doubles);
 
-  /// In all chunks since the last reset.
+  /// In all chunks since the last restart.
   std::int64_t records() const noexcept { return records_; }
   std::int64_t at() const noexcept { return at_; }
-  void reset() noexcept { records_ = 0; }
 
 private:
+  template <class Number>
+  Number load(const char* record, std::size_t slot) const noexcept
+  {
+    return bytes_.load<Number>(record + slot * sizeof(Number));
+  }
+
   bool is_record(const char* record) const noexcept;
   bool near_box(const char* record) const noexcept;
 
   RestartBytes bytes_;
   const RestartHeader& header_;
-  std::optional<BoxBounds> bounds_; ///< of where particles may be; none: anywhere
+  SearchBudget& budget_;
+  BoxBounds bounds_; ///< of where particles may be, if they must be near the box
+  bool in_box_ = false;
   Progress& progress_;
   std::int64_t records_ = 0;
   std::int64_t at_ = 0;

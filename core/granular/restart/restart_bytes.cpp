@@ -18,32 +18,24 @@ bool printable(char byte) noexcept
 }
 }
 
-RestartBytes::RestartBytes(const ByteSource& source, bool swapped)
+RestartBytes::RestartBytes(const ByteSource& source, bool swapped, SearchBudget* budget)
   : source_(source)
   , size_(source.compressed() ? std::numeric_limits<std::int64_t>::max() : source.stamp().size)
   , swapped_(swapped)
+  , budget_(budget)
 {
 }
 
-std::int32_t RestartBytes::int32_at(std::int64_t offset, std::string_view what)
+void RestartBytes::refuse(
+  const std::string& expected, const std::string& got, std::int64_t offset) const
 {
-  return this->int32_in(this->need(offset, sizeof(std::int32_t), what));
-}
-
-std::int64_t RestartBytes::int64_at(std::int64_t offset, std::string_view what)
-{
-  return this->int64_in(this->need(offset, sizeof(std::int64_t), what));
-}
-
-double RestartBytes::double_at(std::int64_t offset, std::string_view what)
-{
-  return this->double_in(this->need(offset, sizeof(double), what));
+  throw FormatError("expected " + expected + ", got " + got, { source_.path(), 0, offset });
 }
 
 std::int64_t RestartBytes::text_end(std::int64_t offset)
 {
   const char* const count = this->find(offset, sizeof(std::int32_t));
-  const std::int64_t bytes = count ? this->int32_in(count) : 0;
+  const std::int64_t bytes = count ? this->load<std::int32_t>(count) : 0;
   if (bytes < 2 || bytes > most_text)
   {
     return -1;
@@ -60,19 +52,20 @@ std::int64_t RestartBytes::text_end(std::int64_t offset)
   return right ? begin + bytes : -1;
 }
 
-std::string RestartBytes::text_at(std::int64_t offset, std::string_view what)
+std::string RestartBytes::next_text(std::int64_t& at, std::string_view what)
 {
-  const std::int32_t count = this->int32_at(offset, what);
-  const std::int64_t end = this->text_end(offset);
+  const auto count = this->number_at<std::int32_t>(at, what);
+  const std::int64_t end = this->text_end(at);
   if (end < 0)
   {
-    throw FormatError("expected " + std::string(what) + ", a text of 1 to " +
-        std::to_string(most_text - 1) + " printable bytes and a zero, got " +
-        (count < 2 || count > most_text ? "a count of " + std::to_string(count) : "other bytes"),
-      this->where(offset));
+    this->refuse(std::string(what) + ", a text of 1 to " + std::to_string(most_text - 1) +
+        " printable bytes and a zero",
+      count < 2 || count > most_text ? "a count of " + std::to_string(count) : "other bytes", at);
   }
-  return { this->find(offset + 4, static_cast<std::size_t>(count)),
-    static_cast<std::size_t>(count) - 1 };
+  const auto bytes = static_cast<std::size_t>(count);
+  const char* const text = this->find(end - count, bytes);
+  at = end;
+  return { text, bytes - 1 };
 }
 
 std::string_view RestartBytes::view(std::int64_t offset, std::size_t at_least)
@@ -103,8 +96,7 @@ const char* RestartBytes::need(std::int64_t offset, std::size_t bytes, std::stri
   const char* const there = this->find(offset, bytes);
   if (!there)
   {
-    throw FormatError(
-      "expected " + std::string(what) + ", got the end of the file", this->where(offset));
+    this->refuse(std::string(what), "the end of the file", offset);
   }
   return there;
 }
@@ -122,6 +114,9 @@ void RestartBytes::move_to(std::int64_t offset, std::size_t at_least)
   begin_ = offset;
   length_ = 0;
   length_ = source_.read(offset, window_.data(), bytes);
-  read_bytes_ += static_cast<std::int64_t>(length_);
+  if (budget_)
+  {
+    budget_->bytes -= static_cast<std::int64_t>(length_);
+  }
 }
 }

@@ -4,6 +4,7 @@
 
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
+#include "granular/common/progress.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace granular
@@ -30,6 +32,15 @@ Number load_number(const char* bytes, bool swapped) noexcept
   return std::bit_cast<Number>(own);
 }
 
+/// What a search may cost, whatever a file is made of: it is over when this is used up.
+struct SearchBudget
+{
+  std::int64_t steps = 0; ///< counts, strings and records that may still be looked at
+  std::int64_t bytes = 0; ///< that may still be read from the file
+
+  bool spent() const noexcept { return steps <= 0 || bytes <= 0; }
+};
+
 /// Numbers and strings at any byte of a file, in either byte order, through a window on it. The source must outlive it.
 class RestartBytes
 {
@@ -37,8 +48,9 @@ public:
   /// The most bytes of a string, with the zero behind it.
   static constexpr std::int64_t most_text = 1024;
 
-  /// Of a compressed source the size is not known: it passes for endless.
-  explicit RestartBytes(const ByteSource& source, bool swapped = false);
+  /// Of a compressed source the size is not known: it passes for endless. budget: pays for what is read; null: nobody does.
+  explicit RestartBytes(
+    const ByteSource& source, bool swapped = false, SearchBudget* budget = nullptr);
 
   const ByteSource& source() const noexcept { return source_; }
   std::int64_t size() const noexcept { return size_; }
@@ -47,16 +59,29 @@ public:
   bool swapped() const noexcept { return swapped_; }
   void set_swapped(bool swapped) noexcept { swapped_ = swapped; }
 
-  Where where(std::int64_t offset) const { return { source_.path(), 0, offset }; }
+  /// Throws FormatError, with the byte.
+  [[noreturn]] void refuse(
+    const std::string& expected, const std::string& got, std::int64_t offset) const;
 
   /// Throw FormatError that expected `what`, with the byte, where the file ends before.
-  std::int32_t int32_at(std::int64_t offset, std::string_view what);
-  std::int64_t int64_at(std::int64_t offset, std::string_view what);
-  double double_at(std::int64_t offset, std::string_view what);
+  template <class Number>
+  Number number_at(std::int64_t offset, std::string_view what)
+  {
+    return this->load<Number>(this->need(offset, sizeof(Number), what));
+  }
 
-  /// A string: how many bytes it has with the zero behind it, then these. Throws FormatError also where it is none: the count is not
-  /// in 2 .. most_text, a byte is not printable, there is no zero at the end, or one before.
-  std::string text_at(std::int64_t offset, std::string_view what);
+  /// The same, and goes behind it.
+  template <class Number>
+  Number next(std::int64_t& at, std::string_view what)
+  {
+    const auto number = this->number_at<Number>(at, what);
+    at += static_cast<std::int64_t>(sizeof(Number));
+    return number;
+  }
+
+  /// A string, and goes behind it: how many bytes it has with the zero behind it, then these. Throws FormatError also where it is
+  /// none: the count is not in 2 .. most_text, a byte is not printable, there is no zero at the end, or one before.
+  std::string next_text(std::int64_t& at, std::string_view what);
 
   /// The byte behind such a string; -1 where there is none.
   std::int64_t text_end(std::int64_t offset);
@@ -68,21 +93,11 @@ public:
   /// to the end of the file. Valid until the next call.
   std::string_view view(std::int64_t offset, std::size_t at_least);
 
-  /// How many bytes were read from the source: what going to and fro costs.
-  std::int64_t read_bytes() const noexcept { return read_bytes_; }
-
-  /// Numbers out of a view.
-  std::int32_t int32_in(const char* bytes) const noexcept
+  /// A number out of a view.
+  template <class Number>
+  Number load(const char* bytes) const noexcept
   {
-    return load_number<std::int32_t>(bytes, swapped_);
-  }
-  std::int64_t int64_in(const char* bytes) const noexcept
-  {
-    return load_number<std::int64_t>(bytes, swapped_);
-  }
-  double double_in(const char* bytes) const noexcept
-  {
-    return load_number<double>(bytes, swapped_);
+    return load_number<Number>(bytes, swapped_);
   }
 
 private:
@@ -94,11 +109,53 @@ private:
   const ByteSource& source_;
   std::int64_t size_;
   bool swapped_;
+  SearchBudget* budget_;
   std::vector<char> window_;
   std::int64_t begin_ = 0;    ///< of the window in the file
   std::size_t length_ = 0;    ///< bytes in it
   std::size_t next_read_ = 0; ///< grows while one window follows the other
-  std::int64_t read_bytes_ = 0;
 };
+
+/// Tries the places of a file from `begin` on, while `least` bytes are left up to `end`, at which a pair of numbers may be what is
+/// searched for: is_pair(bytes, swapped, left) of so many bytes, and of those that were left a moment ago. As one loop for each
+/// byte order: it goes over all bytes of a file. Ends when try_at(offset) is true. Throws IoError, Cancelled.
+template <std::size_t pair_bytes, class IsPair, class TryAt>
+void search_pairs(const ByteSource& source, bool swapped, std::int64_t begin, std::int64_t end,
+  std::int64_t least, const IsPair& is_pair, const TryAt& try_at, Progress& progress)
+{
+  constexpr std::size_t window = std::size_t{ 1 } << 17;
+  RestartBytes file(source, swapped);
+  const auto search = [&](auto order)
+  {
+    for (std::int64_t at = begin; end - at >= least;)
+    {
+      progress.step(static_cast<double>(at - begin) / static_cast<double>(end - begin));
+      const std::string_view bytes = file.view(at, window);
+      if (bytes.size() < pair_bytes)
+      {
+        return;
+      }
+      const std::size_t places = bytes.size() - (pair_bytes - 1);
+      const std::int64_t left = end - at;
+      const auto next = [=](std::size_t i) // a loop that does nothing else is faster
+      {
+        while (i < places && !is_pair(bytes.data() + i, order, left))
+        {
+          ++i;
+        }
+        return i;
+      };
+      for (std::size_t i = next(0); i < places; i = next(i + 1))
+      {
+        if (try_at(at + static_cast<std::int64_t>(i)))
+        {
+          return;
+        }
+      }
+      at += static_cast<std::int64_t>(places);
+    }
+  };
+  swapped ? search(std::true_type{}) : search(std::false_type{});
+}
 }
 #endif

@@ -41,10 +41,7 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
   index.resume_line = 1;
   if (is_process_file(source))
   {
-    Notice notice;
-    notice.where.path = source.path();
-    notice.text = part_text;
-    set_defect(index, notice);
+    set_defect(index, { { source.path() }, std::string(part_text) });
     return;
   }
   try
@@ -168,10 +165,10 @@ bool looks_like_restart(const ByteSource& source)
   {
     bytes.set_swapped(swapped);
     const std::int64_t end = bytes.text_end(4);
-    if (end > 0 && bytes.has(end, 8) && bytes.int32_at(0, "") == 0 && bytes.int32_at(end, "") == 1)
+    const auto number = [&](std::int64_t at) { return bytes.number_at<std::int32_t>(at, ""); };
+    if (end > 0 && bytes.has(end, 8) && number(0) == 0 && number(end) == 1)
     {
-      const std::int32_t size = bytes.int32_at(end + 4, "");
-      return size == 4 || size == 8;
+      return number(end + 4) == 4 || number(end + 4) == 8;
     }
   }
   return false;

@@ -43,9 +43,9 @@ public:
     {
       if (header_fields[i].needed && !this->has(i))
       {
-        throw FormatError(std::string("expected ") + header_fields[i].name + " (flag " +
-            std::to_string(i) + ") in the header, got the end of the header",
-          bytes_.where(at_));
+        bytes_.refuse(
+          std::string(header_fields[i].name) + " (flag " + std::to_string(i) + ") in the header",
+          "the end of the header", at_);
       }
     }
     this->check_grid();
@@ -60,7 +60,7 @@ private:
 
   [[noreturn]] void fail(std::size_t i, const std::string& expected, const std::string& got) const
   {
-    throw FormatError("expected " + expected + ", got " + got, bytes_.where(values_[i].byte));
+    bytes_.refuse(expected, got, values_[i].byte);
   }
 
   /// The first flag is 0 in either order; behind it is the length of a text.
@@ -72,34 +72,20 @@ private:
       throw UnsupportedError(
         "expected a restart file of LIGGGHTS, got one of LAMMPS: make a dump of it "
         "by lmp -restart2dump FILE all custom DUMP id type x y z",
-        bytes_.where(0));
+        { bytes_.source().path(), 0, 0 });
     }
     bytes_.set_swapped(false);
-    const std::int32_t first = bytes_.int32_at(0, "the header of a restart file");
+    const auto first = bytes_.number_at<std::int32_t>(0, "the header of a restart file");
     bytes_.set_swapped(bytes_.text_end(4) < 0);
     if (first != 0 || bytes_.text_end(4) < 0)
     {
       bytes_.set_swapped(false);
-      throw FormatError(
-        "expected the header of a restart file, which begins with the version of the program, got "
-        "other bytes",
-        bytes_.where(0));
+      bytes_.refuse("the header of a restart file, which begins with the version of the program",
+        "other bytes", 0);
     }
   }
 
-  std::int64_t next_int(std::string_view what)
-  {
-    const std::int32_t number = bytes_.int32_at(at_, what);
-    at_ += 4;
-    return number;
-  }
-
-  std::string next_text(std::string_view what)
-  {
-    std::string text = bytes_.text_at(at_, what);
-    at_ += 4 + static_cast<std::int64_t>(text.size()) + 1;
-    return text;
-  }
+  std::int64_t next_int(std::string_view what) { return bytes_.next<std::int32_t>(at_, what); }
 
   /// False at the end of the header.
   bool read_field()
@@ -112,16 +98,13 @@ private:
     }
     if (number < 0 || number >= static_cast<std::int64_t>(header_fields.size()))
     {
-      throw FormatError("expected a flag of the header, -1 to " +
-          std::to_string(header_fields.size() - 1) + ", got " + std::to_string(number),
-        bytes_.where(begin));
+      bytes_.refuse("a flag of the header, -1 to " + std::to_string(header_fields.size() - 1),
+        std::to_string(number), begin);
     }
     const auto i = static_cast<std::size_t>(number);
     if (this->has(i))
     {
-      throw FormatError(
-        std::string("expected ") + header_fields[i].name + " once in the header, got it again",
-        bytes_.where(begin));
+      bytes_.refuse(std::string(header_fields[i].name) + " once in the header", "it again", begin);
     }
     this->read_value(i);
     if (i == flag::atom_style)
@@ -139,7 +122,7 @@ private:
     switch (field.kind)
     {
       case FieldKind::Text:
-        value.text = this->next_text(field.name);
+        value.text = bytes_.next_text(at_, field.name);
         break;
       case FieldKind::Int:
         value.whole = this->next_int(field.name);
@@ -150,8 +133,7 @@ private:
         this->check_whole(i);
         break;
       case FieldKind::Real:
-        value.real = bytes_.double_at(at_, field.name);
-        at_ += 8;
+        value.real = bytes_.next<double>(at_, field.name);
         if (!std::isfinite(value.real))
         {
           this->fail(i, std::string("a number for ") + field.name, std::to_string(value.real));
@@ -168,13 +150,9 @@ private:
         header_fields[flag::count_bytes].name + std::string(" (flag 3) before any count"),
         header_fields[i].name);
     }
-    if (values_[flag::count_bytes].whole == 4)
-    {
-      values_[i].whole = this->next_int(header_fields[i].name);
-      return;
-    }
-    values_[i].whole = bytes_.int64_at(at_, header_fields[i].name);
-    at_ += 8;
+    const bool is_short = values_[flag::count_bytes].whole == 4;
+    values_[i].whole = is_short ? this->next_int(header_fields[i].name)
+                                : bytes_.next<std::int64_t>(at_, header_fields[i].name);
   }
 
   void check_whole(std::size_t i) const
@@ -201,43 +179,35 @@ private:
   /// these styles).
   void read_styles()
   {
-    constexpr std::int64_t most = 100;
     const std::string& style = values_[flag::atom_style].text;
     header_.styles = { { style } };
     if (style == "hybrid")
     {
-      const std::int64_t byte = at_;
-      const std::int64_t count = this->next_int("the number of atom styles of the hybrid");
-      if (count < 1 || count > most)
-      {
-        throw FormatError("expected the number of atom styles of the hybrid, 1 to " +
-            std::to_string(most) + ", got " + std::to_string(count),
-          bytes_.where(byte));
-      }
+      const int count = this->next_count("the number of atom styles of the hybrid", 1, 100);
       header_.styles.resize(static_cast<std::size_t>(count));
       for (RestartStyle& one : header_.styles)
       {
-        one.name = this->next_text("an atom style of the hybrid");
+        one.name = bytes_.next_text(at_, "an atom style of the hybrid");
       }
     }
     for (RestartStyle& one : header_.styles)
     {
       if (one.name == "bond/gran")
       {
-        one.bond_types = this->next_most("the bond types of bond/gran");
-        one.bonds_per_atom = this->next_most("the bonds per particle of bond/gran");
+        one.bond_types = this->next_count("the bond types of bond/gran", 0, most_restart_types);
+        one.bonds_per_atom =
+          this->next_count("the bonds per particle of bond/gran", 0, most_restart_types);
       }
     }
   }
 
-  int next_most(const std::string& what)
+  int next_count(const std::string& what, std::int64_t least, std::int64_t most)
   {
     const std::int64_t number = this->next_int(what);
-    if (number < 0 || number > most_restart_types)
+    if (number < least || number > most)
     {
-      throw FormatError("expected " + what + ", 0 to " + std::to_string(most_restart_types) +
-          ", got " + std::to_string(number),
-        bytes_.where(at_ - 4));
+      bytes_.refuse(what + ", " + std::to_string(least) + " to " + std::to_string(most),
+        std::to_string(number), at_ - 4);
     }
     return static_cast<int>(number);
   }
@@ -307,9 +277,8 @@ private:
     {
       if (!this->has(flag::tilts + i))
       {
-        throw FormatError(
-          std::string("expected three tilts, got none for ") + header_fields[flag::tilts + i].name,
-          bytes_.where(at_));
+        bytes_.refuse(
+          "three tilts", std::string("none for ") + header_fields[flag::tilts + i].name, at_);
       }
       return Twofold{ values_[flag::tilts + i].real, 0 };
     };

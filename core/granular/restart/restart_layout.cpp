@@ -34,11 +34,13 @@ public:
     this->read_masses();
     progress_.set_part(0, 0.8);
     const std::vector<ProcessNames> names = process_names(bytes_.source().path());
-    if (layout_.header.atoms == 0 && !names.empty() && is_there(find_process_names(names).of(0)))
+    const ProcessNames* const files =
+      layout_.header.atoms == 0 ? find_process_names(names) : nullptr;
+    if (files)
     {
       // before the zeros at the end of the file, which may be counts of fixes
       this->take_fixes(layout_.size);
-      this->read_files(find_process_names(names));
+      this->read_files(*files);
       return std::move(layout_);
     }
     ChunkSearch search =
@@ -48,7 +50,7 @@ public:
     {
       layout_.begin = search.begin;
       layout_.chunks = std::move(search.chunks);
-      layout_.records = search.records;
+      layout_.records = layout_.header.atoms;
       this->take_fixes(layout_.begin);
     }
     else
@@ -63,25 +65,22 @@ private:
   void read_groups()
   {
     constexpr std::int32_t most = 32; ///< bits of a mask
-    const std::int32_t count = bytes_.int32_at(at_, "the number of groups");
+    const auto count = bytes_.next<std::int32_t>(at_, "the number of groups");
     if (count < 1 || count > most)
     {
-      throw FormatError(
-        "expected the number of groups, 1 to 32, got " + std::to_string(count), bytes_.where(at_));
+      bytes_.refuse("the number of groups, 1 to 32", std::to_string(count), at_ - 4);
     }
-    at_ += 4;
     for (std::int32_t seen = 0; seen < count;)
     {
       if (layout_.groups.size() == most)
       {
-        throw FormatError("expected the names of " + std::to_string(count) +
-            " groups in 32 places, got " + std::to_string(seen),
-          bytes_.where(at_));
+        bytes_.refuse("the names of " + std::to_string(count) + " groups in 32 places",
+          std::to_string(seen), at_);
       }
-      const bool is_free = bytes_.int32_at(at_, "the name of a group") == 0;
-      layout_.groups.push_back(is_free ? "" : bytes_.text_at(at_, "the name of a group"));
-      const std::string& name = layout_.groups.back();
-      at_ += 4 + (is_free ? 0 : static_cast<std::int64_t>(name.size()) + 1);
+      constexpr const char* what = "the name of a group";
+      const bool is_free = bytes_.number_at<std::int32_t>(at_, what) == 0;
+      layout_.groups.push_back(is_free ? "" : bytes_.next_text(at_, what));
+      at_ += is_free ? 4 : 0;
       seen += is_free ? 0 : 1;
     }
   }
@@ -90,25 +89,21 @@ private:
   void read_masses()
   {
     constexpr const char* what = "the masses of types (0), or their end (-1)";
-    std::int32_t kind = bytes_.int32_at(at_, what);
-    const auto types = static_cast<std::size_t>(layout_.header.types);
-    layout_.masses.assign(types, std::numeric_limits<double>::quiet_NaN());
+    auto kind = bytes_.next<std::int32_t>(at_, what);
+    layout_.masses.assign(
+      static_cast<std::size_t>(layout_.header.types), std::numeric_limits<double>::quiet_NaN());
     if (kind == 0)
     {
-      for (std::size_t type = 0; type < types; ++type)
+      for (double& mass : layout_.masses)
       {
-        layout_.masses[type] =
-          bytes_.double_at(at_ + 4 + 8 * static_cast<std::int64_t>(type), "the mass of a type");
+        mass = bytes_.next<double>(at_, "the mass of a type");
       }
-      at_ += 4 + 8 * static_cast<std::int64_t>(types);
-      kind = bytes_.int32_at(at_, "the end of the masses of types (-1)");
+      kind = bytes_.next<std::int32_t>(at_, "the end of the masses of types (-1)");
     }
     if (kind != -1)
     {
-      throw FormatError(
-        std::string("expected ") + what + ", got " + std::to_string(kind), bytes_.where(at_));
+      bytes_.refuse(what, std::to_string(kind), at_ - 4);
     }
-    at_ += 4;
   }
 
   /// What is stored of fixes lies right before `end`.
@@ -134,14 +129,11 @@ private:
     constexpr std::int64_t worth = std::int64_t{ 1 } << 20;
     const bool look = !names.empty() || layout_.size - at_ < worth;
     const FixSearch fixes = look ? this->take_fixes(layout_.size) : FixSearch{};
-    if (!names.empty())
+    const ProcessNames* const files = find_process_names(names);
+    if (files || (fixes.found && !names.empty()))
     {
-      const ProcessNames found = find_process_names(names);
-      if (fixes.found || is_there(found.of(0)))
-      {
-        this->read_files(found);
-        return;
-      }
+      this->read_files(files ? *files : names.front()); // the first says which file is missing
+      return;
     }
     std::string text = "expected " + std::to_string(layout_.header.atoms) + " particles of " +
       std::to_string(layout_.header.processes) + " processes" +
@@ -160,7 +152,7 @@ private:
     {
       text += "; gave up, as too much of the file looks like particles";
     }
-    throw FormatError(text, bytes_.where(at_));
+    throw FormatError(text, { bytes_.source().path(), 0, at_ });
   }
 
   RestartBytes bytes_;
@@ -177,12 +169,9 @@ RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& 
     RestartLayout layout = LayoutReader(source, progress).read();
     if (!layout.has_fixes && layout.records > 0)
     {
-      Notice notice;
-      notice.where = { source.path(), 0, layout.begin };
-      notice.text =
+      notices.push_back({ { source.path(), 0, layout.begin },
         "expected what fixes have stored before the particles, found nothing: what they "
-        "add to particles has no names";
-      notices.push_back(std::move(notice));
+        "add to particles has no names" });
     }
     return layout;
   }

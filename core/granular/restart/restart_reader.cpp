@@ -23,14 +23,18 @@ void note_loss(
   const DumpFrame& frame, const RestartRequest& request, const Where& where, Notices& notices)
 {
   const Vector3& origin = request.lines.point_origin;
+  if (origin == Vector3{})
+  {
+    return;
+  }
   RoundingLoss loss;
   add_rounding(frame.rows, frame.header.box, origin, loss);
-  for (const DumpArray& array : frame.arrays)
+  const auto radii = std::ranges::find_if(
+    frame.arrays, [](const DumpArray& array) { return array.info.name == "radius"; });
+  if (radii != frame.arrays.end())
   {
-    const bool radii = array.info.name == "radius" && origin != Vector3{};
-    const auto* const values = static_cast<const double*>(array.block.data());
-    std::for_each(
-      values, values + (radii ? frame.rows : 0), [&](double radius) { loss.add_radius(radius); });
+    const auto* const values = static_cast<const double*>(radii->block.data());
+    std::for_each(values, values + frame.rows, [&](double radius) { loss.add_radius(radius); });
   }
   note_point_loss(loss, frame.header.box, origin, false, where, notices);
 }
@@ -62,20 +66,24 @@ public:
   {
     // what fixes have is the same in all records or left out, which all pieces must know
     const bool all = bonds_ || plan_.fixes() > 0;
-    std::vector<std::optional<RecordRows>> rows(executor_.workers(scan_.blocks()));
+    std::vector<RecordRows> rows(executor_.workers(scan_.blocks()), RecordRows(plan_));
     const auto visit = [&](std::size_t worker, std::size_t block, const RecordBatch& batch)
     {
-      if (!rows[worker])
-      {
-        rows[worker].emplace(plan_);
-      }
       const auto size = static_cast<std::int64_t>(batch.size());
-      const std::int64_t begin =
-        all ? 0 : std::clamp<std::int64_t>(first_ - batch.first_row, 0, size);
-      const std::int64_t end =
-        all ? size : std::clamp<std::int64_t>(end_ - batch.first_row, 0, size);
-      this->decode(block, batch, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
-        *rows[worker]);
+      const auto place_of = [&](std::int64_t row) {
+        return static_cast<std::size_t>(std::clamp<std::int64_t>(row - batch.first_row, 0, size));
+      };
+      const std::size_t end = all ? batch.size() : place_of(end_);
+      RecordRows& some = rows[worker];
+      for (std::size_t at = all ? 0 : place_of(first_); at < end; at += some.count)
+      {
+        some.load(plan_, batch, at, end);
+        particles_.store(some);
+        if (bonds_)
+        {
+          bonds_->collect(block, batch, some);
+        }
+      }
     };
     scan_.run(executor_, all ? records_ : end_, visit, progress);
   }
@@ -84,37 +92,21 @@ public:
     Notices& notices, Progress& progress)
   {
     RestartFrame frame;
+    FrameHeader& header = frame.bonds.table.header;
+    header = particles_.header();
+    header.rows = 0;
+    header.counted = "BONDS";
     if (bonds_)
     {
-      frame.bonds =
-        make_bond_frame(*bonds_, layout, request, first_, end_, where, notices, progress);
+      make_bond_frame(
+        *bonds_, layout, request, first_, end_, where, frame.bonds, notices, progress);
     }
     frame.particles = particles_.take(where, notices);
     note_loss(frame.particles, request, where, notices);
-    if (!bonds_)
-    {
-      frame.bonds.table.header = frame.particles.header;
-      frame.bonds.table.header.rows = 0;
-      frame.bonds.table.header.counted = "BONDS";
-    }
     return frame;
   }
 
 private:
-  void decode(std::size_t block, const RecordBatch& batch, std::size_t begin, std::size_t end,
-    RecordRows& rows)
-  {
-    for (std::size_t at = begin; at < end; at += rows.count)
-    {
-      rows.load(plan_, batch, at, end);
-      particles_.store(rows);
-      if (bonds_)
-      {
-        bonds_->collect(block, batch, rows);
-      }
-    }
-  }
-
   const RecordPlan& plan_;
   std::int64_t records_;
   std::int64_t first_;

@@ -35,12 +35,6 @@ constexpr StyleLayout table[] = {
 };
 }
 
-std::size_t StyleLayout::least() const noexcept
-{
-  const auto there = std::ranges::count_if(lists, [](std::uint8_t width) { return width > 0; });
-  return values + static_cast<std::size_t>(there);
-}
-
 std::span<const StyleLayout> style_layouts() noexcept
 {
   return table;
@@ -54,9 +48,12 @@ const StyleLayout* find_style(std::string_view name) noexcept
 
 std::size_t measure_lists(std::span<const double> block, const StyleLayout& style)
 {
-  if (block.size() < style.least())
+  const auto lists =
+    std::ranges::count_if(style.lists, [](std::uint8_t width) { return width > 0; });
+  const std::size_t least = style.values + static_cast<std::size_t>(lists);
+  if (block.size() < least)
   {
-    throw FormatError("expected at least " + std::to_string(style.least()) +
+    throw FormatError("expected at least " + std::to_string(least) +
       " doubles in the part of style " + std::string(style.name) + ", got " +
       std::to_string(block.size()));
   }

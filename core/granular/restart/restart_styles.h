@@ -27,9 +27,6 @@ struct StyleLayout
   bool history = false; ///< behind that of the bonds: see look_at_bonds
 
   bool has_lists() const noexcept { return lists[0] > 0; }
-
-  /// Doubles that there are at least.
-  std::size_t least() const noexcept;
 };
 
 /// THE table of atom styles. Source: pack_restart of the atom styles of LIGGGHTS-PUBLIC 3.8.0 and its forks; files of 3.8.0.

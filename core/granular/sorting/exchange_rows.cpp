@@ -18,14 +18,8 @@ namespace
 std::vector<std::int64_t> swap_numbers(
   Communicator& ranks, const std::vector<std::int64_t>& numbers)
 {
-  std::vector<std::int64_t> bytes;
-  std::vector<std::int64_t> got;
-  do_together(ranks,
-    [&]
-    {
-      bytes.assign(numbers.size(), sizeof(std::int64_t));
-      got.resize(numbers.size());
-    });
+  const std::vector<std::int64_t> bytes(numbers.size(), sizeof(std::int64_t));
+  std::vector<std::int64_t> got(numbers.size());
   ranks.exchange(reinterpret_cast<const char*>(numbers.data()), bytes,
     reinterpret_cast<char*>(got.data()), bytes);
   return got;
@@ -36,16 +30,9 @@ std::vector<std::int64_t> swap_numbers(
 std::vector<std::int64_t> find_ids_at(const std::vector<std::int64_t>& places,
   std::span<const std::int64_t> sorted, Communicator& ranks)
 {
-  std::vector<std::int64_t> low;
-  std::vector<std::int64_t> high;
-  std::vector<std::int64_t> up_to;
-  do_together(ranks,
-    [&]
-    {
-      low.assign(places.size(), std::numeric_limits<std::int64_t>::min());
-      high.assign(places.size(), std::numeric_limits<std::int64_t>::max());
-      up_to.resize(places.size());
-    });
+  std::vector<std::int64_t> low(places.size(), std::numeric_limits<std::int64_t>::min());
+  std::vector<std::int64_t> high(places.size(), std::numeric_limits<std::int64_t>::max());
+  std::vector<std::int64_t> up_to(places.size());
   while (low != high)
   {
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -69,19 +56,9 @@ std::vector<std::int64_t> count_parts(
   std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks)
 {
   const auto size = static_cast<std::size_t>(ranks.size());
-  std::vector<std::int64_t> places;
-  std::vector<std::int64_t> begins;
-  std::vector<std::int64_t> equal;
-  std::vector<std::int64_t> before;
-  std::vector<std::int64_t> counts;
-  do_together(ranks,
-    [&]
-    {
-      for (std::vector<std::int64_t>* one : { &places, &begins, &equal, &before, &counts })
-      {
-        one->resize(size);
-      }
-    });
+  std::vector<std::int64_t> places(size);
+  std::vector<std::int64_t> begins(size);
+  std::vector<std::int64_t> equal(size);
   for (int rank = 0; rank < ranks.size(); ++rank)
   {
     places[static_cast<std::size_t>(rank)] = begin_of_part(rows, rank, ranks.size());
@@ -93,7 +70,7 @@ std::vector<std::int64_t> count_parts(
     begins[i] = first - sorted.begin();
     equal[i] = last - first;
   }
-  before = begins;
+  std::vector<std::int64_t> before = begins;
   ranks.sum(before);
 
   // the cut at which its part begins is drawn by each rank
@@ -108,8 +85,8 @@ std::vector<std::int64_t> count_parts(
   shares = swap_numbers(ranks, shares);
   std::transform(begins.begin(), begins.end(), shares.begin(), begins.begin(), std::plus<>());
 
-  std::copy(begins.begin() + 1, begins.end(), counts.begin());
-  counts.back() = static_cast<std::int64_t>(sorted.size());
+  std::vector<std::int64_t> counts(begins.begin() + 1, begins.end());
+  counts.push_back(static_cast<std::int64_t>(sorted.size()));
   std::transform(counts.begin(), counts.end(), begins.begin(), counts.begin(), std::minus<>());
   return counts;
 }
@@ -136,20 +113,11 @@ RowExchange::RowExchange(
 void RowExchange::move(Block& block, std::size_t width, const RowOrder& leave,
   const RowOrder& arrive, const Executor& executor) const
 {
-  Block came;
-  std::vector<std::int64_t> out_bytes;
-  std::vector<std::int64_t> in_bytes;
-  do_together(ranks_,
-    [&]
-    {
-      leave.apply(block, width, executor);
-      came = Block(static_cast<std::size_t>(rows_) * width, block.pool());
-      out_bytes = to_bytes(out_, width);
-      in_bytes = to_bytes(in_, width);
-    });
-  ranks_.exchange(
-    static_cast<const char*>(block.data()), out_bytes, static_cast<char*>(came.data()), in_bytes);
+  leave.apply(block, width, executor);
+  Block came(static_cast<std::size_t>(rows_) * width, block.pool());
+  ranks_.exchange(static_cast<const char*>(block.data()), to_bytes(out_, width),
+    static_cast<char*>(came.data()), to_bytes(in_, width));
   block = std::exchange(came, Block());
-  do_together(ranks_, [&] { arrive.apply(block, width, executor); });
+  arrive.apply(block, width, executor);
 }
 }

@@ -87,14 +87,8 @@ Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
   const std::int64_t width =
     frame.rows > 0 ? static_cast<std::int64_t>(frame.points.bytes()) / frame.rows : 0;
   const Share own = { frame.rows, has_ids, width };
-  std::string told;
-  do_together(ranks,
-    [&]
-    {
-      told.assign(reinterpret_cast<const char*>(&own), sizeof own);
-      told += shape_of(frame);
-    });
-  const std::vector<std::string> all = ranks.all_gather(told);
+  const std::vector<std::string> all = ranks.all_gather(
+    std::string(reinterpret_cast<const char*>(&own), sizeof own) + shape_of(frame));
 
   Survey sum;
   bool lacking = false; // a rank with rows has no ids
@@ -119,37 +113,76 @@ Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
 void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows, const Where& where)
 {
   std::string joined;
-  do_together(ranks,
-    [&]
-    {
-      for (const std::string& word : array.words)
-      {
-        joined += word + '\n'; // which no word holds
-      }
-    });
+  for (const std::string& word : array.words)
+  {
+    joined += word + '\n'; // which no word holds
+  }
   const std::vector<std::string> all = ranks.all_gather(joined);
-  do_together(ranks,
-    [&]
+  TextDictionary words;
+  std::vector<std::int32_t> renumbered; // by the index of a word here
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    std::string_view rest = all[rank];
+    for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1))
     {
-      TextDictionary words;
-      std::vector<std::int32_t> renumbered; // by the index of a word here
-      for (std::size_t rank = 0; rank < all.size(); ++rank)
+      const std::int32_t index = words.index(rest.substr(0, end), where);
+      if (static_cast<int>(rank) == ranks.rank())
       {
-        std::string_view rest = all[rank];
-        for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1))
-        {
-          const std::int32_t index = words.index(rest.substr(0, end), where);
-          if (static_cast<int>(rank) == ranks.rank())
-          {
-            renumbered.push_back(index);
-          }
-        }
+        renumbered.push_back(index);
       }
-      array.words = words.take();
-      auto* const indices = static_cast<std::int32_t*>(array.block.data());
-      std::transform(indices, indices + rows, indices,
-        [&](std::int32_t index) { return renumbered[static_cast<std::size_t>(index)]; });
-    });
+    }
+  }
+  array.words = words.take();
+  auto* const indices = static_cast<std::int32_t*>(array.block.data());
+  std::transform(indices, indices + rows, indices,
+    [&](std::int32_t index) { return renumbered[static_cast<std::size_t>(index)]; });
+}
+
+std::span<const std::int64_t> ids_in(const Block& block) noexcept
+{
+  return { static_cast<const std::int64_t*>(block.data()), block.bytes() / sizeof(std::int64_t) };
+}
+
+/// Collective.
+void sort_together(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
+  const Where& where, const Executor& executor)
+{
+  const std::int64_t* const numbers = find_ids(frame, ids);
+  const Survey all = survey(frame, numbers != nullptr, ranks);
+  if (!all.has_ids)
+  {
+    note_no_ids(notices, where);
+    return;
+  }
+  if (all.rows == 0)
+  {
+    return;
+  }
+  for (DumpArray& array : frame.arrays)
+  {
+    if (array.info.type == ValueType::Text)
+    {
+      join_words(array, ranks, frame.rows, where);
+    }
+  }
+
+  constexpr std::size_t id_width = sizeof(std::int64_t);
+  Block sorted(static_cast<std::size_t>(frame.rows) * id_width);
+  std::copy_n(numbers, frame.rows, static_cast<std::int64_t*>(sorted.data()));
+  const RowOrder leave(ids_in(sorted));
+  leave.apply(sorted, id_width, executor);
+  const RowExchange rows(all.rows, ids_in(sorted), ranks);
+  const RowOrder stay;
+  rows.move(sorted, id_width, stay, stay, executor);
+  const RowOrder arrive(ids_in(sorted));
+  sorted = Block();
+
+  rows.move(frame.points, all.point_width, leave, arrive, executor);
+  for (DumpArray& array : frame.arrays)
+  {
+    rows.move(array.block, row_width(array), leave, arrive, executor);
+  }
+  frame.rows = rows.rows();
 }
 }
 
@@ -175,51 +208,7 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices
     sort_by_id(frame, ids, notices, where, executor);
     return;
   }
-  const std::int64_t* const numbers = find_ids(frame, ids);
-  const Survey all = survey(frame, numbers != nullptr, ranks);
-  if (!all.has_ids)
-  {
-    do_together(ranks, [&] { note_no_ids(notices, where); });
-    return;
-  }
-  if (all.rows == 0)
-  {
-    return;
-  }
-  for (DumpArray& array : frame.arrays)
-  {
-    if (array.info.type == ValueType::Text)
-    {
-      join_words(array, ranks, frame.rows, where);
-    }
-  }
-
-  constexpr std::size_t id_width = sizeof(std::int64_t);
-  const auto values = [](const Block& block)
-  { return std::span(static_cast<const std::int64_t*>(block.data()), block.bytes() / id_width); };
-  Block sorted;
-  RowOrder leave;
-  do_together(ranks,
-    [&]
-    {
-      sorted = Block(static_cast<std::size_t>(frame.rows) * id_width);
-      std::copy_n(numbers, frame.rows, static_cast<std::int64_t*>(sorted.data()));
-      leave = RowOrder(values(sorted));
-      leave.apply(sorted, id_width, executor);
-    });
-  const RowExchange rows(all.rows, values(sorted), ranks);
-  const RowOrder stay;
-  rows.move(sorted, id_width, stay, stay, executor);
-  RowOrder arrive;
-  do_together(ranks, [&] { arrive = RowOrder(values(sorted)); });
-  sorted = Block();
-
-  rows.move(frame.points, all.point_width, leave, arrive, executor);
-  for (DumpArray& array : frame.arrays)
-  {
-    rows.move(array.block, row_width(array), leave, arrive, executor);
-  }
-  frame.rows = rows.rows();
+  do_together(ranks, [&] { sort_together(frame, ids, ranks, notices, where, executor); });
 }
 
 void keep_rows(DumpFrame& frame, std::int64_t first, std::int64_t count)

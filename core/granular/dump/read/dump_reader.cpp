@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/read/dump_reader.h"
 
-#include "granular/common/pass.h"
 #include "granular/common/shares.h"
 #include "granular/dump/formats/text_header.h"
 #include "granular/dump/read/frame_chunks.h"
 #include "granular/dump/read/frame_decoder.h"
 #include "granular/parallel/executor.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/point_loss.h"
 #include "granular/sorting/sort_rows.h"
 
@@ -19,17 +19,31 @@
 
 namespace granular
 {
-template <class Archive>
-static void pass(Archive& archive, typename Archive::template Passed<Misfit>& misfit)
-{
-  archive.number(misfit.column);
-  archive.number(misfit.status);
-  archive.text(misfit.word);
-  pass(archive, misfit.where);
-}
-
 namespace
 {
+/// What a rank has to say of its rows.
+struct Remarks
+{
+  Misfits misfits;
+  Notices notices;
+  RoundingLoss loss;
+};
+
+template <class Archive>
+void pass(Archive& archive, typename Archive::template Passed<Remarks>& remarks)
+{
+  archive.list(remarks.misfits,
+    [&](auto& misfit)
+    {
+      archive.number(misfit.column);
+      archive.number(misfit.status);
+      archive.text(misfit.word);
+      pass(archive, misfit.where);
+    });
+  pass(archive, remarks.notices);
+  archive.number(remarks.loss);
+}
+
 std::string text_of(const Misfit& misfit)
 {
   return std::string("expected ") +
@@ -176,36 +190,15 @@ void share_remarks(Communicator& ranks, DumpPart& part)
   {
     return;
   }
-  ArchiveWriter packer;
-  do_together(ranks,
-    [&]
-    {
-      pass(packer, part.misfits);
-      pass(packer, part.notices);
-      packer.number(part.loss);
-    });
-  const std::vector<std::string> all = ranks.all_gather(packer.bytes);
-  do_together(ranks,
-    [&]
-    {
-      part.misfits.clear();
-      part.notices.clear();
-      std::set<std::string> said;
-      for (const std::string& bytes : all)
-      {
-        ArchiveReader unpacker{ bytes };
-        Misfits of_rank;
-        Notices notices;
-        pass(unpacker, of_rank);
-        pass(unpacker, notices);
-        part.misfits = part.misfits.empty() ? std::move(of_rank) : part.misfits;
-        RoundingLoss loss;
-        unpacker.number(loss);
-        part.loss.add(loss);
-        std::ranges::copy_if(notices, std::back_inserter(part.notices),
-          [&](const Notice& notice) { return said.insert(to_string(notice)).second; });
-      }
-    });
+  const Remarks own{ std::exchange(part.misfits, {}), std::exchange(part.notices, {}), part.loss };
+  std::set<std::string> said;
+  for (const Remarks& remarks : gather(ranks, own))
+  {
+    part.misfits = part.misfits.empty() ? remarks.misfits : part.misfits;
+    part.loss.add(remarks.loss);
+    std::ranges::copy_if(remarks.notices, std::back_inserter(part.notices),
+      [&](const Notice& notice) { return said.insert(to_string(notice)).second; });
+  }
 }
 
 /// The parts of all ranks must have the rows that the headers promise: none of them sees them all.
@@ -258,44 +251,32 @@ void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
 {
-  check(request);
-  DumpRequest own;
-  Where where;
   SharedProgress shared(progress, ranks);
   PartialProgress forward(shared); // also where a frame is read again
-  std::optional<ColumnSchema> schema;
-  DumpPart part;
-  do_together(ranks,
+  return do_together(ranks,
     [&]
     {
-      own = own_request(request, ranks.size() > 1);
-      where = where_of(pieces.front());
-      schema = join_schemas(pieces, request);
-      part = ahead ? std::move(*ahead) : decode(pieces, *schema, own, forward);
+      check(request);
+      const DumpRequest own = own_request(request, ranks.size() > 1);
+      const Where where = where_of(pieces.front());
+      ColumnSchema schema = join_schemas(pieces, request);
+      DumpPart part = ahead ? std::move(*ahead) : decode(pieces, schema, own, forward);
       ahead.reset();
-    });
-  for (share_remarks(ranks, part); !part.misfits.empty(); share_remarks(ranks, part))
-  {
-    const FrameKind& kind = *pieces.front().entry.kind;
-    check_misfit(part.misfits.front(), kind, *schema);
-    do_together(ranks,
-      [&]
+      for (share_remarks(ranks, part); !part.misfits.empty(); share_remarks(ranks, part))
       {
-        widen(part.misfits, kind, *schema, notices);
+        const FrameKind& kind = *pieces.front().entry.kind;
+        check_misfit(part.misfits.front(), kind, schema);
+        widen(part.misfits, kind, schema, notices);
         part = {}; // the memory of a rank whose own rows did fit
-        part = decode(pieces, *schema, own, forward);
-      });
-  }
-  check_counts(ranks, pieces, part);
-  sort(part, request, ranks, where);
-  do_together(ranks,
-    [&]
-    {
+        part = decode(pieces, schema, own, forward);
+      }
+      check_counts(ranks, pieces, part);
+      sort(part, request, ranks, where);
       notices.insert(notices.end(), part.notices.begin(), part.notices.end());
       note_point_loss(part.loss, part.frame.header.box, request.point_origin,
         request.single_precision, where, notices);
+      return std::move(part.frame);
     });
-  return std::move(part.frame);
 }
 
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,

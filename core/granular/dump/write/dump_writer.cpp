@@ -56,17 +56,10 @@ struct DumpWriter::File
       shared = all.open_together(path);
       way = shared ? Way::Shared : Way::Gather;
     }
-    if (way != Way::Shared)
+    if (way == Way::Own || (way == Way::Gather && all.rank() == 0))
     {
-      do_together(all,
-        [&]
-        {
-          if (way == Way::Own || all.rank() == 0)
-          {
-            own = std::make_unique<NewFile>(name_of_rank(path, all.rank()));
-            appender.emplace(*own, format.compression, executor);
-          }
-        });
+      own = std::make_unique<NewFile>(name_of_rank(path, all.rank()));
+      appender.emplace(*own, format.compression, executor);
     }
   }
 
@@ -181,23 +174,19 @@ void DumpWriter::File::share_binary(std::string_view header, RowBatches& rows,
   const ChunkLengths& chunks, std::span<const std::int64_t> kept_rows, Progress& progress)
 {
   const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
-  do_together(ranks,
-    [&]
-    {
-      if (ranks.rank() == 0)
-      {
-        shared->write_at(shared_size, header);
-      }
-      const auto before = kept_rows.first(static_cast<std::size_t>(ranks.rank()));
-      std::int64_t offset = begin + chunks.offset(sum_of(before));
-      SharedProgress shared_progress(progress, ranks);
-      while (rows.next(shared_progress))
-      {
-        const std::vector<std::string_view> bytes = rows.bytes();
-        this->write_at(offset, bytes);
-        offset += static_cast<std::int64_t>(total_size(bytes));
-      }
-    });
+  if (ranks.rank() == 0)
+  {
+    shared->write_at(shared_size, header);
+  }
+  const auto before = kept_rows.first(static_cast<std::size_t>(ranks.rank()));
+  std::int64_t offset = begin + chunks.offset(sum_of(before));
+  SharedProgress shared_progress(progress, ranks);
+  while (rows.next(shared_progress))
+  {
+    const std::vector<std::string_view> bytes = rows.bytes();
+    this->write_at(offset, bytes);
+    offset += static_cast<std::int64_t>(total_size(bytes));
+  }
   shared_size = begin + chunks.offset(sum_of(kept_rows));
 }
 
@@ -228,37 +217,28 @@ void DumpWriter::File::share_text(std::string_view header, RowBatches& rows, Pro
 {
   SharedProgress shared_progress(progress, ranks);
   PartialProgress part(shared_progress);
-  std::vector<std::int64_t> counts;
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks.size()));
   std::string kept;
-  do_together(ranks,
-    [&]
-    {
-      counts.resize(static_cast<std::size_t>(ranks.size()));
-      part.set_part(0, 0.5);
-      counts[static_cast<std::size_t>(ranks.rank())] =
-        static_cast<std::int64_t>(this->count_text(rows, kept, part));
-    });
+  part.set_part(0, 0.5);
+  counts[static_cast<std::size_t>(ranks.rank())] =
+    static_cast<std::int64_t>(this->count_text(rows, kept, part));
   ranks.sum(counts);
   const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
-  do_together(ranks,
-    [&]
-    {
-      if (ranks.rank() == 0)
-      {
-        shared->write_at(shared_size, header);
-      }
-      std::int64_t offset =
-        begin + sum_of(std::span(counts).first(static_cast<std::size_t>(ranks.rank())));
-      shared->write_at(offset, kept);
-      offset += static_cast<std::int64_t>(kept.size());
-      part.set_part(0.5, 1);
-      while (rows.next(part))
-      {
-        const std::vector<std::string_view> bytes = rows.bytes();
-        this->write_at(offset, bytes);
-        offset += static_cast<std::int64_t>(total_size(bytes));
-      }
-    });
+  if (ranks.rank() == 0)
+  {
+    shared->write_at(shared_size, header);
+  }
+  std::int64_t offset =
+    begin + sum_of(std::span(counts).first(static_cast<std::size_t>(ranks.rank())));
+  shared->write_at(offset, kept);
+  offset += static_cast<std::int64_t>(kept.size());
+  part.set_part(0.5, 1);
+  while (rows.next(part))
+  {
+    const std::vector<std::string_view> bytes = rows.bytes();
+    this->write_at(offset, bytes);
+    offset += static_cast<std::int64_t>(total_size(bytes));
+  }
   shared_size = begin + sum_of(counts);
 }
 
@@ -269,11 +249,15 @@ DumpWriter::DumpWriter(
   , options_(options)
   , ranks_(ranks)
 {
-  check_format(format_, path_);
-  if (!is_name_of_steps(path_))
-  {
-    file_ = std::make_unique<File>(path_, format_, options_, ranks_);
-  }
+  do_together(ranks_,
+    [&]
+    {
+      check_format(format_, path_);
+      if (!is_name_of_steps(path_))
+      {
+        file_ = std::make_unique<File>(path_, format_, options_, ranks_);
+      }
+    });
 }
 
 DumpWriter::~DumpWriter() = default;
@@ -284,18 +268,22 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
   {
     throw std::logic_error("a dump is written to after it was finished");
   }
-  FramePlan plan = plan_frame(frame, format_, ranks_, notices);
-  do_together(ranks_, [&] { this->check_step(plan.header.timestep, notices); });
-  if (is_name_of_steps(path_))
-  {
-    file_ =
-      std::make_unique<File>(name_of_step(path_, plan.header.timestep), format_, options_, ranks_);
-  }
-  this->write_rows(frame, plan, notices, progress);
-  if (is_name_of_steps(path_))
-  {
-    this->finish();
-  }
+  do_together(ranks_,
+    [&]
+    {
+      FramePlan plan = plan_frame(frame, format_, ranks_, notices);
+      this->check_step(plan.header.timestep, notices);
+      if (is_name_of_steps(path_))
+      {
+        file_ = std::make_unique<File>(
+          name_of_step(path_, plan.header.timestep), format_, options_, ranks_);
+      }
+      this->write_rows(frame, plan, notices, progress);
+      if (is_name_of_steps(path_))
+      {
+        this->finish();
+      }
+    });
 }
 
 void DumpWriter::check_step(std::int64_t timestep, Notices& notices)
@@ -331,51 +319,39 @@ void DumpWriter::write_rows(
   const std::int64_t before = sum_of(std::span(plan.kept_rows).first(rank));
   const bool own = file_->way == File::Way::Own;
   const RoundingLimit limit(plan.header.box, plan.smallest_radius);
-  ChunkLengths chunks;
-  std::string header;
-  std::optional<RowEncoder> encoder;
-  std::optional<RowBatches> rows;
-  do_together(ranks_,
-    [&]
-    {
-      const std::vector<std::string> names = plan.names();
-      plan.header.rows = own ? plan.kept_rows[rank] : plan.header.rows;
-      if (format_.binary)
-      {
-        chunks = ChunkLengths(
-          plan.header.rows, static_cast<std::int64_t>(names.size()), format_.chunk_values);
-      }
-      const PrintLoss loss(plan.columns, view, plan.header.box, format_, limit);
-      header = encode_header(plan.header, names, format_, chunks, file_->first, loss.of_box());
-      encoder.emplace(
-        view, plan.columns, plan.header.box, format_, chunks, before, own ? 0 : before, loss);
-      rows.emplace(*encoder, view, names.size(), file_->executor);
-    });
+  const std::vector<std::string> names = plan.names();
+  plan.header.rows = own ? plan.kept_rows[rank] : plan.header.rows;
+  const ChunkLengths chunks = format_.binary
+    ? ChunkLengths(plan.header.rows, static_cast<std::int64_t>(names.size()), format_.chunk_values)
+    : ChunkLengths();
+  const PrintLoss printed(plan.columns, view, plan.header.box, format_, limit);
+  const std::string header =
+    encode_header(plan.header, names, format_, chunks, file_->first, printed.of_box());
+  const RowEncoder encoder(
+    view, plan.columns, plan.header.box, format_, chunks, before, own ? 0 : before, printed);
+  RowBatches rows(encoder, view, names.size(), file_->executor);
 
+  agree(ranks_, nullptr); // or the first rank would wait for the rows of one that has failed
   switch (file_->way)
   {
     case File::Way::Own:
-      do_together(ranks_,
-        [&]
-        {
-          SharedProgress shared(part, ranks_);
-          file_->append_rows(header, *rows, shared);
-          file_->appender->end_part();
-        });
+    {
+      SharedProgress shared(part, ranks_);
+      file_->append_rows(header, rows, shared);
+      file_->appender->end_part();
       break;
+    }
     case File::Way::Gather:
-      file_->gather_rows(header, *rows, part);
+      file_->gather_rows(header, rows, part);
       break;
     case File::Way::Shared:
-      format_.binary ? file_->share_binary(header, *rows, chunks, plan.kept_rows, part)
-                     : file_->share_text(header, *rows, part);
+      format_.binary ? file_->share_binary(header, rows, chunks, plan.kept_rows, part)
+                     : file_->share_text(header, rows, part);
       break;
   }
   file_->first = false;
-  const RoundingLoss loss = add_ranks(rows->loss(), ranks_);
-  do_together(ranks_,
-    [&]
-    { told_loss_ = told_loss_ || note_print_loss(loss, limit, format_, plan.names(), notices); });
+  const RoundingLoss loss = add_ranks(rows.loss(), ranks_);
+  told_loss_ = told_loss_ || note_print_loss(loss, limit, format_, names, notices);
 }
 
 void DumpWriter::finish()

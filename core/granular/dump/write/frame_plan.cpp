@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/frame_plan.h"
 
-#include "granular/common/pass.h"
 #include "granular/common/words.h"
 #include "granular/dump/write/grain_bounds.h"
 #include "granular/dump/write/print_loss.h"
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/table_columns.h"
 #include "granular/frames/header_archive.h"
+#include "granular/parallel/gather.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,19 @@
 
 namespace granular
 {
+template <class Archive>
+static void pass(Archive& archive, typename Archive::template Passed<ColumnSource>& column)
+{
+  archive.text(column.name);
+  archive.number(column.kind);
+  archive.number(column.role);
+  archive.number(column.axis);
+  archive.number(column.whole);
+  archive.number(column.values.type);
+  archive.number(column.values.factor);
+  archive.number(column.own);
+}
+
 namespace
 {
 using Kind = ColumnSource::Kind;
@@ -31,16 +44,6 @@ struct Survey
   double radius = HUGE_VAL; ///< the smallest, where numbers may lose digits
 };
 
-template <class Archive>
-void pass(Archive& archive, Survey& survey)
-{
-  archive.number(survey.kept);
-  archive.number(survey.arrays);
-  archive.number(survey.has_box);
-  archive.number(survey.bounds);
-  archive.number(survey.radius);
-}
-
 /// What the rank that leads tells the others: the header, and the columns without their values.
 struct Lead
 {
@@ -49,67 +52,20 @@ struct Lead
   Notices notices;
 };
 
-/// A vector: how many, and then each.
-template <class Archive, class Item, class Each>
-void pass_list(Archive& archive, std::vector<Item>& items, const Each& each)
-{
-  std::size_t count = items.size();
-  archive.number(count);
-  items.resize(count);
-  std::for_each(items.begin(), items.end(), each);
-}
-
 template <class Archive>
-void pass(Archive& archive, ColumnSource& column)
+void pass(Archive& archive, typename Archive::template Passed<Lead>& lead)
 {
-  archive.text(column.name);
-  archive.number(column.kind);
-  archive.number(column.role);
-  archive.number(column.axis);
-  archive.number(column.whole);
-  archive.number(column.values.type);
-  archive.number(column.values.factor);
-  archive.number(column.own);
-}
-
-template <class Archive>
-void pass(Archive& archive, std::optional<ValueSource>& values)
-{
-  bool there = values.has_value();
-  archive.number(there);
-  values = there ? values.value_or(ValueSource{}) : std::optional<ValueSource>();
-}
-
-template <class Archive>
-void pass(Archive& archive, Lead& lead)
-{
+  const auto there_or_not = [](auto&) {};
   pass(archive, lead.header);
-  pass_list(archive, lead.columns.columns, [&](ColumnSource& column) { pass(archive, column); });
-  for (std::optional<ValueSource>& image : lead.columns.images)
+  pass(archive, lead.columns.columns);
+  for (auto& image : lead.columns.images)
   {
-    pass(archive, image);
+    archive.perhaps(image, there_or_not);
   }
-  pass(archive, lead.columns.ids);
+  archive.perhaps(lead.columns.ids, there_or_not);
   archive.number(lead.columns.binary);
   archive.number(lead.columns.wraps);
   pass(archive, lead.notices);
-}
-
-template <class Item>
-std::string pack(Item item)
-{
-  ArchiveWriter packer;
-  pass(packer, item);
-  return std::move(packer.bytes);
-}
-
-template <class Item>
-Item unpack(std::string_view bytes)
-{
-  Item item;
-  ArchiveReader unpacker{ bytes };
-  pass(unpacker, item);
-  return item;
 }
 
 bool is_table(const DumpFormat& format) noexcept
@@ -291,69 +247,54 @@ FramePlan plan_frame(
   const FrameView& frame, const DumpFormat& format, Communicator& ranks, Notices& notices)
 {
   FramePlan plan;
-  std::string own;
-  do_together(ranks,
-    [&]
-    {
-      Survey survey;
-      survey.kept = count_kept(frame, 0, frame.rows);
-      survey.arrays = static_cast<std::int64_t>(frame.arrays.size());
-      survey.has_box = frame.has_box;
-      if (!frame.has_box && !is_table(format))
-      {
-        survey.bounds = bounds_of_grains(frame);
-      }
-      if (may_lose_digits(frame, format))
-      {
-        survey.radius = smallest_radius(frame);
-      }
-      own = pack(survey);
-    });
-  const std::vector<std::string> answers = ranks.all_gather(own);
+  Survey survey;
+  survey.kept = count_kept(frame, 0, frame.rows);
+  survey.arrays = static_cast<std::int64_t>(frame.arrays.size());
+  survey.has_box = frame.has_box;
+  if (!frame.has_box && !is_table(format))
+  {
+    survey.bounds = bounds_of_grains(frame);
+  }
+  if (may_lose_digits(frame, format))
+  {
+    survey.radius = smallest_radius(frame);
+  }
+  const std::vector<Survey> surveys = gather(ranks, survey);
+  for (const Survey& rank : surveys)
+  {
+    plan.kept_rows.push_back(rank.kept);
+    plan.smallest_radius = std::min(plan.smallest_radius, rank.radius);
+  }
+  const auto knows = [](const Survey& a, const Survey& b)
+  { return std::pair(a.kept > 0, a.arrays > 0) < std::pair(b.kept > 0, b.arrays > 0); };
+  const auto best = std::max_element(surveys.begin(), surveys.end(), knows);
+  const auto leader = static_cast<int>(best - surveys.begin());
 
-  int leader = 0;
+  Lead lead;
   std::string told;
-  do_together(ranks,
-    [&]
-    {
-      std::vector<Survey> surveys;
-      for (const std::string& answer : answers)
-      {
-        surveys.push_back(unpack<Survey>(answer));
-        plan.kept_rows.push_back(surveys.back().kept);
-        plan.smallest_radius = std::min(plan.smallest_radius, surveys.back().radius);
-      }
-      const auto knows = [](const Survey& a, const Survey& b)
-      { return std::pair(a.kept > 0, a.arrays > 0) < std::pair(b.kept > 0, b.arrays > 0); };
-      const auto best = std::max_element(surveys.begin(), surveys.end(), knows);
-      leader = static_cast<int>(best - surveys.begin());
-      if (ranks.rank() != leader)
-      {
-        return;
-      }
-      Lead lead{ frame.header, {}, {} };
-      choose_box(lead, frame, format, surveys);
-      const std::vector<std::string> names = choose_names(frame, format, lead.notices);
-      check_names(names);
-      lead.columns = plan_names(names, frame, format, lead.notices);
-      check_frame(lead, format, lead.notices);
-      told = pack(std::move(lead));
-    });
+  if (ranks.rank() == leader)
+  {
+    lead.header = frame.header;
+    choose_box(lead, frame, format, surveys);
+    const std::vector<std::string> names = choose_names(frame, format, lead.notices);
+    check_names(names);
+    lead.columns = plan_names(names, frame, format, lead.notices);
+    check_frame(lead, format, lead.notices);
+    ArchiveWriter packer;
+    pass(packer, lead);
+    told = std::move(packer.bytes);
+  }
   ranks.broadcast(told, leader);
-
-  do_together(ranks,
-    [&]
-    {
-      const Lead lead = unpack<Lead>(told);
-      plan.header = lead.header;
-      plan.header.counted = is_table(format) ? format.counted : "ATOMS";
-      plan.header.rows =
-        std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
-      plan.header.box.boundary =
-        lead.header.box.boundary.empty() ? "ff ff ff" : parse_boundary(lead.header.box.boundary);
-      plan.columns = join_plan(lead, frame, format);
-      notices.insert(notices.end(), lead.notices.begin(), lead.notices.end());
-    });
+  ArchiveReader unpacker(told);
+  pass(unpacker, lead);
+  plan.header = lead.header;
+  plan.header.counted = is_table(format) ? format.counted : "ATOMS";
+  plan.header.rows =
+    std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
+  plan.header.box.boundary =
+    lead.header.box.boundary.empty() ? "ff ff ff" : parse_boundary(lead.header.box.boundary);
+  plan.columns = join_plan(lead, frame, format);
+  notices.insert(notices.end(), lead.notices.begin(), lead.notices.end());
   return plan;
 }
 }

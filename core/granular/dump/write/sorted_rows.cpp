@@ -35,10 +35,10 @@ void copy_to(const std::vector<Value>& values, const Block& block, std::int64_t 
 SortedRows::SortedRows(const FrameView& frame, FramePlan& plan, Communicator& ranks,
   const Executor& executor, Progress& progress)
 {
-  do_together(ranks, [&] { this->copy(frame, plan, ranks.rank(), progress); });
+  this->copy(frame, plan, ranks.rank(), progress);
   Notices none;
   sort_by_id(rows_, ids_, ranks, none, {}, executor);
-  do_together(ranks, [&] { this->show(plan); });
+  this->show(plan);
   const std::int64_t all =
     std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
   for (int rank = 0; rank < ranks.size(); ++rank)
