@@ -211,12 +211,9 @@ void check_counts(Communicator& ranks, const FramePieces& pieces, DumpPart& part
   ranks.sum(part.counts);
   for (std::size_t piece = 0; piece < part.counts.size(); ++piece)
   {
-    const std::int64_t rows = pieces[piece].entry.rows;
-    if (part.counts[piece] != rows)
+    if (part.counts[piece] != pieces[piece].entry.rows)
     {
-      throw FormatError("expected " + std::to_string(rows) + " rows, got " +
-          (part.counts[piece] > rows ? "more" : std::to_string(part.counts[piece])),
-        where_of(pieces[piece]));
+      fail_count(pieces[piece], part.counts[piece]);
     }
   }
 }

@@ -331,9 +331,7 @@ void FrameDecoder::check_counts(std::size_t pieces) const
     const bool all = range.first == 0 && range.last == extent_of(entry);
     if (count > entry.rows || (all && count < entry.rows))
     {
-      throw FormatError("expected " + std::to_string(entry.rows) + " rows, got " +
-          (count > entry.rows ? "more" : std::to_string(count)),
-        where_of(pieces_[range.piece]));
+      fail_count(pieces_[range.piece], count);
     }
   }
 }
