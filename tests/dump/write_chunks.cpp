@@ -162,7 +162,7 @@ TEST(WriteChunks, rows_far_behind)
   {
     const RowEncoder encoder{ frame, plan, made.box, format, chunks, first, first };
     const Executor executor(2);
-    RowBatches batches(encoder, frame, 5, executor);
+    RowBatches batches(encoder, executor);
     Progress progress;
     std::string bytes;
     while (batches.next(progress))

@@ -45,16 +45,9 @@ private:
     std::unique_ptr<Adsorption> found;
   };
 
-  /// Of an attempt.
-  struct Tries
-  {
-    double left;     ///< in all attempts
-    double idle = 0; ///< since the last grain that stayed
-  };
-
   void follow(Part& part, const Executor& executor, Progress& progress) const;
-  bool adsorb_all(Communicator& ranks, Tries& tries, const Executor& executor, Progress& progress);
-  bool adsorb(std::size_t size_class, Communicator& ranks, Tries& tries, const Executor& executor,
+  bool adsorb_all(Communicator& ranks, double& tries, const Executor& executor, Progress& progress);
+  bool adsorb(std::size_t size_class, Communicator& ranks, double& tries, const Executor& executor,
     PartialProgress& progress);
   double arrivals_on_a_line(
     std::size_t size_class, std::int64_t missing, double staying) const noexcept;

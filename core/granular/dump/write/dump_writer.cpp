@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/dump_writer.h"
 
-#include "granular/dump/write/file_appender.h"
 #include "granular/dump/write/frame_plan.h"
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/sorted_rows.h"
@@ -81,9 +80,7 @@ void DumpWriter::File::append_rows(std::string_view header, RowBatches& rows, Pr
   appender->append(header);
   if (appender->is_plain())
   {
-    rows.pass_on([&](std::size_t bytes) { return appender->take(bytes); },
-      [&](std::int64_t offset, std::string_view bytes) { appender->write_at(offset, bytes); },
-      progress);
+    rows.write_to(*appender, progress);
     return;
   }
   while (rows.next(progress))
@@ -317,7 +314,7 @@ void DumpWriter::write_rows(
     encode_header(plan.header, names, format_, chunks, file_->first, printed.of_box());
   const RowEncoder encoder{ view, plan.columns, plan.header.box, format_, chunks, before,
     own ? 0 : before, printed };
-  RowBatches rows(encoder, view, names.size(), file_->executor);
+  RowBatches rows(encoder, file_->executor);
 
   agree(ranks_, nullptr); // or the first rank would wait for the rows of one that has failed
   switch (file_->way)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/encode_header.h"
 
+#include "granular/common/archive.h"
 #include "granular/common/words.h"
 
 #include <algorithm>
@@ -122,19 +123,11 @@ std::string encode_text(const FrameHeader& header, const std::vector<std::string
   return writer.take();
 }
 
-struct BinaryHeaderWriter
+struct BinaryHeaderWriter : ArchiveWriter
 {
-  std::string bytes = {};
-
-  template <class Value>
-  void number(Value value)
-  {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-
   void int32(std::int64_t value) { this->number(static_cast<std::int32_t>(value)); }
 
-  void text(std::string_view value)
+  void counted_text(std::string_view value)
   {
     if (static_cast<std::int64_t>(value.size()) > most_int32)
     {
@@ -211,13 +204,13 @@ std::string encode_binary(const FrameHeader& header, const std::vector<std::stri
   writer.int32(static_cast<std::int64_t>(columns.size()));
   if (magic)
   {
-    writer.text(format.units && first ? header.units : "");
+    writer.counted_text(format.units && first ? header.units : "");
     writer.number(static_cast<char>(format.time ? 1 : 0));
     if (format.time)
     {
       writer.number(header.time.value_or(0));
     }
-    writer.text(join_words(columns));
+    writer.counted_text(join_words(columns));
   }
   writer.int32(chunks.chunks());
   if (header.rows == 0)
