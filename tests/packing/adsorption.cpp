@@ -280,7 +280,7 @@ TEST(PackingAdsorption, PartsOfABoxAreThoseOfTheWhole)
     std::vector<granular::Arrivals> rounds;
     for (std::uint64_t i = 0; i < 12; ++i)
     {
-      rounds.push_back({ i / 6, 17 * i + 1, i < 6 ? 8.0 : 30.0 });
+      rounds.emplace_back(grid, i / 6, 17 * i + 1, i < 6 ? 8.0 : 30.0);
     }
     rounds[5].last = std::uint64_t{ 1 } << 62;
     const granular::Executor executor(2);

@@ -309,13 +309,6 @@ bool is_local(std::string_view first_bytes)
 
 bool is_local_file(const std::string& path) noexcept
 {
-  try
-  {
-    return is_local(first_bytes_of(*unpack(open_file(path))));
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
+  return looks_so(path, [](const ByteSource& source) { return is_local(first_bytes_of(source)); });
 }
 }
