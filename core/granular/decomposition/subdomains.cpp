@@ -78,29 +78,28 @@ Decomposition decomposition_of(const GatheredBounds& bounds)
   return decomposition;
 }
 
+Decomposition join(std::span<const Decomposition> parts)
+{
+  Decomposition all;
+  for (const auto& [subdomains, has_particles, has_ranks] : parts)
+  {
+    const bool is_empty = subdomains.empty(); // nothing is known of arrays where there are no cells
+    all.has_particles = all.has_particles && (has_particles || is_empty);
+    all.has_ranks = all.has_ranks && (has_ranks || is_empty);
+    all.subdomains.insert(all.subdomains.end(), subdomains.begin(), subdomains.end());
+  }
+  for (std::size_t i = 0; i < all.subdomains.size(); ++i)
+  {
+    Subdomain& each = all.subdomains[i];
+    each.particles = all.has_particles ? each.particles : 0;
+    each.rank = all.has_ranks ? each.rank : static_cast<int>(i);
+  }
+  return all;
+}
+
 Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks)
 {
-  return do_together(ranks,
-    [&]
-    {
-      Decomposition joined;
-      for (const Decomposition& part : gather(ranks, own))
-      {
-        if (part.subdomains.empty())
-        {
-          continue; // nothing is known of arrays where there are no cells
-        }
-        joined.has_particles = joined.has_particles && part.has_particles;
-        joined.has_ranks = joined.has_ranks && part.has_ranks;
-        joined.subdomains.insert(
-          joined.subdomains.end(), part.subdomains.begin(), part.subdomains.end());
-      }
-      for (std::size_t i = 0; !joined.has_ranks && i < joined.subdomains.size(); ++i)
-      {
-        joined.subdomains[i].rank = static_cast<int>(i);
-      }
-      return joined;
-    });
+  return do_together(ranks, [&] { return join(gather(ranks, own)); });
 }
 
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept

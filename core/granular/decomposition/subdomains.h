@@ -50,6 +50,10 @@ GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks);
 /// The subdomains with these bounds, p = 0 .. P - 1. Throws Error where an array has not its size.
 Decomposition decomposition_of(const GatheredBounds& bounds);
 
+/// Joins parts of one decomposition, in their order. Counts or ranks that a part with subdomains lacks are unknown: then all
+/// counts are 0, or ranks are counted.
+Decomposition join(std::span<const Decomposition> parts);
+
 /// The subdomains of all ranks, in the order of the ranks, on all. What not all who have any know of them nobody
 /// knows. Collective.
 Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks);
