@@ -200,8 +200,7 @@ BinaryRows::Run BinaryRows::find_run(std::int64_t row) const
       runs_.push_back(run);
     }
   }
-  const auto behind_it = std::upper_bound(runs_.begin(), runs_.end(), row,
-    [](std::int64_t wanted, const Run& of) { return wanted < of.first; });
+  const auto behind_it = std::ranges::upper_bound(runs_, row, {}, &Run::first);
   return behind_it[-1];
 }
 

@@ -111,7 +111,7 @@ ColumnSchema join_schemas(const FramePieces& pieces, const DumpRequest& request)
       where_of(pieces.front()));
   }
   ColumnSchema schema = request.schema.value_or(first.kind->schema);
-  std::set<int> texts;
+  std::vector<ColumnSchema::TypeChange> texts;
   for (std::size_t i = 1; i < pieces.size(); ++i)
   {
     const FrameEntry& entry = pieces[i].entry;
@@ -130,16 +130,11 @@ ColumnSchema join_schemas(const FramePieces& pieces, const DumpRequest& request)
     {
       if (other.columns()[column].type == ValueType::Text && !schema.columns().at(column).known)
       {
-        texts.insert(static_cast<int>(column));
+        texts.push_back({ static_cast<int>(column), ValueType::Text });
       }
     }
   }
-  std::vector<ColumnSchema::TypeChange> changes;
-  std::ranges::transform(texts, std::back_inserter(changes),
-    [](int column) {
-      return ColumnSchema::TypeChange{ column, ValueType::Text };
-    });
-  schema.set_types(changes);
+  schema.set_types(texts);
   return schema;
 }
 
