@@ -107,8 +107,8 @@ void vtkGranularAlgorithm::AskFor(vtkInformationVector** inputVector, int piece,
 int vtkGranularAlgorithm::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const Outcome outcome =
-    Guard(this, outputVector, [&] { this->Execute(request, inputVector, outputVector); });
+  const Outcome outcome = Guard(
+    this, *this->Ranks, outputVector, [&] { this->Execute(request, inputVector, outputVector); });
   return this->Ranks->EndRequest(this, outcome);
 }
 

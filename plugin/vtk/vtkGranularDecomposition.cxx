@@ -28,7 +28,7 @@ vtkStandardNewMacro(vtkGranularDecomposition);
 
 //------------------------------------------------------------------------------
 /**
- * Does one request. The functions are collective, but for those in the brackets of do_together.
+ * Does one request. Collective.
  */
 class vtkGranularDecomposition::Counter
 {
@@ -64,7 +64,7 @@ public:
         this->FindByRank();
         break;
     }
-    granular::do_together(this->Ranks, [&] { this->Fill(); });
+    this->Fill();
   }
 
 private:
@@ -75,7 +75,7 @@ private:
 
   void ReadParticles()
   {
-    granular::do_together(this->Ranks, [&] { this->Progress.step(0); });
+    this->Progress.step(0);
     this->Input.emplace(vtkDataObject::GetData(this->Inputs[0]), this->Ranks);
     this->Together = AreTogether(this->Wanted, this->Self->Mode == RANKS, this->Ranks);
   }
@@ -92,7 +92,7 @@ private:
   /**
    * Adds up what all processes counted, and gives the subdomains their numbers.
    */
-  void SetCounts(granular::ParticleCounts& counts)
+  void SetCounts(granular::ParticleCounts counts)
   {
     if (this->Together)
     {
@@ -108,73 +108,50 @@ private:
 
   void CountInGrid()
   {
-    granular::ParticleCounts counts;
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        const auto [lo, hi] = this->Input->FindBounds(
-          this->Self->Bounds, "the subdomains of its processes are tilted, too, and no voxels");
-        const granular::ProcessGrid grid = this->Shared.MakeGrid(this->Self, lo, hi);
-        counts =
-          granular::count_in_grid(this->Input->View(), grid, this->MakeExecutor(), this->Progress);
-        this->Found.subdomains = grid.subdomains(0, grid.size());
-      });
-    this->SetCounts(counts);
+    const auto [lo, hi] = this->Input->FindBounds(
+      this->Self->Bounds, "the subdomains of its processes are tilted, too, and no voxels");
+    const granular::ProcessGrid grid = this->Shared.MakeGrid(this->Self, lo, hi);
+    this->Found.subdomains = grid.subdomains(0, grid.size());
+    this->SetCounts(
+      granular::count_in_grid(this->Input->View(), grid, this->MakeExecutor(), this->Progress));
     this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
   }
 
   void CountInSubdomains()
   {
-    granular::Decomposition own;
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        vtkInformation* info = this->Inputs[1]->GetInformationObject(0);
-        auto* voxels = info ? vtkUnstructuredGrid::GetData(info) : nullptr;
-        if (!voxels)
-        {
-          throw granular::Error(
-            "expected the subdomains as voxels at the second input, got nothing");
-        }
-        own = ReadVoxels(voxels, this->Notices);
-      });
+    vtkInformation* info = this->Inputs[1]->GetInformationObject(0);
+    auto* voxels = info ? vtkUnstructuredGrid::GetData(info) : nullptr;
+    if (!voxels)
+    {
+      throw granular::Error("expected the subdomains as voxels at the second input, got nothing");
+    }
+    granular::Decomposition own = ReadVoxels(voxels, this->Notices);
     this->Found =
       this->Together ? granular::gather_decomposition(own, this->Ranks) : std::move(own);
     this->Found.has_particles = true;
-    granular::ParticleCounts counts;
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        granular::SubdomainChecks checks;
-        checks.gap = granular::Answer::None; // who is in one is outside, which is told
-        granular::check_subdomains(
-          this->Found.subdomains, checks, {}, this->Notices, this->Progress);
-        counts = granular::count_in_subdomains(
-          this->Input->View(), this->Found.subdomains, this->MakeExecutor(), this->Progress);
-      });
-    this->SetCounts(counts);
+    granular::SubdomainChecks checks;
+    checks.gap = granular::Answer::None; // who is in one is outside, which is told
+    granular::check_subdomains(this->Found.subdomains, checks, {}, this->Notices, this->Progress);
+    this->SetCounts(granular::count_in_subdomains(
+      this->Input->View(), this->Found.subdomains, this->MakeExecutor(), this->Progress));
     this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
   }
 
   void FindByArray()
   {
     granular::ParticleBounds own;
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        const granular::FrameView& view = this->Input->View();
-        const char* name = this->Self->ProcessArray ? this->Self->ProcessArray : "";
-        const granular::ArrayView* process = view.find(name);
-        if (view.rows > 0 && !process)
-        {
-          throw granular::Error(
-            "expected a point array '" + std::string(name) + "' with ranks of processes, got none");
-        }
-        if (view.rows > 0)
-        {
-          own = granular::bounds_by_process(view, *process, this->MakeExecutor(), this->Progress);
-        }
-      });
+    const granular::FrameView& view = this->Input->View();
+    const char* name = this->Self->ProcessArray ? this->Self->ProcessArray : "";
+    const granular::ArrayView* process = view.find(name);
+    if (view.rows > 0 && !process)
+    {
+      throw granular::Error(
+        "expected a point array '" + std::string(name) + "' with ranks of processes, got none");
+    }
+    if (view.rows > 0)
+    {
+      own = granular::bounds_by_process(view, *process, this->MakeExecutor(), this->Progress);
+    }
     this->Found.subdomains = this->Together ? granular::join_by_process(own.subdomains, this->Ranks)
                                             : std::move(own.subdomains);
     this->SetOutside(own.outside);
@@ -187,17 +164,12 @@ private:
 
   void FindByRank()
   {
-    granular::ParticleBounds own;
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        own =
-          granular::bounds_of_particles(this->Input->View(), this->MakeExecutor(), this->Progress);
-        for (granular::Subdomain& subdomain : own.subdomains)
-        {
-          subdomain.rank = this->Ranks.rank();
-        }
-      });
+    granular::ParticleBounds own =
+      granular::bounds_of_particles(this->Input->View(), this->MakeExecutor(), this->Progress);
+    for (granular::Subdomain& subdomain : own.subdomains)
+    {
+      subdomain.rank = this->Ranks.rank();
+    }
     this->Found.subdomains = granular::join_by_process(own.subdomains, this->Ranks);
     this->Processes = this->Ranks.size();
     this->SetOutside(own.outside);

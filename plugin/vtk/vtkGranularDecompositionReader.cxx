@@ -93,74 +93,52 @@ int vtkGranularDecompositionReader::FillOutputPortInformation(
 }
 
 //------------------------------------------------------------------------------
+// Each rank reads the whole frame, and keeps its piece.
 int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  return this->Series->Run(this, outputVector, [&] { this->Read(request, outputVector); });
-}
+  return this->Series->Run(this, request, outputVector,
+    [&](Internals::Shown& shown)
+    {
+      shown.Progress.set_part(0, 0.4);
+      granular::Decomposition all = ReadPieces(shown.Pieces, shown.Notices, shown.Progress);
+      const granular::SubdomainChecks checks = { static_cast<granular::Answer>(this->CheckBounds),
+        static_cast<granular::Answer>(this->CheckOverlap),
+        static_cast<granular::Answer>(this->CheckGaps), this->Tolerance };
+      shown.Progress.set_part(0.4, 0.8);
+      granular::check_subdomains(
+        all.subdomains, checks, shown.Where, shown.Notices, shown.Progress);
 
-//------------------------------------------------------------------------------
-// Collective: an error of one rank is one of all. Each reads the whole frame, and keeps its piece.
-void vtkGranularDecompositionReader::Read(vtkInformation* request, vtkInformationVector* outputs)
-{
-  granular::Communicator& ranks = this->Series->GetRanks();
-  AlgorithmProgress own(this);
-  granular::SharedProgress together(own, ranks);
-  granular::PartialProgress progress(together);
-  const auto read = [&]
-  {
-    progress.step(0);
-    double time = 0;
-    const std::size_t frame = this->Series->FindFrame(this, request, outputs, time);
-    const std::vector<granular::FramePiece> pieces = this->Series->Index.pieces(frame);
-    granular::Notices notices;
-    progress.set_part(0, 0.4);
-    granular::Decomposition all = ReadPieces(pieces, notices, progress);
-    const granular::SubdomainChecks checks = { static_cast<granular::Answer>(this->CheckBounds),
-      static_cast<granular::Answer>(this->CheckOverlap),
-      static_cast<granular::Answer>(this->CheckGaps), this->Tolerance };
-    const granular::FramePiece& first = pieces.front();
-    progress.set_part(0.4, 0.8);
-    granular::check_subdomains(
-      all.subdomains, checks, granular::where_of(first), notices, progress);
+      granular::FrameHeader header;
+      const granular::Subdomain bounds = granular::bounds_of(all.subdomains);
+      header.box = granular::Box::from_bounds(bounds.lo, bounds.hi);
+      header.box.boundary = "ff ff ff";
+      header.timestep = shown.Pieces.front().entry.timestep;
+      auto* output = vtkUnstructuredGrid::GetData(outputVector);
+      FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+      if (all.has_particles)
+      {
+        output->GetFieldData()->AddArray(
+          MakeDoubles("imbalance", { granular::imbalance_of(all.subdomains) }));
+      }
 
-    granular::FrameHeader header;
-    const granular::Subdomain bounds = granular::bounds_of(all.subdomains);
-    header.box = granular::Box::from_bounds(bounds.lo, bounds.hi);
-    header.box.boundary = "ff ff ff";
-    header.timestep = first.entry.timestep;
-    auto* output = vtkUnstructuredGrid::GetData(outputs);
-    FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
-    if (all.has_particles)
-    {
-      output->GetFieldData()->AddArray(
-        MakeDoubles("imbalance", { granular::imbalance_of(all.subdomains) }));
-    }
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-
-    const auto [begin, end] = PieceRequest::Of(outputs->GetInformationObject(0))
-                                .RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
-    granular::Decomposition part = { {}, all.has_particles, all.has_ranks };
-    if (begin == 0 && end == static_cast<vtkTypeInt64>(all.subdomains.size()))
-    {
-      part.subdomains.swap(all.subdomains); // there may be many
-    }
-    else
-    {
-      part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
-    }
-    VoxelForm form;
-    form.SharedCorners = this->SharedCorners;
-    form.Threads = ChooseThreads(this->Threads, ranks);
-    progress.set_part(0.8, 1);
-    FillVoxels(output, part, form, progress);
-    if (ranks.rank() == 0)
-    {
-      this->Series->Tell(this, notices, false);
-    }
-    progress.step(1);
-  };
-  granular::do_together(ranks, read);
+      const auto [begin, end] =
+        PieceRequest::Of(shown.Port).RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
+      granular::Decomposition part = { {}, all.has_particles, all.has_ranks };
+      if (begin == 0 && end == static_cast<vtkTypeInt64>(all.subdomains.size()))
+      {
+        part.subdomains.swap(all.subdomains); // there may be many
+      }
+      else
+      {
+        part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
+      }
+      VoxelForm form;
+      form.SharedCorners = this->SharedCorners;
+      form.Threads = ChooseThreads(this->Threads, this->Series->GetRanks());
+      shown.Progress.set_part(0.8, 1);
+      FillVoxels(output, part, form, shown.Progress);
+    });
 }
 
 //------------------------------------------------------------------------------

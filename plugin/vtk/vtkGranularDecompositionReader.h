@@ -95,8 +95,6 @@ private:
   vtkGranularDecompositionReader(const vtkGranularDecompositionReader&) = delete;
   void operator=(const vtkGranularDecompositionReader&) = delete;
 
-  void Read(vtkInformation* request, vtkInformationVector* outputs);
-
   int CheckBounds = ANSWER_ERROR;
   int CheckOverlap = ANSWER_ERROR;
   int CheckGaps = ANSWER_ERROR;

@@ -26,25 +26,21 @@ vtkGranularDecompositionSource::~vtkGranularDecompositionSource() = default;
 void vtkGranularDecompositionSource::Execute(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
 {
-  const auto work = [&]
-  {
-    const double* bounds = this->Bounds;
-    const granular::Vector3 lo = { bounds[0], bounds[2], bounds[4] };
-    const granular::Vector3 hi = { bounds[1], bounds[3], bounds[5] };
-    const granular::ProcessGrid grid = this->Shared->MakeGrid(this, lo, hi);
-    const auto [first, last] =
-      PieceRequest::Of(outputs->GetInformationObject(0)).RangeOf(grid.size());
-    auto* output = vtkUnstructuredGrid::GetData(outputs);
-    AlgorithmProgress own(this);
-    granular::SharedProgress progress(own, this->Ranks->Get());
-    FillVoxels(output, { grid.subdomains(first, last) }, this->Shared->MakeForm(this), progress);
-    granular::FrameHeader header;
-    header.box = granular::Box::from_bounds(lo, hi);
-    header.box.boundary = "ff ff ff";
-    FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
-    output->GetFieldData()->RemoveArray("timestep"); // it has none
-  };
-  granular::do_together(this->Ranks->Get(), work);
+  const double* bounds = this->Bounds;
+  const granular::Vector3 lo = { bounds[0], bounds[2], bounds[4] };
+  const granular::Vector3 hi = { bounds[1], bounds[3], bounds[5] };
+  const granular::ProcessGrid grid = this->Shared->MakeGrid(this, lo, hi);
+  const auto [first, last] =
+    PieceRequest::Of(outputs->GetInformationObject(0)).RangeOf(grid.size());
+  auto* output = vtkUnstructuredGrid::GetData(outputs);
+  AlgorithmProgress own(this);
+  granular::SharedProgress progress(own, this->Ranks->Get());
+  FillVoxels(output, { grid.subdomains(first, last) }, this->Shared->MakeForm(this), progress);
+  granular::FrameHeader header;
+  header.box = granular::Box::from_bounds(lo, hi);
+  header.box.boundary = "ff ff ff";
+  FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+  output->GetFieldData()->RemoveArray("timestep"); // it has none
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "private/decomposition/voxels.h"
 #include "private/decomposition/vtu_file.h"
 #include "private/dump/dump_input.h"
+#include "private/request/expect_data.h"
 #include "private/request/name_file.h"
 #include "private/writing/whole_file.h"
 #include "private/writing/writer.h"
@@ -11,8 +12,6 @@
 #include "granular/decomposition/decomposition_text.h"
 #include "granular/dump/write/dump_format.h"
 
-#include "vtkCompositeDataSet.h"
-#include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -89,15 +88,11 @@ protected:
   void Gather(granular::Notices& notices, granular::Progress& progress) override
   {
     this->All = granular::gather_decomposition(this->All, this->Ranks);
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        granular::SubdomainChecks checks; // that a file can be read at all
-        checks.overlap = granular::Answer::None;
-        checks.gap = granular::Answer::None;
-        granular::check_subdomains(
-          this->All.subdomains, checks, { .path = this->Form.Path }, notices, progress);
-      });
+    granular::SubdomainChecks checks; // that a file can be read at all
+    checks.overlap = granular::Answer::None;
+    checks.gap = granular::Answer::None;
+    granular::check_subdomains(
+      this->All.subdomains, checks, { .path = this->Form.Path }, notices, progress);
   }
 
   std::string Encode(
@@ -120,15 +115,8 @@ protected:
 private:
   vtkUnstructuredGrid* Check(vtkDataObject* input) const
   {
-    auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-    if (!grid)
-    {
-      throw granular::UnsupportedError("expected a vtkUnstructuredGrid of voxels to write, got a " +
-          std::string(input->GetClassName()) +
-          (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
-                                                    : ""),
-        { this->Form.Path });
-    }
+    auto* grid = ExpectData<vtkUnstructuredGrid>(
+      input, "a vtkUnstructuredGrid of voxels to write", { this->Form.Path });
     const auto box = FindBox(grid->GetFieldData());
     if (box && box->tilted)
     {
@@ -164,23 +152,7 @@ void vtkGranularDecompositionWriter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkGranularDecompositionWriter::SetDialect(int dialect)
 {
-  if (dialect != INL && dialect != PUBLIC)
-  {
-    vtkErrorMacro("expected Dialect 0 (INL) or 1 (PUBLIC), got " << dialect);
-    return;
-  }
-  if (this->Dialect != dialect)
-  {
-    this->Dialect = dialect;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDecompositionWriter::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see File::Check
-  return 1;
+  this->SetChoice("Dialect", this->Dialect, dialect, { "INL", "PUBLIC" });
 }
 
 //------------------------------------------------------------------------------

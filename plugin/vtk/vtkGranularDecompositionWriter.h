@@ -68,7 +68,6 @@ protected:
   vtkGranularDecompositionWriter();
   ~vtkGranularDecompositionWriter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
   int Dialect = INL;

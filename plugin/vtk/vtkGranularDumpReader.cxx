@@ -9,7 +9,6 @@
 #include "private/request/piece_request.h"
 #include "private/request/series_reader.h"
 
-#include "granular/common/archive.h"
 #include "granular/common/words.h"
 #include "granular/dump/formats/dump_files.h"
 #include "granular/dump/read/dump_reader.h"
@@ -17,6 +16,7 @@
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -41,6 +41,7 @@ vtkStandardNewMacro(vtkGranularDumpReader);
 struct vtkGranularDumpReader::Internals
 {
   using Self = vtkGranularDumpReader;
+  using Shown = vtkGranularSeriesReader::Internals::Shown;
 
   std::string ColumnNames; ///< as they were given
   ArrayChoice Arrays;
@@ -49,26 +50,12 @@ struct vtkGranularDumpReader::Internals
   FrameAhead Ahead;     ///< the next frame
   std::size_t LastFrame = 0;
 
-  /**
-   * What is to be read: a frame, and what of it.
-   */
-  struct Task
-  {
-    std::size_t Frame = 0;
-    double Time = 0;
-    granular::DumpRequest Request;
-  };
-
   void UpdateSelection(const granular::RunIndex& index);
   granular::DumpRequest MakeRequest(Self* self, vtkInformation* output);
-  void FindTask(Self* self, vtkInformation* request, vtkInformationVector* outputs, Task& task);
-  std::string FormOf(const Task& task) const;
-  granular::DumpFrame Read(Self* self, const Task& task, bool together, granular::Notices& notices);
-  void FillOutputs(Self* self, vtkInformationVector* outputs, const Task& task,
-    granular::DumpFrame& frame, granular::Notices& notices);
-  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
-  FrameAhead::Key KeyOf(Self* self, const Task& task, bool together);
-  void StartNext(Self* self, const Task& task, bool together) noexcept;
+  void FillOutputs(Self* self, vtkInformationVector* outputs, const granular::DumpRequest& request,
+    granular::DumpFrame& frame, Shown& shown);
+  void Show(Self* self, vtkInformationVector* outputs, Shown& shown);
+  void StartNext(Self* self, const granular::DumpRequest& request, const Shown& shown) noexcept;
 };
 
 //------------------------------------------------------------------------------
@@ -100,6 +87,11 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
   request.coordinates = static_cast<granular::Coordinates>(self->Coordinates);
   request.single_precision = self->PointPrecision == SINGLE_PRECISION;
   std::copy_n(self->PointOrigin, 3, request.point_origin.begin());
+  if (!std::ranges::all_of(
+        request.point_origin, [](double coordinate) { return std::isfinite(coordinate); }))
+  {
+    throw granular::LimitError("PointOrigin must be finite");
+  }
   request.sort_by_id = self->SortById;
   request.stride = self->Stride;
   std::copy_n(self->RegionOfInterest, 6, request.region.begin());
@@ -116,153 +108,70 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
 }
 
 //------------------------------------------------------------------------------
-// What the port that is asked for wants, whatever it is that the other ranks want.
-void vtkGranularDumpReader::Internals::FindTask(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs, Task& task)
-{
-  task.Frame = self->Series->FindFrame(self, request, outputs, task.Time);
-  task.Request =
-    this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
-  for (double coordinate : task.Request.point_origin)
-  {
-    if (!std::isfinite(coordinate))
-    {
-      throw granular::LimitError("PointOrigin must be finite");
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-// What must be the same on ranks that read together: they exchange rows.
-std::string vtkGranularDumpReader::Internals::FormOf(const Task& task) const
-{
-  granular::DumpRequest request = task.Request;
-  granular::ArchiveWriter form;
-  std::size_t frame = task.Frame;
-  form.number(frame);
-  form.number(request.coordinates);
-  form.number(request.single_precision);
-  form.number(request.point_origin);
-  form.number(request.sort_by_id);
-  form.number(request.stride);
-  form.number(request.region);
-  for (std::string name : this->Arrays.GetWanted())
-  {
-    form.text(name);
-  }
-  return form.bytes;
-}
-
-//------------------------------------------------------------------------------
-granular::DumpFrame vtkGranularDumpReader::Internals::Read(
-  Self* self, const Task& task, bool together, granular::Notices& notices)
-{
-  granular::Communicator& ranks = self->Series->GetRanks();
-  std::vector<granular::FramePiece> pieces;
-  AlgorithmProgress own(self);
-  granular::SharedProgress progress(own, ranks);
-  std::optional<granular::DumpPart> ahead;
-  granular::do_together(ranks,
-    [&]
-    {
-      progress.step(0);
-      pieces = self->Series->Index.pieces(task.Frame);
-      ahead = this->Ahead.Take(this->KeyOf(self, task, together), progress);
-    });
-  granular::DumpFrame frame;
-  if (together)
-  {
-    frame = granular::read_dump(pieces, task.Request, ranks, std::move(ahead), notices, own);
-  }
-  else
-  {
-    granular::SerialCommunicator alone;
-    granular::do_together(ranks,
-      [&] {
-        frame =
-          granular::read_dump(pieces, task.Request, alone, std::move(ahead), notices, progress);
-      });
-  }
-  granular::do_together(ranks, [&] { progress.step(1); });
-  return frame;
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularDumpReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
-  const Task& task, granular::DumpFrame& frame, granular::Notices& notices)
+  const granular::DumpRequest& request, granular::DumpFrame& frame, Shown& shown)
 {
   const VertexCells cells[] = { VertexCells::None, VertexCells::One, VertexCells::OnePerPoint };
-  FillParticles(vtkPolyData::GetData(outputs, 0), frame, task.Request.single_precision,
+  FillParticles(vtkPolyData::GetData(outputs, 0), frame, request.single_precision,
     cells[self->Vertices], this->Vertices, self->Series->Pool);
   auto* box = vtkUnstructuredGrid::GetData(outputs, 1);
-  if (task.Request.piece == 0 &&
-    !FillBox(box, frame.header.box, frame.coordinates, task.Request.point_origin))
+  if (request.piece == 0 &&
+    !FillBox(box, frame.header.box, frame.coordinates, request.point_origin))
   {
-    const granular::FramePiece piece = self->Series->Index.first_piece(task.Frame);
-    notices.push_back({ granular::where_of(piece), "the box is not finite and not shown" });
+    shown.Notices.push_back({ shown.Where, "the box is not finite and not shown" });
   }
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
-    vtkDataObject* output = vtkDataObject::GetData(outputs, port);
-    FillFieldData(output->GetFieldData(), frame, task.Request.point_origin);
-    FillLeftOut(output->GetFieldData(), task.Request);
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), task.Time);
+    vtkFieldData* about = vtkDataObject::GetData(outputs, port)->GetFieldData();
+    FillFieldData(about, frame, request.point_origin);
+    FillLeftOut(about, request);
   }
 }
 
 //------------------------------------------------------------------------------
-// Collective: what may fail on one rank alone is done together.
-void vtkGranularDumpReader::Internals::Run(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+// The ranks exchange rows, if they read together.
+void vtkGranularDumpReader::Internals::Show(Self* self, vtkInformationVector* outputs, Shown& shown)
 {
   granular::Communicator& ranks = self->Series->GetRanks();
-  granular::Notices notices;
-  Task task;
-  std::string form;
-  granular::do_together(ranks,
-    [&]
+  self->Series->StartFrame(shown.Notices);
+  const granular::DumpRequest request = this->MakeRequest(self, shown.Port);
+  this->Arrays.CheckNames(shown.Where.path, shown.Notices);
+  shown.Together = AskTogether(ranks, { request.piece, request.pieces }, this->Arrays.GetWanted(),
+    [&](granular::ArchiveWriter& form)
     {
-      self->Series->StartFrame(notices);
-      this->FindTask(self, request, outputs, task);
-      this->Arrays.CheckNames(self->Series->Index.first_piece(task.Frame).file.path, notices);
-      form = this->FormOf(task);
+      form.number(shown.Number);
+      form.number(request.coordinates);
+      form.number(request.single_precision);
+      form.number(request.point_origin);
+      form.number(request.sort_by_id);
+      form.number(request.stride);
+      form.number(request.region);
     });
-  const bool together = AskTogether({ task.Request.piece, task.Request.pieces }, form, ranks);
-  granular::DumpFrame frame = this->Read(self, task, together, notices);
-  granular::do_together(ranks,
-    [&]
-    {
-      this->FillOutputs(self, outputs, task, frame, notices);
-      if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
-      {
-        self->Series->Tell(self, notices, false);
-      }
-    });
-  this->StartNext(self, task, together);
-}
-
-//------------------------------------------------------------------------------
-FrameAhead::Key vtkGranularDumpReader::Internals::KeyOf(Self* self, const Task& task, bool together)
-{
-  return { task.Frame, task.Request.piece, task.Request.pieces, together, self->GetMTime() };
+  std::optional<granular::DumpPart> ahead = this->Ahead.Take(
+    { shown.Number, request.piece, request.pieces, shown.Together, self->GetMTime() },
+    shown.Progress);
+  granular::SerialCommunicator alone;
+  granular::DumpFrame frame = granular::read_dump(shown.Pieces, request,
+    shown.Together ? ranks : alone, std::move(ahead), shown.Notices, shown.Progress);
+  this->FillOutputs(self, outputs, request, frame, shown);
+  this->StartNext(self, request, shown);
 }
 
 //------------------------------------------------------------------------------
 // The next frame in the direction in which they are looked at. Where there is no memory or no thread for
 // that, it is decoded when it is asked for.
 void vtkGranularDumpReader::Internals::StartNext(
-  Self* self, const Task& task, bool together) noexcept
+  Self* self, const granular::DumpRequest& request, const Shown& shown) noexcept
 {
-  const bool back = task.Frame + 1 == this->LastFrame;
-  this->LastFrame = task.Frame;
+  const bool back = shown.Number + 1 == this->LastFrame;
+  this->LastFrame = shown.Number;
+  const std::size_t next = back ? shown.Number - 1 : shown.Number + 1;
   try
   {
-    Task next = task;
-    next.Frame += back ? -1 : 1;
-    if (self->Prefetch && next.Frame < self->Series->Index.size())
+    if (self->Prefetch && next < self->Series->Index.size())
     {
-      this->Ahead.Start(
-        this->KeyOf(self, next, together), self->Series->Index.pieces(next.Frame), next.Request);
+      this->Ahead.Start({ next, request.piece, request.pieces, shown.Together, self->GetMTime() },
+        self->Series->Index.pieces(next), request);
     }
   }
   catch (const std::exception&)
@@ -370,8 +279,8 @@ int vtkGranularDumpReader::FillOutputPortInformation(int port, vtkInformation* i
 int vtkGranularDumpReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  return this->Series->Run(
-    this, outputVector, [&] { this->Internal->Run(this, request, outputVector); });
+  return this->Series->Run(this, request, outputVector,
+    [&](auto& shown) { this->Internal->Show(this, outputVector, shown); });
 }
 
 //------------------------------------------------------------------------------

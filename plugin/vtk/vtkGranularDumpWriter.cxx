@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpWriter.h"
 
+#include "private/request/expect_data.h"
 #include "private/request/text_of.h"
 #include "private/writing/rows_file.h"
 
 #include "granular/common/words.h"
 
-#include "vtkCompositeDataSet.h"
-#include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
@@ -57,15 +56,7 @@ public:
 protected:
   std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) override
   {
-    auto* points = vtkPointSet::SafeDownCast(input);
-    if (!points)
-    {
-      throw granular::UnsupportedError("expected a vtkPointSet to write, got a " +
-          std::string(input->GetClassName()) +
-          (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
-                                                    : ""),
-        { this->Path });
-    }
+    auto* points = ExpectData<vtkPointSet>(input, "a vtkPointSet to write", { this->Path });
     auto data = std::make_unique<DumpInput>(points, notices);
     granular::FrameHeader& header = data->View.header;
     if (*TextOf(this->Self->Units))
@@ -133,38 +124,13 @@ void vtkGranularDumpWriter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkGranularDumpWriter::SetStyle(int style)
 {
-  if (style != ATOM && style != CUSTOM)
-  {
-    vtkErrorMacro("expected Style 0 (Atom) or 1 (Custom), got " << style);
-    return;
-  }
-  if (this->Style != style)
-  {
-    this->Style = style;
-    this->Modified();
-  }
+  this->SetChoice("Style", this->Style, style, { "Atom", "Custom" });
 }
 
 //------------------------------------------------------------------------------
 void vtkGranularDumpWriter::SetDialect(int dialect)
 {
-  if (dialect != LIGGGHTS && dialect != LAMMPS)
-  {
-    vtkErrorMacro("expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS), got " << dialect);
-    return;
-  }
-  if (this->Dialect != dialect)
-  {
-    this->Dialect = dialect;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDumpWriter::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see File::Write
-  return 1;
+  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS" });
 }
 
 //------------------------------------------------------------------------------
@@ -198,10 +164,6 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
   format.units = this->WriteUnits;
   format.time = this->WriteTime;
   format.sort_by_id = this->SortById;
-  granular::Communicator& ranks = internals.GetRanks();
-  granular::WriteOptions options;
-  options.mode =
-    this->ParallelMode == MPI_IO ? granular::ParallelMode::MpiIo : granular::ParallelMode::Gather;
-  options.threads = ChooseThreads(this->Threads, ranks);
-  return std::make_unique<File>(this, std::move(format), options, ranks);
+  return std::make_unique<File>(
+    this, std::move(format), internals.MakeOptions(this), internals.GetRanks());
 }

@@ -155,7 +155,6 @@ protected:
   vtkGranularDumpWriter();
   ~vtkGranularDumpWriter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
   int Style = CUSTOM;

@@ -52,7 +52,7 @@ bool AreGiven(const double bounds[6])
 
 //------------------------------------------------------------------------------
 /**
- * Does one request. The functions are collective, but for those in the brackets of do_together.
+ * Does one request. Collective.
  */
 class vtkGranularEulerAverage::Averager
 {
@@ -72,7 +72,7 @@ public:
 
   void Run()
   {
-    granular::do_together(this->Ranks, [&] { this->Progress.step(0); });
+    this->Progress.step(0);
     this->Together = AreTogether(this->Wanted, false, this->Ranks);
     if (this->Self->TimeAverage)
     {
@@ -82,12 +82,8 @@ public:
     {
       this->Cells = this->AverageFrame(this->Input).cells;
     }
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        this->Tell();
-        this->Fill();
-      });
+    this->Tell();
+    this->Fill();
   }
 
 private:
@@ -116,38 +112,23 @@ private:
       const granular::EulerAverages averages = this->AverageFrame(frames.GetData());
       granular::do_together(this->Ranks, [&] { sums.add(averages); });
     }
-    granular::do_together(this->Ranks, [&] { this->Cells = sums.cells(); });
+    this->Cells = sums.cells();
   }
 
   granular::EulerAverages AverageFrame(vtkDataObject* input)
   {
     this->Grains.emplace(input, this->Ranks);
-    granular::EulerAverages averages;
     granular::Notices notices;
-    granular::do_together(this->Ranks, [&] { CheckAllThere(input, notices); });
-    if (this->Together)
+    CheckAllThere(input, notices);
+    granular::SerialCommunicator alone;
+    granular::EulerAverages averages = this->Average(this->Together ? this->Ranks : alone, notices);
+    this->Outside += averages.outside;
+    this->Broken += averages.broken;
+    for (const granular::Notice& notice : notices)
     {
-      averages = this->Average(this->Ranks, notices);
+      this->Notices.insert(granular::to_string(notice));
     }
-    else
-    {
-      granular::do_together(this->Ranks,
-        [&]
-        {
-          granular::SerialCommunicator alone;
-          averages = this->Average(alone, notices);
-        });
-    }
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        this->Outside += averages.outside;
-        this->Broken += averages.broken;
-        for (const granular::Notice& notice : notices)
-        {
-          this->Notices.insert(granular::to_string(notice));
-        }
-      });
+
     return averages;
   }
 
@@ -158,31 +139,21 @@ private:
   {
     granular::FrameView& view = this->Grains->View();
     granular::EulerAverageRequest request;
-    double largest = 0;
-    granular::do_together(ranks,
-      [&]
-      {
-        request.arrays = { TextOf(this->Self->VelocityArray), TextOf(this->Self->RadiusArray),
-          TextOf(this->Self->MassArray), TextOf(this->Self->StressArray) };
-      });
-    if (this->Self->CellsBy == RELATIVE_SIZE)
+    request.arrays = { TextOf(this->Self->VelocityArray), TextOf(this->Self->RadiusArray),
+      TextOf(this->Self->MassArray), TextOf(this->Self->StressArray) };
+    const double largest = this->Self->CellsBy == RELATIVE_SIZE
+      ? granular::largest_radius(view, request.arrays, ranks)
+      : 0;
+    if (this->Self->Periodic == NONE)
     {
-      largest = granular::largest_radius(view, request.arrays, ranks);
+      view.header.box.boundary.clear();
     }
-    granular::do_together(ranks,
-      [&]
-      {
-        if (this->Self->Periodic == NONE)
-        {
-          view.header.box.boundary.clear();
-        }
-        this->CheckTilt(view, notices);
-        request.grid = this->MakeGrid(largest);
-        request.wanted = this->FindWanted(request.grid);
-        request.cells.weights = this->Self->Weights == CENTRE ? granular::CellWeights::Centre
-                                                              : granular::CellWeights::Overlap;
-        request.keep_sums = this->Self->TimeAverage;
-      });
+    this->CheckTilt(view, notices);
+    request.grid = this->MakeGrid(largest);
+    request.wanted = this->FindWanted(request.grid);
+    request.cells.weights = this->Self->Weights == CENTRE ? granular::CellWeights::Centre
+                                                          : granular::CellWeights::Overlap;
+    request.keep_sums = this->Self->TimeAverage;
     this->Grid = request.grid;
     const granular::Executor executor(ChooseThreads(this->Self->Threads, this->Ranks));
     return granular::average_in_cells(view, request, ranks, executor, notices, this->Progress);
@@ -402,7 +373,7 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
     info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
     return 1;
   }
-  const Outcome outcome = Guard(this, outputVector,
+  const Outcome outcome = Guard(this, *this->Ranks, outputVector,
     [&]
     {
       const bool given = AreGiven(this->Bounds);

@@ -231,6 +231,7 @@ void FillBlocks(vtkPartitionedDataSet* output, const granular::EulerFrame& frame
 struct vtkGranularEulerReader::Internals
 {
   using Self = vtkGranularEulerReader;
+  using Shown = vtkGranularSeriesReader::Internals::Shown;
 
   ArrayChoice Arrays;
   std::optional<Form> Known; ///< nothing: nobody has looked
@@ -239,7 +240,7 @@ struct vtkGranularEulerReader::Internals
   void Tell(Self* self, vtkInformation* info) const;
   void Fill(Self* self, vtkInformation* info, const granular::EulerFrame& frame,
     const std::vector<granular::RegularGrid>& grids) const;
-  void Read(Self* self, vtkInformation* request, vtkInformationVector* outputs) const;
+  void Show(Self* self, Shown& shown);
 };
 
 //------------------------------------------------------------------------------
@@ -355,55 +356,32 @@ void vtkGranularEulerReader::Internals::Fill(Self* self, vtkInformation* info,
 }
 
 //------------------------------------------------------------------------------
-// Collective: an error of one rank is one of all. Each reads the whole frame, and keeps its part.
-void vtkGranularEulerReader::Internals::Read(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs) const
+// Each rank reads the whole frame, and keeps its part.
+void vtkGranularEulerReader::Internals::Show(Self* self, Shown& shown)
 {
-  granular::Communicator& ranks = self->Series->GetRanks();
-  AlgorithmProgress own(self);
-  granular::SharedProgress together(own, ranks);
-  granular::PartialProgress progress(together);
-  const auto read = [&]
+  this->Look(self);
+  shown.Progress.set_part(0, 0.9);
+  const bool cells = self->OutputType == IMAGE_DATA;
+  const auto wanted = [&](std::string_view name)
   {
-    progress.step(0);
-    double time = 0;
-    const std::size_t index = self->Series->FindFrame(self, request, outputs, time);
-    const std::vector<granular::FramePiece> pieces = self->Series->Index.pieces(index);
-    const granular::FramePiece& piece = pieces.front();
-    const granular::Where where = granular::where_of(piece);
-    granular::Notices notices;
-    std::vector<granular::RegularGrid> grids;
-    progress.set_part(0, 0.9);
-    const bool cells = self->OutputType == IMAGE_DATA;
-    const auto wanted = [&](std::string_view name)
-    {
-      const std::string array(name);
-      return this->Arrays.GetSelection()->ArrayExists(array.c_str()) == 0 ||
-        this->Arrays.GetSelection()->ArrayIsEnabled(array.c_str()) != 0;
-    };
-    const granular::EulerFrame frame =
-      ReadCells(pieces, wanted, cells ? &grids : nullptr, notices, progress);
-    if (cells && this->Known->IsImage)
-    {
-      NameFile(where, [&] { CheckImage(*this->Known, grids); });
-    }
-    granular::FrameHeader header;
-    header.box = FindBounds(frame, grids);
-    header.box.boundary = "ff ff ff";
-    header.timestep = piece.entry.timestep;
-    vtkInformation* info = outputs->GetInformationObject(0);
-    this->Fill(self, info, frame, grids);
-    vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-    FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    if (ranks.rank() == 0)
-    {
-      self->Series->Tell(self, notices, false);
-    }
-    progress.set_part(0.9, 1);
-    progress.step(1);
+    const std::string array(name);
+    return this->Arrays.GetSelection()->ArrayExists(array.c_str()) == 0 ||
+      this->Arrays.GetSelection()->ArrayIsEnabled(array.c_str()) != 0;
   };
-  granular::do_together(ranks, read);
+  std::vector<granular::RegularGrid> grids;
+  const granular::EulerFrame frame =
+    ReadCells(shown.Pieces, wanted, cells ? &grids : nullptr, shown.Notices, shown.Progress);
+  if (cells && this->Known->IsImage)
+  {
+    NameFile(shown.Where, [&] { CheckImage(*this->Known, grids); });
+  }
+  granular::FrameHeader header;
+  header.box = FindBounds(frame, grids);
+  header.box.boundary = "ff ff ff";
+  header.timestep = shown.Pieces.front().entry.timestep;
+  this->Fill(self, shown.Port, frame, grids);
+  vtkDataObject* output = shown.Port->Get(vtkDataObject::DATA_OBJECT());
+  FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
 }
 
 //------------------------------------------------------------------------------
@@ -479,7 +457,7 @@ int vtkGranularEulerReader::RequestDataObject(vtkInformation* vtkNotUsed(request
   {
     provide(vtkNew<vtkImageData>().Get());
   }
-  const Outcome outcome = Guard(this, outputVector,
+  const Outcome outcome = Guard(this, this->Series->Ranks, outputVector,
     [&]
     {
       this->Series->Update(this);
@@ -499,20 +477,15 @@ int vtkGranularEulerReader::RequestDataObject(vtkInformation* vtkNotUsed(request
 void vtkGranularEulerReader::InspectFrames(vtkInformationVector* outputVector)
 {
   this->Internal->Look(this);
-  granular::do_together(this->Series->GetRanks(),
-    [&] { this->Internal->Tell(this, outputVector->GetInformationObject(0)); });
+  this->Internal->Tell(this, outputVector->GetInformationObject(0));
 }
 
 //------------------------------------------------------------------------------
 int vtkGranularEulerReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  return this->Series->Run(this, outputVector,
-    [&]
-    {
-      this->Internal->Look(this);
-      this->Internal->Read(this, request, outputVector);
-    });
+  return this->Series->Run(
+    this, request, outputVector, [&](auto& shown) { this->Internal->Show(this, shown); });
 }
 
 //------------------------------------------------------------------------------

@@ -11,7 +11,6 @@
 #include "granular/euler/euler_text.h"
 
 #include "vtkDataObject.h"
-#include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
@@ -90,23 +89,7 @@ void vtkGranularEulerWriter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkGranularEulerWriter::SetDialect(int dialect)
 {
-  if (dialect != LIGGGHTS && dialect != WIDE)
-  {
-    vtkErrorMacro("expected Dialect 0 (LIGGGHTS) or 1 (Wide), got " << dialect);
-    return;
-  }
-  if (this->Dialect != dialect)
-  {
-    this->Dialect = dialect;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularEulerWriter::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see ReadCells
-  return 1;
+  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "Wide" });
 }
 
 //------------------------------------------------------------------------------

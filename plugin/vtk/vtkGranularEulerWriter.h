@@ -61,7 +61,6 @@ protected:
   vtkGranularEulerWriter();
   ~vtkGranularEulerWriter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
   int Dialect = LIGGGHTS;

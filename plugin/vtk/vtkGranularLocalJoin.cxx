@@ -9,11 +9,11 @@
 #include "private/request/processes.h"
 #include "private/request/text_of.h"
 
-#include "granular/common/pass.h"
 #include "granular/common/words.h"
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
 #include "granular/numbers/number_print.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/point_forms.h"
 #include "granular/particles/shared_header.h"
 
@@ -113,7 +113,7 @@ std::span<double> DoublesIn(const granular::Block& block)
 
 //------------------------------------------------------------------------------
 /**
- * Does one request. The functions are collective, but for those in the brackets of do_together.
+ * Does one request. Collective.
  */
 class vtkGranularLocalJoin::Joiner
 {
@@ -133,28 +133,13 @@ public:
 
   void Run()
   {
-    granular::do_together(this->Ranks, [&] { this->Progress.step(0); });
+    this->Progress.step(0);
     this->Input.emplace(this->Inputs[0], this->Ranks);
     this->Together = AreTogether(this->Wanted, false, this->Ranks);
-    if (this->Together)
-    {
-      this->Join(this->Ranks);
-    }
-    else
-    {
-      granular::do_together(this->Ranks,
-        [&]
-        {
-          granular::SerialCommunicator alone;
-          this->Join(alone);
-        });
-    }
-    granular::do_together(this->Ranks,
-      [&]
-      {
-        this->Fill();
-        this->Tell();
-      });
+    granular::SerialCommunicator alone;
+    this->Join(this->Together ? this->Ranks : alone);
+    this->Fill();
+    this->Tell();
   }
 
 private:
@@ -174,30 +159,20 @@ private:
   void Join(granular::Communicator& ranks)
   {
     granular::JoinRequest request;
-    granular::do_together(ranks, [&] { this->ReadRows(); });
+    this->ReadRows();
     this->ShareNames(request, ranks);
     this->ShareBox(ranks);
-    std::vector<std::int64_t> id1;
-    std::vector<std::int64_t> id2;
-    granular::do_together(ranks,
-      [&]
-      {
-        id1 = this->Rows->ReadIds("id1", this->Progress);
-        id2 = this->Rows->ReadIds("id2", this->Progress);
-        request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
-      });
+    const std::vector<std::int64_t> id1 = this->Rows->ReadIds("id1", this->Progress);
+    const std::vector<std::int64_t> id2 = this->Rows->ReadIds("id2", this->Progress);
+    request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
     this->Progress.set_part(0, 0.6);
     this->Joined =
       granular::join_lines(this->Input->View(), id1, id2, request, ranks, this->Progress);
-    granular::do_together(ranks,
-      [&]
-      {
-        this->Progress.set_part(0.6, 0.95);
-        this->MakeLines(request.threads);
-        this->FindElongations();
-        this->CountMisfits();
-        this->Remarks = { this->FindExample(id1, id2), this->CompareTimesteps() };
-      });
+    this->Progress.set_part(0.6, 0.95);
+    this->MakeLines(request.threads);
+    this->FindElongations();
+    this->CountMisfits();
+    this->Remarks = { this->FindExample(id1, id2), this->CompareTimesteps() };
     std::array<std::int64_t, 3> sums = { this->All.Rows, this->All.Misfits, this->All.WithoutRest };
     ranks.sum(sums);
     this->All = { sums[0], sums[1], sums[2] };
@@ -205,7 +180,7 @@ private:
     {
       const std::vector<std::string> said = ranks.all_gather(remark);
       const auto first = std::ranges::find_if(said, [](const auto& text) { return !text.empty(); });
-      granular::do_together(ranks, [&] { remark = first == said.end() ? std::string() : *first; });
+      remark = first == said.end() ? std::string() : *first;
     }
   }
 
@@ -238,32 +213,16 @@ private:
     const std::array<const char*, 2> given = { this->Self->Averages, this->Self->Differences };
     for (std::size_t i = 0; i < lists.size(); ++i)
     {
-      granular::ArchiveWriter own;
-      granular::do_together(ranks,
-        [&]
-        {
-          const granular::FrameView& view = this->Input->View();
-          KnownNames known{ view.rows > 0, NamesIn(TextOf(given[i]), view) };
-          pass(own, known);
-        });
-      const std::vector<std::string> all = ranks.all_gather(own.bytes);
-      granular::do_together(ranks,
-        [&]
-        {
-          KnownNames best;
-          for (std::size_t rank = 0; rank < all.size() && !best.HasParticles; ++rank)
-          {
-            granular::ArchiveReader unpacker{ all[rank] };
-            pass(unpacker, best);
-          }
-          *lists[i] = std::move(best.Names);
-        });
+      const granular::FrameView& view = this->Input->View();
+      const std::vector<KnownNames> all =
+        granular::gather(ranks, KnownNames{ view.rows > 0, NamesIn(TextOf(given[i]), view) });
+      const auto best = std::ranges::find_if(all, &KnownNames::HasParticles);
+      *lists[i] = best == all.end() ? all.back().Names : best->Names;
     }
     std::int64_t with = this->RestKnown ? 1 : 0;
     ranks.sum({ &with, 1 });
     this->RestKnown = with > 0;
-    std::vector<std::int64_t> counts;
-    granular::do_together(ranks, [&] { counts.resize(static_cast<std::size_t>(ranks.size())); });
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks.size()));
     counts[static_cast<std::size_t>(ranks.rank())] = this->All.Rows;
     ranks.sum(counts);
     this->FirstRow +=
@@ -281,14 +240,10 @@ private:
       return;
     }
     granular::FrameView lines;
-    granular::do_together(ranks,
-      [&]
-      {
-        const auto box = FindBox(this->Rows->GetFieldData());
-        lines.rows = this->Rows->Count();
-        lines.has_box = box.has_value();
-        lines.header.box = box.value_or(granular::Box{});
-      });
+    const auto box = FindBox(this->Rows->GetFieldData());
+    lines.rows = this->Rows->Count();
+    lines.has_box = box.has_value();
+    lines.header.box = box.value_or(granular::Box{});
     granular::share_header(lines, ranks);
     this->BoxIsOfLines = lines.has_box;
     particles.has_box = lines.has_box;

@@ -65,6 +65,7 @@ using Meanings = std::map<std::string, Meaning>;
 struct vtkGranularLocalReader::Internals
 {
   using Self = vtkGranularLocalReader;
+  using Shown = vtkGranularSeriesReader::Internals::Shown;
 
   std::string ColumnMap;
   ArrayChoice Arrays;
@@ -74,11 +75,9 @@ struct vtkGranularLocalReader::Internals
     Self* self, const granular::FramePiece& piece, granular::Progress& progress) const;
   void Look(Self* self);
   granular::LocalRequest MakeRequest(Self* self, vtkInformation* output) const;
-  std::string FormOf(const granular::LocalRequest& request, std::size_t frame) const;
   void FillOutputs(vtkInformationVector* outputs, const granular::LocalRequest& request,
-    granular::LocalFrame& frame, double time, const granular::Where& where,
-    granular::Notices& notices) const;
-  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+    granular::LocalFrame& frame, Shown& shown) const;
+  void Show(Self* self, vtkInformationVector* outputs, Shown& shown);
 };
 
 //------------------------------------------------------------------------------
@@ -203,96 +202,50 @@ granular::LocalRequest vtkGranularLocalReader::Internals::MakeRequest(
 }
 
 //------------------------------------------------------------------------------
-// What must be the same on ranks that read together.
-std::string vtkGranularLocalReader::Internals::FormOf(
-  const granular::LocalRequest& request, std::size_t frame) const
-{
-  granular::LineRequest lines = request.lines;
-  granular::ArchiveWriter form;
-  form.number(frame);
-  form.number(lines.periodic);
-  form.number(lines.point_origin);
-  for (std::string name : this->Arrays.GetWanted())
-  {
-    form.text(name);
-  }
-  return form.bytes;
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularLocalReader::Internals::FillOutputs(vtkInformationVector* outputs,
-  const granular::LocalRequest& request, granular::LocalFrame& frame, double time,
-  const granular::Where& where, granular::Notices& notices) const
+  const granular::LocalRequest& request, granular::LocalFrame& frame, Shown& shown) const
 {
   auto* lines = vtkPolyData::GetData(outputs, 0);
   auto* rows = vtkTable::GetData(outputs, 1);
   FillRows(rows, frame);
   if (frame.has_lines)
   {
-    FillLines(lines, rows, frame, request.lines, where, notices);
+    FillLines(lines, rows, frame, request.lines, shown.Where, shown.Notices);
   }
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
-    vtkDataObject* output = vtkDataObject::GetData(outputs, port);
-    FillFieldData(output->GetFieldData(), frame.table, request.lines.point_origin);
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    FillFieldData(vtkDataObject::GetData(outputs, port)->GetFieldData(), frame.table,
+      request.lines.point_origin);
   }
 }
 
 //------------------------------------------------------------------------------
-// Collective: what may fail on one rank alone is done together.
-void vtkGranularLocalReader::Internals::Run(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+void vtkGranularLocalReader::Internals::Show(
+  Self* self, vtkInformationVector* outputs, Shown& shown)
 {
   granular::Communicator& ranks = self->Series->GetRanks();
-  granular::Notices notices;
-  granular::LocalRequest wanted;
-  std::vector<granular::FramePiece> pieces;
-  double time = 0;
-  std::string form;
-  granular::do_together(ranks,
-    [&]
-    {
-      self->Series->StartFrame(notices);
-      const std::size_t frame = self->Series->FindFrame(self, request, outputs, time);
-      pieces = self->Series->Index.pieces(frame);
-      const granular::FramePiece& first = pieces.front();
-      wanted =
-        this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
-      this->Arrays.CheckNames(first.file.path, notices);
-      const Meaning& meaning = this->Known.at(first.entry.kind->schema.text());
-      if (!meaning.Error.empty())
-      {
-        throw granular::FormatError(meaning.Error, meaning.Where);
-      }
-      wanted.columns = meaning.Names;
-      notices.insert(notices.end(), meaning.Notices.begin(), meaning.Notices.end());
-      form = this->FormOf(wanted, frame);
-    });
-  const bool together = AskTogether({ wanted.piece, wanted.pieces }, form, ranks);
-  AlgorithmProgress progress(self);
-  granular::LocalFrame frame;
-  if (together)
+  self->Series->StartFrame(shown.Notices);
+  this->Look(self);
+  granular::LocalRequest request = this->MakeRequest(self, shown.Port);
+  this->Arrays.CheckNames(shown.Where.path, shown.Notices);
+  const Meaning& meaning = this->Known.at(shown.Pieces.front().entry.kind->schema.text());
+  if (!meaning.Error.empty())
   {
-    frame = granular::read_local(pieces, wanted, ranks, notices, progress);
+    throw granular::FormatError(meaning.Error, meaning.Where);
   }
-  else
-  {
-    granular::SerialCommunicator alone;
-    granular::SharedProgress shared(progress, ranks);
-    granular::do_together(
-      ranks, [&] { frame = granular::read_local(pieces, wanted, alone, notices, shared); });
-  }
-  granular::do_together(ranks,
-    [&]
+  request.columns = meaning.Names;
+  shown.Notices.insert(shown.Notices.end(), meaning.Notices.begin(), meaning.Notices.end());
+  shown.Together = AskTogether(ranks, { request.piece, request.pieces }, this->Arrays.GetWanted(),
+    [&](granular::ArchiveWriter& form)
     {
-      const granular::FramePiece& first = pieces.front();
-      this->FillOutputs(outputs, wanted, frame, time, granular::where_of(first), notices);
-      if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
-      {
-        self->Series->Tell(self, notices, false);
-      }
+      form.number(shown.Number);
+      form.number(request.lines.periodic);
+      form.number(request.lines.point_origin);
     });
+  granular::SerialCommunicator alone;
+  granular::LocalFrame frame = granular::read_local(
+    shown.Pieces, request, shown.Together ? ranks : alone, shown.Notices, shown.Progress);
+  this->FillOutputs(outputs, request, frame, shown);
 }
 
 //------------------------------------------------------------------------------
@@ -385,12 +338,8 @@ void vtkGranularLocalReader::InspectFrames(vtkInformationVector* vtkNotUsed(outp
 int vtkGranularLocalReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  return this->Series->Run(this, outputVector,
-    [&]
-    {
-      this->Internal->Look(this);
-      this->Internal->Run(this, request, outputVector);
-    });
+  return this->Series->Run(this, request, outputVector,
+    [&](auto& shown) { this->Internal->Show(this, outputVector, shown); });
 }
 
 //------------------------------------------------------------------------------

@@ -6,7 +6,6 @@
 #include "private/request/text_of.h"
 #include "private/writing/rows_file.h"
 
-#include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 
 #include <utility>
@@ -70,23 +69,7 @@ void vtkGranularLocalWriter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkGranularLocalWriter::SetDialect(int dialect)
 {
-  if (dialect != LIGGGHTS && dialect != LAMMPS)
-  {
-    vtkErrorMacro("expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS), got " << dialect);
-    return;
-  }
-  if (this->Dialect != dialect)
-  {
-    this->Dialect = dialect;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularLocalWriter::FillInputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see LocalInput
-  return 1;
+  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS" });
 }
 
 //------------------------------------------------------------------------------
@@ -96,10 +79,6 @@ std::unique_ptr<FrameWriter> vtkGranularLocalWriter::OpenFile(Internals& interna
     MakeFormat(this->FileName, this->Dialect == LIGGGHTS, this->Columns, this->NumberFormat);
   format.style = granular::DumpStyle::Local;
   format.counted = TextOf(this->Label);
-  granular::Communicator& ranks = internals.GetRanks();
-  const granular::WriteOptions options{
-    this->ParallelMode == MPI_IO ? granular::ParallelMode::MpiIo : granular::ParallelMode::Gather,
-    ChooseThreads(this->Threads, ranks)
-  };
-  return std::make_unique<File>(this->FileName, format, options, ranks);
+  return std::make_unique<File>(
+    this->FileName, format, internals.MakeOptions(this), internals.GetRanks());
 }

@@ -76,7 +76,6 @@ protected:
   vtkGranularLocalWriter();
   ~vtkGranularLocalWriter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
   int Dialect = LAMMPS;

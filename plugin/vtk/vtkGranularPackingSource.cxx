@@ -159,15 +159,14 @@ void vtkGranularPackingSource::Internals::Run(
   AlgorithmProgress own(self);
   granular::SharedProgress progress(own, ranks);
   granular::PartialProgress part(progress);
-  granular::PackingRequest wanted;
-  granular::do_together(
-    ranks, [&] { wanted = this->MakeRequest(self, outputs->GetInformationObject(port)); });
+  const granular::PackingRequest wanted =
+    this->MakeRequest(self, outputs->GetInformationObject(port));
   try
   {
     part.set_part(0, 0.6);
     const granular::PackingPlan plan(wanted, ranks, part);
     part.set_part(0.6, 1);
-    granular::do_together(ranks, [&] { this->Fill(self, plan, outputs, part); });
+    this->Fill(self, plan, outputs, part);
   }
   catch (const std::bad_alloc&)
   {

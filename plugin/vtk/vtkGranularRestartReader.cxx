@@ -114,6 +114,7 @@ constexpr int Layouts[] = { granular::automatic_history, granular::numbered_hist
 struct vtkGranularRestartReader::Internals
 {
   using Self = vtkGranularRestartReader;
+  using Shown = vtkGranularSeriesReader::Internals::Shown;
 
   ArrayChoice Points;
   ArrayChoice Cells;
@@ -123,9 +124,8 @@ struct vtkGranularRestartReader::Internals
   void Look(Self* self);
   granular::RestartRequest MakeRequest(Self* self, vtkInformation* output) const;
   void FillOutputs(Self* self, vtkInformationVector* outputs,
-    const granular::RestartRequest& request, granular::RestartFrame& frame,
-    const granular::Where& where, granular::Notices& notices);
-  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+    const granular::RestartRequest& request, granular::RestartFrame& frame, Shown& shown);
+  void Show(Self* self, vtkInformationVector* outputs, Shown& shown);
 };
 
 //------------------------------------------------------------------------------
@@ -191,8 +191,7 @@ granular::RestartRequest vtkGranularRestartReader::Internals::MakeRequest(
 
 //------------------------------------------------------------------------------
 void vtkGranularRestartReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
-  const granular::RestartRequest& request, granular::RestartFrame& frame,
-  const granular::Where& where, granular::Notices& notices)
+  const granular::RestartRequest& request, granular::RestartFrame& frame, Shown& shown)
 {
   const granular::Vector3& origin = request.lines.point_origin;
   auto* particles = vtkPolyData::GetData(outputs, 0);
@@ -202,13 +201,13 @@ void vtkGranularRestartReader::Internals::FillOutputs(Self* self, vtkInformation
   auto* lines = vtkPolyData::GetData(outputs, 1);
   vtkNew<vtkTable> rows;
   FillRows(rows, frame.bonds);
-  FillLines(lines, rows, frame.bonds, request.lines, where, notices);
+  FillLines(lines, rows, frame.bonds, request.lines, shown.Where, shown.Notices);
 
   auto* box = vtkUnstructuredGrid::GetData(outputs, 2);
   if (request.piece == 0 &&
     !FillBox(box, frame.particles.header.box, granular::Coordinates::Absolute, origin))
   {
-    notices.push_back({ where, "the box is not finite and not shown" });
+    shown.Notices.push_back({ shown.Where, "the box is not finite and not shown" });
   }
 
   FillFieldData(particles->GetFieldData(), frame.particles, origin);
@@ -217,50 +216,25 @@ void vtkGranularRestartReader::Internals::FillOutputs(Self* self, vtkInformation
 }
 
 //------------------------------------------------------------------------------
-// Collective: an error of one rank is one of all. Each reads what its piece needs by itself.
-void vtkGranularRestartReader::Internals::Run(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+// Each rank reads what its piece needs by itself.
+void vtkGranularRestartReader::Internals::Show(
+  Self* self, vtkInformationVector* outputs, Shown& shown)
 {
-  granular::Communicator& ranks = self->Series->GetRanks();
-  AlgorithmProgress own(self);
-  granular::SharedProgress together(own, ranks);
-  granular::PartialProgress progress(together);
-  const auto read = [&]
-  {
-    progress.step(0);
-    granular::Notices notices;
-    self->Series->StartFrame(notices);
-    double time = 0;
-    const std::size_t frame = self->Series->FindFrame(self, request, outputs, time);
-    const granular::FramePiece piece = self->Series->Index.first_piece(frame);
-    const granular::RestartRequest wanted =
-      this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
-    const auto source = granular::open_indexed(piece.file);
-    progress.set_part(0, 0.1);
-    const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
-    progress.set_part(0.1, 0.95);
-    granular::RestartFrame restart =
-      granular::read_restart(*source, layout, wanted, notices, progress);
-    this->Points.CheckNames(piece.file.path, notices, NamesOf(restart.particles.schema));
-    this->Cells.CheckNames(piece.file.path, notices, NamesOf(restart.bonds.table.schema));
-    this->FillOutputs(self, outputs, wanted, restart, granular::where_of(piece), notices);
-    vtkPolyData::GetData(outputs, 0)
-      ->GetFieldData()
-      ->AddArray(MakeStrings("Groups", layout.groups));
-    for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-    {
-      vtkDataObject::GetData(outputs, port)
-        ->GetInformation()
-        ->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    }
-    if (ranks.rank() == 0)
-    {
-      self->Series->Tell(self, notices, false);
-    }
-    progress.set_part(0.95, 1);
-    progress.step(1);
-  };
-  granular::do_together(ranks, read);
+  granular::Notices& notices = shown.Notices;
+  granular::PartialProgress& progress = shown.Progress;
+  self->Series->StartFrame(notices);
+  this->Look(self);
+  const granular::RestartRequest request = this->MakeRequest(self, shown.Port);
+  const auto source = granular::open_indexed(shown.Pieces.front().file);
+  progress.set_part(0, 0.1);
+  const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
+  progress.set_part(0.1, 0.95);
+  granular::RestartFrame restart =
+    granular::read_restart(*source, layout, request, notices, progress);
+  this->Points.CheckNames(shown.Where.path, notices, NamesOf(restart.particles.schema));
+  this->Cells.CheckNames(shown.Where.path, notices, NamesOf(restart.bonds.table.schema));
+  this->FillOutputs(self, outputs, request, restart, shown);
+  vtkPolyData::GetData(outputs, 0)->GetFieldData()->AddArray(MakeStrings("Groups", layout.groups));
 }
 
 //------------------------------------------------------------------------------
@@ -346,12 +320,8 @@ void vtkGranularRestartReader::InspectFrames(vtkInformationVector* vtkNotUsed(ou
 int vtkGranularRestartReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  return this->Series->Run(this, outputVector,
-    [&]
-    {
-      this->Internal->Look(this);
-      this->Internal->Run(this, request, outputVector);
-    });
+  return this->Series->Run(this, request, outputVector,
+    [&](auto& shown) { this->Internal->Show(this, outputVector, shown); });
 }
 
 //------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 #include "private/request/guard.h"
 #include "private/request/series_reader.h"
 
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -16,15 +17,6 @@
 #include <vector>
 
 using namespace vtkGranularPrivate;
-
-//------------------------------------------------------------------------------
-int vtkGranularSeriesReader::Internals::PortOf(vtkInformation* request)
-{
-  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
-    ? request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
-    : 0;
-  return port > 0 ? port : 0;
-}
 
 //------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::Update(Self* self)
@@ -40,21 +32,17 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
   granular::Communicator& ranks = this->GetRanks();
   this->Valid = false;
   granular::IndexOptions options;
-  granular::do_together(ranks,
-    [&]
-    {
-      self->ForgetFrames();
-      if (this->IndexedNames != this->FileNames)
-      {
-        this->Told.clear();
-        this->IndexedNames = this->FileNames;
-      }
-      options.format = this->Format;
-      options.column_names = this->ColumnNames;
-      options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
-      options.keep_index = static_cast<granular::KeepIndex>(self->IndexFile);
-      options.threads = ChooseThreads(self->Threads, ranks);
-    });
+  self->ForgetFrames();
+  if (this->IndexedNames != this->FileNames)
+  {
+    this->Told.clear();
+    this->IndexedNames = this->FileNames;
+  }
+  options.format = this->Format;
+  options.column_names = this->ColumnNames;
+  options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
+  options.keep_index = static_cast<granular::KeepIndex>(self->IndexFile);
+  options.threads = ChooseThreads(self->Threads, ranks);
   granular::Notices notices;
   AlgorithmProgress progress(self);
   granular::update_run_index(this->Index, ranks, this->FileNames, options, notices, progress);
@@ -123,19 +111,55 @@ void vtkGranularSeriesReader::Internals::StartFrame(granular::Notices& notices)
 }
 
 //------------------------------------------------------------------------------
-std::size_t vtkGranularSeriesReader::Internals::FindFrame(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time)
+int vtkGranularSeriesReader::Internals::Run(Self* self, vtkInformation* request,
+  vtkInformationVector* outputs, const std::function<void(Shown&)>& show)
 {
-  const std::vector<double> times = this->Index.times(self->TimestepSize);
-  vtkInformation* info = outputs->GetInformationObject(PortOf(request));
-  std::size_t frame = 0;
-  if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const Outcome outcome = Guard(self, this->Ranks, outputs,
+    [&]
+    {
+      if (this->Ranks.IsCancelled())
+      {
+        throw granular::Cancelled();
+      }
+      // valid already, but for a pipeline that goes on after RequestInformation failed
+      this->Update(self);
+      AlgorithmProgress own(self);
+      granular::SharedProgress together(own, this->GetRanks());
+      granular::PartialProgress progress(together);
+      progress.step(0);
+      Shown shown{ .Progress = progress };
+      const int port =
+        request->Has(Pipeline::FROM_OUTPUT_PORT()) ? request->Get(Pipeline::FROM_OUTPUT_PORT()) : 0;
+      shown.Port = outputs->GetInformationObject(std::max(port, 0));
+      const std::vector<double> times = this->Index.times(self->TimestepSize);
+      if (shown.Port->Has(Pipeline::UPDATE_TIME_STEP()))
+      {
+        shown.Number =
+          granular::RunIndex::find(times, shown.Port->Get(Pipeline::UPDATE_TIME_STEP()));
+      }
+      shown.Time = times[shown.Number];
+      shown.Pieces = this->Index.pieces(shown.Number);
+      shown.Where = granular::where_of(shown.Pieces.front());
+      show(shown);
+      for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+      {
+        vtkDataObject::GetData(outputs, i)
+          ->GetInformation()
+          ->Set(vtkDataObject::DATA_TIME_STEP(), shown.Time);
+      }
+      if (this->GetRanks().rank() == 0 || !shown.Together)
+      {
+        this->Tell(self, shown.Notices, false);
+      }
+      progress.set_part(1, 1);
+      progress.step(1);
+    });
+  if (outcome != Outcome::Done)
   {
-    frame = granular::RunIndex::find(
-      times, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
+    self->ForgetFrames();
   }
-  time = times[frame];
-  return frame;
+  return this->Ranks.EndRequest(self, outcome);
 }
 
 //------------------------------------------------------------------------------
@@ -307,37 +331,37 @@ int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(reque
     }
   };
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const Outcome outcome = Guard(this, outputVector,
+  const Outcome outcome = Guard(this, this->Series->Ranks, outputVector,
     [&]
     {
-      const auto prepare = [](vtkInformation* info)
-      {
-        info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-        info->Remove(Pipeline::TIME_STEPS());
-        info->Remove(Pipeline::TIME_RANGE());
-      };
-      granular::do_together(this->Series->GetRanks(), [&] { forEachPort(prepare); });
-      this->Series->Update(this);
-      const auto tell = [&]
-      {
-        granular::Notices notices;
-        const std::vector<double> times = this->Series->Index.times(this->TimestepSize, notices);
-        if (this->Series->GetRanks().rank() == 0)
+      forEachPort(
+        [](vtkInformation* info)
         {
-          this->Series->Tell(this, notices, true);
-        }
-        const double range[] = { times.front(), times.back() };
-        const auto count = static_cast<int>(times.size());
-        forEachPort(
-          [&](vtkInformation* info)
-          {
-            info->Set(Pipeline::TIME_STEPS(), times.data(), count);
-            info->Set(Pipeline::TIME_RANGE(), range, 2);
-          });
-      };
-      granular::do_together(this->Series->GetRanks(), tell);
+          info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+          info->Remove(Pipeline::TIME_STEPS());
+          info->Remove(Pipeline::TIME_RANGE());
+        });
+      this->Series->Update(this);
+      granular::Notices notices;
+      const std::vector<double> times = this->Series->Index.times(this->TimestepSize, notices);
+      if (this->Series->GetRanks().rank() == 0)
+      {
+        this->Series->Tell(this, notices, true);
+      }
+      const double range[] = { times.front(), times.back() };
+      const auto count = static_cast<int>(times.size());
+      forEachPort(
+        [&](vtkInformation* info)
+        {
+          info->Set(Pipeline::TIME_STEPS(), times.data(), count);
+          info->Set(Pipeline::TIME_RANGE(), range, 2);
+        });
       this->InspectFrames(outputVector);
     });
+  if (outcome != Outcome::Done)
+  {
+    this->ForgetFrames(); // what some ranks know of them others may not
+  }
   return this->Series->Ranks.EndRequest(this, outcome);
 }
 

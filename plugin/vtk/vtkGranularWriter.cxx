@@ -53,6 +53,14 @@ void vtkGranularWriter::Internals::Tell(
 }
 
 //------------------------------------------------------------------------------
+granular::WriteOptions vtkGranularWriter::Internals::MakeOptions(const vtkGranularWriter* self)
+{
+  return { self->ParallelMode == MPI_IO ? granular::ParallelMode::MpiIo
+                                        : granular::ParallelMode::Gather,
+    vtkGranularPrivate::ChooseThreads(self->Threads, this->GetRanks()) };
+}
+
+//------------------------------------------------------------------------------
 vtkGranularWriter::vtkGranularWriter()
   : Shared(std::make_unique<Internals>())
 {
@@ -78,18 +86,38 @@ void vtkGranularWriter::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularWriter::SetParallelMode(int mode)
+// Each takes what it can of any input, and says of others what it expects.
+int vtkGranularWriter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
 {
-  if (mode != GATHER && mode != MPI_IO)
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularWriter::SetChoice(
+  const char* name, int& property, int choice, std::initializer_list<const char*> choices)
+{
+  if (choice < 0 || choice >= static_cast<int>(choices.size()))
   {
-    vtkErrorMacro("expected ParallelMode 0 (Gather) or 1 (MPI-IO), got " << mode);
-    return;
+    std::string all;
+    for (const char* const& each : choices)
+    {
+      all +=
+        (all.empty() ? "" : " or ") + std::to_string(&each - choices.begin()) + " (" + each + ")";
+    }
+    vtkErrorMacro("expected " << name << " " << all << ", got " << choice);
   }
-  if (this->ParallelMode != mode)
+  else if (property != choice)
   {
-    this->ParallelMode = mode;
+    property = choice;
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularWriter::SetParallelMode(int mode)
+{
+  this->SetChoice("ParallelMode", this->ParallelMode, mode, { "Gather", "MPI-IO" });
 }
 
 //------------------------------------------------------------------------------
@@ -132,8 +160,8 @@ int vtkGranularWriter::Write()
   this->SetAbortOutput(false);
   this->InvokeEvent(vtkCommand::StartEvent);
   this->UpdateProgress(0);
-  const Outcome outcome =
-    Guard(this, this->GetExecutive()->GetOutputInformation(), [&] { this->WriteFrames(); });
+  const Outcome outcome = Guard(
+    this, shared.Ranks, this->GetExecutive()->GetOutputInformation(), [&] { this->WriteFrames(); });
   shared.Tell(this);
   shared.File.reset(); // what is not finished leaves nothing
   this->Written = outcome == Outcome::Done;

@@ -17,7 +17,8 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkWriter.h"
 
-#include <memory> // for std::unique_ptr
+#include <initializer_list> // for SetChoice
+#include <memory>           // for std::unique_ptr
 
 class vtkMultiProcessController;
 
@@ -111,6 +112,14 @@ protected:
   void WriteData() override { this->Write(); } ///< Update() writes, too
 
   struct Internals;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  /**
+   * Sets a property that is one of some choices, numbered from 0; another number is an error and changes nothing.
+   */
+  void SetChoice(
+    const char* name, int& property, int choice, std::initializer_list<const char*> choices);
 
   /**
    * Opens the file. Called by all processes together; may throw what the core does.

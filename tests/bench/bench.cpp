@@ -139,6 +139,26 @@ bool Rounds::run(double work, int repeats)
   return right;
 }
 
+bool Rounds::run_all(
+  benchmark::State& state, const std::string& what_is_wrong, double work, int repeats)
+{
+  for (auto _ : state)
+  {
+    if (!this->run(work, repeats))
+    {
+      fail(state, what_is_wrong);
+      return false;
+    }
+    double seconds = 0;
+    for (const Contender& contender : contenders_)
+    {
+      seconds += contender.samples.back() * work * repeats;
+    }
+    state.SetIterationTime(seconds);
+  }
+  return true;
+}
+
 const Samples& Rounds::of(std::string_view name) const
 {
   const auto found = std::find_if(contenders_.begin(), contenders_.end(),

@@ -87,6 +87,11 @@ public:
   /// Each runs in repeats passes. False if anyone's result is wrong.
   bool run(double work, int repeats = 1);
 
+  /// All rounds of a benchmark, each as above; the benchmark's own time is that of all contenders. Where a result is
+  /// wrong, the benchmark fails with what is said here, and this is false.
+  bool run_all(
+    benchmark::State& state, const std::string& what_is_wrong, double work, int repeats = 1);
+
   /// Seconds per unit of work, one a round.
   const Samples& of(std::string_view name) const;
 

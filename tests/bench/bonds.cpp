@@ -85,14 +85,9 @@ void measure(benchmark::State& state, std::size_t count, std::vector<double>& bu
       benchmark::ClobberMemory();
       return true;
     });
-  for (auto _ : state)
+  if (!rounds.run_all(state, "a particle is not what it was", static_cast<double>(count), repeats))
   {
-    if (!rounds.run(static_cast<double>(count), repeats))
-    {
-      fail(state, "a particle is not what it was");
-      return;
-    }
-    state.SetIterationTime(rounds.of("pack").back() * static_cast<double>(count));
+    return;
   }
   for (const char* const what : { "pack", "unpack" })
   {

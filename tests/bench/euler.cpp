@@ -305,14 +305,10 @@ void speed_and_error(benchmark::State& state, const CellSize& size, std::int64_t
   rounds.add("Centre", [&] { return all.run(centre); });
   rounds.add("Overlap", [&] { return all.run(overlap); });
   rounds.add("without short cuts", [&] { return all.run(no_short_cuts); });
-  for (auto _ : state)
+  if (!rounds.run_all(
+        state, "the cells do not have the volume of the grains", static_cast<double>(count)))
   {
-    if (!rounds.run(static_cast<double>(count)))
-    {
-      fail(state, "the cells do not have the volume of the grains");
-      return;
-    }
-    state.SetIterationTime(rounds.of("Overlap").back() * static_cast<double>(count));
+    return;
   }
   tell(state, "grains", static_cast<double>(count), "1");
   tell(state, "cells", static_cast<double>(all.grid.size()), "1");
@@ -491,14 +487,10 @@ void against_plain(benchmark::State& state, const PlainCase& each, std::int64_t 
   Rounds rounds;
   rounds.add("plain", [&] { return all.has_all(average_plainly(all)); });
   rounds.add("Centre", [&] { return all.run(centre); });
-  for (auto _ : state)
+  if (!rounds.run_all(
+        state, "the cells do not have the volume of the grains", static_cast<double>(count)))
   {
-    if (!rounds.run(static_cast<double>(count)))
-    {
-      fail(state, "the cells do not have the volume of the grains");
-      return;
-    }
-    state.SetIterationTime(rounds.of("Centre").back() * static_cast<double>(count));
+    return;
   }
   tell(state, "plain", 1e9 * median(rounds.of("plain")), "ns/grain");
   tell(state, "Centre", 1e9 * median(rounds.of("Centre")), "ns/grain");

@@ -155,14 +155,9 @@ void measure_join(benchmark::State& state, const JoinCase& each)
   rounds.add("gather", [&] { return data.gather(); });
   rounds.add("join", [&] { return data.join(); });
   const int repeats = static_cast<int>(std::clamp<std::int64_t>(1'000'000 / each.lines, 1, 20));
-  for (auto _ : state)
+  if (!rounds.run_all(state, "lines are left out", static_cast<double>(each.lines), repeats))
   {
-    if (!rounds.run(static_cast<double>(each.lines), repeats))
-    {
-      fail(state, "lines are left out");
-      return;
-    }
-    state.SetIterationTime(rounds.of("join").back() * static_cast<double>(each.lines));
+    return;
   }
   const Samples& base = rounds.of("gather");
   tell(state, "gather", 1e9 * median(base), "ns/line");
@@ -198,14 +193,9 @@ void measure_growth(benchmark::State& state, const std::vector<std::int64_t>& co
     add("gather, 10^", &Joining::gather);
     add("join, 10^", &Joining::join);
   }
-  for (auto _ : state)
+  if (!rounds.run_all(state, "lines are left out", static_cast<double>(counts.back())))
   {
-    if (!rounds.run(static_cast<double>(counts.back())))
-    {
-      fail(state, "lines are left out");
-      return;
-    }
-    state.SetIterationTime(1);
+    return;
   }
   Samples times;
   for (const std::int64_t lines : counts)

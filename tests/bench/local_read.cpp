@@ -127,14 +127,9 @@ void measure(benchmark::State& state, std::int64_t rows, int threads)
   rounds.add(
     "lines", [&] { return data.read(threads, true, PeriodicLines::MinimumImage) == rows; });
   rounds.add("split", [&] { return data.read(threads, true, PeriodicLines::Split) > rows; });
-  for (auto _ : state)
+  if (!rounds.run_all(state, "rows are missing", static_cast<double>(rows)))
   {
-    if (!rounds.run(static_cast<double>(rows)))
-    {
-      fail(state, "rows are missing");
-      return;
-    }
-    state.SetIterationTime(rounds.of("lines").back() * static_cast<double>(rows));
+    return;
   }
   const Samples& base = rounds.of("dump");
   tell(state, "dump", 1e9 * median(base), "ns/row");

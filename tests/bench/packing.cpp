@@ -53,14 +53,9 @@ void measure(benchmark::State& state, const Case& each)
   Rounds rounds(wall);
   rounds.add("1 thread", [&each] { return make(request_of(each, 1)); });
   rounds.add("2 threads", [&each] { return make(request_of(each, 2)); });
-  for (auto _ : state)
+  if (!rounds.run_all(state, "not as many grains as asked for", static_cast<double>(each.grains)))
   {
-    if (!rounds.run(static_cast<double>(each.grains)))
-    {
-      fail(state, "not as many grains as asked for");
-      return;
-    }
-    state.SetIterationTime(rounds.of("1 thread").back() * static_cast<double>(each.grains));
+    return;
   }
   tell(state, "1 thread", 1e9 * median(rounds.of("1 thread")), "ns/grain");
   tell(state, "2 threads", 1e9 * median(rounds.of("2 threads")), "ns/grain");
@@ -126,14 +121,9 @@ void measure_bonds(benchmark::State& state, const BondCase& each)
   rounds.add("many", [&many] { return many.bond(); });
   rounds.add("2 threads", [&shared] { return shared.bond(); });
   const auto grains = static_cast<double>(each.many);
-  for (auto _ : state)
+  if (!rounds.run_all(state, "no bonds", grains))
   {
-    if (!rounds.run(grains))
-    {
-      fail(state, "no bonds");
-      return;
-    }
-    state.SetIterationTime(rounds.of("many").back() * grains);
+    return;
   }
   tell(state, "bonds a grain", many.bonds_a_grain(), "1");
   tell(state, "few", 1e9 * median(rounds.of("few")) / few.bonds_a_grain(), "ns/bond");

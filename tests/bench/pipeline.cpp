@@ -136,14 +136,9 @@ void measure(benchmark::State& state, std::int64_t rows)
       [&helper, &processor, name, turn = std::size_t{ 0 }](double& seconds) mutable
       { return step(helper, name, turn++, seconds, processor[name]); });
   }
-  for (auto _ : state)
+  if (!rounds.run_all(state, "frames are missing", static_cast<double>(rows * steps)))
   {
-    if (!rounds.run(static_cast<double>(rows * steps)))
-    {
-      fail(state, "frames are missing");
-      return;
-    }
-    state.SetIterationTime(rounds.of("1 thread").back() * static_cast<double>(rows * steps));
+    return;
   }
   tell_times(state, rounds, processor);
 }

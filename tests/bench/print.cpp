@@ -131,14 +131,10 @@ public:
       fail(state, "texts differ");
       return;
     }
-    for (auto _ : state)
+    const auto work = static_cast<double>(values_.size());
+    if (!rounds_.run_all(state, "a text has another length", work))
     {
-      if (!rounds_.run(static_cast<double>(values_.size())))
-      {
-        fail(state, "a text has another length");
-        return;
-      }
-      state.SetIterationTime(rounds_.of(names_.front()).back());
+      return;
     }
     const Samples& ours = rounds_.of(names_.front());
     for (const std::string& name : names_)

@@ -153,14 +153,9 @@ void measure(benchmark::State& state, const Subject& subject, const Yardsticks& 
     }
     rounds.add(name_of(threads), [&reading, threads] { return reading.run(threads); });
   }
-  for (auto _ : state)
+  if (!rounds.run_all(state, "rows are missing", static_cast<double>(subject.rows)))
   {
-    if (!rounds.run(static_cast<double>(subject.rows)))
-    {
-      fail(state, "rows are missing");
-      return;
-    }
-    state.SetIterationTime(rounds.of(name_of(1)).back() * static_cast<double>(subject.rows));
+    return;
   }
   tell_times(state, rounds, reading, yardsticks);
 }

@@ -94,14 +94,9 @@ void measure_voxels(benchmark::State& state, const Case& each)
     }
   }
   const auto count = static_cast<double>(each.subdomains.size());
-  for (auto _ : state)
+  if (!rounds.run_all(state, "not as many points as before", count))
   {
-    if (!rounds.run(count))
-    {
-      fail(state, "not as many points as before");
-      return;
-    }
-    state.SetIterationTime(rounds.of("new, 1").back() * count);
+    return;
   }
   for (const std::string memory : { "new", "pooled" })
   {
@@ -135,14 +130,9 @@ void measure_checks(benchmark::State& state, const Subdomains& subdomains)
       return std::count(text.begin(), text.end(), '\n') > 2 * lines;
     });
   const auto count = static_cast<double>(subdomains.size());
-  for (auto _ : state)
+  if (!rounds.run_all(state, "too few lines", count))
   {
-    if (!rounds.run(count))
-    {
-      fail(state, "too few lines");
-      return;
-    }
-    state.SetIterationTime(rounds.of("check").back() * count);
+    return;
   }
   tell(state, "check", 1e9 * median(rounds.of("check")), "ns/subdomain");
   tell(state, "text", 1e9 * median(rounds.of("text")), "ns/subdomain");

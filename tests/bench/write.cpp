@@ -155,14 +155,9 @@ void compete(benchmark::State& state, const Grains& grains, const granular::Dump
   rounds.add("1 thread", by(ours, 1));
   rounds.add("2 threads", by(two, 2));
   rounds.add(name, [&] { return other(theirs.path); });
-  for (auto _ : state)
+  if (!rounds.run_all(state, "a file could not be written", static_cast<double>(grains.ids.size())))
   {
-    if (!rounds.run(static_cast<double>(grains.ids.size())))
-    {
-      fail(state, "a file could not be written");
-      return;
-    }
-    state.SetIterationTime(rounds.of("1 thread").back());
+    return;
   }
   const Samples& one = rounds.of("1 thread");
   tell(state, "other", 1e9 * median(rounds.of(name)), "ns/row");

@@ -2,7 +2,6 @@
 """Written decompositions are what VTK's own readers and this library's read back, bit for bit, with right cells."""
 import os
 import re
-import shutil
 
 import granular
 import numpy
@@ -12,21 +11,10 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 from vtkmodules.vtkIOLegacy import vtkRectilinearGridReader, vtkUnstructuredGridReader, vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from writing import check_nothing_left, check_properties, content, enter_empty_folder, good
 
-data = os.path.join(os.environ["GRANULAR_DATA"], "good")
-shutil.rmtree("files", ignore_errors=True)
-os.mkdir("files")
-os.chdir("files")
+enter_empty_folder()
 WRITER = "GranularDecompositionWriter"
-
-
-def good(name):
-    return os.path.join(data, name)
-
-
-def content(path):
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def read(path):
@@ -143,11 +131,6 @@ assert file.GetOutput().GetNumberOfCells() == 4
 
 # ---- properties --------------------------------------------------------------------------------------------
 
-writer = servermanager.writers.GranularDecompositionWriter(Input=domains, FileName="never.vtk")
-for name, default in {"Dialect": "INL", "Binary": 0, "WriteTimeSteps": 0}.items():
-    assert getattr(writer, name) == default, name
-    text = writer.SMProxy.GetProperty(name).GetDocumentation()
-    assert text and len(text.GetDescription().strip()) > 40, name
-
-assert not [name for name in os.listdir(".") if "tmp" in name or name.startswith(".")], os.listdir(".")
+check_properties(WRITER, domains, Dialect="INL", Binary=0, WriteTimeSteps=0)
+check_nothing_left()
 print("written")

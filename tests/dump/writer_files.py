@@ -2,27 +2,21 @@
 """What was read is written again: the same bytes in the same form, under any name; and what an error leaves."""
 import gzip
 import os
-import shutil
 
 import granular
 import plain_dump
+import writing
 from paraview.simple import *
+from writing import check_nothing_left, check_properties, check_refused, enter_empty_folder, good
 
-data = os.path.join(os.environ["GRANULAR_DATA"], "good")
-shutil.rmtree("files", ignore_errors=True)
-os.mkdir("files")
-os.chdir("files")
+enter_empty_folder()
 GRAINS = "id type x y z ix iy iz vx vy vz radius"  # of grains.bin
 LIGGGHTS = {"Dialect": "LIGGGHTS"}
 
 
-def good(name):
-    return os.path.join(data, name)
-
-
 def content(path):
-    with open(path, "rb") as file:
-        read = file.read()
+    """The bytes of the text, compressed or not."""
+    read = writing.content(path)
     return gzip.decompress(read) if path.endswith(".gz") else read
 
 
@@ -136,16 +130,10 @@ for source in (fresh, some):
 
 # ---- properties ------------------------------------------------------------------------------------
 
-writer = servermanager.writers.GranularDumpWriter(Input=grains, FileName="never.dump")
-defaults = {"Style": "Custom", "Dialect": "LAMMPS", "Columns": "", "Scaled": 1, "Image": 0,
-            "NumberFormat": "%g", "SortById": 0, "WriteTimeSteps": 0, "WriteUnits": 0, "Units": "",
-            "WriteTime": 0, "BoxOrigin": [0] * 3, "BoxVectors": [0] * 9, "Boundary": "",
-            "ParallelMode": "Gather", "Threads": 0}
-for name, default in defaults.items():
-    value = getattr(writer, name)
-    assert (list(value) if isinstance(default, list) else value) == default, (name, value)
-    text = writer.SMProxy.GetProperty(name).GetDocumentation()
-    assert text and len(text.GetDescription().strip()) > 40, name
+writer = check_properties(
+    "GranularDumpWriter", grains, Style="Custom", Dialect="LAMMPS", Columns="", Scaled=1, Image=0, NumberFormat="%g",
+    SortById=0, WriteTimeSteps=0, WriteUnits=0, Units="", WriteTime=0, BoxOrigin=[0] * 3, BoxVectors=[0] * 9,
+    Boundary="", ParallelMode="Gather", Threads=0)
 for name, words in (("Style", ("Atom", "Custom")), ("Dialect", ("LIGGGHTS", "LAMMPS")),
                     ("ParallelMode", ("Gather", "MPI-IO"))):
     for word in words:
@@ -157,15 +145,6 @@ for name, words in (("Style", ("Atom", "Custom")), ("Dialect", ("LIGGGHTS", "LAM
         pass
     else:
         raise AssertionError(f"{name} took a word that it does not know")
-for properties, error in (({"Colour": 1}, AttributeError), ({"Dialect": "Latin"}, ValueError)):
-    try:
-        granular.save(grains, "never.dump", **properties)
-    except error:
-        pass
-    else:
-        raise AssertionError(f"{properties} was taken")
-assert not os.path.exists("never.dump")
-
-# ---- nothing is left but what was meant --------------------------------------------------------------
-
-assert not [name for name in os.listdir(".") if "tmp" in name or name.startswith(".")], os.listdir(".")
+check_refused(grains, "never.dump", AttributeError, Colour=1)
+check_refused(grains, "never.dump", ValueError, Dialect="Latin")
+check_nothing_left()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "made_grains.h"
+#include "sphere_box_volume.h"
 
 #include "granular/common/error.h"
 

@@ -131,7 +131,7 @@ inline Quad quad_corner(std::array<Quad, 3> planes)
 struct ExactVolume
 {
   Quad value = 0;
-  Quad tolerance = 0; ///< what sphere_box_volume promises
+  Quad tolerance = 0; ///< what centred_box_volume promises
 };
 
 inline ExactVolume exact_sphere_box(const granular::Twofold3& centre, double radius,

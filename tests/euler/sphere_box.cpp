@@ -2,6 +2,7 @@
 #include "granular/euler/sphere_box.h"
 
 #include "exact_sphere_box.h"
+#include "sphere_box_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,6 @@
 
 namespace
 {
-using granular::sphere_box_volume;
 using granular::sphere_volume;
 using granular::Vector3;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages over time against those of the particles of all frames at once, one by one with exact sums.
 #include "made_grains.h"
+#include "sphere_box_volume.h"
 
 #include "granular/common/error.h"
 #include "granular/euler/time_average.h"

@@ -2,7 +2,6 @@
 """Written cells have the bytes of LIGGGHTS, or all digits, and are read back as they were."""
 import gzip
 import os
-import shutil
 
 import granular
 import numpy
@@ -10,17 +9,10 @@ import plain_euler
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+from writing import check_nothing_left, check_properties, content, enter_empty_folder, good
 
-data = os.path.join(os.environ["GRANULAR_DATA"], "good")
-shutil.rmtree("files", ignore_errors=True)
-os.mkdir("files")
-os.chdir("files")
+enter_empty_folder()
 WRITER = "GranularEulerWriter"
-
-
-def content(path):
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def write(name, values):
@@ -42,21 +34,21 @@ def values(reader):
 # ---- the bytes of LIGGGHTS, from points and from cells ------------------------------------------------
 
 steps = (1000, 2000, 3000, 4000)
-series = GranularEulerReader(FileNames=[os.path.join(data, f"euler_{step}.vtk") for step in steps])
+series = GranularEulerReader(FileNames=[good(f"euler_{step}.vtk") for step in steps])
 for output in ("Points", "ImageData"):
     series.Output = output
     granular.save(series, "real_*.euler", WriteTimeSteps=1)
     SaveData("data_*.euler", series, WriteTimeSteps=1)
     for step in steps:
-        original = content(os.path.join(data, f"euler_{step}.vtk"))
+        original = content(good(f"euler_{step}.vtk"))
         for name in (f"real_{step}.euler", f"data_{step}.euler"):
             assert content(name) == original, (output, name)
             os.remove(name)
-parallel = OpenDataFile(os.path.join(data, "euler/parallel_2000.vtk"))
+parallel = OpenDataFile(good("euler/parallel_2000.vtk"))
 for output in ("Points", "ImageData"):
     parallel.Output = output
     granular.save(parallel, "parallel.vtk", writer=WRITER)
-    assert content("parallel.vtk") == content(os.path.join(data, "euler/parallel_2000.vtk")), output
+    assert content("parallel.vtk") == content(good("euler/parallel_2000.vtk")), output
 
 # printf on numbers of every size
 centres = plain_euler.grid((-1e5, 0, 1e-6), (1e5, 7, 2e-3), (3, 4, 5))
@@ -105,7 +97,7 @@ assert numpy.signbit(values(again)["v_avg"][0, 2])
 
 granular.save(series, "packed_*.vtk.gz", time=2000, writer=WRITER)
 with gzip.open("packed_2000.vtk.gz") as file:
-    assert file.read() == content(os.path.join(data, "euler_2000.vtk"))
+    assert file.read() == content(good("euler_2000.vtk"))
 none = GranularEulerReader(FileNames=[write("none_5.vtk", plain_euler.cells(numpy.zeros((0, 3))))])
 for output in ("Points", "ImageData"):
     none.Output = output
@@ -120,22 +112,18 @@ assert numpy.allclose(first, [0.9625, -0.0375, 0.010714], rtol=0, atol=1e-6), fi
 series.Output = "ImageData"
 half = ExtractSubset(Input=series, VOI=[0, 4, 0, 4, 0, 3])
 granular.save(half, "half.euler", time=1000)
-whole = plain_euler.read(os.path.join(data, "euler_1000.vtk"))
+whole = plain_euler.read(good("euler_1000.vtk"))
 for name, rows in plain_euler.read("half.euler").items():
     assert (rows == whole[name][:48]).all(), name
 dense = Threshold(Input=series, Scalars=["CELLS", "volumefraction"], LowerThreshold=0.1, UpperThreshold=1)
 granular.save(CellCenters(Input=dense), "dense.euler", time=4000)
-whole = plain_euler.read(os.path.join(data, "euler_4000.vtk"))
+whole = plain_euler.read(good("euler_4000.vtk"))
 chosen = whole["volumefraction"].ravel() >= 0.1
 assert 0 < chosen.sum() < 112
 assert (plain_euler.read("dense.euler")["pressure"] == whole["pressure"][chosen]).all()
 
 # ---- properties ------------------------------------------------------------------------------------------------
 
-writer = servermanager.writers.GranularEulerWriter(Input=series, FileName="never.vtk")
-for name, default in {"Dialect": "LIGGGHTS", "WriteTimeSteps": 0}.items():
-    assert getattr(writer, name) == default, name
-    text = writer.SMProxy.GetProperty(name).GetDocumentation()
-    assert text and len(text.GetDescription().strip()) > 40, name
-assert not [name for name in os.listdir(".") if "tmp" in name or name.startswith(".")], os.listdir(".")
+check_properties("GranularEulerWriter", series, Dialect="LIGGGHTS", WriteTimeSteps=0)
+check_nothing_left()
 print("written")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs in many files: what `*` and `%` in the name of a dump write, restarts, and what lies beside.
-#include "granular/frames/file_series.h"
+#include "granular/frames/run_index.h"
 
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"

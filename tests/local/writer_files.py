@@ -2,26 +2,18 @@
 """The files of real runs, read and written again: the same rows to the byte, under names that say what they are."""
 import gzip
 import os
-import shutil
 
 import granular
 import numpy
 import plain_local
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
+from writing import check_nothing_left, check_properties, content, enter_empty_folder, good
 
-data = os.path.join(os.environ["GRANULAR_DATA"], "good", "local")
-shutil.rmtree("files", ignore_errors=True)
-os.mkdir("files")
-os.chdir("files")
+enter_empty_folder()
 
 FORCES = "x1 y1 z1 x2 y2 z2 id1 id2 periodic forcex forcey forcez"
 BONDS = "btype id1 id2 dist engpot forcex forcey forcez"
-
-
-def content(path):
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def renamed(path, label, names):
@@ -33,9 +25,9 @@ def renamed(path, label, names):
 
 # ---- contacts as lines: their ends where the file has them -------------------------------------------------
 
-contacts = GranularLocalReader(FileNames=[os.path.join(data, "contacts.dump")], Preset="ContactsForce",
+contacts = GranularLocalReader(FileNames=[good("local/contacts.dump")], Preset="ContactsForce",
                                PeriodicLines="AsWritten")
-original = renamed(os.path.join(data, "contacts.dump"), "ENTRIES", FORCES)
+original = renamed(good("local/contacts.dump"), "ENTRIES", FORCES)
 liggghts = {"Dialect": "LIGGGHTS", "WriteTimeSteps": 1}
 granular.save(contacts, "as_named.bonds", Columns=FORCES, **liggghts)
 assert content("as_named.bonds") == original
@@ -57,7 +49,7 @@ granular.save(contacts, "one.bonds", time=2000, Dialect="LIGGGHTS")
 assert content("one.bonds") == frames[steps.index(2000)]
 
 # split at the faces, and far from the origin: the ends are those of the file, within what was lost on the way
-plain = plain_local.read(os.path.join(data, "contacts.dump"))
+plain = plain_local.read(good("local/contacts.dump"))
 crossing = max(frame.column(8).sum() for frame in plain)
 assert crossing > 0
 contacts.PeriodicLines = "Split"
@@ -93,7 +85,7 @@ assert table.rows == [row[6:8] + row[9:] for row in plain[steps.index(2000)].row
 
 # ---- bonds of LAMMPS as a table -------------------------------------------------------------------------------
 
-path = os.path.join(data, "chain_bonds.dump")
+path = good("local/chain_bonds.dump")
 bonds = GranularLocalReader(FileNames=[path], Preset="BondTypeIdsForce")
 original = renamed(path, "BONDS", BONDS)
 for columns in (BONDS, ""):
@@ -103,7 +95,7 @@ SaveData("data.bonds", OutputPort(bonds, 1), Label="BONDS", WriteTimeSteps=1)
 assert content("data.bonds") == original
 
 # as lines between the particles, with what these give to them; and read again
-grains = GranularDumpReader(FileNames=[os.path.join(data, "chain.dump")])
+grains = GranularDumpReader(FileNames=[good("local/chain.dump")])
 for way in ("MinimumImage", "Split"):
     joined = GranularLocalJoin(Input=grains, Lines=OutputPort(bonds, 1), PeriodicLines=way, Averages="v",
                                EquilibriumLength=1.05)
@@ -137,11 +129,7 @@ assert written.names == "id1 id2 btype equilibrium_length x1 y1 z1 x2 y2 z2".spl
 length = numpy.sqrt(((written.stack(["x2", "y2", "z2"]) - written.stack(["x1", "y1", "z1"])) ** 2).sum(axis=1))
 assert numpy.allclose(length, written.column("equilibrium_length"), rtol=1e-12)
 
-writer = servermanager.writers.GranularLocalWriter(Input=contacts, FileName="never.bonds")
-for name, default in {"Dialect": "LAMMPS", "Label": "ENTRIES", "Columns": "", "NumberFormat": "%g", "WriteTimeSteps": 0,
-                      "ParallelMode": "Gather", "Threads": 0}.items():
-    assert getattr(writer, name) == default, name
-    text = writer.SMProxy.GetProperty(name).GetDocumentation()
-    assert text and len(text.GetDescription().strip()) > 40, name
-assert not [name for name in os.listdir(".") if "tmp" in name or name.startswith(".")], os.listdir(".")
+check_properties("GranularLocalWriter", contacts, Dialect="LAMMPS", Label="ENTRIES", Columns="", NumberFormat="%g",
+                 WriteTimeSteps=0, ParallelMode="Gather", Threads=0)
+check_nothing_left()
 print("written")

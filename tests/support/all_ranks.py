@@ -13,17 +13,21 @@ _FILES = {"vtkImageData": (".pvti", vtkXMLPImageDataReader),
           "vtkUnstructuredGrid": (".pvtu", vtkXMLPUnstructuredGridReader)}
 
 
+def wait():
+    """Until all ranks that run the script are here."""
+    if symmetric:
+        ranks.Barrier()
+
+
 def whole(proxy, time=None, kind="vtkPolyData"):
     """The data of all ranks, by way of a file that ParaView writes and reads; it keeps the doubles of points."""
     proxy.UpdatePipeline(*([] if time is None else [time]))
     ending, reader = _FILES[kind]
     name = os.path.abspath("whole" + ending)
     SaveData(name, proxy, DataMode="Binary")
-    if symmetric:
-        ranks.Barrier()
+    wait()
     file = reader()
     file.SetFileName(name)
     file.Update()
-    if symmetric:
-        ranks.Barrier()
+    wait()
     return file.GetOutput()

@@ -77,22 +77,32 @@ class Camera:
         half = math.tan(math.radians(self.angle) / 2) if self.scale is None else self.scale
         unit = 2 * half / pixels
         line = (numpy.arange(pixels) + 0.5) * unit - half
-        x, y = numpy.meshgrid(line, line)
-        nearest = numpy.full(x.shape, -numpy.inf)
-        seen, shade, edge = numpy.zeros(x.shape, int), numpy.zeros(x.shape), numpy.zeros(x.shape, bool)
+        shape = (pixels, pixels)
+        nearest = numpy.full(shape, -numpy.inf)
+        seen, shade, edge = numpy.zeros(shape, int), numpy.zeros(shape), numpy.zeros(shape, bool)
         for centre, radius, identity in zip((centres - self.position) @ axes.T, radii, ids):
+            depth, pixel = (centre[2], unit) if self.scale is not None else (None, -centre[2] * unit)
+            # of the pixels only those around the disc
+            reach = radius + EDGE * abs(pixel)
+            ends = numpy.stack([centre[:2] - reach, centre[:2] + reach])
+            if self.scale is None:
+                ends = (numpy.concatenate([ends / (-centre[2] - reach), ends / (-centre[2] + reach)])
+                        if -centre[2] > reach else numpy.array([[-numpy.inf], [numpy.inf]]) * [1, 1])
+            columns, rows = (slice(*numpy.searchsorted(line, [ends[:, k].min(), ends[:, k].max()])) for k in (0, 1))
+            x, y = line[None, columns], line[rows, None]
             if self.scale is not None:
-                distance, depth, pixel = numpy.hypot(x - centre[0], y - centre[1]), centre[2], unit
+                distance = numpy.hypot(x - centre[0], y - centre[1])
             else:
                 along = centre @ centre / (x * centre[0] + y * centre[1] - centre[2])
                 distance = numpy.sqrt((along * x - centre[0]) ** 2 + (along * y - centre[1]) ** 2
                                       + (along + centre[2]) ** 2)
-                depth, pixel = -along, -centre[2] * unit
-            inside = (distance < radius) & (depth > nearest) & (depth < 0)
-            nearest = numpy.where(inside, depth, nearest)
-            seen[inside] = identity
-            shade[inside] = 1 - (distance[inside] / radius) ** 2
-            edge |= abs(distance - radius) < EDGE * pixel
+                depth = -along
+            before = nearest[rows, columns]
+            inside = (distance < radius) & (depth > before) & (depth < 0)
+            before[...] = numpy.where(inside, depth, before)
+            seen[rows, columns][inside] = identity
+            shade[rows, columns][inside] = 1 - (distance[inside] / radius) ** 2
+            edge[rows, columns] |= abs(distance - radius) < EDGE * pixel
         return seen, shade, edge
 
     def compare(self, pixels, centres, radii, ids, last):

@@ -15,7 +15,7 @@ class RanksServer:
 
     def __init__(self):
         # this process is one of MPI, too: what that has left in the environment is not for the server's
-        ours = ("OMPI_ALLOW", "OMPI_MCA_rmaps", "OMPI_MCA_btl", "OMPI_MCA_mpi")
+        ours = ("OMPI_ALLOW", "OMPI_MCA_rmaps", "OMPI_MCA_btl", "OMPI_MCA_mpi", "OMPI_MCA_pml")
         environment = {name: value for name, value in os.environ.items()
                        if name.startswith(ours) or not name.startswith(("OMPI_", "ORTE_", "PMIX_"))}
         self.process = subprocess.Popen([*sys.argv[1:], "--server-port=0"], env=environment,

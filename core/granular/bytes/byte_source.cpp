@@ -37,6 +37,16 @@ auto call_again(const Call& call)
   return result;
 }
 
+/// ByteSource::read from bytes in memory.
+std::size_t copy_bytes(
+  std::string_view from, std::int64_t offset, char* buffer, std::size_t bytes) noexcept
+{
+  const std::size_t start = std::min(static_cast<std::size_t>(offset), from.size());
+  const std::size_t count = std::min(bytes, from.size() - start);
+  std::copy_n(from.data() + start, count, buffer);
+  return count;
+}
+
 class FileSource final : public ByteSource
 {
 public:
@@ -151,10 +161,7 @@ public:
     // small files, and the beginning of others, are looked at several times
     if (offset + static_cast<std::int64_t>(wanted) <= static_cast<std::int64_t>(head_bytes))
     {
-      const std::size_t start = std::min(static_cast<std::size_t>(offset), there_);
-      const std::size_t count = std::min(wanted, there_ - start);
-      std::copy_n(head_.get() + start, count, buffer);
-      return count;
+      return copy_bytes({ head_.get(), there_ }, offset, buffer, wanted);
     }
     return source_->read(offset, buffer, wanted);
   }
@@ -180,19 +187,11 @@ public:
   const std::string& path() const override { return path_; }
   bool concurrent() const override { return true; }
 
-  FileStamp stamp() const override
-  {
-    FileStamp stamp;
-    stamp.size = static_cast<std::int64_t>(bytes_.size());
-    return stamp;
-  }
+  FileStamp stamp() const override { return { .size = static_cast<std::int64_t>(bytes_.size()) }; }
 
   std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
   {
-    const std::size_t start = std::min(static_cast<std::size_t>(offset), bytes_.size());
-    const std::size_t count = std::min(bytes, bytes_.size() - start);
-    std::copy_n(bytes_.data() + start, count, buffer);
-    return count;
+    return copy_bytes(bytes_, offset, buffer, bytes);
   }
 
 private:

@@ -101,8 +101,8 @@ std::size_t Unpacker::read(std::int64_t offset, char* buffer, std::size_t bytes)
 void Unpacker::go_to(std::int64_t offset)
 {
   static const SeekPoints::Point start;
-  const auto after = std::upper_bound(points_->points.begin(), points_->points.end(), offset,
-    [](std::int64_t value, const SeekPoints::Point& point) { return value < point.offset; });
+  const auto after =
+    std::ranges::upper_bound(points_->points, offset, {}, &SeekPoints::Point::offset);
   const SeekPoints::Point& nearest = after == points_->points.begin() ? start : *std::prev(after);
   const bool far_ahead = nearest.offset > end_ + static_cast<std::int64_t>(largest_step);
   if (lost_ || offset < begin_ || far_ahead)

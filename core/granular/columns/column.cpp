@@ -125,12 +125,6 @@ std::string make_unique(const std::string& name, TakenNames& taken)
   return unique;
 }
 
-bool is_position(ColumnRole role) noexcept
-{
-  return role == ColumnRole::Position || role == ColumnRole::ScaledPosition ||
-    role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
-}
-
 /// An array of these columns, whose type and role are those of the first one listed.
 ArrayInfo make_array(const std::string& name, std::vector<int> members,
   const std::vector<ColumnInfo>& columns, TakenNames& taken)

@@ -27,6 +27,12 @@ enum class ColumnRole : std::uint8_t
   Diameter
 };
 
+/// Whether a column is a coordinate, in whatever form.
+constexpr bool is_position(ColumnRole role) noexcept
+{
+  return role >= ColumnRole::Position && role <= ColumnRole::ScaledUnwrappedPosition;
+}
+
 /// One row of the table of names that LIGGGHTS and LAMMPS give to columns.
 struct KnownColumn
 {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace granular
@@ -60,9 +61,28 @@ struct InGrid
   std::int64_t outside;
 };
 
+std::array<SlabFinder, 3> slabs_of(const ProcessGrid& grid)
+{
+  const auto& [x, y, z] = grid.cuts;
+  return { SlabFinder(x), SlabFinder(y), SlabFinder(z) };
+}
+
 bool is_finite(const double* x) noexcept
 {
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
+using Entry = SubdomainTree::Entry;
+using Node = SubdomainTree::Node;
+
+/// How many axes have lo <= x < hi; -1 where not all have lo <= x <= hi.
+int axes_inside(const Entry& entry, const double* x) noexcept
+{
+  const auto& [lo, hi, number] = entry;
+  // & and no &&: one branch that can be foreseen, not six that cannot
+  const int closed = int{ lo[0] <= x[0] } & int{ x[0] <= hi[0] } & int{ lo[1] <= x[1] } &
+    int{ x[1] <= hi[1] } & int{ lo[2] <= x[2] } & int{ x[2] <= hi[2] };
+  return closed != 0 ? int{ x[0] < hi[0] } + int{ x[1] < hi[1] } + int{ x[2] < hi[2] } : -1;
 }
 
 /// Finds the number of the subdomain of a point, or the one behind the last. Neighbours in a file are mostly in the
@@ -71,15 +91,50 @@ struct InTree
 {
   const SubdomainTree& tree;
   std::int64_t outside;
-  const SubdomainTree::Box* last = nullptr;
+  const Entry* best = nullptr; ///< of the last point
+  int most = -1;               ///< its axes inside
 
   std::int64_t operator()(const double* x) noexcept
   {
-    if (!last || last->inside(x) != 3)
+    if (!best || axes_inside(*best, x) != 3)
     {
-      last = is_finite(x) ? tree.find(x) : nullptr;
+      best = nullptr;
+      most = -1;
+      if (is_finite(x))
+      {
+        this->search(x, tree.root());
+      }
     }
-    return last ? last->number : outside;
+    return best ? best->number : outside;
+  }
+
+  /// Of the closed boxes that have the point, the one with the most axes along which lo <= x < hi; of these
+  /// (flat ones among them) the one that begins last along x, then y, then z, then the last.
+  void search(const double* x, const Node& node) noexcept
+  {
+    if (const auto halves = tree.halves(node); !halves.empty())
+    {
+      const bool second = x[node.axis] >= halves[1].lo[node.axis];
+      if (!second || x[node.axis] <= halves[0].hi[node.axis])
+      {
+        this->search(x, halves[0]);
+      }
+      if (second && most < 3)
+      {
+        this->search(x, halves[1]);
+      }
+    }
+    for (const Entry& entry : tree.entries(node))
+    {
+      const int axes = axes_inside(entry, x);
+      if (axes > most ||
+        (axes >= 0 && axes == most &&
+          std::tie(best->lo, best->number) < std::tie(entry.lo, entry.number)))
+      {
+        best = &entry;
+        most = axes;
+      }
+    }
   }
 };
 
@@ -171,8 +226,7 @@ ParticleCounts count_in_grid(
   const FrameView& frame, const ProcessGrid& grid, const Executor& executor, Progress& progress)
 {
   check_cuts(grid);
-  const std::array<SlabFinder, 3> slabs = { SlabFinder(grid.cuts[0]), SlabFinder(grid.cuts[1]),
-    SlabFinder(grid.cuts[2]) };
+  const std::array<SlabFinder, 3> slabs = slabs_of(grid);
   return count_all(
     frame, static_cast<std::size_t>(grid.size()), InGrid{ slabs, grid }, executor, progress);
 }
@@ -189,7 +243,16 @@ ParticleCounts count_in_subdomains(const FrameView& frame, std::span<const Subdo
       [&](std::int64_t place) { return in_grid.particles[static_cast<std::size_t>(place)]; });
     return counts;
   }
-  const SubdomainTree tree(subdomains);
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < subdomains.size(); ++i)
+  {
+    const auto& [lo, hi, particles, rank] = subdomains[i];
+    if (lo[0] <= hi[0] && lo[1] <= hi[1] && lo[2] <= hi[2])
+    {
+      entries.push_back({ lo, hi, static_cast<std::int64_t>(i) });
+    }
+  }
+  const SubdomainTree tree(std::move(entries), true);
   return count_all(frame, subdomains.size(),
     InTree{ tree, static_cast<std::int64_t>(subdomains.size()) }, executor, progress);
 }

@@ -323,15 +323,11 @@ bool is_vtu(std::string_view first_bytes) noexcept
 
 bool is_decomposition_file(const std::string& path) noexcept
 {
-  try
-  {
-    const std::unique_ptr<ByteSource> source = unpack(open_file(path));
-    const VtuHead head = look_at(read_head(*source));
-    return head.unstructured ? is_decomposition_vtu(*source, head) : is_legacy(*source);
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
+  return looks_so(path,
+    [](const ByteSource& source)
+    {
+      const VtuHead head = look_at(read_head(source));
+      return head.unstructured ? is_decomposition_vtu(source, head) : is_legacy(source);
+    });
 }
 }

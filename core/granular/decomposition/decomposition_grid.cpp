@@ -164,7 +164,6 @@ void GridReader::read_coordinates()
 void GridReader::read_points()
 {
   const VtkArray array = file_.values(3);
-  grid_.number_of_points = array.tuples;
   this->limit(array.tuples / points_a_cell);
   file_.take(array, keep_, grid_.points);
 }

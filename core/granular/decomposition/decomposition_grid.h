@@ -35,7 +35,6 @@ struct DecompositionGrid
   std::array<std::int64_t, 3> counts = {};             ///< of coordinates
   std::array<std::vector<double>, 3> coordinates = {}; ///< in any order
 
-  std::int64_t number_of_points = 0;
   std::vector<double> points;
   VtkCells voxels; ///< of eight points each, all of them there
 

@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -24,37 +25,21 @@ namespace
 {
 constexpr std::size_t corners = corners_of_voxel;
 
-/// Adds text for each subdomain, some at a time, and reports after each lot that it is done.
-class Lots
+/// Calls add(number, subdomain) for each, and reports progress now and then.
+template <class Add>
+void for_each(const std::vector<Subdomain>& subdomains, Progress& progress, const Add& add)
 {
-public:
-  Lots(const Decomposition& decomposition, Progress& progress)
-    : subdomains_(decomposition.subdomains)
-    , progress_(progress)
+  constexpr std::size_t report_interval = 16384;
+  const std::size_t count = subdomains.size();
+  for (std::size_t p = 0; p < count; ++p)
   {
-  }
-
-  /// The part of all work that is done when add has run for all.
-  template <class Add>
-  void run(double first, double last, const Add& add) const
-  {
-    constexpr std::size_t lot = 16384;
-    const std::size_t count = subdomains_.size();
-    for (std::size_t p = 0; p < count; ++p)
+    if (p % report_interval == 0)
     {
-      if (p % lot == 0)
-      {
-        progress_.step(
-          first + (last - first) * static_cast<double>(p) / static_cast<double>(count));
-      }
-      add(p, subdomains_[p]);
+      progress.step(static_cast<double>(p) / static_cast<double>(count));
     }
+    add(p, subdomains[p]);
   }
-
-private:
-  const std::vector<Subdomain>& subdomains_;
-  Progress& progress_;
-};
+}
 
 /// A number as it is written, and a blank.
 struct Word
@@ -72,10 +57,10 @@ struct Word
 };
 
 /// Three points a line.
-void add_points(std::string& text, const Lots& lots, std::size_t count)
+void add_points(std::string& text, const std::vector<Subdomain>& subdomains, Progress& progress)
 {
-  add_line(text, "POINTS ", corners * count, " double");
-  lots.run(0, 0.7,
+  add_line(text, "POINTS ", corners * subdomains.size(), " double");
+  for_each(subdomains, progress,
     [&](std::size_t p, const Subdomain& subdomain)
     {
       // each bound is printed once, for four corners
@@ -94,10 +79,11 @@ void add_points(std::string& text, const Lots& lots, std::size_t count)
   text += '\n';
 }
 
-void add_cells(std::string& text, const Lots& lots, std::size_t count)
+void add_cells(std::string& text, const std::vector<Subdomain>& subdomains, Progress& progress)
 {
+  const std::size_t count = subdomains.size();
   add_line(text, "CELLS ", count, " ", (1 + corners) * count);
-  lots.run(0.7, 0.9,
+  for_each(subdomains, progress,
     [&](std::size_t p, const Subdomain&)
     {
       text += "8 ";
@@ -118,19 +104,16 @@ void add_cells(std::string& text, const Lots& lots, std::size_t count)
 }
 
 /// One value a cell, nine a line.
-template <class ValueOf>
-void add_array(std::string& text, std::string_view name, const Decomposition& decomposition,
-  const ValueOf& value_of)
+template <class T>
+void add_array(std::string& text, std::string_view name, const std::vector<Subdomain>& subdomains,
+  T Subdomain::*value)
 {
-  constexpr std::int64_t most_int = std::numeric_limits<std::int32_t>::max();
-  const auto& subdomains = decomposition.subdomains;
-  const bool fits = std::all_of(subdomains.begin(), subdomains.end(),
-    [&](const Subdomain& each)
-    { return value_of(each) <= most_int && value_of(each) >= -most_int - 1; });
+  const bool fits = std::ranges::all_of(
+    subdomains, [&](const Subdomain& each) { return std::in_range<std::int32_t>(each.*value); });
   add_line(text, name, " 1 ", subdomains.size(), fits ? " int" : " vtktypeint64");
   for (std::size_t p = 0; p < subdomains.size(); ++p)
   {
-    add_integer(text, value_of(subdomains[p]));
+    add_integer(text, subdomains[p].*value);
     text += p % 9 == 8 ? " \n" : " ";
   }
   text += '\n';
@@ -138,20 +121,20 @@ void add_array(std::string& text, std::string_view name, const Decomposition& de
 
 void add_arrays(std::string& text, const Decomposition& decomposition)
 {
-  const int arrays = (decomposition.has_particles ? 1 : 0) + (decomposition.has_ranks ? 1 : 0);
-  if (arrays == 0)
+  const auto& [subdomains, has_particles, has_ranks] = decomposition;
+  if (!has_particles && !has_ranks)
   {
     return;
   }
-  add_line(text, "CELL_DATA ", decomposition.subdomains.size());
-  add_line(text, "FIELD FieldData ", arrays);
-  if (decomposition.has_particles)
+  add_line(text, "CELL_DATA ", subdomains.size());
+  add_line(text, "FIELD FieldData ", has_particles && has_ranks ? 2 : 1);
+  if (has_particles)
   {
-    add_array(text, "nlocal", decomposition, [](const Subdomain& each) { return each.particles; });
+    add_array(text, "nlocal", subdomains, &Subdomain::particles);
   }
-  if (decomposition.has_ranks)
+  if (has_ranks)
   {
-    add_array(text, "proc", decomposition, [](const Subdomain& each) { return each.rank; });
+    add_array(text, "proc", subdomains, &Subdomain::rank);
   }
 }
 
@@ -221,12 +204,13 @@ private:
 
 std::string encode_voxels(const Decomposition& decomposition, Progress& progress)
 {
-  const std::size_t count = decomposition.subdomains.size();
-  const Lots lots(decomposition, progress);
   std::string text = "# vtk DataFile Version 3.0\nGenerated by vtk-granular\nASCII\n"
                      "DATASET UNSTRUCTURED_GRID\n";
-  add_points(text, lots, count);
-  add_cells(text, lots, count);
+  PartialProgress part(progress);
+  part.set_part(0, 0.7);
+  add_points(text, decomposition.subdomains, part);
+  part.set_part(0.7, 0.9);
+  add_cells(text, decomposition.subdomains, part);
   add_arrays(text, decomposition);
   progress.step(1);
   return text;

@@ -28,6 +28,17 @@ Subdomain nothing_of(int rank)
   return { { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, 0, rank };
 }
 
+/// Extends bounds by others, or by a point of a particle.
+void extend(Subdomain& bounds, const double* lo, const double* hi, std::int64_t particles) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    bounds.lo[axis] = std::min(bounds.lo[axis], lo[axis]);
+    bounds.hi[axis] = std::max(bounds.hi[axis], hi[axis]);
+  }
+  bounds.particles += particles;
+}
+
 /// Bounds by rank.
 class BoundsByRank
 {
@@ -47,13 +58,7 @@ public:
 
   void add(const Subdomain& other)
   {
-    Subdomain& bounds = this->of(other.rank);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      bounds.lo[axis] = std::min(bounds.lo[axis], other.lo[axis]);
-      bounds.hi[axis] = std::max(bounds.hi[axis], other.hi[axis]);
-    }
-    bounds.particles += other.particles;
+    extend(this->of(other.rank), other.lo.data(), other.hi.data(), other.particles);
   }
 
   void add(std::span<const Subdomain> others)
@@ -127,34 +132,6 @@ private:
   const ArrayView* array_;
 };
 
-/// The bounds of rows of one process that follow each other.
-class Run
-{
-public:
-  void start(int rank) noexcept { bounds_ = nothing_of(rank); }
-
-  void add(const double* x) noexcept
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      bounds_.lo[axis] = std::min(bounds_.lo[axis], x[axis]);
-      bounds_.hi[axis] = std::max(bounds_.hi[axis], x[axis]);
-    }
-    ++bounds_.particles;
-  }
-
-  void end(BoundsByRank& all) const
-  {
-    if (bounds_.particles > 0)
-    {
-      all.add(bounds_);
-    }
-  }
-
-private:
-  Subdomain bounds_ = nothing_of(0);
-};
-
 void add_rows(const FrameView& frame, const AbsolutePositions& positions,
   const Processes& processes, std::int64_t first, std::int64_t last, BoundsByRank& bounds,
   std::int64_t& outside)
@@ -167,8 +144,15 @@ void add_rows(const FrameView& frame, const AbsolutePositions& positions,
     const auto count = static_cast<std::size_t>(std::min(most, last - first));
     processes.load(first, count, numbers.data());
     const double* x = positions.load(first, count, buffer.data());
-    Run run;
+    Subdomain run = nothing_of(0); // rows of one process
     double process = 0;
+    const auto end_run = [&]
+    {
+      if (run.particles > 0)
+      {
+        bounds.add(run);
+      }
+    };
     for (std::size_t i = 0; i < count; ++i, x += 3)
     {
       if (frame.is_duplicate(first + static_cast<std::int64_t>(i)))
@@ -178,20 +162,20 @@ void add_rows(const FrameView& frame, const AbsolutePositions& positions,
       if (numbers[i] != process)
       {
         const int rank = processes.rank_of(numbers[i]);
-        run.end(bounds);
-        run.start(rank);
+        end_run();
+        run = nothing_of(rank);
         process = numbers[i];
       }
       if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
       {
-        run.add(x);
+        extend(run, x, x, 1);
       }
       else
       {
         ++outside;
       }
     }
-    run.end(bounds);
+    end_run();
   }
 }
 
@@ -223,7 +207,6 @@ ParticleBounds find_bounds(
   return { std::move(bounds[0]).sorted(),
     std::accumulate(outside.begin(), outside.end(), std::int64_t{ 0 }) };
 }
-
 }
 
 ParticleBounds bounds_by_process(

@@ -50,78 +50,58 @@ std::int64_t add_voxels(
   return reflected;
 }
 
-/// What is known of the subdomains of a grid, which were the last to be added.
-void add_data(const DecompositionGrid& grid, Decomposition& decomposition)
+/// The subdomains of a grid. Adds to reflected how many cells were put right.
+Decomposition subdomains_of(
+  const DecompositionGrid& grid, const WhereOf& where_of, std::int64_t& reflected)
 {
+  Decomposition decomposition = { {}, grid.has_particles, grid.has_ranks };
   std::vector<Subdomain>& subdomains = decomposition.subdomains;
-  const std::size_t first = subdomains.size() - static_cast<std::size_t>(grid.cells);
-  for (std::size_t i = first; i < subdomains.size(); ++i)
+  subdomains.reserve(static_cast<std::size_t>(grid.cells));
+  if (grid.rectilinear)
   {
-    subdomains[i].particles = grid.has_particles ? grid.particles[i - first] : 0;
-    subdomains[i].rank =
-      static_cast<int>(grid.has_ranks ? grid.ranks[i - first] : static_cast<std::int64_t>(i));
+    add_boxes(grid, subdomains);
   }
-  decomposition.has_particles = decomposition.has_particles && grid.has_particles;
-  decomposition.has_ranks = decomposition.has_ranks && grid.has_ranks;
+  else
+  {
+    reflected += add_voxels(grid, subdomains, where_of);
+  }
+  for (std::size_t i = 0; i < subdomains.size(); ++i)
+  {
+    subdomains[i].particles = grid.has_particles ? grid.particles[i] : 0;
+    subdomains[i].rank = static_cast<int>(grid.has_ranks ? grid.ranks[i] : static_cast<int>(i));
+  }
+  return decomposition;
 }
 
 Decomposition read_legacy(
-  const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
+  const ByteSource& source, const FrameEntry& entry, std::int64_t& reflected, Progress& progress)
 {
   LegacyVtk file(source, { entry.offset, entry.line }, entry.end, progress);
   const DecompositionGrid grid = read_grid(file, true);
   check_cells(entry, grid.cells, file.where(grid.header.place));
-  Decomposition decomposition;
-  decomposition.subdomains.reserve(static_cast<std::size_t>(grid.cells));
-  std::int64_t reflected = 0;
-  if (grid.rectilinear)
-  {
-    add_boxes(grid, decomposition.subdomains);
-  }
-  else
-  {
-    reflected = add_voxels(grid, decomposition.subdomains,
-      [&](std::int64_t cell) { return file.where_of(grid.voxels, cell); });
-  }
-  if (reflected > 0)
-  {
-    notices.push_back(note_reflected(file.where(grid.header.place), reflected));
-  }
-  add_data(grid, decomposition);
-  return decomposition;
+  return subdomains_of(
+    grid, [&](std::int64_t cell) { return file.where_of(grid.voxels, cell); }, reflected);
 }
 
-/// The pieces one after the other. What not all of them have nobody knows.
+/// The pieces one after the other.
 Decomposition read_vtu(
-  const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
+  const ByteSource& source, const FrameEntry& entry, std::int64_t& reflected, Progress& progress)
 {
   const std::string text = read_up_to(source, entry.end);
   const VtuGrids grids(text, source.path());
-  const Where where = { source.path(), entry.line };
-  check_cells(entry, grids.cells(), where);
-  Decomposition decomposition;
-  decomposition.has_particles = grids.size() > 0;
-  decomposition.has_ranks = grids.size() > 0;
-  std::int64_t reflected = 0;
+  check_cells(entry, grids.cells(), { source.path(), entry.line });
+  if (grids.size() == 0)
+  {
+    return { {}, false, false };
+  }
+  std::vector<Decomposition> pieces; // what not all of them have is not known
   for (std::size_t i = 0; i < grids.size(); ++i)
   {
     progress.step(static_cast<double>(i) / static_cast<double>(grids.size()));
-    const DecompositionGrid grid = grids.read(i);
-    reflected += add_voxels(
-      grid, decomposition.subdomains, [&](std::int64_t cell) { return grids.where_of(i, cell); });
-    add_data(grid, decomposition);
+    pieces.push_back(subdomains_of(
+      grids.read(i), [&](std::int64_t cell) { return grids.where_of(i, cell); }, reflected));
   }
-  std::vector<Subdomain>& subdomains = decomposition.subdomains;
-  for (std::size_t i = 0; i < subdomains.size(); ++i)
-  {
-    subdomains[i].particles *= decomposition.has_particles ? 1 : 0;
-    subdomains[i].rank = decomposition.has_ranks ? subdomains[i].rank : static_cast<int>(i);
-  }
-  if (reflected > 0)
-  {
-    notices.push_back(note_reflected(where, reflected));
-  }
-  return decomposition;
+  return join(pieces);
 }
 }
 
@@ -130,7 +110,14 @@ Decomposition read_decomposition(
 {
   const bool xml = entry.offset == 0 &&
     is_vtu(read_up_to(source, std::min(entry.end, std::int64_t{ vtu_head_bytes })));
-  return (xml ? read_vtu : read_legacy)(source, entry, notices, progress);
+  const Where where = { source.path(), entry.line, entry.line > 0 ? -1 : entry.offset };
+  std::int64_t reflected = 0;
+  Decomposition decomposition = (xml ? read_vtu : read_legacy)(source, entry, reflected, progress);
+  if (reflected > 0)
+  {
+    notices.push_back(note_reflected(where, reflected));
+  }
+  return decomposition;
 }
 
 Notice note_reflected(const Where& where, std::int64_t cells)

@@ -12,55 +12,6 @@ namespace granular
 {
 namespace
 {
-/// What a rank tells of itself.
-struct Told
-{
-  Vector3 lo;
-  Vector3 hi;
-  std::int64_t particles;
-};
-
-/// What rank 0 gets, and how much comes from whom.
-struct Gathering
-{
-  std::vector<std::int64_t> from_bytes;
-  std::vector<std::int64_t> to_bytes;
-  std::vector<Told> told;
-  GatheredBounds bounds;
-
-  explicit Gathering(const Communicator& ranks)
-    : from_bytes(static_cast<std::size_t>(ranks.size()))
-    , to_bytes(from_bytes.size())
-  {
-    from_bytes[0] = sizeof(Told);
-    if (ranks.rank() == 0)
-    {
-      std::fill(to_bytes.begin(), to_bytes.end(), sizeof(Told));
-      told.resize(to_bytes.size());
-      for (std::vector<double>* data : { &bounds.x_data, &bounds.y_data, &bounds.z_data })
-      {
-        data->resize(2 * told.size());
-      }
-      bounds.particles.resize(told.size());
-    }
-  }
-
-  /// From what was told.
-  void fill_bounds()
-  {
-    double* const data[3] = { bounds.x_data.data(), bounds.y_data.data(), bounds.z_data.data() };
-    for (std::size_t p = 0; p < told.size(); ++p)
-    {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        data[axis][2 * p] = told[p].lo[axis];
-        data[axis][2 * p + 1] = told[p].hi[axis];
-      }
-      bounds.particles[p] = told[p].particles;
-    }
-  }
-};
-
 void expect_size(const char* name, std::size_t got, std::size_t expected)
 {
   if (got != expected)
@@ -84,12 +35,23 @@ GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks)
   return do_together(ranks,
     [&]
     {
-      const Told told = { own.lo, own.hi, own.particles };
-      Gathering all(ranks);
-      ranks.exchange(reinterpret_cast<const char*>(&told), all.from_bytes,
-        reinterpret_cast<char*>(all.told.data()), all.to_bytes);
-      all.fill_bounds();
-      return std::move(all.bounds);
+      const auto processes = static_cast<std::size_t>(ranks.size());
+      const bool is_first = ranks.rank() == 0;
+      std::vector<std::int64_t> to_first(processes);
+      to_first[0] = sizeof(Subdomain);
+      const std::vector<std::int64_t> from_each(processes, is_first ? sizeof(Subdomain) : 0);
+      std::vector<Subdomain> all(is_first ? processes : 0);
+      ranks.exchange(reinterpret_cast<const char*>(&own), to_first,
+        reinterpret_cast<char*>(all.data()), from_each);
+      GatheredBounds bounds;
+      for (const Subdomain& each : all)
+      {
+        bounds.x_data.insert(bounds.x_data.end(), { each.lo[0], each.hi[0] });
+        bounds.y_data.insert(bounds.y_data.end(), { each.lo[1], each.hi[1] });
+        bounds.z_data.insert(bounds.z_data.end(), { each.lo[2], each.hi[2] });
+        bounds.particles.push_back(each.particles);
+      }
+      return bounds;
     });
 }
 
@@ -116,29 +78,28 @@ Decomposition decomposition_of(const GatheredBounds& bounds)
   return decomposition;
 }
 
+Decomposition join(std::span<const Decomposition> parts)
+{
+  Decomposition all;
+  for (const auto& [subdomains, has_particles, has_ranks] : parts)
+  {
+    const bool is_empty = subdomains.empty(); // nothing is known of arrays where there are no cells
+    all.has_particles = all.has_particles && (has_particles || is_empty);
+    all.has_ranks = all.has_ranks && (has_ranks || is_empty);
+    all.subdomains.insert(all.subdomains.end(), subdomains.begin(), subdomains.end());
+  }
+  for (std::size_t i = 0; i < all.subdomains.size(); ++i)
+  {
+    Subdomain& each = all.subdomains[i];
+    each.particles = all.has_particles ? each.particles : 0;
+    each.rank = all.has_ranks ? each.rank : static_cast<int>(i);
+  }
+  return all;
+}
+
 Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks)
 {
-  return do_together(ranks,
-    [&]
-    {
-      Decomposition joined;
-      for (const Decomposition& part : gather(ranks, own))
-      {
-        if (part.subdomains.empty())
-        {
-          continue; // nothing is known of arrays where there are no cells
-        }
-        joined.has_particles = joined.has_particles && part.has_particles;
-        joined.has_ranks = joined.has_ranks && part.has_ranks;
-        joined.subdomains.insert(
-          joined.subdomains.end(), part.subdomains.begin(), part.subdomains.end());
-      }
-      for (std::size_t i = 0; !joined.has_ranks && i < joined.subdomains.size(); ++i)
-      {
-        joined.subdomains[i].rank = static_cast<int>(i);
-      }
-      return joined;
-    });
+  return do_together(ranks, [&] { return join(gather(ranks, own)); });
 }
 
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept

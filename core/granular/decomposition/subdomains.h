@@ -50,6 +50,10 @@ GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks);
 /// The subdomains with these bounds, p = 0 .. P - 1. Throws Error where an array has not its size.
 Decomposition decomposition_of(const GatheredBounds& bounds);
 
+/// Joins parts of one decomposition, in their order. Counts or ranks that a part with subdomains lacks are unknown: then all
+/// counts are 0, or ranks are counted.
+Decomposition join(std::span<const Decomposition> parts);
+
 /// The subdomains of all ranks, in the order of the ranks, on all. What not all who have any know of them nobody
 /// knows. Collective.
 Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks);
@@ -84,7 +88,7 @@ struct SubdomainChecks
 /// Holds subdomains against the checks, each of which gives one Error or Notice, that names the first two at fault
 /// (a process by its rank) and counts them, up to 10^6 overlaps. Those without bounds are left out of the overlaps; gaps
 /// are looked for where all have bounds and no two overlap. In a box that is flat areas may not overlap, and there are
-/// no gaps. A grid has neither, which takes no more than finding it; others take n log^3 n at most. Throws FormatError; Cancelled.
+/// no gaps. A grid has neither, which takes no more than finding it; others take n log n (see find_overlaps). Throws FormatError; Cancelled.
 void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChecks& checks,
   const Where& where, Notices& notices, Progress& progress);
 }

@@ -121,7 +121,6 @@ DecompositionGrid VtuGrids::read(std::size_t grid) const
   const Piece& piece = pieces_[grid];
   DecompositionGrid read;
   read.cells = piece.cells;
-  read.number_of_points = piece.points;
   const VtkXmlArray& points = this->need(piece, Points);
   this->check_components(points, axes);
   file_.read(points, axes * piece.points, read.points);

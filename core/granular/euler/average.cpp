@@ -7,6 +7,7 @@
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -21,49 +22,47 @@ namespace
 /// The sums of a frame, and what TimeAverage keeps of a cell.
 constexpr double values_of_time_average = 6 + 44;
 
-/// Tells what is not known of the grains. The same on all ranks: grains speak for those who have none.
-struct Known
+/// What is counted over the ranks: grains, ranks that have any, and how many of these ranks know something of theirs.
+enum Count : std::size_t
 {
-  std::int64_t rows = 0;
-  std::int64_t velocity = 0; ///< of the ranks that have grains, how many have it
-  std::int64_t radius = 0;
-  std::int64_t mass = 0;
-  std::int64_t holders = 0; ///< ranks that have grains
+  Rows,
+  Holders,
+  Velocity,
+  Radius,
+  Mass,
+  CountKinds
 };
+using Counts = std::array<std::int64_t, CountKinds>;
 
-void note_missing(const Known& known, const EulerAverageRequest& request, Notices& notices)
+/// Tells what is not known of the grains. The same on all ranks: grains speak for those who have none.
+void check_known(const Counts& known, const EulerAverageRequest& request, Notices& notices)
 {
   struct Missing
   {
-    std::int64_t Known::*count;
+    Count count;
     std::string what;
     const char* then;
   };
   const Missing all[] = {
-    { &Known::velocity, "no array '" + request.arrays.velocity + "' of velocities", "v_avg is 0" },
-    { &Known::radius, "no array '" + request.arrays.radius + "' of radii",
+    { Velocity, "no array '" + request.arrays.velocity + "' of velocities", "v_avg is 0" },
+    { Radius, "no array '" + request.arrays.radius + "' of radii",
       "radius and volumefraction are 0" },
-    { &Known::mass, "neither an array '" + request.arrays.mass + "' nor density and radius",
+    { Mass, "neither an array '" + request.arrays.mass + "' nor density and radius",
       "the mass of each grain is taken as 1" },
   };
   for (const Missing& missing : all)
   {
-    const std::int64_t count = known.*missing.count;
-    if (count == 0 && known.holders > 0)
+    const std::int64_t count = known[missing.count];
+    if (count == 0 && known[Holders] > 0)
     {
       notices.push_back({ {}, missing.what + ": " + missing.then });
     }
-    else if (count < known.holders)
+    else if (count < known[Holders])
     {
       throw Error("expected the same arrays on all processes, got some with " + missing.what);
     }
   }
-}
-
-void check_known(const Known& known, const EulerAverageRequest& request, Notices& notices)
-{
-  note_missing(known, request, notices);
-  if (request.cells.weights == CellWeights::Overlap && known.radius == 0 && known.holders > 0)
+  if (request.cells.weights == CellWeights::Overlap && known[Radius] == 0 && known[Holders] > 0)
   {
     throw Error("expected an array '" + request.arrays.radius +
       "' of radii, which the weights Overlap need, got none");
@@ -128,13 +127,12 @@ EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest
       }
       const GrainSources sources = find_grain_sources(frame, request.arrays);
       const std::int64_t holds = frame.rows > 0 ? 1 : 0;
-      std::int64_t counts[] = { frame.rows, sources.velocity[0] ? holds : 0,
-        sources.radius ? holds : 0, sources.mass || sources.density ? holds : 0, holds };
-      ranks.sum(counts);
-      const Known known = { counts[0], counts[1], counts[2], counts[3], counts[4] };
+      Counts known = { frame.rows, holds, sources.velocity[0] ? holds : 0,
+        sources.radius ? holds : 0, sources.mass || sources.density ? holds : 0 };
+      ranks.sum(known);
       check_known(known, request, notices);
       check_memory(request);
-      return AveragePasses(frame, sources, known.rows, request, ranks, executor, progress).run();
+      return AveragePasses(frame, sources, known[Rows], request, ranks, executor, progress).run();
     });
 }
 

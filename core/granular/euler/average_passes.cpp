@@ -313,20 +313,14 @@ void AveragePasses::each_cell(const Group& group, const SumScale& scale, const T
       {
         return;
       }
-      const CellRange range = blocks_.range(block);
       std::size_t cell = at * largest;
-      std::array<std::int64_t, 3> x;
-      for (x[2] = range.first[2]; x[2] < range.last[2]; ++x[2])
-      {
-        for (x[1] = range.first[1]; x[1] < range.last[1]; ++x[1])
+      blocks_.range(block).each(
+        [&](const std::array<std::int64_t, 3>& x)
         {
-          for (x[0] = range.first[0]; x[0] < range.last[0]; ++x[0], ++cell)
-          {
-            take(cell, request_.wanted.place(request_.grid, x), this->volume_of(x),
-              scale.values(integers_.data() + cell * scale.size()));
-          }
-        }
-      }
+          take(cell, request_.wanted.place(request_.grid, x), this->volume_of(x),
+            scale.values(integers_.data() + cell * scale.size()));
+          ++cell;
+        });
     },
     progress_);
 }

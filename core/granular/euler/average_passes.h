@@ -88,7 +88,7 @@ private:
   double volume_of(const std::array<std::int64_t, 3>& cell) const noexcept;
   void locate();
   template <class Take>
-  void each_block(std::size_t chunk, const Take& take) const;
+  void each_block(std::size_t chunks, const Take& take);
   void sum_group(const Group& group);
   template <class MakeTerms>
   void add_grains(Pass pass, const Group& group, const MakeTerms& make_terms);

@@ -16,6 +16,8 @@ namespace granular
 {
 namespace
 {
+using Rows = std::span<const std::int64_t>;
+
 constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
 constexpr std::int64_t rows_of_chunk = 65536;
 
@@ -23,35 +25,36 @@ constexpr std::int64_t rows_of_chunk = 65536;
 constexpr int stress_bits = 192;
 }
 
-/// Calls take(rows) for the rows of a chunk, some at a time.
+/// Calls take(rows, chunk, worker, grains) for the rows of so many chunks, some at a time; grains: room for them.
 template <class Take>
-void AveragePasses::each_block(std::size_t chunk, const Take& take) const
+void AveragePasses::each_block(std::size_t chunks, const Take& take)
 {
-  std::array<std::int64_t, GrainBlock::most_rows> buffer;
-  const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
-  const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
-  for (std::int64_t first = start; first < end; first += rows_of_block)
-  {
-    const std::span<std::int64_t> rows =
-      std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
-    std::iota(rows.begin(), rows.end(), first);
-    take(rows);
-  }
+  executor_.parallel_for(
+    chunks,
+    [&](std::size_t chunk, std::size_t worker)
+    {
+      GrainBlock grains;
+      std::array<std::int64_t, GrainBlock::most_rows> buffer;
+      const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
+      const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
+      for (std::int64_t first = start; first < end; first += rows_of_block)
+      {
+        const std::span<std::int64_t> rows =
+          std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
+        std::iota(rows.begin(), rows.end(), first);
+        take(rows, chunk, worker, grains);
+      }
+    },
+    progress_);
 }
 
 void AveragePasses::scan()
 {
   const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
   std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
-  executor_.parallel_for(
-    chunks,
-    [&](std::size_t chunk, std::size_t worker)
-    {
-      GrainBlock grains;
-      this->each_block(chunk,
-        [&](std::span<const std::int64_t> rows) { grains_.scan(rows, grains, scans[worker]); });
-    },
-    progress_);
+  this->each_block(chunks,
+    [&](Rows rows, std::size_t, std::size_t worker, GrainBlock& grains)
+    { grains_.scan(rows, grains, scans[worker]); });
   for (const GrainValues::Scan& scan : scans)
   {
     scanned_.add(scan);
@@ -67,26 +70,16 @@ void AveragePasses::scan()
 /// In which blocks grains are; a single one has them all.
 void AveragePasses::locate()
 {
-  std::int64_t outside = 0;
   const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
   std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
   std::vector<std::int64_t> counts(executor_.workers(entries.size()));
-  executor_.parallel_for(
-    entries.size(),
-    [&](std::size_t chunk, std::size_t worker)
+  this->each_block(entries.size(),
+    [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
     {
-      GrainBlock grains;
-      std::int64_t first = 0;
-      this->each_block(chunk,
-        [&](std::span<const std::int64_t> rows)
-        {
-          grains_.load(rows, grains);
-          counts[worker] += this->find_blocks(grains, first, entries[chunk]);
-          first += static_cast<std::int64_t>(rows.size());
-        });
-    },
-    progress_);
-  outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+      grains_.load(rows, grains);
+      counts[worker] += this->find_blocks(grains, rows.front() % rows_of_chunk, entries[chunk]);
+    });
+  result_.outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
   block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
                                    : BlockRows::all(frame_.rows);
   found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
@@ -96,8 +89,7 @@ void AveragePasses::locate()
     counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
   }
   ranks_.sum(counts_);
-  ranks_.sum({ &outside, 1 });
-  result_.outside = outside;
+  ranks_.sum({ &result_.outside, 1 });
 }
 
 /// Adds an entry for each block that a grain may have a share in. Returns how many have none.
@@ -177,31 +169,20 @@ void AveragePasses::make_cells()
   sums.mass.resize(kept);
   sums.momentum.resize(3 * kept);
   sums.volume.resize(kept);
-  const CellRange& range = request_.wanted.range;
-  std::array<std::int64_t, 3> cell;
-  for (cell[2] = range.first[2]; cell[2] < range.last[2]; ++cell[2])
-  {
-    for (cell[1] = range.first[1]; cell[1] < range.last[1]; ++cell[1])
+  request_.wanted.range.each(
+    [&](const std::array<std::int64_t, 3>& cell)
     {
-      for (cell[0] = range.first[0]; cell[0] < range.last[0]; ++cell[0])
+      const std::int64_t place = request_.wanted.place(grid, cell);
+      const auto to = static_cast<std::size_t>(place);
+      for (std::size_t axis = 0; place >= 0 && axis < 3; ++axis)
       {
-        const std::int64_t place = request_.wanted.place(grid, cell);
-        if (place < 0)
-        {
-          continue;
-        }
-        const auto to = static_cast<std::size_t>(place);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          cells.centres[3 * to + axis] = grid.centre(axis, cell[axis]);
-        }
-        if (kept > 0)
-        {
-          sums.volume[to] = this->volume_of(cell);
-        }
+        cells.centres[3 * to + axis] = grid.centre(axis, cell[axis]);
       }
-    }
-  }
+      if (place >= 0 && kept > 0)
+      {
+        sums.volume[to] = this->volume_of(cell);
+      }
+    });
 }
 
 double AveragePasses::volume_of(const std::array<std::int64_t, 3>& cell) const noexcept

@@ -3,12 +3,13 @@
 
 #include "granular/common/error.h"
 #include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace granular
 {
@@ -23,25 +24,15 @@ constexpr EulerArray arrays[] = {
   { "tau", 3, &EulerCells::shear_stress, true },
 };
 
-/// The values of a packed cell, in their order: an array and which of its values.
-struct PackedValue
-{
-  std::vector<double> EulerCells::*values;
-  std::size_t components;
-  std::size_t component;
+/// The arrays of a packed cell, in their order, and how many values each has of it.
+constexpr std::pair<std::vector<double> EulerCells::*, std::size_t> packed_arrays[] = {
+  { &EulerCells::centres, 3 },
+  { &EulerCells::velocities, 3 },
+  { &EulerCells::volume_fraction, 1 },
+  { &EulerCells::radius, 1 },
+  { &EulerCells::pressure, 1 },
 };
-
-constexpr std::array<PackedValue, values_of_cell> packed_values = { {
-  { &EulerCells::centres, 3, 0 },
-  { &EulerCells::centres, 3, 1 },
-  { &EulerCells::centres, 3, 2 },
-  { &EulerCells::velocities, 3, 0 },
-  { &EulerCells::velocities, 3, 1 },
-  { &EulerCells::velocities, 3, 2 },
-  { &EulerCells::volume_fraction, 1, 0 },
-  { &EulerCells::radius, 1, 0 },
-  { &EulerCells::pressure, 1, 0 },
-} };
+constexpr auto packed_size = static_cast<std::size_t>(values_of_cell);
 
 /// What a rank tells the others of what it has: numbers of cells and of values.
 using Told = std::array<std::int64_t, 2>;
@@ -52,23 +43,11 @@ std::vector<Told> tell_all(std::int64_t cells, std::size_t values, Communicator&
 }
 
 /// Values of all ranks one after the other, on rank 0.
-std::vector<double> gather_values(
-  std::span<const double> own, const std::vector<Told>& told, Communicator& ranks)
+std::vector<double> gather_values(std::span<const double> own, Communicator& ranks)
 {
-  constexpr auto bytes_of_value = static_cast<std::int64_t>(sizeof(double));
-  std::vector<std::int64_t> from_bytes(told.size());
-  std::vector<std::int64_t> to_bytes(told.size());
-  from_bytes[0] = static_cast<std::int64_t>(own.size_bytes());
-  std::size_t total = 0;
-  for (std::size_t i = 0; ranks.rank() == 0 && i < told.size(); ++i)
-  {
-    to_bytes[i] = told[i][1] * bytes_of_value;
-    total += static_cast<std::size_t>(told[i][1]);
-  }
-  std::vector<double> all(total);
-  ranks.exchange(reinterpret_cast<const char*>(own.data()), from_bytes,
-    reinterpret_cast<char*>(all.data()), to_bytes);
-  return all;
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks.size()));
+  counts[0] = static_cast<std::int64_t>(own.size());
+  return trade(own, counts, swap_numbers(counts, ranks), ranks);
 }
 
 void expect_size(std::size_t got, std::size_t expected)
@@ -107,36 +86,37 @@ std::span<const EulerArray> euler_arrays() noexcept
 void pack_cells(const EulerCells& cells, std::span<double> buffer)
 {
   const std::size_t count = size_of(cells);
-  expect_size(buffer.size(), packed_values.size() * count);
-  for (std::size_t j = 0; j < packed_values.size(); ++j)
+  expect_size(buffer.size(), packed_size * count);
+  double* to = buffer.data();
+  for (const auto& [array, size] : packed_arrays)
   {
-    const PackedValue& packed = packed_values[j];
-    const std::vector<double>& values = cells.*packed.values;
-    expect_size(values.size(), packed.components * count);
+    const std::vector<double>& values = cells.*array;
+    expect_size(values.size(), size * count);
     for (std::size_t i = 0; i < count; ++i)
     {
-      buffer[packed_values.size() * i + j] = values[packed.components * i + packed.component];
+      std::copy_n(values.data() + size * i, size, to + packed_size * i);
     }
+    to += size;
   }
 }
 
 EulerCells unpack_cells(std::span<const double> buffer)
 {
-  if (buffer.size() % packed_values.size() != 0)
+  if (buffer.size() % packed_size != 0)
   {
     throw FormatError(
       "expected 9 values for each cell, got " + std::to_string(buffer.size()) + " values");
   }
   EulerCells cells;
-  cells.resize(static_cast<std::int64_t>(buffer.size() / packed_values.size()));
-  for (std::size_t j = 0; j < packed_values.size(); ++j)
+  cells.resize(static_cast<std::int64_t>(buffer.size() / packed_size));
+  const double* from = buffer.data();
+  for (const auto& [array, size] : packed_arrays)
   {
-    const PackedValue& packed = packed_values[j];
-    std::vector<double>& values = cells.*packed.values;
     for (std::size_t i = 0; i < size_of(cells); ++i)
     {
-      values[packed.components * i + packed.component] = buffer[packed_values.size() * i + j];
+      std::copy_n(from + packed_size * i, size, (cells.*array).data() + size * i);
     }
+    from += size;
   }
   return cells;
 }
@@ -157,7 +137,7 @@ std::vector<double> gather_packed(
             " cells of process " + std::to_string(i) + ", got " + std::to_string(values));
         }
       }
-      return gather_values(own, told, ranks);
+      return gather_values(own, ranks);
     });
 }
 
@@ -166,7 +146,7 @@ EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
   return do_together(ranks,
     [&]
     {
-      std::vector<double> packed(packed_values.size() * size_of(own));
+      std::vector<double> packed(packed_size * size_of(own));
       pack_cells(own, packed);
       EulerCells all = unpack_cells(gather_packed(packed, own.count(), ranks));
       for (const EulerArray& array : arrays)
@@ -181,7 +161,7 @@ EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
         if (std::ranges::all_of(
               told, [&](const Told& each) { return each[1] == array.components * each[0]; }))
         {
-          all.*array.values = gather_values(values, told, ranks);
+          all.*array.values = gather_values(values, ranks);
         }
       }
       return all;

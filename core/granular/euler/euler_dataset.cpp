@@ -2,6 +2,7 @@
 #include "granular/euler/euler_dataset.h"
 
 #include "granular/euler/cells.h"
+#include "granular/euler/euler_grid.h"
 #include "granular/vtk_files/vtk_corners.h"
 #include "granular/vtk_files/vtk_sections.h"
 
@@ -315,18 +316,14 @@ void DatasetReader::find_centres()
   };
   if (dataset_.header.dataset == rectilinear)
   {
-    const auto& [x, y, z] = frame_.faces;
-    for (std::size_t k = 0; k + 1 < z.size(); ++k)
+    const auto middle = [&](std::size_t axis, std::int64_t cell)
     {
-      for (std::size_t j = 0; j + 1 < y.size(); ++j)
-      {
-        for (std::size_t i = 0; i + 1 < x.size(); ++i)
-        {
-          add(std::midpoint(x[i], x[i + 1]), std::midpoint(y[j], y[j + 1]),
-            std::midpoint(z[k], z[k + 1]));
-        }
-      }
-    }
+      const double* const face = frame_.faces[axis].data() + cell;
+      return std::midpoint(face[0], face[1]);
+    };
+    CellRange{ {}, { counts_[0] - 1, counts_[1] - 1, counts_[2] - 1 } }.each(
+      [&](const std::array<std::int64_t, 3>& cell)
+      { add(middle(0, cell[0]), middle(1, cell[1]), middle(2, cell[2])); });
   }
   for (std::int64_t cell = 0; dataset_.header.dataset == unstructured && cell < frame_.cells;
        ++cell)

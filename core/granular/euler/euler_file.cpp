@@ -130,14 +130,7 @@ const FileFormat& euler_format() noexcept
 
 bool is_euler_file(const std::string& path) noexcept
 {
-  try
-  {
-    return look_at(*unpack(open_file(path)));
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
+  return looks_so(path, [](const ByteSource& source) { return look_at(source); });
 }
 
 EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,

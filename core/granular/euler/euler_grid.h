@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -65,6 +66,23 @@ struct CellRange
       number = number * (last[axis] - first[axis]) + cell[axis] - first[axis];
     }
     return number;
+  }
+
+  /// Calls visit(cell) for each cell, x fastest.
+  template <class Visit>
+  void each(const Visit& visit) const
+  {
+    std::array<std::int64_t, 3> cell;
+    for (cell[2] = first[2]; cell[2] < last[2]; ++cell[2])
+    {
+      for (cell[1] = first[1]; cell[1] < last[1]; ++cell[1])
+      {
+        for (cell[0] = first[0]; cell[0] < last[0]; ++cell[0])
+        {
+          visit(std::as_const(cell));
+        }
+      }
+    }
   }
 };
 

@@ -47,7 +47,7 @@ std::array<std::optional<ValueSource>, size> find_components(
   const FrameView& frame, const std::string& name)
 {
   std::array<std::optional<ValueSource>, size> sources;
-  const ArrayView* const array = find_array(frame, name, size);
+  const ArrayView* const array = ArraysByName(frame).find(name, size);
   if (!array)
   {
     if (const ArrayView* other = frame.find(name))

@@ -32,22 +32,19 @@ public:
   template <class Visit>
   void each(const double* centre, double radius, const Visit& visit) const
   {
-    std::array<std::array<std::int64_t, 2>, 3> k;
+    CellRange images;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      k[axis] = this->range(axis, centre[axis], radius);
+      const auto [first, last] = this->range(axis, centre[axis], radius);
+      images.first[axis] = first;
+      images.last[axis] = last + 1;
     }
-    for (std::int64_t z = k[2][0]; z <= k[2][1]; ++z)
-    {
-      for (std::int64_t y = k[1][0]; y <= k[1][1]; ++y)
+    images.each(
+      [&](const std::array<std::int64_t, 3>& k)
       {
-        for (std::int64_t x = k[0][0]; x <= k[0][1]; ++x)
-        {
-          visit(Twofold3{ this->place(0, centre[0], x), this->place(1, centre[1], y),
-            this->place(2, centre[2], z) });
-        }
-      }
-    }
+        visit(Twofold3{ this->place(0, centre[0], k[0]), this->place(1, centre[1], k[1]),
+          this->place(2, centre[2], k[2]) });
+      });
   }
 
   /// Makes sure that grains of that radius and smaller, with centres in the box, have no more images than can be counted: throws

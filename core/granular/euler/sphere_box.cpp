@@ -73,22 +73,6 @@ double sum_of_octants(double radius, const Vector3& lo, const Vector3& hi)
   return volume;
 }
 
-/// Where a box is: from the centre, in units of length squared.
-struct Distances
-{
-  Distances(const Vector3& lo, const Vector3& hi)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      nearest2 += square(std::max({ 0.0, lo[k], -hi[k] }));
-      farthest2 += square(std::max(-lo[k], hi[k]));
-    }
-  }
-
-  double nearest2 = 0;
-  double farthest2 = 0;
-};
-
 /// Neither wholly inside nor outside.
 double cut_volume(double radius, const Vector3& lo, const Vector3& hi)
 {
@@ -134,33 +118,24 @@ double centred_box_volume(
   const double reach = scaled(radius);
   const Vector3 from = { scaled(lo[0]), scaled(lo[1]), scaled(lo[2]) };
   const Vector3 to = { scaled(hi[0]), scaled(hi[1]), scaled(hi[2]) };
-  const Distances distances(from, to);
-  if (distances.nearest2 >= reach * reach)
+  double nearest2 = 0; // from the centre to the box
+  double farthest2 = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    nearest2 += square(std::max({ 0.0, from[k], -to[k] }));
+    farthest2 += square(std::max(-from[k], to[k]));
+  }
+  if (nearest2 >= reach * reach)
   {
     return 0;
   }
   const double box = box_volume(edges);
-  if (distances.farthest2 <= reach * reach)
+  if (farthest2 <= reach * reach)
   {
     return box;
   }
   const double volume = cut_volume(reach, from, to);
   return std::min(
     { box, sphere_volume(radius), is_moderate ? volume : std::scalbn(volume, 3 * exponent) });
-}
-
-double sphere_box_volume(
-  const Vector3& centre, double radius, const Vector3& lo, const Vector3& hi) noexcept
-{
-  Vector3 from = {};
-  Vector3 to = {};
-  Vector3 edges = {};
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    from[k] = lo[k] - centre[k];
-    to[k] = hi[k] - centre[k];
-    edges[k] = hi[k] - lo[k];
-  }
-  return centred_box_volume(radius, from, to, edges);
 }
 }

@@ -10,13 +10,10 @@ namespace granular
 double sphere_volume(double radius) noexcept;
 
 /// The volume that a sphere and a box along the axes have in common, for any finite numbers with lo <= hi and
-/// radius >= 0, from 0 to the volume of the smaller of the two.
-/// The error is at most 1e-12 min(V_sphere, V_box) + 16 * 2^-53 * radius * A_max, A_max the largest face of the box.
-double sphere_box_volume(
-  const Vector3& centre, double radius, const Vector3& lo, const Vector3& hi) noexcept;
-
-/// The same where lo and hi are seen from the centre, and edges are the lengths of the box, which may be known better
-/// than by hi - lo.
+/// radius >= 0, from 0 to the volume of the smaller of the two. lo and hi are seen from the centre, and edges are the lengths of
+/// the box, which may be known better than by hi - lo.
+/// The error is at most 1e-12 min(V_sphere, V_box) + 16 * 2^-53 * radius * A_max, A_max the largest face of the box; the
+/// differences that lo and hi are may be rounded.
 double centred_box_volume(
   double radius, const Vector3& lo, const Vector3& hi, const Vector3& edges) noexcept;
 

@@ -231,7 +231,6 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, Shares& share
 bool SphereCells::add_quickly(const Twofold3& centre, double radius, Shares& shares) const
 {
   std::array<std::int64_t, 3> near = {}; // the cell of the centre, or the nearest one
-  bool is_whole = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     near[axis] = this->cell_of(axis, centre[axis].hi);
@@ -242,12 +241,6 @@ bool SphereCells::add_quickly(const Twofold3& centre, double radius, Shares& sha
     {
       return true;
     }
-    is_whole = is_whole && lo <= -radius && hi >= radius;
-  }
-  if (is_whole)
-  {
-    shares.add(near, sphere_volume(radius));
-    return true;
   }
   return this->add_parts(near, centre, radius, shares);
 }

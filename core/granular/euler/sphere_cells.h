@@ -19,11 +19,11 @@ struct CellShare
   double volume = 0;     ///< above 0
 };
 
-/// Divides spheres among the cells of a grid, each volume as exact as sphere_box_volume's.
+/// Divides spheres among the cells of a grid, each volume as exact as centred_box_volume's.
 class SphereCells
 {
 public:
-  /// short_cuts: false has each cell that the bounds of a sphere touch done by sphere_box_volume, for comparison.
+  /// short_cuts: false has each cell that the bounds of a sphere touch done by centred_box_volume, for comparison.
   explicit SphereCells(const EulerGrid& grid, bool short_cuts = true);
 
   /// The cells that the bounds of a sphere touch; none where the sphere itself touches no cell. radius^2 is a normal number.

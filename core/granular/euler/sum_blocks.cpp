@@ -11,18 +11,13 @@ SumBlocks::SumBlocks(const std::array<std::int64_t, 3>& cells) noexcept
   , edges_{ 1, 1, 1 }
 {
   // as near to cubes as the grid allows: spheres touch few of them
+  const auto grows = [this](std::size_t axis) { return edges_[axis] < cells_[axis]; };
+  const auto is_shorter = [&](std::size_t a, std::size_t b)
+  { return grows(a) && (!grows(b) || edges_[a] < edges_[b]); };
   for (std::int64_t size = 1; size < most_cells_of_block; size *= 2)
   {
-    std::size_t shortest = 3;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const bool grows = edges_[axis] < cells_[axis];
-      if (grows && (shortest == 3 || edges_[axis] < edges_[shortest]))
-      {
-        shortest = axis;
-      }
-    }
-    if (shortest == 3)
+    const std::size_t shortest = std::min<std::size_t>({ 0, 1, 2 }, is_shorter);
+    if (!grows(shortest))
     {
       break;
     }

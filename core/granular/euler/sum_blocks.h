@@ -31,27 +31,18 @@ public:
   template <class Visit>
   void each(const CellRange& range, const Visit& visit) const
   {
-    std::array<std::int64_t, 3> first;
-    std::array<std::int64_t, 3> last;
+    CellRange blocks;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       if (range.first[axis] >= range.last[axis])
       {
         return;
       }
-      first[axis] = range.first[axis] >> shifts_[axis];
-      last[axis] = (range.last[axis] - 1) >> shifts_[axis];
+      blocks.first[axis] = range.first[axis] >> shifts_[axis];
+      blocks.last[axis] = ((range.last[axis] - 1) >> shifts_[axis]) + 1;
     }
-    for (std::int64_t k = first[2]; k <= last[2]; ++k)
-    {
-      for (std::int64_t j = first[1]; j <= last[1]; ++j)
-      {
-        for (std::int64_t i = first[0]; i <= last[0]; ++i)
-        {
-          visit((k * blocks_[1] + j) * blocks_[0] + i);
-        }
-      }
-    }
+    blocks.each([&](const std::array<std::int64_t, 3>& at)
+      { visit((at[2] * blocks_[1] + at[1]) * blocks_[0] + at[0]); });
   }
 
 private:

@@ -180,9 +180,7 @@ void set_defect(FileIndex& index, const Notice& defect)
 
 std::string first_bytes_of(const ByteSource& source)
 {
-  std::string bytes(65536, '\0');
-  bytes.resize(source.read(0, bytes.data(), bytes.size()));
-  return bytes;
+  return read_up_to(source, 65536);
 }
 
 bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,

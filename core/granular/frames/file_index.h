@@ -57,6 +57,20 @@ struct FileIndex
 /// out what a file is.
 std::string first_bytes_of(const ByteSource& source);
 
+/// Returns look(source) of the content of a file, which may be compressed. Never throws: what cannot be read is nothing.
+template <class Look>
+bool looks_so(const std::string& path, const Look& look) noexcept
+{
+  try
+  {
+    return look(*unpack(open_file(path)));
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+
 /// Brings the index of a file up to what the file holds now: reads nothing if it did not change,
 /// goes on if it only grew, and else, or if a file beside it changed, starts anew. Errors end in index.error; data packed in other ways are one.
 /// Throws Cancelled.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/file_series.h"
 
-#include "granular/common/archive.h"
 #include "granular/frames/piece_sets.h"
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <numeric>
 #include <set>
 #include <string>
-#include <utility>
 
 namespace granular
 {
@@ -23,10 +21,7 @@ class Collector
 public:
   Collector(const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
 
-  void run();
-
-  std::vector<Place> places; ///< as in FileSeries
-  std::vector<std::uint32_t> starts;
+  FileSeries run();
 
 private:
   static constexpr std::uint32_t alone = std::numeric_limits<std::uint32_t>::max();
@@ -35,7 +30,7 @@ private:
   {
     return files_[place.file].frames[place.frame].timestep;
   }
-  void list_frames();
+  std::vector<Place> list_frames() const;
   void expect_most_pieces(std::span<const Place> sorted);
   void take(std::span<const Place> repeated);
   std::vector<Place> pieces_of(std::span<const Place> repeated, const Place& last) const;
@@ -47,6 +42,7 @@ private:
   const std::vector<FileIndex>& files_;
   RepeatedSteps repeated_;
   Notices& notices_;
+  FileSeries series_;
   std::vector<PieceSet> sets_;
   std::vector<std::uint32_t> set_of_; ///< of each file: index into sets_, or alone
   std::vector<std::uint32_t> order_;  ///< of each file in its set
@@ -83,11 +79,9 @@ Collector::Collector(const std::vector<FileIndex>& files, RepeatedSteps repeated
   }
 }
 
-void Collector::run()
+FileSeries Collector::run()
 {
-  this->list_frames();
-  std::vector<Place> sorted = std::move(places);
-  places.clear();
+  const std::vector<Place> sorted = this->list_frames();
   if (repeated_ == RepeatedSteps::Merge)
   {
     this->expect_most_pieces(sorted);
@@ -110,17 +104,13 @@ void Collector::run()
         " more, got a part; they are left out until all are there" });
   }
   this->note_hidden_files();
-  starts.push_back(static_cast<std::uint32_t>(places.size()));
-  if (starts.size() == places.size() + 1)
-  {
-    starts = {};
-  }
-  places.shrink_to_fit();
-  starts.shrink_to_fit();
+  series_.places.shrink_to_fit();
+  series_.starts.shrink_to_fit();
+  return std::move(series_);
 }
 
 /// All frames by timestep; of the same timestep in the order of the files.
-void Collector::list_frames()
+std::vector<Place> Collector::list_frames() const
 {
   std::size_t count = 0;
   for (const FileIndex& file : files_)
@@ -131,6 +121,7 @@ void Collector::list_frames()
   {
     throw LimitError("expected at most 4294967294 frames, got " + std::to_string(count));
   }
+  std::vector<Place> places;
   places.reserve(count);
   for (std::uint32_t file = 0; file < files_.size(); ++file)
   {
@@ -140,6 +131,7 @@ void Collector::list_frames()
     }
   }
   std::ranges::stable_sort(places, {}, [this](const Place& place) { return this->step(place); });
+  return places;
 }
 
 /// Without names to tell, a frame has as many pieces as the one with the most.
@@ -177,8 +169,8 @@ void Collector::take(std::span<const Place> repeated)
     if (text.empty())
     {
       this->say_what_waits();
-      starts.push_back(static_cast<std::uint32_t>(places.size()));
-      places.insert(places.end(), pieces.begin(), pieces.end());
+      series_.places.insert(series_.places.end(), pieces.begin(), pieces.end());
+      series_.starts.push_back(static_cast<std::uint32_t>(series_.places.size()));
       return;
     }
     wrong = wrong.empty() ? text : wrong;
@@ -285,44 +277,33 @@ void Collector::note_hidden_files()
 }
 }
 
-FileSeries::FileSeries(
+FileSeries order_frames(
   const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices)
 {
-  Collector collector(files, repeated, notices);
-  collector.run();
-  places_ = std::move(collector.places);
-  starts_ = std::move(collector.starts);
+  return Collector(files, repeated, notices).run();
 }
 
-std::span<const FileSeries::Place> FileSeries::pieces(std::size_t frame) const noexcept
+void write_series(ArchiveWriter& out, const FileSeries& series)
 {
-  return starts_.empty()
-    ? std::span(places_).subspan(frame, 1)
-    : std::span(places_).subspan(starts_[frame], starts_[frame + 1] - starts_[frame]);
+  out.list(series.places, [&](const Place& place) { out.number(place); });
+  out.list(series.starts, [&](std::uint32_t start) { out.number(start); });
 }
 
-void FileSeries::write(ArchiveWriter& out) const
-{
-  out.list(places_, [&](const Place& place) { out.number(place); });
-  out.list(starts_, [&](std::uint32_t start) { out.number(start); });
-}
-
-FileSeries FileSeries::read(ArchiveReader& in, const std::vector<FileIndex>& files)
+FileSeries read_series(ArchiveReader& in, const std::vector<FileIndex>& files)
 {
   FileSeries series;
-  in.list(series.places_,
+  in.list(series.places,
     [&](Place& place)
     {
       in.number(place);
       require(place.file < files.size() && place.frame < files[place.file].frames.size(),
         "a frame that is there");
     });
-  in.list(series.starts_, [&](std::uint32_t& start) { in.number(start); });
-  const auto& starts = series.starts_;
+  in.list(series.starts, [&](std::uint32_t& start) { in.number(start); });
+  const auto& starts = series.starts;
   const auto not_before = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
-  require(starts.empty() ||
-      (starts.front() == 0 && starts.back() == series.places_.size() &&
-        std::ranges::adjacent_find(starts, not_before) == starts.end()),
+  require(!starts.empty() && starts.front() == 0 && starts.back() == series.places.size() &&
+      std::ranges::adjacent_find(starts, not_before) == starts.end(),
     "a piece for each frame");
   return series;
 }

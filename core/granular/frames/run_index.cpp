@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/run_index.h"
 
-#include "granular/common/archive.h"
 #include "granular/common/hash.h"
-#include "granular/frames/saved_index.h"
+#include "granular/frames/file_series.h"
 #include "granular/frames/update_files.h"
 
 #include <algorithm>
@@ -99,8 +98,8 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   {
     options.format->complete(files_, found);
   }
-  series_ = FileSeries(files_, options.repeated_steps, found);
-  if (series_.size() == 0)
+  series_ = std::make_shared<const FileSeries>(order_frames(files_, options.repeated_steps, found));
+  if (this->size() == 0)
   {
     this->fail(found);
   }
@@ -160,16 +159,21 @@ bool RunIndex::changed() const
   return std::ranges::any_of(files_, [](const FileIndex& file) { return is_changed(file); });
 }
 
+std::size_t RunIndex::size() const noexcept
+{
+  return series_ ? series_->size() : 0;
+}
+
 FramePiece RunIndex::first_piece(std::size_t frame) const
 {
-  const FileSeries::Place place = series_.pieces(frame).front();
+  const FileSeries::Place place = series_->pieces(frame).front();
   return { files_[place.file], files_[place.file].frames[place.frame] };
 }
 
 std::vector<FramePiece> RunIndex::pieces(std::size_t frame) const
 {
   std::vector<FramePiece> pieces;
-  for (const FileSeries::Place place : series_.pieces(frame))
+  for (const FileSeries::Place place : series_->pieces(frame))
   {
     pieces.push_back({ files_[place.file], files_[place.file].frames[place.frame] });
   }
@@ -278,7 +282,7 @@ std::string RunIndex::encode() const
 {
   ArchiveWriter out;
   out.text(encode_files(files_));
-  series_.write(out);
+  write_series(out, series_ ? *series_ : FileSeries());
   return std::move(out.bytes);
 }
 
@@ -289,7 +293,7 @@ void RunIndex::decode(std::string_view bytes)
   std::string files;
   in.text(files);
   index.files_ = decode_index(files, "", std::make_shared<FrameKinds>());
-  index.series_ = FileSeries::read(in, index.files_);
+  index.series_ = std::make_shared<const FileSeries>(read_series(in, index.files_));
   require(in.ended(), "the end of the index");
   *this = std::move(index);
 }

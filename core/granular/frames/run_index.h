@@ -5,7 +5,6 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/frames/file_index.h"
-#include "granular/frames/file_series.h"
 #include "granular/frames/frame_times.h"
 #include "granular/frames/saved_index.h"
 #include "granular/parallel/communicator.h"
@@ -19,6 +18,27 @@
 
 namespace granular
 {
+struct FileSeries;
+
+/// What frames of the same timestep in several files are.
+///
+/// Auto takes files for pieces (`%` in the name of a dump) if their names, less .gz and .zst,
+/// differ in one number that counts from 0, as the programs count processes; and if these files share
+/// the first timestep and at least half of all, or all that a file has so far, with the same boxes and
+/// columns, but not the same particles, of which the first of some files are looked at. A run that was
+/// restarted does not share the first timestep, a series none, and one that was done again has the same
+/// particles.
+///
+/// Pieces are in the order of that number; with Merge in the order of the files. A frame that has
+/// not a piece for each number from 0 on, or whose boxes or columns differ, is left out with a
+/// notice; a single one at the end silently if its files are all there, because it is being written.
+enum class RepeatedSteps : std::uint8_t
+{
+  Auto,  ///< Merge for files that can only be pieces, Last for all others
+  Merge, ///< pieces of one frame, one file a process
+  Last   ///< repetitions of a restarted run: the last one counts
+};
+
 /// What is the user's word.
 struct IndexOptions
 {
@@ -45,7 +65,7 @@ Where where_of(const FramePiece& piece);
 /// All complete frames of a run, dumps or other files, found at scan speed without decoding rows.
 ///
 /// Frames are ordered by timestep. Where a timestep is repeated the frames are pieces of one, or the
-/// one that stands last is taken, in the order of the files and in its file: see FileSeries. A last
+/// one that stands last is taken, in the order of the files and in its file: see RepeatedSteps. A last
 /// frame that is not complete is left out: its writer is still at work. Frames in the middle that are
 /// not what their header says are left out with a notice. Files with `boundingBox` in their names,
 /// which LIGGGHTS writes beside some dumps, and index files are passed over.
@@ -63,7 +83,7 @@ public:
   /// Whether a file is not what it was at the last update, to judge by size, time and inode.
   bool changed() const;
 
-  std::size_t size() const noexcept { return series_.size(); }
+  std::size_t size() const noexcept;
   const std::vector<FileIndex>& files() const noexcept { return files_; }
 
   /// The pieces of a frame, at least one. Valid until the next update.
@@ -101,9 +121,9 @@ private:
   [[noreturn]] void fail(const Notices& notices) const;
 
   std::vector<FileIndex> files_;
-  std::string kept_; ///< path of the index file
-  FileSeries series_;
-  std::uint64_t shared_ = 0; ///< hash of the bytes that all ranks have, 0: none
+  std::string kept_;                         ///< path of the index file
+  std::shared_ptr<const FileSeries> series_; ///< null: no frames
+  std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
 };
 
 /// Collective: RunIndex::update on rank 0, which alone looks at files, has notices and reports; then

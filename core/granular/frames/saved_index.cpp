@@ -3,7 +3,6 @@
 
 #include "granular/bytes/byte_sink.h"
 #include "granular/common/hash.h"
-#include "granular/frames/saved_index.h"
 
 #include <algorithm>
 #include <cstdlib>

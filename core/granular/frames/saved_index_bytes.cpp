@@ -113,18 +113,12 @@ public:
 
   std::uint64_t number_of(const FrameKind& kind)
   {
-    // mostly it is that of the frame before
-    if (&kind != last_)
+    const auto [place, added] = numbers_.try_emplace(&kind, kinds_.size());
+    if (added)
     {
-      const auto [place, added] = numbers_.try_emplace(&kind, kinds_.size());
-      if (added)
-      {
-        kinds_.push_back(&kind);
-      }
-      last_ = &kind;
-      last_number_ = place->second;
+      kinds_.push_back(&kind);
     }
-    return last_number_;
+    return place->second;
   }
 
   void write(ArchiveWriter& out) const
@@ -148,8 +142,6 @@ public:
 private:
   std::vector<const FrameKind*> kinds_;
   std::map<const FrameKind*, std::uint64_t> numbers_;
-  const FrameKind* last_ = nullptr;
-  std::uint64_t last_number_ = 0;
 };
 
 /// A column; its type follows from the name, where that is known, and else from the first row.
@@ -226,42 +218,20 @@ void write_frames(ArchiveWriter& out, const std::vector<FrameEntry>& frames, Kin
     });
 }
 
-void read_frames(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
-{
-  std::vector<FrameEntry>& frames = file.frames;
-  const std::size_t count = in.count(sizeof(FrameRecord));
-  frames.reserve(count);
-  while (frames.size() < count)
-  {
-    FrameRecord frame;
-    in.number(frame);
-    require(frame.kind < kinds.size(), "a kind of frames");
-    const auto& kind = kinds[static_cast<std::size_t>(frame.kind)];
-    frames.push_back({ frame.timestep, frame.rows, frame.offset, frame.end, frame.line, frame.time,
-      frame.shape, kind });
-  }
-}
-
 void read_file(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
 {
   visit_file(in, file);
-  read_frames(in, file, kinds);
+  in.list(file.frames,
+    [&](FrameEntry& entry)
+    {
+      FrameRecord frame;
+      in.number(frame);
+      require(frame.kind < kinds.size(), "a kind of frames");
+      entry = { frame.timestep, frame.rows, frame.offset, frame.end, frame.line, frame.time,
+        frame.shape, kinds[static_cast<std::size_t>(frame.kind)] };
+    });
   check_claims(file);
   file.loaded = true;
-}
-
-/// About as many bytes as the index of the files needs, rather more.
-std::size_t estimate(std::span<const FileIndex* const> files)
-{
-  constexpr std::size_t kinds = 65536;
-  constexpr std::size_t others = 256; // of a file
-  std::size_t bytes = kinds;
-  for (const FileIndex* file : files)
-  {
-    bytes += file->path.size() + file->frames.size() * sizeof(FrameRecord) + others;
-    bytes += file->points ? file->points->bytes() : 0;
-  }
-  return bytes;
 }
 
 /// The part of an index file between its head and the hash at its end, which are made sure of.
@@ -300,7 +270,6 @@ std::string_view body_of(std::string_view bytes)
 std::string encode(const std::vector<const FileIndex*>& files, const std::string& folder)
 {
   ArchiveWriter out(folder);
-  out.bytes.reserve(estimate(files));
   KindTable kinds(files);
   out.number(Head());
   kinds.write(out);

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <thread>
 
 namespace granular
 {
@@ -68,44 +69,23 @@ public:
 
   void finish_file() { ++finished_; }
 
-  /// Between two files.
-  bool report(double) override { return this->report_within(0); }
-
-  /// fraction: of the file that the caller's thread is at.
-  bool report_within(double fraction)
+  /// fraction: of the file that the caller's thread is at, or less where it begins one.
+  bool report(double fraction) override
   {
-    const double finished = static_cast<double>(finished_.load());
-    stop_ = !progress_.report(std::min(1.0, (finished + fraction) / files_));
+    if (std::this_thread::get_id() == caller_)
+    {
+      const auto finished = static_cast<double>(finished_.load());
+      stop_ = !progress_.report(std::min(1.0, (finished + fraction) / files_));
+    }
     return !stop_;
   }
-
-  bool stopped() const { return stop_; }
 
 private:
   PartialProgress progress_; // which never goes back, as the fraction of a file may
   double files_;
+  std::thread::id caller_ = std::this_thread::get_id();
   std::atomic<std::size_t> finished_ = 0;
   std::atomic<bool> stop_ = false;
-};
-
-/// Of one thread: worker 0 is the caller's.
-class WorkerProgress final : public Progress
-{
-public:
-  WorkerProgress(FilesProgress& files, std::size_t worker)
-    : files_(files)
-    , worker_(worker)
-  {
-  }
-
-  bool report(double fraction) override
-  {
-    return worker_ == 0 ? files_.report_within(fraction) : !files_.stopped();
-  }
-
-private:
-  FilesProgress& files_;
-  std::size_t worker_;
 };
 }
 
@@ -118,10 +98,9 @@ bool update_files(std::vector<FileIndex>& files, const std::vector<std::string>&
   RestartBudget budget(files, most_seek_bytes);
   FilesProgress all(progress, files.size());
   std::atomic<bool> changed = false;
-  const auto update = [&](std::size_t file, std::size_t worker)
+  const auto update = [&](std::size_t file, std::size_t)
   {
-    WorkerProgress reports(all, worker);
-    if (update_file_index(files[file], column_names, reports, ahead))
+    if (update_file_index(files[file], column_names, all, ahead))
     {
       changed = true;
     }

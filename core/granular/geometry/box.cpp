@@ -3,6 +3,7 @@
 
 #include "granular/common/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -12,10 +13,10 @@ namespace granular
 {
 namespace
 {
-Twofold sum(std::initializer_list<double> terms)
+Twofold sum(std::initializer_list<Twofold> terms)
 {
   CompensatedSum total;
-  for (const double term : terms)
+  for (const Twofold term : terms)
   {
     total.add(term);
   }
@@ -26,54 +27,6 @@ bool less(Twofold a, Twofold b)
 {
   return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
-
-Twofold smallest(std::initializer_list<Twofold> values)
-{
-  Twofold best = *values.begin();
-  for (const Twofold value : values)
-  {
-    best = less(value, best) ? value : best;
-  }
-  return best;
-}
-
-Twofold largest(std::initializer_list<Twofold> values)
-{
-  Twofold best = *values.begin();
-  for (const Twofold value : values)
-  {
-    best = less(best, value) ? value : best;
-  }
-  return best;
-}
-
-Twofold add(Twofold a, Twofold b)
-{
-  CompensatedSum total;
-  total.add(a);
-  total.add(b);
-  return total.twofold();
-}
-
-/// bound - shift
-Twofold corner_of_bound(double bound, Twofold shift)
-{
-  CompensatedSum total;
-  total.add(bound);
-  total.add(Twofold{ -shift.hi, -shift.lo });
-  return total.twofold();
-}
-
-/// (hi - high_shift) - (lo - low_shift)
-Twofold edge(double lo, double hi, Twofold low_shift, Twofold high_shift)
-{
-  CompensatedSum total;
-  total.add(hi);
-  total.add(-lo);
-  total.add(low_shift);
-  total.add(Twofold{ -high_shift.hi, -high_shift.lo });
-  return total.twofold();
-}
 }
 
 Box Box::from_bounds(const Vector3& lo, const Vector3& hi)
@@ -82,7 +35,7 @@ Box Box::from_bounds(const Vector3& lo, const Vector3& hi)
   for (std::size_t i = 0; i < 3; ++i)
   {
     box.origin[i] = { lo[i], 0 };
-    box.vectors[i][i] = edge(lo[i], hi[i], {}, {});
+    box.vectors[i][i] = sum({ { hi[i] }, { -lo[i] } });
   }
   return box;
 }
@@ -90,17 +43,14 @@ Box Box::from_bounds(const Vector3& lo, const Vector3& hi)
 Box Box::from_tilted_bounds(const Vector3& lo, const Vector3& hi, double xy, double xz, double yz)
 {
   const Twofold zero;
-  const Twofold both = sum({ xy, xz });
-  const Twofold x_lo = smallest({ zero, { xy, 0 }, { xz, 0 }, both });
-  const Twofold x_hi = largest({ zero, { xy, 0 }, { xz, 0 }, both });
-  const Twofold y_lo = smallest({ zero, { yz, 0 } });
-  const Twofold y_hi = largest({ zero, { yz, 0 } });
+  const auto [x_lo, x_hi] = std::minmax({ zero, { xy }, { xz }, sum({ { xy }, { xz } }) }, less);
+  const auto [y_lo, y_hi] = std::minmax({ zero, { yz } }, less);
   Box box;
   box.tilted = true;
-  box.origin = { corner_of_bound(lo[0], x_lo), corner_of_bound(lo[1], y_lo), Twofold{ lo[2], 0 } };
-  box.vectors[0] = { edge(lo[0], hi[0], x_lo, x_hi), zero, zero };
-  box.vectors[1] = { Twofold{ xy, 0 }, edge(lo[1], hi[1], y_lo, y_hi), zero };
-  box.vectors[2] = { Twofold{ xz, 0 }, Twofold{ yz, 0 }, edge(lo[2], hi[2], zero, zero) };
+  box.origin = { sum({ { lo[0] }, -x_lo }), sum({ { lo[1] }, -y_lo }), Twofold{ lo[2] } };
+  box.vectors[0] = { sum({ { hi[0] }, { -lo[0] }, x_lo, -x_hi }), zero, zero };
+  box.vectors[1] = { Twofold{ xy }, sum({ { hi[1] }, { -lo[1] }, y_lo, -y_hi }), zero };
+  box.vectors[2] = { Twofold{ xz }, Twofold{ yz }, sum({ { hi[2] }, { -lo[2] } }) };
   return box;
 }
 
@@ -129,16 +79,16 @@ BoxBounds Box::bounds() const
   bounds.yz = c[1].value();
   const Twofold zero;
   const std::array<std::array<Twofold, 4>, 3> shifts = { {
-    { zero, b[0], c[0], add(b[0], c[0]) },
+    { zero, b[0], c[0], sum({ b[0], c[0] }) },
     { zero, c[1], zero, zero },
     { zero, zero, zero, zero },
   } };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto& [s0, s1, s2, s3] = shifts[axis];
-    const Twofold end = add(origin[axis], vectors[axis][axis]);
-    bounds.lo[axis] = add(origin[axis], smallest({ s0, s1, s2, s3 })).value();
-    bounds.hi[axis] = add(end, largest({ s0, s1, s2, s3 })).value();
+    const auto [low, high] = std::ranges::minmax(shifts[axis], less);
+    const Twofold end = sum({ origin[axis], vectors[axis][axis] });
+    bounds.lo[axis] = sum({ origin[axis], low }).value();
+    bounds.hi[axis] = sum({ end, high }).value();
   }
   return bounds;
 }
@@ -163,6 +113,7 @@ Vector3 Box::corner(int i, int j, int k, const Vector3& less) const
   }
   return point;
 }
+
 std::string parse_boundary(const std::string& text)
 {
   constexpr std::string_view flags = "pfsm";
@@ -199,9 +150,6 @@ void check_bounds(const Box& box)
 
 void check_volume(const Box& box)
 {
-  const Twofold3& a = box.vectors[0];
-  const Twofold3& b = box.vectors[1];
-  const Twofold3& c = box.vectors[2];
   for (std::size_t axis = 0; !box.general && axis < 3; ++axis)
   {
     const double length = box.vectors[axis][axis].hi;
@@ -211,10 +159,8 @@ void check_volume(const Box& box)
         " to scale coordinates by, got one of length " + (length == 0 ? "0" : "nan"));
     }
   }
-  const auto minor = [&](std::size_t i, std::size_t j)
-  { return b[i].value() * c[j].value() - b[j].value() * c[i].value(); };
   const double volume =
-    a[0].value() * minor(1, 2) + a[1].value() * minor(2, 0) + a[2].value() * minor(0, 1);
+    dot(values_of(box.vectors[0]), cross(values_of(box.vectors[1]), values_of(box.vectors[2])));
   if (box.general && !(std::abs(volume) > 0))
   {
     throw Error("expected a box with a volume to scale coordinates by, got a flat one");

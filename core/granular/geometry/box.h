@@ -12,6 +12,11 @@ namespace granular
 using Vector3 = std::array<double, 3>;
 using Twofold3 = std::array<Twofold, 3>;
 
+inline Vector3 values_of(const Twofold3& vector) noexcept
+{
+  return { vector[0].value(), vector[1].value(), vector[2].value() };
+}
+
 inline double dot(const Vector3& a, const Vector3& b) noexcept
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

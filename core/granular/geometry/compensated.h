@@ -13,6 +13,7 @@ struct Twofold
   double lo = 0;
 
   double value() const noexcept { return hi + lo; }
+  Twofold operator-() const noexcept { return { -hi, -lo }; }
 };
 
 /// A sum of doubles and products that keeps what each rounding loses (T. Ogita, S. M. Rump,

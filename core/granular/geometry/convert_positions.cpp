@@ -105,15 +105,10 @@ struct Conversion
   {
     CompensatedSum sum;
     sum.add(point[k]);
-    sum.add(Twofold{ -box.origin[k].hi, -box.origin[k].lo });
+    sum.add(-box.origin[k]);
     offset[k] = sum.twofold();
   }
   return offset;
-}
-
-inline Twofold negative(Twofold value) noexcept
-{
-  return { -value.hi, -value.lo };
 }
 
 /// Scaled coordinates in a box whose vectors form an upper triangle, by back substitution.
@@ -129,7 +124,7 @@ inline Twofold negative(Twofold value) noexcept
     {
       if (reaches(box, j, k))
       {
-        sum.add_product(negative(scaled[j]), box.vectors[j][k]);
+        sum.add_product(-scaled[j], box.vectors[j][k]);
       }
     }
     scaled[k] = sum.over(box.vectors[k][k]);
@@ -146,7 +141,7 @@ inline Twofold3 cross(const Twofold3& a, const Twofold3& b) noexcept
     const std::size_t j = (k + 2) % 3;
     CompensatedSum sum;
     sum.add_product(a[i], b[j]);
-    sum.add_product(negative(a[j]), b[i]);
+    sum.add_product(-a[j], b[i]);
     product[k] = sum.twofold();
   }
   return product;
@@ -223,7 +218,7 @@ inline Twofold3 solve_general(
   const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
 {
   constexpr double largest = std::numeric_limits<double>::max();
-  const Twofold low = negative(box.origin[axis]);
+  const Twofold low = -box.origin[axis];
   const Twofold length = box.vectors[axis][axis];
   for (double& x : coordinates)
   {
@@ -236,17 +231,6 @@ inline Twofold3 solve_general(
   }
 }
 
-void scale_portable(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
-{
-  scale_rows(box, axis, coordinates);
-}
-
-void convert_portable(
-  const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
-{
-  convert_rows(c, images, points);
-}
-
 #if GRANULAR_FMA
 /// The same operations; std::fma is an instruction here and a function call there.
 __attribute__((target("fma"))) void convert_fma(
@@ -254,9 +238,7 @@ __attribute__((target("fma"))) void convert_fma(
 {
   convert_rows(c, images, points);
 }
-#endif
 
-#if GRANULAR_FMA
 __attribute__((target("avx2,fma"))) void scale_avx2(
   const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
 {
@@ -287,7 +269,7 @@ Twofold volume_of(const Box& box) noexcept
 bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexcept
 {
   return point_origin != Vector3{} ||
-    std::any_of(plan.axes.begin(), plan.axes.end(),
+    std::ranges::any_of(plan.axes,
       [&](const PositionPlan::Axis& axis) { return axis.shift != 0 || is_rescaled(plan, axis); });
 }
 
@@ -301,7 +283,7 @@ void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinat
     return;
   }
 #endif
-  scale_portable(box, axis, coordinates);
+  scale_rows(box, axis, coordinates);
 }
 
 void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
@@ -322,6 +304,6 @@ void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& 
     return;
   }
 #endif
-  convert_portable(conversion, images, points);
+  convert_rows(conversion, images, points);
 }
 }

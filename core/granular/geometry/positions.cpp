@@ -95,16 +95,9 @@ std::array<const Choice*, 3> choose(const Columns& columns, std::span<const Choi
 /// image count alone, says nothing of the others.
 bool mixed(std::span<const Choice* const> chosen) noexcept
 {
-  const Choice* first = nullptr;
-  for (const Choice* choice : chosen)
-  {
-    first = first ? first : choice;
-    if (choice && choice->role != first->role)
-    {
-      return true;
-    }
-  }
-  return false;
+  const Choice* const some = *std::ranges::find_if(chosen, [](const Choice* one) { return one; });
+  return std::ranges::any_of(
+    chosen, [&](const Choice* choice) { return choice && choice->role != some->role; });
 }
 
 void note(const PositionPlan& plan, std::span<const Choice* const> chosen, Coordinates wanted,
@@ -151,22 +144,17 @@ const char* to_string(Coordinates coordinates) noexcept
 
 void check_scale(const PositionPlan& plan, const Box& box, const Where& where)
 {
-  const bool scales = std::any_of(plan.axes.begin(), plan.axes.end(),
-    [&](const PositionPlan::Axis& axis) { return is_rescaled(plan, axis); });
-  for (const Twofold3& edge : box.vectors)
+  const bool scales = std::ranges::any_of(
+    plan.axes, [&](const PositionPlan::Axis& axis) { return is_rescaled(plan, axis); });
+  const auto is_finite = [](const Twofold3& edge)
+  { return std::ranges::all_of(edge, [](const Twofold& part) { return std::isfinite(part.hi); }); };
+  if (!scales || !std::ranges::all_of(box.vectors, is_finite))
   {
-    if (!std::all_of(
-          edge.begin(), edge.end(), [](const Twofold& part) { return std::isfinite(part.hi); }))
-    {
-      return; // coordinates are no numbers either
-    }
+    return; // where the box has no numbers, coordinates have none either
   }
   try
   {
-    if (scales)
-    {
-      check_volume(box);
-    }
+    check_volume(box);
   }
   catch (const Error& error)
   {
@@ -190,7 +178,7 @@ PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordina
       plan.coordinates = choice->gives == wanted ? plan.coordinates : choice->gives;
     }
   }
-  if (std::count(chosen.begin(), chosen.end(), nullptr) == 3)
+  if (std::ranges::count(chosen, nullptr) == 3)
   {
     throw FormatError(
       "expected columns of coordinates (x y z, xs ys zs, xu yu zu or xsu ysu zsu), got '" +
@@ -202,12 +190,9 @@ PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordina
     throw UnsupportedError(
       "expected all coordinates of a tilted box in one form, got '" + schema.text() + "'", where);
   }
-  for (std::size_t k = 0; k < 3; ++k)
+  if (std::ranges::any_of(plan.axes, [](const auto& axis) { return axis.shift != 0; }))
   {
-    if (std::any_of(plan.axes.begin(), plan.axes.end(), [](const auto& a) { return a.shift != 0; }))
-    {
-      plan.images[k] = schema.find(Image, static_cast<int>(k));
-    }
+    plan.images = { schema.find(Image, 0), schema.find(Image, 1), schema.find(Image, 2) };
   }
   note(plan, chosen, wanted, where, notices);
   return plan;

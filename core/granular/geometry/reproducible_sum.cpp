@@ -115,12 +115,6 @@ using Shifts = std::span<const SumScale::Terms>;
   }
 }
 
-void add_portable(
-  Shifts shifts, Shifts terms, const std::int64_t* cells, std::int64_t* sums) noexcept
-{
-  add_all(shifts, terms, cells, sums);
-}
-
 #if GRANULAR_X86
 [[gnu::target("avx2")]] void add_avx2(
   Shifts shifts, Shifts terms, const std::int64_t* cells, std::int64_t* sums) noexcept
@@ -222,6 +216,6 @@ void SumScale::add(std::span<const Terms> terms, const std::int64_t* cells, std:
   }
 #endif
   static_cast<void>(simd);
-  add_portable(shifts_, terms, cells, sums);
+  add_all(shifts_, terms, cells, sums);
 }
 }

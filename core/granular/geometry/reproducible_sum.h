@@ -23,7 +23,6 @@ class SumScale
 {
 public:
   static constexpr std::size_t lanes = 8;
-  static constexpr int most_top = 900; ///< terms are below 2^900: 8e270
 
   /// What is known of the terms of a sum: magnitudes are below 2^top, and what counts are multiples of 2^bottom: each
   /// term is rounded to one, which changes nothing in those that are.
@@ -33,7 +32,7 @@ public:
     int bottom = 0;
   };
 
-  /// terms: the most there can be in one sum, at most 2^40. Tops are at most most_top.
+  /// terms: the most there can be in one sum, at most 2^40. Tops are at most 900: terms are below 8e270.
   SumScale(const std::array<Range, lanes>& ranges, std::int64_t terms);
 
   std::size_t levels() const noexcept { return shifts_.size(); }

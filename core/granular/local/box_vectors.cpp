@@ -21,9 +21,7 @@ void remove_part(Vector3& vector, const Vector3& along) noexcept
 
 bool has_length(const Twofold3& vector) noexcept
 {
-  const double x = vector[0].value();
-  const double y = vector[1].value();
-  const double z = vector[2].value();
+  const auto [x, y, z] = values_of(vector);
   return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && (x != 0 || y != 0 || z != 0);
 }
 

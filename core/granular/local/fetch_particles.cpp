@@ -2,8 +2,11 @@
 #include "granular/local/fetch_particles.h"
 
 #include "granular/local/id_finder.h"
+#include "granular/parallel/trade.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <numeric>
@@ -19,43 +22,6 @@ using Numbers = std::vector<std::int64_t>;
 std::size_t keeper_of(std::int64_t id, std::size_t ranks) noexcept
 {
   return (hash_of_id(id) >> 32) % ranks;
-}
-
-/// How many things go to each rank, and come from each.
-struct Traffic
-{
-  Numbers out;
-  Numbers in;
-};
-
-/// Tells all how many come; out holds a number a rank. Collective.
-Traffic announce(Numbers out, Communicator& ranks)
-{
-  const Numbers bytes(out.size(), sizeof(std::int64_t));
-  Traffic traffic{ std::move(out), Numbers(bytes.size()) };
-  ranks.exchange(reinterpret_cast<const char*>(traffic.out.data()), bytes,
-    reinterpret_cast<char*>(traffic.in.data()), bytes);
-  return traffic;
-}
-
-/// Sends things, width values each, and returns what came, by rank. Collective.
-template <class Value>
-std::vector<Value> trade(const std::vector<Value>& values, const Numbers& out, const Numbers& in,
-  std::size_t width, Communicator& ranks)
-{
-  const auto to_bytes = [&](Numbers counts)
-  {
-    for (std::int64_t& count : counts)
-    {
-      count *= static_cast<std::int64_t>(width * sizeof(Value));
-    }
-    return counts;
-  };
-  const auto all = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
-  std::vector<Value> came(width * static_cast<std::size_t>(all));
-  ranks.exchange(reinterpret_cast<const char*>(values.data()), to_bytes(out),
-    reinterpret_cast<char*>(came.data()), to_bytes(in));
-  return came;
 }
 
 /// Things in the order of the ranks that they go to.
@@ -134,19 +100,17 @@ public:
   Directory(const OwnParticles& own, Communicator& ranks)
   {
     const auto size = static_cast<std::size_t>(ranks.size());
-    Sorted sorted = sort_by_rank(own.ids.size(), size,
+    const Sorted sorted = sort_by_rank(own.ids.size(), size,
       [&](std::size_t row)
       {
         const bool left_out = FrameView::is_duplicate(own.ghosts, static_cast<std::int64_t>(row));
         return left_out ? size : keeper_of(own.ids[row], size);
       });
-    Numbers ids = pick(own.ids, sorted.places);
-    const Traffic traffic = announce(std::move(sorted.counts), ranks);
-    ids = trade(ids, traffic.out, traffic.in, 1, ranks);
-    rows_ = trade(sorted.places, traffic.out, traffic.in, 1, ranks);
-    finder_ = IdFinder(ids);
+    const Numbers come = swap_numbers(sorted.counts, ranks);
+    finder_ = IdFinder(trade(pick(own.ids, sorted.places), sorted.counts, come, ranks));
+    rows_ = trade(sorted.places, sorted.counts, come, ranks);
     ends_.resize(size);
-    std::inclusive_scan(traffic.in.begin(), traffic.in.end(), ends_.begin());
+    std::inclusive_scan(come.begin(), come.end(), ends_.begin());
   }
 
   std::int64_t repeated() const noexcept { return finder_.repeated(); }
@@ -183,6 +147,7 @@ std::size_t width_of(const ParticleValues& values)
 std::vector<double> pack(const ParticleValues& values, const Numbers& rows)
 {
   constexpr std::size_t some = 1024; // rows at once, that stay in the cache
+  std::array<double, some> numbers;
   const std::size_t width = width_of(values);
   std::vector<double> packed(rows.size() * width);
   for (std::size_t first = 0; first < rows.size(); first += some)
@@ -198,7 +163,12 @@ std::vector<double> pack(const ParticleValues& values, const Numbers& rows)
     {
       for (int component = 0; component < array.size(); ++component)
       {
-        gather_numbers(array, component, now, to++, width);
+        load_numbers(component_of(array, component), now, numbers.data());
+        for (std::size_t i = 0; i < now.size(); ++i)
+        {
+          to[i * width] = numbers[i];
+        }
+        ++to;
       }
     }
   }
@@ -233,27 +203,27 @@ FetchedParticles fetch_particles(const OwnParticles& own, std::span<const std::i
       const auto size = static_cast<std::size_t>(ranks.size());
       const Directory directory(own, ranks);
       const Numbers wanted = find_distinct(id1, id2);
-      Sorted sorted = sort_by_rank(
+      const Sorted questions = sort_by_rank(
         wanted.size(), size, [&](std::size_t i) { return keeper_of(wanted[i], size); });
-      const Numbers asked = pick(wanted, sorted.places);
-      const Traffic questions = announce(std::move(sorted.counts), ranks);
-      const Numbers told = trade(asked, questions.out, questions.in, 1, ranks);
-      const std::vector<Home> homes =
-        trade(directory.find(told), questions.in, questions.out, 1, ranks);
+      const Numbers asked = pick(wanted, questions.places);
+      const Numbers come = swap_numbers(questions.counts, ranks);
+      const Numbers told = trade(asked, questions.counts, come, ranks);
+      const std::vector<Home> homes = trade(directory.find(told), come, questions.counts, ranks);
 
       FetchedParticles fetched;
-      sorted = sort_by_rank(homes.size(), size,
+      const Sorted requests = sort_by_rank(homes.size(), size,
         [&](std::size_t i)
         { return homes[i].rank < 0 ? size : static_cast<std::size_t>(homes[i].rank); });
-      fetched.ids = pick(asked, sorted.places);
-      Numbers rows(sorted.places.size());
-      std::ranges::transform(sorted.places, rows.begin(),
+      fetched.ids = pick(asked, requests.places);
+      Numbers rows(requests.places.size());
+      std::ranges::transform(requests.places, rows.begin(),
         [&](std::int64_t place) { return homes[static_cast<std::size_t>(place)].row; });
       fetched.values.arrays = own.values.arrays;
-      const Traffic requests = announce(std::move(sorted.counts), ranks);
-      rows = trade(rows, requests.out, requests.in, 1, ranks);
+      const Numbers wanted_here = swap_numbers(requests.counts, ranks);
+      rows = trade(rows, requests.counts, wanted_here, ranks);
       const std::size_t width = width_of(own.values);
-      fetched.values.own = trade(pack(own.values, rows), requests.in, requests.out, width, ranks);
+      fetched.values.own =
+        trade(pack(own.values, rows), wanted_here, requests.counts, ranks, width);
       view_packed(fetched.values, width);
       fetched.repeated = directory.repeated();
       return fetched;

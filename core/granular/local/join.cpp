@@ -6,11 +6,14 @@
 #include "granular/local/ids.h"
 #include "granular/local/particle_values.h"
 #include "granular/parallel/executor.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 namespace granular
@@ -111,28 +114,12 @@ FoundEnds find_ends(const IdFinder& finder, Places id1, Places id2, const JoinRe
 std::vector<std::int64_t> list_rows(const FoundEnds& ends, std::size_t all, std::size_t found)
 {
   std::vector<std::int64_t> rows;
-  if (found == all)
+  if (found < all)
   {
-    return rows;
+    rows.reserve(found);
+    std::ranges::set_difference(std::views::iota(std::int64_t{ 0 }, static_cast<std::int64_t>(all)),
+      ends.missing | std::views::join, std::back_inserter(rows));
   }
-  rows.reserve(found);
-  std::int64_t next = 0;
-  const auto add_until = [&](std::int64_t end)
-  {
-    for (; next < end; ++next)
-    {
-      rows.push_back(next);
-    }
-  };
-  for (const std::vector<std::int64_t>& missing : ends.missing)
-  {
-    for (const std::int64_t row : missing)
-    {
-      add_until(row);
-      next = row + 1;
-    }
-  }
-  add_until(static_cast<std::int64_t>(all));
   return rows;
 }
 
@@ -155,8 +142,9 @@ void gather_column(const EndColumn& column, Places firsts, Places seconds, std::
   const auto size = static_cast<std::size_t>(column.array->size());
   for (std::size_t component = 0; component < size; ++component)
   {
-    gather_numbers(*column.array, static_cast<int>(component), firsts, a.data());
-    gather_numbers(*column.array, static_cast<int>(component), seconds, b.data());
+    const ValueSource source = component_of(*column.array, static_cast<int>(component));
+    load_numbers(source, firsts, a.data());
+    load_numbers(source, seconds, b.data());
     const std::size_t at = begin * size + component;
     for (std::size_t i = 0; column.mean && i < firsts.size(); ++i)
     {

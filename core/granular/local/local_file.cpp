@@ -234,11 +234,9 @@ void note_siblings(const std::vector<FileIndex>& files, Notices& notices)
   if (!together && !files.empty() && !files.front().frames.empty() &&
     has_bare_sibling(files.front().path))
   {
-    Notice notice;
-    notice.where.path = files.front().path;
-    notice.text = "this has the rows of one process alone: those of the others are in files beside "
-                  "it, with 1, 2 and so on for the 0 in its name; open them all together";
-    notices.push_back(notice);
+    notices.push_back({ { files.front().path },
+      "this has the rows of one process alone: those of the others are in files beside it, with 1, "
+      "2 and so on for the 0 in its name; open them all together" });
   }
 }
 
@@ -278,10 +276,8 @@ void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
     const bool alone = is_headless(file) && !adopted.contains(number);
     if (alone && file.frames.front().end > 0)
     {
-      Notice notice;
-      notice.where.path = file.path;
-      notice.text = why_left_out(file.frames.front().kind->schema.columns().size(), wanted[number]);
-      notices.push_back(notice);
+      notices.push_back({ { file.path },
+        why_left_out(file.frames.front().kind->schema.columns().size(), wanted[number]) });
     }
     if (alone || incomplete.contains(number))
     {
@@ -308,13 +304,6 @@ bool is_local(std::string_view first_bytes)
 
 bool is_local_file(const std::string& path) noexcept
 {
-  try
-  {
-    return is_local(first_bytes_of(*unpack(open_file(path))));
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
+  return looks_so(path, [](const ByteSource& source) { return is_local(first_bytes_of(source)); });
 }
 }

@@ -237,15 +237,6 @@ struct Remarks
 };
 }
 
-template <class Archive>
-static void pass(Archive& archive, typename Archive::template Passed<Remarks>& remarks)
-{
-  archive.number(remarks.rows);
-  archive.number(remarks.rounded);
-  archive.number(remarks.misfits);
-  archive.number(remarks.loss);
-}
-
 bool is_end_array(std::string_view name) noexcept
 {
   return std::ranges::find(end_arrays, name) != std::end(end_arrays);
@@ -254,20 +245,15 @@ bool is_end_array(std::string_view name) noexcept
 LocalSample read_sample(const RunIndex& index, const FrameKind& kind, Progress& progress)
 {
   constexpr std::int64_t most_rows = 100'000;
-  const auto rows_of = [&](std::size_t frame)
-  {
-    std::int64_t rows = 0;
-    for (const FramePiece& piece : index.pieces(frame))
-    {
-      rows += piece.entry.kind->schema == kind.schema ? piece.entry.rows : 0;
-    }
-    return rows;
-  };
   std::size_t best = 0;
   std::int64_t rows = 0;
   for (std::size_t frame = 0; frame < index.size(); ++frame)
   {
-    const std::int64_t there = rows_of(frame);
+    std::int64_t there = 0;
+    for (const FramePiece& piece : index.pieces(frame))
+    {
+      there += piece.entry.kind->schema == kind.schema ? piece.entry.rows : 0;
+    }
     best = there > rows ? frame : best;
     rows = std::max(rows, there);
   }

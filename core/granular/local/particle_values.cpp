@@ -2,11 +2,12 @@
 #include "granular/local/particle_values.h"
 
 #include "granular/common/error.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <iterator>
 #include <string_view>
 
 namespace granular
@@ -28,11 +29,8 @@ FrameView as_shown(const FrameView& frame)
 /// Doubles x y z of each row, one after the other, as they are wanted.
 bool is_plain(const FrameView& frame) noexcept
 {
-  const ArrayView& points = *frame.points;
-  const auto* const first = static_cast<const double*>(points.components[0]);
   return frame.coordinates != Coordinates::Scaled && frame.point_origin == Vector3{} &&
-    points.type == ValueType::Float64 && points.components[1] == first + 1 &&
-    points.components[2] == first + 2;
+    frame.points->are_triples();
 }
 
 void compute_points(
@@ -77,44 +75,18 @@ ArrayView view_array(const FrameView& frame, const std::string& name)
   return array ? *array : ArrayView{ name };
 }
 
-template <class Value>
-void gather(const void* data, std::int64_t step, std::span<const std::int64_t> rows, double* to,
-  std::size_t to_step)
-{
-  const auto* const from = static_cast<const Value*>(data);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    to[i * to_step] = static_cast<double>(from[rows[i] * step]);
-  }
-}
-
 /// What a rank tells of itself: whether it has rows, and the sizes of the arrays.
-std::string pack_sizes(const ParticleValues& particles, std::int64_t rows)
-{
-  std::vector<std::int32_t> told = { rows > 0 };
-  for (const ArrayView& array : particles.arrays)
-  {
-    told.push_back(array.size());
-  }
-  return { reinterpret_cast<const char*>(told.data()), told.size() * sizeof told[0] };
-}
-
-std::int32_t number_at(const std::string& told, std::size_t place) noexcept
-{
-  std::int32_t number = 0;
-  std::memcpy(&number, told.data() + place * sizeof number, sizeof number);
-  return number;
-}
+using Told = std::vector<int>;
 
 /// Of the ranks with rows, who must agree; if none has any, of the first that knows it.
-int size_among(const std::vector<std::string>& told, std::size_t place, const std::string& name)
+int size_among(const std::vector<Told>& all, std::size_t place, const std::string& name)
 {
   int size = 0;
   bool counted = false; // on a rank with rows
-  for (const std::string& one : told)
+  for (const Told& told : all)
   {
-    const std::int32_t here = number_at(one, place);
-    const bool counts = number_at(one, 0) != 0;
+    const int here = told[place];
+    const bool counts = told[0] != 0;
     if (counts && counted && here != size)
     {
       throw Error("expected as many numbers a particle in array '" + name +
@@ -161,23 +133,13 @@ ParticleValues view_particles(const FrameView& frame, std::span<const std::strin
 
 void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks)
 {
-  const std::vector<std::string> told = ranks.all_gather(pack_sizes(particles, rows));
+  Told own = { rows > 0 ? 1 : 0 };
+  std::ranges::transform(particles.arrays, std::back_inserter(own), &ArrayView::size);
+  const std::vector<Told> all = gather(ranks, own);
   for (std::size_t i = 0; i < particles.arrays.size(); ++i)
   {
     ArrayView& array = particles.arrays[i];
-    array.components.resize(static_cast<std::size_t>(size_among(told, i + 1, array.name)));
+    array.components.resize(static_cast<std::size_t>(size_among(all, i + 1, array.name)));
   }
-}
-
-void gather_numbers(const ArrayView& array, int component, std::span<const std::int64_t> rows,
-  double* to, std::size_t to_step) noexcept
-{
-  using Gather =
-    void (*)(const void*, std::int64_t, std::span<const std::int64_t>, double*, std::size_t);
-  constexpr Gather gathers[] = { gather<std::int8_t>, gather<std::uint8_t>, gather<std::int16_t>,
-    gather<std::uint16_t>, gather<std::int32_t>, gather<std::uint32_t>, gather<std::int64_t>,
-    gather<std::uint64_t>, gather<float>, gather<double> };
-  gathers[static_cast<std::size_t>(array.type)](
-    array.components[static_cast<std::size_t>(component)], array.step, rows, to, to_step);
 }
 }

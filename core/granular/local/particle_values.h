@@ -7,7 +7,6 @@
 #include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -34,9 +33,5 @@ ParticleValues view_particles(const FrameView& frame, std::span<const std::strin
 
 /// Gives arrays of size 0 that which they have on other ranks, or 1. Throws Error where ranks differ. Collective.
 void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks);
-
-/// One number of each of some rows, as doubles that are to_step apart.
-void gather_numbers(const ArrayView& array, int component, std::span<const std::int64_t> rows,
-  double* to, std::size_t to_step = 1) noexcept;
 }
 #endif

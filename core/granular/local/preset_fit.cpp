@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <set>
 
 namespace granular
@@ -37,8 +38,7 @@ Rule rule_of(std::string_view name) noexcept
     { "periodic", [](double value) { return value == 0 || value == 1; } },
     { "dist", [](double value) { return value >= 0; } },
   };
-  const auto* const found =
-    std::ranges::find_if(rules, [&](const Entry& entry) { return entry.name == name; });
+  const auto* const found = std::ranges::find(rules, name, &Entry::name);
   return found == std::end(rules) ? nullptr : found->rule;
 }
 
@@ -55,12 +55,117 @@ public:
   {
   }
 
-  bool keep_rules() const;
-  bool ends_differ() const;
-  bool few_types() const;
-  bool forces_are_no_points() const;
-  bool flags_fit() const;
-  bool places_fit() const;
+  bool keep_rules() const
+  {
+    for (std::size_t i = 0; i < names_.size(); ++i)
+    {
+      const Rule rule = rule_of(names_[i]);
+      if (rule &&
+        !this->all_rows(
+          [&](std::size_t row) { return rule(sample_.values[row * all_ + columns_[i]]); }))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool ends_differ() const
+  {
+    return !this->has("id1") || !this->has("id2") ||
+      this->all_rows(
+        [this](std::size_t row) { return this->value(row, "id1") != this->value(row, "id2"); });
+  }
+
+  bool few_types() const
+  {
+    std::set<double> types;
+    for (std::size_t row = 0; this->has("btype") && !this->has("x1") && row < sample_.rows; ++row)
+    {
+      types.insert(this->value(row, "btype"));
+    }
+    return types.size() * types.size() <= sample_.rows;
+  }
+
+  /// Points between the ends are no forces; of few rows that says nothing.
+  bool forces_are_no_points() const
+  {
+    constexpr std::size_t least_rows = 3;
+    const auto is_between = [this](std::size_t row)
+    {
+      const Vector3 force = this->vector(row, "forcex", "forcey", "forcez");
+      const Vector3 first = this->place(row, 1);
+      const Vector3 second = this->place(row, 2);
+      double length = 0;
+      double apart = 0; // from the middle
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const double middle = first[axis] + (second[axis] - first[axis]) / 2;
+        length += (second[axis] - first[axis]) * (second[axis] - first[axis]);
+        apart += (force[axis] - middle) * (force[axis] - middle);
+      }
+      return 4 * apart <= length;
+    };
+    return !this->has("forcex") || !this->has("x1") || sample_.rows < least_rows ||
+      !this->all_rows(is_between);
+  }
+
+  bool flags_fit() const
+  {
+    const auto fits = [this](std::size_t row)
+    {
+      const Vector3 first = this->place(row, 1);
+      const Vector3 second = this->place(row, 2);
+      bool far = false;
+      bool near_half = false; // either may be right
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const double half = std::abs(sample_.box.vectors[axis][axis].value()) / 2;
+        const double distance = std::abs(second[axis] - first[axis]);
+        far = far || (is_periodic(sample_.box, axis) && distance > half);
+        near_half = near_half || std::abs(distance - half) < 1e-3 * half;
+      }
+      return near_half || far == (this->value(row, "periodic") == 1);
+    };
+    return !this->has("periodic") || !this->has("x1") || !sample_.has_box || sample_.box.tilted ||
+      this->all_rows(fits);
+  }
+
+  /// Places are printed with six digits, or more.
+  bool places_fit() const
+  {
+    constexpr double digits = 2e-5;
+    const MinimumImage images(sample_.box);
+    std::map<double, Vector3> places;
+    const auto fits = [&](std::size_t row, int end, std::string_view id)
+    {
+      const Vector3 here = this->place(row, end);
+      const auto [place, is_new] = places.try_emplace(this->value(row, id), here);
+      const Vector3& known = place->second;
+      Vector3 apart = {};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        apart[axis] = here[axis] - known[axis];
+      }
+      const Vector3 shift = images.shift(images.find(apart));
+      for (std::size_t axis = 0; axis < 3 && !is_new; ++axis)
+      {
+        const double most = std::max(std::abs(here[axis]), std::abs(known[axis]));
+        if (!(std::abs(apart[axis] + shift[axis]) <= digits * (most + std::abs(shift[axis]))))
+        {
+          return false;
+        }
+      }
+      return true;
+    };
+    return !this->has("x1") || !sample_.has_box ||
+      this->all_rows(
+        [&](std::size_t row)
+        {
+          return (!this->has("id1") || fits(row, 1, "id1")) &&
+            (!this->has("id2") || fits(row, 2, "id2"));
+        });
+  }
 
 private:
   bool has(std::string_view name) const { return std::ranges::find(names_, name) != names_.end(); }
@@ -71,11 +176,20 @@ private:
     return sample_.values[row * all_ + columns_[at]];
   }
 
+  Vector3 vector(std::size_t row, std::string_view x, std::string_view y, std::string_view z) const
+  {
+    return { this->value(row, x), this->value(row, y), this->value(row, z) };
+  }
+
   Vector3 place(std::size_t row, int end) const
   {
-    const bool first = end == 1;
-    return { this->value(row, first ? "x1" : "x2"), this->value(row, first ? "y1" : "y2"),
-      this->value(row, first ? "z1" : "z2") };
+    return end == 1 ? this->vector(row, "x1", "y1", "z1") : this->vector(row, "x2", "y2", "z2");
+  }
+
+  template <class Fits>
+  bool all_rows(const Fits& fits) const
+  {
+    return std::ranges::all_of(std::views::iota(std::size_t{ 0 }, sample_.rows), fits);
   }
 
   std::vector<std::string_view> names_;
@@ -83,141 +197,6 @@ private:
   std::size_t all_;
   const LocalSample& sample_;
 };
-
-bool PresetRows::keep_rules() const
-{
-  for (std::size_t i = 0; i < names_.size(); ++i)
-  {
-    const Rule rule = rule_of(names_[i]);
-    for (std::size_t row = 0; rule && row < sample_.rows; ++row)
-    {
-      if (!rule(sample_.values[row * all_ + columns_[i]]))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-bool PresetRows::ends_differ() const
-{
-  if (!this->has("id1") || !this->has("id2"))
-  {
-    return true;
-  }
-  for (std::size_t row = 0; row < sample_.rows; ++row)
-  {
-    if (this->value(row, "id1") == this->value(row, "id2"))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool PresetRows::few_types() const
-{
-  std::set<double> types;
-  for (std::size_t row = 0; this->has("btype") && !this->has("x1") && row < sample_.rows; ++row)
-  {
-    types.insert(this->value(row, "btype"));
-  }
-  return types.size() * types.size() <= sample_.rows;
-}
-
-/// Points between the ends are no forces; of few rows that says nothing.
-bool PresetRows::forces_are_no_points() const
-{
-  constexpr std::size_t least_rows = 3;
-  if (!this->has("forcex") || !this->has("x1") || sample_.rows < least_rows)
-  {
-    return true;
-  }
-  for (std::size_t row = 0; row < sample_.rows; ++row)
-  {
-    const Vector3 force = { this->value(row, "forcex"), this->value(row, "forcey"),
-      this->value(row, "forcez") };
-    const Vector3 first = this->place(row, 1);
-    const Vector3 second = this->place(row, 2);
-    double length = 0;
-    double apart = 0; // from the middle
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double middle = first[axis] + (second[axis] - first[axis]) / 2;
-      length += (second[axis] - first[axis]) * (second[axis] - first[axis]);
-      apart += (force[axis] - middle) * (force[axis] - middle);
-    }
-    if (!(4 * apart <= length))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool PresetRows::flags_fit() const
-{
-  if (!this->has("periodic") || !this->has("x1") || !sample_.has_box || sample_.box.tilted)
-  {
-    return true;
-  }
-  for (std::size_t row = 0; row < sample_.rows; ++row)
-  {
-    const Vector3 first = this->place(row, 1);
-    const Vector3 second = this->place(row, 2);
-    bool far = false;
-    bool near_half = false; // either may be right
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double half = std::abs(sample_.box.vectors[axis][axis].value()) / 2;
-      const double distance = std::abs(second[axis] - first[axis]);
-      far = far || (is_periodic(sample_.box, axis) && distance > half);
-      near_half = near_half || std::abs(distance - half) < 1e-3 * half;
-    }
-    if (!near_half && far != (this->value(row, "periodic") == 1))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Places are printed with six digits, or more.
-bool PresetRows::places_fit() const
-{
-  constexpr double digits = 2e-5;
-  const MinimumImage images(sample_.box);
-  std::map<double, Vector3> places;
-  for (std::size_t row = 0; this->has("x1") && sample_.has_box && row < sample_.rows; ++row)
-  {
-    for (const int end : { 1, 2 })
-    {
-      const std::string_view id = end == 1 ? "id1" : "id2";
-      if (!this->has(id))
-      {
-        continue;
-      }
-      const Vector3 here = this->place(row, end);
-      const auto [known, is_new] = places.try_emplace(this->value(row, id), here);
-      Vector3 apart = {};
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        apart[axis] = here[axis] - known->second[axis];
-      }
-      const Vector3 shift = images.shift(images.find(apart));
-      for (std::size_t axis = 0; axis < 3 && !is_new; ++axis)
-      {
-        const double most = std::max(std::abs(here[axis]), std::abs(known->second[axis]));
-        if (!(std::abs(apart[axis] + shift[axis]) <= digits * (most + std::abs(shift[axis]))))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
-}
 }
 
 bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,

@@ -20,8 +20,7 @@ LineSplitter::LineSplitter(const Box& box, const MinimumImage& images, const Vec
   {
     if (has_length(box.vectors[i]))
     {
-      const auto& [x, y, z] = box.vectors[i];
-      vectors.push_back({ x.value(), y.value(), z.value() });
+      vectors.push_back(values_of(box.vectors[i]));
       axes.push_back(i);
     }
   }

@@ -34,34 +34,6 @@ struct Extremes
   }
 };
 
-/// Rows of a fixed number of components. Returns whether all are numbers.
-template <std::size_t n, typename T>
-bool add_rows(const T* values, std::size_t rows, ValueRange::Bounds* components,
-  ValueRange::Bounds& squares) noexcept
-{
-  Extremes each[n];
-  Extremes sums;
-  std::size_t no_numbers = 0;
-  for (std::size_t row = 0; row < rows; ++row, values += n)
-  {
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      const auto value = static_cast<double>(values[i]);
-      each[i].add(value);
-      sum += value * value;
-    }
-    no_numbers += std::isnan(sum) ? 1U : 0U;
-    sums.add(sum);
-  }
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    each[i].join(components[i]);
-  }
-  sums.join(squares);
-  return no_numbers == 0;
-}
-
 #if GRANULAR_X86
 /// Two values at a time, with what every x86-64 has.
 struct PairExtremes
@@ -84,85 +56,100 @@ struct PairExtremes
   }
 };
 
-/// As add_rows, for an even number of rows of doubles.
-bool add_pairs_1(const double* values, std::size_t rows, ValueRange::Bounds* components,
-  ValueRange::Bounds& squares) noexcept
+/// The sums of the squares of two rows of one or three components.
+template <std::size_t n>
+__m128d sum_rows(const __m128d* squares) noexcept
 {
-  PairExtremes each;
-  PairExtremes sums;
-  __m128d none = _mm_setzero_pd();
-  for (std::size_t row = 0; row < rows; row += 2, values += 2)
+  if constexpr (n == 1)
   {
-    const __m128d value = _mm_loadu_pd(values);
-    each.add(value);
-    sums.add(_mm_mul_pd(value, value));
-    none = _mm_or_pd(none, _mm_cmpunord_pd(value, value));
+    return squares[0];
   }
-  each.join(components[0], components[0]);
-  sums.join(squares, squares);
-  return _mm_movemask_pd(none) == 0;
+  else
+  {
+    const __m128d x = _mm_shuffle_pd(squares[0], squares[1], 2);
+    const __m128d y = _mm_shuffle_pd(squares[0], squares[2], 1);
+    const __m128d z = _mm_shuffle_pd(squares[1], squares[2], 2);
+    return _mm_add_pd(_mm_add_pd(x, y), z);
+  }
 }
 
-bool add_pairs_3(const double* values, std::size_t rows, ValueRange::Bounds* components,
+/// As add_rows, for an even number of rows of one or three doubles.
+template <std::size_t n>
+bool add_pairs(const double* values, std::size_t rows, ValueRange::Bounds* components,
   ValueRange::Bounds& squares) noexcept
 {
-  PairExtremes xy;
-  PairExtremes zx;
-  PairExtremes yz;
+  PairExtremes each[n];
   PairExtremes sums;
   __m128d none = _mm_setzero_pd();
-  for (std::size_t row = 0; row < rows; row += 2, values += 6)
+  for (std::size_t row = 0; row < rows; row += 2, values += 2 * n)
   {
-    const __m128d a = _mm_loadu_pd(values);
-    const __m128d b = _mm_loadu_pd(values + 2);
-    const __m128d c = _mm_loadu_pd(values + 4);
-    xy.add(a);
-    zx.add(b);
-    yz.add(c);
-    const __m128d aa = _mm_mul_pd(a, a);
-    const __m128d bb = _mm_mul_pd(b, b);
-    const __m128d cc = _mm_mul_pd(c, c);
-    const __m128d x = _mm_shuffle_pd(aa, bb, 2);
-    const __m128d y = _mm_shuffle_pd(aa, cc, 1);
-    const __m128d z = _mm_shuffle_pd(bb, cc, 2);
-    const __m128d sum = _mm_add_pd(_mm_add_pd(x, y), z);
+    __m128d powers[n];
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const __m128d pair = _mm_loadu_pd(values + 2 * i);
+      each[i].add(pair);
+      powers[i] = _mm_mul_pd(pair, pair);
+    }
+    const __m128d sum = sum_rows<n>(powers);
     sums.add(sum);
     none = _mm_or_pd(none, _mm_cmpunord_pd(sum, sum));
   }
-  xy.join(components[0], components[1]);
-  zx.join(components[2], components[0]);
-  yz.join(components[1], components[2]);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    each[i].join(components[2 * i % n], components[(2 * i + 1) % n]);
+  }
   sums.join(squares, squares);
   return _mm_movemask_pd(none) == 0;
 }
 #endif
+
+/// Rows of one or three components. Returns whether all are numbers.
+template <std::size_t n, typename T>
+bool add_rows(const T* values, std::size_t rows, ValueRange::Bounds* components,
+  ValueRange::Bounds& squares) noexcept
+{
+  std::size_t row = 0;
+  bool numbers = true;
+#if GRANULAR_X86
+  if constexpr (std::is_same_v<T, double>)
+  {
+    row = rows / 2 * 2;
+    numbers = add_pairs<n>(values, row, components, squares);
+    values += row * n;
+  }
+#endif
+  Extremes each[n];
+  Extremes sums;
+  std::size_t no_numbers = 0;
+  for (; row < rows; ++row, values += n)
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const auto value = static_cast<double>(values[i]);
+      each[i].add(value);
+      sum += value * value;
+    }
+    no_numbers += std::isnan(sum) ? 1U : 0U;
+    sums.add(sum);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    each[i].join(components[i]);
+  }
+  sums.join(squares);
+  return numbers && no_numbers == 0;
+}
 }
 
 template <typename T>
 void ValueRange::add(const T* values, std::size_t rows) noexcept
 {
   const std::size_t n = components_.size();
-#if GRANULAR_X86
-  if constexpr (std::is_same_v<T, double>)
+  if (n == 1 || n == 3)
   {
-    if (n == 1 || n == 3)
-    {
-      const std::size_t even = rows / 2 * 2;
-      const auto add_pairs = n == 1 ? add_pairs_1 : add_pairs_3;
-      numbers_ = add_pairs(values, even, components_.data(), squares_) && numbers_;
-      values += even * n;
-      rows -= even;
-    }
-  }
-#endif
-  if (n == 1)
-  {
-    numbers_ = add_rows<1>(values, rows, components_.data(), squares_) && numbers_;
-    return;
-  }
-  if (n == 3)
-  {
-    numbers_ = add_rows<3>(values, rows, components_.data(), squares_) && numbers_;
+    const auto add_all = n == 1 ? add_rows<1, T> : add_rows<3, T>;
+    numbers_ = add_all(values, rows, components_.data(), squares_) && numbers_;
     return;
   }
   for (std::size_t row = 0; row < rows; ++row, values += n)

@@ -10,10 +10,8 @@ namespace
 {
 double square_distance(const Vector3& a, const Vector3& b)
 {
-  const double x = a[0] - b[0];
-  const double y = a[1] - b[1];
-  const double z = a[2] - b[2];
-  return x * x + y * y + z * z;
+  const Vector3 way = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+  return dot(way, way);
 }
 
 double square(double value)
@@ -133,7 +131,7 @@ bool Adsorption::blocks(
 }
 
 /// Among those that stayed in earlier rounds. Tells the fresh one if it is near to what is unknown.
-bool Adsorption::has_room(Fresh& fresh, const Round& round, const Layer& layer) const
+bool Adsorption::has_room(Fresh& fresh, const Arrivals& round, const Layer& layer) const
 {
   const double clear = round.radius + grid_.gap();
   if (blocks(layer, static_cast<std::size_t>(fresh.cell), fresh.at, clear))
@@ -155,7 +153,8 @@ bool Adsorption::has_room(Fresh& fresh, const Round& round, const Layer& layer) 
   return true;
 }
 
-void Adsorption::arrive(const Round& round, std::int64_t layer, std::int64_t line, Layer& to) const
+void Adsorption::arrive(
+  const Arrivals& round, std::int64_t layer, std::int64_t line, Layer& to) const
 {
   const std::uint64_t count = round.count(layer, line);
   for (std::uint64_t i = 0; i < count; ++i)
@@ -188,7 +187,8 @@ void Adsorption::arrive(const Round& round, std::int64_t layer, std::int64_t lin
 }
 
 /// Whether a fresh one stays: none does that overlaps an earlier one that stays. Threads may find the same at a time.
-Adsorption::Fate Adsorption::fate(const Round& round, const Layer& layer, std::size_t index) const
+Adsorption::Fate Adsorption::fate(
+  const Arrivals& round, const Layer& layer, std::size_t index) const
 {
   const auto known = static_cast<Fate>(layer.fates[index].load(std::memory_order_relaxed));
   if (known != Open)
@@ -223,7 +223,7 @@ Adsorption::Fate Adsorption::fate(const Round& round, const Layer& layer, std::s
   return found;
 }
 
-void Adsorption::settle(const Round& round, Layer& layer) const
+void Adsorption::settle(const Arrivals& round, Layer& layer) const
 {
   for (std::size_t i = 0; i < layer.fresh.size(); ++i)
   {
@@ -237,7 +237,6 @@ void Adsorption::settle(const Round& round, Layer& layer) const
 /// Those that stay become grains.
 void Adsorption::keep(const Arrivals& round, Layer& layer) const
 {
-  const double radius = grid_.classes()[round.size_class].radius;
   for (std::size_t i = 0; i < layer.fresh.size(); ++i)
   {
     const Fresh& fresh = layer.fresh[i];
@@ -251,7 +250,7 @@ void Adsorption::keep(const Arrivals& round, Layer& layer) const
     if (found == Stays)
     {
       layer.grains.push_back(
-        { fresh.at, radius, static_cast<std::int32_t>(round.size_class), layer.first[cell] });
+        { fresh.at, round.radius, static_cast<std::int32_t>(round.size_class), layer.first[cell] });
       layer.first[cell] = static_cast<std::int32_t>(layer.grains.size() - 1);
     }
     if (found == Unknown)
@@ -268,9 +267,8 @@ void Adsorption::for_layers(
   const Arrivals& round, const Executor& executor, Progress& progress, const Work& work)
 {
   constexpr double arrivals_a_chunk = 4096;
-  const std::size_t level = grid_.level_of(round.size_class);
-  const std::size_t layers = levels_[level].layers.size();
-  const double arrivals = round.mean * static_cast<double>(grid_.cells(level)[1]);
+  const std::size_t layers = levels_[round.level].layers.size();
+  const double arrivals = round.mean * static_cast<double>(round.cells[1]);
   const double wanted = std::ceil(arrivals_a_chunk / arrivals);
   const std::size_t each = wanted < static_cast<double>(layers) ? static_cast<std::size_t>(wanted)
                                                                 : std::max<std::size_t>(layers, 1);
@@ -285,29 +283,16 @@ void Adsorption::for_layers(
     progress);
 }
 
-void Adsorption::keep(const Arrivals& round, const Executor& executor)
-{
-  Progress none_told;
-  Level& level = levels_[grid_.level_of(round.size_class)];
-  this->for_layers(
-    round, executor, none_told, [&](std::size_t i) { this->keep(round, level.layers[i]); });
-  settled_ = true;
-}
-
 bool Adsorption::follow(
   const std::vector<Arrivals>& rounds, const Executor& executor, Progress& progress)
 {
   Progress none_told;
   while (rounds_ < rounds.size())
   {
-    if (!settled_)
-    {
-      this->keep(rounds[rounds_ - 1], executor);
-    }
-    const Arrivals& arrivals = rounds[rounds_++];
-    const Round round(grid_, arrivals);
+    this->finish(rounds, executor);
+    const Arrivals& round = rounds[rounds_++];
     Level& level = levels_[round.level];
-    this->for_layers(arrivals, executor, progress,
+    this->for_layers(round, executor, progress,
       [&](std::size_t i)
       {
         const std::int64_t layer = (level.begin + static_cast<std::int64_t>(i)) % round.cells[2];
@@ -319,7 +304,7 @@ bool Adsorption::follow(
           std::vector<std::atomic<std::uint8_t>>(level.layers[i].fresh.size());
       });
     this->for_layers(
-      arrivals, executor, none_told, [&](std::size_t i) { this->settle(round, level.layers[i]); });
+      round, executor, none_told, [&](std::size_t i) { this->settle(round, level.layers[i]); });
     settled_ = false;
     if (!this->has(first_, last_))
     {
@@ -332,10 +317,8 @@ bool Adsorption::follow(
 std::vector<std::uint64_t> Adsorption::moments() const
 {
   std::vector<std::uint64_t> found;
-  for (std::size_t level = 0; first_ < last_ && level < levels_.size(); ++level)
-  {
-    const std::int64_t end = grid_.first_layer(level, last_);
-    for (std::int64_t at = grid_.first_layer(level, first_); at < end; ++at)
+  grid_.for_layers(first_, last_,
+    [&](std::size_t level, std::int64_t at)
     {
       const Layer& layer = *this->find(level, at);
       for (std::size_t i = 0; i < layer.fresh.size(); ++i)
@@ -345,33 +328,33 @@ std::vector<std::uint64_t> Adsorption::moments() const
           found.push_back(layer.fresh[i].moment);
         }
       }
-    }
-  }
+    });
   return found;
 }
 
 void Adsorption::finish(const std::vector<Arrivals>& rounds, const Executor& executor)
 {
-  if (!settled_)
+  if (settled_)
   {
-    this->keep(rounds[rounds_ - 1], executor);
+    return;
   }
+  const Arrivals& last = rounds[rounds_ - 1];
+  Progress none_told;
+  Level& level = levels_[last.level];
+  this->for_layers(
+    last, executor, none_told, [&](std::size_t i) { this->keep(last, level.layers[i]); });
+  settled_ = true;
 }
 
 bool Adsorption::has(std::int64_t first, std::int64_t last) const noexcept
 {
-  for (std::size_t level = 0; level < levels_.size(); ++level)
-  {
-    const std::int64_t end = grid_.first_layer(level, last);
-    for (std::int64_t at = grid_.first_layer(level, first); at < end; ++at)
+  bool known = true;
+  grid_.for_layers(first, last,
+    [&](std::size_t level, std::int64_t at)
     {
       const Layer* const layer = this->find(level, at);
-      if (layer == nullptr || layer->dim)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+      known = known && layer != nullptr && !layer->dim;
+    });
+  return known;
 }
 }

@@ -96,12 +96,11 @@ private:
     const Visit& visit) const;
   static bool blocks(
     const Layer& layer, std::size_t cell, const Vector3& at, double clear) noexcept;
-  bool has_room(Fresh& fresh, const Round& round, const Layer& layer) const;
-  void arrive(const Round& round, std::int64_t layer, std::int64_t line, Layer& to) const;
-  Fate fate(const Round& round, const Layer& layer, std::size_t index) const;
-  void settle(const Round& round, Layer& layer) const;
+  bool has_room(Fresh& fresh, const Arrivals& round, const Layer& layer) const;
+  void arrive(const Arrivals& round, std::int64_t layer, std::int64_t line, Layer& to) const;
+  Fate fate(const Arrivals& round, const Layer& layer, std::size_t index) const;
+  void settle(const Arrivals& round, Layer& layer) const;
   void keep(const Arrivals& round, Layer& layer) const;
-  void keep(const Arrivals& round, const Executor& executor);
   template <class Work>
   void for_layers(
     const Arrivals& round, const Executor& executor, Progress& progress, const Work& work);

@@ -41,6 +41,7 @@ AdsorptionGrid::AdsorptionGrid(const BoxShape& box, std::vector<SizeClass> class
   {
     this->lay(level);
     shelves_ = std::max(shelves_, level.cells[2]);
+    deepest_ = std::max(deepest_, 1 / static_cast<double>(level.cells[2]));
   }
 }
 
@@ -52,21 +53,14 @@ double AdsorptionGrid::inset(double radius, std::size_t place) const noexcept
   return box_.periodic[axis] ? 0 : 1 - 2 * least < flat ? 0.5 : least;
 }
 
-/// Cells as large as two grains, but not many more than grains.
 void AdsorptionGrid::lay(Level& level) const
 {
-  const double most = 2 * static_cast<double>(level.grains) + 64;
-  Vector3 cells;
+  Vector3 widths;
   for (std::size_t place = 0; place < 3; ++place)
   {
-    const double width = box_.heights[order_[place]] * (1 - 2 * this->inset(level.smallest, place));
-    cells[place] = std::clamp(std::floor(width / (2 * level.radius)), 1.0, most);
+    widths[place] = box_.heights[order_[place]] * (1 - 2 * this->inset(level.smallest, place));
   }
-  while (cells[0] * cells[1] * cells[2] > most)
-  {
-    double& longest = *std::max_element(cells.begin(), cells.end());
-    longest = std::max(1.0, std::floor(longest * 0.9));
-  }
+  const Vector3 cells = count_cells(widths, level.radius, level.grains);
   for (std::size_t place = 0; place < 3; ++place)
   {
     level.cells[place] = static_cast<std::int64_t>(cells[place]);
@@ -83,12 +77,7 @@ void AdsorptionGrid::lay(Level& level) const
 
 std::int64_t AdsorptionGrid::shelves_within(double distance) const noexcept
 {
-  double wide = distance * per_height_[2] + 2 * insets_.front()[2];
-  for (const Level& level : levels_)
-  {
-    wide = std::max(wide,
-      distance * per_height_[2] + 2 * insets_.front()[2] + 1 / static_cast<double>(level.cells[2]));
-  }
+  const double wide = distance * per_height_[2] + 2 * insets_.front()[2] + deepest_;
   const auto shelves = static_cast<double>(shelves_);
   return static_cast<std::int64_t>(std::min(std::ceil(wide * shelves) + 1, shelves));
 }
@@ -96,14 +85,9 @@ std::int64_t AdsorptionGrid::shelves_within(double distance) const noexcept
 std::array<double, 2> AdsorptionGrid::window(
   std::int64_t first, std::int64_t last, double margin) const noexcept
 {
-  double deepest = 0;
-  for (const Level& level : levels_)
-  {
-    deepest = std::max(deepest, 1 / static_cast<double>(level.cells[2]));
-  }
   const double around = margin * 2 * levels_.front().radius * per_height_[2];
   const auto shelves = static_cast<double>(shelves_);
   return { static_cast<double>(first) / shelves - around,
-    static_cast<double>(last) / shelves + deepest + around };
+    static_cast<double>(last) / shelves + deepest_ + around };
 }
 }

@@ -58,6 +58,20 @@ public:
     return (shelf * layers + shelves_ - 1) / shelves_;
   }
 
+  /// Calls visit(level, layer) for all layers of shelves from first to last - 1, level by level.
+  template <class Visit>
+  void for_layers(std::int64_t first, std::int64_t last, const Visit& visit) const
+  {
+    for (std::size_t level = 0; level < levels_.size(); ++level)
+    {
+      const std::int64_t end = this->first_layer(level, last);
+      for (std::int64_t layer = this->first_layer(level, first); layer < end; ++layer)
+      {
+        visit(level, layer);
+      }
+    }
+  }
+
   /// In how many shelves before or after its own a grain may have others nearer than a distance.
   std::int64_t shelves_within(double distance) const noexcept;
 
@@ -130,6 +144,7 @@ private:
   std::vector<Vector3> insets_;
   std::vector<Level> levels_;
   std::int64_t shelves_ = 1;
+  double deepest_ = 0; ///< layer, as a part of the last axis
 };
 }
 #endif

@@ -11,28 +11,21 @@
 
 namespace granular
 {
-/// Grains of one class that arrive in a span of time. They are a Poisson process in space and time: on each line of
-/// cells a number with this mean, each at a place and a moment of its own, all drawn from hashes.
-struct Arrivals
-{
-  std::size_t size_class = 0;
-  std::uint64_t seed = 0;
-  double mean = 0; ///< up to 512
-  std::uint64_t last =
-    std::numeric_limits<std::uint64_t>::max(); ///< moments after this one do not count
-};
-
-/// Draws the arrivals of any line, the same whoever asks.
-class Round
+/// Grains of one class that arrive in a span of time, a round. They are a Poisson process in space and time: on each line of
+/// cells a number with this mean, each at a place and a moment of its own, all drawn from hashes: the same whoever asks.
+class Arrivals
 {
 public:
-  Round(const AdsorptionGrid& grid, const Arrivals& arrivals);
+  /// mean: up to 512.
+  Arrivals(const AdsorptionGrid& grid, std::size_t size_class, std::uint64_t seed, double mean);
 
   std::size_t size_class;
   std::size_t level;
   AdsorptionGrid::Cells cells;
   double radius;
-  std::uint64_t last;
+  double mean;
+  std::uint64_t last =
+    std::numeric_limits<std::uint64_t>::max(); ///< moments after this one do not count
 
   /// How many grains arrive on a line of a layer.
   std::uint64_t count(std::int64_t layer, std::int64_t line) const noexcept;

@@ -34,10 +34,8 @@ using Pairs = std::vector<Pair>;
 
 double distance(const Vector3& a, const Vector3& b)
 {
-  const double x = b[0] - a[0];
-  const double y = b[1] - a[1];
-  const double z = b[2] - a[2];
-  return std::sqrt(x * x + y * y + z * z);
+  const Vector3 way = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+  return std::sqrt(dot(way, way));
 }
 
 /// The vector from a point to a periodic image, each component rounded once, as lines through faces are made.
@@ -85,84 +83,57 @@ bool comes_before(const NearGrains::Grain& a, const NearGrains::Grain& b)
   return std::tuple(a.row, moves(a), a.image) < std::tuple(b.row, moves(b), b.image);
 }
 
-/// What make_bonds fills.
-class BondArrays
+/// Bonds with memory for all that is to be said of them.
+GrainBonds empty_bonds(std::int64_t count)
 {
-public:
-  explicit BondArrays(std::int64_t count)
-  {
-    const auto size = static_cast<std::size_t>(count);
-    bonds_.count = count;
-    bonds_.id1 = Block(size * sizeof(std::int64_t));
-    bonds_.id2 = Block(size * sizeof(std::int64_t));
-    bonds_.btype = Block(size * sizeof(std::int32_t));
-    bonds_.equilibrium_length = Block(size * sizeof(double));
-    bonds_.points = Block(size * 6 * sizeof(double));
-  }
+  const auto size = static_cast<std::size_t>(count);
+  return { count, Block(size * sizeof(std::int64_t)), Block(size * sizeof(std::int64_t)),
+    Block(size * sizeof(std::int32_t)), Block(size * sizeof(double)),
+    Block(size * 6 * sizeof(double)) };
+}
 
-  struct End
-  {
-    std::int64_t row;
-    Vector3 point;
-  };
-
-  void set(std::int64_t bond, const End& first, const End& second, double length)
-  {
-    static_cast<std::int64_t*>(bonds_.id1.data())[bond] = first.row + 1;
-    static_cast<std::int64_t*>(bonds_.id2.data())[bond] = second.row + 1;
-    static_cast<std::int32_t*>(bonds_.btype.data())[bond] = 1;
-    static_cast<double*>(bonds_.equilibrium_length.data())[bond] = length;
-    auto* const ends = static_cast<double*>(bonds_.points.data()) + 6 * bond;
-    std::copy(first.point.begin(), first.point.end(), ends);
-    std::copy(second.point.begin(), second.point.end(), ends + 3);
-  }
-
-  GrainBonds take() { return std::move(bonds_); }
-
-private:
-  GrainBonds bonds_;
+struct End
+{
+  std::int64_t row;
+  Vector3 point;
 };
 
-/// Finds the bonds of grains with those after them.
-class PairFinder
+void set_bond(
+  GrainBonds& bonds, std::int64_t bond, const End& first, const End& second, double length)
 {
-public:
-  PairFinder(const NearGrains& all, const PlacedGrains& own)
-    : all_(all)
-    , own_(own)
-  {
-  }
+  static_cast<std::int64_t*>(bonds.id1.data())[bond] = first.row + 1;
+  static_cast<std::int64_t*>(bonds.id2.data())[bond] = second.row + 1;
+  static_cast<std::int32_t*>(bonds.btype.data())[bond] = 1;
+  static_cast<double*>(bonds.equilibrium_length.data())[bond] = length;
+  auto* const ends = static_cast<double*>(bonds.points.data()) + 6 * bond;
+  std::copy(first.point.begin(), first.point.end(), ends);
+  std::copy(second.point.begin(), second.point.end(), ends + 3);
+}
 
-  void add(std::int64_t i, Pairs& pairs);
-
-private:
-  const NearGrains& all_;
-  const PlacedGrains& own_;
-  std::vector<std::uint32_t> found_;
-};
-
-void PairFinder::add(std::int64_t i, Pairs& pairs)
+/// Adds the bonds of a grain with those after it. found: memory for those that are near.
+void add_pairs(const NearGrains& all, const PlacedGrains& own, std::int64_t i,
+  std::vector<std::uint32_t>& found, Pairs& pairs)
 {
-  const Vector3 point = own_.point(i);
-  const std::int64_t row = own_.rows.first + i;
-  found_.clear();
-  all_.visit(point, own_.radius[i],
+  const Vector3 point = own.point(i);
+  const std::int64_t row = own.rows.first + i;
+  found.clear();
+  all.visit(point, own.radius[i],
     [&](std::uint32_t number, const NearGrains::Grain& other)
     {
       if (other.row > row &&
-        distance(point, all_.point(other)) <= all_.limit(own_.radius[i] + other.radius))
+        distance(point, all.point(other)) <= all.limit(own.radius[i] + other.radius))
       {
-        found_.push_back(number);
+        found.push_back(number);
       }
     });
-  std::sort(found_.begin(), found_.end(),
-    [this](std::uint32_t a, std::uint32_t b) { return comes_before(all_[a], all_[b]); });
+  std::ranges::sort(
+    found, [&](std::uint32_t a, std::uint32_t b) { return comes_before(all[a], all[b]); });
   std::int64_t before = row;
   double length = 0;
-  for (const std::uint32_t number : found_)
+  for (const std::uint32_t number : found)
   {
-    const NearGrains::Grain& other = all_[number];
-    const double other_length = distance(point, all_.point(other));
+    const NearGrains::Grain& other = all[number];
+    const double other_length = distance(point, all.point(other));
     if (other.row != before)
     {
       pairs.push_back({ static_cast<std::uint32_t>(i), number });
@@ -199,10 +170,10 @@ GrainBonds near_bonds(
   for_row_chunks(own.rows.count(), threads, progress,
     [&](std::int64_t begin, std::int64_t end, std::size_t)
     {
-      PairFinder finder(all, own);
+      std::vector<std::uint32_t> found;
       for (std::int64_t i = begin; i < end; ++i)
       {
-        finder.add(i, chunks[static_cast<std::size_t>(begin / rows_a_chunk)]);
+        add_pairs(all, own, i, found, chunks[static_cast<std::size_t>(begin / rows_a_chunk)]);
       }
     });
   progress.set_part(0.9, 1);
@@ -211,7 +182,7 @@ GrainBonds near_bonds(
   {
     starts.push_back(starts.back() + static_cast<std::int64_t>(pairs.size()));
   }
-  BondArrays bonds(starts.back());
+  GrainBonds bonds = empty_bonds(starts.back());
   Executor(threads).parallel_for(
     chunks.size(),
     [&](std::size_t chunk, std::size_t)
@@ -222,12 +193,12 @@ GrainBonds near_bonds(
         const NearGrains::Grain& other = all[pair.other];
         const Vector3 point = own.point(pair.own);
         const Vector3 vector = exact_vector(point, other, plan.box);
-        bonds.set(bond++, { own.rows.first + pair.own, point }, { other.row, all.point(other) },
-          std::sqrt(dot(vector, vector)));
+        set_bond(bonds, bond++, { own.rows.first + pair.own, point },
+          { other.row, all.point(other) }, std::sqrt(dot(vector, vector)));
       }
     },
     progress);
-  return bonds.take();
+  return bonds;
 }
 
 /// Bonds between consecutive grains of each fibre.
@@ -238,7 +209,7 @@ GrainBonds fibre_bonds(const PackingPlan& plan, const RowRange& rows, Progress& 
   const auto bonds_before = [&](std::int64_t row)
   { return row - fibres.fibre(row) - (row == plan.grains && fibres.is_inside(row) ? 1 : 0); };
   const std::int64_t first = bonds_before(rows.first);
-  BondArrays bonds(bonds_before(rows.last) - first);
+  GrainBonds bonds = empty_bonds(bonds_before(rows.last) - first);
   for_row_chunks(rows.count(), plan.request.threads, progress,
     [&](std::int64_t begin, std::int64_t end, std::size_t)
     {
@@ -248,12 +219,12 @@ GrainBonds fibre_bonds(const PackingPlan& plan, const RowRange& rows, Progress& 
         {
           const Vector3 point = plan.shape.point(fibres.scaled(row));
           const Vector3 next = plan.shape.point(fibres.scaled(row + 1));
-          bonds.set(
-            bonds_before(row) - first, { row, point }, { row + 1, next }, distance(point, next));
+          set_bond(bonds, bonds_before(row) - first, { row, point }, { row + 1, next },
+            distance(point, next));
         }
       }
     });
-  return bonds.take();
+  return bonds;
 }
 }
 

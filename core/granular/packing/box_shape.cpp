@@ -65,6 +65,22 @@ double BoxShape::rounding() const noexcept
   return 8 * std::numeric_limits<double>::epsilon() * reach;
 }
 
+Vector3 count_cells(const Vector3& widths, double radius, std::int64_t grains) noexcept
+{
+  const double most = 2 * static_cast<double>(grains) + 64;
+  Vector3 cells;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    cells[axis] = std::clamp(std::floor(widths[axis] / (2 * radius)), 1.0, most);
+  }
+  while (cells[0] * cells[1] * cells[2] > most)
+  {
+    double& longest = *std::max_element(cells.begin(), cells.end());
+    longest = std::max(1.0, std::floor(longest * 0.9));
+  }
+  return cells;
+}
+
 std::string checked_boundary(const std::string& boundary)
 {
   const std::vector<std::string_view> words = split_words(boundary);

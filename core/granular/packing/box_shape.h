@@ -5,6 +5,7 @@
 #include "granular/geometry/box.h"
 
 #include <array>
+#include <cstdint>
 
 namespace granular
 {
@@ -39,6 +40,9 @@ struct BoxShape
     return sum;
   }
 };
+
+/// How many cells as large as two grains of a radius fit into the widths, but not many more than there are grains.
+Vector3 count_cells(const Vector3& widths, double radius, std::int64_t grains) noexcept;
 
 /// "pp ff fs" from that or from "p f fs": three words of one or two of the letters p (periodic), f, s and
 /// m, p never with another. Throws LimitError.

@@ -2,9 +2,8 @@
 #ifndef granular_packing_grain_rows_h
 #define granular_packing_grain_rows_h
 
-#include "granular/packing/packing.h"
-#include "granular/packing/random_grains.h"
 #include "granular/parallel/executor.h"
+#include "granular/particles/dump_frame.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,6 +12,23 @@
 
 namespace granular
 {
+/// Rows of grains, from first to last - 1; a grain's id is its row + 1.
+struct RowRange
+{
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+
+  std::int64_t count() const noexcept { return last - first; }
+};
+
+/// Rows of grains, and where they go.
+struct GrainRows : RowRange
+{
+  double* points = nullptr; ///< three a row
+  double* radius = nullptr;
+  std::int32_t* type = nullptr;
+};
+
 constexpr std::int64_t rows_a_chunk = 8192;
 
 inline std::size_t chunks_of_rows(std::int64_t rows) noexcept
@@ -24,9 +40,8 @@ inline std::size_t chunks_of_rows(std::int64_t rows) noexcept
 template <class Work>
 void for_row_chunks(std::int64_t rows, int threads, Progress& progress, const Work& work)
 {
-  const std::size_t chunks = chunks_of_rows(rows);
   Executor(threads).parallel_for(
-    chunks,
+    chunks_of_rows(rows),
     [&](std::size_t chunk, std::size_t worker)
     {
       const std::int64_t begin = static_cast<std::int64_t>(chunk) * rows_a_chunk;
@@ -39,13 +54,9 @@ void for_row_chunks(std::int64_t rows, int threads, Progress& progress, const Wo
 template <typename T>
 T* array_of(const DumpFrame& frame, std::string_view name)
 {
-  const auto found = std::find_if(frame.arrays.begin(), frame.arrays.end(),
-    [name](const DumpArray& array) { return array.info.name == name; });
+  const auto found = std::ranges::find(
+    frame.arrays, name, [](const DumpArray& array) { return std::string_view(array.info.name); });
   return static_cast<T*>(found->block.data());
 }
-
-/// Fills the arrays that need no more than the number of a grain, and finds the ranges if they are wanted.
-void fill_arrays(
-  DumpFrame& frame, const RowRange& rows, const PackingRequest& request, Progress& progress);
 }
 #endif

@@ -3,7 +3,7 @@
 #define granular_packing_lattice_h
 
 #include "granular/packing/box_shape.h"
-#include "granular/packing/row_range.h"
+#include "granular/packing/grain_rows.h"
 
 #include <array>
 #include <cstdint>

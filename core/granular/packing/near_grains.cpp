@@ -10,23 +10,6 @@
 
 namespace granular
 {
-namespace
-{
-std::array<double, 2> radii_of(const PlacedGrains& own, const std::vector<PlacedGrains>& others)
-{
-  std::array<double, 2> range = { own.radius[0], own.radius[0] };
-  const auto add = [&range](const PlacedGrains& grains)
-  {
-    const auto [least, most] =
-      std::minmax_element(grains.radius, grains.radius + grains.rows.count());
-    range = { std::min(range[0], *least), std::max(range[1], *most) };
-  };
-  add(own);
-  std::for_each(others.begin(), others.end(), add);
-  return range;
-}
-}
-
 NearGrains::NearGrains(const BoxShape& box, double factor, const PlacedGrains& own,
   const std::vector<PlacedGrains>& others)
   : box_(box)
@@ -38,35 +21,37 @@ NearGrains::NearGrains(const BoxShape& box, double factor, const PlacedGrains& o
     const double height = dot(faces_[k], box.vectors[k]);
     std::for_each(faces_[k].begin(), faces_[k].end(), [height](double& part) { part /= height; });
   }
-  const auto [smallest, largest] = radii_of(own, others);
-  largest_ = largest;
-  for (double radius = largest; radius >= smallest; radius /= 2)
+  std::vector<PlacedGrains> all = others;
+  all.push_back(own);
+  double smallest = own.radius[0];
+  for (const PlacedGrains& grains : all)
+  {
+    const auto [least, most] =
+      std::minmax_element(grains.radius, grains.radius + grains.rows.count());
+    smallest = std::min(smallest, *least);
+    largest_ = std::max(largest_, *most);
+  }
+  for (double radius = largest_; radius >= smallest; radius /= 2)
   {
     levels_.push_back({ radius });
   }
   this->bound(own);
-  std::vector<PlacedGrains> all = others;
-  all.push_back(own);
   for (const PlacedGrains& grains : all)
   {
-    for (std::int64_t i = 0; i < grains.rows.count(); ++i)
-    {
-      ++this->level_of(grains.radius[i]).grains;
-    }
+    std::for_each(grains.radius, grains.radius + grains.rows.count(),
+      [this](double radius) { ++this->level_of(radius).grains; });
   }
   std::for_each(levels_.begin(), levels_.end(), [this](Level& level) { this->lay(level); });
-  for (const PlacedGrains& grains : all)
-  {
-    this->count(grains);
-  }
+  this->visit_images(
+    all, [](const Grain&, Level& level, std::size_t cell) { ++level.first[cell]; });
   this->add_up();
-  for (const PlacedGrains& grains : all)
-  {
-    this->put(grains);
-  }
+  // each before those of its cell that are there already: in the end cells begin with their first
+  this->visit_images(all,
+    [this](const Grain& image, Level& level, std::size_t cell)
+    { new (this->grains() + --level.first[cell]) Grain(image); });
 }
 
-Vector3 NearGrains::scaled(const double* point) const noexcept
+Vector3 NearGrains::scaled(const Vector3& point) const noexcept
 {
   const Vector3 from_origin = { point[0] - box_.origin[0], point[1] - box_.origin[1],
     point[2] - box_.origin[2] };
@@ -86,7 +71,7 @@ void NearGrains::bound(const PlacedGrains& own)
   high_.fill(-std::numeric_limits<double>::infinity());
   for (std::int64_t i = 0; i < own.rows.count(); ++i)
   {
-    const Vector3 place = this->scaled(own.points + 3 * i);
+    const Vector3 place = this->scaled(own.point(i));
     for (std::size_t k = 0; k < 3; ++k)
     {
       low_[k] = std::min(low_[k], place[k]);
@@ -111,21 +96,14 @@ NearGrains::Level& NearGrains::level_of(double radius) noexcept
   return levels_[at];
 }
 
-/// Cells as large as two grains, but not many more than grains.
 void NearGrains::lay(Level& level) const
 {
-  const double most = 2 * static_cast<double>(level.grains) + 64;
-  Vector3 cells;
+  Vector3 widths;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const double width = (high_[k] - low_[k]) * box_.heights[k];
-    cells[k] = std::clamp(std::floor(width / (2 * level.radius)), 1.0, most);
+    widths[k] = (high_[k] - low_[k]) * box_.heights[k];
   }
-  while (cells[0] * cells[1] * cells[2] > most)
-  {
-    double& longest = *std::max_element(cells.begin(), cells.end());
-    longest = std::max(1.0, std::floor(longest * 0.9));
-  }
+  const Vector3 cells = count_cells(widths, level.radius, level.grains);
   for (std::size_t k = 0; k < 3; ++k)
   {
     level.cells[k] = static_cast<std::int64_t>(cells[k]);
@@ -145,11 +123,27 @@ std::size_t NearGrains::cell_of(const Level& level, const Vector3& scaled) const
   return static_cast<std::size_t>(cell);
 }
 
-/// Calls visit(image, scaled) for a grain and its images, as far as they are within the bounds.
+/// Calls visit(image, level, cell) for all grains and their images, as far as they are within the bounds.
+template <class Visit>
+void NearGrains::visit_images(const std::vector<PlacedGrains>& all, const Visit& visit)
+{
+  for (const PlacedGrains& grains : all)
+  {
+    for (std::int64_t i = 0; i < grains.rows.count(); ++i)
+    {
+      Level& level = this->level_of(grains.radius[i]);
+      this->visit_images(grains, i,
+        [&](const Grain& image, const Vector3& scaled)
+        { visit(image, level, this->cell_of(level, scaled)); });
+    }
+  }
+}
+
+/// Calls visit(image, scaled) for one grain and its images.
 template <class Visit>
 void NearGrains::visit_images(const PlacedGrains& grains, std::int64_t i, const Visit& visit) const
 {
-  const double* const point = grains.points + 3 * i;
+  const Vector3 point = grains.point(i);
   const Vector3 place = this->scaled(point);
   std::array<int, 3> from = {};
   std::array<int, 3> to = {};
@@ -168,26 +162,12 @@ void NearGrains::visit_images(const PlacedGrains& grains, std::int64_t i, const 
     {
       for (int x = from[0]; x <= to[0]; ++x)
       {
-        const Vector3 moves = { static_cast<double>(x), static_cast<double>(y),
-          static_cast<double>(z) };
-        const Grain image = {
-          { point[0], point[1], point[2] }, grains.radius[i], grains.rows.first + i,
-          { static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), static_cast<std::int8_t>(z) }
-        };
-        visit(image, { place[0] + moves[0], place[1] + moves[1], place[2] + moves[2] });
+        const Grain image = { point, grains.radius[i], grains.rows.first + i,
+          { static_cast<std::int8_t>(x), static_cast<std::int8_t>(y),
+            static_cast<std::int8_t>(z) } };
+        visit(image, { place[0] + x, place[1] + y, place[2] + z });
       }
     }
-  }
-}
-
-/// How many are in each cell.
-void NearGrains::count(const PlacedGrains& grains)
-{
-  for (std::int64_t i = 0; i < grains.rows.count(); ++i)
-  {
-    Level& level = this->level_of(grains.radius[i]);
-    this->visit_images(grains, i,
-      [&](const Grain&, const Vector3& scaled) { ++level.first[this->cell_of(level, scaled)]; });
   }
 }
 
@@ -210,17 +190,5 @@ void NearGrains::add_up()
       std::to_string(end) + ", images among them");
   }
   block_ = Block(static_cast<std::size_t>(end) * sizeof(Grain));
-}
-
-/// Each before those of its cell that are there already: in the end cells begin with their first.
-void NearGrains::put(const PlacedGrains& grains)
-{
-  for (std::int64_t i = 0; i < grains.rows.count(); ++i)
-  {
-    Level& level = this->level_of(grains.radius[i]);
-    this->visit_images(grains, i,
-      [&](const Grain& image, const Vector3& scaled)
-      { new (this->grains() + --level.first[this->cell_of(level, scaled)]) Grain(image); });
-  }
 }
 }

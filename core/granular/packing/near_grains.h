@@ -4,7 +4,7 @@
 
 #include "granular/memory/block.h"
 #include "granular/packing/box_shape.h"
-#include "granular/packing/row_range.h"
+#include "granular/packing/grain_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -82,15 +82,15 @@ private:
     std::vector<std::uint32_t> first = {}; ///< grain of each cell, x fastest, and the end
   };
 
-  Vector3 scaled(const double* point) const noexcept;
+  Vector3 scaled(const Vector3& point) const noexcept;
   double margin(double distance, std::size_t axis) const noexcept;
   void bound(const PlacedGrains& own);
   Level& level_of(double radius) noexcept;
   void lay(Level& level) const;
   std::size_t cell_of(const Level& level, const Vector3& scaled) const noexcept;
-  void count(const PlacedGrains& grains);
   void add_up();
-  void put(const PlacedGrains& grains);
+  template <class Visit>
+  void visit_images(const std::vector<PlacedGrains>& all, const Visit& visit);
   template <class Visit>
   void visit_images(const PlacedGrains& grains, std::int64_t i, const Visit& visit) const;
   Grain* grains() const noexcept { return static_cast<Grain*>(block_.data()); }
@@ -108,7 +108,7 @@ private:
 template <class Visit>
 void NearGrains::visit(const Vector3& point, double radius, const Visit& visit) const
 {
-  const Vector3 place = this->scaled(point.data());
+  const Vector3 place = this->scaled(point);
   for (const Level& level : levels_)
   {
     std::array<std::int64_t, 3> from = {};

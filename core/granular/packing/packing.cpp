@@ -3,6 +3,8 @@
 
 #include "granular/packing/grain_rows.h"
 #include "granular/packing/packing_plan.h"
+#include "granular/packing/random_numbers.h"
+#include "granular/particles/frame_ranges.h"
 
 #include <string>
 #include <vector>
@@ -38,13 +40,42 @@ DumpFrame empty_frame(const PackingPlan& plan, std::int64_t rows)
   return frame;
 }
 
-void number_fibres(DumpFrame& frame, const Fibres& fibres, const RowRange& rows)
+/// Fills the arrays that need no more than the number of a grain, and finds the ranges if they are wanted.
+void fill_arrays(
+  DumpFrame& frame, const RowRange& rows, const PackingPlan& plan, Progress& progress)
 {
-  auto* const numbers = array_of<std::int64_t>(frame, "mol");
-  for (std::int64_t row = rows.first; row < rows.last; ++row)
+  const PackingRequest& request = plan.request;
+  auto* const ids = array_of<std::int64_t>(frame, "id");
+  auto* const fibres = plan.fibres ? array_of<std::int64_t>(frame, "mol") : nullptr;
+  auto* const velocities = array_of<double>(frame, "v");
+  std::vector<FrameRanges> ranges(static_cast<std::size_t>(request.threads), FrameRanges(frame));
+  for_row_chunks(rows.count(), request.threads, progress,
+    [&](std::int64_t begin, std::int64_t end, std::size_t worker)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const std::int64_t grain = rows.first + i;
+        RandomNumbers numbers(request.seed, Stream::Velocities, grain);
+        for (std::int64_t axis = 0; axis < 3; ++axis)
+        {
+          velocities[3 * i + axis] = request.speed > 0 ? request.speed * numbers.normal() : 0;
+        }
+        ids[i] = grain + 1;
+        if (fibres)
+        {
+          fibres[i] = plan.fibres->fibre(grain) + 1;
+        }
+      }
+      if (request.ranges)
+      {
+        ranges[worker].add(frame, begin, static_cast<std::size_t>(end - begin));
+      }
+    });
+  for (std::size_t worker = 1; worker < ranges.size(); ++worker)
   {
-    numbers[row - rows.first] = fibres.fibre(row) + 1;
+    ranges[0].add(ranges[worker]);
   }
+  ranges[0].store(frame);
 }
 }
 
@@ -71,12 +102,8 @@ DumpFrame make_packing(const PackingPlan& plan, Progress& progress)
   constexpr double placed = 0.4;
   part.set_part(0, placed);
   plan.place_rows(rows, part);
-  if (plan.fibres)
-  {
-    number_fibres(frame, *plan.fibres, rows);
-  }
   part.set_part(placed, 1);
-  fill_arrays(frame, rows, plan.request, part);
+  fill_arrays(frame, rows, plan, part);
   progress.step(1);
   return frame;
 }

@@ -140,8 +140,10 @@ Box made_box(const PackingRequest& request, const std::string& boundary)
   return box;
 }
 
-Box box_of(const PackingRequest& request)
+/// The box, when all numbers of the request were checked.
+Box checked_box(const PackingRequest& request)
 {
+  check_numbers(request);
   const std::string boundary = checked_boundary(request.boundary);
   Box box = request.box ? *request.box : made_box(request, boundary);
   box.boundary = boundary;
@@ -195,12 +197,6 @@ std::int64_t count_of(const PackingRequest& request, std::int64_t places, const 
       " grains, which the box holds in " + where + ", got " + std::to_string(request.grains));
   }
   return request.grains > 0 ? request.grains : room;
-}
-
-Box checked_box(const PackingRequest& request)
-{
-  check_numbers(request);
-  return box_of(request);
 }
 }
 

@@ -58,10 +58,10 @@ RandomGrains::RandomGrains(const BoxShape& box, const Radii& radii, std::uint64_
   const SizeClass& last = grid_.classes().back();
   const auto grains = static_cast<double>(last.first + last.grains);
   const Executor executor(threads);
-  Tries tries = { tries_at_least + tries_a_grain * grains };
+  double tries = tries_at_least + tries_a_grain * grains; // that are left, in all attempts
   while (!this->adsorb_all(ranks, tries, executor, progress))
   {
-    if (tries.left <= 0)
+    if (tries <= 0)
     {
       this->give_up();
     }
@@ -71,7 +71,7 @@ RandomGrains::RandomGrains(const BoxShape& box, const Radii& radii, std::uint64_
 
 /// One attempt. Gives false where no place is found any more.
 bool RandomGrains::adsorb_all(
-  Communicator& ranks, Tries& tries, const Executor& executor, Progress& progress)
+  Communicator& ranks, double& tries, const Executor& executor, Progress& progress)
 {
   rounds_.clear();
   own_.found.reset();
@@ -88,7 +88,7 @@ bool RandomGrains::adsorb_all(
 }
 
 /// All grains of a class.
-bool RandomGrains::adsorb(std::size_t size_class, Communicator& ranks, Tries& tries,
+bool RandomGrains::adsorb(std::size_t size_class, Communicator& ranks, double& tries,
   const Executor& executor, PartialProgress& progress)
 {
   const std::vector<SizeClass>& classes = grid_.classes();
@@ -97,11 +97,12 @@ bool RandomGrains::adsorb(std::size_t size_class, Communicator& ranks, Tries& tr
   const auto all = static_cast<double>(classes.back().first + classes.back().grains);
   std::int64_t missing = classes[size_class].grains;
   double staying = 1; // of those that arrive
-  for (tries.idle = 0; missing > 0;)
+  double idle = 0;    // tries since the last grain that stayed
+  while (missing > 0)
   {
     const std::int64_t placed = classes[size_class].first + classes[size_class].grains - missing;
     most_ = std::max(most_, placed);
-    if (tries.left <= 0 || tries.idle > idle_tries)
+    if (tries <= 0 || idle > idle_tries)
     {
       return false;
     }
@@ -109,7 +110,7 @@ bool RandomGrains::adsorb(std::size_t size_class, Communicator& ranks, Tries& tr
     progress.set_part(done, done);
     const double mean = this->arrivals_on_a_line(size_class, missing, staying);
     const std::uint64_t seed = RandomNumbers(seed_, Stream::Places, rounds_begun_++).bits();
-    rounds_.push_back({ size_class, seed, mean });
+    rounds_.emplace_back(grid_, size_class, seed, mean);
     this->follow(own_, executor, progress);
     const std::vector<std::uint64_t> moments = own_.found->moments();
     std::array<std::int64_t, 1> stayed = { static_cast<std::int64_t>(moments.size()) };
@@ -120,8 +121,8 @@ bool RandomGrains::adsorb(std::size_t size_class, Communicator& ranks, Tries& tr
       stayed[0] = missing;
     }
     missing -= stayed[0];
-    tries.left -= mean * lines;
-    tries.idle = stayed[0] > 0 ? 0 : tries.idle + mean * lines;
+    tries -= mean * lines;
+    idle = stayed[0] > 0 ? 0 : idle + mean * lines;
     staying = std::max(static_cast<double>(stayed[0]), 0.5) / (mean * lines);
   }
   return true;
@@ -143,18 +144,11 @@ double RandomGrains::arrivals_on_a_line(
 /// Lets arrive what has not yet, with as wide a margin as it needs.
 void RandomGrains::follow(Part& part, const Executor& executor, Progress& progress) const
 {
-  for (;; part.margin *= 2)
+  while (!part.found || !part.found->follow(rounds_, executor, progress))
   {
-    if (!part.found)
-    {
-      part.found =
-        std::make_unique<Adsorption>(grid_, part.shelves.first, part.shelves.last, part.margin);
-    }
-    if (part.found->follow(rounds_, executor, progress))
-    {
-      return;
-    }
-    part.found.reset();
+    part.margin *= part.found ? 2 : 1;
+    part.found =
+      std::make_unique<Adsorption>(grid_, part.shelves.first, part.shelves.last, part.margin);
   }
 }
 
@@ -167,18 +161,15 @@ void RandomGrains::count(Communicator& ranks)
   rows_.assign(shelves + 1, 0);
   for (std::int64_t shelf = own_.shelves.first; shelf < own_.shelves.last; ++shelf)
   {
-    for (std::size_t level = 0; level < grid_.levels(); ++level)
-    {
-      const std::int64_t end = grid_.first_layer(level, shelf + 1);
-      for (std::int64_t at = grid_.first_layer(level, shelf); at < end; ++at)
+    std::int64_t* const counts = &counts_[(static_cast<std::size_t>(shelf) + 1) * classes];
+    grid_.for_layers(shelf, shelf + 1,
+      [&](std::size_t level, std::int64_t layer)
       {
-        for (const Adsorption::Grain& grain : own_.found->grains(level, at))
+        for (const Adsorption::Grain& grain : own_.found->grains(level, layer))
         {
-          ++counts_[(static_cast<std::size_t>(shelf) + 1) * classes +
-            static_cast<std::size_t>(grain.size_class)];
+          ++counts[grain.size_class];
         }
-      }
-    }
+      });
   }
   ranks.sum(counts_);
   for (std::size_t shelf = 1; shelf <= shelves; ++shelf)
@@ -252,12 +243,10 @@ void RandomGrains::place(const Adsorption& found, std::int64_t shelf, const Grai
     counts_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(shelf) * classes.size());
   std::vector<std::int64_t> counts(before, before + static_cast<std::ptrdiff_t>(classes.size()));
   std::int64_t row = rows_[static_cast<std::size_t>(shelf)] - rows.first;
-  for (std::size_t level = 0; level < grid_.levels(); ++level)
-  {
-    const std::int64_t end = grid_.first_layer(level, shelf + 1);
-    for (std::int64_t at = grid_.first_layer(level, shelf); at < end; ++at)
+  grid_.for_layers(shelf, shelf + 1,
+    [&](std::size_t level, std::int64_t layer)
     {
-      for (const Adsorption::Grain& grain : found.grains(level, at))
+      for (const Adsorption::Grain& grain : found.grains(level, layer))
       {
         const auto i = static_cast<std::size_t>(grain.size_class);
         const std::int64_t number = counts[i]++;
@@ -272,8 +261,7 @@ void RandomGrains::place(const Adsorption& found, std::int64_t shelf, const Grai
         }
         ++row;
       }
-    }
-  }
+    });
 }
 
 std::vector<RowRange> RandomGrains::rows_near(const RowRange& rows, double distance) const

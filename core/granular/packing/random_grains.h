@@ -5,8 +5,8 @@
 #include "granular/common/progress.h"
 #include "granular/packing/adsorption.h"
 #include "granular/packing/adsorption_grid.h"
+#include "granular/packing/grain_rows.h"
 #include "granular/packing/radii.h"
-#include "granular/packing/row_range.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstdint>
@@ -15,14 +15,6 @@
 
 namespace granular
 {
-/// Rows of grains, and where they go.
-struct GrainRows : RowRange
-{
-  double* points = nullptr; ///< three a row
-  double* radius = nullptr;
-  std::int32_t* type = nullptr;
-};
-
 /// Grains at random places: exactly random sequential adsorption, the largest grains first. Grains of a size arrive until
 /// there are as many as asked for; that moment alone depends on the whole box. Then any rows are found from what
 /// arrived near to them.
@@ -53,16 +45,9 @@ private:
     std::unique_ptr<Adsorption> found;
   };
 
-  /// Of an attempt.
-  struct Tries
-  {
-    double left;     ///< in all attempts
-    double idle = 0; ///< since the last grain that stayed
-  };
-
   void follow(Part& part, const Executor& executor, Progress& progress) const;
-  bool adsorb_all(Communicator& ranks, Tries& tries, const Executor& executor, Progress& progress);
-  bool adsorb(std::size_t size_class, Communicator& ranks, Tries& tries, const Executor& executor,
+  bool adsorb_all(Communicator& ranks, double& tries, const Executor& executor, Progress& progress);
+  bool adsorb(std::size_t size_class, Communicator& ranks, double& tries, const Executor& executor,
     PartialProgress& progress);
   double arrivals_on_a_line(
     std::size_t size_class, std::int64_t missing, double staying) const noexcept;

@@ -17,6 +17,12 @@ constexpr std::uint64_t scramble(std::uint64_t value) noexcept
   return value ^ value >> 31;
 }
 
+/// A number in [0, 1) from random bits.
+constexpr double unit_of(std::uint64_t bits) noexcept
+{
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
 /// What numbers are drawn for.
 enum class Stream : std::uint64_t
 {
@@ -40,7 +46,7 @@ public:
   constexpr std::uint64_t bits() noexcept { return scramble(key_ + step * count_++); }
 
   /// Evenly in [0, 1).
-  constexpr double unit() noexcept { return static_cast<double>(this->bits() >> 11) * 0x1p-53; }
+  constexpr double unit() noexcept { return unit_of(this->bits()); }
 
   /// Of the normal distribution with mean 0 and standard deviation 1 (G. Marsaglia's polar method).
   double normal() noexcept

@@ -13,17 +13,6 @@
 
 namespace granular
 {
-namespace
-{
-/// x y z of each row, without anything between.
-bool is_plain(const ArrayView& points) noexcept
-{
-  const auto* first = static_cast<const double*>(points.components[0]);
-  return points.type == ValueType::Float64 && points.step == 3 &&
-    points.components[1] == first + 1 && points.components[2] == first + 2;
-}
-}
-
 AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
   : frame_(frame)
 {
@@ -62,8 +51,8 @@ AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
   }
   crosses_ = crosses_ &&
     std::ranges::any_of(plan_.axes, [](const PositionPlan::Axis& axis) { return axis.shift != 0; });
-  plain_ = frame.points && is_plain(*frame.points) && frame.point_origin == Vector3{} &&
-    frame.coordinates == Coordinates::Absolute;
+  plain_ = frame.points && frame.points->are_triples() && frame.points->step == 3 &&
+    frame.point_origin == Vector3{} && frame.coordinates == Coordinates::Absolute;
 }
 
 const double* AbsolutePositions::load(std::int64_t first, std::size_t count, double* buffer) const

@@ -74,11 +74,6 @@ const ArrayView* ArraysByName::find_longer(std::string_view word, int components
   return found == all->second.end() ? nullptr : *found;
 }
 
-const ArrayView* find_array(const FrameView& frame, std::string_view name, int components)
-{
-  return ArraysByName(frame.arrays).find(name, components);
-}
-
 ValueSource component_of(const ArrayView& array, int component, double factor)
 {
   return { array.type, array.components[static_cast<std::size_t>(component)], array.step, factor };
@@ -114,11 +109,6 @@ std::optional<ValueSource> find_values(const ArraysByName& arrays, std::string_v
     }
   }
   return find_element(arrays, name);
-}
-
-std::optional<ValueSource> find_values(const FrameView& frame, std::string_view name)
-{
-  return find_values(ArraysByName(frame.arrays), name);
 }
 
 std::vector<std::optional<ValueSource>> find_all_values(

@@ -32,6 +32,12 @@ class ArraysByName
 public:
   explicit ArraysByName(const std::vector<ArrayView>& arrays);
 
+  /// Those of a frame, also where a function for arrays by name is given the frame: for one question.
+  ArraysByName(const FrameView& frame) // NOLINT: may convert
+    : ArraysByName(frame.arrays)
+  {
+  }
+
   /// The first array with that name, or else with one that becomes it as a word, and so many components; or null.
   const ArrayView* find(std::string_view name, int components) const;
 
@@ -45,16 +51,10 @@ private:
   Places words_;
 };
 
-/// The same for one question.
-const ArrayView* find_array(const FrameView& frame, std::string_view name, int components);
-
 ValueSource component_of(const ArrayView& array, int component, double factor = 1);
 
 /// What a column of this name is made from: the array of this name, the array that columns of this name become,
 /// its radius or diameter, or for A[3] the third component of A.
-std::optional<ValueSource> find_values(const FrameView& frame, std::string_view name);
-
-/// The same for many.
 std::optional<ValueSource> find_values(const ArraysByName& arrays, std::string_view name);
 
 /// The same for the columns of a dump, which together become arrays (see ColumnSchema). An array that has the very

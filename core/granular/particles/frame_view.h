@@ -6,6 +6,7 @@
 #include "granular/frames/frame.h"
 #include "granular/geometry/positions.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,6 +27,14 @@ struct ArrayView
   bool places = false;                      ///< in local data: x y z of an end of each line
 
   int size() const noexcept { return static_cast<int>(components.size()); }
+
+  /// Whether the numbers of a row are doubles x y z, one behind the other.
+  bool are_triples() const noexcept
+  {
+    const auto* const first = static_cast<const double*>(components[0]);
+    return type == ValueType::Float64 && size() == 3 && components[1] == first + 1 &&
+      components[2] == first + 2;
+  }
 };
 
 /// An array whose rows lie one after the other, `size` values each.
@@ -69,7 +78,11 @@ struct FrameView
   }
 
   /// The first array of that name, or null.
-  const ArrayView* find(std::string_view name) const noexcept;
+  const ArrayView* find(std::string_view name) const noexcept
+  {
+    const auto found = std::ranges::find(arrays, name, &ArrayView::name);
+    return found == arrays.end() ? nullptr : &*found;
+  }
 };
 }
 #endif

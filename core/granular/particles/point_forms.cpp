@@ -32,17 +32,6 @@ void copy_values(const ValueSource& source, Rows rows, To* to)
   }
 }
 
-template <class To>
-void load_as(const ValueSource& source, Rows rows, To* to)
-{
-  using Copy = void (*)(const ValueSource&, Rows, To*);
-  constexpr Copy copies[] = { copy_values<std::int8_t, To>, copy_values<std::uint8_t, To>,
-    copy_values<std::int16_t, To>, copy_values<std::uint16_t, To>, copy_values<std::int32_t, To>,
-    copy_values<std::uint32_t, To>, copy_values<std::int64_t, To>, copy_values<std::uint64_t, To>,
-    copy_values<float, To>, copy_values<double, To> };
-  copies[static_cast<std::size_t>(source.type)](source, rows, to);
-}
-
 /// The sign of what a vector spans with the two that follow an axis of the box.
 int side_of(const ExactVector& vector, const Box& box, std::size_t axis) noexcept
 {
@@ -59,7 +48,7 @@ bool is_below(
   for (std::size_t k = 0; k < 3; ++k)
   {
     offset[k].add(point[k]);
-    offset[k].add(Twofold{ -box.origin[k].hi, -box.origin[k].lo });
+    offset[k].add(-box.origin[k]);
     offset[k].add_product(-number, box.vectors[axis][k]);
   }
   return side_of(offset, box, axis) * orientation < 0;
@@ -81,15 +70,19 @@ bool is_consecutive(Rows rows) noexcept
   return others == 0;
 }
 
-void load_numbers(const ValueSource& source, Rows rows, double* to)
+template <class Number>
+void load_numbers(const ValueSource& source, Rows rows, Number* to)
 {
-  load_as(source, rows, to);
+  using Copy = void (*)(const ValueSource&, Rows, Number*);
+  constexpr Copy copies[] = { copy_values<std::int8_t>, copy_values<std::uint8_t>,
+    copy_values<std::int16_t>, copy_values<std::uint16_t>, copy_values<std::int32_t>,
+    copy_values<std::uint32_t>, copy_values<std::int64_t>, copy_values<std::uint64_t>,
+    copy_values<float>, copy_values<double> };
+  copies[static_cast<std::size_t>(source.type)](source, rows, to);
 }
 
-void load_numbers(const ValueSource& source, Rows rows, std::int64_t* to)
-{
-  load_as(source, rows, to);
-}
+template void load_numbers(const ValueSource& source, Rows rows, double* to);
+template void load_numbers(const ValueSource& source, Rows rows, std::int64_t* to);
 
 bool is_periodic(const Box& box, std::size_t axis) noexcept
 {

@@ -16,9 +16,9 @@ namespace granular
 /// Whether rows are one behind the other; true for none.
 bool is_consecutive(std::span<const std::int64_t> rows) noexcept;
 
-/// The values of some rows as numbers of one type, from any type but texts, not multiplied by the factor.
-void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, double* to);
-void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, std::int64_t* to);
+/// Writes the values of some rows as double or std::int64_t, from any type but texts, not multiplied by the factor.
+template <class Number>
+void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, Number* to);
 
 /// Whether a box is periodic along an axis, by its boundary flags.
 bool is_periodic(const Box& box, std::size_t axis) noexcept;

@@ -21,6 +21,13 @@ void for_each_corner(const Visit& visit)
   }
 }
 
+/// The largest error of the double nearest to a number of such a magnitude.
+double half_ulp_of_double(double magnitude) noexcept
+{
+  const double next = std::nextafter(magnitude, HUGE_VAL);
+  return magnitude < HUGE_VAL ? (next - magnitude) / 2 : 0;
+}
+
 std::string short_text(double value)
 {
   return to_text(value, { 3 });
@@ -100,12 +107,6 @@ RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks)
     sum.add(loss);
   }
   return sum;
-}
-
-double half_ulp_of_double(double magnitude) noexcept
-{
-  const double next = std::nextafter(magnitude, HUGE_VAL);
-  return magnitude < HUGE_VAL ? (next - magnitude) / 2 : 0;
 }
 
 Vector3 rounding_of_points(const Box& box, const Vector3& origin) noexcept

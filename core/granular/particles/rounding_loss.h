@@ -68,9 +68,6 @@ private:
 /// Adds the losses of all ranks, on all. Collective.
 RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks);
 
-/// The largest error of the double nearest to a number of such a magnitude.
-double half_ulp_of_double(double magnitude) noexcept;
-
 /// How far rounding to doubles can move a point of the box, less an origin, along each axis.
 Vector3 rounding_of_points(const Box& box, const Vector3& origin) noexcept;
 

@@ -6,7 +6,7 @@
 #include "granular/parallel/gather.h"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,46 +15,29 @@ namespace granular
 {
 namespace
 {
-/// What a rank knows of a frame.
-struct Known
+bool same_box(const FrameView& a, const FrameView& b)
 {
-  std::int64_t rows = 0;
-  bool has_box = false;
-  FrameHeader header = {};
-  Coordinates coordinates = Coordinates::Absolute;
-  Vector3 point_origin = {};
-};
-
-template <class Archive>
-void pass(Archive& archive, typename Archive::template Passed<Known>& known)
-{
-  archive.number(known.rows);
-  archive.number(known.has_box);
-  pass(archive, known.header);
-  archive.number(known.coordinates);
-  archive.number(known.point_origin);
-}
-
-bool same_box(const Known& a, const Known& b)
-{
-  const auto values = [](const Box& box)
-  {
-    std::vector<double> all;
-    for (const Twofold3& vector : { box.origin, box.vectors[0], box.vectors[1], box.vectors[2] })
-    {
-      for (const Twofold& value : vector)
-      {
-        all.push_back(value.value());
-      }
-    }
-    return all;
-  };
-  const auto same_bits = [](const std::vector<double>& left, const std::vector<double>& right)
-  { return std::memcmp(left.data(), right.data(), left.size() * sizeof(double)) == 0; };
+  const auto bits = [](const Twofold& value)
+  { return std::bit_cast<std::uint64_t>(value.value()); }; // nan is nan
+  const auto same = [&](const Twofold3& left, const Twofold3& right)
+  { return std::ranges::equal(left, right, {}, bits, bits); };
+  const Box& box = a.header.box;
+  const Box& other = b.header.box;
   return a.has_box == b.has_box && a.coordinates == b.coordinates &&
-    a.point_origin == b.point_origin && a.header.box.boundary == b.header.box.boundary &&
-    same_bits(values(a.header.box), values(b.header.box)); // nan is nan
+    a.point_origin == b.point_origin && box.boundary == other.boundary &&
+    same(box.origin, other.origin) && std::ranges::equal(box.vectors, other.vectors, same);
 }
+}
+
+/// What ranks tell each other of a frame.
+template <class Archive>
+static void pass(Archive& archive, typename Archive::template Passed<FrameView>& frame)
+{
+  archive.number(frame.rows);
+  archive.number(frame.has_box);
+  pass(archive, frame.header);
+  archive.number(frame.coordinates);
+  archive.number(frame.point_origin);
 }
 
 void share_header(FrameView& frame, Communicator& ranks)
@@ -62,11 +45,10 @@ void share_header(FrameView& frame, Communicator& ranks)
   do_together(ranks,
     [&]
     {
-      const std::vector<Known> known = gather(ranks,
-        Known{ frame.rows, frame.has_box, frame.header, frame.coordinates, frame.point_origin });
-      const auto less = [](const Known& a, const Known& b)
+      const std::vector<FrameView> known = gather(ranks, frame);
+      const auto less = [](const FrameView& a, const FrameView& b)
       { return std::pair(a.rows > 0, a.has_box) < std::pair(b.rows > 0, b.has_box); };
-      const Known& best = *std::ranges::max_element(known, less);
+      const FrameView& best = *std::ranges::max_element(known, less);
       for (std::size_t i = 0; i < known.size(); ++i)
       {
         if (known[i].rows > 0 && !same_box(known[i], best))

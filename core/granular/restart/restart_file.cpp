@@ -186,14 +186,8 @@ const FileFormat& restart_format() noexcept
 
 bool is_restart_file(const std::string& path) noexcept
 {
-  try
-  {
-    const std::unique_ptr<ByteSource> source = unpack(open_file(path));
-    return looks_like_restart(*source) || (is_process_file(*source) && has_base(path));
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
+  return looks_so(path,
+    [&](const ByteSource& source)
+    { return looks_like_restart(source) || (is_process_file(source) && has_base(path)); });
 }
 }

@@ -2,6 +2,7 @@
 #include "granular/sorting/exchange_rows.h"
 
 #include "granular/common/shares.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,17 +15,6 @@ namespace granular
 {
 namespace
 {
-/// Gives each rank its number: rank r gets the r-th of every rank, by rank.
-std::vector<std::int64_t> swap_numbers(
-  Communicator& ranks, const std::vector<std::int64_t>& numbers)
-{
-  const std::vector<std::int64_t> bytes(numbers.size(), sizeof(std::int64_t));
-  std::vector<std::int64_t> got(numbers.size());
-  ranks.exchange(reinterpret_cast<const char*>(numbers.data()), bytes,
-    reinterpret_cast<char*>(got.data()), bytes);
-  return got;
-}
-
 /// The ids that have these places among the sorted ids of all ranks: for each the smallest id with
 /// more ids up to it than the place has before it. Found by halving, for all places at once.
 std::vector<std::int64_t> find_ids_at(const std::vector<std::int64_t>& places,
@@ -76,13 +66,13 @@ std::vector<std::int64_t> count_parts(
   // the cut at which its part begins is drawn by each rank
   const auto own = static_cast<std::size_t>(ranks.rank());
   std::int64_t left = places[own] - before[own];
-  std::vector<std::int64_t> shares = swap_numbers(ranks, equal);
+  std::vector<std::int64_t> shares = swap_numbers(equal, ranks);
   for (std::int64_t& share : shares)
   {
     share = std::min(share, left);
     left -= share;
   }
-  shares = swap_numbers(ranks, shares);
+  shares = swap_numbers(shares, ranks);
   std::transform(begins.begin(), begins.end(), shares.begin(), begins.begin(), std::plus<>());
 
   std::vector<std::int64_t> counts(begins.begin() + 1, begins.end());
@@ -105,7 +95,7 @@ RowExchange::RowExchange(
   std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks)
   : ranks_(ranks)
   , out_(count_parts(rows, sorted, ranks))
-  , in_(swap_numbers(ranks, out_))
+  , in_(swap_numbers(out_, ranks))
   , rows_(std::accumulate(in_.begin(), in_.end(), std::int64_t{ 0 }))
 {
 }

@@ -89,19 +89,11 @@ Block sort_wide(std::span<const std::int64_t> ids)
   return rows;
 }
 
-/// Of a width that the compiler knows: a copy is one or two moves, not a call.
-template <std::size_t Width>
-void gather(const char* from, std::span<const Row> rows, std::size_t, char* to)
+/// known: the width where the compiler knows it, which makes a copy one or two moves, not a call; else 0.
+template <std::size_t known>
+void gather(const char* from, std::span<const Row> rows, std::size_t any, char* to)
 {
-  for (const Row row : rows)
-  {
-    std::memcpy(to, from + row * Width, Width);
-    to += Width;
-  }
-}
-
-void gather_any(const char* from, std::span<const Row> rows, std::size_t width, char* to)
-{
+  const std::size_t width = known != 0 ? known : any;
   for (const Row row : rows)
   {
     std::memcpy(to, from + row * width, width);
@@ -115,9 +107,8 @@ Gather gather_of(std::size_t width)
 {
   constexpr std::pair<std::size_t, Gather> known[] = { { 4, gather<4> }, { 8, gather<8> },
     { 12, gather<12> }, { 24, gather<24> } };
-  const auto* const found = std::find_if(
-    std::begin(known), std::end(known), [&](const auto& one) { return one.first == width; });
-  return found != std::end(known) ? found->second : gather_any;
+  const auto* const found = std::ranges::find(known, width, &std::pair<std::size_t, Gather>::first);
+  return found != std::end(known) ? found->second : gather<0>;
 }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/sorting/sort_rows.h"
 
+#include "granular/parallel/gather.h"
 #include "granular/sorting/exchange_rows.h"
 #include "granular/sorting/row_order.h"
 #include "granular/sorting/text_dictionary.h"
@@ -9,7 +10,6 @@
 #include <cstring>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,14 +19,11 @@ namespace
 {
 const std::int64_t* find_ids(const DumpFrame& frame, const Block& ids) noexcept
 {
-  for (const DumpArray& array : frame.arrays)
-  {
-    if (array.info.role == ColumnRole::Id && array.info.type == ValueType::Int64)
-    {
-      return static_cast<const std::int64_t*>(array.block.data());
-    }
-  }
-  return static_cast<const std::int64_t*>(ids.data());
+  const auto found = std::ranges::find_if(frame.arrays,
+    [](const DumpArray& array)
+    { return array.info.role == ColumnRole::Id && array.info.type == ValueType::Int64; });
+  return static_cast<const std::int64_t*>(
+    found == frame.arrays.end() ? ids.data() : found->block.data());
 }
 
 std::size_t row_width(const DumpArray& array) noexcept
@@ -54,19 +51,11 @@ void for_each_block(DumpFrame& frame, const Call& call)
   }
 }
 
-/// What each rank tells of itself before the rows move.
-struct Share
-{
-  std::int64_t rows;
-  std::int64_t has_ids;
-  std::int64_t point_width; ///< bytes; 0 where there are no rows
-};
-
-/// The rows of all ranks.
+/// What is known of the rows of a rank, or of all, before they move.
 struct Survey
 {
   std::int64_t rows = 0;
-  std::size_t point_width = 0;
+  std::size_t point_width = 0; ///< bytes; 0 where there are no rows
   bool has_ids = false;
 };
 
@@ -84,26 +73,21 @@ std::string shape_of(const DumpFrame& frame)
 
 Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
 {
-  const std::int64_t width =
-    frame.rows > 0 ? static_cast<std::int64_t>(frame.points.bytes()) / frame.rows : 0;
-  const Share own = { frame.rows, has_ids, width };
-  const std::vector<std::string> all = ranks.all_gather(
-    std::string(reinterpret_cast<const char*>(&own), sizeof own) + shape_of(frame));
-
+  const std::vector<std::string> shapes = ranks.all_gather(shape_of(frame));
+  if (std::ranges::any_of(shapes, [&](const std::string& one) { return one != shapes.front(); }))
+  {
+    throw Error("expected the same arrays on all ranks, got others");
+  }
+  const std::size_t width =
+    frame.rows > 0 ? frame.points.bytes() / static_cast<std::size_t>(frame.rows) : 0;
   Survey sum;
   bool lacking = false; // a rank with rows has no ids
-  for (const std::string& one : all)
+  for (const Survey& own : gather(ranks, Survey{ frame.rows, width, has_ids }))
   {
-    if (one.compare(sizeof(Share), one.npos, all.front(), sizeof(Share)) != 0)
-    {
-      throw Error("expected the same arrays on all ranks, got others");
-    }
-    Share share;
-    std::memcpy(&share, one.data(), sizeof share);
-    sum.rows += share.rows;
-    sum.point_width = std::max(sum.point_width, static_cast<std::size_t>(share.point_width));
-    sum.has_ids = sum.has_ids || share.has_ids;
-    lacking = lacking || (share.rows > 0 && !share.has_ids);
+    sum.rows += own.rows;
+    sum.point_width = std::max(sum.point_width, own.point_width);
+    sum.has_ids = sum.has_ids || own.has_ids;
+    lacking = lacking || (own.rows > 0 && !own.has_ids);
   }
   sum.has_ids = sum.has_ids && !lacking;
   return sum;
@@ -112,25 +96,18 @@ Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
 /// Gives a column of texts the words of all ranks, in the order in which they first occur.
 void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows, const Where& where)
 {
-  std::string joined;
+  TextDictionary words;
+  for (const std::vector<std::string>& of_rank : gather(ranks, array.words))
+  {
+    for (const std::string& word : of_rank)
+    {
+      words.index(word, where);
+    }
+  }
+  std::vector<std::int32_t> renumbered; // by the index of a word here
   for (const std::string& word : array.words)
   {
-    joined += word + '\n'; // which no word holds
-  }
-  const std::vector<std::string> all = ranks.all_gather(joined);
-  TextDictionary words;
-  std::vector<std::int32_t> renumbered; // by the index of a word here
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
-  {
-    std::string_view rest = all[rank];
-    for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1))
-    {
-      const std::int32_t index = words.index(rest.substr(0, end), where);
-      if (static_cast<int>(rank) == ranks.rank())
-      {
-        renumbered.push_back(index);
-      }
-    }
+    renumbered.push_back(words.index(word, where));
   }
   array.words = words.take();
   auto* const indices = static_cast<std::int32_t*>(array.block.data());

@@ -101,9 +101,9 @@ public:
   /// The values behind a line "KEYWORD tuples type".
   VtkArray values(std::int64_t components) const;
 
-  /// The values that come next.
-  void read(const VtkArray& array, std::vector<double>& numbers);
-  void read(const VtkArray& array, std::vector<std::int64_t>& numbers); ///< whole ones
+  /// The values that come next: doubles, or whole ones as std::int64_t.
+  template <class T>
+  void read(const VtkArray& array, std::vector<T>& numbers);
   void skip(const VtkArray& array);
 
   /// Reads them, or passes over them.
@@ -151,8 +151,6 @@ private:
   [[noreturn]] void fail_count(std::int64_t done, std::int64_t count);
   [[noreturn]] void fail_number(std::int64_t done, std::int64_t count, const char* kind);
   void check_claim(const VtkArray& array);
-  template <class T>
-  void read_numbers(const VtkArray& array, std::vector<T>& numbers);
   template <class T>
   void read_text(T* numbers, std::int64_t first, std::int64_t last, std::int64_t count);
   template <class T>

@@ -45,18 +45,8 @@ Words count_words(const char* first, const char* last) noexcept
 }
 }
 
-void LegacyVtk::read(const VtkArray& array, std::vector<double>& numbers)
-{
-  this->read_numbers(array, numbers);
-}
-
-void LegacyVtk::read(const VtkArray& array, std::vector<std::int64_t>& numbers)
-{
-  this->read_numbers(array, numbers);
-}
-
 template <class T>
-void LegacyVtk::read_numbers(const VtkArray& array, std::vector<T>& numbers)
+void LegacyVtk::read(const VtkArray& array, std::vector<T>& numbers)
 {
   constexpr std::int64_t step = std::int64_t{ 1 } << 16; // a multiple of 8: whole bytes of bits
   if (!is_number(array.type))
@@ -206,6 +196,9 @@ void LegacyVtk::read_binary(
     }
   }
 }
+
+template void LegacyVtk::read(const VtkArray&, std::vector<double>&);
+template void LegacyVtk::read(const VtkArray&, std::vector<std::int64_t>&);
 
 void LegacyVtk::skip(const VtkArray& array)
 {

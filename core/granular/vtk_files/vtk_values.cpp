@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace granular
 {
@@ -22,37 +24,21 @@ U load_big(const char* bytes) noexcept
   return value;
 }
 
-bool convert(double from, std::int64_t& to) noexcept
+/// False: the number is not whole or does not fit.
+template <class From, class To>
+bool convert(From from, To& to) noexcept
 {
-  constexpr double limit = 9223372036854775808.0; // 2^63
-  const bool whole = from >= -limit && from < limit && from == std::trunc(from);
-  to = whole ? static_cast<std::int64_t>(from) : 0;
-  return whole;
-}
-
-bool convert(std::uint64_t from, std::int64_t& to) noexcept
-{
-  to = static_cast<std::int64_t>(from);
-  return to >= 0;
-}
-
-template <class From>
-bool convert(From from, double& to) noexcept
-{
-  to = static_cast<double>(from);
-  return true;
-}
-
-template <class From>
-bool convert(From from, std::int64_t& to) noexcept
-{
-  to = from;
-  return true;
-}
-
-bool convert(float from, std::int64_t& to) noexcept
-{
-  return convert(double{ from }, to);
+  bool fits = true;
+  if constexpr (std::is_same_v<To, std::int64_t> && std::is_floating_point_v<From>)
+  {
+    fits = from >= -0x1p63 && from < 0x1p63 && from == std::trunc(from);
+  }
+  else if constexpr (std::is_same_v<To, std::int64_t>)
+  {
+    fits = std::in_range<std::int64_t>(from);
+  }
+  to = fits ? static_cast<To>(from) : 0;
+  return fits;
 }
 
 /// Returns how many could be converted.
@@ -116,15 +102,13 @@ std::int64_t bytes_of(ValueType type) noexcept
   return is_number(type) ? static_cast<std::int64_t>(size_of(type)) : 0;
 }
 
+template <class T>
 std::int64_t load_numbers(
-  ValueType type, const char* bytes, std::int64_t count, double* numbers) noexcept
+  ValueType type, const char* bytes, std::int64_t count, T* numbers) noexcept
 {
-  return loads<double>[static_cast<std::size_t>(type)](bytes, numbers, count);
+  return loads<T>[static_cast<std::size_t>(type)](bytes, numbers, count);
 }
 
-std::int64_t load_numbers(
-  ValueType type, const char* bytes, std::int64_t count, std::int64_t* numbers) noexcept
-{
-  return loads<std::int64_t>[static_cast<std::size_t>(type)](bytes, numbers, count);
-}
+template std::int64_t load_numbers(ValueType, const char*, std::int64_t, double*) noexcept;
+template std::int64_t load_numbers(ValueType, const char*, std::int64_t, std::int64_t*) noexcept;
 }

@@ -29,10 +29,10 @@ std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcep
 /// the most significant byte first, `long` has eight bytes, vtkIdType four.
 std::int64_t bytes_of(ValueType type) noexcept;
 
-/// Converts binary numbers. Returns how many could be: all, or those before the first that is not whole or does not fit.
+/// Converts binary numbers to double or std::int64_t. Returns how many could be: all, or those before the first that is
+/// not whole or does not fit.
+template <class T>
 std::int64_t load_numbers(
-  ValueType type, const char* bytes, std::int64_t count, double* numbers) noexcept;
-std::int64_t load_numbers(
-  ValueType type, const char* bytes, std::int64_t count, std::int64_t* numbers) noexcept;
+  ValueType type, const char* bytes, std::int64_t count, T* numbers) noexcept;
 }
 #endif

@@ -58,10 +58,9 @@ public:
   /// The element, a DataArray.
   VtkXmlArray array() const;
 
-  /// The values of an array, which must be so many.
-  void read(const VtkXmlArray& array, std::int64_t count, std::vector<double>& numbers) const;
-  void read(const VtkXmlArray& array, std::int64_t count,
-    std::vector<std::int64_t>& numbers) const; ///< whole ones
+  /// The values of an array, which must be so many: doubles, or whole ones as std::int64_t.
+  template <class T>
+  void read(const VtkXmlArray& array, std::int64_t count, std::vector<T>& numbers) const;
 
   /// The place of a value of an array, for messages.
   Where where_of(const VtkXmlArray& array, std::int64_t number) const;
@@ -72,8 +71,6 @@ public:
 private:
   void read_file_tag();
   void read_appended();
-  template <class T>
-  void read_numbers(const VtkXmlArray& array, std::int64_t count, std::vector<T>& numbers) const;
   template <class T>
   void read_text(const VtkXmlArray& array, std::int64_t count, std::vector<T>& numbers) const;
   template <class T>

@@ -156,31 +156,16 @@ std::string unpack_blocks(EncodedBytes& from, const Blocks& blocks, std::uint64_
 }
 }
 
-void VtkXml::read(const VtkXmlArray& array, std::int64_t count, std::vector<double>& numbers) const
-{
-  this->read_numbers(array, count, numbers);
-}
-
-void VtkXml::read(
-  const VtkXmlArray& array, std::int64_t count, std::vector<std::int64_t>& numbers) const
-{
-  this->read_numbers(array, count, numbers);
-}
-
 template <class T>
-void VtkXml::read_numbers(
-  const VtkXmlArray& array, std::int64_t count, std::vector<T>& numbers) const
+void VtkXml::read(const VtkXmlArray& array, std::int64_t count, std::vector<T>& numbers) const
 {
   numbers.clear();
-  if (array.form == VtkXmlArray::Form::Ascii)
-  {
-    this->read_text(array, count, numbers);
-  }
-  else
-  {
-    this->read_binary(array, count, numbers);
-  }
+  const bool is_text = array.form == VtkXmlArray::Form::Ascii;
+  is_text ? this->read_text(array, count, numbers) : this->read_binary(array, count, numbers);
 }
+
+template void VtkXml::read(const VtkXmlArray&, std::int64_t, std::vector<double>&) const;
+template void VtkXml::read(const VtkXmlArray&, std::int64_t, std::vector<std::int64_t>&) const;
 
 template <class T>
 void VtkXml::read_text(const VtkXmlArray& array, std::int64_t count, std::vector<T>& numbers) const

@@ -174,8 +174,7 @@ public:
 private:
   bool next_frame();
   std::shared_ptr<const FrameKind> kind(const BinaryHeader& header);
-  ColumnSchema schema(const BinaryHeader& header);
-  std::vector<std::string> unnamed(const BinaryHeader& header);
+  ColumnSchema schema(const std::vector<std::string>& names, const BinaryHeader& header);
 
   const ByteSource& source_;
   FileIndex& index_;
@@ -183,8 +182,6 @@ private:
   int layout_ = 0;
   std::shared_ptr<const FrameKind> kind_; ///< of the frame before: most have the same
   std::vector<std::string> columns_;      ///< as its header names them
-  bool named_ = true;                     ///< the columns of the frame at hand: see FrameKind
-  bool guessed_ = false;
 };
 
 void Indexer::run()
@@ -258,19 +255,21 @@ std::shared_ptr<const FrameKind> Indexer::kind(const BinaryHeader& header)
     kind_->schema.columns().size() == static_cast<std::size_t>(header.size_one);
   if (!same)
   {
-    ColumnSchema schema = this->schema(header);
-    kind_ = index_.kinds->share({ std::move(schema), index_.units, layout_, named_, guessed_ });
+    const bool unnamed = header.columns.empty();
+    index_.unnamed = index_.unnamed || unnamed;
+    const UnnamedColumns columns = unnamed
+      ? name_columns(static_cast<std::size_t>(header.size_one), index_.column_names)
+      : UnnamedColumns{ header.columns };
+    ColumnSchema schema = this->schema(columns.names, header);
+    kind_ = index_.kinds->share(
+      { std::move(schema), index_.units, layout_, columns.named, columns.guessed });
     columns_ = header.columns;
   }
   return kind_;
 }
 
-ColumnSchema Indexer::schema(const BinaryHeader& header)
+ColumnSchema Indexer::schema(const std::vector<std::string>& names, const BinaryHeader& header)
 {
-  named_ = true;
-  guessed_ = false;
-  const std::vector<std::string> names =
-    header.columns.empty() ? this->unnamed(header) : header.columns;
   if (names.size() != static_cast<std::size_t>(header.size_one))
   {
     const bool of_user = header.columns.empty();
@@ -294,16 +293,6 @@ ColumnSchema Indexer::schema(const BinaryHeader& header)
   }
   schema.set_types(integers);
   return schema;
-}
-
-std::vector<std::string> Indexer::unnamed(const BinaryHeader& header)
-{
-  index_.unnamed = true;
-  UnnamedColumns columns =
-    name_columns(static_cast<std::size_t>(header.size_one), index_.column_names);
-  named_ = columns.named;
-  guessed_ = columns.guessed;
-  return std::move(columns.names);
 }
 }
 

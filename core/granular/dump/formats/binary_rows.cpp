@@ -200,8 +200,7 @@ BinaryRows::Run BinaryRows::find_run(std::int64_t row) const
       runs_.push_back(run);
     }
   }
-  const auto behind_it = std::upper_bound(runs_.begin(), runs_.end(), row,
-    [](std::int64_t wanted, const Run& of) { return wanted < of.first; });
+  const auto behind_it = std::ranges::upper_bound(runs_, row, {}, &Run::first);
   return behind_it[-1];
 }
 
@@ -224,15 +223,11 @@ void BinaryReader::fill(std::int64_t end)
 {
   const std::int64_t from = offset_ + static_cast<std::int64_t>(filled_);
   const auto bytes = static_cast<std::size_t>(std::max(std::int64_t{ 0 }, end - from));
-  if (capacity_ < filled_ + bytes)
+  if (buffer_.size() < filled_ + bytes)
   {
-    const std::size_t capacity = filled_ + bytes + std::size_t{ 2 * run_counts };
-    std::unique_ptr<char[]> larger(new char[capacity]); // not value-initialised
-    std::copy_n(buffer_.get(), filled_, larger.get());
-    buffer_ = std::move(larger);
-    capacity_ = capacity;
+    buffer_.resize(filled_ + bytes + std::size_t{ 2 * run_counts });
   }
-  const std::size_t got = of_.source_.read(from, buffer_.get() + filled_, bytes);
+  const std::size_t got = of_.source_.read(from, buffer_.data() + filled_, bytes);
   if (got < bytes)
   {
     of_.fail_short(from + static_cast<std::int64_t>(got));
@@ -264,7 +259,7 @@ void BinaryReader::open(std::int64_t first, std::int64_t last)
       this->fill(std::min(at + more, of_.entry_.end));
       more *= 2;
     }
-    run = of_.next_run(run, of_.load_values(buffer_.get() + (at - offset_)));
+    run = of_.next_run(run, of_.load_values(buffer_.data() + (at - offset_)));
     if (run.rows > 0)
     {
       runs_.push_back(run);
@@ -283,7 +278,7 @@ std::int64_t BinaryReader::decode(std::span<ColumnSink> sinks, std::int64_t max_
   {
     const BinaryRows::Run& run = runs_[run_];
     const std::int64_t rows = std::min(max_rows - done, run.rows - in_run_);
-    const char* const from = buffer_.get() + (run.offset + in_run_ * of_.row_bytes_ - offset_);
+    const char* const from = buffer_.data() + (run.offset + in_run_ * of_.row_bytes_ - offset_);
     this->convert(sinks, from, static_cast<std::size_t>(rows));
     done += rows;
     decoded_ += rows;
@@ -348,6 +343,6 @@ Misfit BinaryReader::misfit_of(const ColumnSink& sink, const char* value) const
   char word[32];
   const auto end = std::to_chars(word, word + sizeof word, number).ptr;
   return { RowStatus::NotExact, static_cast<int>(sink.column), std::string(word, end),
-    offset_ + (value - buffer_.get()) };
+    offset_ + (value - buffer_.data()) };
 }
 }

@@ -77,8 +77,7 @@ private:
   std::vector<BinaryRows::Run> runs_; ///< their rows, all or some of them
   std::size_t run_ = 0;               ///< of the next row
   std::int64_t in_run_ = 0;           ///< its rows that were decoded
-  std::unique_ptr<char[]> buffer_;
-  std::size_t capacity_ = 0;
+  PaddedBuffer buffer_;
   std::size_t filled_ = 0;
   std::int64_t offset_ = 0; ///< of buffer_ in the content
   std::int64_t rows_ = 0;

@@ -49,14 +49,7 @@ bool is_dump(std::string_view first_bytes)
 
 bool is_dump_file(const std::string& path) noexcept
 {
-  try
-  {
-    return is_dump(first_bytes_of(*unpack(open_file(path))));
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
+  return looks_so(path, [](const ByteSource& source) { return is_dump(first_bytes_of(source)); });
 }
 
 bool dump_fits(const ByteSource& source, const FileIndex& index)

@@ -3,6 +3,7 @@
 
 #include "granular/dump/formats/frame_rows.h"
 #include "granular/dump/formats/text_header.h"
+#include "granular/dump/formats/unnamed_columns.h"
 #include "granular/numbers/number.h"
 
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace
 /// Columns of old dumps of LAMMPS that do not name them: dump atom, scaled, with or without images.
 std::vector<std::string> unnamed_columns(std::size_t words, const Where& where)
 {
-  constexpr const char* names[] = { "id", "type", "xs", "ys", "zs", "ix", "iy", "iz" };
   if (words != 0 && words != 5 && words != 8)
   {
     throw FormatError(
@@ -26,7 +26,7 @@ std::vector<std::string> unnamed_columns(std::size_t words, const Where& where)
         std::to_string(words),
       where);
   }
-  return { names, names + (words == 8 ? 8 : 5) };
+  return name_columns(words == 8 ? 8 : 5, {}).names;
 }
 
 bool is_number(std::string_view word)

@@ -81,31 +81,18 @@ void TextHeader::restart(const std::string& units)
   header_.counted = rows_of_ == RowsOf::Particles ? "ATOMS" : "";
   header_.units = units;
   next_line_ = 0;
-  opened_ = false;
-  has_timestep_ = false;
-  has_rows_ = false;
-  has_box_ = false;
-  has_columns_ = false;
+  opened_ = has_timestep_ = has_rows_ = has_box_ = has_columns_ = false;
 }
 
 bool TextHeader::read()
 {
   std::string_view line;
-  while (this->next(line))
+  bool more = true;
+  while (more && !has_columns_ && this->next(line))
   {
-    if (has_words(line) && line != byte_order_mark)
-    {
-      if (!this->read_section(line))
-      {
-        return false;
-      }
-      if (has_columns_)
-      {
-        return true;
-      }
-    }
+    more = !has_words(line) || line == byte_order_mark || this->read_section(line);
   }
-  return false;
+  return has_columns_;
 }
 
 /// A section, or what lies between frames, from its first line on. False at the end of the text.
@@ -368,11 +355,7 @@ bool TextHeader::parse_columns(Words words)
 {
   this->require(has_timestep_, "TIMESTEP");
   this->require(has_rows_, "NUMBER OF ATOMS");
-  const bool particles = header_.counted == "ATOMS";
-  if (particles)
-  {
-    this->require(has_box_, "BOX BOUNDS");
-  }
+  this->require(has_box_ || header_.counted != "ATOMS", "BOX BOUNDS");
   header_.has_box = has_box_;
   header_.box = has_box_ ? std::move(header_.box) : Box();
   const auto section = split_words(header_.counted).size();

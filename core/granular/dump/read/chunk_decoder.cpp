@@ -72,7 +72,7 @@ ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
 }
 
 void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t room,
-  const Where& where, DecodedChunk& chunk, std::vector<ValueRange>& ranges)
+  const Where& where, DecodedChunk& chunk, FrameRanges& ranges)
 {
   row_ = chunk.row;
   std::vector<TextDictionary> words(layout_.texts.size());
@@ -98,7 +98,8 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
     const std::size_t kept = this->finish_batch(count, number + chunk.rows, chunk.loss);
     if (request_.ranges)
     {
-      this->measure(kept, ranges);
+      // while the rows are in the cache: whoever shows them asks for their range
+      ranges.add(layout_.frame, row_, kept, request_.single_precision);
     }
     row_ += static_cast<std::int64_t>(kept);
     chunk.rows += got;
@@ -108,43 +109,6 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
   for (TextDictionary& dictionary : words)
   {
     chunk.words.push_back(dictionary.take());
-  }
-}
-
-/// Takes rows into account while they are in the cache: whoever shows them asks for their range.
-void ChunkDecoder::measure(std::size_t count, std::vector<ValueRange>& ranges) const
-{
-  const auto row = static_cast<std::size_t>(row_);
-  const auto add = [&](ValueRange& range, const auto* values, std::size_t components)
-  { range.add(values + row * components, count); };
-  const DumpFrame& frame = layout_.frame;
-  if (layout_.points && request_.single_precision)
-  {
-    add(ranges[0], static_cast<const float*>(frame.points.data()), 3);
-  }
-  else if (layout_.points)
-  {
-    add(ranges[0], static_cast<const double*>(frame.points.data()), 3);
-  }
-  for (std::size_t i = 0; i < frame.arrays.size(); ++i)
-  {
-    const DumpArray& array = frame.arrays[i];
-    const std::size_t components = array.info.columns.size();
-    const void* const data = array.block.data();
-    switch (array.info.type)
-    {
-      case ValueType::Int32:
-        add(ranges[i + 1], static_cast<const std::int32_t*>(data), components);
-        break;
-      case ValueType::Int64:
-        add(ranges[i + 1], static_cast<const std::int64_t*>(data), components);
-        break;
-      case ValueType::Float64:
-        add(ranges[i + 1], static_cast<const double*>(data), components);
-        break;
-      default: // texts have no range
-        break;
-    }
   }
 }
 

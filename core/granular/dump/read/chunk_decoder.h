@@ -4,6 +4,7 @@
 
 #include "granular/dump/formats/frame_rows.h"
 #include "granular/dump/read/frame_layout.h"
+#include "granular/particles/frame_ranges.h"
 #include "granular/particles/rounding_loss.h"
 
 #include <cstddef>
@@ -36,14 +37,13 @@ public:
   ChunkDecoder(FrameLayout& layout, const DumpRequest& request);
 
   /// Decodes the rows that a reader has opened, at most room of them, to chunk.row on. number is that
-  /// of the first of them in the frame. ranges, as FrameLayout::ranges makes them, take the rows that stay
+  /// of the first of them in the frame. ranges, of the frame of the layout, take the rows that stay
   /// into account. Throws Misfits; LimitError at where.
   void decode(RowReader& reader, std::int64_t number, std::int64_t room, const Where& where,
-    DecodedChunk& chunk, std::vector<ValueRange>& ranges);
+    DecodedChunk& chunk, FrameRanges& ranges);
 
 private:
   void aim();
-  void measure(std::size_t count, std::vector<ValueRange>& ranges) const;
   std::size_t finish_batch(std::size_t count, std::int64_t number, RoundingLoss& loss);
   void copy_batch(std::size_t count);
   void narrow(std::size_t count, RoundingLoss& loss);

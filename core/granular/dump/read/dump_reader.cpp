@@ -111,7 +111,7 @@ ColumnSchema join_schemas(const FramePieces& pieces, const DumpRequest& request)
       where_of(pieces.front()));
   }
   ColumnSchema schema = request.schema.value_or(first.kind->schema);
-  std::set<int> texts;
+  std::vector<ColumnSchema::TypeChange> texts;
   for (std::size_t i = 1; i < pieces.size(); ++i)
   {
     const FrameEntry& entry = pieces[i].entry;
@@ -130,16 +130,11 @@ ColumnSchema join_schemas(const FramePieces& pieces, const DumpRequest& request)
     {
       if (other.columns()[column].type == ValueType::Text && !schema.columns().at(column).known)
       {
-        texts.insert(static_cast<int>(column));
+        texts.push_back({ static_cast<int>(column), ValueType::Text });
       }
     }
   }
-  std::vector<ColumnSchema::TypeChange> changes;
-  std::ranges::transform(texts, std::back_inserter(changes),
-    [](int column) {
-      return ColumnSchema::TypeChange{ column, ValueType::Text };
-    });
-  schema.set_types(changes);
+  schema.set_types(texts);
   return schema;
 }
 
@@ -211,22 +206,10 @@ void check_counts(Communicator& ranks, const FramePieces& pieces, DumpPart& part
   ranks.sum(part.counts);
   for (std::size_t piece = 0; piece < part.counts.size(); ++piece)
   {
-    const std::int64_t rows = pieces[piece].entry.rows;
-    if (part.counts[piece] != rows)
+    if (part.counts[piece] != pieces[piece].entry.rows)
     {
-      throw FormatError("expected " + std::to_string(rows) + " rows, got " +
-          (part.counts[piece] > rows ? "more" : std::to_string(part.counts[piece])),
-        where_of(pieces[piece]));
+      fail_count(pieces[piece], part.counts[piece]);
     }
-  }
-}
-
-void forget_ranges(DumpFrame& frame)
-{
-  frame.points_range = ValueRange();
-  for (DumpArray& array : frame.arrays)
-  {
-    array.range = ValueRange();
   }
 }
 
@@ -240,7 +223,7 @@ void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const
   const Executor executor(request.threads);
   if (ranks.size() > 1 || request.pieces > 1)
   {
-    forget_ranges(part.frame); // the rows will be others
+    FrameRanges(part.frame).store(part.frame); // of none: the rows will be others
   }
   if (ranks.size() > 1)
   {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 namespace granular
 {
@@ -19,6 +20,14 @@ std::int64_t rows_of(const FramePieces& pieces) noexcept
 {
   return std::accumulate(pieces.begin(), pieces.end(), std::int64_t{ 0 },
     [](std::int64_t rows, const FramePiece& piece) { return rows + piece.entry.rows; });
+}
+
+void fail_count(const FramePiece& piece, std::int64_t rows)
+{
+  const std::int64_t expected = piece.entry.rows;
+  throw FormatError("expected " + std::to_string(expected) + " rows, got " +
+      (rows > expected ? "more" : std::to_string(rows)),
+    where_of(piece));
 }
 
 std::vector<PieceRows> cut_frame(const FramePieces& pieces, int part, int parts)

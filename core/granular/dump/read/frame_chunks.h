@@ -15,6 +15,9 @@ using FramePieces = std::vector<FramePiece>;
 
 std::int64_t rows_of(const FramePieces& pieces) noexcept;
 
+/// Throws the FormatError for a piece that has other rows than its header promises.
+[[noreturn]] void fail_count(const FramePiece& piece, std::int64_t rows);
+
 /// Part of a piece: the rows that begin in [first, last) of its extent.
 struct PieceRows
 {

@@ -157,7 +157,7 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   for (Worker& worker : workers)
   {
     worker.decoder = std::make_unique<ChunkDecoder>(*layout_, request_);
-    worker.ranges = layout_->ranges();
+    worker.ranges.emplace(layout_->frame);
   }
   try
   {
@@ -249,7 +249,7 @@ void FrameDecoder::decode_rows(
   try
   {
     worker.decoder->decode(*worker.reader, first_number_ + number,
-      std::min(layout_->rows - number, most), where_, decoded, worker.ranges);
+      std::min(layout_->rows - number, most), where_, decoded, *worker.ranges);
   }
   catch (Misfits& misfits)
   {
@@ -298,19 +298,12 @@ void FrameDecoder::decode_aside(std::size_t piece, std::int64_t number, std::int
 
 void FrameDecoder::join_ranges(const std::vector<Worker>& workers)
 {
-  std::vector<ValueRange> all = layout_->ranges();
+  FrameRanges all(layout_->frame);
   for (const Worker& worker : workers)
   {
-    for (std::size_t i = 0; i < all.size(); ++i)
-    {
-      all[i].add(worker.ranges[i]);
-    }
+    all.add(*worker.ranges);
   }
-  layout_->frame.points_range = std::move(all[0]);
-  for (std::size_t i = 1; i < all.size(); ++i)
-  {
-    layout_->frame.arrays[i - 1].range = std::move(all[i]);
-  }
+  all.store(layout_->frame);
 }
 
 void FrameDecoder::count_rows()
@@ -338,9 +331,7 @@ void FrameDecoder::check_counts(std::size_t pieces) const
     const bool all = range.first == 0 && range.last == extent_of(entry);
     if (count > entry.rows || (all && count < entry.rows))
     {
-      throw FormatError("expected " + std::to_string(entry.rows) + " rows, got " +
-          (count > entry.rows ? "more" : std::to_string(count)),
-        where_of(pieces_[range.piece]));
+      fail_count(pieces_[range.piece], count);
     }
   }
 }

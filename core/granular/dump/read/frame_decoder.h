@@ -57,7 +57,7 @@ private:
     std::unique_ptr<RowReader> reader;
     std::unique_ptr<FrameLayout> aside; ///< memory of its own, where filters leave few rows
     std::unique_ptr<ChunkDecoder> decoder;
-    std::vector<ValueRange> ranges; ///< of the rows it has decoded
+    std::optional<FrameRanges> ranges; ///< of the rows it has decoded
   };
 
   std::shared_ptr<const Source> open(std::size_t piece);

@@ -185,17 +185,6 @@ void FrameLayout::lay_filters(const Where& where, Notices& notices)
   }
 }
 
-std::vector<ValueRange> FrameLayout::ranges() const
-{
-  std::vector<ValueRange> ranges = { ValueRange(3) };
-  for (const DumpArray& array : frame.arrays)
-  {
-    const bool text = array.info.type == ValueType::Text;
-    ranges.emplace_back(text ? 0 : array.info.columns.size());
-  }
-  return ranges;
-}
-
 bool FrameLayout::rounds() const noexcept
 {
   return points &&

@@ -72,9 +72,6 @@ public:
   /// and no array of the frame.
   DumpFrame take(std::int64_t rows, Block& ids);
 
-  /// For the range of the points, and of each array; texts have none.
-  std::vector<ValueRange> ranges() const;
-
   /// Whether points are not the numbers of the file.
   bool rounds() const noexcept;
 

@@ -12,12 +12,6 @@ namespace
 {
 using Kind = ColumnSource::Kind;
 
-bool is_coordinate(ColumnRole role) noexcept
-{
-  return role == ColumnRole::Position || role == ColumnRole::ScaledPosition ||
-    role == ColumnRole::UnwrappedPosition || role == ColumnRole::ScaledUnwrappedPosition;
-}
-
 /// Arrays with several columns, as far as the table has them; without values.
 std::vector<ArrayView> known_arrays()
 {
@@ -42,7 +36,7 @@ std::optional<ColumnSource> find_source(
   const ColumnRole role = known ? known->role : ColumnRole::Other;
   ColumnSource source{ name };
   source.whole = known && (known->type == ValueType::Int32 || known->type == ValueType::Int64);
-  if (is_coordinate(role))
+  if (is_position(role))
   {
     source.kind = Kind::Coordinate;
     source.role = role;
@@ -151,6 +145,13 @@ void replace_text(ColumnSource& column, const FrameView& frame)
 }
 }
 
+std::vector<std::string> ColumnPlan::names() const
+{
+  std::vector<std::string> names(columns.size());
+  std::ranges::transform(columns, names.begin(), &ColumnSource::name);
+  return names;
+}
+
 bool is_blank_frame(const FrameView& frame) noexcept
 {
   return frame.rows == 0 && frame.arrays.empty();
@@ -168,29 +169,40 @@ void fail_missing(const FrameView& frame, const std::string& name)
     { .column = name });
 }
 
-std::vector<std::string> default_columns(const FrameView& frame, Notices& notices, bool binary)
+std::vector<std::string> kept_columns(
+  const FrameView& frame, const std::function<bool(std::size_t column)>& is_there, Notices& notices)
 {
   std::vector<std::string> names;
   std::string left_out;
-  std::string without;
-  const ArraysByName arrays(frame.arrays);
-  const std::vector<std::optional<ValueSource>> values = find_all_values(arrays, frame.columns);
   for (std::size_t i = 0; i < frame.columns.size(); ++i)
   {
-    const std::string& name = frame.columns[i];
-    if (find_source(frame, name, values[i]) && !is_lost(name, values[i], binary))
+    if (is_there(i))
     {
-      names.push_back(name);
+      names.push_back(frame.columns[i]);
     }
     else
     {
-      left_out += " " + name;
+      left_out += " " + frame.columns[i];
     }
   }
   if (!left_out.empty())
   {
     notices.push_back({ {}, "columns of the input without an array are left out:" + left_out });
   }
+  return names;
+}
+
+std::vector<std::string> default_columns(const FrameView& frame, Notices& notices, bool binary)
+{
+  std::string without;
+  const ArraysByName arrays(frame.arrays);
+  const std::vector<std::optional<ValueSource>> values = find_all_values(arrays, frame.columns);
+  const auto is_there = [&](std::size_t i)
+  {
+    const std::string& name = frame.columns[i];
+    return find_source(frame, name, values[i]) && !is_lost(name, values[i], binary);
+  };
+  std::vector<std::string> names = kept_columns(frame, is_there, notices);
   if (frame.columns.empty())
   {
     names = { "id", "type", "x", "y", "z" };

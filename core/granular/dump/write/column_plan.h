@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct ColumnPlan
   std::optional<ValueSource> ids = {}; ///< integers to sort by, if there are any
   bool binary = false; ///< whole numbers may be loaded as doubles, where each is one
   bool wraps = false;  ///< image counts are found by wrapping unwrapped points into the box
+
+  std::vector<std::string> names() const;
 };
 
 /// Filters may give a frame without rows no arrays: such a one can have any columns.
@@ -51,6 +54,11 @@ bool is_blank_frame(const FrameView& frame) noexcept;
 
 /// Throws the Error that there is nothing to make a column from.
 [[noreturn]] void fail_missing(const FrameView& frame, const std::string& name);
+
+/// The columns of the file that a frame comes from for which is_there says that there is something to make them from; with
+/// a notice of those that are left out.
+std::vector<std::string> kept_columns(const FrameView& frame,
+  const std::function<bool(std::size_t column)>& is_there, Notices& notices);
 
 /// The columns of a frame that are written where nobody says which: those of the file that it comes from, as
 /// far as there is something to make them from, with a notice of those that are left out, and then the

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/dump_writer.h"
 
-#include "granular/dump/write/file_appender.h"
 #include "granular/dump/write/frame_plan.h"
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/sorted_rows.h"
@@ -24,11 +23,6 @@ std::int64_t sum_of(std::span<const std::int64_t> counts) noexcept
   return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
 
-std::size_t total_size(std::span<const std::string_view> parts) noexcept
-{
-  return std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 },
-    [](std::size_t sum, std::string_view part) { return sum + part.size(); });
-}
 }
 
 /// The file, as this rank knows it.
@@ -65,7 +59,7 @@ struct DumpWriter::File
 
   void append_rows(std::string_view header, RowBatches& rows, Progress& progress);
   void gather_rows(std::string_view header, RowBatches& rows, Progress& progress);
-  void write_at(std::int64_t offset, std::span<const std::string_view> parts);
+  void write_rest(std::int64_t offset, RowBatches& rows, Progress& progress);
   void share_binary(std::string_view header, RowBatches& rows, const ChunkLengths& chunks,
     std::span<const std::int64_t> kept_rows, Progress& progress);
   void share_text(std::string_view header, RowBatches& rows, Progress& progress);
@@ -86,9 +80,7 @@ void DumpWriter::File::append_rows(std::string_view header, RowBatches& rows, Pr
   appender->append(header);
   if (appender->is_plain())
   {
-    rows.pass_on([&](std::size_t bytes) { return appender->take(bytes); },
-      [&](std::int64_t offset, std::string_view bytes) { appender->write_at(offset, bytes); },
-      progress);
+    rows.write_to(*appender, progress);
     return;
   }
   while (rows.next(progress))
@@ -161,12 +153,16 @@ void DumpWriter::File::gather_rows(std::string_view header, RowBatches& rows, Pr
   agree(ranks, failure);
 }
 
-void DumpWriter::File::write_at(std::int64_t offset, std::span<const std::string_view> parts)
+/// Writes the rows that are left one behind the other.
+void DumpWriter::File::write_rest(std::int64_t offset, RowBatches& rows, Progress& progress)
 {
-  for (const std::string_view part : parts)
+  while (rows.next(progress))
   {
-    shared->write_at(offset, part);
-    offset += static_cast<std::int64_t>(part.size());
+    for (const std::string_view part : rows.bytes())
+    {
+      shared->write_at(offset, part);
+      offset += static_cast<std::int64_t>(part.size());
+    }
   }
 }
 
@@ -179,14 +175,8 @@ void DumpWriter::File::share_binary(std::string_view header, RowBatches& rows,
     shared->write_at(shared_size, header);
   }
   const auto before = kept_rows.first(static_cast<std::size_t>(ranks.rank()));
-  std::int64_t offset = begin + chunks.offset(sum_of(before));
   SharedProgress shared_progress(progress, ranks);
-  while (rows.next(shared_progress))
-  {
-    const std::vector<std::string_view> bytes = rows.bytes();
-    this->write_at(offset, bytes);
-    offset += static_cast<std::int64_t>(total_size(bytes));
-  }
+  this->write_rest(begin + chunks.offset(sum_of(before)), rows, shared_progress);
   shared_size = begin + chunks.offset(sum_of(kept_rows));
 }
 
@@ -200,12 +190,13 @@ std::size_t DumpWriter::File::count_text(RowBatches& rows, std::string& kept, Pr
   while (rows.next(progress))
   {
     const std::vector<std::string_view> batch = rows.bytes();
-    const std::size_t size = total_size(batch);
+    std::size_t size = 0;
+    std::ranges::for_each(batch, [&](std::string_view part) { size += part.size(); });
     bytes += size;
     keeps = keeps && kept.size() + size <= most_kept;
     if (keeps)
     {
-      std::for_each(batch.begin(), batch.end(), [&](std::string_view part) { kept += part; });
+      std::ranges::for_each(batch, [&](std::string_view part) { kept += part; });
       not_kept = rows.place();
     }
   }
@@ -228,17 +219,11 @@ void DumpWriter::File::share_text(std::string_view header, RowBatches& rows, Pro
   {
     shared->write_at(shared_size, header);
   }
-  std::int64_t offset =
+  const std::int64_t offset =
     begin + sum_of(std::span(counts).first(static_cast<std::size_t>(ranks.rank())));
   shared->write_at(offset, kept);
-  offset += static_cast<std::int64_t>(kept.size());
   part.set_part(0.5, 1);
-  while (rows.next(part))
-  {
-    const std::vector<std::string_view> bytes = rows.bytes();
-    this->write_at(offset, bytes);
-    offset += static_cast<std::int64_t>(total_size(bytes));
-  }
+  this->write_rest(offset + static_cast<std::int64_t>(kept.size()), rows, part);
   shared_size = begin + sum_of(counts);
 }
 
@@ -319,7 +304,7 @@ void DumpWriter::write_rows(
   const std::int64_t before = sum_of(std::span(plan.kept_rows).first(rank));
   const bool own = file_->way == File::Way::Own;
   const RoundingLimit limit(plan.header.box, plan.smallest_radius);
-  const std::vector<std::string> names = plan.names();
+  const std::vector<std::string> names = plan.columns.names();
   plan.header.rows = own ? plan.kept_rows[rank] : plan.header.rows;
   const ChunkLengths chunks = format_.binary
     ? ChunkLengths(plan.header.rows, static_cast<std::int64_t>(names.size()), format_.chunk_values)
@@ -327,9 +312,9 @@ void DumpWriter::write_rows(
   const PrintLoss printed(plan.columns, view, plan.header.box, format_, limit);
   const std::string header =
     encode_header(plan.header, names, format_, chunks, file_->first, printed.of_box());
-  const RowEncoder encoder(
-    view, plan.columns, plan.header.box, format_, chunks, before, own ? 0 : before, printed);
-  RowBatches rows(encoder, view, names.size(), file_->executor);
+  const RowEncoder encoder{ view, plan.columns, plan.header.box, format_, chunks, before,
+    own ? 0 : before, printed };
+  RowBatches rows(encoder, file_->executor);
 
   agree(ranks_, nullptr); // or the first rank would wait for the rows of one that has failed
   switch (file_->way)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/encode_header.h"
 
+#include "granular/common/archive.h"
+#include "granular/common/words.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -63,39 +66,25 @@ private:
 void add_box(TextHeaderWriter& writer, const Box& box)
 {
   const BoxBounds b = box.bounds();
-  if (box.general)
+  const double tilts[] = { b.xy, b.xz, b.yz };
+  const char* const form = box.general ? "abc origin " : box.tilted ? "xy xz yz " : "";
+  writer.line(std::string("ITEM: BOX BOUNDS ") + form + box.boundary);
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    writer.line("ITEM: BOX BOUNDS abc origin " + box.boundary);
-    for (std::size_t i = 0; i < 3; ++i)
+    const Twofold3& edge = box.vectors[i];
+    if (box.general)
     {
-      const Twofold3& edge = box.vectors[i];
       writer.numbers({ edge[0].value(), edge[1].value(), edge[2].value(), box.origin[i].value() });
     }
+    else if (box.tilted)
+    {
+      writer.numbers({ b.lo[i], b.hi[i], tilts[i] });
+    }
+    else
+    {
+      writer.numbers({ b.lo[i], b.hi[i] });
+    }
   }
-  else if (box.tilted)
-  {
-    writer.line("ITEM: BOX BOUNDS xy xz yz " + box.boundary);
-    writer.numbers({ b.lo[0], b.hi[0], b.xy });
-    writer.numbers({ b.lo[1], b.hi[1], b.xz });
-    writer.numbers({ b.lo[2], b.hi[2], b.yz });
-  }
-  else
-  {
-    writer.line("ITEM: BOX BOUNDS " + box.boundary);
-    writer.numbers({ b.lo[0], b.hi[0] });
-    writer.numbers({ b.lo[1], b.hi[1] });
-    writer.numbers({ b.lo[2], b.hi[2] });
-  }
-}
-
-std::string join(const std::vector<std::string>& names)
-{
-  std::string text;
-  for (const std::string& name : names)
-  {
-    text += (text.empty() ? "" : " ") + name;
-  }
-  return text;
 }
 
 /// With 16 digits, as LAMMPS prints it, and with 17 where that number would be another.
@@ -129,24 +118,16 @@ std::string encode_text(const FrameHeader& header, const std::vector<std::string
   {
     add_box(writer, header.box);
   }
-  writer.line(
-    "ITEM: " + header.counted + " " + join(columns) + (has_trailing_blanks(format) ? " " : ""));
+  writer.line("ITEM: " + header.counted + " " + join_words(columns) +
+    (has_trailing_blanks(format) ? " " : ""));
   return writer.take();
 }
 
-struct BinaryHeaderWriter
+struct BinaryHeaderWriter : ArchiveWriter
 {
-  std::string bytes = {};
-
-  template <class Value>
-  void number(Value value)
-  {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-
   void int32(std::int64_t value) { this->number(static_cast<std::int32_t>(value)); }
 
-  void text(std::string_view value)
+  void counted_text(std::string_view value)
   {
     if (static_cast<std::int64_t>(value.size()) > most_int32)
     {
@@ -223,13 +204,13 @@ std::string encode_binary(const FrameHeader& header, const std::vector<std::stri
   writer.int32(static_cast<std::int64_t>(columns.size()));
   if (magic)
   {
-    writer.text(format.units && first ? header.units : "");
+    writer.counted_text(format.units && first ? header.units : "");
     writer.number(static_cast<char>(format.time ? 1 : 0));
     if (format.time)
     {
       writer.number(header.time.value_or(0));
     }
-    writer.text(join(columns));
+    writer.counted_text(join_words(columns));
   }
   writer.int32(chunks.chunks());
   if (header.rows == 0)

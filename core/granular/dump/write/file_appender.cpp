@@ -47,11 +47,6 @@ std::int64_t FileAppender::take(std::size_t bytes) noexcept
   return std::exchange(size_, size_ + static_cast<std::int64_t>(bytes));
 }
 
-void FileAppender::end_part()
-{
-  this->compress_pending(true);
-}
-
 void FileAppender::write(std::span<const std::string_view> pieces)
 {
   std::vector<std::int64_t> offsets;

@@ -34,7 +34,7 @@ public:
   void write_at(std::int64_t offset, std::string_view bytes) { file_.write_at(offset, bytes); }
 
   /// Ends a part of the file, so that a reader may begin behind it: a new member begins there.
-  void end_part();
+  void end_part() { this->compress_pending(true); }
 
   std::int64_t size() const noexcept
   {

@@ -201,11 +201,7 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat&
     return lead.columns;
   }
   Notices told; // by the rank that leads
-  std::vector<std::string> names;
-  for (const ColumnSource& column : lead.columns.columns)
-  {
-    names.push_back(column.name);
-  }
+  const std::vector<std::string> names = lead.columns.names();
   ColumnPlan plan = plan_names(names, frame, format, told);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
@@ -231,16 +227,6 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat&
   }
   return plan;
 }
-}
-
-std::vector<std::string> FramePlan::names() const
-{
-  std::vector<std::string> names;
-  for (const ColumnSource& column : columns.columns)
-  {
-    names.push_back(column.name);
-  }
-  return names;
 }
 
 FramePlan plan_frame(

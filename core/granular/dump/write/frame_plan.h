@@ -21,8 +21,6 @@ struct FramePlan
   ColumnPlan columns;                  ///< of this rank
   std::vector<std::int64_t> kept_rows; ///< of each rank, duplicates left out
   double smallest_radius = HUGE_VAL;   ///< of all ranks; HUGE_VAL: none, or nothing is rounded
-
-  std::vector<std::string> names() const;
 };
 
 /// Agrees on header and columns: they are those of the first rank that has rows, and a rank without rows need

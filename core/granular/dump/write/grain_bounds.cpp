@@ -47,12 +47,8 @@ Box GrainBounds::box() const
 GrainBounds bounds_of_grains(const FrameView& frame)
 {
   std::vector<std::string> names = { "x", "y", "z" };
-  const auto is_there = [&](const char* name)
-  {
-    const ArrayView* array = frame.find(name);
-    return array && array->size() == 1 && array->type != ValueType::Text;
-  };
-  const bool spheres = is_there("radius") || is_there("diameter");
+  const std::optional<ValueSource> radii = find_values(frame, "radius");
+  const bool spheres = radii && radii->type != ValueType::Text;
   if (spheres)
   {
     names.emplace_back("radius");

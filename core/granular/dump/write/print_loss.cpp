@@ -20,11 +20,6 @@ bool is_exact(NumberFormat format) noexcept
   return format.digits == 0 || format.digits >= most_digits;
 }
 
-bool is_place(ColumnRole role) noexcept
-{
-  return role >= ColumnRole::Position && role <= ColumnRole::ScaledUnwrappedPosition;
-}
-
 /// The box that is read from numbers in that format.
 Box printed_box(const Box& box, NumberFormat format)
 {
@@ -132,7 +127,7 @@ PrintLoss::PrintLoss(const ColumnPlan& plan, const FrameView& frame, const Box& 
   const Vector3 of_sums = is_sum ? rounding_of_points(box, {}) : Vector3{};
   for (std::size_t i = 0; i < plan.columns.size(); ++i)
   {
-    if (is_place(plan.columns[i].role))
+    if (is_position(plan.columns[i].role))
     {
       this->add_place(plan.columns[i], i, of_box, of_sums, limit);
     }

@@ -20,14 +20,12 @@ std::int64_t count_kept(const FrameView& frame, std::int64_t first, std::int64_t
         [](unsigned char ghost) { return (ghost & FrameView::duplicate_row) == 0; });
 }
 
-RowBatches::RowBatches(
-  const RowEncoder& encoder, const FrameView& frame, std::size_t columns, const Executor& executor)
+RowBatches::RowBatches(const RowEncoder& encoder, const Executor& executor)
   : encoder_(encoder)
-  , frame_(frame)
   , executor_(executor)
   , chunk_rows_(std::max<std::int64_t>(
-      16, chunk_values / static_cast<std::int64_t>(std::max<std::size_t>(1, columns))))
-  , chunks_(static_cast<std::size_t>((frame.rows + chunk_rows_ - 1) / chunk_rows_))
+      16, chunk_values / std::max<std::int64_t>(1, std::ssize(encoder.plan.columns))))
+  , chunks_(static_cast<std::size_t>((encoder.frame.rows + chunk_rows_ - 1) / chunk_rows_))
 {
   const auto threads = static_cast<std::size_t>(executor.threads());
   const std::size_t in_batch =
@@ -35,6 +33,7 @@ RowBatches::RowBatches(
   buffers_.resize(in_batch);
   values_.resize(executor.workers(in_batch));
   losses_.resize(values_.size());
+  const FrameView& frame = encoder.frame;
   std::int64_t kept = 0;
   for (std::size_t chunk = 0; frame.ghosts && chunk < chunks_; ++chunk)
   {
@@ -48,12 +47,11 @@ void RowBatches::encode(std::size_t chunk, std::size_t worker, RowBuffer& to)
 {
   const std::int64_t first = static_cast<std::int64_t>(chunk) * chunk_rows_;
   to.clear();
-  encoder_.encode(first, std::min(chunk_rows_, frame_.rows - first),
+  encoder_.encode(first, std::min(chunk_rows_, encoder_.frame.rows - first),
     kept_before_.empty() ? first : kept_before_[chunk], values_[worker], to, losses_[worker]);
 }
 
-void RowBatches::pass_on(const std::function<std::int64_t(std::size_t bytes)>& take,
-  const std::function<void(std::int64_t offset, std::string_view bytes)>& put, Progress& progress)
+void RowBatches::write_to(FileAppender& file, Progress& progress)
 {
   Turns turns;
   executor_.parallel_for(
@@ -63,9 +61,9 @@ void RowBatches::pass_on(const std::function<std::int64_t(std::size_t bytes)>& t
       Turn turn(turns, chunk);
       this->encode(chunk, worker, buffers_[worker]);
       turn.wait();
-      const std::int64_t offset = take(buffers_[worker].size());
+      const std::int64_t offset = file.take(buffers_[worker].size());
       turn.pass();
-      put(offset, buffers_[worker].bytes());
+      file.write_at(offset, buffers_[worker].bytes());
     },
     progress);
 }

@@ -3,12 +3,12 @@
 #define granular_dump_write_row_batches_h
 
 #include "granular/common/progress.h"
+#include "granular/dump/write/file_appender.h"
 #include "granular/dump/write/row_encoder.h"
 #include "granular/parallel/executor.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -19,14 +19,10 @@ namespace granular
 class RowBatches
 {
 public:
-  RowBatches(const RowEncoder& encoder, const FrameView& frame, std::size_t columns,
-    const Executor& executor);
+  RowBatches(const RowEncoder& encoder, const Executor& executor);
 
-  /// Encodes all rows, and hands each chunk over as soon as that is done: take(bytes) is called for one chunk after
-  /// the other, in their order, and says where it goes, put(offset, bytes) as it comes, by any thread.
-  void pass_on(const std::function<std::int64_t(std::size_t bytes)>& take,
-    const std::function<void(std::int64_t offset, std::string_view bytes)>& put,
-    Progress& progress);
+  /// Encodes all rows, and writes each chunk to a plain file as soon as that is done, by any thread, all in their order.
+  void write_to(FileAppender& file, Progress& progress);
 
   /// Encodes the next batch. False behind the last. Reports how far the rows are.
   bool next(Progress& progress);
@@ -45,7 +41,6 @@ private:
   void encode(std::size_t chunk, std::size_t worker, RowBuffer& to);
 
   const RowEncoder& encoder_;
-  const FrameView& frame_;
   const Executor& executor_;
   std::int64_t chunk_rows_;
   std::size_t chunks_;

@@ -111,33 +111,18 @@ void pack_rows(
   }
 }
 
-RowEncoder::RowEncoder(const FrameView& frame, const ColumnPlan& plan, const Box& box,
-  const DumpFormat& format, const ChunkLengths& chunks, std::int64_t first_row,
-  std::int64_t first_in_file, PrintLoss print_loss)
-  : frame_(frame)
-  , plan_(plan)
-  , box_(box)
-  , format_(format)
-  , chunks_(chunks)
-  , first_row_(first_row)
-  , first_in_file_(first_in_file)
-  , trailing_blank_(has_trailing_blanks(format))
-  , print_loss_(std::move(print_loss))
-{
-}
-
 void RowEncoder::encode(std::int64_t first, std::int64_t count, std::int64_t kept_before,
   RowValues& values, RowBuffer& to, RoundingLoss& loss) const
 {
-  std::int64_t row = first_row_ + kept_before;
+  std::int64_t row = first_row + kept_before;
   constexpr auto most = static_cast<std::int64_t>(RowValues::most_rows);
   for (std::int64_t done = 0; done < count; done += most)
   {
-    values.load(frame_, plan_, box_, first + done, std::min(most, count - done), row);
-    print_loss_.measure(values, loss);
-    if (format_.binary)
+    values.load(frame, plan, box, first + done, std::min(most, count - done), row);
+    print_loss.measure(values, loss);
+    if (format.binary)
     {
-      this->encode_binary(values, row - first_row_ + first_in_file_, to);
+      this->encode_binary(values, row - first_row + first_in_file, to);
     }
     else
     {
@@ -154,43 +139,44 @@ void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
   {
     if (columns[i].type == ValueType::Text)
     {
-      check_texts(columns[i], plan_.columns[i].name);
+      check_texts(columns[i], plan.columns[i].name);
     }
   }
+  const bool trailing_blank = has_trailing_blanks(format);
   char* const begin = to.room(most_text_bytes(columns, values.rows()));
   char* end = begin;
   for (std::size_t row = 0; row < values.rows(); ++row)
   {
     for (const Column& column : columns)
     {
-      end = print_value(end, column, row, format_.numbers);
+      end = print_value(end, column, row, format.numbers);
       *end++ = ' ';
     }
-    end -= trailing_blank_ ? 0 : 1;
+    end -= trailing_blank ? 0 : 1;
     *end++ = '\n';
   }
   to.add(static_cast<std::size_t>(end - begin));
 }
 
 /// Rows up to the next chunk at a time, whose length stands before it.
-void RowEncoder::encode_binary(const RowValues& values, std::int64_t first_row, RowBuffer& to) const
+void RowEncoder::encode_binary(const RowValues& values, std::int64_t in_file, RowBuffer& to) const
 {
   const std::size_t row_bytes = values.columns().size() * sizeof(double);
   const auto rows = static_cast<std::int64_t>(values.rows());
   for (std::int64_t done = 0; done < rows;)
   {
-    const std::int64_t row = first_row + done;
-    if (chunks_.begins(row))
+    const std::int64_t row = in_file + done;
+    if (chunks.begins(row))
     {
-      const std::int32_t length = chunks_.values(row);
+      const std::int32_t length = chunks.values(row);
       std::memcpy(to.room(sizeof length), &length, sizeof length);
       to.add(sizeof length);
     }
-    const std::int64_t left = chunks_.rows_per_chunk() - row % chunks_.rows_per_chunk();
+    const std::int64_t left = chunks.rows_per_chunk() - row % chunks.rows_per_chunk();
     const std::int64_t part = std::min(left, rows - done);
     const std::size_t bytes = static_cast<std::size_t>(part) * row_bytes;
-    pack_rows(values, plan_, static_cast<std::size_t>(done), static_cast<std::size_t>(part),
-      to.room(bytes));
+    pack_rows(
+      values, plan, static_cast<std::size_t>(done), static_cast<std::size_t>(part), to.room(bytes));
     to.add(bytes);
     done += part;
   }

@@ -19,14 +19,16 @@ void pack_rows(
   const RowValues& values, const ColumnPlan& plan, std::size_t first, std::size_t count, char* to);
 
 /// Packs rows of a frame as the bytes of a dump. Several threads may use one at the same time.
-class RowEncoder
+struct RowEncoder
 {
-public:
-  /// All that is referred to must stay. first_row: which of all rows of the frame is the first of this
-  /// process; first_in_file: which of those in its file.
-  RowEncoder(const FrameView& frame, const ColumnPlan& plan, const Box& box,
-    const DumpFormat& format, const ChunkLengths& chunks, std::int64_t first_row,
-    std::int64_t first_in_file, PrintLoss print_loss = {});
+  const FrameView& frame;
+  const ColumnPlan& plan;
+  const Box& box;
+  const DumpFormat& format;
+  const ChunkLengths& chunks;
+  std::int64_t first_row;     ///< which of all rows of the frame is the first of this process
+  std::int64_t first_in_file; ///< which of those in its file
+  PrintLoss print_loss = {};
 
   /// Adds the rows of the view from first to first + count, duplicates left out; kept_before is the number of
   /// those before that are not. loss: what becomes of the rows when they are read. Throws LimitError, FormatError.
@@ -35,17 +37,7 @@ public:
 
 private:
   void encode_text(const RowValues& values, RowBuffer& to) const;
-  void encode_binary(const RowValues& values, std::int64_t first_row, RowBuffer& to) const;
-
-  const FrameView& frame_;
-  const ColumnPlan& plan_;
-  const Box& box_;
-  const DumpFormat& format_;
-  const ChunkLengths& chunks_;
-  std::int64_t first_row_;
-  std::int64_t first_in_file_;
-  bool trailing_blank_;
-  PrintLoss print_loss_;
+  void encode_binary(const RowValues& values, std::int64_t in_file, RowBuffer& to) const;
 };
 }
 #endif

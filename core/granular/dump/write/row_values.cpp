@@ -119,37 +119,33 @@ bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box&
 
 void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)
 {
-  const Rows rows = std::span(kept_).first(rows_);
   own_.resize(rows_);
   points_.resize(frame.points ? 3 * rows_ : 0);
   images_.assign(3 * rows_, 0);
+  const auto load_axis = [&](const ValueSource& source, std::size_t axis, std::vector<double>& to)
+  {
+    load_numbers(source, std::span(kept_).first(rows_), own_.data());
+    for (std::size_t i = 0; i < rows_; ++i)
+    {
+      to[3 * i + axis] = own_[i];
+    }
+  };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (frame.points)
     {
-      load_numbers(point_values(frame, axis), rows, own_.data());
-      for (std::size_t i = 0; i < rows_; ++i)
-      {
-        points_[3 * i + axis] = own_[i];
-      }
+      load_axis(point_values(frame, axis), axis, points_);
     }
     if (plan.images[axis])
     {
-      load_numbers(*plan.images[axis], rows, own_.data());
-      for (std::size_t i = 0; i < rows_; ++i)
-      {
-        images_[3 * i + axis] = own_[i];
-      }
+      load_axis(*plan.images[axis], axis, images_);
     }
   }
   if (plan.wraps)
   {
     count_crossings(box_, points_, images_);
   }
-  for (std::vector<double>& form : forms_)
-  {
-    form.clear();
-  }
+  std::ranges::for_each(forms_, [](std::vector<double>& form) { form.clear(); });
 }
 
 std::span<const double> RowValues::coordinates(const FrameView& frame, ColumnRole role)

@@ -74,26 +74,10 @@ private:
 
 std::vector<std::string> default_table_columns(const FrameView& frame, Notices& notices)
 {
-  std::vector<std::string> names;
-  std::string left_out;
   const TableColumns columns(frame);
-  for (const std::string& name : frame.columns)
-  {
-    if (columns.find(name) || is_blank_frame(frame))
-    {
-      names.push_back(name);
-    }
-    else
-    {
-      left_out += " " + name;
-    }
-  }
-  if (!left_out.empty())
-  {
-    Notice notice;
-    notice.text = "columns of the input without an array are left out:" + left_out;
-    notices.push_back(notice);
-  }
+  const auto is_there = [&](std::size_t i)
+  { return columns.find(frame.columns[i]) || is_blank_frame(frame); };
+  std::vector<std::string> names = kept_columns(frame, is_there, notices);
   std::set<std::string> taken(names.begin(), names.end());
   for (const ArrayView& array : frame.arrays)
   {

@@ -113,13 +113,9 @@ void CheckTimes(const std::vector<double>& times, granular::Communicator& ranks)
   const std::string_view own(
     reinterpret_cast<const char*>(times.data()), times.size() * sizeof(double));
   const std::vector<std::string> all = ranks.all_gather(own);
-  granular::do_together(ranks,
-    [&]
-    {
-      if (all.front() != own)
-      {
-        throw granular::Error("expected the time steps of the first process, got others");
-      }
-    });
+  if (all.front() != own)
+  {
+    throw granular::Error("expected the time steps of the first process, got others");
+  }
 }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/dump/particles.h"
 
+#include "private/request/expect_data.h"
+
 #include "granular/common/error.h"
 #include "granular/particles/shared_header.h"
 
-#include "vtkCompositeDataSet.h"
 #include "vtkPointSet.h"
 
 #include <algorithm>
@@ -16,20 +17,9 @@ namespace vtkGranularPrivate
 {
 Particles::Particles(vtkDataObject* input, granular::Communicator& ranks)
 {
-  granular::do_together(ranks,
-    [&]
-    {
-      auto* points = vtkPointSet::SafeDownCast(input);
-      if (!points)
-      {
-        throw granular::UnsupportedError("expected a vtkPointSet of particles, got " +
-          (input ? std::string("a ") + input->GetClassName() : "nothing") +
-          (vtkCompositeDataSet::SafeDownCast(input) ? ": the filter MergeBlocks makes one of it"
-                                                    : ""));
-      }
-      granular::Notices ofArrays; // that have no use here
-      this->Input.emplace(points, ofArrays);
-    });
+  auto* points = ExpectData<vtkPointSet>(input, "a vtkPointSet of particles");
+  granular::Notices ofArrays; // that have no use here
+  this->Input.emplace(points, ofArrays);
   granular::share_header(this->Input->View, ranks);
 }
 
@@ -78,16 +68,12 @@ bool AreTogether(const PieceRequest& wanted, bool mayDiffer, granular::Communica
   std::int64_t all = IsOwn(wanted, ranks) ? 1 : 0;
   ranks.sum({ &all, 1 });
   const bool together = all == ranks.size();
-  granular::do_together(ranks,
-    [&]
-    {
-      if (all != 0 && !together && !mayDiffer)
-      {
-        throw granular::UnsupportedError(
-          "expected that all processes ask for their own piece, or none, got " +
-          std::to_string(all) + " of " + std::to_string(ranks.size()));
-      }
-    });
+  if (all != 0 && !together && !mayDiffer)
+  {
+    throw granular::UnsupportedError(
+      "expected that all processes ask for their own piece, or none, got " + std::to_string(all) +
+      " of " + std::to_string(ranks.size()));
+  }
   return together;
 }
 }

@@ -4,6 +4,7 @@
 #include "private/dump/dump_input.h"
 
 #include "granular/common/error.h"
+#include "granular/parallel/gather.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -253,19 +253,11 @@ void Read(vtkDataObject* data, vtkFieldData* fields, bool runs, EulerInput& to)
 
 std::vector<CellRun> GatherRuns(const std::vector<CellRun>& own, granular::Communicator& ranks)
 {
-  const std::vector<std::string> all =
-    ranks.all_gather({ reinterpret_cast<const char*>(own.data()), own.size() * sizeof(CellRun) });
   std::vector<CellRun> runs;
-  granular::do_together(ranks,
-    [&]
-    {
-      for (const std::string& bytes : all)
-      {
-        const std::size_t count = bytes.size() / sizeof(CellRun);
-        runs.resize(runs.size() + count);
-        std::memcpy(runs.data() + runs.size() - count, bytes.data(), bytes.size());
-      }
-    });
+  for (const std::vector<CellRun>& part : granular::gather(ranks, own))
+  {
+    runs.insert(runs.end(), part.begin(), part.end());
+  }
   return runs;
 }
 
@@ -357,14 +349,10 @@ granular::EulerCells GatherCells(EulerInput&& own, granular::Communicator& ranks
 {
   const std::vector<CellRun> runs = GatherRuns(own.Runs, ranks);
   granular::EulerCells cells = granular::gather_cells(own.Cells, ranks);
-  granular::do_together(ranks,
-    [&]
-    {
-      if (ranks.rank() == 0 && !runs.empty())
-      {
-        Sort(cells, runs);
-      }
-    });
+  if (ranks.rank() == 0 && !runs.empty())
+  {
+    Sort(cells, runs);
+  }
   return cells;
 }
 }

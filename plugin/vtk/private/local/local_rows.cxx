@@ -6,8 +6,8 @@
 
 #include "granular/common/error.h"
 #include "granular/local/ids.h"
-#include "granular/local/particle_values.h"
 #include "granular/parallel/executor.h"
+#include "granular/particles/point_forms.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
@@ -192,7 +192,7 @@ std::vector<double> LocalRows::ReadNumbers(
   {
     return numbers;
   }
-  const granular::ArrayView view = this->See(name);
+  const granular::ValueSource source = granular::component_of(this->See(name), 0);
   std::array<std::int64_t, 1024> tuples; // at once, which stay in the cache
   for (std::size_t first = 0; first < numbers.size(); first += tuples.size())
   {
@@ -202,7 +202,7 @@ std::vector<double> LocalRows::ReadNumbers(
       tuples[i] =
         this->TupleOf(rows.empty() ? static_cast<std::int64_t>(first + i) : rows[first + i]);
     }
-    granular::gather_numbers(view, 0, { tuples.data(), some }, numbers.data() + first);
+    granular::load_numbers(source, { tuples.data(), some }, numbers.data() + first);
   }
   return numbers;
 }

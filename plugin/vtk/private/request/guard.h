@@ -3,6 +3,7 @@
 #define vtkGranularGuard_h
 
 #include "granular/common/progress.h"
+#include "granular/parallel/communicator.h"
 
 #include <exception>
 #include <string>
@@ -41,14 +42,15 @@ Outcome ReportException(
   vtkAlgorithm* self, vtkInformationVector* outputs, const std::exception_ptr& exception);
 
 /**
- * The one place where exceptions end: runs the task of a request.
+ * The one place where exceptions end: runs the task of a request, which all ranks have, and which may be collective. If a rank
+ * throws, all report the same error: the ranks agree at the end of the task, too.
  */
-template <typename Task>
-Outcome Guard(vtkAlgorithm* self, vtkInformationVector* outputs, Task&& task)
+template <typename Ranks, typename Task>
+Outcome Guard(vtkAlgorithm* self, Ranks& ranks, vtkInformationVector* outputs, Task&& task)
 {
   try
   {
-    task();
+    granular::do_together(ranks.Get(), task);
     SetErrorCode(self, 0);
     return Outcome::Done;
   }

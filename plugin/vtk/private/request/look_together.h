@@ -14,19 +14,15 @@ namespace vtkGranularPrivate
 template <typename Look, typename Take>
 void LookTogether(granular::Communicator& ranks, const Look& look, const Take& take)
 {
-  granular::ArchiveWriter packer;
   granular::do_together(ranks,
     [&]
     {
+      granular::ArchiveWriter packer;
       if (ranks.rank() == 0)
       {
         look(packer);
       }
-    });
-  ranks.broadcast(packer.bytes, 0);
-  granular::do_together(ranks,
-    [&]
-    {
+      ranks.broadcast(packer.bytes, 0);
       granular::ArchiveReader unpacker{ packer.bytes };
       take(unpacker);
     });

@@ -30,26 +30,22 @@ std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) 
   return { first(this->Piece), first(this->Piece + 1) };
 }
 
-bool AskTogether(const PieceRequest& wanted, const std::string& form, granular::Communicator& ranks)
+bool AskTogether(granular::Communicator& ranks, const PieceRequest& wanted,
+  const std::set<std::string>& arrays, const std::function<void(granular::ArchiveWriter&)>& form)
 {
-  granular::ArchiveWriter packer;
-  granular::do_together(ranks,
-    [&]
-    {
-      int piece = wanted.Piece;
-      int pieces = wanted.Pieces;
-      packer.number(piece);
-      packer.number(pieces);
-      packer.bytes += form;
-    });
-  constexpr std::size_t piece = sizeof wanted.Piece;
-  int rank = 0;
-  bool together = wanted.Pieces == ranks.size();
-  for (const std::string& other : ranks.all_gather(packer.bytes))
+  granular::ArchiveWriter same;
+  same.number(wanted.Pieces);
+  form(same);
+  for (const std::string& name : arrays)
   {
-    together = together && std::memcmp(other.data(), &rank, piece) == 0 &&
-      other.compare(piece, other.npos, packer.bytes, piece) == 0;
-    ++rank;
+    same.text(name);
+  }
+  const std::string own = std::to_string(wanted.Piece) + ' ' + same.bytes;
+  bool together = wanted.Pieces == ranks.size();
+  const std::vector<std::string> all = ranks.all_gather(own);
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    together = together && all[rank] == std::to_string(rank) + ' ' + same.bytes;
   }
   return together;
 }

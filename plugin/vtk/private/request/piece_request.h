@@ -2,10 +2,13 @@
 #ifndef vtkGranularPieceRequest_h
 #define vtkGranularPieceRequest_h
 
+#include "granular/common/archive.h"
 #include "granular/parallel/communicator.h"
 
 #include "vtkType.h"
 
+#include <functional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -30,11 +33,12 @@ struct PieceRequest
 };
 
 /**
- * Whether the ranks want the pieces of one thing, each its own, which has the same form for all: then they read it together.
- * Else each is alone, such as where a filter asks one rank for another time. Collective.
+ * Whether the ranks want the pieces of one thing, each its own: then they read it together. Else each is alone, such as where a
+ * filter asks one rank for another time. What must be the same on ranks that read together are the names of the arrays, and all that
+ * form(archive) writes. Collective.
  */
-bool AskTogether(
-  const PieceRequest& wanted, const std::string& form, granular::Communicator& ranks);
+bool AskTogether(granular::Communicator& ranks, const PieceRequest& wanted,
+  const std::set<std::string>& arrays, const std::function<void(granular::ArchiveWriter&)>& form);
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include "granular/frames/run_index.h"
 #include "granular/memory/block_pool.h"
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -49,9 +50,19 @@ struct vtkGranularSeriesReader::Internals
   void Update(Self* self);
 
   /**
-   * The output port that a request is for.
+   * The frame that a request shows.
    */
-  static int PortOf(vtkInformation* request);
+  struct Shown
+  {
+    std::size_t Number = 0;
+    double Time = 0;
+    std::vector<granular::FramePiece> Pieces = {};
+    granular::Where Where = {};     ///< of the first piece
+    vtkInformation* Port = nullptr; ///< the output that is asked for
+    granular::Notices Notices = {}; ///< to be told
+    bool Together = true;           ///< the ranks read it together: the first one knows all notices
+    granular::PartialProgress& Progress; ///< stops also where another rank has failed
+  };
 
   /**
    * Readies the memory for a frame.
@@ -59,35 +70,11 @@ struct vtkGranularSeriesReader::Internals
   void StartFrame(granular::Notices& notices);
 
   /**
-   * The frame that the port which is asked for shows, and its time.
+   * Does a request for data: show(shown) fills the outputs where there is a frame to show; it is collective, and between two
+   * collectives any rank may throw. Returns what the request returns.
    */
-  std::size_t FindFrame(
-    Self* self, vtkInformation* request, vtkInformationVector* outputs, double& time);
-
-  /**
-   * Does a request for data: work() where there are frames to show. Returns what the request returns.
-   */
-  template <typename Work>
-  int Run(Self* self, vtkInformationVector* outputs, const Work& work)
-  {
-    using namespace vtkGranularPrivate;
-    const Outcome outcome = Guard(self, outputs,
-      [&]
-      {
-        if (this->Ranks.IsCancelled())
-        {
-          throw granular::Cancelled();
-        }
-        // valid already, but for a pipeline that goes on after RequestInformation failed
-        this->Update(self);
-        work();
-      });
-    if (outcome != Outcome::Done)
-    {
-      self->ForgetFrames();
-    }
-    return this->Ranks.EndRequest(self, outcome);
-  }
+  int Run(Self* self, vtkInformation* request, vtkInformationVector* outputs,
+    const std::function<void(Shown&)>& show);
 
   /**
    * One warning a file, and each notice once, for whichever frame it came first; not too many.

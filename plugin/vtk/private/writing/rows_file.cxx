@@ -63,20 +63,14 @@ RowsFile::RowsFile(const char* path, granular::DumpFormat format,
 void RowsFile::Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
   granular::Progress& progress)
 {
-  std::unique_ptr<RowsInput> data;
-  std::string told;
-  granular::do_together(this->Ranks,
-    [&]
-    {
-      granular::Notices own;
-      data = this->Take(input, own);
-      Complete(*data, time, own);
-      told = data->View.rows > 0 ? "rows" : "none";
-      for (const granular::Notice& notice : own)
-      {
-        told += '\0' + notice.text;
-      }
-    });
+  granular::Notices own;
+  const std::unique_ptr<RowsInput> data = this->Take(input, own);
+  Complete(*data, time, own);
+  std::string told = data->View.rows > 0 ? "rows" : "none";
+  for (const granular::Notice& notice : own)
+  {
+    told += '\0' + notice.text;
+  }
   this->Gather(told, notices);
   this->Writer.write(data->View, notices, progress);
 }

@@ -6,11 +6,11 @@
 #include "granular/bytes/byte_sink.h"
 #include "granular/common/hash.h"
 #include "granular/dump/write/dump_format.h"
+#include "granular/parallel/gather.h"
 
 #include "vtkDataObject.h"
 #include "vtkPointSet.h"
 
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -22,26 +22,18 @@ namespace
 {
 SharedFacts ShareFacts(const FrameFacts& own, granular::Communicator& ranks)
 {
-  const std::vector<std::string> all =
-    ranks.all_gather({ reinterpret_cast<const char*>(&own), sizeof own });
   SharedFacts shared;
-  granular::do_together(ranks,
-    [&]
+  std::string changed;
+  for (const FrameFacts& facts : granular::gather(ranks, own))
+  {
+    if (changed.empty() || (facts.HasCells && !shared.HasCells))
     {
-      std::string changed;
-      for (const std::string& bytes : all)
-      {
-        FrameFacts facts;
-        std::memcpy(&facts, bytes.data(), sizeof facts);
-        if (changed.empty() || (facts.HasCells && !shared.HasCells))
-        {
-          static_cast<FrameFacts&>(shared) = facts;
-        }
-        changed += " " + std::to_string(facts.Changed);
-      }
-      shared.Key =
-        shared.HasTimestep ? "timestep " + std::to_string(shared.Timestep) : "data" + changed;
-    });
+      static_cast<FrameFacts&>(shared) = facts;
+    }
+    changed += " " + std::to_string(facts.Changed);
+  }
+  shared.Key =
+    shared.HasTimestep ? "timestep " + std::to_string(shared.Timestep) : "data" + changed;
   return shared;
 }
 
@@ -52,26 +44,17 @@ void GatherNotices(
   const granular::Notices& own, granular::Notices& all, granular::Communicator& ranks)
 {
   std::string text;
-  granular::do_together(ranks,
-    [&]
+  for (const granular::Notice& notice : own)
+  {
+    text += (text.empty() ? "" : "\n") + granular::to_string(notice);
+  }
+  for (const std::string& each : ranks.all_gather(text))
+  {
+    if (!each.empty())
     {
-      for (const granular::Notice& notice : own)
-      {
-        text += (text.empty() ? "" : "\n") + granular::to_string(notice);
-      }
-    });
-  const std::vector<std::string> texts = ranks.all_gather(text);
-  granular::do_together(ranks,
-    [&]
-    {
-      for (const std::string& each : texts)
-      {
-        if (!each.empty())
-        {
-          all.push_back({ {}, each });
-        }
-      }
-    });
+      all.push_back({ {}, each });
+    }
+  }
 }
 }
 
@@ -126,21 +109,16 @@ WholeFile::WholeFile(
 void WholeFile::Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
   granular::Progress& progress)
 {
-  FrameFacts own;
   granular::Notices ownNotices;
-  granular::do_together(this->Ranks, [&] { own = this->Take(input, time, ownNotices); });
+  const FrameFacts own = this->Take(input, time, ownNotices);
   GatherNotices(ownNotices, notices, this->Ranks);
   const SharedFacts facts = ShareFacts(own, this->Ranks);
-  granular::do_together(this->Ranks,
-    [&]
-    {
-      if (this->OneFileAStep && !facts.HasTimestep)
-      {
-        notices.push_back({ {},
-          "the input has neither field data 'timestep' nor a time of a whole number: time steps "
-          "are counted from 0" });
-      }
-    });
+  if (this->OneFileAStep && !facts.HasTimestep)
+  {
+    notices.push_back({ {},
+      "the input has neither field data 'timestep' nor a time of a whole number: time steps "
+      "are counted from 0" });
+  }
   this->Gather(notices, progress);
   granular::do_together(this->Ranks,
     [&]

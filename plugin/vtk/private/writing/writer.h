@@ -8,6 +8,7 @@
 
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
+#include "granular/dump/write/dump_writer.h"
 #include "granular/parallel/communicator.h"
 
 #include <memory>
@@ -58,6 +59,11 @@ struct vtkGranularWriter::Internals
    * The processes that write together. Collective when it is called first.
    */
   granular::Communicator& GetRanks() { return this->Ranks.Get(); }
+
+  /**
+   * How the rows of dumps are written, as the properties say.
+   */
+  granular::WriteOptions MakeOptions(const vtkGranularWriter* self);
 
   /**
    * Warns of each topic once a file; a text without one is its own.

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_parallel_trade_h
+#define granular_parallel_trade_h
+
+#include "granular/parallel/communicator.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <ranges>
+#include <vector>
+
+namespace granular
+{
+/// Sends things of so many values each: out[r] of them to rank r, one rank after the other. Returns what came, in[r] things from
+/// rank r, by rank. Collective.
+template <class Values>
+auto trade(const Values& values, const std::vector<std::int64_t>& out,
+  const std::vector<std::int64_t>& in, Communicator& ranks, std::size_t width = 1)
+{
+  using Value = std::ranges::range_value_t<Values>;
+  const auto to_bytes = [&](std::vector<std::int64_t> counts)
+  {
+    for (std::int64_t& count : counts)
+    {
+      count *= static_cast<std::int64_t>(width * sizeof(Value));
+    }
+    return counts;
+  };
+  const auto all = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
+  std::vector<Value> came(width * static_cast<std::size_t>(all));
+  ranks.exchange(reinterpret_cast<const char*>(values.data()), to_bytes(out),
+    reinterpret_cast<char*>(came.data()), to_bytes(in));
+  return came;
+}
+
+/// Gives each rank its number. Returns the numbers that the ranks have for this one, by rank. Collective.
+inline std::vector<std::int64_t> swap_numbers(
+  const std::vector<std::int64_t>& numbers, Communicator& ranks)
+{
+  const std::vector<std::int64_t> one_each(numbers.size(), 1);
+  return trade(numbers, one_each, one_each, ranks);
+}
+}
+#endif

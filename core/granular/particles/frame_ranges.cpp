@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/particles/frame_ranges.h"
+
+namespace granular
+{
+namespace
+{
+template <class Value>
+void add_rows(ValueRange& range, const Block& block, std::int64_t first, std::size_t rows)
+{
+  const auto begin = static_cast<std::size_t>(first) * range.components().size();
+  range.add(static_cast<const Value*>(block.data()) + begin, rows);
+}
+}
+
+FrameRanges::FrameRanges(const DumpFrame& frame)
+{
+  for (const DumpArray& array : frame.arrays)
+  {
+    const bool text = array.info.type == ValueType::Text;
+    arrays_.emplace_back(text ? 0 : array.info.columns.size());
+  }
+}
+
+void FrameRanges::add(const DumpFrame& frame, std::int64_t first, std::size_t rows, bool single)
+{
+  if (frame.points.bytes() > 0)
+  {
+    (single ? add_rows<float> : add_rows<double>)(points_, frame.points, first, rows);
+  }
+  for (std::size_t i = 0; i < arrays_.size(); ++i)
+  {
+    const Block& block = frame.arrays[i].block;
+    switch (frame.arrays[i].info.type)
+    {
+      case ValueType::Int32:
+        add_rows<std::int32_t>(arrays_[i], block, first, rows);
+        break;
+      case ValueType::Int64:
+        add_rows<std::int64_t>(arrays_[i], block, first, rows);
+        break;
+      case ValueType::Float64:
+        add_rows<double>(arrays_[i], block, first, rows);
+        break;
+      default: // texts
+        break;
+    }
+  }
+}
+
+void FrameRanges::add(const FrameRanges& other)
+{
+  points_.add(other.points_);
+  for (std::size_t i = 0; i < arrays_.size(); ++i)
+  {
+    arrays_[i].add(other.arrays_[i]);
+  }
+}
+
+void FrameRanges::store(DumpFrame& frame) const
+{
+  frame.points_range = points_;
+  for (std::size_t i = 0; i < arrays_.size(); ++i)
+  {
+    frame.arrays[i].range = arrays_[i];
+  }
+}
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularExpectData_h
+#define vtkGranularExpectData_h
+
+#include "granular/common/error.h"
+
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObject.h"
+
+#include <string>
+
+namespace vtkGranularPrivate
+{
+/**
+ * The input as a data set of a type. Throws UnsupportedError if it is of another one: what is expected ("a vtkPointSet to write"),
+ * and what there is.
+ */
+template <typename Type>
+Type* ExpectData(vtkDataObject* input, const char* expected, const granular::Where& where = {})
+{
+  Type* const data = Type::SafeDownCast(input);
+  if (!data)
+  {
+    const bool composite = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
+    throw granular::UnsupportedError("expected " + std::string(expected) + ", got " +
+        (input ? std::string("a ") + input->GetClassName() : "nothing") +
+        (composite ? ": the filter MergeBlocks makes one of it" : ""),
+      where);
+  }
+  return data;
+}
+}
+
+#endif
