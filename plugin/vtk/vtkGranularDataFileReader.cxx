@@ -38,6 +38,7 @@ vtkStandardNewMacro(vtkGranularDataFileReader);
 struct vtkGranularDataFileReader::Internals
 {
   using Self = vtkGranularDataFileReader;
+  using Shown = vtkGranularSeriesReader::Internals::Shown;
 
   std::string AtomStyle;
   std::string Boundary;
@@ -48,11 +49,9 @@ struct vtkGranularDataFileReader::Internals
 
   void Look(Self* self);
   granular::DataRequest MakeRequest(Self* self, vtkInformation* output) const;
-  std::string FormOf(const granular::DataRequest& request, std::size_t frame) const;
   void FillOutputs(Self* self, vtkInformationVector* outputs, const granular::DataRequest& request,
-    granular::DataFrame& frame, double time, const granular::Where& where,
-    granular::Notices& notices);
-  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+    granular::DataFrame& frame, Shown& shown);
+  void Show(Self* self, vtkInformationVector* outputs, Shown& shown);
 };
 
 //------------------------------------------------------------------------------
@@ -138,29 +137,6 @@ granular::DataRequest vtkGranularDataFileReader::Internals::MakeRequest(
 }
 
 //------------------------------------------------------------------------------
-// What must be the same on ranks that read together: they exchange rows.
-std::string vtkGranularDataFileReader::Internals::FormOf(
-  const granular::DataRequest& request, std::size_t frame) const
-{
-  granular::DataRequest own = request;
-  granular::ArchiveWriter form;
-  form.number(frame);
-  form.text(own.atom_style);
-  form.text(own.boundary);
-  form.number(own.periodic_lines);
-  form.number(own.particles.coordinates);
-  form.number(own.particles.point_origin);
-  form.number(own.particles.sort_by_id);
-  form.number(own.particles.stride);
-  form.number(own.particles.region);
-  for (std::string name : this->Points.GetWanted())
-  {
-    form.text(name);
-  }
-  return form.bytes;
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularDataFileReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
   const granular::DataRequest& request, granular::DataFrame& frame, double time,
   const granular::Where& where, granular::Notices& notices)
@@ -176,13 +152,13 @@ void vtkGranularDataFileReader::Internals::FillOutputs(Self* self, vtkInformatio
   FillRows(rows, frame.bonds);
   granular::LineRequest form = MakeLineRequest(self->PeriodicLines, self->PointOrigin);
   form.pool = self->Series->Pool;
-  FillLines(lines, rows, frame.bonds, form, where, notices);
+  FillLines(lines, rows, frame.bonds, form, shown.Where, shown.Notices);
 
   auto* box = vtkUnstructuredGrid::GetData(outputs, 2);
   if (request.particles.piece == 0 &&
     !FillBox(box, particles.header.box, particles.coordinates, origin))
   {
-    notices.push_back({ where, "the box is not finite and not shown" });
+    shown.Notices.push_back({ shown.Where, "the box is not finite and not shown" });
   }
 
   FillFieldData(points->GetFieldData(), particles, origin);
@@ -190,60 +166,40 @@ void vtkGranularDataFileReader::Internals::FillOutputs(Self* self, vtkInformatio
   FillFieldData(box->GetFieldData(), particles, origin);
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
-    vtkDataObject* output = vtkDataObject::GetData(outputs, port);
-    FillLeftOut(output->GetFieldData(), request.particles);
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    FillLeftOut(vtkDataObject::GetData(outputs, port)->GetFieldData(), request.particles);
   }
 }
 
 //------------------------------------------------------------------------------
-// Collective: what may fail on one rank alone is done together.
-void vtkGranularDataFileReader::Internals::Run(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs)
+// The ranks exchange rows, if they read together.
+void vtkGranularDataFileReader::Internals::Show(
+  Self* self, vtkInformationVector* outputs, Shown& shown)
 {
   granular::Communicator& ranks = self->Series->GetRanks();
-  granular::Notices notices;
-  granular::DataRequest wanted;
-  double time = 0;
-  std::size_t number = 0;
-  std::string form;
-  granular::do_together(ranks,
-    [&]
-    {
-      self->Series->StartFrame(notices);
-      number = self->Series->FindFrame(self, request, outputs, time);
-      wanted =
-        this->MakeRequest(self, outputs->GetInformationObject(self->Series->PortOf(request)));
-      const std::string& path = self->Series->Index.first_piece(number).file.path;
-      this->Points.CheckNames(path, notices);
-      this->Cells.CheckNames(path, notices);
-      form = this->FormOf(wanted, number);
-    });
-  const bool together =
-    AskTogether({ wanted.particles.piece, wanted.particles.pieces }, form, ranks);
-  const granular::FramePiece piece = self->Series->Index.first_piece(number);
-  AlgorithmProgress progress(self);
-  granular::DataFrame frame;
-  if (together)
-  {
-    frame = granular::read_data(piece, wanted, ranks, notices, progress);
-  }
-  else
-  {
-    granular::SerialCommunicator alone;
-    granular::SharedProgress shared(progress, ranks);
-    granular::do_together(
-      ranks, [&] { frame = granular::read_data(piece, wanted, alone, notices, shared); });
-  }
-  granular::do_together(ranks,
-    [&]
-    {
-      this->FillOutputs(self, outputs, wanted, frame, time, granular::where_of(piece), notices);
-      if (ranks.rank() == 0 || !together) // what they have read together, rank 0 knows all of
+  self->Series->StartFrame(shown.Notices);
+  this->Look(self);
+  const granular::DataRequest request = this->MakeRequest(self, shown.Port);
+  const granular::DumpRequest& particles = request.particles;
+  this->Points.CheckNames(shown.Where.path, shown.Notices);
+  this->Cells.CheckNames(shown.Where.path, shown.Notices);
+  shown.Together =
+    AskTogether(ranks, { particles.piece, particles.pieces }, this->Points.GetWanted(),
+      [&](granular::ArchiveWriter& form)
       {
-        self->Series->Tell(self, notices, false);
-      }
-    });
+        form.number(shown.Number);
+        form.text(request.atom_style);
+        form.text(request.boundary);
+        form.number(request.periodic_lines);
+        form.number(particles.coordinates);
+        form.number(particles.point_origin);
+        form.number(particles.sort_by_id);
+        form.number(particles.stride);
+        form.number(particles.region);
+      });
+  granular::SerialCommunicator alone;
+  granular::DataFrame frame = granular::read_data(
+    shown.Pieces.front(), request, shown.Together ? ranks : alone, shown.Notices, shown.Progress);
+  this->FillOutputs(self, outputs, request, frame, shown);
 }
 
 //------------------------------------------------------------------------------
@@ -366,12 +322,8 @@ void vtkGranularDataFileReader::InspectFrames(vtkInformationVector* vtkNotUsed(o
 int vtkGranularDataFileReader::RequestData(vtkInformation* request,
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  return this->Series->Run(this, outputVector,
-    [&]
-    {
-      this->Internal->Look(this);
-      this->Internal->Run(this, request, outputVector);
-    });
+  return this->Series->Run(this, request, outputVector,
+    [&](auto& shown) { this->Internal->Show(this, outputVector, shown); });
 }
 
 //------------------------------------------------------------------------------
