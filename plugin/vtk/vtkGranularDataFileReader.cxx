@@ -138,8 +138,7 @@ granular::DataRequest vtkGranularDataFileReader::Internals::MakeRequest(
 
 //------------------------------------------------------------------------------
 void vtkGranularDataFileReader::Internals::FillOutputs(Self* self, vtkInformationVector* outputs,
-  const granular::DataRequest& request, granular::DataFrame& frame, double time,
-  const granular::Where& where, granular::Notices& notices)
+  const granular::DataRequest& request, granular::DataFrame& frame, Shown& shown)
 {
   const granular::Vector3& origin = request.particles.point_origin;
   const granular::DumpFrame& particles = frame.particles;

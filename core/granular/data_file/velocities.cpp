@@ -5,6 +5,8 @@
 #include "granular/local/fetch_particles.h"
 #include "granular/local/id_finder.h"
 #include "granular/numbers/number.h"
+#include "granular/particles/column_arrays.h"
+#include "granular/particles/point_forms.h"
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
@@ -104,6 +106,7 @@ void add_velocities(DumpFrame& particles, const DumpFrame& table, const ColumnSc
   std::vector<ArrayView> views = values.arrays;
   views.push_back(view_rows("v", ValueType::Float64, values.points, 3));
   views.back().step = values.point_step;
+  std::vector<double> numbers(places.size());
   for (const ArrayView& view : views)
   {
     const auto size = static_cast<std::size_t>(view.size());
@@ -112,8 +115,12 @@ void add_velocities(DumpFrame& particles, const DumpFrame& table, const ColumnSc
     array.block = Block(size * places.size() * sizeof(double), pool);
     for (std::size_t i = 0; i < size; ++i)
     {
-      gather_numbers(
-        view, static_cast<int>(i), places, static_cast<double*>(array.block.data()) + i, size);
+      load_numbers(component_of(view, static_cast<int>(i)), places, numbers.data());
+      auto* const to = static_cast<double*>(array.block.data()) + i;
+      for (std::size_t row = 0; row < numbers.size(); ++row)
+      {
+        to[row * size] = numbers[row];
+      }
     }
     particles.arrays.push_back(std::move(array));
   }
