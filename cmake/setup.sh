@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by samples/run, tests/run and tests/bench/run: what they need before their own work. Everything here does
-# nothing, quickly, when it has been done before.
+# Sourced by samples/run, tests/run, tests/tidy and tests/bench/run: what they need before their own work. Everything
+# here does nothing, quickly, when it has been done before.
 
 granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 
@@ -101,8 +101,8 @@ granular_make()
   ninja -C "$granular_build" -j "$(nproc)" "$@" >&2
 }
 
-# granular_set_up samples|tests|core-only|benchmarks: from a bare Debian 12 to a finished build. Strict in all cases,
-# so that all but core-only share one build and a warning is seen wherever it arises. For samples the tests
+# granular_set_up samples|tests|benchmarks|core-only|asan|tsan: from a bare Debian 12 to a finished build. Strict in
+# all cases, so that the first three share one build and a warning is seen wherever it arises. For samples the tests
 # are not even configured, unless they were before.
 granular_set_up()
 {
@@ -120,9 +120,9 @@ granular_set_up()
       granular_configure "${tests[@]}"
       if [ "$1" = tests ]; then granular_make; else granular_make core/all plugin/all plugin/python/all benchmarks; fi
       ;;
-    core-only)
+    core-only | asan | tsan)
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
-      granular_configure core-only
+      granular_configure "$1"
       granular_make
       ;;
   esac

@@ -67,7 +67,7 @@ void VtuGrids::add_piece()
   keep_ = piece.cells > 0;
   if (keep_)
   {
-    pieces_.push_back(std::move(piece));
+    pieces_.push_back(piece);
   }
 }
 

@@ -197,7 +197,7 @@ std::vector<std::string> name_columns(
   {
     return name_by_pairs(columns, words);
   }
-  const std::vector<std::string> names = expand_keywords(words, columns.size());
+  std::vector<std::string> names = expand_keywords(words, columns.size());
   if (names.size() != columns.size())
   {
     throw FormatError("expected a name for each of " + std::to_string(columns.size()) +
