@@ -260,7 +260,7 @@ private:
     std::string_view line;
     if (scanner_.next(line))
     {
-      const std::string got = quoted(line);
+      std::string got = quoted(line);
       scanner_.put_back();
       return got;
     }

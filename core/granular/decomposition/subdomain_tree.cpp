@@ -20,9 +20,9 @@ std::size_t keep_last(Entries entries)
   std::ranges::sort(entries,
     [](const Entry& a, const Entry& b)
     { return std::tie(a.lo, a.hi, b.number) < std::tie(b.lo, b.hi, a.number); });
-  const auto rest = std::ranges::unique(
-    entries, [](const Entry& a, const Entry& b) { return a.lo == b.lo && a.hi == b.hi; });
-  return entries.size() - rest.size();
+  const auto end = std::unique(entries.begin(), entries.end(),
+    [](const Entry& a, const Entry& b) { return a.lo == b.lo && a.hi == b.hi; });
+  return static_cast<std::size_t>(end - entries.begin());
 }
 
 /// Brings the entries to the front that are longer than half of the bounds along an axis: a plane that divides the others
@@ -37,7 +37,7 @@ std::size_t divide_long(Entries entries, const Vector3& lo, const Vector3& hi)
     const auto count = static_cast<std::size_t>(std::ranges::count_if(entries, is_long));
     if (count >= few && entries.size() - count >= few)
     {
-      std::ranges::partition(entries, is_long);
+      std::partition(entries.begin(), entries.end(), is_long);
       return count;
     }
   }

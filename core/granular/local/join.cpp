@@ -11,9 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
-#include <ranges>
 #include <utility>
 
 namespace granular
@@ -117,8 +115,20 @@ std::vector<std::int64_t> list_rows(const FoundEnds& ends, std::size_t all, std:
   if (found < all)
   {
     rows.reserve(found);
-    std::ranges::set_difference(std::views::iota(std::int64_t{ 0 }, static_cast<std::int64_t>(all)),
-      ends.missing | std::views::join, std::back_inserter(rows));
+    std::int64_t row = 0;
+    const auto list_up_to = [&](std::int64_t missing)
+    {
+      for (; row < missing; ++row)
+      {
+        rows.push_back(row);
+      }
+      ++row;
+    };
+    for (const std::vector<std::int64_t>& missing : ends.missing)
+    {
+      std::ranges::for_each(missing, list_up_to);
+    }
+    list_up_to(static_cast<std::int64_t>(all));
   }
   return rows;
 }
