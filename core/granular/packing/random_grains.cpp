@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -42,6 +43,16 @@ std::uint64_t nth_least(
       n -= counts[byte];
     }
     found |= byte << shift;
+    if (counts[byte] == 1) // the rank that has it tells the rest of it
+    {
+      std::array<std::int64_t, 1> one = {};
+      for (const std::uint64_t value : values)
+      {
+        one[0] += (value ^ found) >> shift == 0 ? std::bit_cast<std::int64_t>(value) : 0;
+      }
+      ranks.sum(one);
+      return std::bit_cast<std::uint64_t>(one[0]);
+    }
   }
   return found;
 }
