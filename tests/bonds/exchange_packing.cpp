@@ -418,10 +418,9 @@ TEST(Packing, types_and_masks_that_are_none)
       {
         BondedParticles others = many(400);
         others.grow(room);
+        const ParticleRange range{ first, 400 };
         const std::string text = error_of<FormatError>(
-          [&] {
-            granular::unpack(others, PackRoutine::Border, plain, { first, 400 }, buffer);
-          });
+          [&] { granular::unpack(others, PackRoutine::Border, plain, range, buffer); });
         EXPECT_EQ(text.substr(0, text.find(", got")),
           "expected a whole number of 32 bits in double " + std::to_string(7 * 300 + at) +
             " of the buffer, of its particle 300");
