@@ -5,10 +5,11 @@
 
 granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 
-# Debian's names: what the core needs, the plugin and the samples on top of it, and the tests.
+# Debian's names: what the core needs, the plugin and the samples on top of it, a VTK of its own, and the tests.
 granular_core_packages=(cmake g++ libzstd-dev ninja-build python3 zlib1g-dev)
 granular_plugin_packages=(
   libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xvfb)
+granular_vtk_packages=(libvtk9-dev python3-vtk9)
 granular_test_packages=(binutils libbenchmark-dev libgtest-dev locales)
 
 granular_say()
@@ -61,7 +62,16 @@ granular_need()
   # Old package lists may still do, so a failing update is not the end.
   granular_as_root apt-get -q update || granular_say "apt-get update failed, going on"
   granular_as_root env DEBIAN_FRONTEND=noninteractive \
-    apt-get -q install --yes --no-install-recommends "${missing[@]}"
+    apt-get -q install --yes --no-install-recommends --no-remove "${missing[@]}"
+}
+
+# granular_need_plugin: where Debian's ParaView uses Debian's VTK, the development files of that are another package.
+granular_need_plugin()
+{
+  granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}" "$@"
+  if dpkg-query --show --showformat='${Depends}' paraview 2>/dev/null | grep -q libvtk9; then
+    granular_need "${granular_vtk_packages[@]}"
+  fi
 }
 
 # granular_is_configured preset [-Doption...]: sets granular_build, the build folder. ninja itself
@@ -101,28 +111,28 @@ granular_make()
   ninja -C "$granular_build" -j "$(nproc)" "$@" >&2
 }
 
-# granular_set_up samples|tests|benchmarks|core-only|asan|tsan: from a bare Debian 12 to a finished build. Strict in
-# all cases, so that the first three share one build and a warning is seen wherever it arises. For samples the tests
-# are not even configured, unless they were before.
+# granular_set_up samples|tests|benchmarks|core-only|asan|tsan: from a bare Debian to a finished build. The first three
+# share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
+# GRANULAR_STRICT=ON is in the environment: a compiler that is newer than ours may have new ones.
 granular_set_up()
 {
-  local tests=(release -DGRANULAR_STRICT=ON -DBUILD_TESTING=ON -DGRANULAR_BUILD_BENCH=ON)
+  local strict="-DGRANULAR_STRICT=${GRANULAR_STRICT:-OFF}"
+  local tests=(release "$strict" -DBUILD_TESTING=ON -DGRANULAR_BUILD_BENCH=ON)
   case "$1" in
     samples)
-      granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}"
+      granular_need_plugin
       granular_is_configured "${tests[@]}" ||
-        granular_configure release -DGRANULAR_STRICT=ON -DBUILD_TESTING=OFF
+        granular_configure release "$strict" -DBUILD_TESTING=OFF
       granular_make core/all plugin/all plugin/python/all
       ;;
     tests | benchmarks)
-      granular_need \
-        "${granular_core_packages[@]}" "${granular_plugin_packages[@]}" "${granular_test_packages[@]}"
+      granular_need_plugin "${granular_test_packages[@]}"
       granular_configure "${tests[@]}"
       if [ "$1" = tests ]; then granular_make; else granular_make core/all plugin/all plugin/python/all benchmarks; fi
       ;;
     core-only | asan | tsan)
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
-      granular_configure "$1"
+      granular_configure "$1" "$strict"
       granular_make
       ;;
   esac
