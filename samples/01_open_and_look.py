@@ -22,13 +22,12 @@ GetAnimationScene().GoToLast()
 # The first output: the grains, coloured by the length of their velocity v.
 grains = granular.show(reader, view, color="v")
 colors = GetColorTransferFunction("v")
-colors.ApplyPreset("Plasma (matplotlib)")
+colors.ApplyPreset(granular.preset("Plasma"))
 colors.RescaleTransferFunction(0, 1.5)
 legend = GetScalarBar(colors, view)
-SetProperties(legend, Title="speed [m/s]", ComponentTitle="", HorizontalTitle=1,
-              WindowLocation="Any Location", Position=[0.84, 0.35], ScalarBarLength=0.4,
-              UseCustomLabels=1, CustomLabels=[0.5, 1.0], AutomaticLabelFormat=0,
-              LabelFormat="%.1f", RangeLabelFormat="%.1f")
+granular.set_properties(legend, Title="speed [m/s]", ComponentTitle="", HorizontalTitle=1,
+                        WindowLocation="Any Location", Position=[0.84, 0.35], ScalarBarLength=0.4,
+                        UseCustomLabels=1, CustomLabels=[0.5, 1.0], **granular.label_format("%.1f"))
 grains.SetScalarBarVisibility(view, True)
 
 # The second output: the box of the simulation.
@@ -38,8 +37,8 @@ Show(OutputPort(reader, 1), view, AmbientColor=gray, DiffuseColor=gray, LineWidt
 Show(AnnotateTimeFilter(reader, Format="t = {time:.2f} s"), view,
      WindowLocation="Any Location", Position=[0.82, 0.85], FontSize=20)
 
-SetProperties(view, CameraPosition=[0.22, -0.30, 0.19], CameraFocalPoint=[0.02, 0.01, 0.069],
-              CameraViewUp=[0, 0, 1])
+granular.set_properties(view, CameraPosition=[0.22, -0.30, 0.19], CameraFocalPoint=[0.02, 0.01, 0.069],
+                        CameraViewUp=[0, 0, 1])
 SaveScreenshot("grains.png", view, CompressionLevel="9")
 
 # The same numbers from the text of the last frame, without ParaView.

@@ -18,7 +18,7 @@ GetAnimationScene().GoToLast()
 
 def load(what, **properties):
     """Sets properties of the reader; prints and returns how many grains and KiB it then loads."""
-    SetProperties(reader, **properties)
+    granular.set_properties(reader, **properties)
     reader.UpdatePipeline(view.ViewTime)
     loaded = reader.GetDataInformation()
     print(f"{what:30} {loaded.GetNumberOfPoints():5} grains {loaded.GetMemorySize():4} KiB")
@@ -39,14 +39,14 @@ SaveData("slice.vtp", reader, DataMode="Binary")  # raw data break with today's 
 grains = granular.show(reader, view, color="v")
 grains.SetScalarBarVisibility(view, True)
 Show(OutputPort(reader, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3, LineWidth=2)
-SetProperties(view, ViewSize=[640, 640], OrientationAxesVisibility=0, CameraViewUp=[0, 0, 1],
-              CameraPosition=[0.013, -0.36, 0.14], CameraFocalPoint=[0.013, 0, 0.071])
+granular.set_properties(view, ViewSize=[640, 640], OrientationAxesVisibility=0, CameraViewUp=[0, 0, 1],
+                        CameraPosition=[0.013, -0.36, 0.14], CameraFocalPoint=[0.013, 0, 0.071])
 colors = GetColorTransferFunction("v")
-colors.ApplyPreset("Plasma (matplotlib)")
+colors.ApplyPreset(granular.preset("Plasma"))
 colors.RescaleTransferFunction(0, 1.5)
-SetProperties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="",
-              AutomaticLabelFormat=0, LabelFormat="%.1f", RangeLabelFormat="%.1f",
-              WindowLocation="Any Location", Position=[0.84, 0.3])
+granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="",
+                        **granular.label_format("%.1f"),
+                        WindowLocation="Any Location", Position=[0.84, 0.3])
 SaveScreenshot("slice.png", view)
 
 # The same from the text of the last frame, and in the file that was written.

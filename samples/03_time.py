@@ -45,16 +45,16 @@ for place in 0, 1, 2:  # halves, and the halves of these: places 3 to 6
 for place, time in zip((3, 4, 5, 6), times[-4:]):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    SetProperties(view, ViewTime=time, CameraPosition=[0.25, -0.41, 0.21],
-                  CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, ViewTime=time, CameraPosition=[0.25, -0.41, 0.21],
+                            CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
     granular.show(grains, view, color="v")
     Show(lid, view, Opacity=0.5)
     Show(OutputPort(grains, 1), view)
     Show(AnnotateTimeFilter(grains, Format="{time:.2f} s"), view, WindowLocation="Upper Center")
 colors = GetColorTransferFunction("v")
 colors.RescaleTransferFunction(0, 1.5)
-colors.ApplyPreset("Plasma (matplotlib)")
-SetProperties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
-              Orientation="Horizontal", WindowLocation="Lower Center", RangeLabelFormat="%.1f")
+colors.ApplyPreset(granular.preset("Plasma"))
+granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
+                        Orientation="Horizontal", WindowLocation="Lower Center", **granular.label_format("%.1f"))
 strip.SetSize(1200, 480)
 SaveScreenshot("strip.png", strip, SeparatorWidth=0)

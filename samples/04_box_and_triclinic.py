@@ -26,7 +26,7 @@ for place, form, radius in (1, "Scaled", 0.036), (5, "Absolute", 0.3), (6, "Unwr
     points[form], corners = points_of(reader), points_of(OutputPort(reader, 1))
     view = CreateRenderView(OrientationAxesVisibility=0, CameraParallelProjection=1)
     AssignViewToLayout(view, strip, place)
-    SetProperties(view, ViewTime=1e9, CameraPosition=[8, -60, 16], CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, ViewTime=1e9, CameraPosition=[8, -60, 16], CameraViewUp=[0, 0, 1])
     granular.show(reader, view, radius=radius, color="image")
     Show(OutputPort(reader, 1), view, LineWidth=2)
     Show(Text(Text=form), view, WindowLocation="Upper Center", FontSize=20)

@@ -23,18 +23,18 @@ shift = PythonCalculator(Input=[binary, text], ArrayName="shift",
                          Expression="mag(inputs[0].Points - inputs[1].Points) * 1e9")
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
-SetProperties(view, ViewSize=[640, 680], OrientationAxesVisibility=0, ViewTime=2000,
-              CameraPosition=[0.014, -0.36, 0.13], CameraFocalPoint=[0.014, 0, 0.073],
-              CameraViewUp=[0, 0, 1])
+granular.set_properties(view, ViewSize=[640, 680], OrientationAxesVisibility=0, ViewTime=2000,
+                        CameraPosition=[0.014, -0.36, 0.13], CameraFocalPoint=[0.014, 0, 0.073],
+                        CameraViewUp=[0, 0, 1])
 grains = granular.show(shift, view, color="shift")
 grains.SetScalarBarVisibility(view, True)
 Show(OutputPort(binary, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3, LineWidth=2)
 colors = GetColorTransferFunction("shift")
-colors.ApplyPreset("Plasma (matplotlib)")
+colors.ApplyPreset(granular.preset("Plasma"))
 colors.RescaleTransferFunction(0, 500)
-SetProperties(GetScalarBar(colors, view), Title="lost by the text [nm]", ComponentTitle="",
-              AutomaticLabelFormat=0, LabelFormat="%.0f", RangeLabelFormat="%.0f",
-              WindowLocation="Any Location", Position=[0.83, 0.3])
+granular.set_properties(GetScalarBar(colors, view), Title="lost by the text [nm]", ComponentTitle="",
+                        **granular.label_format("%.0f"),
+                        WindowLocation="Any Location", Position=[0.83, 0.3])
 SaveScreenshot("lost.png", view, CompressionLevel="9")
 
 

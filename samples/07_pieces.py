@@ -36,18 +36,18 @@ for place in 0, 1, 2:  # halves, and the halves of these: places 3 to 6
 for place, step in zip((3, 4, 5, 6), sorted(counts)[1:]):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    SetProperties(view, ViewTime=step * 2e-5, CameraPosition=[0.25, -0.41, 0.21],
-                  CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, ViewTime=step * 2e-5, CameraPosition=[0.25, -0.41, 0.21],
+                            CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
     granular.show(owners, view, color="process")
     Show(OutputPort(grains, 1), view)
     title = " + ".join(map(str, counts[step]))
     Show(Text(Text=f"{view.ViewTime:g} s: {title}"), view, WindowLocation="Upper Center")
 colors = GetColorTransferFunction("process")
-SetProperties(colors, InterpretValuesAsCategories=1,
-              Annotations=[text for i in range(4) for text in (str(i), str(i))],
-              IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
-SetProperties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1,
-              Orientation="Horizontal", WindowLocation="Lower Center")
+granular.set_properties(colors, InterpretValuesAsCategories=1,
+                        Annotations=[text for i in range(4) for text in (str(i), str(i))],
+                        IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
+granular.set_properties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1,
+                        Orientation="Horizontal", WindowLocation="Lower Center")
 strip.SetSize(1200, 480)
 SaveScreenshot("pieces.png", strip, SeparatorWidth=0)
 

@@ -53,7 +53,7 @@ view = GetActiveViewOrCreate("RenderView")
 Render(view)  # the first picture takes longest, and moves the camera
 camera = dict(CameraPosition=[0.25, -0.41, 0.21], CameraFocalPoint=[0, 0, 0.063],
               CameraViewUp=[0, 0, 1])
-SetProperties(view, ViewSize=[360, 480], OrientationAxesVisibility=0, **camera)
+granular.set_properties(view, ViewSize=[360, 480], OrientationAxesVisibility=0, **camera)
 
 
 def ready(path):
@@ -73,7 +73,7 @@ try:
     granular.show(reader, view, color="v")
     Show(OutputPort(reader, 1), view)
     colors = GetColorTransferFunction("v")
-    colors.ApplyPreset("Plasma (matplotlib)")
+    colors.ApplyPreset(granular.preset("Plasma"))
     colors.RescaleTransferFunction(0, 1.5)
 
     seen, looks, running = {}, 0, True
@@ -103,13 +103,13 @@ for i, place in enumerate((3, 4, 5, 6)):
     step = sorted(seen)[(len(seen) - 1) * i // 3]
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    SetProperties(view, ViewTime=step, **camera)
+    granular.set_properties(view, ViewTime=step, **camera)
     granular.show(reader, view, color="v")
     Show(OutputPort(reader, 1), view)
     Show(Text(Text="look {}: frame {}".format(*seen[step])), view, WindowLocation="Upper Center")
 colors.RescaleTransferFunction(0, 1.5)
-SetProperties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
-              Orientation="Horizontal", WindowLocation="Lower Center", RangeLabelFormat="%.1f")
+granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
+                        Orientation="Horizontal", WindowLocation="Lower Center", **granular.label_format("%.1f"))
 strip.SetSize(1200, 480)
 SaveScreenshot("looks.png", strip, SeparatorWidth=0)
 

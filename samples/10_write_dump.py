@@ -32,18 +32,18 @@ strip.SplitHorizontal(0, 0.5)
 for place, file, color in (1, path, "v"), (2, "large.bin", "speed"):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    SetProperties(view, ViewTime=2000, CameraPosition=[0.20, -0.33, 0.19],
-                  CameraFocalPoint=[0.006, 0, 0.070], CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, ViewTime=2000, CameraPosition=[0.20, -0.33, 0.19],
+                            CameraFocalPoint=[0.006, 0, 0.070], CameraViewUp=[0, 0, 1])
     shown = OpenDataFile(file)
     granular.show(shown, view, color=color)
     Show(OutputPort(shown, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=Path(file).name), view, WindowLocation="Upper Center", FontSize=18)
     colors = GetColorTransferFunction(color)
-    colors.ApplyPreset("Plasma (matplotlib)")
+    colors.ApplyPreset(granular.preset("Plasma"))
     colors.RescaleTransferFunction(0, 1.5)
-SetProperties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
-              AutomaticLabelFormat=0, LabelFormat="%.1f", RangeLabelFormat="%.1f",
-              WindowLocation="Any Location", Position=[0.86, 0.3])
+granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
+                        **granular.label_format("%.1f"),
+                        WindowLocation="Any Location", Position=[0.86, 0.3])
 strip.SetSize(1000, 560)
 SaveScreenshot("before_and_after.png", strip, SeparatorWidth=0)
 

@@ -32,8 +32,8 @@ strip.SplitHorizontal(0, 0.5)
 for place, (name, source) in zip((1, 2), sources.items()):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    SetProperties(view, CameraPosition=[0.28, -0.32, 0.22], CameraFocalPoint=[0.052, 0.05, 0.073],
-                  CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, CameraPosition=[0.28, -0.32, 0.22], CameraFocalPoint=[0.052, 0.05, 0.073],
+                            CameraViewUp=[0, 0, 1])
     granular.show(source, view, color="radius")
     Show(OutputPort(source, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=name), view, WindowLocation="Upper Center", FontSize=18)

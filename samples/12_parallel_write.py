@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Four processes write one file together, and it has the bytes that one process writes."""
-import os
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -24,37 +21,26 @@ def write(name):
 
     LoadPalette("WhiteBackground")
     view = GetActiveViewOrCreate("RenderView")
-    SetProperties(view, ViewSize=[560, 600], ViewTime=3000, OrientationAxesVisibility=0)
-    granular.show(ProcessIdScalars(Input=small), view, color="ProcessId")
+    granular.set_properties(view, ViewSize=[560, 600], ViewTime=3000, OrientationAxesVisibility=0)
+    with_ranks, rank = granular.process_ids(small)
+    granular.show(with_ranks, view, color=rank)
     Show(OutputPort(reader, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
-    colors = GetColorTransferFunction("ProcessId")
-    SetProperties(colors, InterpretValuesAsCategories=1,
-                  Annotations=[text for i in range(4) for text in (str(i), str(i))],
-                  IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
-    SetProperties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1)
+    colors = GetColorTransferFunction(rank)
+    granular.set_properties(colors, InterpretValuesAsCategories=1,
+                            Annotations=[text for i in range(4) for text in (str(i), str(i))],
+                            IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
+    granular.set_properties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1)
     Render(view)  # the first picture moves the camera
-    SetProperties(view, CameraPosition=[0.20, -0.33, 0.19], CameraFocalPoint=[0.008, 0, 0.07],
-                  CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, CameraPosition=[0.20, -0.33, 0.19], CameraFocalPoint=[0.008, 0, 0.07],
+                            CameraViewUp=[0, 0, 1])
     SaveScreenshot(f"{name}.png", view)
-
-
-def run(*command):
-    # not what the MPI of this process left in the environment
-    environment = {key: value for key, value in os.environ.items()
-                   if not key.startswith(("OMPI_", "PMIX_", "ORTE_"))}
-    # for root, and for a machine with fewer cores than processes
-    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                       OMPI_MCA_rmaps_base_oversubscribe="1",
-                       OMPI_MCA_hwloc_base_binding_policy="none")
-    done = subprocess.run(command, capture_output=True, text=True, env=environment)
-    assert done.returncode == 0, done.stdout + done.stderr
 
 
 if len(sys.argv) > 1:
     write(sys.argv[1])
 else:
     write("one")
-    run(shutil.which("mpirun"), "-n", "4", shutil.which("pvbatch"), __file__, "four")
+    granular.pvbatch(__file__, "four", ranks=4)
     written = {file.read_bytes() for file in Path().glob("*.dump")}
     assert len(written) == 1 and len(list(Path().glob("*.dump"))) == 4
 

@@ -25,13 +25,13 @@ for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
     ColorBy(voxels, ("CELLS", "nlocal"))
     Show(Text(Text=f"step {step}"), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)  # the first picture moves the camera
-    SetProperties(view, CameraPosition=[0.25, -0.39, 0.19], CameraFocalPoint=[0, 0, 0.06],
-                  CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, CameraPosition=[0.25, -0.39, 0.19], CameraFocalPoint=[0, 0, 0.06],
+                            CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("nlocal")
 colors.RescaleTransferFunction(0, 600)
-SetProperties(GetScalarBar(colors, view), Title="grains of a process", ComponentTitle="",
-              WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.6,
-              AutomaticLabelFormat=0, LabelFormat="%.0f", RangeLabelFormat="%.0f")
+granular.set_properties(GetScalarBar(colors, view), Title="grains of a process", ComponentTitle="",
+                        WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.6,
+                        **granular.label_format("%.0f"))
 voxels.SetScalarBarVisibility(view, True)
 strip.SetSize(1400, 520)
 SaveScreenshot("load_balance.png", strip, SeparatorWidth=0)
@@ -39,7 +39,7 @@ SaveScreenshot("load_balance.png", strip, SeparatorWidth=0)
 
 def count(**properties):
     """Grains of each process, and the largest number divided by the mean."""
-    SetProperties(domains, **properties)
+    granular.set_properties(domains, **properties)
     domains.UpdatePipeline(4000)
     voxels = servermanager.Fetch(domains)
     nlocal = voxels.GetCellData().GetArray("nlocal")

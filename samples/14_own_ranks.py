@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which part of the grains has each process of ParaView? Four of them show their own share as boxes."""
 import csv
-import os
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -27,18 +24,19 @@ def show(name):
         view = CreateRenderView(OrientationAxesVisibility=0)
         AssignViewToLayout(view, strip, place)
         view.ViewTime = 2000
-        granular.show(ProcessIdScalars(Input=inside), view, color="ProcessId")
+        with_ranks, rank = granular.process_ids(inside)
+        granular.show(with_ranks, view, color=rank)
         outline = Show(boxes, view, Representation="Wireframe", LineWidth=4)
         ColorBy(outline, ("CELLS", "proc"))
         Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
         Render(view)  # the first picture moves the camera
-        SetProperties(view, CameraPosition=[0.22, -0.35, 0.20], CameraFocalPoint=[0, 0, 0.07],
-                      CameraViewUp=[0, 0, 1])
-    for name_of_ranks in "ProcessId", "proc":
+        granular.set_properties(view, CameraPosition=[0.22, -0.35, 0.20], CameraFocalPoint=[0, 0, 0.07],
+                                CameraViewUp=[0, 0, 1])
+    for name_of_ranks in rank, "proc":
         colors = GetColorTransferFunction(name_of_ranks)
-        SetProperties(colors, InterpretValuesAsCategories=1,
-                      Annotations=[text for i in range(4) for text in (str(i), str(i))],
-                      IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
+        granular.set_properties(colors, InterpretValuesAsCategories=1,
+                                Annotations=[text for i in range(4) for text in (str(i), str(i))],
+                                IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
     HideScalarBarIfNotNeeded(colors, view)
     strip.SetSize(1000, 560)
     SaveScreenshot(f"{name}.png", strip, SeparatorWidth=0)
@@ -52,20 +50,7 @@ def show(name):
         assert sum(counts) == 1200
 
 
-def run(*command):
-    # not what the MPI of this process left in the environment
-    environment = {key: value for key, value in os.environ.items()
-                   if not key.startswith(("OMPI_", "PMIX_", "ORTE_"))}
-    # for root, and for a machine with fewer cores than processes
-    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                       OMPI_MCA_rmaps_base_oversubscribe="1",
-                       OMPI_MCA_hwloc_base_binding_policy="none")
-    done = subprocess.run(command, capture_output=True, text=True, env=environment)
-    assert done.returncode == 0 and "ERR|" not in done.stderr, done.stdout + done.stderr
-    return done.stdout
-
-
 if len(sys.argv) > 1:
     show(sys.argv[1])
 else:
-    print(run(shutil.which("mpirun"), "-n", "4", shutil.which("pvbatch"), __file__, "four"), end="")
+    print(granular.pvbatch(__file__, "four", ranks=4), end="")

@@ -13,7 +13,7 @@ grains = OpenDataFile(str(data / "grains.dump"), TimestepSize=2e-5)
 cells = GranularEulerAverage(Input=grains, CellCounts=[10, 10, 15])
 fields = CellDatatoPointData(Input=cells)
 middle = Slice(Input=fields, SliceType="Plane")
-SetProperties(middle.SliceType, Origin=[0, 0, 0.075], Normal=[0, 1, 0])
+granular.set_properties(middle.SliceType, Origin=[0, 0, 0.075], Normal=[0, 1, 0])
 surface = Contour(Input=fields, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.3])
 
 LoadPalette("WhiteBackground")
@@ -33,25 +33,25 @@ shown = Show(middle, views[1], Ambient=1, Diffuse=0)
 ColorBy(shown, ("POINTS", "volumefraction"))
 colors = GetColorTransferFunction("volumefraction")
 colors.RescaleTransferFunction(0, 0.6)
-SetProperties(GetScalarBar(colors, views[1]), Title="", ComponentTitle="", HorizontalTitle=1,
-              WindowLocation="Any Location", Position=[0.86, 0.25], ScalarBarLength=0.5, AutomaticLabelFormat=0,
-              LabelFormat="%.1f", RangeLabelFormat="%.1f")
+granular.set_properties(GetScalarBar(colors, views[1]), Title="", ComponentTitle="", HorizontalTitle=1,
+                        WindowLocation="Any Location", Position=[0.86, 0.25], ScalarBarLength=0.5,
+                        **granular.label_format("%.1f"))
 shown.SetScalarBarVisibility(views[1], True)
 shown = Show(surface, views[2])
 ColorBy(shown, None)
-SetProperties(shown, AmbientColor=[0.27, 0.45, 0.7], DiffuseColor=[0.27, 0.45, 0.7])
+granular.set_properties(shown, AmbientColor=[0.27, 0.45, 0.7], DiffuseColor=[0.27, 0.45, 0.7])
 granular.show(grains, views[2]).Opacity = 0.15
 for view in views:
     Render(view)  # the first picture moves the camera
-    SetProperties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
-                  CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
+                            CameraViewUp=[0, 0, 1])
 strip.SetSize(1200, 480)
 SaveScreenshot("euler_cells.png", strip, SeparatorWidth=0)
 
 
 def fetch(**properties):
     """The values of all cells by name."""
-    SetProperties(cells, **properties)
+    granular.set_properties(cells, **properties)
     cells.UpdatePipeline(4000 * 2e-5)
     arrays = servermanager.Fetch(cells).GetCellData()
     return {name: np.array(arrays.GetArray(name)) for name in ("v_avg", "volumefraction")}

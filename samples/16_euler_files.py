@@ -74,13 +74,13 @@ for place, (text, proxy) in zip((1, 2), {"LIGGGHTS": files, "from the dump": ave
     ColorBy(Show(arrows, view), None)
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)  # the first picture moves the camera
-    SetProperties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
-                  CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
+                            CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("volumefraction")
 colors.RescaleTransferFunction(0, 0.25)
-SetProperties(GetScalarBar(colors, view), Title="volume fraction", ComponentTitle="",
-              WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.5,
-              AutomaticLabelFormat=0, LabelFormat="%.2f", RangeLabelFormat="%.2f")
+granular.set_properties(GetScalarBar(colors, view), Title="volume fraction", ComponentTitle="",
+                        WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.5,
+                        **granular.label_format("%.2f"))
 shown.SetScalarBarVisibility(view, True)
 strip.SetSize(1000, 560)
 SaveScreenshot("euler_files.png", strip, SeparatorWidth=0)

@@ -20,15 +20,16 @@ chains = Tube(Input=CellDatatoPointData(Input=thickness), Scalars=["POINTS", "th
 LoadPalette("WhiteBackground")
 view = CreateRenderView(ViewSize=[1000, 500], OrientationAxesVisibility=0)
 grey = granular.show(grains, view)
-SetProperties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
+granular.set_properties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
 shown = Show(chains, view)
 ColorBy(shown, ("POINTS", "strength"))
 shown.SetScalarBarVisibility(view, True)
-SetProperties(GetScalarBar(GetColorTransferFunction("strength"), view), Title="force [N]", ComponentTitle="",
-              HorizontalTitle=1, AutomaticLabelFormat=0, LabelFormat="%.3f", RangeLabelFormat="%.3f")
+granular.set_properties(GetScalarBar(GetColorTransferFunction("strength"), view), Title="force [N]", ComponentTitle="",
+                        HorizontalTitle=1, **granular.label_format("%.3f"))
 Show(OutputPort(grains, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
 Render(view)
-SetProperties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoint=[0.004, 0, 0.006], CameraViewUp=[0, 0, 1])
+granular.set_properties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoint=[0.004, 0, 0.006],
+                        CameraViewUp=[0, 0, 1])
 SaveScreenshot("force_chains.png", view)
 
 # What acts on a grain that does not touch the ground: its weight, and the forces of its contacts, opposite at both ends.

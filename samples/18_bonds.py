@@ -29,8 +29,8 @@ for place, periodic in ((1, "AsWritten"), (5, "MinimumImage"), (6, "Split")):
     Show(OutputPort(beads, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=periodic), view, WindowLocation="Upper Left Corner", FontSize=18)
     Render(view)
-    SetProperties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
-                  CameraViewUp=[0, 0, 1], CameraParallelScale=8.5)
+    granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
+                            CameraViewUp=[0, 0, 1], CameraParallelScale=8.5)
 strip.SetSize(900, 900)
 SaveScreenshot("bonds.png", strip, SeparatorWidth=0)
 

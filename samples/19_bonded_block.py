@@ -32,8 +32,8 @@ for place, grains, lines, text in ((1, sided, before, "whole"), (2, bent, after,
     shown.SetScalarBarVisibility(view, text != "whole")
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)
-    SetProperties(view, CameraPosition=[0.13, -0.3, 0.14], CameraFocalPoint=[0.08, 0.025, 0.02],
-                  CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, CameraPosition=[0.13, -0.3, 0.14], CameraFocalPoint=[0.08, 0.025, 0.02],
+                            CameraViewUp=[0, 0, 1])
 strip.SetSize(1200, 480)
 SaveScreenshot("bonded_block.png", strip, SeparatorWidth=0)
 

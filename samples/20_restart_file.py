@@ -29,7 +29,8 @@ for place, time in ((1, 0.01), (2, 0.04)):
     Show(OutputPort(fibres, 2), view, AmbientColor=[0.4] * 3, DiffuseColor=[0.4] * 3)
     Show(Text(Text=f"{1000 * time:.0f} ms"), view, WindowLocation="Upper Left Corner", FontSize=18)
     Render(view)
-    SetProperties(view, CameraPosition=[0.03, -0.055, 0.02], CameraFocalPoint=[0.0095, 0.001, 0], CameraViewUp=[0, 0, 1])
+    granular.set_properties(view, CameraPosition=[0.03, -0.055, 0.02], CameraFocalPoint=[0.0095, 0.001, 0],
+                            CameraViewUp=[0, 0, 1])
     views.append(view)
 colours = GetColorTransferFunction("bending moment [N m]")
 colours.RescaleTransferFunction(0, 8e-6)

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import granular
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
@@ -18,8 +19,8 @@ shown = Show(Tube(Input=bonds, Radius=0.12), view)
 ColorBy(shown, ("CELLS", "btype"))
 Show(OutputPort(chains, 2), view, AmbientColor=[0.4] * 3, DiffuseColor=[0.4] * 3)
 Render(view)
-SetProperties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
-              CameraViewUp=[0, 0, 1], CameraParallelScale=9)
+granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
+                        CameraViewUp=[0, 0, 1], CameraParallelScale=9)
 SaveScreenshot("data_file.png", view)
 
 particles, lines = (servermanager.Fetch(chains, idx=port) for port in (0, 1))

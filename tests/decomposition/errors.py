@@ -2,6 +2,7 @@
 """What cannot be is an error on all ranks, the output is empty, none waits, and ParaView lives on."""
 import os
 
+import granular
 from paraview.simple import *
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -19,7 +20,7 @@ assert counted.GetDataInformation().GetNumberOfCells() == 0
 counted.Mode = "Subdomains"
 counted.UpdatePipeline()
 assert counted.GetDataInformation().GetNumberOfCells() == 0
-SetProperties(counted, Mode="ProcessorGrid", ProcessorGrid=[2, 1, 1], XCuts=[7])
+granular.set_properties(counted, Mode="ProcessorGrid", ProcessorGrid=[2, 1, 1], XCuts=[7])
 counted.UpdatePipeline()
 assert counted.GetDataInformation().GetNumberOfCells() == 0
 counted.XCuts = []

@@ -61,7 +61,7 @@ source = GranularDecompositionSource()
 source.UpdatePipeline()
 assert source.GetDataInformation().GetNumberOfCells() == 1
 assert list(source.GetDataInformation().GetBounds()) == [0, 1, 0, 1, 0, 1]
-SetProperties(source, Bounds=[0, 4, 0, 2, 0, 1], ProcessorGrid=[2, 2, 1], XCuts=[3], SharedCorners=1)
+granular.set_properties(source, Bounds=[0, 4, 0, 2, 0, 1], ProcessorGrid=[2, 2, 1], XCuts=[3], SharedCorners=1)
 source.UpdatePipeline()
 grid = servermanager.Fetch(source)
 assert grid.GetNumberOfPoints() == 18 and grid.GetNumberOfCells() == 4
@@ -91,7 +91,7 @@ assert display.Representation == "Surface With Edges", display.Representation
 assert tuple(display.ColorArrayName) == ("CELLS", "nlocal"), display.ColorArrayName[:]
 view.ViewTime = 2000
 granular.show(grains, view)
-SetProperties(display, Opacity=0.4)
+granular.set_properties(display, Opacity=0.4)
 view.ResetActiveCameraToPositiveY()
 GetActiveCamera().Azimuth(30)
 GetActiveCamera().Elevation(25)

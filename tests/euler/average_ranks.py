@@ -84,7 +84,7 @@ averaged = GranularEulerAverage(Input=grains, CellCounts=[8, 8, 12])
 smooth = CellDatatoPointData(Input=averaged)
 level = Contour(Input=smooth, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.1])
 cut = Slice(Input=averaged, SliceType="Plane")
-SetProperties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
 sums = {proxy: IntegrateVariables(Input=proxy) for proxy in (averaged, level, cut)}
 for integral in sums.values():
     integral.UpdatePipeline(2000)

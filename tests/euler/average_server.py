@@ -25,7 +25,7 @@ with connected() as server:
             assert abs(written[name] - theirs[name]).max() < 1.001e-6, (output, name)
         os.remove("averaged_2000.euler")
     cut = Slice(Input=average, SliceType="Plane")
-    SetProperties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+    granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
     cut.UpdatePipeline(2000)
     assert cut.GetDataInformation().GetNumberOfCells() >= 28
     average.RadiusArray = "no_radius"

@@ -4,6 +4,7 @@ import os
 
 import all_ranks
 import plain_euler
+import granular
 from paraview.simple import *
 
 first = all_ranks.ranks.GetLocalProcessId() == 0
@@ -40,7 +41,7 @@ assert cells_of(reader, 1) == 8
 reader.Output = "Points"
 assert cells_of(reader, 2) == 12
 # after an error another grid, that is smaller
-SetProperties(reader, Output="ImageData")
+granular.set_properties(reader, Output="ImageData")
 assert cells_of(reader, 2) == 0
 reader.FileNames = [os.path.abspath("small_1.vtk")]
 assert cells_of(reader) == 2

@@ -62,7 +62,7 @@ sums = IntegrateVariables(Input=series)
 sums.UpdatePipeline(4000)
 level = Contour(Input=CellDatatoPointData(Input=series), ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.2])
 cut = Slice(Input=series, SliceType="Plane")
-SetProperties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
 for proxy in (cut, level):
     proxy.UpdatePipeline(4000)
     assert cells_of(proxy) > 0
@@ -107,7 +107,7 @@ points = all_ranks.whole(CellCenters(Input=MergeBlocks(Input=blocks, MergePoints
 found = numpy.sort(own(points, "pressure"))
 assert numpy.allclose(found, numpy.sort(values["pressure"].ravel()), rtol=0, atol=1e-6)
 cut = Slice(Input=blocks, SliceType="Plane")
-SetProperties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
+granular.set_properties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
 smooth = Contour(Input=CellDatatoPointData(Input=blocks), ContourBy=["POINTS", "pressure"], Isosurfaces=[0])
 for proxy in (cut, smooth):
     proxy.UpdatePipeline()

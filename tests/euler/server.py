@@ -26,7 +26,7 @@ with connected() as server:
             assert written.read() == original.read(), output
         os.remove("again_4000.euler")
     cut = Slice(Input=reader, SliceType="Plane")
-    SetProperties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+    granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
     cut.UpdatePipeline()
     assert cut.GetDataInformation().GetNumberOfCells() >= 28
     bad = OpenDataFile(os.path.abspath("no_grid_1.vtk"), Output="ImageData")

@@ -104,8 +104,8 @@ colored = (pixels.max(axis=1) - pixels.min(axis=1)) > 60
 assert 0.1 < colored.mean() < 0.9, colored.mean()
 
 # a lattice in a tilted, periodic box
-SetProperties(source, Arrangement="FaceCentredCubic", NumberOfGrains=0, Radii="One", Radius=0.005,
-              BoxTilts=[0.03, 0, 0], Boundary="p p f", Spacing=1.05, Speed=0.5, Seed=-3)
+granular.set_properties(source, Arrangement="FaceCentredCubic", NumberOfGrains=0, Radii="One", Radius=0.005,
+                        BoxTilts=[0.03, 0, 0], Boundary="p p f", Spacing=1.05, Speed=0.5, Seed=-3)
 source.UpdatePipeline()
 ResetCamera(view)
 SaveScreenshot("lattice.png", view)
@@ -116,8 +116,8 @@ assert 0.4 < arrays["v"].std() < 0.6
 assert (picture("lattice.png") != pixels).any()
 
 # a box that is made for the grains
-SetProperties(source, Arrangement="Random", BoxLengths=[0, 0, 0], BoxTilts=[0, 0, 0], NumberOfGrains=5000,
-              SolidFraction=0.25)
+granular.set_properties(source, Arrangement="Random", BoxLengths=[0, 0, 0], BoxTilts=[0, 0, 0], NumberOfGrains=5000,
+                        SolidFraction=0.25)
 source.UpdatePipeline()
 assert source.GetDataInformation().GetNumberOfPoints() == 5000
 bounds = box.GetDataInformation().GetBounds()
@@ -125,8 +125,8 @@ edge = (5000 * 4 / 3 * math.pi * 0.005 ** 3 / 0.25) ** (1 / 3)
 assert numpy.allclose(bounds, [0, edge, 0, edge, 0, edge]), bounds
 
 # a bonded bundle: tubes on its bonds, in their place
-SetProperties(source, Arrangement="FibreBundle", NumberOfGrains=12 * 15, GrainsPerFibre=15, Radii="One",
-              Radius=0.002, Spacing=1.5, Speed=0, BondFactor=1, Boundary="f f f")
+granular.set_properties(source, Arrangement="FibreBundle", NumberOfGrains=12 * 15, GrainsPerFibre=15, Radii="One",
+                        Radius=0.002, Spacing=1.5, Speed=0, BondFactor=1, Boundary="f f f")
 source.UpdatePipeline()
 bonds = OutputPort(source, "Bonds")
 assert bonds.GetDataInformation().GetNumberOfCells() == 12 * 14
@@ -150,7 +150,7 @@ pixels = picture("tubes.png")
 assert ((pixels.max(axis=1) - pixels.min(axis=1)) > 60).mean() > 0.02
 Delete(tubes)
 Show(source, view)
-SetProperties(source, Arrangement="Random", Radius=0.005, BondFactor=0)
+granular.set_properties(source, Arrangement="Random", Radius=0.005, BondFactor=0)
 
 # more than 2^31 can be asked for, and are refused here for want of room
 source.NumberOfGrains = 3_000_000_000
@@ -165,7 +165,7 @@ clip.UpdatePipeline()
 assert clip.GetDataInformation().GetNumberOfPoints() == 100
 
 # a dump of the grains is read back as the grains
-SetProperties(source, BoxLengths=[0.1, 0.1, 0.1], BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
+granular.set_properties(source, BoxLengths=[0.1, 0.1, 0.1], BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
 path = os.path.abspath("grains.dump")
 SaveData(path, source)
 reader = OpenDataFile(path)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A server of several ranks for a script that is its client."""
 import contextlib
-import os
 import re
 import subprocess
 import sys
 import time
 
+from granular._ranks import mpirun_environment
 from paraview.simple import Connect, Disconnect
 
 
@@ -14,11 +14,7 @@ class RanksServer:
     """The command of the server is what the script got as its arguments."""
 
     def __init__(self):
-        # this process is one of MPI, too: what that has left in the environment is not for the server's
-        ours = ("OMPI_ALLOW", "OMPI_MCA_rmaps", "OMPI_MCA_btl", "OMPI_MCA_mpi", "OMPI_MCA_pml")
-        environment = {name: value for name, value in os.environ.items()
-                       if name.startswith(ours) or not name.startswith(("OMPI_", "ORTE_", "PMIX_"))}
-        self.process = subprocess.Popen([*sys.argv[1:], "--server-port=0"], env=environment,
+        self.process = subprocess.Popen([*sys.argv[1:], "--server-port=0"], env=mpirun_environment(),
                                         stdout=open("server.log", "w"), stderr=subprocess.STDOUT)
 
     def log(self):
