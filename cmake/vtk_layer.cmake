@@ -75,8 +75,10 @@ if(GRANULAR_BUILD_PYTHON)
   add_subdirectory(plugin/python)
 endif()
 
-# For whoever starts ParaView on the build tree by hand or from a script: to be sourced by a shell.
-file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/environment" CONTENT
-"export PV_PLUGIN_PATH='${CMAKE_BINARY_DIR}/${granular_plugin_folder}'
-export PYTHONPATH='${CMAKE_BINARY_DIR}/${granular_python_folder}'
-")
+# For whoever starts Python or ParaView on the build tree by hand or from a script: to be sourced by a shell.
+set(granular_environment "export PYTHONPATH='${CMAKE_BINARY_DIR}/${granular_python_folder}'\n")
+if(GRANULAR_PARAVIEW)
+  string(APPEND granular_environment
+    "export PV_PLUGIN_PATH='${CMAKE_BINARY_DIR}/${granular_plugin_folder}'\n")
+endif()
+file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/environment" CONTENT "${granular_environment}")

@@ -20,10 +20,12 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
+#include "vtkShaderProperty.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace
 {
@@ -270,6 +272,13 @@ vtkGranularGrainsRepresentation::vtkGranularGrainsRepresentation()
   this->Mapper = vtkSmartPointer<GrainsMapper>::New();
   this->Actor = vtkSmartPointer<GrainsActor>::New();
   this->Actor->SetMapper(this->Mapper);
+  // From VTK 9.4 on spheres are projected as if they were small, which would stretch one beside the camera over all
+  // of the picture. So the mapper leaves out every sphere whose centre is outside the view by a third. Only those more
+  // than 60 degrees off the line of sight have to go; where the shader has no such line, nothing is replaced.
+  const std::string outside = "posDC.x < -1.3*posDC.w || posDC.x > 1.3*posDC.w || posDC.y < "
+                              "-1.3*posDC.w || posDC.y > 1.3*posDC.w";
+  this->Actor->GetShaderProperty()->AddVertexShaderReplacement("if (" + outside + ")", true,
+    "if ((" + outside + ") && cameraParallel == 0 && length(posVC.xy) > -1.7 * posVC.z)", false);
 }
 
 vtkGranularGrainsRepresentation::~vtkGranularGrainsRepresentation() = default;

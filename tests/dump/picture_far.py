@@ -7,7 +7,7 @@ import sys
 
 import numpy
 from paraview.simple import *
-from discs import Camera, black_view, color_by_id, picture
+from discs import PROJECTED, Camera, black_view, color_by_id, picture
 from ranks_server import connected
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
@@ -38,7 +38,9 @@ def write(name, corner, rows=slice(None)):
     return os.path.abspath(name)
 
 
-CAMERA_ROUNDED = 20  # pixels: a camera at 2^20, in doubles, is off by 1e-5 of a pixel, and some round the other way
+# Pixels: a camera at 2^20, in doubles, is off by 1e-5 of a pixel, and some round the other way; more of them where
+# spheres are stretched.
+CAMERA_ROUNDED = 100 if PROJECTED else 20
 ON_SERVER = len(sys.argv) > 1
 ALONE = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses() == 1 and not ON_SERVER
 
@@ -110,9 +112,10 @@ Delete(blocks)
 # ---- moved by the display -----------------------------------------------------------------------------------
 far = OpenDataFile(paths["far"])
 display = shown(far)
-display.Position = (-FAR).tolist()
+place = "Position" if "Position" in display.ListProperties() else "Translation"  # before and from ParaView 5.12 on
+setattr(display, place, (-FAR).tolist())
 expect("moved", origin, cameras=["parallel"])
-display.Position = [0, 0, 0]
+setattr(display, place, [0, 0, 0])
 
 # ---- what is selected is what is seen (ParaView selects on one rank only) -----------------------------------------
 camera = CAMERAS["parallel"]

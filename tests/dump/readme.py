@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """README's first script, as it stands there, makes a picture of grains."""
+import fnmatch
 import os
 import re
 import subprocess
@@ -25,7 +26,7 @@ assert len({tuple(pixel // 32) for pixel in pixels[colored]}) > 20  # of many sp
 
 # and the plugin is where README says
 plugin = re.search(r"`build/release/(lib\S+Granular\.so)`", text).group(1)
-assert os.environ["PV_PLUGIN_PATH"].endswith(str(Path(plugin).parents[1])), plugin
+assert fnmatch.fnmatch(os.environ["PV_PLUGIN_PATH"], "*/" + str(Path(plugin).parents[1])), plugin
 
 # and the file that a shell sources says so to what it starts
 build = Path(os.environ["PV_PLUGIN_PATH"]).parents[2]

@@ -21,6 +21,11 @@ def write(name, values):
     return os.path.abspath(name)
 
 
+def digits(value):
+    """All digits of a number."""
+    return repr(float(value))
+
+
 def values(reader):
     reader.UpdatePipeline()
     output = servermanager.Fetch(reader)
@@ -58,7 +63,7 @@ cells["v_avg"][:5] = [[0.0000005, -0.0000005, -0.0], [0.0000015, 0.5, 1e300], [n
                       [2.0000005, 1e15 + 0.3, 123456.7890125], [-1e-300, 5e-324, 0.1]]
 write("nasty.vtk", cells)  # by Python's printf
 with open("wide.vtk", "w") as file:  # the same with all digits, as the reader takes it
-    file.write(plain_euler.text(cells, repr))
+    file.write(plain_euler.text(cells, digits))
 read = GranularEulerReader(FileNames=[os.path.abspath("wide.vtk")])
 for name, expected in cells.items():
     assert values(read)[name].tobytes() == expected.tobytes() or numpy.isnan(expected).any(), name
@@ -69,7 +74,7 @@ assert content("printed.vtk") == content("nasty.vtk")
 
 stressed = plain_euler.cells(plain_euler.grid((0, 0, 0), (3e-6, 1e-6, 2e-6), (3, 2, 4)), stresses=True, seed=5)
 with open("stressed.vtk", "w") as file:
-    file.write(plain_euler.text(stressed, repr))
+    file.write(plain_euler.text(stressed, digits))
 read = GranularEulerReader(FileNames=[os.path.abspath("stressed.vtk")])
 granular.save(read, "all_digits.euler", Dialect="Wide")
 again = GranularEulerReader(FileNames=[os.path.abspath("all_digits.euler")])

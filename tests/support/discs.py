@@ -6,9 +6,13 @@ import math
 import numpy
 from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, SaveScreenshot
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 EDGE = 0.01  # pixels: within, rounding decides
+# From VTK 9.4 on a sphere in perspective is projected as if it were small, and lies in the picture's plane.
+PROJECTED = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion(), vtkVersion.GetVTKBuildVersion()) >= \
+    (9, 3, 20240101)
 LEVELS = 1.5  # of 255: the table of colours has 256, and each value is rounded
 
 
@@ -45,6 +49,18 @@ def picture(view, name):
     width, height = view.ViewSize
     pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())
     return pixels.reshape(height, width, -1)[:, :, :3].astype(float)
+
+
+def projected_distance(x, y, centre, radius, half):
+    """Returns how far x and y are from a sphere's centre, in units of the ellipse that the projection's derivative at
+    the centre makes of the sphere. The view's half height is `half` at distance 1."""
+    u, v = centre[:2] / -centre[2]
+    scale = (radius / centre[2]) ** 2
+    uu, vv, uv = scale * (1 + u * u), scale * (1 + v * v), scale * u * v
+    if abs(uv) <= 1e-6 * half ** 2:  # as the shader has it
+        uv = 0
+    along, across = x - u, y - v
+    return numpy.sqrt((vv * along ** 2 - 2 * uv * along * across + uu * across ** 2) / (uu * vv - uv * uv))
 
 
 class Camera:
@@ -87,11 +103,16 @@ class Camera:
             ends = numpy.stack([centre[:2] - reach, centre[:2] + reach])
             if self.scale is None:
                 ends = (numpy.concatenate([ends / (-centre[2] - reach), ends / (-centre[2] + reach)])
-                        if -centre[2] > reach else numpy.array([[-numpy.inf], [numpy.inf]]) * [1, 1])
+                        if -centre[2] > reach and not PROJECTED else numpy.array([[-numpy.inf], [numpy.inf]]) * [1, 1])
             columns, rows = (slice(*numpy.searchsorted(line, [ends[:, k].min(), ends[:, k].max()])) for k in (0, 1))
             x, y = line[None, columns], line[rows, None]
             if self.scale is not None:
                 distance = numpy.hypot(x - centre[0], y - centre[1])
+            elif PROJECTED:
+                u, v = abs(centre[:2] / centre[2])
+                if numpy.hypot(u, v) > 1.7 and max(u, v) > 1.3 * half:
+                    continue  # stretched too far, and left out
+                distance, depth = radius * projected_distance(x, y, centre, radius, half), centre[2]
             else:
                 along = centre @ centre / (x * centre[0] + y * centre[1] - centre[2])
                 distance = numpy.sqrt((along * x - centre[0]) ** 2 + (along * y - centre[1]) ** 2
