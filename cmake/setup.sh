@@ -9,7 +9,7 @@ granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd
 granular_core_packages=(cmake g++ libzstd-dev ninja-build python3 zlib1g-dev)
 granular_plugin_packages=(
   libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xvfb)
-granular_vtk_packages=(libvtk9-dev python3-vtk9)
+granular_vtk_packages=(libopenmpi-dev libvtk9-dev openmpi-bin python3-dev python3-vtk9 xvfb)
 granular_test_packages=(binutils libbenchmark-dev libgtest-dev locales)
 
 granular_say()
@@ -111,8 +111,8 @@ granular_make()
   ninja -C "$granular_build" -j "$(nproc)" "$@" >&2
 }
 
-# granular_set_up samples|tests|benchmarks|core-only|asan|tsan: from a bare Debian to a finished build. The first three
-# share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
+# granular_set_up samples|tests|benchmarks|vtk-samples|vtk|core-only|asan|tsan: from a bare Debian to a finished build.
+# The first three share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
 # GRANULAR_STRICT=ON is in the environment: a compiler that is newer than ours may have new ones.
 granular_set_up()
 {
@@ -129,6 +129,16 @@ granular_set_up()
       granular_need_plugin "${granular_test_packages[@]}"
       granular_configure "${tests[@]}"
       if [ "$1" = tests ]; then granular_make; else granular_make core/all plugin/all plugin/python/all benchmarks; fi
+      ;;
+    vtk-samples)
+      granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}"
+      granular_is_configured vtk "$strict" || granular_configure vtk "$strict" -DBUILD_TESTING=OFF
+      granular_make core/all plugin/all plugin/python/all
+      ;;
+    vtk)
+      granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}" "${granular_test_packages[@]}"
+      granular_configure vtk "$strict"
+      granular_make
       ;;
     core-only | asan | tsan)
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"

@@ -31,9 +31,9 @@ without ParaView (GRANULAR_PARAVIEW=OFF) or the core alone (GRANULAR_BUILD_PLUGI
     "${PROJECT_SOURCE_DIR}/plugin/views")
   list(APPEND granular_module_targets Granular::vtkGranularServerManager Granular::vtkGranularViews)
 else()
-  granular_find(VTK 9.3 "CommonCore;CommonDataModel;CommonExecutionModel;CommonMisc;IOCore;IOXML;ParallelCore"
+  granular_find(VTK 9.1 "CommonCore;CommonDataModel;CommonExecutionModel;CommonMisc;IOCore;IOXML;ParallelCore"
     "install its development files (Debian: libvtk9-dev python3-vtk9), set VTK_DIR, or build the core alone \
-(GRANULAR_BUILD_PLUGIN=OFF, preset core-only). Older ones cannot stop an algorithm from within it.")
+(GRANULAR_BUILD_PLUGIN=OFF, preset core-only).")
 endif()
 if(GRANULAR_BUILD_PYTHON AND NOT VTK_WRAP_PYTHON)
   message(FATAL_ERROR

@@ -2,6 +2,7 @@
 #include "vtkGranularWriter.h"
 
 #include "private/dump/input_frames.h"
+#include "private/request/abort.h"
 #include "private/request/guard.h"
 #include "private/writing/writer.h"
 
@@ -157,7 +158,7 @@ int vtkGranularWriter::Write()
   this->Written = false;
   shared.Told.clear();
   shared.Notices.clear();
-  this->SetAbortOutput(false);
+  MarkStopped(this, false);
   this->InvokeEvent(vtkCommand::StartEvent);
   this->UpdateProgress(0);
   const Outcome outcome = Guard(

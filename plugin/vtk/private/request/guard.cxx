@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/request/guard.h"
 
+#include "private/request/abort.h"
+
 #include "granular/common/error.h"
 
 #include "vtkAlgorithm.h"
@@ -78,7 +80,7 @@ Outcome ReportException(
   }
   catch (const granular::Cancelled&)
   {
-    self->SetAbortOutput(true);
+    MarkStopped(self, true);
     return Outcome::Cancelled;
   }
   catch (const granular::IoError& error)
@@ -109,6 +111,6 @@ Outcome ReportException(
 bool AlgorithmProgress::report(double fraction)
 {
   this->Self->UpdateProgress(fraction);
-  return !this->Self->CheckAbort();
+  return !AskedToStop(this->Self);
 }
 }

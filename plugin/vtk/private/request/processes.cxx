@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/request/processes.h"
 
+#include "private/request/abort.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkMultiProcessController.h"
 
@@ -43,7 +45,7 @@ void Processes::BeginUpdate(vtkAlgorithm* self)
   if (this->Cancelled)
   {
     self->SetAbortExecute(0);
-    self->SetAbortOutput(false);
+    MarkStopped(self, false);
   }
   if (this->Cancelled || this->Refused)
   {
@@ -62,7 +64,7 @@ int Processes::EndRequest(vtkAlgorithm* self, Outcome outcome)
   {
     // who asked to stop, while another rank failed, has had the answer
     self->SetAbortExecute(0);
-    self->SetAbortOutput(false);
+    MarkStopped(self, false);
   }
   return !failed;
 }
