@@ -3,9 +3,14 @@
 #include "reader_helpers.h"
 
 #include "vtkPoints.h"
+#include "vtkVersion.h"
+
+#include <sys/mman.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstddef>
+#include <cstdint>
 
 namespace
 {
@@ -78,6 +83,67 @@ std::vector<std::string> ManyRows(int count)
     rows.push_back(line.str());
   }
   return rows;
+}
+
+/// Takes away the pages within an array, and counts who looks at them: that is a fault, after which they are
+/// back.
+class Scans
+{
+public:
+  explicit Scans(vtkDataArray* array)
+  {
+    constexpr std::uintptr_t page = 4096;
+    const auto begin = reinterpret_cast<std::uintptr_t>(array->GetVoidPointer(0));
+    const std::uintptr_t first = (begin + page - 1) / page * page;
+    const auto bytes = static_cast<std::uintptr_t>(array->GetDataSize() * array->GetDataTypeSize());
+    Size = (begin + bytes) / page * page - first;
+    Begin = reinterpret_cast<void*>(first);
+    Count = 0;
+    struct sigaction action = {};
+    action.sa_handler = [](int)
+    {
+      Count = Count + 1;
+      mprotect(Begin, Size, PROT_READ | PROT_WRITE);
+    };
+    sigaction(SIGSEGV, &action, &this->Before);
+    mprotect(Begin, Size, PROT_NONE);
+  }
+  ~Scans()
+  {
+    mprotect(Begin, Size, PROT_READ | PROT_WRITE);
+    sigaction(SIGSEGV, &this->Before, nullptr);
+  }
+  Scans(const Scans&) = delete;
+  Scans& operator=(const Scans&) = delete;
+
+  int count() const { return Count; }
+
+private:
+  struct sigaction Before;
+  static inline void* Begin = nullptr;
+  static inline std::size_t Size = 0;
+  static inline volatile std::sig_atomic_t Count = 0;
+};
+
+/// What ParaView asks of a data set: of its arrays the field data, where these know ranges.
+void GatherRanges(vtkPolyData* particles)
+{
+  particles->GetBounds();
+  for (int i = 0; i < particles->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = particles->GetPointData()->GetArray(i))
+    {
+      RangesOf(array);
+#if VTK_VERSION_NUMBER >= 90300000000ULL
+      for (int component = -1; component < array->GetNumberOfComponents(); ++component)
+      {
+        double range[2];
+        particles->GetPointData()->GetRange(i, range, component);
+        particles->GetPointData()->GetFiniteRange(i, range, component);
+      }
+#endif
+    }
+  }
 }
 
 const std::string Columns = "id type x y z ix iy iz radius c_a[1] c_a[2] element";
@@ -154,4 +220,32 @@ TEST(ReaderRanges, OfOneRowAndOfNone)
   Reader none({ WriteFile("none.dump", Frame("id x y z vx vy vz", {})) });
   none->Update();
   ExpectRanges(none, "all");
+}
+
+TEST(ReaderRanges, NobodyLooksAtTheValues)
+{
+  Reader reader({ WriteFile("scans.dump", Frame(Columns, ManyRows(20'001))) });
+  reader->Update();
+  vtkPolyData* particles = reader.Particles();
+  std::vector<vtkDataArray*> arrays = { particles->GetPoints()->GetData() };
+  for (int i = 0; i < particles->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    arrays.push_back(particles->GetPointData()->GetArray(i));
+  }
+  for (vtkDataArray* array : arrays)
+  {
+    if (array) // texts are none
+    {
+      SCOPED_TRACE(array->GetName());
+      {
+        const Scans scans(array);
+        GatherRanges(particles);
+        EXPECT_EQ(scans.count(), 0);
+      }
+      array->Modified();
+      const Scans scans(array);
+      GatherRanges(particles);
+      EXPECT_EQ(scans.count(), 1) << "of what was changed";
+    }
+  }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/arrays/arrays.h"
 
+#include "private/arrays/known_ranges.h"
+
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -26,7 +28,7 @@ namespace
 template <typename Array>
 vtkSmartPointer<Array> TakeBlock(granular::Block& block, vtkIdType tuples, int components)
 {
-  auto array = vtkSmartPointer<Array>::New();
+  auto array = vtkSmartPointer<Array>::Take(KnownRanges<Array>::New());
   array->SetNumberOfComponents(components);
   if (tuples > 0)
   {
@@ -121,6 +123,10 @@ void SetRange(vtkDataArray* array, const granular::ValueRange& range)
     const double lengths[] = { std::sqrt(range.squares()[0]), std::sqrt(range.squares()[1]) };
     info->Set(vtkDataArray::L2_NORM_RANGE(), lengths, 2);
     info->Set(vtkDataArray::L2_NORM_FINITE_RANGE(), lengths, 2);
+  }
+  if (auto* holder = dynamic_cast<RangeHolder*>(array))
+  {
+    holder->SetKnown(range);
   }
 }
 
