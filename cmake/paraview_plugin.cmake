@@ -41,6 +41,10 @@ else()
     add_custom_target(${help_TARGET} DEPENDS "${pages}")
     set(${help_OUTPUT_PATH} "${pages}" PARENT_SCOPE)
   endfunction()
+  # ParaView 5.13 gives up at Qt 6, whose tools it cannot use. This plugin has nothing else that needs to know.
+  if(DEFINED PARAVIEW_QT_MAJOR_VERSION)
+    set(PARAVIEW_QT_MAJOR_VERSION 5)
+  endif()
 endif()
 
 paraview_plugin_build(
