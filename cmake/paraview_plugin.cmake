@@ -41,7 +41,8 @@ else()
     add_custom_target(${help_TARGET} DEPENDS "${pages}")
     set(${help_OUTPUT_PATH} "${pages}" PARENT_SCOPE)
   endfunction()
-  # ParaView 5.13 gives up at Qt 6, whose tools it cannot use. This plugin has nothing else that needs to know.
+  # ParaView 5.13 makes no pages where Qt is 6. This plugin has nothing else that needs to know. (The window of 5.13
+  # with Qt 6 shows no pages at all, ParaView's own neither: its collection of pages is read-only. In 6.1 it is not.)
   if(DEFINED PARAVIEW_QT_MAJOR_VERSION)
     set(PARAVIEW_QT_MAJOR_VERSION 5)
   endif()

@@ -34,9 +34,8 @@ def expect(what, lower, upper):
     assert math.isclose(view.CameraParallelScale, radius, rel_tol=1e-6), (what, view.CameraParallelScale, radius)
 
 
-def show(path, **properties):
+def show(path):
     reader = OpenDataFile(path)
-    SetProperties(reader, **properties)
     display = Show(reader, view)
     display.SetRepresentationType("Grains")
     Render(view)
@@ -48,10 +47,10 @@ empty_first = write("empty_first.dump", BOX, [], ["1 12 0 5 2\n"])
 reader, display = show(empty_first)
 expect("box", [10, -10, 0], [30, 10, 40])
 moved = "Translation" if "Translation" in display.ListProperties() else "Position"  # since ParaView 5.12
-SetProperties(display, **{moved: [100, 0, 0]})
+setattr(display, moved, [100, 0, 0])
 Render(view)
 expect("box that is moved", [110, -10, 0], [130, 10, 40])
-SetProperties(display, **{moved: [0, 0, 0]})
+setattr(display, moved, [0, 0, 0])
 view.ViewTime = 10
 Render(view)
 expect("particle", [10, -2, 3], [14, 2, 7])
