@@ -10,7 +10,44 @@ paraview_plugin_scan(
   PROVIDES_PLUGINS granular_plugins
   ENABLE_BY_DEFAULT ON
   HIDE_PLUGINS_FROM_CACHE ON)
-# Making the help pages would need Qt's help tools.
+
+# ---- the help pages ----------------------------------------------------------------------------
+# ParaView would make them with Qt's help tools and an XSLT processor, hundreds of megabytes of packages. Both of its
+# functions are replaced, and Python does it.
+find_package(Python3 QUIET COMPONENTS Interpreter)
+set(granular_no_help ON)
+if(Python3_Interpreter_FOUND)
+  execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import sqlite3, xml.etree.ElementTree, zlib"
+    RESULT_VARIABLE granular_no_help ERROR_QUIET)
+endif()
+if(granular_no_help)
+  message(STATUS "The '?' of ParaView's panels will open no help: Python 3 with sqlite3 was not found (Debian: python3).")
+  set(granular_no_help ON)
+else()
+  set(granular_no_help OFF)
+  function(paraview_client_documentation)
+  endfunction()
+  function(paraview_client_generate_help)
+    cmake_parse_arguments(PARSE_ARGV 0 help "" "NAME;TARGET;OUTPUT_DIR;OUTPUT_PATH" "")
+    set(pages "${help_OUTPUT_DIR}/${help_NAME}.qch")
+    set(script "${PROJECT_SOURCE_DIR}/cmake/help_pages.py")
+    file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/xml/*.xml")
+    file(MAKE_DIRECTORY "${help_OUTPUT_DIR}")
+    add_custom_command(OUTPUT "${pages}"
+      COMMAND "${Python3_EXECUTABLE}" -B "${script}" "${pages}" ${files}
+      DEPENDS "${script}" ${files}
+      COMMENT "Making the help pages"
+      VERBATIM)
+    add_custom_target(${help_TARGET} DEPENDS "${pages}")
+    set(${help_OUTPUT_PATH} "${pages}" PARENT_SCOPE)
+  endfunction()
+  # ParaView 5.13 makes no pages where Qt is 6. This plugin has nothing else that needs to know. (The window of 5.13
+  # with Qt 6 shows no pages at all, ParaView's own neither: its collection of pages is read-only. In 6.1 it is not.)
+  if(DEFINED PARAVIEW_QT_MAJOR_VERSION)
+    set(PARAVIEW_QT_MAJOR_VERSION 5)
+  endif()
+endif()
+
 paraview_plugin_build(
   PLUGINS ${granular_plugins}
   AUTOLOAD ${granular_plugins}
@@ -18,4 +55,4 @@ paraview_plugin_build(
   INSTALL_HEADERS OFF
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
-  DISABLE_XML_DOCUMENTATION ON)
+  DISABLE_XML_DOCUMENTATION ${granular_no_help})

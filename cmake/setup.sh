@@ -65,13 +65,19 @@ granular_need()
     apt-get -q install --yes --no-install-recommends --no-remove "${missing[@]}"
 }
 
-# granular_need_plugin: where Debian's ParaView uses Debian's VTK, the development files of that are another package.
+# granular_need_plugin: where Debian's ParaView uses Debian's VTK, the development files of that are another package; and
+# ParaView's window shows no help without Qt's driver for SQLite, which it only recommends (0.3 MB).
 granular_need_plugin()
 {
   granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}" "$@"
   if dpkg-query --show --showformat='${Depends}' paraview 2>/dev/null | grep -q libvtk9; then
     granular_need "${granular_vtk_packages[@]}"
   fi
+  local sql
+  for sql in $(dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' libqt5sql5 libqt6sql6 2>/dev/null |
+    sed -n 's/^installed //p'); do
+    granular_need "$sql-sqlite"
+  done
 }
 
 # granular_is_configured preset [-Doption...]: sets granular_build, the build folder. ninja itself

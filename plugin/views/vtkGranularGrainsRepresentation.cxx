@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularGrainsRepresentation.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
+#include "vtkCommunicator.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLActor.h"
@@ -21,6 +25,7 @@
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProperty.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <array>
@@ -217,6 +222,64 @@ private:
   vtkMTimeType Time = 0;
 };
 
+// Returns the numbers of an array of field data, or nullptr where there is no such array.
+vtkDataArray* FindNumbers(vtkFieldData* fields, const char* name, vtkIdType count)
+{
+  vtkDataArray* array = fields ? fields->GetArray(name) : nullptr;
+  return array && array->GetNumberOfValues() == count ? array : nullptr;
+}
+
+// Adds the corners of the simulation box that field data speak of, where an actor puts them.
+void AddBox(vtkBoundingBox& bounds, vtkActor* actor, vtkFieldData* fields)
+{
+  vtkDataArray* origin = FindNumbers(fields, "BoxOrigin", 3);
+  vtkDataArray* edges = FindNumbers(fields, "BoxVectors", 9); // a, b, c
+  vtkAbstractArray* kind = fields ? fields->GetAbstractArray("Coordinates") : nullptr;
+  const bool scaled =
+    kind && kind->GetNumberOfValues() == 1 && kind->GetVariantValue(0).ToString() == "Scaled";
+  if (!origin || !edges || scaled) // scaled points are not where the box is
+  {
+    return;
+  }
+  const auto number = [](vtkDataArray* of, int i) { // however they are dealt to tuples
+    return of->GetComponent(i / of->GetNumberOfComponents(), i % of->GetNumberOfComponents());
+  };
+  vtkDataArray* zero = FindNumbers(fields, "PointOrigin", 3);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double place[4] = { 0.0, 0.0, 0.0, 1.0 };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = number(origin, axis) - (zero ? number(zero, axis) : 0.0);
+      for (int edge = 0; edge < 3; ++edge)
+      {
+        place[axis] += (corner >> edge & 1) * number(edges, 3 * edge + axis);
+      }
+    }
+    if (!actor->vtkProp3D::GetIsIdentity())
+    {
+      actor->GetMatrix()->MultiplyPoint(place, place);
+    }
+    bounds.AddPoint(place);
+  }
+}
+
+// Returns true if a rank has points of the data. All ranks must ask.
+bool AnyRankHasPoints(vtkDataObject* data)
+{
+  vtkIdType here = 0;
+  for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(data))
+  {
+    here += block->GetNumberOfPoints();
+  }
+  vtkIdType most = here;
+  if (auto* ranks = vtkMultiProcessController::GetGlobalController())
+  {
+    ranks->AllReduce(&here, &most, 1, vtkCommunicator::MAX_OP);
+  }
+  return most > 0;
+}
+
 // An actor whose bounds hold the spheres, not their centres alone: cullers and IceT go by them. It draws what its
 // mapper counts from a place where that belongs.
 class GrainsActor : public vtkOpenGLActor
@@ -319,7 +382,17 @@ int vtkGranularGrainsRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_UPDATE())
   {
     double* bounds = static_cast<GrainsActor*>(this->Actor.Get())->GetBoundsOf(this->ProcessedData);
-    vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds);
+    vtkBoundingBox box;
+    if (!AnyRankHasPoints(this->ProcessedData))
+    {
+      for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(this->ProcessedData))
+      {
+        AddBox(box, this->Actor, block->GetFieldData());
+      }
+    }
+    double boxBounds[6];
+    box.GetBounds(boxBounds);
+    vtkPVRenderView::SetGeometryBounds(inInfo, this, box.IsValid() ? boxBounds : bounds);
     if (!this->IsTranslucent())
     {
       outInfo->Remove(vtkPVRenderView::NEED_ORDERED_COMPOSITING());

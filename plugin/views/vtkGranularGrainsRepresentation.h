@@ -19,6 +19,10 @@
  * their radius, and at 2^20 nothing is seen of them. Here a place near the centre of the view is subtracted in doubles first. It depends on
  * the camera alone and seldom changes; near the origin it is the origin, and points are passed on as they are.
  *
+ * A frame without particles, on any rank, has the bounds of the simulation box, which the field data BoxOrigin and
+ * BoxVectors give: the first frame of most runs that insert particles is empty, and ParaView puts the camera where
+ * the first frame wants it. Scaled coordinates have no such box.
+ *
  * Made for the preset Sphere and radii without a transfer function, as the XML sets them.
  */
 
