@@ -2,13 +2,16 @@
 """Finding and loading the ParaView plugin that belongs to this package."""
 import os
 
+from ._folders import LIBRARY_FOLDER
+
 
 def load_plugin(ns=None, remote=False):
     """Loads the ParaView plugin that was built or installed with this package, and returns its path.
 
     Afterwards `from paraview.simple import *` knows GranularDumpReader and the other names; if that
     line came first, pass ns=globals(). remote=True loads it on the server of a connection: both
-    machines then need it under the same path. Not needed where PV_PLUGIN_PATH names its folder.
+    machines then need it under the same path. Not needed where PV_PLUGIN_PATH names its folder, or where Debian's
+    package of the plugin is installed.
 
     Raises FileNotFoundError if it is not where this package looks for it, RuntimeError if ParaView
     refuses to load it.
@@ -17,9 +20,7 @@ def load_plugin(ns=None, remote=False):
 
     version = servermanager.vtkSMProxyManager
     paraview = f"paraview-{version.GetVersionMajor()}.{version.GetVersionMinor()}"
-    # this package is in LIB/python3/dist-packages/granular
-    library = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-    path = os.path.join(library, paraview, "plugins", "Granular", "Granular.so")
+    path = os.path.join(LIBRARY_FOLDER, paraview, "plugins", "Granular", "Granular.so")
     if not os.path.isfile(path):
         raise FileNotFoundError(f"no plugin for this ParaView: {path} does not exist")
     simple.LoadPlugin(path, remote=remote)  # names into paraview.simple
