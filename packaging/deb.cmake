@@ -34,12 +34,14 @@ endif()
 # at these paths say. Debian 13 and later look for it in the folder of ParaView's plugins. It is ParaView's file, and
 # names, beside ParaView's own list, a path where no file is: one for others. Debian 12 has no such file, and looks for
 # it beside the programs.
-set(granular_conf "/usr/${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_SUBDIR}/paraview.conf")
+get_filename_component(granular_conf "/usr/${granular_plugin_folder}" DIRECTORY)
+string(APPEND granular_conf "/paraview.conf")
 if(EXISTS "${granular_conf}")
   file(STRINGS "${granular_conf}" granular_list REGEX "^/usr/" LIMIT_COUNT 1)
   if(NOT granular_list)
     message(FATAL_ERROR "${granular_conf} names no file for the plugins of other packages.")
   endif()
+  file(RELATIVE_PATH granular_list /usr "${granular_list}")
   get_filename_component(granular_list_folder "${granular_list}" DIRECTORY)
   get_filename_component(granular_list_name "${granular_list}" NAME)
   file(WRITE "${PROJECT_BINARY_DIR}/packaging/plugins.xml" "<?xml version=\"1.0\"?>
