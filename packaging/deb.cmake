@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Packages for the Debian that this is: what `cpack -G DEB` needs to know, and files that no other install has. A
-# package is a component of the install rules:
+# Settings of `cpack -G DEB`, and files that only packages hold. Packages are for the Debian that runs this; each is a
+# component of the install rules:
 #
 #   plugin   granular          the ParaView plugin, loaded by ParaView's programs when they start
 #   python   python3-granular  the Python package
@@ -11,15 +11,14 @@ if(NOT GRANULAR_PARAVIEW OR NOT GRANULAR_BUILD_PLUGIN OR NOT GRANULAR_BUILD_PYTH
 endif()
 
 # ---- the version -------------------------------------------------------------------------------
-# Packages for a release sort before those for the next one, and before those for unstable.
+# Packages for a release sort before packages for the next one, and before packages for unstable.
 file(STRINGS /etc/os-release granular_os_release)
 set(granular_release 1)
-if(granular_os_release MATCHES "VERSION_ID=\"?([0-9]+)")
-  set(granular_release "1~deb${CMAKE_MATCH_1}")
-endif()
 set(granular_suite unstable)
-if(granular_os_release MATCHES "VERSION_ID=.*VERSION_CODENAME=([a-z]+)|VERSION_CODENAME=([a-z]+).*VERSION_ID=")
-  set(granular_suite "${CMAKE_MATCH_1}${CMAKE_MATCH_2}")
+if(granular_os_release MATCHES "VERSION_ID=\"?([0-9.]+)")
+  set(granular_release "1~deb${CMAKE_MATCH_1}")
+  string(REGEX MATCH "VERSION_CODENAME=([a-z]+)" granular_suite "${granular_os_release}")
+  set(granular_suite "${CMAKE_MATCH_1}")
 endif()
 set(granular_version "${PROJECT_VERSION}-${granular_release}")
 
@@ -30,10 +29,10 @@ if(NOT DEFINED ENV{DEBFULLNAME} OR NOT DEFINED ENV{DEBEMAIL})
 endif()
 
 # ---- ParaView loads the plugin -----------------------------------------------------------------
-# All of ParaView's programs read one paraview.conf, lines of paths, when they start, and load the plugins that the files
-# at these paths say. Debian 13 and later look for it in the folder of ParaView's plugins. It is ParaView's file, and
-# names, beside ParaView's own list, a path where no file is: one for others. Debian 12 has no such file, and looks for
-# it beside the programs.
+# When they start, ParaView's programs read the file paraview.conf, a list of paths, and then the XML file at each
+# path, which says which plugins to load. Debian 13 and later keep paraview.conf in ParaView's library folder. It lists a
+# path that belongs to no package; our XML file goes there. ParaView of Debian 12 comes without a paraview.conf and looks
+# for it beside its programs; our own goes there.
 get_filename_component(granular_conf "/usr/${granular_plugin_folder}" DIRECTORY)
 string(APPEND granular_conf "/paraview.conf")
 if(EXISTS "${granular_conf}")
@@ -57,7 +56,7 @@ else()
 endif()
 
 # ---- what every package of Debian has ----------------------------------------------------------
-# gzip without names and times: the same bytes each time.
+# -n: without names and times, the same content gives the same bytes.
 string(TIMESTAMP granular_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE "${PROJECT_BINARY_DIR}/packaging/changelog" "granular (${granular_version}) ${granular_suite}; urgency=medium
 
@@ -104,7 +103,8 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE "${granular_release}")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SOURCE granular)
 
-# A plugin loads in the series of ParaView that it was built for, in no other; dpkg-shlibdeps adds the rest.
+# A plugin loads only in the series of ParaView that it was built for. dpkg-shlibdeps adds the libraries; Debian's ParaView
+# narrows its own version further.
 math(EXPR granular_next "${ParaView_VERSION_MINOR} + 1")
 set(granular_series "${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}")
 set(granular_after "${ParaView_VERSION_MAJOR}.${granular_next}~")
@@ -123,7 +123,8 @@ ParaView ${granular_series} loads this plugin whenever it starts.")
 math(EXPR granular_next "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+# libvtkGranular.so is in another package.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "granular (= ${granular_version})"
   "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}~)"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""open_dump.py NAME [HOST:PORT]: what a user does who has installed the packages: opens the dump NAME, in this process
-or on a server, without a word about a plugin. Prints "opened" if all is as it should be."""
+"""open_dump.py NAME [HOST:PORT] opens the dump NAME, in this process or on a server, as a user does after installing
+the packages: nothing here loads a plugin. Prints "opened" if ParaView had loaded the plugin and the data are right."""
 import os
 import sys
 import traceback
@@ -33,7 +33,7 @@ def open_dump(name, server=None):
     assert os.path.samefile(granular.load_plugin(), loaded[0])
 
 
-# ParaView's window has no arguments for a script, keeps what it prints, and does not end with it.
+# ParaView's window passes no arguments to a script, captures its output, and stays open after it.
 in_window = "OPEN_DUMP" in os.environ
 arguments = os.environ["OPEN_DUMP"].split() if in_window else sys.argv[1:]
 try:
