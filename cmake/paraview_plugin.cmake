@@ -48,6 +48,12 @@ else()
   endif()
 endif()
 
+# ---- the plugin itself ------------------------------------------------------------------------
+# ParaView's macro would look for the modules beside the folder of all plugins alone.
+file(RELATIVE_PATH granular_rpath "/${granular_plugin_folder}/Granular" "/${granular_library_folder}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN/${granular_rpath}")
+# Versions of ParaView differ in which of their rules name a component.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME plugin)
 paraview_plugin_build(
   PLUGINS ${granular_plugins}
   AUTOLOAD ${granular_plugins}
@@ -55,4 +61,7 @@ paraview_plugin_build(
   INSTALL_HEADERS OFF
   LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
+  ADD_INSTALL_RPATHS OFF
+  PLUGINS_COMPONENT plugin
+  TARGET_COMPONENT plugin
   DISABLE_XML_DOCUMENTATION ${granular_no_help})

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by samples/run, tests/run, tests/tidy and tests/bench/run: what they need before their own work. Everything
-# here does nothing, quickly, when it has been done before.
+# Sourced by samples/run, tests/run, tests/tidy, tests/bench/run and packaging/deb: what they need before their own work.
+# Everything here does nothing, quickly, when it has been done before.
 
 granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 

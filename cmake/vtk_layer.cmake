@@ -55,12 +55,18 @@ foreach(module IN LISTS granular_required_modules)
       "in ${VTK_DIR}. Use one that was built with it, or set GRANULAR_BUILD_PLUGIN=OFF.")
   endif()
 endforeach()
+# Libraries without a version are private ones to Debian, which keeps them out of the linker's folder.
+set(granular_library_folder "${CMAKE_INSTALL_LIBDIR}")
+if(GRANULAR_DEB)
+  string(APPEND granular_library_folder "/granular")
+endif()
 # PACKAGE is not the name of the package of the core: files of the two never share a name.
 vtk_module_build(
   MODULES ${granular_modules}
   PACKAGE GranularVTK
   INSTALL_HEADERS OFF
-  LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  LIBRARY_DESTINATION "${granular_library_folder}"
+  TARGETS_COMPONENT plugin
   HIERARCHY_DESTINATION "${CMAKE_INSTALL_LIBDIR}/vtk/hierarchy/GranularVTK"
   TEST_DIRECTORY_NAME NONE)
 
@@ -70,7 +76,9 @@ endif()
 
 # ---- the Python package ------------------------------------------------------------------------
 # PYTHONPATH of the build tree, and below the prefix when installed.
-set(granular_python_folder "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+set(GRANULAR_PYTHON_FOLDER "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages" CACHE STRING
+  "Folder of the Python package, below the prefix")
+set(granular_python_folder "${GRANULAR_PYTHON_FOLDER}")
 if(GRANULAR_BUILD_PYTHON)
   add_subdirectory(plugin/python)
 endif()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Takes the prefix of an install: ParaView must have loaded the plugin from there, Python must
-import the package from there, and neither may reach back into the build folder."""
+"""Takes the prefix of an install: ParaView must have loaded the plugin from there, or do so when granular.load_plugin
+asks for it where PV_PLUGIN_PATH is empty, Python must import the package from there, and neither may reach back into
+the build folder."""
 import os
 import sys
 
@@ -16,12 +17,16 @@ def below_prefix(path):
     return os.path.realpath(path).startswith(prefix + os.sep)
 
 
+loaded_by_itself = hasattr(paraview.simple, "GranularDumpReader")
+assert loaded_by_itself == bool(os.environ["PV_PLUGIN_PATH"]), "is another plugin installed?"
+loaded = granular.load_plugin()
 tracker = vtkPVPluginTracker.GetInstance()
 plugins = {tracker.GetPluginName(i): i for i in range(tracker.GetNumberOfPlugins())}
 assert "Granular" in plugins, "ParaView does not know the plugin"
 assert tracker.GetPluginLoaded(plugins["Granular"]), "the plugin is not loaded"
 plugin_file = tracker.GetPluginFileName(plugins["Granular"])
 assert below_prefix(plugin_file), plugin_file
+assert loaded == plugin_file, loaded
 assert below_prefix(granular.__file__), granular.__file__
 
 with open("/proc/self/maps", encoding="ascii", errors="replace") as maps:

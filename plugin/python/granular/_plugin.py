@@ -2,29 +2,49 @@
 """Finding and loading the ParaView plugin that belongs to this package."""
 import os
 
+from ._folders import LIBRARY_FOLDER
+
+
+def _loaded_plugin(servermanager):
+    """Returns the path of the plugin that this process has loaded, or None."""
+    plugins = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
+    for i in range(plugins.GetNumberOfPlugins()):
+        if plugins.GetPluginName(i) == "Granular" and plugins.GetPluginLoaded(i):
+            return plugins.GetPluginFileName(i)
+    return None
+
+
+def _plugin_beside_package(servermanager):
+    """Returns the path of the plugin that belongs to this package, for the version of ParaView that runs."""
+    version = servermanager.vtkSMProxyManager
+    paraview = f"paraview-{version.GetVersionMajor()}.{version.GetVersionMinor()}"
+    path = os.path.join(LIBRARY_FOLDER, paraview, "plugins", "Granular", "Granular.so")
+    if not os.path.isfile(path):
+        raise FileNotFoundError(f"no plugin for this ParaView: {path} does not exist")
+    return path
+
 
 def load_plugin(ns=None, remote=False):
     """Loads the ParaView plugin that was built or installed with this package, and returns its path.
 
     Afterwards `from paraview.simple import *` knows GranularDumpReader and the other names; if that
     line came first, pass ns=globals(). remote=True loads it on the server of a connection: both
-    machines then need it under the same path. Not needed where PV_PLUGIN_PATH names its folder.
+    machines then need it under the same path. Not needed where PV_PLUGIN_PATH names its folder, nor with
+    Debian's packages: a plugin that is loaded already stays, and its path is returned.
 
     Raises FileNotFoundError if it is not where this package looks for it, RuntimeError if ParaView
     refuses to load it.
     """
     from paraview import servermanager, simple
 
-    version = servermanager.vtkSMProxyManager
-    paraview = f"paraview-{version.GetVersionMajor()}.{version.GetVersionMinor()}"
-    # this package is in LIB/python3/dist-packages/granular
-    library = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-    path = os.path.join(library, paraview, "plugins", "Granular", "Granular.so")
-    if not os.path.isfile(path):
-        raise FileNotFoundError(f"no plugin for this ParaView: {path} does not exist")
-    simple.LoadPlugin(path, remote=remote)  # names into paraview.simple
-    if ns is not None:
-        simple.LoadPlugin(path, remote=remote, ns=ns)
+    path = None if remote else _loaded_plugin(servermanager)
+    if path is None:
+        path = _plugin_beside_package(servermanager)
+        simple.LoadPlugin(path, remote=remote)  # names into paraview.simple
     if not hasattr(simple, "GranularDumpReader"):
         raise RuntimeError(f"ParaView did not load {path}; its messages say why")
+    # Not by a second LoadPlugin, which is an error in pvbatch.
+    for name in list(vars(simple)) if ns is not None else ():
+        if not name.startswith("_"):
+            ns.setdefault(name, getattr(simple, name))
     return path

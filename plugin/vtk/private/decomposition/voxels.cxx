@@ -17,6 +17,7 @@
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -98,7 +99,11 @@ void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& deco
     granular::make_voxels(subdomains, form.Origin, form.SharedCorners, executor, progress);
   const auto cells = static_cast<vtkIdType>(subdomains.size());
   output->SetPoints(TakePoints(voxels.points, voxels.number_of_points, false, {}));
-  output->SetCells(VTK_VOXEL, TakeCells(voxels.connectivity, cells, granular::corners_of_voxel));
+  // An array of types, where VTK 9.6 has a constant for one type: its writers warn of that.
+  vtkNew<vtkUnsignedCharArray> types;
+  types->SetNumberOfValues(cells);
+  types->FillValue(VTK_VOXEL);
+  output->SetCells(types, TakeCells(voxels.connectivity, cells, granular::corners_of_voxel));
   vtkCellData* data = output->GetCellData();
   if (decomposition.has_particles)
   {
