@@ -65,19 +65,22 @@ granular_need()
     apt-get -q install --yes --no-install-recommends --no-remove "${missing[@]}"
 }
 
-# granular_need_plugin: where Debian's ParaView uses Debian's VTK, the development files of that are another package; and
-# ParaView's window shows no help without Qt's driver for SQLite, which it only recommends (0.3 MB).
+# granular_need_plugin [package...]: where Debian's ParaView uses Debian's VTK, the development files of VTK are another
+# package. The help of ParaView's window needs Qt's driver for SQLite (0.3 MB), which Debian only recommends.
 granular_need_plugin()
 {
   granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}" "$@"
-  if dpkg-query --show --showformat='${Depends}' paraview 2>/dev/null | grep -q libvtk9; then
-    granular_need "${granular_vtk_packages[@]}"
+  command -v dpkg-query >/dev/null || return 0
+  local more=() sql
+  if dpkg-query --show --showformat='${Depends}' paraview | grep -q libvtk9; then
+    more+=("${granular_vtk_packages[@]}")
   fi
-  local sql
-  for sql in $(dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' libqt5sql5 libqt6sql6 2>/dev/null |
-    sed -n 's/^installed //p'); do
-    granular_need "$sql-sqlite"
+  for sql in libqt5sql5 libqt6sql6; do
+    if [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$sql" 2>/dev/null)" = installed ]; then
+      more+=("$sql-sqlite")
+    fi
   done
+  [ "${#more[@]}" -eq 0 ] || granular_need "${more[@]}"
 }
 
 # granular_is_configured preset [-Doption...]: sets granular_build, the build folder. ninja itself
@@ -117,8 +120,8 @@ granular_make()
   ninja -C "$granular_build" -j "$(nproc)" "$@" >&2
 }
 
-# granular_set_up samples|tests|benchmarks|vtk-samples|vtk|core-only|asan|tsan: from a bare Debian to a finished build.
-# The first three share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
+# granular_set_up samples|tests|plugin|benchmarks|vtk-samples|vtk|core-only|asan|tsan: from a bare Debian to a finished
+# build. The first four share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
 # GRANULAR_STRICT=ON is in the environment: a compiler that is newer than ours may have new ones.
 granular_set_up()
 {
@@ -131,10 +134,14 @@ granular_set_up()
         granular_configure release "$strict" -DBUILD_TESTING=OFF
       granular_make core/all plugin/all plugin/python/all
       ;;
-    tests | benchmarks)
+    tests | plugin | benchmarks)
       granular_need_plugin "${granular_test_packages[@]}"
       granular_configure "${tests[@]}"
-      if [ "$1" = tests ]; then granular_make; else granular_make core/all plugin/all plugin/python/all benchmarks; fi
+      case "$1" in
+        tests) granular_make ;;
+        plugin) granular_make core/all plugin/all plugin/python/all tests_vtk ;;
+        benchmarks) granular_make core/all plugin/all plugin/python/all benchmarks ;;
+      esac
       ;;
     vtk-samples)
       granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}"

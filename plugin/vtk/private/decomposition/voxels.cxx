@@ -12,12 +12,12 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
