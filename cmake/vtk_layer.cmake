@@ -35,9 +35,18 @@ else()
     "install its development files (Debian: libvtk9-dev python3-vtk9), set VTK_DIR, or build the core alone \
 (GRANULAR_BUILD_PLUGIN=OFF, preset core-only).")
 endif()
+set(granular_vtk "VTK ${VTK_VERSION} in ${VTK_DIR}")
+if(GRANULAR_PARAVIEW)
+  set(granular_vtk "ParaView ${ParaView_VERSION} in ${ParaView_DIR}")
+endif()
 if(GRANULAR_BUILD_PYTHON AND NOT VTK_WRAP_PYTHON)
-  message(FATAL_ERROR
-    "This VTK was built without Python: set GRANULAR_BUILD_PYTHON=OFF.")
+  message(FATAL_ERROR "${granular_vtk} was built without Python: use one with Python, or set GRANULAR_BUILD_PYTHON=OFF.")
+endif()
+if(TARGET VTK::ParallelMPI AND NOT TARGET Granular::mpi)
+  message(FATAL_ERROR "${granular_vtk} was built with MPI, and MPI was not found: install its development files "
+    "(Debian: libopenmpi-dev).")
+elseif(NOT TARGET VTK::ParallelMPI)
+  message(STATUS "${granular_vtk} was built without MPI: everything will work on one rank.")
 endif()
 
 # ---- the modules -------------------------------------------------------------------------------

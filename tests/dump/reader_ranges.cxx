@@ -2,10 +2,15 @@
 // The ranges that arrays come with are those that VTK finds by looking.
 #include "reader_helpers.h"
 
+#include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkVersion.h"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
@@ -92,7 +97,7 @@ class Scans
 public:
   explicit Scans(vtkDataArray* array)
   {
-    constexpr std::uintptr_t page = 4096;
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto begin = reinterpret_cast<std::uintptr_t>(array->GetVoidPointer(0));
     const std::uintptr_t first = (begin + page - 1) / page * page;
     const auto bytes = static_cast<std::uintptr_t>(array->GetDataSize() * array->GetDataTypeSize());
@@ -134,7 +139,7 @@ void GatherRanges(vtkPolyData* particles)
     if (vtkDataArray* array = particles->GetPointData()->GetArray(i))
     {
       RangesOf(array);
-#if VTK_VERSION_NUMBER >= 90300000000ULL
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
       for (int component = -1; component < array->GetNumberOfComponents(); ++component)
       {
         double range[2];
@@ -249,3 +254,58 @@ TEST(ReaderRanges, NobodyLooksAtTheValues)
     }
   }
 }
+
+TEST(ReaderRanges, WhatTheArraysDoNotKnowIsAskedOfTheValues)
+{
+  Reader reader(
+    { WriteFile("changed.dump", Frame("id x y z radius", { "1 0 0 0 1", "2 .5 0 0 3" })) });
+  reader->Update();
+  vtkPolyData* particles = reader.Particles();
+  vtkDataArray* radius = particles->GetPointData()->GetArray("radius");
+  double range[2];
+  const auto expect = [&range](double low, double high)
+  {
+    EXPECT_EQ(range[0], low);
+    EXPECT_EQ(range[1], high);
+  };
+
+  const auto made = vtk::TakeSmartPointer(radius->NewInstance());
+  EXPECT_STREQ(made->GetClassName(), "vtkDoubleArray");
+  EXPECT_STREQ(radius->GetClassName(), "vtkDoubleArray");
+  EXPECT_TRUE(radius->IsA("vtkDoubleArray"));
+  made->DeepCopy(radius);
+  made->SetComponent(0, 0, -7.0);
+  made->Modified();
+  made->GetRange(range);
+  expect(-7.0, 3.0);
+  radius->GetRange(range);
+  expect(1.0, 3.0);
+
+  radius->SetComponent(1, 0, 9.0);
+  radius->Modified();
+  radius->GetRange(range);
+  expect(1.0, 9.0);
+  radius->SetNumberOfTuples(1);
+  radius->Modified();
+  radius->GetRange(range);
+  expect(1.0, 1.0);
+}
+
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+TEST(ReaderRanges, WithoutGhosts)
+{
+  Reader reader(
+    { WriteFile("ghosts.dump", Frame("id x y z radius", { "1 0 0 0 1", "2 .5 0 0 3" })) });
+  reader->Update();
+  vtkPointData* data = reader.Particles()->GetPointData();
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->InsertNextValue(0);
+  ghosts->InsertNextValue(vtkDataSetAttributes::DUPLICATEPOINT);
+  data->AddArray(ghosts);
+  double range[2];
+  data->GetRange("radius", range, 0);
+  EXPECT_EQ(range[0], 1.0);
+  EXPECT_EQ(range[1], 1.0);
+}
+#endif

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finding and loading the ParaView plugin that belongs to this package."""
+import glob
 import os
 
 from ._folders import LIBRARY_FOLDER
@@ -17,11 +18,14 @@ def _loaded_plugin(servermanager):
 def _plugin_beside_package(servermanager):
     """Returns the path of the plugin that belongs to this package, for the version of ParaView that runs."""
     version = servermanager.vtkSMProxyManager
-    paraview = f"paraview-{version.GetVersionMajor()}.{version.GetVersionMinor()}"
-    path = os.path.join(LIBRARY_FOLDER, paraview, "plugins", "Granular", "Granular.so")
-    if not os.path.isfile(path):
-        raise FileNotFoundError(f"no plugin for this ParaView: {path} does not exist")
-    return path
+    paraview = f"{version.GetVersionMajor()}.{version.GetVersionMinor()}"
+    path = os.path.join(LIBRARY_FOLDER, f"paraview-{paraview}", "plugins", "Granular", "Granular.so")
+    if os.path.isfile(path):
+        return path
+    others = glob.glob(os.path.join(glob.escape(LIBRARY_FOLDER), "paraview-*", "plugins", "Granular", "Granular.so"))
+    found = ", ".join(sorted(others)) or "none"
+    raise FileNotFoundError(f"expected a plugin for this ParaView, {paraview}, in {path}, got {found}: build it again with "
+                            "the development files of this ParaView")
 
 
 def load_plugin(ns=None, remote=False):
