@@ -146,7 +146,7 @@ granular_set_up()
     vtk-samples)
       granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}"
       granular_is_configured vtk "$strict" || granular_configure vtk "$strict" -DBUILD_TESTING=OFF
-      granular_make core/all plugin/all plugin/python/all
+      granular_make core/all vtkGranular plugin/python/all
       ;;
     vtk)
       granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}" "${granular_test_packages[@]}"

@@ -201,10 +201,14 @@ def imported(node):
 
 
 def check_sample(root, path):
-    for node in ast.walk(ast.parse(tree.read(root, path), path)):
+    nodes = list(ast.walk(ast.parse(tree.read(root, path), path)))
+    for_paraview = any(name.split(".")[0] == "paraview" for node in nodes for name in imported(node))
+    for node in nodes:
         for name in imported(node):
             if name in SAMPLE_MODULES or name.split(".")[0] in sys.stdlib_module_names:
                 continue
+            if name.split(".")[0] == "vtkmodules" and not for_paraview:
+                continue  # a sample for those who have VTK alone
             if not name.startswith("granular."):
                 yield path, node.lineno, (f"{name}: a sample imports {' and '.join(SAMPLE_MODULES)} "
                                           "and Python's own modules only")

@@ -2,6 +2,7 @@
 """Contacts and bonds as ParaView's users meet them: files, names, documentation, tubes in a picture."""
 import os
 
+import granular
 import numpy
 import plain_local
 from paraview.simple import *

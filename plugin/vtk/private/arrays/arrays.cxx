@@ -28,7 +28,7 @@ namespace
 template <typename Array>
 vtkSmartPointer<Array> TakeBlock(granular::Block& block, vtkIdType tuples, int components)
 {
-  auto array = vtkSmartPointer<Array>::Take(KnownRanges<Array>::New());
+  auto array = MakeArray<Array>();
   array->SetNumberOfComponents(components);
   if (tuples > 0)
   {

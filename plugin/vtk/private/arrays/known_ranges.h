@@ -5,7 +5,9 @@
 #include "granular/memory/value_range.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkSmartPointer.h"
 #include "vtkType.h"
+#include "vtkVersion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +25,7 @@ public:
   virtual void SetKnown(const granular::ValueRange& range) = 0;
 };
 
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
 /**
  * An array of VTK that answers from the ranges it was told, for all tuples, until Modified() or another number
  * of values. VTK keeps ranges in information keys, too, but vtkPoints and, from VTK 9.3 on, vtkFieldData ask
@@ -128,6 +131,20 @@ private:
   vtkMTimeType Time = 0;
   vtkIdType Values = 0;
 };
+#endif
+
+/**
+ * Returns a new array that can be told its ranges. VTK 9.1 has other methods: its arrays have the keys alone.
+ */
+template <typename Array>
+vtkSmartPointer<Array> MakeArray()
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
+  return vtkSmartPointer<Array>::Take(KnownRanges<Array>::New());
+#else
+  return vtkSmartPointer<Array>::New();
+#endif
+}
 }
 
 #endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/dump/input_frames.h"
 
+#include "private/request/abort.h"
+
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 
@@ -80,7 +82,7 @@ bool InputFrames::Update()
 
 bool InputFrames::Check(bool made) const
 {
-  if (this->Info->Get(vtkAlgorithm::ABORTED()))
+  if (IsMarkedStopped<vtkAlgorithm>(this->Info))
   {
     throw granular::Cancelled{};
   }

@@ -3,6 +3,7 @@
 #define vtkGranularAbort_h
 
 #include "vtkAlgorithm.h"
+#include "vtkInformation.h"
 
 namespace vtkGranularPrivate
 {
@@ -20,6 +21,22 @@ bool AskedToStop(Algorithm* self)
   else
   {
     return self->GetAbortExecute() != 0;
+  }
+}
+
+/**
+ * Returns true if the output that an information belongs to is marked so.
+ */
+template <typename Algorithm>
+bool IsMarkedStopped(vtkInformation* output)
+{
+  if constexpr (requires { Algorithm::ABORTED(); })
+  {
+    return output->Get(Algorithm::ABORTED()) != 0;
+  }
+  else
+  {
+    return false;
   }
 }
 
