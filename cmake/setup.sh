@@ -145,12 +145,13 @@ granular_set_up()
       ;;
     vtk-samples)
       granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}"
-      granular_is_configured vtk "$strict" || granular_configure vtk "$strict" -DBUILD_TESTING=OFF
+      granular_is_configured vtk "$strict" -DBUILD_TESTING=ON ||
+        granular_configure vtk "$strict" -DBUILD_TESTING=OFF
       granular_make core/all vtkGranular plugin/python/all
       ;;
     vtk)
       granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}" "${granular_test_packages[@]}"
-      granular_configure vtk "$strict"
+      granular_configure vtk "$strict" -DBUILD_TESTING=ON
       granular_make
       ;;
     core-only | asan | tsan)
