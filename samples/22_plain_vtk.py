@@ -6,7 +6,8 @@ from pathlib import Path
 import granular
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (draws what vtkRenderingCore describes)
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkFiltersCore import vtkThresholdPoints
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkFiltersPoints import vtkExtractPoints
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkDataSetMapper, vtkPointGaussianMapper,
                                          vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
@@ -22,18 +23,19 @@ times = reader.GetOutputInformation(0).Get(reader.GetExecutive().TIME_STEPS())
 reader.UpdateTimeStep(times[-1])
 particles = reader.GetOutput()
 
-# VTK's filters follow it: the larger particles alone.
-large = vtkThresholdPoints()
-large.SetInputConnection(reader.GetOutputPort(0))
-large.SetInputArrayToProcess(0, 0, 0, 0, "radius")  # a point array
-large.ThresholdByUpper(0.003)
+# VTK's filters follow it: the particles behind the plane y = 0 alone.
+plane = vtkPlane()
+plane.SetNormal(0, -1, 0)
+behind = vtkExtractPoints()
+behind.SetInputConnection(reader.GetOutputPort(0))
+behind.SetImplicitFunction(plane)
 
 # Each point is a disc of its radius, shaded like a sphere and coloured by its speed.
 colors = vtkLookupTable()
 colors.SetVectorModeToMagnitude()
 colors.SetHueRange(0.66, 0.0)  # blue to red
 spheres = vtkPointGaussianMapper()
-spheres.SetInputConnection(large.GetOutputPort())
+spheres.SetInputConnection(behind.GetOutputPort())
 spheres.SetScaleArray("radius")
 spheres.SetScaleFactor(1.0)
 spheres.EmissiveOff()
@@ -84,16 +86,16 @@ writer.SetInputConnection(picture.GetOutputPort())
 writer.SetFileName("plain_vtk.png")
 writer.Write()
 
-# Writers take what filters give: the large particles as a dump, which holds the same.
+# Writers take what filters give: the particles behind the plane as a dump, which holds the same.
 dump = granular.vtkGranularDumpWriter()
-dump.SetInputConnection(large.GetOutputPort())
-dump.SetFileName("large.dump")
+dump.SetInputConnection(behind.GetOutputPort())
+dump.SetFileName("behind.dump")
 assert dump.Write()
 
 header, *rows = Path(path).read_text().split("ITEM: ATOMS ")[-1].splitlines()
-radius = header.split().index("radius")
-expected = sum(float(row.split()[radius]) >= 0.003 for row in rows)
-written = Path("large.dump").read_text().split("ITEM: ATOMS ")[-1].splitlines()[1:]
+y = header.split().index("y")
+expected = sum(float(row.split()[y]) > 0 for row in rows)
+written = Path("behind.dump").read_text().split("ITEM: ATOMS ")[-1].splitlines()[1:]
 assert particles.GetNumberOfPoints() == len(rows)
-assert large.GetOutput().GetNumberOfPoints() == len(written) == expected > 0
-print(f"{expected} of {len(rows)} particles have a radius of at least 3 mm; see plain_vtk.png and large.dump")
+assert behind.GetOutput().GetNumberOfPoints() == len(written) == expected > 0
+print(f"{expected} of {len(rows)} particles are behind the plane; see plain_vtk.png and behind.dump")
