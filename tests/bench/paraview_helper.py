@@ -7,6 +7,7 @@ import time
 import zlib
 
 import granular
+from paraview.modules.vtkRemotingCore import vtkPVDataInformation
 from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -33,8 +34,8 @@ def checksums(dataset):
 class Stepper:
     """A reader with some properties, and what is updated, which may be a filter."""
 
-    def __init__(self, reader, last=None, **properties):
-        self.reader, self.last, self.properties = reader, last or reader, properties
+    def __init__(self, reader, last=None, after=lambda data: None, **properties):
+        self.reader, self.last, self.after, self.properties = reader, last or reader, after, properties
 
     def start(self):
         for name, value in self.properties.items():
@@ -44,6 +45,11 @@ class Stepper:
     def stop(self):
         self.reader.Prefetch = 0  # what it does ahead must not go on while others work
         self.reader.UpdateVTKObjects()
+
+
+def gather_information(data):
+    """What the window's client does after each update: the ranges of all arrays, and the bounds."""
+    vtkPVDataInformation().CopyFromObject(data)
 
 
 def open_run(path):
@@ -59,6 +65,7 @@ def open_run(path):
     steppers.update({
         "1 thread": Stepper(reader, **one),
         "1 thread, no pool": Stepper(poolless, **one),
+        "1 thread, and data information": Stepper(reader, after=gather_information, **one),
         "1 thread, prefetch": Stepper(reader, **ahead),
         "1 thread, and a filter": Stepper(filtered, half, **one),
         "1 thread, prefetch, and a filter": Stepper(filtered, half, **ahead),
@@ -85,6 +92,7 @@ def steps(name, first, count):
     start, processor = time.perf_counter(), time.process_time()
     for moment in times:
         stepper.last.UpdatePipeline(float(moment))
+        stepper.after(output(stepper.last))
         shown.append(output(stepper.last).GetFieldData().GetArray("timestep").GetValue(0))
     answer = f"{time.perf_counter() - start:.9f} {time.process_time() - processor:.9f}"
     stepper.stop()

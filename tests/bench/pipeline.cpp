@@ -59,8 +59,9 @@ struct Contender
 };
 
 constexpr Contender contenders[] = { { "1 thread", true }, { "1 thread, no pool", true },
-  { "1 thread, prefetch", false }, { "1 thread, and a filter", true },
-  { "1 thread, prefetch, and a filter", false }, { "all threads", false } };
+  { "1 thread, and data information", true }, { "1 thread, prefetch", false },
+  { "1 thread, and a filter", true }, { "1 thread, prefetch, and a filter", false },
+  { "all threads", false } };
 
 /// The decoder takes as many frames as the others do steps.
 bool decode(TextInMemory& text, double& seconds, Samples& processor)

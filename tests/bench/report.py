@@ -619,7 +619,8 @@ PARTS = (
          columns, in the page cache; time on the wall, and of the processor where one thread works.
          decode alone is decode_rows of the same text in memory, into memory that was touched before. no
          pool: GRANULAR_POOL_MIB is 0. The filter is a Threshold that keeps half of the particles: with
-         prefetch, the next frame is read meanwhile, by another thread.""",
+         prefetch, the next frame is read meanwhile, by another thread. Data information: what the window asks
+         for after each update, ranges of all arrays and bounds.""",
          [contenders_by_metrics(
               *columns(".1f", ":ns/row"),
               Column("time against decode alone", ", time against decode:1", ".2f"),
