@@ -47,6 +47,12 @@ vtkMultiProcessController* vtkGranularAlgorithm::GetController()
 }
 
 //------------------------------------------------------------------------------
+const char* vtkGranularAlgorithm::GetErrorMessage()
+{
+  return this->Ranks->GetMessage().c_str();
+}
+
+//------------------------------------------------------------------------------
 // Modifies nothing: else, asked on one rank of many, that rank alone would start again, and wait for ever.
 void vtkGranularAlgorithm::SetAbortExecute(vtkTypeBool abort)
 {

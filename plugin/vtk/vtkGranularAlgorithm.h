@@ -52,6 +52,11 @@ public:
    */
   void SetAbortExecute(vtkTypeBool abort) override;
 
+  /**
+   * Returns the error of the last update, as it was told, or an empty text if there was none.
+   */
+  const char* GetErrorMessage();
+
 protected:
   vtkGranularAlgorithm();
   ~vtkGranularAlgorithm() override;

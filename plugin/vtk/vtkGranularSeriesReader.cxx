@@ -264,6 +264,12 @@ vtkMultiProcessController* vtkGranularSeriesReader::GetController()
 }
 
 //------------------------------------------------------------------------------
+const char* vtkGranularSeriesReader::GetErrorMessage()
+{
+  return this->Series->Ranks.GetMessage().c_str();
+}
+
+//------------------------------------------------------------------------------
 // Modifies nothing: else, asked on one rank of many, that rank alone would read again, and wait for ever.
 void vtkGranularSeriesReader::SetAbortExecute(vtkTypeBool abort)
 {

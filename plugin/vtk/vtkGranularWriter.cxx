@@ -152,12 +152,19 @@ vtkMultiProcessController* vtkGranularWriter::GetController()
 }
 
 //------------------------------------------------------------------------------
+const char* vtkGranularWriter::GetErrorMessage()
+{
+  return this->Shared->Ranks.GetMessage().c_str();
+}
+
+//------------------------------------------------------------------------------
 int vtkGranularWriter::Write()
 {
   Internals& shared = *this->Shared;
   this->Written = false;
   shared.Told.clear();
   shared.Notices.clear();
+  shared.Ranks.Forget(this);
   MarkStopped(this, false);
   this->InvokeEvent(vtkCommand::StartEvent);
   this->UpdateProgress(0);

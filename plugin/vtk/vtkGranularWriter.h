@@ -105,6 +105,11 @@ public:
    */
   vtkGetMacro(Written, bool);
 
+  /**
+   * Returns the error of the last Write(), as it was told, or an empty text if there was none.
+   */
+  const char* GetErrorMessage();
+
 protected:
   vtkGranularWriter();
   ~vtkGranularWriter() override;

@@ -46,12 +46,6 @@ unsigned long FileErrorCode(const granular::IoError& error)
     : error.code() == std::errc::no_space_on_device           ? vtkErrorCode::OutOfDiskSpaceError
                                                               : vtkErrorCode::CannotOpenFileError;
 }
-
-void ReportError(vtkAlgorithm* self, unsigned long code, const std::string& text)
-{
-  vtkErrorWithObjectMacro(self, << text);
-  SetErrorCode(self, code);
-}
 }
 
 void EmptyOutputs(vtkInformationVector* outputs)
@@ -70,42 +64,38 @@ void SetErrorCode(vtkAlgorithm* self, unsigned long code)
   ErrorCodeAccess::Set(self, code);
 }
 
-Outcome ReportException(
-  vtkAlgorithm* self, vtkInformationVector* outputs, const std::exception_ptr& exception)
+Failure DescribeException(const std::exception_ptr& exception)
 {
-  EmptyOutputs(outputs);
   try
   {
     std::rethrow_exception(exception);
   }
   catch (const granular::Cancelled&)
   {
-    MarkStopped(self, true);
-    return Outcome::Cancelled;
+    return { Outcome::Cancelled, vtkErrorCode::NoError, {} };
   }
   catch (const granular::IoError& error)
   {
-    ReportError(self, FileErrorCode(error), error.what());
-    return error.where().path.empty() ? Outcome::Failed : Outcome::Refused;
+    const bool refused = !error.where().path.empty();
+    return { refused ? Outcome::Refused : Outcome::Failed, FileErrorCode(error), error.what() };
   }
   catch (const granular::Error& error)
   {
     // without a file it is memory that ran out on some rank, or a property: no fault of a format
-    ReportError(self,
-      error.where().path.empty() ? vtkErrorCode::UnknownError : vtkErrorCode::FileFormatError,
-      error.what());
+    const bool of_file = !error.where().path.empty();
+    return { Outcome::Failed, of_file ? vtkErrorCode::FileFormatError : vtkErrorCode::UnknownError,
+      error.what() };
   }
   catch (const std::bad_alloc&)
   {
-    ReportError(self, vtkErrorCode::UnknownError,
+    return { Outcome::Failed, vtkErrorCode::UnknownError,
       "not enough memory: switch arrays off, or use Stride, RegionOfInterest or single-precision "
-      "points");
+      "points" };
   }
   catch (const std::exception& error)
   {
-    ReportError(self, vtkErrorCode::UnknownError, error.what());
+    return { Outcome::Failed, vtkErrorCode::UnknownError, error.what() };
   }
-  return Outcome::Failed;
 }
 
 bool AlgorithmProgress::report(double fraction)

@@ -35,15 +35,23 @@ enum class Outcome
 };
 
 /**
- * Reports an exception of the core in VTK's terms: vtkErrorMacro with its text and the fitting error
- * code, or, if the task was cancelled, the mark of an aborted output. Empties the outputs.
+ * How a request ended that threw: the text of the error, or none if it was cancelled.
  */
-Outcome ReportException(
-  vtkAlgorithm* self, vtkInformationVector* outputs, const std::exception_ptr& exception);
+struct Failure
+{
+  Outcome End = Outcome::Failed;
+  unsigned long Code = 0; ///< of vtkErrorCode
+  std::string Text;
+};
+
+/**
+ * Says in VTK's terms what an exception of the core is.
+ */
+Failure DescribeException(const std::exception_ptr& exception);
 
 /**
  * The one place where exceptions end: runs the task of a request, which all ranks have, and which may be collective. If a rank
- * throws, all report the same error: the ranks agree at the end of the task, too.
+ * throws, all report the same error, and all outputs are empty: the ranks agree at the end of the task, too.
  */
 template <typename Ranks, typename Task>
 Outcome Guard(vtkAlgorithm* self, Ranks& ranks, vtkInformationVector* outputs, Task&& task)
@@ -51,12 +59,13 @@ Outcome Guard(vtkAlgorithm* self, Ranks& ranks, vtkInformationVector* outputs, T
   try
   {
     granular::do_together(ranks.Get(), task);
-    SetErrorCode(self, 0);
+    ranks.Forget(self);
     return Outcome::Done;
   }
   catch (...)
   {
-    return ReportException(self, outputs, std::current_exception());
+    EmptyOutputs(outputs);
+    return ranks.Fail(self, DescribeException(std::current_exception()));
   }
 }
 

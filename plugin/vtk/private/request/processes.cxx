@@ -4,13 +4,35 @@
 #include "private/request/abort.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkMultiProcessController.h"
+#include "vtkOutputWindow.h"
+
+#include <cstring>
 
 namespace vtkGranularPrivate
 {
+namespace
+{
+/**
+ * Passes on what an executive says, but that the algorithm failed, which has said why.
+ */
+void PassOn(vtkObject*, unsigned long, void*, void* text)
+{
+  const auto* words = static_cast<const char*>(text);
+  if (words && !std::strstr(words, "returned failure for request"))
+  {
+    vtkOutputWindowDisplayErrorText(words);
+  }
+}
+}
+
 Processes::Processes()
   : Controller(vtkMultiProcessController::GetGlobalController())
+  , Quieter(vtkSmartPointer<vtkCallbackCommand>::New())
 {
+  this->Quieter->SetCallback(PassOn);
 }
 
 Processes::~Processes() = default;
@@ -51,7 +73,43 @@ void Processes::BeginUpdate(vtkAlgorithm* self)
   {
     this->Cancelled = false;
     this->Refused = false;
+    const bool same = this->ToldTime == self->GetMTime();
     self->Modified();
+    this->ToldTime = same ? self->GetMTime() : this->ToldTime;
+  }
+}
+
+void Processes::Forget(vtkAlgorithm* self)
+{
+  this->Message.clear();
+  this->Told.clear();
+  SetErrorCode(self, vtkErrorCode::NoError);
+}
+
+Outcome Processes::Fail(vtkAlgorithm* self, const Failure& failure)
+{
+  this->Message = failure.Text;
+  if (failure.End == Outcome::Cancelled)
+  {
+    MarkStopped(self, true);
+    return failure.End;
+  }
+  this->Quiet(self->GetExecutive());
+  if (this->Told != failure.Text || this->ToldTime != self->GetMTime())
+  {
+    vtkErrorWithObjectMacro(self, << failure.Text);
+    this->Told = failure.Text;
+    this->ToldTime = self->GetMTime();
+  }
+  SetErrorCode(self, failure.Code);
+  return failure.End;
+}
+
+void Processes::Quiet(vtkExecutive* executive)
+{
+  if (!executive->HasObserver(vtkCommand::ErrorEvent, this->Quieter))
+  {
+    executive->AddObserver(vtkCommand::ErrorEvent, this->Quieter);
   }
 }
 

@@ -7,11 +7,15 @@
 
 #include "granular/parallel/communicator.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
 
 #include <memory>
+#include <string>
 
 class vtkAlgorithm;
+class vtkExecutive;
 class vtkMultiProcessController;
 
 namespace vtkGranularPrivate
@@ -57,11 +61,33 @@ public:
    */
   bool IsCancelled() const { return this->Cancelled; }
 
+  /**
+   * Forgets the last failure: a request succeeded, or begins afresh.
+   */
+  void Forget(vtkAlgorithm* self);
+
+  /**
+   * Tells a failure as an error of the algorithm, and keeps the executive from adding that the algorithm failed. A failure
+   * that was told is not told again until it is forgotten or the algorithm is modified: pipelines ask again and again.
+   */
+  Outcome Fail(vtkAlgorithm* self, const Failure& failure);
+
+  /**
+   * The error of the last request; empty if there was none.
+   */
+  const std::string& GetMessage() const { return this->Message; }
+
 private:
+  void Quiet(vtkExecutive* executive);
+
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<granular::Communicator> Ranks; ///< null: not made yet
   bool Cancelled = false;
   bool Refused = false; ///< the last request failed, but may succeed if it is made again
+  std::string Message;
+  std::string Told;          ///< the last error that was told
+  vtkMTimeType ToldTime = 0; ///< MTime of the algorithm then
+  vtkSmartPointer<vtkCallbackCommand> Quieter;
 };
 }
 
