@@ -84,7 +84,7 @@ private:
 //------------------------------------------------------------------------------
 vtkGranularDumpWriter::vtkGranularDumpWriter()
 {
-  this->SetNumberFormat("%g");
+  this->SetNumberFormat("Automatic");
 }
 
 //------------------------------------------------------------------------------
@@ -130,7 +130,7 @@ void vtkGranularDumpWriter::SetStyle(int style)
 //------------------------------------------------------------------------------
 void vtkGranularDumpWriter::SetDialect(int dialect)
 {
-  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS" });
+  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS", "Automatic" });
 }
 
 //------------------------------------------------------------------------------
@@ -158,7 +158,7 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
     internals.Tell(this, "Columns are of the Style Custom: this is Atom");
   }
   granular::DumpFormat format =
-    MakeFormat(this->FileName, this->Dialect == LIGGGHTS, this->Columns, this->NumberFormat);
+    MakeFormat(this->FileName, this->Dialect, this->Columns, this->NumberFormat);
   format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;
   format.atom = { this->Scaled, this->Image };
   format.units = this->WriteUnits;

@@ -39,7 +39,8 @@ public:
   enum DialectType
   {
     LIGGGHTS = 0,
-    LAMMPS = 1
+    LAMMPS = 1,
+    AUTOMATIC = 2
   };
 
   ///@{
@@ -54,8 +55,9 @@ public:
   ///@{
   /**
    * Whose bytes are written. LIGGGHTS: the box with six digits, binary files without the names of their columns, a
-   * blank at the end of each line of `dump custom`, and ITEM: LABEL where the input has one. LAMMPS, the
-   * default: the box with 17 digits, binary files of revision 2 with names.
+   * blank at the end of each line of `dump custom`, and ITEM: LABEL where the input has one. LAMMPS: the box with 17 digits,
+   * binary files of revision 2 with names. AUTOMATIC, the default: that of the file that the input was read from, by its
+   * field data `Dialect`, else LAMMPS; a binary file of a text names its columns.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);
@@ -92,8 +94,9 @@ public:
 
   ///@{
   /**
-   * How real numbers look in text: "%g", the default, which has six digits, "%.Ng" with N from 1 to 17 digits, or
-   * "shortest": as few digits as read back as the same number.
+   * How real numbers look in text. "Automatic", the default, loses nothing: a column that was read from a text dump has that file's
+   * digits, and more only where a value has changed; other columns have as few digits as read back as the same number.
+   * "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" as few as read back as the same number.
    */
   vtkSetStringMacro(NumberFormat);
   vtkGetStringMacro(NumberFormat);
@@ -158,7 +161,7 @@ protected:
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
   int Style = CUSTOM;
-  int Dialect = LAMMPS;
+  int Dialect = AUTOMATIC;
   bool Scaled = true;
   bool Image = false;
   char* Columns = nullptr;

@@ -45,7 +45,7 @@ private:
 vtkGranularLocalWriter::vtkGranularLocalWriter()
 {
   this->SetLabel("ENTRIES");
-  this->SetNumberFormat("%g");
+  this->SetNumberFormat("Automatic");
 }
 
 //------------------------------------------------------------------------------
@@ -69,14 +69,14 @@ void vtkGranularLocalWriter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkGranularLocalWriter::SetDialect(int dialect)
 {
-  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS" });
+  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS", "Automatic" });
 }
 
 //------------------------------------------------------------------------------
 std::unique_ptr<FrameWriter> vtkGranularLocalWriter::OpenFile(Internals& internals)
 {
   granular::DumpFormat format =
-    MakeFormat(this->FileName, this->Dialect == LIGGGHTS, this->Columns, this->NumberFormat);
+    MakeFormat(this->FileName, this->Dialect, this->Columns, this->NumberFormat);
   format.style = granular::DumpStyle::Local;
   format.counted = TextOf(this->Label);
   return std::make_unique<File>(

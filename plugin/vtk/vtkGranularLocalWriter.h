@@ -33,12 +33,14 @@ public:
   enum DialectType
   {
     LIGGGHTS = 0,
-    LAMMPS = 1
+    LAMMPS = 1,
+    AUTOMATIC = 2
   };
 
   ///@{
   /**
-   * Whose bytes are written. LIGGGHTS: the box with six digits. LAMMPS, the default: with 17 digits.
+   * Whose bytes are written. LIGGGHTS: the box with six digits. LAMMPS: with 17 digits. AUTOMATIC, the default: those of the
+   * file that the input was read from, by its field data `Dialect`, else LAMMPS.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);
@@ -65,8 +67,9 @@ public:
 
   ///@{
   /**
-   * How real numbers look: "%g", the default, which has six digits, "%.Ng" with N from 1 to 17 digits, or "shortest": as
-   * few digits as read back as the same number.
+   * How real numbers look in text. "Automatic", the default, loses nothing: a column that was read from a text dump has that file's
+   * digits, and more only where a value has changed; other columns have as few digits as read back as the same number.
+   * "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" as few as read back as the same number.
    */
   vtkSetStringMacro(NumberFormat);
   vtkGetStringMacro(NumberFormat);
@@ -78,7 +81,7 @@ protected:
 
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
-  int Dialect = LAMMPS;
+  int Dialect = AUTOMATIC;
   char* Label = nullptr;
   char* Columns = nullptr;
   char* NumberFormat = nullptr;

@@ -16,6 +16,13 @@
 
 namespace granular
 {
+/// Whose bytes a dump has.
+enum class Dialect : std::uint8_t
+{
+  Liggghts, ///< box with six digits, or all where these are too few; binary without names, dump custom with trailing blanks
+  Lammps    ///< box with 17 digits, binary of revision 2 with names
+};
+
 /// What the header of one frame of a dump says.
 struct FrameHeader
 {
@@ -25,8 +32,11 @@ struct FrameHeader
   std::string units; ///< ITEM: UNITS of this frame or an earlier one of the file
   std::int64_t rows = 0;
   Box box;
-  std::string counted = "ATOMS"; ///< what rows are: ITEM: NUMBER OF ...
-  bool has_box = true;           ///< false: the box is none, of no size
+  std::string counted = "ATOMS";       ///< what rows are: ITEM: NUMBER OF ...
+  bool has_box = true;                 ///< false: the box is none, of no size
+  std::optional<Dialect> dialect = {}; ///< of the header, where it can be told
+  std::vector<int>
+    digits = {}; ///< of a text: the most that a real number of each column has in the first rows, 0 if none is seen
 };
 
 /// What many frames have in common.

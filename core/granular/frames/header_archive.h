@@ -22,6 +22,8 @@ void pass(Archive& archive, typename Archive::template Passed<FrameHeader>& head
   archive.text(header.box.boundary);
   archive.number(header.box.tilted);
   archive.number(header.box.general);
+  archive.number(header.dialect);
+  pass(archive, header.digits);
 }
 }
 #endif

@@ -185,6 +185,42 @@ inline Place place_of_digits(int k, int digits)
   return lay_out_seventeen(to + (bits >> 63), raw, place_of(k, fixed <= scientific));
 }
 
+/// So many digits where they read back as the same number. Slow.
+[[gnu::noinline]] char* print_checked(char* to, double value, int digits) noexcept
+{
+  char* const end = print_exactly(to, value, digits);
+  double back = 0;
+  return parse_double(to, end, back) && back == value ? end : print_exactly(to, value, 0);
+}
+
+/// The same for 1 to 15 digits of a number that is not 0 and not small.
+///
+/// As in print_shortest, 15 digits with the zeros at their end taken off are the shortest decimal, if that has no more. If
+/// it has no more than were asked for, it is what these are.
+[[gnu::noinline]] char* print_at_least(char* to, double value, int least) noexcept
+{
+  constexpr int digits = 15;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  const std::uint64_t eighth = std::uint64_t{ 1 } << (scaled.shift - 3);
+  const std::uint64_t whole = (scaled.product + eighth) >> scaled.shift;
+  const int k = digits - 1 - scaled.q;
+  double back = 0;
+  if (k >= digits || whole >= whole_power_of_ten(digits))
+  {
+    return print_checked(to, value, least);
+  }
+  if (((scaled.product + eighth) & (8 * eighth - 1)) > 2 * eighth ||
+    !to_double(whole, -scaled.q, back) || back != std::abs(value))
+  {
+    return print_exactly(to, value, 0);
+  }
+  const Seventeen raw = seventeen_digits(whole * 100);
+  *to = '-';
+  return lay_out_seventeen(
+    to + (bits >> 63), raw, place_of_digits(k, std::max(least, static_cast<int>(raw.length()))));
+}
+
 /// At most six digits, so that there are at least 44 bits after the point.
 inline char* print_few(char* to, double value, int digits) noexcept
 {
@@ -267,7 +303,14 @@ char* print_number(char* to, double value, NumberFormat format) noexcept
   constexpr std::uint64_t least = 60; // 2^-963: 10^q is in the table
   if ((bits >> 52 & 2047) - least >= 2047 - least) [[unlikely]]
   {
-    return print_exactly(to, value, format.digits);
+    return format.exact ? print_checked(to, value, format.digits)
+                        : print_exactly(to, value, format.digits);
+  }
+  if (format.exact && format.digits > 0 && format.digits < 17)
+  {
+    constexpr int most = 15; // that any double of as many digits is the only one of
+    return format.digits <= most ? print_at_least(to, value, format.digits)
+                                 : print_checked(to, value, format.digits);
   }
   if (format.digits == 6) [[likely]] // a case of its own: what the compiler knows is faster
   {

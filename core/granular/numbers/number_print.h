@@ -11,10 +11,12 @@ namespace granular
 {
 /// How real numbers are printed. digits 1 to 17: that many significant digits, with the bytes of
 /// printf's %.Ng in the C locale. 0: the shortest decimal number that reads back as the same
-/// double, as std::to_chars(double) gives it.
+/// double, as std::to_chars(double) gives it. exact: with that many digits where these read back as the same
+/// double, else with as many more as are needed.
 struct NumberFormat
 {
   int digits = 6;
+  bool exact = false;
 
   bool operator==(const NumberFormat&) const = default;
 };

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The files of a run by a pattern, as simulation codes spell it."""
+from __future__ import annotations
+
 import glob
 import os
 import re
 
 
-def _numbers_in_order(path):
+def _numbers_in_order(path: str) -> list[tuple[int, str]]:
     """Sorts name_2 before name_10."""
     return [(int(part), part) if part.isdigit() else (-1, part)
             for part in re.split("([0-9]+)", path)]
 
 
-def files(*patterns):
+def files(*patterns: str | os.PathLike[str]) -> list[str]:
     """The names of the files of a run, absolute and in the order of their numbers, for FileNames of a
     reader: OpenDataFile(granular.files("post/grains_*.%.dump")).
 

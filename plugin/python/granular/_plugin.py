@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finding and loading the ParaView plugin that belongs to this package."""
+from __future__ import annotations
+
 import glob
 import os
+from typing import Any
 
 from ._folders import LIBRARY_FOLDER
 
 
-def _loaded_plugin(servermanager):
+def _loaded_plugin(servermanager: Any) -> str | None:
     """Returns the path of the plugin that this process has loaded, or None."""
     plugins = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
     for i in range(plugins.GetNumberOfPlugins()):
@@ -15,7 +18,7 @@ def _loaded_plugin(servermanager):
     return None
 
 
-def _plugin_beside_package(servermanager):
+def _plugin_beside_package(servermanager: Any) -> str:
     """Returns the path of the plugin that belongs to this package, for the version of ParaView that runs."""
     version = servermanager.vtkSMProxyManager
     paraview = f"{version.GetVersionMajor()}.{version.GetVersionMinor()}"
@@ -28,7 +31,7 @@ def _plugin_beside_package(servermanager):
                             "the development files of this ParaView")
 
 
-def load_plugin(ns=None, remote=False):
+def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
     """Loads the ParaView plugin that was built or installed with this package, and returns its path.
 
     Afterwards `from paraview.simple import *` knows GranularDumpReader and the other names; if that

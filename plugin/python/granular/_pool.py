@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The memory that readers keep for the next frame."""
+from __future__ import annotations
+
 import os
 
 _VARIABLE = "GRANULAR_POOL_MIB"
 
 
-def pool_limit():
+def pool_limit() -> int | None:
     """How many MiB of memory a reader may keep for its next frame, as an int, or None for the default:
     an eighth of the machine's memory. It is what the environment variable GRANULAR_POOL_MIB says.
     Raises ValueError if that is no such number.
@@ -19,7 +21,7 @@ def pool_limit():
     return mib
 
 
-def set_pool_limit(mib):
+def set_pool_limit(mib: int | None) -> None:
     """Sets how many MiB of memory a reader may keep for its next frame: 0 for none, None for the
     default. It holds for readers of this process that have not read a frame yet. With a pvserver set the
     environment variable GRANULAR_POOL_MIB where the server starts instead.

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scripts on several processes of ParaView."""
+from __future__ import annotations
+
 import os
 import shutil
 import subprocess
@@ -19,14 +21,14 @@ _MANY_RANKS = {"OMPI_ALLOW_RUN_AS_ROOT": "1",
                "PRTE_MCA_hwloc_default_binding_policy": "none"}
 
 
-def mpirun_environment():
+def mpirun_environment() -> dict[str, str]:
     """Returns the variables with which mpirun works from within a process of MPI."""
     kept = {name: value for name, value in os.environ.items()
             if name.startswith(_OURS) or not name.startswith(_THEIRS)}
     return {**_MANY_RANKS, **kept}
 
 
-def pvbatch(script, *arguments, ranks):
+def pvbatch(script: str | os.PathLike[str], *arguments: str, ranks: int) -> str:
     """Runs a script in pvbatch on several ranks, and returns what it printed.
 
     script     the file of a Python script

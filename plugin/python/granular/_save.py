@@ -1,47 +1,146 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of any name."""
+from __future__ import annotations
+
+import glob
 import os
+import re
+from typing import Any
 
-# Which writer has names of which endings; all others are those of dumps.
-_WRITERS = {".bonds": "GranularLocalWriter",
-            ".decomposition": "GranularDecompositionWriter",
-            ".euler": "GranularEulerWriter",
-            ".vtk": "GranularDecompositionWriter",
-            ".vtu": "GranularDecompositionWriter"}
+from ._errors import output_names, raised, source_of, upstream
+
+# For each kind of data its writer, and the endings that are this writer's. All other endings are ParaView's.
+_DUMPS = (".dump", ".lammpstrj", ".liggghts", ".lammps", ".dmp")
+_WRITERS = {
+    "particles": ("GranularDumpWriter", (*_DUMPS, ".bin", ".lammpsbin")),
+    "lines or rows": ("GranularLocalWriter", (".bonds", *_DUMPS)),
+    "subdomains": ("GranularDecompositionWriter", (".decomposition", ".vtk", ".vtu")),
+    "cells": ("GranularEulerWriter", (".euler", ".vtk")),
+}
 
 
-def save(proxy, path, time=None, writer=None, **properties):
-    """Writes what a source or filter shows as a particle dump, as a dump of contacts or bonds, as a decomposition or as
-    Euler cells, whatever the name of the file.
+def _names(attributes: Any) -> set[str]:
+    return {attributes.GetArrayInformation(i).GetName() for i in range(attributes.GetNumberOfArrays())}
+
+
+def _kind_by_origin(output: Any) -> str:
+    """The same of an empty frame, which has no arrays: what its reader, source or filter gives otherwise."""
+    for source in reversed(upstream(source_of(output))):
+        name = source.GetXMLName()
+        own = source.SMProxy.GetGlobalID() == source_of(output).SMProxy.GetGlobalID()
+        if own and output_names(source)[output.Port] in ("Bonds", "Lines", "Rows"):
+            return "lines or rows"
+        for part, kind in (("GranularLocal", "lines or rows"), ("GranularDecomposition", "subdomains"), ("GranularEuler", "cells")):
+            if name.startswith(part):
+                return kind
+    return "particles"
+
+
+def _kind(output: Any) -> str:
+    """What data are: a key of _WRITERS."""
+    information = output.GetDataInformation()
+    shape = information.GetDataClassName()
+    if information.GetNumberOfPoints() == 0 and information.GetNumberOfRows() == 0:
+        return _kind_by_origin(output)
+    cells = _names(information.GetCellDataInformation())
+    points = _names(information.GetPointDataInformation())
+    if information.IsCompositeDataSet() or shape == "vtkImageData" or "volumefraction" in cells | points:
+        return "cells"
+    if shape == "vtkTable" or (shape == "vtkPolyData" and cells):
+        return "lines or rows"
+    return "subdomains" if cells & {"proc", "nlocal"} else "particles"
+
+
+def _ending(path: str) -> str:
+    """'run.dump.gz' -> '.dump', 'dump.1000' and 'dump_%.gz' -> '.dump'."""
+    name = re.sub(r"\.(gz|zst)$", "", os.path.basename(path))
+    ending = os.path.splitext(name)[1].lower()
+    return ".dump" if name.startswith("dump") and ending not in (".bin", ".lammpsbin", ".vtk") else ending
+
+
+def _paraview_endings(output: Any) -> list[str]:
+    """The endings that ParaView's writers know for some data."""
+    from paraview import servermanager
+
+    factory = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
+    if factory.GetNumberOfRegisteredPrototypes() == 0:
+        factory.UpdateAvailableWriters()
+    types = factory.GetSupportedFileTypes(output.SMProxy, output.Port)
+    return sorted(set(re.findall(r"\*(\.\w+)", types)))
+
+
+def _choose(output: Any, path: str) -> str | None:
+    """The name of a writer of this plugin, or None for ParaView's."""
+    kind = _kind(output)
+    writer, ours = _WRITERS[kind]
+    ending = _ending(path)
+    if ending in ours:
+        return writer
+    others = {each for _, endings in _WRITERS.values() for each in endings} - {".vtk", ".vtu"}
+    theirs = [each for each in _paraview_endings(output) if each not in others | {".gz", ".zst"}]
+    if ending in theirs and not path.endswith((".gz", ".zst")):
+        return None
+    known = ", ".join([*ours, *(each for each in theirs if each not in ours)])
+    raise ValueError(f"expected a name for {kind} that ends in one of {known} (text may be compressed: .gz, .zst), got '{path}'; "
+                     "a writer of your choice takes any name: writer=\"GranularDumpWriter\"")
+
+
+def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> None:
+    from paraview import servermanager, simple
+
+    def written() -> dict[str, int]:
+        stem, ending = os.path.splitext(path)
+        return {name: os.stat(name).st_mtime_ns for name in glob.glob(glob.escape(stem) + "*" + glob.escape(ending))}
+
+    before = written()
+    simple.SaveData(path, output, **properties)
+    if not servermanager.ActiveConnection.IsRemote() and written() == before:
+        raise RuntimeError(f"{path}: ParaView wrote no file; its messages say why")
+
+
+def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, writer: str | None = None,
+         **properties: Any) -> None:
+    """Writes what a source or filter shows, in the format that fits the data and the name.
 
     proxy       a source or filter of paraview.simple, or one of its output ports
-    path        the file to write; `*` stands for the timestep. Of dumps `%` stands for the process, and they are
-                compressed where the name ends in .gz or .zst; those of particles are binary where it ends in .bin
-                or .lammpsbin.
+    path        the file to write. What the data are decides first:
+                particles      .dump, .lammpstrj, .liggghts, .lammps, .dmp (text), .bin, .lammpsbin (binary)
+                lines or rows  of contacts and bonds: .bonds, or the endings of text dumps
+                subdomains     .decomposition, .vtk, .vtu
+                cells          .euler, .vtk
+                All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .csv, .stl and .ply, go to
+                ParaView's writers. Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*`
+                stands for the timestep, and in those of dumps `%` for the rank.
     time        the time to write. None: the one that proxy was last updated or shown with, or, if it
                 never was, its first; the animation's time counts for what is shown only.
-    writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter. None: by
-                the name, the second where it ends in .bonds, the third in .decomposition, .vtk or .vtu, the last in
-                .euler, else the first.
+    writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter, which take
+                files of any name. None: see path.
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Label, Columns, NumberFormat, ...
 
-    SaveData does the same for names that end in .dump, .lammpstrj, .bin, .lammpsbin, .gz, .zst, .bonds, .decomposition
-    or .euler, but says nothing when it fails. Raises AttributeError for a property, or a writer, that there is not,
-    RuntimeError if the file could not be written: what was wrong is in the messages of ParaView.
+    A file of this plugin is there when it is complete; after an error the old one is untouched. Raises ValueError for an
+    ending that no writer has for such data, and lists those that are known; AttributeError for a property, or a writer, that
+    there is not; RuntimeError with the message if the file could not be written.
     """
     from paraview import servermanager
 
     path = os.fspath(path)
+    source = source_of(proxy)
+    output = proxy if proxy is not source else source[0]
     if time is not None:
-        getattr(proxy, "Proxy", proxy).UpdatePipeline(time)  # of an output port its proxy
-    ending = os.path.splitext(path)[1]
-    kind = getattr(servermanager.writers, writer or _WRITERS.get(ending, "GranularDumpWriter"))
-    written = kind(Input=proxy, FileName=path)
+        source.UpdatePipeline(time)
+    if writer is None:
+        source.UpdatePipeline()  # what the data are is known then
+        writer = _choose(output, path)
+    if writer is None:
+        _save_by_paraview(output, path, properties)
+        return
+    written = getattr(servermanager.writers, writer)(Input=proxy, FileName=path)
     for name, value in properties.items():
         words = name == "Columns" and not isinstance(value, str)
         setattr(written, name, " ".join(value) if words else value)
     written.UpdateVTKObjects()
-    written.UpdatePipeline()
+    with raised([*upstream(source), written]):
+        written.UpdatePipeline()
     written.UpdatePropertyInformation()
     if not written.GetPropertyValue("Written"):
         raise RuntimeError(f"{path} could not be written: see the messages above")

@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of a run that do not know their time, on the clock of the run."""
+from __future__ import annotations
+
 import json
 import math
 import os
 import re
 import warnings
 from fractions import Fraction
+from typing import Iterable
 
 
-def _stem_and_suffix(name):
+def _stem_and_suffix(name: str) -> tuple[str, str]:
     """'mesh_100.stl' -> ('mesh_100', '.stl'), but 'dump.100' -> ('dump.100', '')."""
     stem, suffix = os.path.splitext(name)
     return (stem, suffix) if re.search("[A-Za-z]", suffix) else (name, "")
 
 
-def _step(file):
+def _step(file: str) -> int:
     """The last number in the name of a file, without its suffix."""
     stem, _ = _stem_and_suffix(os.path.basename(file))
     numbers = re.findall("[0-9]+", stem)
@@ -23,7 +26,7 @@ def _step(file):
     return int(numbers[-1])
 
 
-def _default_path(file):
+def _default_path(file: str) -> str:
     """'post/mesh_100.stl' -> 'post/mesh.stl.series'."""
     folder, name = os.path.split(file)
     stem, suffix = _stem_and_suffix(name)
@@ -31,7 +34,7 @@ def _default_path(file):
     return os.path.join(folder, (text or "files") + suffix + ".series")
 
 
-def _times(steps, dt):
+def _times(steps: list[int], dt: float) -> list[float]:
     """Times of steps in ascending order, by the clock of the readers: the doubles nearest to step x dt as it is written.
 
     Steps that would share a time are at the next doubles, with a warning."""
@@ -53,7 +56,7 @@ def _times(steps, dt):
     return times
 
 
-def _write_atomically(path, text):
+def _write_atomically(path: str, text: str) -> None:
     """The old file or the new one, never half of one."""
     temporary = f"{path}.{os.getpid()}.tmp"
     try:
@@ -66,7 +69,8 @@ def _write_atomically(path, text):
         raise
 
 
-def write_series(files, dt, path=None):
+def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float,
+                 path: str | os.PathLike[str] | None = None) -> str:
     """Writes a .series file, which gives ParaView the times of files that hold none, and returns its
     path. Open it instead of the files: their clock is then that of a GranularDumpReader whose
     TimestepSize is dt.

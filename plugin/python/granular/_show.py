@@ -1,9 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Particles as spheres."""
+from __future__ import annotations
+
 import math
+from typing import Any
+
+from ._errors import output_names, source_of, upstream
+
+# Eight colours that most people can tell apart: Okabe and Ito (2008).
+_COLOURS = [(0.00, 0.45, 0.70), (0.90, 0.60, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
+            (0.34, 0.71, 0.91), (0.84, 0.37, 0.00), (0.94, 0.89, 0.26), (0.60, 0.60, 0.60)]
 
 
-def _spacing_radius(source):
+def _spacing_radius(source: Any) -> float | None:
     """Half the mean distance of the points, or None if there are too few to tell."""
     information = source.GetDataInformation()
     points = information.GetNumberOfPoints()
@@ -15,14 +24,54 @@ def _spacing_radius(source):
     return 0.5 * (math.prod(extents) / points) ** (1 / len(extents))
 
 
-def _is_scaled(source):
+def _is_scaled(source: Any) -> bool:
     """True if the points are in units of the box, which no radius is."""
     array = source.GetFieldDataInformation().GetArray("Coordinates")
     return array is not None and array.GetNumberOfStringValues() == 1 and \
         array.GetStringValue(0) == "Scaled"
 
 
-def show(reader, view=None, radius="radius", color=None):
+def _types(source: Any) -> range:
+    """The types of the particles; of a frame without particles those of the last frame."""
+    array = source.PointData["type"]
+    times = getattr(source, "TimestepValues", None)
+    if array is None and times:
+        shown = source.GetPropertyValue("TimestepValues")[0]
+        source.UpdatePipeline(times[-1])
+        array = source.PointData["type"]
+        types = range(int(array.GetRange()[0]), int(array.GetRange()[1]) + 1) if array else range(0)
+        source.UpdatePipeline(shown)
+        return types
+    return range(int(array.GetRange()[0]), int(array.GetRange()[1]) + 1) if array else range(0)
+
+
+def _colour_by_type(display: Any, source: Any) -> None:
+    """A colour and a name for each type."""
+    from paraview import simple
+
+    types = _types(source)
+    table = simple.GetColorTransferFunction("type")
+    table.InterpretValuesAsCategories = 1
+    table.Annotations = [text for number in types for text in (str(number), f"type {number}")]
+    table.IndexedColors = [part for number in types for part in _COLOURS[(number - 1) % len(_COLOURS)]]
+    display.ColorArrayName = ["POINTS", "type"]
+    display.LookupTable = table
+
+
+def _show_output(source: Any, name: str, view: Any, **properties: Any) -> None:
+    """Shows an output of the reader or source that the data come from."""
+    from paraview import simple
+
+    for each in reversed(upstream(source)):
+        outputs = output_names(each)
+        if name in outputs:
+            simple.Show(simple.OutputPort(each, outputs.index(name)), view, **properties)
+            return
+    raise ValueError(f"expected a source with an output {name}, got none before this one")
+
+
+def show(reader: Any, view: Any = None, radius: str | float = "radius", color: str | None = None, box: bool = False,
+         bonds: bool = False) -> Any:
     """Shows particles as spheres and returns their display.
 
     reader  a GranularDumpReader, or any source or filter whose first output has points.
@@ -30,16 +79,21 @@ def show(reader, view=None, radius="radius", color=None):
     radius  name of the point array with the radii, in the unit of the points, or one number for all.
             Where there is no such array, and where the points are scaled coordinates, spheres of
             half the mean distance of the points are shown.
-    color   name of a point array to colour by; by default as ParaView decides.
+    color   name of a point array to colour by; by default as ParaView decides. "type" gives each type a colour and a
+            name of its own.
+    box     True: shows the simulation box, the output Box of the reader or source, as well.
+    bonds   True: shows the bonds, its output Bonds, as lines.
 
     The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the
     same on any number of ranks. They are flat discs with the shading of spheres: where they overlap
     they do not cut into each other.
 
-    Raises RuntimeError if the plugin was not loaded before.
+    Raises RuntimeError if the plugin was not loaded before, ValueError if box or bonds is wanted and nothing before the
+    source has one.
     """
     from paraview import simple
 
+    view = view or simple.GetActiveViewOrCreate("RenderView")
     display = simple.Show(reader, view)
     if "Grains" not in display.GetProperty("Representation").Available:
         raise RuntimeError("expected the plugin Granular, got a ParaView without it: load it first, "
@@ -56,7 +110,13 @@ def show(reader, view=None, radius="radius", color=None):
         display.GrainScale = _spacing_radius(reader) or 1.0
     else:
         display.GrainScale = float(radius)
-    if color is not None and empty:
+    if box:
+        _show_output(source_of(reader), "Box", view)
+    if bonds:
+        _show_output(source_of(reader), "Bonds", view, LineWidth=2)
+    if color == "type":
+        _colour_by_type(display, source_of(reader))
+    elif color is not None and empty:
         # there is no range to fit the colours to yet
         display.ColorArrayName = ["POINTS", color]
         display.LookupTable = simple.GetColorTransferFunction(color)

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What ParaView's versions call by different names."""
+from __future__ import annotations
+
 import re
+from typing import Any
 
 
-def _version():
+def _version() -> tuple[int, int]:
     from paraview import servermanager
 
     version = servermanager.vtkSMProxyManager
     return version.GetVersionMajor(), version.GetVersionMinor()
 
 
-def preset(name):
+def preset(name: str) -> str:
     """Returns the name by which this ParaView knows a colour preset, for ApplyPreset.
 
     name  the preset's name in any version: "Plasma" and "Plasma (matplotlib)" are the same.
@@ -28,7 +31,7 @@ def preset(name):
     raise ValueError(f"no colour preset in this ParaView is called {name}")
 
 
-def label_format(text):
+def label_format(text: str) -> dict[str, Any]:
     """Returns the properties that make a colour bar write its numbers in a format, for set_properties.
 
     text  the format as printf has it, with one conversion of e, f or g: "%.1f", "%g m". ParaView 6.1
@@ -44,7 +47,7 @@ def label_format(text):
     return {"AutomaticLabelFormat": 0, "LabelFormat": text, "RangeLabelFormat": text}
 
 
-def process_ids(source):
+def process_ids(source: Any) -> tuple[Any, str]:
     """Returns a filter that says for each point which process has it, and the name of its array.
 
     source  a source or filter of paraview.simple.
@@ -58,7 +61,7 @@ def process_ids(source):
     return simple.ProcessIds(Input=source), "PointProcessIds"
 
 
-def set_properties(proxy, **properties):
+def set_properties(proxy: Any, **properties: Any) -> None:
     """Sets several properties of a source, filter, display or view of paraview.simple.
 
     ParaView itself calls this SetProperties up to 6.0, and Set from then on. Raises AttributeError for a property that

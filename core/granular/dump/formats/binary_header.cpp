@@ -84,6 +84,7 @@ public:
   /// False at the end of the source.
   bool run()
   {
+    header.frame.dialect = layout_.magic ? Dialect::Lammps : Dialect::Liggghts;
     if (this->read_magic())
     {
       this->read_counts();

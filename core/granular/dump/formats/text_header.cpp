@@ -294,6 +294,7 @@ bool TextHeader::parse_rows(Words words)
 bool TextHeader::parse_box(Words words)
 {
   Words rest = words.subspan(2);
+  box_words_are_long_ = true;
   const bool tilted = begins_with(rest, "xy xz yz");
   const bool general = begins_with(rest, "abc origin");
   rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
@@ -319,6 +320,7 @@ bool TextHeader::parse_box(Words words)
                          : Box::from_bounds(lo, hi);
   }
   header_.box.boundary = join_words(rest);
+  header_.dialect = box_words_are_long_ ? Dialect::Lammps : Dialect::Liggghts;
   has_box_ = true;
   return true;
 }
@@ -347,6 +349,9 @@ bool TextHeader::read_numbers(std::size_t count, double* numbers)
     {
       this->fail("a number", words[i]);
     }
+    constexpr std::size_t lammps = 22; // characters of %.16e
+    box_words_are_long_ =
+      box_words_are_long_ && words[i].size() >= lammps && words[i].find('e') != words[i].npos;
   }
   return true;
 }

@@ -105,6 +105,7 @@ private:
   bool has_rows_ = false;
   bool has_box_ = false;
   bool has_columns_ = false;
+  bool box_words_are_long_ = false;
 };
 }
 #endif

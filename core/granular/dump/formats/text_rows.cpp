@@ -7,11 +7,42 @@
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 
 namespace granular
 {
+namespace
+{
+/// Significant digits of a real number, as they are written; 0 of an integer, or what is no number.
+int digits_of(std::string_view word) noexcept
+{
+  bool is_real = false;
+  int digits = 0;
+  for (const char c : word)
+  {
+    if (c == 'e' || c == 'E')
+    {
+      is_real = true;
+      break;
+    }
+    is_real = is_real || c == '.';
+    digits += c >= '0' && c <= '9' && (digits > 0 || c != '0') ? 1 : 0;
+  }
+  return is_real ? digits : 0;
+}
+
+void count_digits(std::span<const std::string_view> row, std::vector<int>& digits) noexcept
+{
+  constexpr int most = 17; // more tell doubles no more
+  for (std::size_t i = 0; i < std::min(row.size(), digits.size()); ++i)
+  {
+    digits[i] = std::max(digits[i], std::min(digits_of(row[i]), most));
+  }
+}
+}
+
 TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   : source_(source)
   , entry_(entry)
@@ -66,10 +97,28 @@ std::vector<std::string> TextRows::read_header()
   rows_offset_ = scanner.offset();
   rows_line_ = scanner.line();
   const bool is_header = header_.rows >= 0;
-  if (is_header &&
-    !makes_columns(reader.column_names(), this->first_row(scanner), entry_.kind->schema))
+  header_.digits.resize(entry_.kind->schema.columns().size());
+  if (is_header)
   {
-    header_.rows = -1;
+    const std::vector<std::string_view> row = this->first_row(scanner);
+    count_digits(row, header_.digits);
+    if (!makes_columns(reader.column_names(), row, entry_.kind->schema))
+    {
+      header_.rows = -1;
+    }
+    std::string_view rest = scanner.ahead();
+    std::vector<std::string_view> words;
+    for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n'))
+    {
+      words.clear();
+      append_words(rest.substr(0, end), words);
+      if (!words.empty() && words.front() == item_mark)
+      {
+        break;
+      }
+      count_digits(words, header_.digits);
+      rest.remove_prefix(end + 1);
+    }
   }
   return reader.column_names();
 }

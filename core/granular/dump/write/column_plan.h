@@ -34,6 +34,9 @@ struct ColumnSource
   ColumnRole role = ColumnRole::Other; ///< of coordinates, those in arrays, too
   int axis = 0;                        ///< of coordinates and Kind::Image
   bool whole = false; ///< text shows integral numbers with all their digits, whatever their type
+  int digits =
+    0; ///< of real numbers in the text that the column comes from, to which values are put back that are those within
+       ///< rounding; 0: it comes from none, or its digits are not wanted
 };
 
 /// The columns of a dump, and what else they need.

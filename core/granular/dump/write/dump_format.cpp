@@ -32,6 +32,14 @@ std::string replace_first(const std::string& path, char mark, const std::string&
 }
 }
 
+Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept
+{
+  const bool names_are_lost = format.binary && !header.digits.empty();
+  return !format.same_dialect ? format.dialect
+    : names_are_lost          ? Dialect::Lammps
+                              : header.dialect.value_or(Dialect::Lammps);
+}
+
 void check_format(const DumpFormat& format, const std::string& path)
 {
   if (format.binary && format.compression != Compression::None)

@@ -4,6 +4,7 @@
 
 #include "granular/bytes/compression.h"
 #include "granular/dump/write/atom_rows.h"
+#include "granular/frames/frame.h"
 #include "granular/numbers/number_print.h"
 
 #include <cstdint>
@@ -21,18 +22,13 @@ enum class DumpStyle : std::uint8_t
   Local   ///< dump local: rows of any arrays, which are no particles; text only
 };
 
-/// Whose bytes a file has.
-enum class Dialect : std::uint8_t
-{
-  Liggghts, ///< box with six digits, or all where these are too few; binary without names, dump custom with trailing blanks
-  Lammps    ///< box with 17 digits, binary of revision 2 with names
-};
-
 /// How a dump is written.
 struct DumpFormat
 {
   DumpStyle style = DumpStyle::Custom;
   Dialect dialect = Dialect::Lammps;
+  bool same_dialect =
+    false; ///< as the file that the first frame comes from, where that is known: see choose_dialect
   bool binary = false;
   Compression compression = Compression::None; ///< of text only: no program reads compressed binary
   AtomForm atom;                               ///< of DumpStyle::Atom
@@ -40,8 +36,11 @@ struct DumpFormat
     columns; ///< not of DumpStyle::Atom; empty: see default_columns, or default_table_columns
   std::string counted = "ENTRIES"; ///< what rows are called; of DumpStyle::Local
   NumberFormat numbers;            ///< of real numbers in text
-  bool units = false;              ///< ITEM: UNITS in the first frame of the file; Lammps only
-  bool time = false;               ///< ITEM: TIME; Lammps only
+  bool same_digits =
+    false; ///< those of the file that a column comes from (FrameHeader::digits), and more where a number needs them;
+           ///< the shortest of other columns: `numbers` does not count then
+  bool units = false; ///< ITEM: UNITS in the first frame of the file; Lammps only
+  bool time = false;  ///< ITEM: TIME; Lammps only
   bool sort_by_id = false;
 
   /// Values of a chunk of a binary file, which counts them with 32 bits: less than 2^31 - 1.
@@ -51,6 +50,9 @@ struct DumpFormat
 /// Makes sure that a file can have such a format: local data that are text, and are not called as something else is in a dump.
 /// Throws Error, UnsupportedError for binary dumps that are compressed or of local data.
 void check_format(const DumpFormat& format, const std::string& path);
+
+/// The dialect of a dump whose first frame has this header. A binary one of a text names its columns.
+Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept;
 
 /// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it, but for the end that
 /// says that it is compressed.

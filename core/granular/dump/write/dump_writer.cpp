@@ -257,6 +257,8 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
     [&]
     {
       FramePlan plan = plan_frame(frame, format_, ranks_, notices);
+      format_.dialect = choose_dialect(format_, plan.header);
+      format_.same_dialect = false; // a file has one
       this->check_step(plan.header.timestep, notices);
       if (is_name_of_steps(path_))
       {

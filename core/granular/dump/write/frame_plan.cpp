@@ -24,6 +24,7 @@ static void pass(Archive& archive, typename Archive::template Passed<ColumnSourc
   archive.number(column.role);
   archive.number(column.axis);
   archive.number(column.whole);
+  archive.number(column.digits);
   archive.number(column.values.type);
   archive.number(column.values.factor);
   archive.number(column.own);
@@ -126,6 +127,20 @@ ColumnPlan plan_names(const std::vector<std::string>& names, const FrameView& fr
                           : plan_columns(names, frame, format.binary, notices);
 }
 
+/// The digits that real numbers have in the file that the frame comes from: six at least, as zeros at the end are not printed.
+void take_digits(const FrameView& frame, ColumnPlan& plan)
+{
+  constexpr int least = 6;
+  for (std::size_t i = 0; i < std::min(frame.columns.size(), frame.header.digits.size()); ++i)
+  {
+    const auto column = std::ranges::find(plan.columns, frame.columns[i], &ColumnSource::name);
+    if (column != plan.columns.end())
+    {
+      column->digits = std::max(least, frame.header.digits[i]);
+    }
+  }
+}
+
 void check_names(const std::vector<std::string>& names)
 {
   if (names.empty())
@@ -168,7 +183,8 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
   check_line(lead.header.label, "the label");
   check_line(lead.header.units, "the units");
   check_bounds(box);
-  const bool lammps = format.dialect == Dialect::Lammps; // the other has neither
+  const bool lammps =
+    choose_dialect(format, lead.header) == Dialect::Lammps; // the other has neither
   if (lammps && format.units && lead.header.units.empty())
   {
     throw Error("expected the units of the frame for ITEM: UNITS, got none");
@@ -213,6 +229,7 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat&
     {
       fail_others(names[i]);
     }
+    plan.columns[i].digits = other.digits;
   }
   if (plan.ids.has_value() != lead.columns.ids.has_value())
   {
@@ -265,6 +282,10 @@ FramePlan plan_frame(
     const std::vector<std::string> names = choose_names(frame, format, lead.notices);
     check_names(names);
     lead.columns = plan_names(names, frame, format, lead.notices);
+    if (format.same_digits && !format.binary)
+    {
+      take_digits(frame, lead.columns);
+    }
     check_frame(lead, format, lead.notices);
     ArchiveWriter packer;
     pass(packer, lead);

@@ -17,7 +17,7 @@ constexpr int few_digits = 3; ///< 0.5 of the last of them can be more than Roun
 
 bool is_exact(NumberFormat format) noexcept
 {
-  return format.digits == 0 || format.digits >= most_digits;
+  return format.digits == 0 || format.digits >= most_digits || format.exact;
 }
 
 /// The box that is read from numbers in that format.
@@ -117,8 +117,8 @@ bool note_print_loss(const RoundingLoss& loss, const RoundingLimit& limit, const
 PrintLoss::PrintLoss(const ColumnPlan& plan, const FrameView& frame, const Box& box,
   const DumpFormat& format, const RoundingLimit& limit)
   : box_(box)
-  , of_box_(box_numbers(box, format.dialect, limit))
-  , numbers_(format.binary ? NumberFormat{ 0 } : format.numbers)
+  , of_box_(format.same_digits ? NumberFormat{ 6, true } : box_numbers(box, format.dialect, limit))
+  , numbers_(format.binary || format.same_digits ? NumberFormat{ 0 } : format.numbers)
 {
   const bool exact_box = format.binary || is_exact(of_box_);
   const Vector3 of_box =

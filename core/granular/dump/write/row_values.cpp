@@ -2,6 +2,7 @@
 #include "granular/dump/write/row_values.h"
 
 #include "granular/common/error.h"
+#include "granular/numbers/number_print.h"
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
@@ -111,10 +112,16 @@ Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
 /// Whether a coordinate depends on no other, nor on image counts.
 bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box& box) noexcept
 {
-  return source.role == ColumnRole::ScaledPosition && !source.own && !box.tilted &&
-    frame.coordinates == Coordinates::Absolute;
+  return source.role == ColumnRole::ScaledPosition && !source.own && source.digits == 0 &&
+    !box.tilted && frame.coordinates == Coordinates::Absolute;
 }
 
+/// The number with so many digits in place of a value that is that number within what is allowed: a part of itself and a distance.
+void put_back_digits(double& value, int digits, double allowed) noexcept
+{
+  const double printed = as_printed(value, { digits });
+  value = std::abs(printed - value) <= allowed ? printed : value;
+}
 }
 
 void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)
@@ -172,12 +179,15 @@ void RowValues::load_coordinate(
   {
     to[i] = all[3 * i + axis];
   }
-  if (!source.own)
+  if (!source.own && source.digits == 0)
   {
     return;
   }
   // the file's own number, where it is that of the point within rounding: its last digits are its own
-  load_numbers(source.values, std::span(kept_).first(rows_), own_.data());
+  if (source.own)
+  {
+    load_numbers(source.values, std::span(kept_).first(rows_), own_.data());
+  }
   const double unit = frame.points->type == ValueType::Float32 ? 0x1p-22 : 0x1p-50;
   const double magnitude = magnitudes(box, box_, source.role)[axis];
   const double biased = source.role == ColumnRole::ScaledUnwrappedPosition ? image_rounding : 0;
@@ -186,7 +196,14 @@ void RowValues::load_coordinate(
     const double* image = images_.data() + 3 * i;
     const double crossed = std::max({ std::abs(image[0]), std::abs(image[1]), std::abs(image[2]) });
     const double allowed = unit * (magnitude * (1 + crossed) + std::abs(to[i])) + biased;
-    to[i] = std::abs(own_[i] - to[i]) <= allowed ? own_[i] : to[i];
+    if (source.own)
+    {
+      to[i] = std::abs(own_[i] - to[i]) <= allowed ? own_[i] : to[i];
+    }
+    else
+    {
+      put_back_digits(to[i], source.digits, allowed);
+    }
   }
 }
 
@@ -224,6 +241,13 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
     {
       case Kind::Array:
         load_array(source, rows, plan.binary, column);
+        if (source.digits > 0 && source.values.type == ValueType::Float32)
+        {
+          constexpr double half_unit = 0x1p-24;
+          std::ranges::for_each(column.reals,
+            [&](double& value)
+            { put_back_digits(value, source.digits, half_unit * std::abs(value)); });
+        }
         break;
       case Kind::Coordinate:
         if (scales_alone(source, frame, box))

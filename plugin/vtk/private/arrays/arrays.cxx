@@ -7,6 +7,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkIntArray.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
@@ -243,6 +244,17 @@ vtkSmartPointer<vtkAbstractArray> MakeInteger(const char* name, vtkTypeInt64 val
   auto array = vtkSmartPointer<vtkTypeInt64Array>::New();
   array->SetName(name);
   array->InsertNextValue(value);
+  return array;
+}
+
+vtkSmartPointer<vtkAbstractArray> MakeIntegers(const char* name, const std::vector<int>& values)
+{
+  auto array = vtkSmartPointer<vtkIntArray>::New();
+  array->SetName(name);
+  for (const int value : values)
+  {
+    array->InsertNextValue(value);
+  }
   return array;
 }
 

@@ -176,6 +176,16 @@ void RowsInput::ReadFieldData(vtkFieldData* data)
   header.label = FindText(data, "label");
   header.units = FindText(data, "units");
   this->View.columns = FindTexts(data, "Columns");
+  if (const auto digits =
+        FindDoubles(data, "ColumnDigits", static_cast<int>(this->View.columns.size())))
+  {
+    header.digits.assign(digits->begin(), digits->end());
+  }
+  const std::string dialect = FindText(data, "Dialect");
+  if (dialect == "LAMMPS" || dialect == "LIGGGHTS")
+  {
+    header.dialect = dialect == "LAMMPS" ? granular::Dialect::Lammps : granular::Dialect::Liggghts;
+  }
   if (vtkDataArray* timestep = data->GetArray("timestep");
       timestep && timestep->GetNumberOfValues() == 1)
   {

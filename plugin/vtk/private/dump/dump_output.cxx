@@ -151,6 +151,11 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   {
     data->AddArray(MakeDoubles("time", { *header.time }));
   }
+  if (header.dialect)
+  {
+    const bool lammps = *header.dialect == granular::Dialect::Lammps;
+    data->AddArray(MakeStrings("Dialect", { lammps ? "LAMMPS" : "LIGGGHTS" }));
+  }
 }
 
 void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request)
@@ -192,5 +197,9 @@ void FillFieldData(
     names.push_back(column.name);
   }
   data->AddArray(MakeStrings("Columns", names));
+  if (frame.header.digits.size() == names.size())
+  {
+    data->AddArray(MakeIntegers("ColumnDigits", frame.header.digits));
+  }
 }
 }

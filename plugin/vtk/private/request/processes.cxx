@@ -123,6 +123,7 @@ int Processes::EndRequest(vtkAlgorithm* self, Outcome outcome)
     // who asked to stop, while another rank failed, has had the answer
     self->SetAbortExecute(0);
     MarkStopped(self, false);
+    this->ToldTime = self->GetMTime(); // what was cleaned up after the failure is no change
   }
   return !failed;
 }

@@ -37,13 +37,19 @@ void Complete(RowsInput& data, const FrameTime& time, granular::Notices& notices
 }
 
 granular::DumpFormat MakeFormat(
-  const char* path, bool liggghts, const char* columns, const char* numberFormat)
+  const char* path, int dialect, const char* columns, const char* numberFormat)
 {
   granular::DumpFormat format;
-  format.dialect = liggghts ? granular::Dialect::Liggghts : granular::Dialect::Lammps;
+  format.dialect = dialect == 0 ? granular::Dialect::Liggghts : granular::Dialect::Lammps;
+  format.same_dialect = dialect == 2;
   format.binary = granular::is_binary_name(path);
   format.compression = granular::compression_of_name(path);
-  format.numbers = granular::parse_number_format(TextOf(numberFormat));
+  const std::string numbers = TextOf(numberFormat);
+  format.same_digits = numbers == "Automatic";
+  if (!format.same_digits)
+  {
+    format.numbers = granular::parse_number_format(numbers);
+  }
   const std::string names = TextOf(columns);
   for (const std::string_view name : granular::split_words(names))
   {

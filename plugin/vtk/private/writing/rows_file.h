@@ -13,10 +13,11 @@
 namespace vtkGranularPrivate
 {
 /**
- * What the name of a dump and the properties that all have say of how it is written.
+ * How a dump is written, by its name and the properties that all writers of dumps have. dialect: 0 LIGGGHTS, 1 LAMMPS, 2 that of
+ * the file that was read; numberFormat: "Automatic", or what granular::parse_number_format takes.
  */
 granular::DumpFormat MakeFormat(
-  const char* path, bool liggghts, const char* columns, const char* numberFormat);
+  const char* path, int dialect, const char* columns, const char* numberFormat);
 
 /**
  * A dump that is being written, of particles or of anything else that has rows.

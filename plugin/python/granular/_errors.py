@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors of the pipeline as exceptions."""
+from __future__ import annotations
+
+import contextlib
+from typing import Any, Iterator
+
+
+def source_of(proxy: Any) -> Any:
+    """Returns the source or filter that a proxy of paraview.simple, or one of its output ports, stands for."""
+    return getattr(proxy, "Proxy", proxy)
+
+
+def output_names(source: Any) -> list[str]:
+    """Returns the names of the outputs of a source or filter."""
+    return [source.SMProxy.GetOutputPortName(i) for i in range(source.SMProxy.GetNumberOfOutputPorts())]
+
+
+def upstream(source: Any) -> list[Any]:
+    """Returns a source and all that it depends on, readers first."""
+    from paraview import servermanager
+
+    found: dict[int, Any] = {}
+
+    def visit(proxy: Any) -> None:
+        if proxy.GetGlobalID() in found:
+            return
+        for i in range(proxy.GetNumberOfProducers()):
+            visit(proxy.GetProducerProxy(i))
+        found[proxy.GetGlobalID()] = servermanager._getPyProxy(proxy)
+
+    visit(source.SMProxy)
+    return list(found.values())
+
+
+def message_of(source: Any) -> str:
+    """Returns the error of the last update of a source of this plugin; of others an empty text."""
+    if not source.SMProxy.GetProperty("ErrorMessage"):
+        return ""
+    source.UpdatePropertyInformation()
+    return source.GetPropertyValue("ErrorMessage") or ""
+
+
+@contextlib.contextmanager
+def raised(sources: list[Any]) -> Iterator[None]:
+    """Raises RuntimeError with the first error of these sources, instead of letting VTK print it.
+
+    On a server its messages are printed there as well.
+    """
+    tags = []
+    for source in sources:
+        algorithm = source.GetClientSideObject()
+        if algorithm and source.SMProxy.GetProperty("ErrorMessage"):
+            tags.append((algorithm, algorithm.AddObserver("ErrorEvent", lambda *_: None)))
+    try:
+        yield
+    finally:
+        for algorithm, tag in tags:
+            algorithm.RemoveObserver(tag)
+    for source in sources:
+        message = message_of(source)
+        if message:
+            raise RuntimeError(message)
+
+
+def update(proxy: Any, time: float | None = None) -> None:
+    """Updates a source or filter, and raises an error of the update as an exception.
+
+    proxy  a source or filter of paraview.simple, or one of its output ports
+    time   the time to update to. None: the time of the last update, or the first one.
+
+    ParaView's UpdatePipeline prints errors and goes on. Raises RuntimeError with the message, which names path, line or byte,
+    and column, if the source, or a reader, filter or source of this plugin before it, failed. Errors of ParaView's own
+    filters are printed.
+    """
+    source = source_of(proxy)
+    with raised(upstream(source)):
+        if time is None:
+            source.UpdatePipeline()
+        else:
+            source.UpdatePipeline(time)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Readers by what is in a file."""
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable
+
+from ._errors import raised
+from ._files import files
+
+_READERS = ("GranularDumpReader", "GranularLocalReader", "GranularRestartReader", "GranularDataFileReader",
+            "GranularDecompositionReader", "GranularEulerReader")
+
+
+def _names(paths: Iterable[str], remote: bool) -> list[str]:
+    """The names of the files; a server's are taken as they are."""
+    names: list[str] = []
+    for path in paths:
+        if remote:
+            names.append(path)
+        elif os.path.exists(path):
+            names.append(os.path.abspath(path))
+        elif any(sign in path for sign in "*%?["):
+            names += files(path)
+        else:
+            raise FileNotFoundError(f"no such file: {path}")
+    if not names:
+        raise ValueError("no files")
+    return names
+
+
+def _find_reader(name: str) -> str:
+    """The reader that recognises a file by its first bytes."""
+    from paraview import servermanager
+
+    factory = servermanager.vtkSMReaderFactory
+    manager = servermanager.vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
+    for reader in _READERS:
+        if factory.CanReadFile(name, manager.NewProxy("sources", reader)):
+            return reader
+    return _READERS[0]  # which says what it expected
+
+
+def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None,
+           **properties: Any) -> Any:
+    """Returns the ParaView reader that fits a file, updated to its frames and arrays.
+
+    paths       a file, a pattern as the `dump` command has it (see granular.files), or a list of these: the files of one
+                run. Particle dumps, contacts and bonds, restart files, data files, decompositions and Euler cells are told
+                apart by their contents.
+    dt          the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps, unless the
+                files hold times.
+    properties  of the reader's proxy: ColumnNames, Stride, RegionOfInterest, PointArrayStatus, ...
+
+    The plugin must be loaded: see granular.load_plugin. Raises FileNotFoundError if there is no such file, AttributeError for
+    a property that there is not, and RuntimeError with the file's message, which names path, line or byte, and column, if
+    the file cannot be read.
+    """
+    from paraview import servermanager, simple
+
+    given = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+    connection = servermanager.ActiveConnection
+    names = _names([os.fspath(path) for path in given], connection is not None and connection.IsRemote())
+    kind = _find_reader(names[0])
+    if not hasattr(simple, kind):
+        raise RuntimeError("expected the plugin Granular, got a ParaView without it: load it first, as with "
+                           "granular.load_plugin()")
+    if kind == "GranularRestartReader" and len(names) > 1:
+        bases = [name for name in names if "base" in os.path.basename(name)]
+        names = bases or names  # the files of the other ranks are found beside them
+    if dt is not None:
+        properties["TimestepSize"] = dt
+    # What paraview.simple does, but registered only once it is known to be of use.
+    controller = servermanager.ParaViewPipelineController()
+    made = getattr(servermanager.sources, kind)(no_update=True)
+    controller.PreInitializeProxy(made)
+    made.UpdateVTKObjects()
+    with raised([made]):
+        for name, value in {**properties, "FileNames": names}.items():
+            setattr(made, name, value)
+        controller.PostInitializeProxy(made)
+        made.UpdatePipelineInformation()
+    controller.RegisterPipelineProxy(made, os.path.basename(names[0]))
+    return made
