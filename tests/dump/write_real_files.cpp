@@ -70,6 +70,15 @@ DumpFormat text_of(Dialect dialect, int digits = 6, bool units_and_time = false)
   return format;
 }
 
+/// With the digits and the dialect of the file.
+DumpFormat as_it_was(bool units_and_time = false)
+{
+  DumpFormat format = text_of(Dialect::Liggghts, 3, units_and_time);
+  format.same_dialect = true;
+  format.same_digits = true;
+  return format;
+}
+
 DumpFormat binary_of(Dialect dialect)
 {
   DumpFormat format;
@@ -122,10 +131,12 @@ TEST(WriteRealFiles, texts)
   for (const std::string& file : liggghts_texts)
   {
     EXPECT_EQ(change(file, {}, text_of(Dialect::Liggghts)), "") << file;
+    EXPECT_EQ(change(file, {}, as_it_was()), "") << file;
   }
   for (const std::string& file : lammps_texts)
   {
     EXPECT_EQ(change(file, {}, text_of(Dialect::Lammps)), "") << file;
+    EXPECT_EQ(change(file, {}, as_it_was()), "") << file;
   }
 }
 
@@ -139,14 +150,17 @@ TEST(WriteRealFiles, forms_of_points)
     for (const std::string& file : liggghts_texts)
     {
       EXPECT_EQ(change(file, all[i], text_of(Dialect::Liggghts)), "") << file << " " << i;
+      EXPECT_EQ(change(file, all[i], as_it_was()), "") << file << " " << i;
     }
     for (const std::string& file : lammps_texts)
     {
       EXPECT_EQ(change(file, all[i], text_of(Dialect::Lammps)), "") << file << " " << i;
+      EXPECT_EQ(change(file, all[i], as_it_was()), "") << file << " " << i;
     }
     for (const char* const file : { "ortho_unwrapped.dump", "tri_unwrapped.dump" })
     {
       EXPECT_EQ(change(file, all[i], text_of(Dialect::Lammps, 17, true)), "") << file << " " << i;
+      EXPECT_EQ(change(file, all[i], as_it_was(true)), "") << file << " " << i;
     }
   }
 }
@@ -161,13 +175,60 @@ TEST(WriteRealFiles, forms_of_points_alone)
     for (const char* const file : { "grains.dump", "grains_2000.dump", "plain.dump" })
     {
       EXPECT_EQ(change(file, request, text_of(Dialect::Liggghts)), "") << file;
+      EXPECT_EQ(change(file, request, as_it_was()), "") << file;
     }
     for (const char* const file :
       { "chain.dump", "ortho_image.dump", "ortho_scaled_image.dump", "tri_scaled_image.dump" })
     {
       EXPECT_EQ(change(file, request, text_of(Dialect::Lammps)), "") << file;
+      EXPECT_EQ(change(file, request, as_it_was()), "") << file;
     }
   }
+}
+
+/// Values that are no longer those of the file, and arrays that are new, read back as they are.
+TEST(WriteRealFiles, changed_values_lose_nothing)
+{
+  Loaded loaded = load("grains.dump", {});
+  loaded.frames.erase(loaded.frames.begin(), loaded.frames.end() - 1);
+  ReadFrameView& read = loaded.frames.front();
+  auto* points = reinterpret_cast<double*>(read.frame.points.data());
+  const auto moved = static_cast<std::size_t>(read.view.rows) * 3 / 2;
+  std::vector<double> speeds(static_cast<std::size_t>(read.view.rows));
+  for (std::size_t i = 0; i < moved; ++i)
+  {
+    points[i] *= 1.0 / 3;
+    speeds[i / 3] = points[i] * 7;
+  }
+  read.view.arrays.push_back(view_rows("speed", ValueType::Float64, speeds.data()));
+  const Folder folder;
+  const Written written = write_dump(folder.path("again"), loaded.views(), as_it_was());
+  const Dump again(written.bytes);
+  const Decoded found = again.read();
+  ASSERT_EQ(found.rows(), read.view.rows);
+  EXPECT_EQ(found.points(), std::vector<double>(points, points + 3 * speeds.size()));
+  EXPECT_EQ(found.values("speed"), speeds);
+  // the box has its six digits
+  const std::size_t box = loaded.bytes.rfind("ITEM: BOX");
+  const std::string text = loaded.bytes.substr(box, loaded.bytes.rfind("ITEM: ATOMS") - box);
+  EXPECT_NE(written.bytes.find(text), std::string::npos);
+  EXPECT_EQ(written.said, "");
+}
+
+/// Without a name in the file a binary one is written with names, unless it was a binary one without.
+TEST(WriteRealFiles, dialect_of_binary)
+{
+  const auto names = [](const std::string& file, const std::string& columns)
+  {
+    DumpFormat format = as_it_was();
+    format.binary = true;
+    const Folder folder;
+    const Loaded loaded = load(file, {}, columns);
+    const Written written = write_dump(folder.path("a.bin"), loaded.views(), format);
+    return written.bytes.find("radius") != std::string::npos;
+  };
+  EXPECT_TRUE(names("plain.dump", ""));
+  EXPECT_FALSE(names("plain.bin", plain_columns));
 }
 
 TEST(WriteRealFiles, binary_with_names)

@@ -40,6 +40,11 @@ std::string printed(double value, int digits)
   return text_of([&](char* to) { return granular::print_number(to, value, { digits }); });
 }
 
+std::string printed_exactly(double value, int digits)
+{
+  return text_of([&](char* to) { return granular::print_number(to, value, { digits, true }); });
+}
+
 std::string printed_integer(std::int64_t value)
 {
   return text_of([&](char* to) { return granular::print_integer(to, value); });
@@ -423,6 +428,63 @@ TEST(PrintShortest, ReadsBackAndIsNeverLonger)
   for (std::int64_t i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i)
   {
     expect_shortest(i % 4 == 0 ? random_double(random) : usual_double(random));
+  }
+}
+
+// ---- so many digits, and more where they are needed ---------------------------------------------
+
+TEST(PrintExact, ByHand)
+{
+  EXPECT_EQ(printed_exactly(0.1, 6), "0.1");
+  EXPECT_EQ(printed_exactly(0.1234567, 6), "0.1234567");
+  EXPECT_EQ(printed_exactly(100000, 6), "100000");
+  EXPECT_EQ(printed_exactly(1000000, 6), "1e+06");
+  EXPECT_EQ(printed_exactly(1234567, 6), "1234567");
+  EXPECT_EQ(printed_exactly(-0.0, 6), "-0");
+  EXPECT_EQ(printed_exactly(0.1, 17), "0.10000000000000001");
+  EXPECT_EQ(printed_exactly(0.1 + 0.2, 6), "0.30000000000000004");
+  EXPECT_EQ(printed_exactly(0.1 + 0.2, 16), "0.30000000000000004");
+  EXPECT_EQ(printed_exactly(DBL_TRUE_MIN, 6), "4.94066e-324");
+  EXPECT_EQ(printed_exactly(1e300, 6), "1e+300");
+}
+
+/// The number that printf prints so has the same text again; any other one reads back.
+void expect_exact(double value, int digits)
+{
+  const std::string text = by_printf(value, digits);
+  const double kept = std::strtod(text.c_str(), nullptr);
+  // with 16 digits a number may have a neighbour that is printed alike
+  if (std::isfinite(kept) && by_printf(kept, digits) == text)
+  {
+    ASSERT_EQ(printed_exactly(kept, digits), text) << hexadecimal(kept) << ' ' << digits;
+  }
+  const std::string whole = printed_exactly(value, digits);
+  const double read = std::strtod(whole.c_str(), nullptr);
+  ASSERT_EQ(std::bit_cast<std::uint64_t>(read), std::bit_cast<std::uint64_t>(value)) << whole;
+}
+
+TEST(PrintExact, KeepsTheDigitsOfATextAndReadsBack)
+{
+  std::mt19937_64 random(6);
+  const std::int64_t count = numbers_to_try(1'000'000);
+  for (std::int64_t i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i)
+  {
+    const double value = i % 2 == 0 ? random_double(random) : usual_double(random);
+    if (std::isfinite(value))
+    {
+      expect_exact(value, 1 + static_cast<int>(i / 2 % most_digits));
+    }
+  }
+  for (int power = -324; power <= 308 && !::testing::Test::HasFatalFailure(); ++power)
+  {
+    for (const char* mantissa : { "1", "1.2", "9.99999", "1.23456789012345", "1.2345678901234567" })
+    {
+      for (int digits = 1; digits <= most_digits; ++digits)
+      {
+        expect_exact(
+          std::strtod((mantissa + ("e" + std::to_string(power))).c_str(), nullptr), digits);
+      }
+    }
   }
 }
 

@@ -116,10 +116,10 @@ bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box&
     !box.tilted && frame.coordinates == Coordinates::Absolute;
 }
 
-/// The number with so many digits in place of a value that is that number within what is allowed: a part of itself and a distance.
+/// Replaces a value by the number with so many digits, or by 0, if that is within what is allowed.
 void put_back_digits(double& value, int digits, double allowed) noexcept
 {
-  const double printed = as_printed(value, { digits });
+  const double printed = std::abs(value) <= allowed ? 0 : as_printed(value, { digits });
   value = std::abs(printed - value) <= allowed ? printed : value;
 }
 }
