@@ -354,6 +354,28 @@ int vtkGranularEulerAverage::RequestDataObject(vtkInformation* vtkNotUsed(reques
   return 1;
 }
 
+namespace
+{
+/**
+ * Throws where the extent of an image cannot be known before the particles.
+ */
+void ExpectExtent(int cellsBy, const double bounds[6])
+{
+  if (cellsBy == vtkGranularEulerAverage::RELATIVE_SIZE)
+  {
+    throw granular::Error(
+      "expected points as output for CellSizeRelative, got an image, whose extent must be "
+      "known before the particles");
+  }
+  if (cellsBy == vtkGranularEulerAverage::SIZE && !AreGiven(bounds))
+  {
+    throw granular::Error(
+      "expected Bounds for an image of cells of a CellSize, got none: give Bounds, "
+      "CellCounts, or output points");
+  }
+}
+}
+
 //------------------------------------------------------------------------------
 // The extent of an image is known before its data.
 int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(request),
@@ -376,17 +398,8 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
   const Outcome outcome = Guard(this, *this->Ranks, outputVector,
     [&]
     {
+      ExpectExtent(this->CellsBy, this->Bounds);
       const bool given = AreGiven(this->Bounds);
-      if (this->CellsBy == RELATIVE_SIZE || (this->CellsBy == SIZE && !given))
-      {
-        throw granular::Error(this->CellsBy == SIZE
-            ? "expected Bounds for an image of cells of a CellSize, got none: give Bounds, "
-              "CellCounts, or "
-              "output points"
-            : "expected points as output for CellSizeRelative, got an image, whose extent must be "
-              "known "
-              "before the particles");
-      }
       granular::EulerGridRequest request;
       request.lo = given ? granular::Vector3{ this->Bounds[0], this->Bounds[2], this->Bounds[4] }
                          : granular::Vector3{};
@@ -406,6 +419,11 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
 void vtkGranularEulerAverage::Execute(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  if (this->OutputType == IMAGE_DATA)
+  {
+    ExpectExtent(
+      this->CellsBy, this->Bounds); // for a pipeline that goes on after RequestInformation failed
+  }
   Averager(this, inputVector, outputVector).Run();
 }
 

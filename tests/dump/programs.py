@@ -187,7 +187,7 @@ def main(name):
             for end, dialects in ends.items():
                 for dialect in dialects:
                     path = f"{shape}_{len(form)}_{'_'.join(columns)}_{dialect}.{end}"
-                    granular.save(source, path, Dialect=dialect, WriteTimeSteps=1, **form,
+                    granular.save(source, path, writer="GranularDumpWriter", Dialect=dialect, WriteTimeSteps=1, **form,
                                   NumberFormat="%.17g", SortById=name == "liggghts")
                     for step, got in read(path, columns, shape).items():
                         largest = max(largest, compare(path, got, frames[step], columns, box))

@@ -265,7 +265,7 @@ TEST(ReaderFieldData, SaysWhatThePointsAre)
   reader->Update();
   for (vtkFieldData* data : { reader.Particles()->GetFieldData(), reader.Box()->GetFieldData() })
   {
-    ASSERT_EQ(data->GetNumberOfArrays(), 8); // no label, units or time: the file has none
+    ASSERT_EQ(data->GetNumberOfArrays(), 10); // no label, units or time: the file has none
     const std::vector<double> box = { -0.05, -0.05, 0 };
     const std::vector<double> vectors = { 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.15 };
     ASSERT_EQ(data->GetArray("BoxOrigin")->GetNumberOfComponents(), 3);
@@ -298,6 +298,14 @@ TEST(ReaderFieldData, SaysWhatThePointsAre)
   for (int i = 0; i < 9; ++i)
   {
     EXPECT_EQ(reader.Text("Columns", i), columns[i]);
+  }
+  EXPECT_EQ(reader.Text("Dialect"), "LIGGGHTS");
+  vtkDataArray* digits = reader.Particles()->GetFieldData()->GetArray("ColumnDigits");
+  ASSERT_EQ(digits->GetNumberOfTuples(), 9);
+  for (int i = 0; i < 9; ++i)
+  {
+    // xs ys zs have six, radii are 0.0025 and 0.0035, the others are integers
+    EXPECT_EQ(digits->GetTuple1(i), i >= 2 && i < 5 ? 6 : i == 8 ? 2 : 0) << i;
   }
 }
 

@@ -87,17 +87,17 @@ TEST(WriterErrors, PropertiesOutOfRangeChangeNothing)
   Writer writer;
   writer->SetStyle(2);
   writer->SetStyle(-1);
-  writer->SetDialect(2);
+  writer->SetDialect(3);
   writer->SetParallelMode(-1);
   writer->SetThreads(-1);
   EXPECT_EQ(writer.Said->Errors,
     (Lines{ "expected Style 0 (Atom) or 1 (Custom), got 2",
       "expected Style 0 (Atom) or 1 (Custom), got -1",
-      "expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS), got 2",
+      "expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS) or 2 (Automatic), got 3",
       "expected ParallelMode 0 (Gather) or 1 (MPI-IO), got -1",
       "expected Threads of at least 0, got -1" }));
   EXPECT_EQ(writer->GetStyle(), 1);
-  EXPECT_EQ(writer->GetDialect(), 1);
+  EXPECT_EQ(writer->GetDialect(), 2);
   EXPECT_EQ(writer->GetParallelMode(), 0);
   EXPECT_EQ(writer->GetThreads(), 0);
 }
@@ -112,7 +112,7 @@ TEST(WriterErrors, PropertiesThatMakeNoSense)
   {
     writer->SetNumberFormat(format);
     expect(
-      std::string("expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '") +
+      std::string("expected NumberFormat Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '") +
       format + "'");
   }
   writer->SetNumberFormat("%g");
@@ -327,8 +327,8 @@ TEST(WriterErrors, PrintsAllProperties)
   writer->Print(out);
   for (const char* name :
     { "FileName: a.dump", "WriteTimeSteps: 0", "ParallelMode: 0", "Threads: 0", "GhostLevel: 0",
-      "Controller: ", "Written: 0", "Style: 1", "Dialect: 1", "Scaled: 1", "Image: 0",
-      "Columns: \n", "NumberFormat: %g", "SortById: 0", "WriteUnits: 0", "Units: \n",
+      "Controller: ", "Written: 0", "Style: 1", "Dialect: 2", "Scaled: 1", "Image: 0",
+      "Columns: \n", "NumberFormat: Automatic", "SortById: 0", "WriteUnits: 0", "Units: \n",
       "WriteTime: 0", "BoxOrigin: 0 0 0\n", "BoxVectors: 0 0 0 0 0 0 0 0 0\n", "Boundary: \n" })
   {
     EXPECT_NE(out.str().find(name), std::string::npos) << name;

@@ -97,7 +97,7 @@ again.PointArrayStatus = list(again.GetProperty("PointArrayStatus").Available)
 granular.save(again, "again.dump", WriteTimeSteps=1, **LIGGGHTS)
 assert content("again.dump") == whole
 for name in ("dump.1000", "x.liggghts", "no_ending", "with blank.dump"):
-    granular.save(grains, name, WriteTimeSteps=1, **LIGGGHTS)
+    granular.save(grains, name, writer="GranularDumpWriter", WriteTimeSteps=1, **LIGGGHTS)
     assert content(name) == whole, name
 
 granular.save(grains, "step_*.dump", WriteTimeSteps=1, **LIGGGHTS)

@@ -29,7 +29,7 @@ with connected() as server:
     try:
         granular.save(reader, "/nowhere/gone.dump")
     except RuntimeError as error:
-        assert "/nowhere/gone.dump could not be written" in str(error), error
+        assert "/nowhere/gone.dump: cannot write" in str(error), error
     else:
         raise AssertionError("nothing was raised")
     server.wait_for(r"/nowhere/gone\.dump: cannot write: No such file or directory \(on rank 0 of 2\)")

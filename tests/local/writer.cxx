@@ -148,7 +148,7 @@ TEST(LocalWriter, LinesAndTheirEnds)
   writer->SetDialect(vtkGranularLocalWriter::LIGGGHTS);
   const std::string rows = "ITEM: BONDS id1 id2 btype forcex forcey forcez x1 y1 z1 x2 y2 z2 \n"
                            "1 2 1 0 -0.125 1e-07 0.5 1 2 1.5 1 2 \n"
-                           "2 3 -2 1.23457e+06 4 5 1.5 1 2 1.5 3.25 2 \n";
+                           "2 3 -2 1234567 4 5 1.5 1 2 1.5 3.25 2 \n";
   const std::string head =
     "ITEM: TIMESTEP\n7\nITEM: NUMBER OF BONDS\n2\nITEM: BOX BOUNDS pp pp ff\n";
   EXPECT_EQ(writer.Bytes(), head + "0 10\n0 10\n0 10\n" + rows);
@@ -211,8 +211,7 @@ TEST(LocalWriter, ColumnsThatAreChosen)
   AddValues(bonds->GetCellData(), "v_mean", std::vector<double>{ 1, 2, 3, 4 }, 2);
   EXPECT_EQ(Written(bonds, " position2 id2\tforcez  v_mean force y1 length v_mean[2] "),
     Frame("x2 y2 z2 id2 forcez v_mean[1] v_mean[2] forcex forcey forcez y1 length v_mean[2]",
-      { "1.5 1 2 2 1e-07 1 2 0 -0.125 1e-07 1 1 2",
-        "1.5 3.25 2 3 5 3 4 1.23457e+06 4 5 1 2.25 4" }));
+      { "1.5 1 2 2 1e-07 1 2 0 -0.125 1e-07 1 1 2", "1.5 3.25 2 3 5 3 4 1234567 4 5 1 2.25 4" }));
 }
 
 TEST(LocalWriter, ColumnsOfTheFileComeFirst)
@@ -222,7 +221,7 @@ TEST(LocalWriter, ColumnsOfTheFileComeFirst)
   AddColumns(bonds, { "forcez", "x2", "id2", "id1" });
   EXPECT_EQ(Written(bonds),
     Frame("forcez x2 id2 id1 btype forcex forcey x1 y1 z1 y2 z2",
-      { "1e-07 1.5 2 1 1 0 -0.125 0.5 1 2 1 2", "5 1.5 3 2 -2 1.23457e+06 4 1.5 1 2 3.25 2" }));
+      { "1e-07 1.5 2 1 1 0 -0.125 0.5 1 2 1 2", "5 1.5 3 2 -2 1234567 4 1.5 1 2 3.25 2" }));
   // what the file had is no array that was made of lines
   AddColumns(bonds, { "id1", "length", "btype", "dist" });
   LocalWriter writer(NewName("a.bonds"), bonds);
@@ -518,7 +517,7 @@ TEST(LocalWriterErrors, Properties)
          "force, length, position1, position2");
   writer->SetColumns(nullptr);
   writer->SetNumberFormat("%d");
-  expect("expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '%d'");
+  expect("expected NumberFormat Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '%d'");
   writer->SetNumberFormat("%g");
   auto scaled = MakeBonds();
   AddText(scaled, "Coordinates", "Scaled");
@@ -559,13 +558,14 @@ TEST(LocalWriterErrors, AFolderThatIsNone)
 TEST(LocalWriterErrors, OutOfRangeChangesNothing)
 {
   LocalWriter writer("a.bonds");
-  writer->SetDialect(2);
-  EXPECT_EQ(writer.Said->Errors, Lines{ "expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS), got 2" });
-  EXPECT_EQ(writer->GetDialect(), vtkGranularLocalWriter::LAMMPS);
+  writer->SetDialect(3);
+  EXPECT_EQ(writer.Said->Errors,
+    Lines{ "expected Dialect 0 (LIGGGHTS) or 1 (LAMMPS) or 2 (Automatic), got 3" });
+  EXPECT_EQ(writer->GetDialect(), vtkGranularLocalWriter::AUTOMATIC);
   std::ostringstream out;
   writer->Print(out);
-  for (const char* name :
-    { "FileName: a.bonds", "Dialect: 1", "Label: ENTRIES", "Columns: \n", "NumberFormat: %g" })
+  for (const char* name : { "FileName: a.bonds", "Dialect: 2", "Label: ENTRIES", "Columns: \n",
+         "NumberFormat: Automatic" })
   {
     EXPECT_NE(out.str().find(name), std::string::npos) << name;
   }

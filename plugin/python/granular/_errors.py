@@ -6,11 +6,6 @@ import contextlib
 from typing import Any, Iterator
 
 
-def source_of(proxy: Any) -> Any:
-    """Returns the source or filter that a proxy of paraview.simple, or one of its output ports, stands for."""
-    return getattr(proxy, "Proxy", proxy)
-
-
 def output_names(source: Any) -> list[str]:
     """Returns the names of the outputs of a source or filter."""
     return [source.SMProxy.GetOutputPortName(i) for i in range(source.SMProxy.GetNumberOfOutputPorts())]
@@ -73,9 +68,8 @@ def update(proxy: Any, time: float | None = None) -> None:
     and column, if the source, or a reader, filter or source of this plugin before it, failed. Errors of ParaView's own
     filters are printed.
     """
-    source = source_of(proxy)
-    with raised(upstream(source)):
+    with raised(upstream(proxy)):
         if time is None:
-            source.UpdatePipeline()
+            proxy.UpdatePipeline()
         else:
-            source.UpdatePipeline(time)
+            proxy.UpdatePipeline(time)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._errors import output_names, source_of, update
+from ._errors import output_names, update
 
 if TYPE_CHECKING:
     import numpy
@@ -39,6 +39,52 @@ def _whole(data: Any) -> Any:
     return parts.GetOutput()
 
 
+def _bring(proxy: Any, port: int) -> Any:
+    """The data of an output, of all ranks together, on the first one.
+
+    ParaView's own Fetch joins parts of polygonal and composite data alone; of others it brings what the first rank has.
+    """
+    from paraview import servermanager
+
+    information = proxy.GetDataInformation(port)
+    kind = information.GetDataClassName()
+    ranks = servermanager.ActiveConnection.GetNumberOfDataPartitions()
+    if ranks == 1 or kind == "vtkPolyData" or information.IsCompositeDataSet():
+        return servermanager.Fetch(proxy, idx=port)
+    whole = servermanager.filters.ReductionFilter(Input=servermanager.OutputPort(proxy, port))
+    whole.PostGatherHelperName = "vtkPVMergeTables" if kind == "vtkTable" else "vtkAppendFilter"
+    return servermanager.Fetch(whole, 0)
+
+
+class _Image:
+    """Where the points and cells of an image are, and in which order parts of it from several ranks are to be put."""
+
+    def __init__(self, information: Any):
+        import numpy
+
+        extent = numpy.array(information.GetExtent())
+        bounds = numpy.array(information.GetBounds())
+        self.dimensions = extent[1::2] - extent[::2] + 1
+        self.origin = bounds[::2]
+        self.spacing = (bounds[1::2] - bounds[::2]) / numpy.maximum(self.dimensions - 1, 1)
+
+    def orders(self, parts: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
+        """Which points and cells of an unstructured grid are those of the image, in its order."""
+        import numpy
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+
+        points = vtk_to_numpy(parts.GetPoints().GetData())
+        corners = vtk_to_numpy(parts.GetCells().GetConnectivityArray()).reshape(-1, 8)
+        steps = numpy.where(self.spacing > 0, self.spacing, 1)
+
+        def order(places: numpy.ndarray, counts: numpy.ndarray) -> numpy.ndarray:
+            index = numpy.rint((places - self.origin) / steps).astype(int)
+            flat = index[:, 0] + counts[0] * (index[:, 1] + counts[1] * index[:, 2])
+            return numpy.unique(flat, return_index=True)[1]
+
+        return order(points, self.dimensions), order(points[corners].mean(axis=1) - steps / 2, self.dimensions - 1)
+
+
 def fetch(proxy: Any, port: int | str | None = None, time: float | None = None) -> dict[str, numpy.ndarray]:
     """Returns what a source or filter holds as a dict of numpy arrays.
 
@@ -59,38 +105,38 @@ def fetch(proxy: Any, port: int | str | None = None, time: float | None = None) 
     ValueError for an output that there is not.
     """
     import numpy
-    from paraview import servermanager
 
-    source = source_of(proxy)
-    update(source, time)
-    outputs = output_names(source)
+    update(proxy, time)
+    outputs = output_names(proxy)
     if port in outputs:
         port = outputs.index(port)
     elif port is None:
-        port = getattr(proxy, "Port", 0)
+        port = proxy.Port
     if not (isinstance(port, int) and 0 <= port < len(outputs)):
         raise ValueError(f"expected an output of {', '.join(outputs)}, got {port}")
-    data = _whole(servermanager.Fetch(source, idx=port))
+    information = proxy.GetDataInformation(port)
+    image = _Image(information) if information.GetDataClassName() == "vtkImageData" else None
+    data = _whole(_bring(proxy, port))
     found: dict[str, numpy.ndarray] = {}
     if data is None:
         return found
-    if data.IsA("vtkPointSet"):
+    if image is None and data.IsA("vtkPointSet"):
         points = data.GetPoints()
         found["points"] = _to_numpy(points.GetData()) if points else numpy.empty((0, 3))
     groups = [data.GetRowData()] if data.IsA("vtkTable") else [data.GetPointData(), data.GetCellData()]
-    for group in groups:
+    orders = image.orders(data) if image and data.IsA("vtkUnstructuredGrid") else [slice(None)] * 2
+    for group, order in zip(groups, orders):
         for i in range(group.GetNumberOfArrays()):
             array = group.GetAbstractArray(i)
             if array.GetName():
-                found.setdefault(array.GetName(), _to_numpy(array))
+                found.setdefault(array.GetName(), _to_numpy(array)[order])
     fields = data.GetFieldData()
     for i in range(fields.GetNumberOfArrays()):
         array = fields.GetAbstractArray(i)
         if array.GetName():
             values = _to_numpy(array)
             found.setdefault(array.GetName(), values[0] if len(values) == 1 else values)
-    if data.IsA("vtkImageData"):
-        for name, values in (("dimensions", data.GetDimensions()), ("origin", data.GetOrigin()),
-                             ("spacing", data.GetSpacing())):
-            found.setdefault(name, numpy.array(values))
+    if image:
+        for name in ("dimensions", "origin", "spacing"):
+            found.setdefault(name, getattr(image, name))
     return found

@@ -7,7 +7,7 @@ import os
 import re
 from typing import Any
 
-from ._errors import output_names, raised, source_of, upstream
+from ._errors import output_names, raised, update, upstream
 
 # For each kind of data its writer, and the endings that are this writer's. All other endings are ParaView's.
 _DUMPS = (".dump", ".lammpstrj", ".liggghts", ".lammps", ".dmp")
@@ -25,11 +25,10 @@ def _names(attributes: Any) -> set[str]:
 
 def _kind_by_origin(output: Any) -> str:
     """The same of an empty frame, which has no arrays: what its reader, source or filter gives otherwise."""
-    for source in reversed(upstream(source_of(output))):
+    if output_names(output)[output.Port] in ("Bonds", "Lines", "Rows"):
+        return "lines or rows"
+    for source in reversed(upstream(output)):
         name = source.GetXMLName()
-        own = source.SMProxy.GetGlobalID() == source_of(output).SMProxy.GetGlobalID()
-        if own and output_names(source)[output.Port] in ("Bonds", "Lines", "Rows"):
-            return "lines or rows"
         for part, kind in (("GranularLocal", "lines or rows"), ("GranularDecomposition", "subdomains"), ("GranularEuler", "cells")):
             if name.startswith(part):
                 return kind
@@ -124,22 +123,18 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
     from paraview import servermanager
 
     path = os.fspath(path)
-    source = source_of(proxy)
-    output = proxy if proxy is not source else source[0]
-    if time is not None:
-        source.UpdatePipeline(time)
+    if time is not None or writer is None:
+        update(proxy, time)  # what the data are is known then
+    writer = writer or _choose(proxy, path)
     if writer is None:
-        source.UpdatePipeline()  # what the data are is known then
-        writer = _choose(output, path)
-    if writer is None:
-        _save_by_paraview(output, path, properties)
+        _save_by_paraview(proxy, path, properties)
         return
     written = getattr(servermanager.writers, writer)(Input=proxy, FileName=path)
     for name, value in properties.items():
         words = name == "Columns" and not isinstance(value, str)
         setattr(written, name, " ".join(value) if words else value)
     written.UpdateVTKObjects()
-    with raised([*upstream(source), written]):
+    with raised([*upstream(proxy), written]):
         written.UpdatePipeline()
     written.UpdatePropertyInformation()
     if not written.GetPropertyValue("Written"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ._errors import output_names, source_of, upstream
+from ._errors import output_names, upstream
 
 # Eight colours that most people can tell apart: Okabe and Ito (2008).
 _COLOURS = [(0.00, 0.45, 0.70), (0.90, 0.60, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
@@ -111,11 +111,11 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     else:
         display.GrainScale = float(radius)
     if box:
-        _show_output(source_of(reader), "Box", view)
+        _show_output(reader, "Box", view)
     if bonds:
-        _show_output(source_of(reader), "Bonds", view, LineWidth=2)
+        _show_output(reader, "Bonds", view, LineWidth=2)
     if color == "type":
-        _colour_by_type(display, source_of(reader))
+        _colour_by_type(display, reader)
     elif color is not None and empty:
         # there is no range to fit the colours to yet
         display.ColorArrayName = ["POINTS", color]

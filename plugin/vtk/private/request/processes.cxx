@@ -16,12 +16,13 @@ namespace vtkGranularPrivate
 namespace
 {
 /**
- * Passes on what an executive says, but that the algorithm failed, which has said why.
+ * Passes on what an executive says, but what follows from a failure that was told.
  */
 void PassOn(vtkObject*, unsigned long, void*, void* text)
 {
   const auto* words = static_cast<const char*>(text);
-  if (words && !std::strstr(words, "returned failure for request"))
+  if (words && !std::strstr(words, "returned failure for request") &&
+    !std::strstr(words, "No whole extent has been set"))
   {
     vtkOutputWindowDisplayErrorText(words);
   }

@@ -48,7 +48,16 @@ granular::DumpFormat MakeFormat(
   format.same_digits = numbers == "Automatic";
   if (!format.same_digits)
   {
-    format.numbers = granular::parse_number_format(numbers);
+    try
+    {
+      format.numbers = granular::parse_number_format(numbers);
+    }
+    catch (const granular::Error&)
+    {
+      throw granular::Error(
+        "expected NumberFormat Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '" +
+        numbers + "'");
+    }
   }
   const std::string names = TextOf(columns);
   for (const std::string_view name : granular::split_words(names))

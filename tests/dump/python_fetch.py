@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""granular.fetch: the numbers of the files as numpy arrays, on one rank and on several."""
+import os
+
+import granular
+import numpy
+import plain_dump
+from paraview.simple import *
+
+good = os.path.join(os.environ["GRANULAR_DATA"], "good")
+samples = os.path.join(good, "..", "..", "..", "samples", "data")
+
+path = os.path.join(good, "grains.dump")
+reader = granular.reader(path)
+for frame in plain_dump.read(path):
+    data = granular.fetch(reader, time=frame.timestep)
+    if frame.rows == 0:
+        assert data["points"].shape == (0, 3), data["points"].shape
+        continue
+    order = numpy.argsort(data["id"])
+    expected = numpy.argsort(frame.numbers("id"))
+    for axis, name in enumerate("xyz"):
+        assert (data["points"][order, axis] == frame.numbers(name)[expected]).all(), name
+        assert (data["v"][order, axis] == frame.numbers("v" + name)[expected]).all(), name
+    assert (data["radius"][order] == frame.numbers("radius")[expected]).all()
+    assert data["id"].dtype == numpy.int64 and data["type"].dtype == numpy.int32
+    assert data["timestep"] == frame.timestep and int(data["timestep"]) == frame.timestep
+    assert list(data["Columns"][:5]) == ["id", "type", "x", "y", "z"]
+    assert data["BoxBounds"].shape == (6,) and str(data["Coordinates"]) == "Absolute"
+
+# the arrays stay when the pipeline goes on, and are not to be written to
+last = granular.fetch(reader)
+copy = last["points"].copy()
+granular.update(reader, reader.TimestepValues[1])
+assert (last["points"] == copy).all()
+try:
+    last["points"][0, 0] = 1
+    raise AssertionError("the memory of the pipeline could be changed")
+except ValueError:
+    pass
+
+# outputs by number, name and port
+for port in (1, "Box"):
+    assert granular.fetch(reader, port=port)["points"].shape == (8, 3), port
+assert granular.fetch(OutputPort(reader, 1))["points"].shape == (8, 3)
+for port in (2, "Bonds"):
+    try:
+        granular.fetch(reader, port=port)
+        raise AssertionError(port)
+    except ValueError as error:
+        assert "Particles, Box" in str(error), error
+
+# lines and tables, words, cells
+contacts = granular.reader(os.path.join(samples, "bonds", "settled_contacts.dump.gz"))
+lines, rows = granular.fetch(contacts), granular.fetch(contacts, port="Rows")
+assert len(lines["points"]) == 2 * len(lines["id1"]) > 1000
+assert (lines["id1"] == rows["id1"]).all() and lines["force"].shape == (len(lines["id1"]), 3)
+plain = os.path.join(good, "plain.dump")
+last = plain_dump.read(plain)[-1]
+words = granular.fetch(granular.reader(plain), time=last.timestep)["element"]
+assert list(words) == last.columns["element"] and len(words) > 0
+average = GranularEulerAverage(Input=reader, CellCounts=[3, 4, 5])
+cells = granular.fetch(average, time=2000)
+assert tuple(cells["dimensions"]) == (4, 5, 6) and cells["volumefraction"].shape == (60,)
+assert numpy.allclose(cells["origin"] + cells["spacing"] * (cells["dimensions"] - 1), [0.05, 0.05, 0.15])
+average.Output = "Points"  # the same cells as points at their centres, in an order that ranks do not change
+centres = granular.fetch(average, time=2000)
+places = numpy.rint((centres["points"] - cells["origin"]) / cells["spacing"] - 0.5).astype(int)
+whole = cells["volumefraction"].reshape(5, 4, 3)
+assert len(places) > 20 and whole.max() > 0.1
+for (x, y, z), value in zip(places, centres["volumefraction"]):
+    assert whole[z, y, x] == value
+print("fetched")

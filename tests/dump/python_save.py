@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""granular.save chooses the writer by the data, then by the ending; numbers are exact unless told otherwise."""
+import filecmp
+import os
+
+import granular
+import numpy
+from paraview.simple import *
+
+good = os.path.join(os.environ["GRANULAR_DATA"], "good")
+samples = os.path.join(good, "..", "..", "..", "samples", "data")
+
+
+def begins(name, text):
+    with open(name, "rb") as file:
+        got = file.read(len(text))
+    assert got == text, (name, got)
+
+
+def refused(proxy, name, *parts):
+    try:
+        granular.save(proxy, name)
+    except ValueError as error:
+        assert all(part in str(error) for part in parts), error
+        assert not os.path.exists(name), name
+    else:
+        raise AssertionError(f"{name} was written")
+
+
+grains = os.path.join(good, "grains.dump")
+particles = granular.reader(grains)
+granular.update(particles, particles.TimestepValues[-1])
+contacts = granular.reader(os.path.join(samples, "bonds", "settled_contacts.dump.gz"))
+granular.update(contacts, contacts.TimestepValues[-1])
+cells = GranularEulerAverage(Input=particles, CellCounts=[2, 2, 2])
+domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
+
+for name in ("a.dump", "a.lammpstrj", "a.liggghts", "dump.1000", "dump_of_mine", "a.dmp"):
+    granular.save(particles, name)
+    begins(name, b"ITEM: TIMESTEP")
+granular.save(particles, "a.dump.gz")
+begins("a.dump.gz", b"\x1f\x8b")
+granular.save(particles, "a.bin")
+begins("a.bin", b"\xf6\xff\xff\xff\xff\xff\xff\xffDUMPCUSTOM")
+for name, text in (("a.vtp", b"<"), ("a.vtk", b"# vtk DataFile"), ("a.csv", b'"'), ("a.ply", b"ply")):
+    granular.save(particles, name)
+    begins(name, text)
+for name in ("a.bonds", "a.dump", "a.dump.gz"):
+    granular.save(contacts, name)
+    granular.save(OutputPort(contacts, 1), "rows_" + name)
+begins("a.bonds", b"ITEM: TIMESTEP")
+begins("rows_a.dump", b"ITEM: TIMESTEP")
+with open("rows_a.dump") as file:
+    assert "ITEM: NUMBER OF ENTRIES" in file.read()
+for name in ("a_domains.vtk", "a.decomposition"):
+    granular.save(domains, name)
+    begins(name, b"# vtk DataFile")
+granular.save(domains, "a.vtu")
+begins("a.vtu", b"<")
+granular.save(cells, "a.euler")
+granular.save(cells, "a_cells.vtk")
+for name in ("a.euler", "a_cells.vtk"):
+    begins(name, b"# vtk DataFile")
+granular.save(cells, "a.vti")
+begins("a.vti", b"<")
+granular.save(Tube(Input=contacts), "a_tubes.vtp")
+
+# what no writer has for such data
+refused(particles, "a.xyz", "particles", ".dump", ".vtp", "got 'a.xyz'")
+refused(particles, "b.vti", "particles", ".lammpsbin")
+refused(particles, "noending", "particles")
+refused(particles, "particles.euler", ".dump")
+refused(contacts, "b.vtu.gz", "lines or rows", ".bonds")
+granular.save(particles, "a.xyz", writer="GranularDumpWriter")
+begins("a.xyz", b"ITEM: TIMESTEP")
+
+# frames without particles or contacts are what the others are
+granular.update(particles, 0)
+granular.save(particles, "empty.dump", time=0)
+granular.save(contacts, "empty.bonds", time=contacts.TimestepValues[0])
+
+# the whole run, and a filter's new array, by default: nothing is lost
+granular.save(particles, "same.dump", WriteTimeSteps=1)
+assert filecmp.cmp("same.dump", grains, shallow=False)
+third = Calculator(Input=particles, ResultArrayName="third", Function="radius / 3")
+turned = Transform(Input=third)
+turned.Transform.Rotate = [10, 20, 30]
+granular.update(turned, particles.TimestepValues[-1])
+granular.save(turned, "turned.dump")
+first, again = granular.fetch(turned), granular.fetch(granular.reader("turned.dump"))
+for name in ("points", "third", "v", "radius"):
+    assert (first[name] == again[name]).all(), name
+    assert first[name].dtype == numpy.float64
+SaveData("plain.dump", turned)  # as File, Save Data does
+assert filecmp.cmp("plain.dump", "turned.dump", shallow=False)
+with open("turned.dump") as file:
+    text = file.read()
+assert " 0.0025 " in text  # what did not change is as short as it was
+print("saved")
