@@ -129,7 +129,7 @@ assert written.names == "id1 id2 btype equilibrium_length x1 y1 z1 x2 y2 z2".spl
 length = numpy.sqrt(((written.stack(["x2", "y2", "z2"]) - written.stack(["x1", "y1", "z1"])) ** 2).sum(axis=1))
 assert numpy.allclose(length, written.column("equilibrium_length"), rtol=1e-12)
 
-check_properties("GranularLocalWriter", contacts, Dialect="LAMMPS", Label="ENTRIES", Columns="", NumberFormat="%g",
+check_properties("GranularLocalWriter", contacts, Dialect="Automatic", Label="ENTRIES", Columns="", NumberFormat="Automatic",
                  WriteTimeSteps=0, ParallelMode="Gather", Threads=0)
 check_nothing_left()
 print("written")

@@ -11,6 +11,8 @@ from ._errors import output_names, upstream
 _COLOURS = [(0.00, 0.45, 0.70), (0.90, 0.60, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
             (0.34, 0.71, 0.91), (0.84, 0.37, 0.00), (0.94, 0.89, 0.26), (0.60, 0.60, 0.60)]
 
+_GREY = [0.35, 0.35, 0.35]
+
 
 def _spacing_radius(source: Any) -> float | None:
     """Half the mean distance of the points, or None if there are too few to tell."""
@@ -113,7 +115,7 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     if box:
         _show_output(reader, "Box", view)
     if bonds:
-        _show_output(reader, "Bonds", view, LineWidth=2)
+        _show_output(reader, "Bonds", view, LineWidth=2, AmbientColor=_GREY, DiffuseColor=_GREY)
     if color == "type":
         _colour_by_type(display, reader)
     elif color is not None and empty:
