@@ -756,7 +756,7 @@ def write_markdown(path, results, context, drawn, left_out, quick):
 
 def write_pages(report, results, context, drawn):
     """Between the marks of a page is what the part says, and its picture beside it."""
-    docs = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs")
+    docs = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "developers")
     for part, figures in results:
         if not part.page:
             continue

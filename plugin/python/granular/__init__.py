@@ -13,6 +13,7 @@ Around them:
 
     granular.load_plugin()                    loads the plugin into paraview.simple
     granular.files("post/*.%.dump.gz")        the names of the files of a run
+    granular.load_state("run.pvsm")           a state file, also after its folder was moved
     granular.write_series(files, dt)          a .series file: times for STL and VTK files
     granular.pvbatch("script.py", ranks=4)    a script on several ranks
     granular.set_pool_limit(mib)              memory that readers keep for the next frame
@@ -39,9 +40,10 @@ from ._reader import reader
 from ._save import save
 from ._series import write_series
 from ._show import show
+from ._state import load_state
 from ._versions import label_format, preset, process_ids, set_properties
 from .vtkGranular import *  # noqa: F401,F403 (the compiled classes)
 
-__all__ = ["__version__", "fetch", "files", "label_format", "load_plugin", "pool_limit", "preset", "process_ids", "pvbatch",
+__all__ = ["__version__", "fetch", "files", "label_format", "load_plugin", "load_state", "pool_limit", "preset", "process_ids", "pvbatch",
            "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write_series"]
 __all__ += [name for name in dir(_compiled) if name.startswith("vtkGranular")]

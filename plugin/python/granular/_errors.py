@@ -18,7 +18,7 @@ def upstream(source: Any) -> list[Any]:
     found: dict[int, Any] = {}
 
     def visit(proxy: Any) -> None:
-        if proxy.GetGlobalID() in found:
+        if not proxy.IsA("vtkSMSourceProxy") or proxy.GetGlobalID() in found:
             return
         for i in range(proxy.GetNumberOfProducers()):
             visit(proxy.GetProducerProxy(i))

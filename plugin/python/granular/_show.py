@@ -33,25 +33,25 @@ def _is_scaled(source: Any) -> bool:
         array.GetStringValue(0) == "Scaled"
 
 
-def _types(source: Any) -> range:
-    """The types of the particles; of a frame without particles those of the last frame."""
-    array = source.PointData["type"]
+def _range_of(source: Any, name: str, view: Any) -> tuple[float, float] | None:
+    """The range of an array, of a vector that of its length; where a frame has no particles, in the last frame."""
+    array = source.PointData[name]
     times = getattr(source, "TimestepValues", None)
     if array is None and times:
-        shown = source.GetPropertyValue("TimestepValues")[0]
         source.UpdatePipeline(times[-1])
-        array = source.PointData["type"]
-        types = range(int(array.GetRange()[0]), int(array.GetRange()[1]) + 1) if array else range(0)
-        source.UpdatePipeline(shown)
-        return types
-    return range(int(array.GetRange()[0]), int(array.GetRange()[1]) + 1) if array else range(0)
+        array = source.PointData[name]
+        found = array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
+        source.UpdatePipeline(view.ViewTime)
+        return found
+    return array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
 
 
-def _colour_by_type(display: Any, source: Any) -> None:
+def _colour_by_type(display: Any, source: Any, view: Any) -> None:
     """A colour and a name for each type."""
     from paraview import simple
 
-    types = _types(source)
+    first, last = _range_of(source, "type", view) or (1, 0)
+    types = range(int(first), int(last) + 1)
     table = simple.GetColorTransferFunction("type")
     table.InterpretValuesAsCategories = 1
     table.Annotations = [text for number in types for text in (str(number), f"type {number}")]
@@ -117,11 +117,13 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     if bonds:
         _show_output(reader, "Bonds", view, LineWidth=2, AmbientColor=_GREY, DiffuseColor=_GREY)
     if color == "type":
-        _colour_by_type(display, reader)
+        _colour_by_type(display, reader, view)
     elif color is not None and empty:
-        # there is no range to fit the colours to yet
         display.ColorArrayName = ["POINTS", color]
         display.LookupTable = simple.GetColorTransferFunction(color)
+        limits = _range_of(reader, color, view)
+        if limits:
+            display.LookupTable.RescaleTransferFunction(*limits)
     elif color is not None:
         simple.ColorBy(display, ("POINTS", color))
     return display
