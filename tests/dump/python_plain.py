@@ -25,3 +25,26 @@ reader.SetRegionOfInterest(-1, 1, -1, 1, 0, 0.01)
 reader.Update()
 assert particles.GetPointData().GetNumberOfArrays() == 1
 assert 0 < particles.GetNumberOfPoints() < 1200
+
+# what editors and type checkers read: every function has hints, every compiled class a stub
+import inspect  # noqa: E402
+import pydoc  # noqa: E402
+
+folder = os.path.dirname(granular.__file__)
+assert granular.__version__.count(".") == 2 and os.path.exists(os.path.join(folder, "py.typed"))
+assert set(granular.__all__) <= set(dir(granular)) and "reader" in granular.__all__
+for name in granular.__all__:
+    function = getattr(granular, name)
+    if inspect.isfunction(function):
+        hints = inspect.signature(function)
+        assert hints.return_annotation is not inspect.Signature.empty, name
+        assert all(p.annotation is not inspect.Parameter.empty for p in hints.parameters.values()), name
+        summary = function.__doc__.split("\n")[0]
+        assert summary.split()[0].endswith("s") and summary.endswith("."), (name, summary)
+stub = os.path.join(folder, "vtkGranular.pyi")
+if os.path.exists(stub):  # where VTK has its generator
+    with open(stub) as file:
+        text = file.read()
+    assert all(f"class {name}(" in text for name in granular.__all__ if name.startswith("vtkGranular"))
+page = pydoc.plain(pydoc.render_doc(granular))
+assert "granular.fetch(reader" in page.split("FUNCTIONS")[0]

@@ -137,3 +137,31 @@ display = granular.show(grains, view, color="radius")
 view.ViewTime = 10
 Render(view)
 assert list(display.ColorArrayName) == ["POINTS", "radius"]
+
+# colours by type have names, and ranges come from the last frame where the first one is empty
+typed = HEADER.replace("\n2\n", "\n0\n") + "id type x y z radius\n" + HEADER.replace(
+    "TIMESTEP\n0", "TIMESTEP\n10") + "id type x y z radius\n1 2 -4 0 0 3\n2 4 4 0 0 0.5\n"
+with open("typed.dump", "w") as file:
+    file.write(typed)
+view.ViewTime = 0
+for grains in (granular.reader("typed.dump"), Calculator(Input=granular.reader("typed.dump"))):
+    display = granular.show(grains, view, color="type", box=True)
+    colours = GetColorTransferFunction("type")
+    assert list(colours.Annotations) == ["2", "type 2", "3", "type 3", "4", "type 4"], colours.Annotations
+    assert len(colours.IndexedColors) == 9 and colours.InterpretValuesAsCategories == 1
+    assert grains.GetDataInformation().GetNumberOfPoints() == 0  # the frame that is shown is the one that was shown
+    granular.show(grains, view, color="radius")
+    points = list(GetColorTransferFunction("radius").RGBPoints)
+    assert (points[0], points[-4]) == (0.5, 3), points
+
+# bonds and boxes of sources, through filters; and what has none
+packing = GranularPackingSource(Arrangement="Chain", NumberOfGrains=5, BondFactor=1)
+before = len(view.Representations)
+granular.show(Calculator(Input=packing), view, box=True, bonds=True)
+assert len(view.Representations) == before + 3, len(view.Representations) - before
+for wanted in ("box", "bonds"):
+    try:
+        granular.show(Sphere(), view, **{wanted: True})
+        raise AssertionError(f"a sphere has {wanted}")
+    except ValueError as error:
+        assert wanted.capitalize() in str(error), error

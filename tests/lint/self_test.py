@@ -5,7 +5,9 @@ import tempfile
 import unittest
 
 import layering
+import links
 import messages
+import reference
 import server_manager
 import sizes
 import style
@@ -40,6 +42,36 @@ class Stripping(unittest.TestCase):
     def test_bracket_is_closed(self):
         code = "f({1, (2)}, [3]) g"
         self.assertEqual(tree.closing(code, 1), code.index(") g"))
+
+
+class Links(unittest.TestCase):
+    def test_files_and_headings(self):
+        self.assertEqual(found(
+            links.check,
+            README_dot_md="# One two\n[a](docs/a.md) [b](docs/b.md)\n[c](#one-two) [d](#three)\n`[e](none.md)`\n"
+            "```\n[f](none.md)\n```\n[g](https://example.org/none.md) [h](docs/a.md#there) [i](docs/a.md#not-there)\n",
+            docs__a_dot_md="## There\n![p](../p.png)\n"), ["README.md:2", "README.md:3", "README.md:8", "docs/a.md:2"])
+
+
+class Reference(unittest.TestCase):
+    xml = ('<ServerManagerConfiguration><ProxyGroup name="sources"><SourceProxy name="GranularX" class="vtkGranularX">'
+           '<Documentation>Reads x.</Documentation><IntVectorProperty name="Threads" command="SetThreads" number_of_elements="1"'
+           ' default_values="0"><IntRangeDomain name="range" min="0"/><Documentation>How many.</Documentation>'
+           '</IntVectorProperty></SourceProxy></ProxyGroup></ServerManagerConfiguration>')
+    header = "/**\n * @class vtkGranularX\n * @brief Reads x of a file.\n *\n */\n"
+    page = ("<!-- SPDX-License-Identifier: BSD-3-Clause; made by tests/lint/reference.py -->\n# GranularX\n\n"
+            "ParaView source or reader; VTK class `vtkGranularX`. Reads x of a file.\n\nReads x.\n\n## Properties\n\n### Threads\n\n"
+            "*from 0 on; default `0`; C++ `SetThreads`*\n\nHow many.\n")
+
+    def pages(self, **files):
+        return found(reference.check, xml__x_dot_xml=self.xml, plugin__vtk__vtkGranularX_dot_h=self.header, **files)
+
+    def test_pages_are_what_xml_and_header_say(self):
+        self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page), [])
+        self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page + "\n"), ["docs/reference/GranularX.md:1"])
+        self.assertEqual(self.pages(), ["docs/reference/GranularX.md:1"])
+        self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page, docs__reference__GranularY_dot_md="old\n"),
+                         ["docs/reference/GranularY.md:1"])
 
 
 class Layering(unittest.TestCase):

@@ -14,15 +14,13 @@ def _numbers_in_order(path: str) -> list[tuple[int, str]]:
 
 
 def files(*patterns: str | os.PathLike[str]) -> list[str]:
-    """The names of the files of a run, absolute and in the order of their numbers, for FileNames of a
-    reader: OpenDataFile(granular.files("post/grains_*.%.dump")).
+    """Returns the names of the files of a run, absolute and in the order of their numbers.
 
-    patterns  as in the `dump` command: '*' stands for the timestep and '%' for the process, or anything
-              else in a name; '?' and [..] as in a shell. Plain and compressed files go together:
-              "post/*.dump" also finds post/a.dump.gz and post/a.dump.zst.
+    patterns  as in the `dump` command: '*' stands for the timestep and '%' for the rank; '?' and [..] as in a shell. Plain and
+              compressed files go together: "post/*.dump" also finds post/a.dump.gz and post/a.dump.zst.
 
-    Left out are the boundingBox files of LIGGGHTS and kept indices (.granular.idx). Call it again and
-    set FileNames for the files that a running simulation has added meanwhile.
+    The names are what granular.reader, OpenDataFile and the property FileNames take. The boundingBox files of LIGGGHTS and kept
+    indices (.granular.idx) are left out. Call it again, and set FileNames, when a running simulation has added files.
     Raises FileNotFoundError if a pattern fits no file.
     """
     found = set()

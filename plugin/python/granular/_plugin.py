@@ -32,14 +32,13 @@ def _plugin_beside_package(servermanager: Any) -> str:
 
 
 def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
-    """Loads the ParaView plugin that was built or installed with this package, and returns its path.
+    """Loads the ParaView plugin of this package and returns its path.
 
-    Afterwards `from paraview.simple import *` knows GranularDumpReader and the other names; if that
-    line came first, pass ns=globals(). remote=True loads it on the server of a connection: both
-    machines then need it under the same path. Not needed where PV_PLUGIN_PATH names its folder, nor with
-    Debian's packages: a plugin that is loaded already stays, and its path is returned.
+    ns      globals() if `from paraview.simple import *` came first: the names are added there.
+    remote  True: loads it on the server of a connection, where it must have the same path.
 
-    Raises FileNotFoundError if it is not where this package looks for it, RuntimeError if ParaView
+    It is not needed with Debian's packages, nor where PV_PLUGIN_PATH names the plugin's folder: a loaded plugin stays, and its
+    path is returned. Raises FileNotFoundError if the plugin is not where this package looks for it, RuntimeError if ParaView
     refuses to load it.
     """
     from paraview import servermanager, simple

@@ -8,9 +8,10 @@ _VARIABLE = "GRANULAR_POOL_MIB"
 
 
 def pool_limit() -> int | None:
-    """How many MiB of memory a reader may keep for its next frame, as an int, or None for the default:
-    an eighth of the machine's memory. It is what the environment variable GRANULAR_POOL_MIB says.
-    Raises ValueError if that is no such number.
+    """Returns the MiB of memory that a reader may keep for its next frame, or None for the default.
+
+    The environment variable GRANULAR_POOL_MIB holds it. The default is an eighth of the machine's memory. Raises ValueError if
+    the variable holds no whole number of at least 0.
     """
     text = os.environ.get(_VARIABLE)
     if not text:
@@ -22,12 +23,13 @@ def pool_limit() -> int | None:
 
 
 def set_pool_limit(mib: int | None) -> None:
-    """Sets how many MiB of memory a reader may keep for its next frame: 0 for none, None for the
-    default. It holds for readers of this process that have not read a frame yet. With a pvserver set the
-    environment variable GRANULAR_POOL_MIB where the server starts instead.
+    """Sets the MiB of memory that a reader may keep for its next frame.
 
-    Memory is kept because that of a frame before costs a fraction of what fresh memory does. It goes
-    when two frames did not need it, and with the reader.
+    mib  a whole number: 0 for none. None: the default, an eighth of the machine's memory.
+
+    It holds for readers of this process that have not read a frame yet. For a pvserver, set the environment variable
+    GRANULAR_POOL_MIB where the server starts. Memory is kept because fresh memory is slow. It is given back when two frames
+    did not need it, and with the reader.
     Raises ValueError if mib is not a whole number of at least 0.
     """
     if mib is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scripts on several processes of ParaView."""
+"""Scripts on several ranks of ParaView."""
 from __future__ import annotations
 
 import os
@@ -29,7 +29,7 @@ def mpirun_environment() -> dict[str, str]:
 
 
 def pvbatch(script: str | os.PathLike[str], *arguments: str, ranks: int) -> str:
-    """Runs a script in pvbatch on several ranks, and returns what it printed.
+    """Runs a script in pvbatch on several ranks and returns what it printed.
 
     script     the file of a Python script
     arguments  what it finds in sys.argv[1:]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of a run that do not know their time, on the clock of the run."""
+"""Times for the files of a run that hold none."""
 from __future__ import annotations
 
 import json
@@ -71,8 +71,9 @@ def _write_atomically(path: str, text: str) -> None:
 
 def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float,
                  path: str | os.PathLike[str] | None = None) -> str:
-    """Writes a .series file, which gives ParaView the times of files that hold none, and returns its
-    path. Open it instead of the files: their clock is then that of a GranularDumpReader whose
+    """Writes a .series file, which gives ParaView the times of other files, and returns its path.
+
+    Open it instead of STL or VTK files, which hold no times. Their times are then those of a reader of this plugin whose
     TimestepSize is dt.
 
     files  names of the files, in any order: mesh_0.stl, mesh_1000.stl, ... The step of each is the

@@ -36,9 +36,9 @@ def _is_scaled(source: Any) -> bool:
 def _range_of(source: Any, name: str, view: Any) -> tuple[float, float] | None:
     """The range of an array, of a vector that of its length; where a frame has no particles, in the last frame."""
     array = source.PointData[name]
-    times = getattr(source, "TimestepValues", None)
+    times = [time for each in upstream(source) if each.SMProxy.GetProperty("TimestepValues") for time in each.TimestepValues]
     if array is None and times:
-        source.UpdatePipeline(times[-1])
+        source.UpdatePipeline(max(times))
         array = source.PointData[name]
         found = array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
         source.UpdatePipeline(view.ViewTime)
