@@ -453,6 +453,9 @@ void expect_exact(double value, int digits)
 {
   const std::string text = by_printf(value, digits);
   const double kept = std::strtod(text.c_str(), nullptr);
+  ASSERT_EQ(std::bit_cast<std::uint64_t>(granular::as_printed(value, { digits })),
+    std::bit_cast<std::uint64_t>(kept))
+    << text;
   // with 16 digits a number may have a neighbour that is printed alike
   if (std::isfinite(kept) && by_printf(kept, digits) == text)
   {

@@ -91,6 +91,13 @@ Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floo
   return is_up ? Rounding::Up : Rounding::Down;
 }
 
+/// Whether a number, finite and not small, is one that 10^q in the table can scale.
+inline bool is_usual(std::uint64_t magnitude)
+{
+  constexpr std::uint64_t least = 60; // 2^-963
+  return (magnitude >> 52) - least < 2047 - least;
+}
+
 /// A double times 10^q, as a product of which 64 bits are known.
 struct Scaled
 {
@@ -221,27 +228,56 @@ inline Place place_of_digits(int k, int digits)
     to + (bits >> 63), raw, place_of_digits(k, std::max(least, static_cast<int>(raw.length()))));
 }
 
-/// At most six digits, so that there are at least 44 bits after the point.
-inline char* print_few(char* to, double value, int digits) noexcept
+/// A number rounded to some digits.
+struct Rounded
 {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  std::uint64_t whole; ///< the digits before the point, up to 10^digits
+  int q;               ///< the number times 10^q
+  bool sure;           ///< false: too near to a half
+};
+
+/// At most six digits, so that there are at least 44 bits after the point.
+inline Rounded round_few(std::uint64_t magnitude, int digits)
+{
+  const Scaled scaled = scale(magnitude, digits);
   const std::uint64_t fraction = scaled.product << (-scaled.shift & 63);
   constexpr std::uint64_t doubt = std::uint64_t{ 1 } << 30; // much more than 2 units of the product
-  if (fraction + doubt - (std::uint64_t{ 1 } << 63) < 2 * doubt) [[unlikely]]
-  {
-    return print_many(to, value, digits);
-  }
-  std::uint64_t whole = (scaled.product >> (scaled.shift & 63)) + (fraction >> 63);
-  whole *= whole_power_of_ten(6 - digits);
-  int k = digits - 1 - scaled.q;
+  return { (scaled.product >> (scaled.shift & 63)) + (fraction >> 63), scaled.q,
+    fraction + doubt - (std::uint64_t{ 1 } << 63) >= 2 * doubt };
+}
+
+inline char* lay_out_few(char* to, double value, const Rounded& rounded, int digits)
+{
+  std::uint64_t whole = rounded.whole * whole_power_of_ten(6 - digits);
+  int k = digits - 1 - rounded.q;
   if (whole == 1'000'000) [[unlikely]]
   {
     whole = 100'000;
     ++k;
   }
   *to = '-';
-  return lay_out_eight(to + (bits >> 63), six_digits(whole), place_of_digits(k, digits));
+  return lay_out_eight(to + (std::bit_cast<std::uint64_t>(value) >> 63), six_digits(whole),
+    place_of_digits(k, digits));
+}
+
+inline char* print_few(char* to, double value, int digits) noexcept
+{
+  const Rounded rounded = round_few(std::bit_cast<std::uint64_t>(value) & ~sign_bit, digits);
+  if (!rounded.sure) [[unlikely]]
+  {
+    return print_many(to, value, digits);
+  }
+  return lay_out_few(to, value, rounded, digits);
+}
+
+/// At least so many digits, up to six, and more where they do not read back as the same number.
+inline char* print_few_or_more(char* to, double value, int digits) noexcept
+{
+  const Rounded rounded = round_few(std::bit_cast<std::uint64_t>(value) & ~sign_bit, digits);
+  double back = 0;
+  return to_double(rounded.whole, -rounded.q, back) && back == std::abs(value)
+    ? lay_out_few(to, value, rounded, digits)
+    : print_at_least(to, value, digits);
 }
 
 /// x < 10^8 does it in one go.
@@ -300,17 +336,18 @@ char* print_number(char* to, double value, NumberFormat format) noexcept
     to[0] = '0';
     return to + 1;
   }
-  constexpr std::uint64_t least = 60; // 2^-963: 10^q is in the table
-  if ((bits >> 52 & 2047) - least >= 2047 - least) [[unlikely]]
+  if (!is_usual(bits & ~sign_bit)) [[unlikely]]
   {
     return format.exact ? print_checked(to, value, format.digits)
                         : print_exactly(to, value, format.digits);
   }
   if (format.exact && format.digits > 0 && format.digits < 17)
   {
+    constexpr int few = 6;
     constexpr int most = 15; // that any double of as many digits is the only one of
-    return format.digits <= most ? print_at_least(to, value, format.digits)
-                                 : print_checked(to, value, format.digits);
+    return format.digits <= few ? print_few_or_more(to, value, format.digits)
+      : format.digits <= most   ? print_at_least(to, value, format.digits)
+                                : print_checked(to, value, format.digits);
   }
   if (format.digits == 6) [[likely]] // a case of its own: what the compiler knows is faster
   {
@@ -340,6 +377,18 @@ double as_fixed(double value) noexcept
 
 double as_printed(double value, NumberFormat format) noexcept
 {
+  const std::uint64_t magnitude = std::bit_cast<std::uint64_t>(value) & ~sign_bit;
+  constexpr int few = 6;
+  if (magnitude != 0 && is_usual(magnitude) && format.digits > 0 && format.digits <= few &&
+    !format.exact)
+  {
+    const Rounded rounded = round_few(magnitude, format.digits);
+    double back = 0;
+    if (rounded.sure && to_double(rounded.whole, -rounded.q, back))
+    {
+      return std::copysign(back, value);
+    }
+  }
   char word[most_number_chars];
   static_cast<void>(parse_double(word, print_number(word, value, format), value));
   return value;
