@@ -37,14 +37,16 @@ def render(state, first, step):
         SaveScreenshot(f"film_{frame:04d}.png", view)
 
 
+def film():
+    save_state("film.pvsm")
+    workers = [subprocess.Popen(["pvpython", __file__, "film.pvsm", str(i), "2"]) for i in range(2)]
+    assert all(worker.wait() == 0 for worker in workers)
+    pictures = sorted(Path().glob("film_*.png"))
+    assert len(pictures) == 5
+    print(len(pictures), "pictures: film_0000.png to film_0004.png; ffmpeg -i film_%04d.png film.mp4 makes a film of them")
+
+
 if sys.argv[1:]:
     render(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))
-    sys.exit()
-
-save_state("film.pvsm")
-share = ["pvpython", "--force-offscreen-rendering", __file__, "film.pvsm"]
-workers = [subprocess.Popen([*share, str(i), "2"]) for i in range(2)]
-assert all(worker.wait() == 0 for worker in workers)
-pictures = sorted(Path().glob("film_*.png"))
-assert len(pictures) == 5
-print(len(pictures), "pictures: film_0000.png to film_0004.png; ffmpeg -i film_%04d.png film.mp4 makes a film of them")
+else:
+    film()

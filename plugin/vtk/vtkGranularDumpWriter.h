@@ -57,7 +57,8 @@ public:
    * Whose bytes are written. LIGGGHTS: the box with six digits, binary files without the names of their columns, a
    * blank at the end of each line of `dump custom`, and ITEM: LABEL where the input has one. LAMMPS: the box with 17 digits,
    * binary files of revision 2 with names. AUTOMATIC, the default: that of the file that the input was read from, by its
-   * field data `Dialect`, else LAMMPS; a binary file of a text names its columns.
+   * field data `Dialect`, else LAMMPS; LAMMPS also with WriteUnits or WriteTime, and for a binary file of a text, so that it names its
+   * columns.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);

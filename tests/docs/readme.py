@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""README's first script, as it stands there, makes a picture of grains."""
+"""README's first script, as it stands there, makes a picture of particles, a file and arrays."""
 import fnmatch
 import os
 import re
@@ -11,11 +11,12 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 
 root = Path(__file__).parents[2]
 text = (root / "README.md").read_text()
-script = re.search(r"## The first script\n\n((?:    .*\n|\n)+)", text).group(1)
+script = re.search(r"## The first script\n\n```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL).group(1)
 if not os.path.exists("samples"):
     os.symlink(root / "samples", "samples")
-exec(re.sub(r"(?m)^    ", "", script))
+exec(script)
 
+assert open("last.dump").read().startswith("ITEM: TIMESTEP\n4000\n") and arrays["points"].shape == (1200, 3)
 png = vtkPNGReader()
 png.SetFileName("grains.png")
 png.Update()

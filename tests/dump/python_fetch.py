@@ -51,7 +51,7 @@ for port in (2, "Bonds"):
         assert "Particles, Box" in str(error), error
 
 # lines and tables, words, cells
-contacts = granular.reader(os.path.join(samples, "bonds", "settled_contacts.dump.gz"))
+contacts = granular.reader(os.path.join(samples, "bonds", "settled_contacts.dump.gz"), Preset="ContactsForce")
 lines, rows = granular.fetch(contacts), granular.fetch(contacts, port="Rows")
 assert len(lines["points"]) == 2 * len(lines["id1"]) > 1000
 assert (lines["id1"] == rows["id1"]).all() and lines["force"].shape == (len(lines["id1"]), 3)

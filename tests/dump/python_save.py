@@ -30,7 +30,7 @@ def refused(proxy, name, *parts):
 grains = os.path.join(good, "grains.dump")
 particles = granular.reader(grains)
 granular.update(particles, particles.TimestepValues[-1])
-contacts = granular.reader(os.path.join(samples, "bonds", "settled_contacts.dump.gz"))
+contacts = granular.reader(os.path.join(samples, "bonds", "settled_contacts.dump.gz"), Preset="ContactsForce")
 granular.update(contacts, contacts.TimestepValues[-1])
 cells = GranularEulerAverage(Input=particles, CellCounts=[2, 2, 2])
 domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
@@ -66,10 +66,9 @@ begins("a.vti", b"<")
 granular.save(Tube(Input=contacts), "a_tubes.vtp")
 
 # what no writer has for such data
-refused(particles, "a.xyz", "particles", ".dump", ".vtp", "got 'a.xyz'")
+refused(particles, "b.xyz", "particles", ".dump", ".vtp", "got 'b.xyz'")
 refused(particles, "b.vti", "particles", ".lammpsbin")
 refused(particles, "noending", "particles")
-refused(particles, "particles.euler", ".dump")
 refused(contacts, "b.vtu.gz", "lines or rows", ".bonds")
 granular.save(particles, "a.xyz", writer="GranularDumpWriter")
 begins("a.xyz", b"ITEM: TIMESTEP")
@@ -96,4 +95,9 @@ assert filecmp.cmp("plain.dump", "turned.dump", shallow=False)
 with open("turned.dump") as file:
     text = file.read()
 assert " 0.0025 " in text  # what did not change is as short as it was
-print("saved")
+try:
+    granular.save(particles, "particles.euler")  # no other writer has this ending: it says what it expects
+    raise AssertionError("particles were written as cells")
+except RuntimeError as error:
+    assert "v_avg" in str(error) or "expected" in str(error), error
+print("all was saved")

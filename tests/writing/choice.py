@@ -32,7 +32,8 @@ def local():
     assert rows.startswith(head) and b" x1 " not in rows
     assert saved_data(OutputPort(reader, 1), "rows_saved.bonds") == rows
     # others keep their names
-    assert b"NUMBER OF ATOMS\n70\n" in saved(reader, "ends.dump", Columns="x y z")
+    assert b"NUMBER OF ATOMS\n70\n" in saved(reader, "ends.dump", writer="GranularDumpWriter", Columns="x y z")
+    assert saved(reader, "lines.dump") == lines
     SaveData("paraview.vtp", reader)
     assert saved_data(OutputPort(reader, 1), "paraview.csv").startswith(b'"')
 
@@ -83,9 +84,10 @@ def decomposition():
     assert voxels in saved(divided, "no_counts.decomposition")
     grains.UpdatePipeline(1000 * 2e-5)
     assert saved(divided, "divided.vtk", Dialect="PUBLIC") == content(good("decomposition/all.vtk"))[:248]
-    for name in ("domains.dump", "domains"):
-        assert saved(domains, name).startswith(particles), name
-    check_refused(grains, "grains.vtk")  # dumps have no such name
+    assert saved(domains, "domains.dump").startswith(particles)
+    assert saved(domains, "domains", writer="GranularDumpWriter").startswith(particles)
+    check_refused(domains, "domains", ValueError)
+    assert b"DATASET POLYDATA" in saved(grains, "grains.vtk")  # by ParaView
     assert saved(domains, "domains.vtk", writer="GranularDumpWriter").startswith(particles)
     assert voxels in saved_data(domains, "run.decomposition")
     assert b"appended" in saved_data(domains, "paraview.vtu")  # ParaView's own writers keep their names

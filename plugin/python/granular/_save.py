@@ -9,7 +9,7 @@ from typing import Any
 
 from ._errors import output_names, raised, update, upstream
 
-# For each kind of data its writer, and the endings that are this writer's. All other endings are ParaView's.
+# For each kind of data its writer, and the endings that are this writer's.
 _DUMPS = (".dump", ".lammpstrj", ".liggghts", ".lammps", ".dmp")
 _WRITERS = {
     "particles": ("GranularDumpWriter", (*_DUMPS, ".bin", ".lammpsbin")),
@@ -17,6 +17,9 @@ _WRITERS = {
     "subdomains": ("GranularDecompositionWriter", (".decomposition", ".vtk", ".vtu")),
     "cells": ("GranularEulerWriter", (".euler", ".vtk")),
 }
+# Endings of one writer alone: it says what it expects where the data do not fit. All other endings are ParaView's.
+_OWN = {".bonds": "GranularLocalWriter", ".decomposition": "GranularDecompositionWriter", ".euler": "GranularEulerWriter",
+        **{ending: "GranularDumpWriter" for ending in _WRITERS["particles"][1]}}
 
 
 def _names(attributes: Any) -> set[str]:
@@ -43,11 +46,12 @@ def _kind(output: Any) -> str:
         return _kind_by_origin(output)
     cells = _names(information.GetCellDataInformation())
     points = _names(information.GetPointDataInformation())
-    if information.IsCompositeDataSet() or shape == "vtkImageData" or "volumefraction" in cells | points:
+    if shape == "vtkImageData" or "volumefraction" in cells | points:
         return "cells"
     if shape == "vtkTable" or (shape == "vtkPolyData" and cells):
         return "lines or rows"
-    return "subdomains" if cells & {"proc", "nlocal"} else "particles"
+    is_grid = shape == "vtkUnstructuredGrid"
+    return "subdomains" if is_grid and (cells & {"proc", "nlocal"} or _kind_by_origin(output) == "subdomains") else "particles"
 
 
 def _ending(path: str) -> str:
@@ -73,10 +77,9 @@ def _choose(output: Any, path: str) -> str | None:
     kind = _kind(output)
     writer, ours = _WRITERS[kind]
     ending = _ending(path)
-    if ending in ours:
-        return writer
-    others = {each for _, endings in _WRITERS.values() for each in endings} - {".vtk", ".vtu"}
-    theirs = [each for each in _paraview_endings(output) if each not in others | {".gz", ".zst"}]
+    if ending in ours or ending in _OWN:
+        return writer if ending in ours else _OWN[ending]
+    theirs = [each for each in _paraview_endings(output) if each not in {*_OWN, ".gz", ".zst"}]
     if ending in theirs and not path.endswith((".gz", ".zst")):
         return None
     known = ", ".join([*ours, *(each for each in theirs if each not in ours)])

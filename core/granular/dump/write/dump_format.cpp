@@ -35,8 +35,9 @@ std::string replace_first(const std::string& path, char mark, const std::string&
 Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept
 {
   const bool names_are_lost = format.binary && !header.digits.empty();
+  const bool lammps_alone = names_are_lost || format.units || format.time;
   return !format.same_dialect ? format.dialect
-    : names_are_lost          ? Dialect::Lammps
+    : lammps_alone            ? Dialect::Lammps
                               : header.dialect.value_or(Dialect::Lammps);
 }
 

@@ -51,7 +51,8 @@ struct DumpFormat
 /// Throws Error, UnsupportedError for binary dumps that are compressed or of local data.
 void check_format(const DumpFormat& format, const std::string& path);
 
-/// The dialect of a dump whose first frame has this header. A binary one of a text names its columns.
+/// The dialect of a dump whose first frame has this header. That of LAMMPS where the other lacks what is wanted: units, a time, or,
+/// in a binary dump of a text, names of columns.
 Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept;
 
 /// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it, but for the end that
