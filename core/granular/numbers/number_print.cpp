@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/numbers/number_print.h"
 
-#include "granular/common/error.h"
 #include "granular/numbers/decimal.h"
 #include "granular/numbers/number.h"
 #include "granular/numbers/number_print_layout.h"
@@ -163,33 +162,49 @@ inline Place place_of_digits(int k, int digits)
     seventeen_digits(whole * whole_power_of_ten(17 - digits)), place_of_digits(k, digits));
 }
 
-/// The shortest number that reads back.
-///
+/// A number as 15 digits.
+struct Fifteen
+{
+  std::uint64_t whole; ///< the digits
+  int k;               ///< the first of them is times 10^k
+  bool fits;           ///< false: there may be more before the point
+  bool exact;          ///< they read back as the number
+};
+
 /// A decimal of at most 15 digits is what its nearest double gives rounded to 15 digits. So one
 /// that reads back as the value is found by that rounding, and with the zeros at its end taken
 /// off it is the shortest. It is at most half a unit of the mantissa away, 1/8 of the last digit.
-[[gnu::noinline]] char* print_shortest(char* to, double value) noexcept
+inline Fifteen fifteen_digits(double value)
 {
   constexpr int digits = 15;
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const Scaled scaled = scale(bits & ~sign_bit, digits);
+  const Scaled scaled = scale(std::bit_cast<std::uint64_t>(value) & ~sign_bit, digits);
   const std::uint64_t eighth = std::uint64_t{ 1 } << (scaled.shift - 3);
   const std::uint64_t whole = (scaled.product + eighth) >> scaled.shift;
   const int k = digits - 1 - scaled.q;
+  const bool fits = k < digits && whole < whole_power_of_ten(digits);
   double back = 0;
-  if (((scaled.product + eighth) & (8 * eighth - 1)) > 2 * eighth || k >= digits ||
-    whole >= whole_power_of_ten(digits) || !to_double(whole, -scaled.q, back) ||
-    back != std::abs(value))
+  return { whole, k, fits,
+    fits && ((scaled.product + eighth) & (8 * eighth - 1)) <= 2 * eighth &&
+      to_double(whole, -scaled.q, back) && back == std::abs(value) };
+}
+
+/// The shortest number that reads back.
+[[gnu::noinline]] char* print_shortest(char* to, double value) noexcept
+{
+  const Fifteen found = fifteen_digits(value);
+  if (!found.exact)
   {
     return print_exactly(to, value, 0);
   }
-  const Seventeen raw = seventeen_digits(whole * 100);
+  const int k = found.k;
+  const Seventeen raw = seventeen_digits(found.whole * 100);
   const int length = static_cast<int>(raw.length());
   const int point = length > 1 ? 1 : 0;
   const int scientific = length + point + (k <= -100 ? 5 : 4);
   const int fixed = k < 0 ? length + 1 - k : std::max(length + (length > k + 1 ? 1 : 0), k + 1);
   *to = '-';
-  return lay_out_seventeen(to + (bits >> 63), raw, place_of(k, fixed <= scientific));
+  return lay_out_seventeen(
+    to + (std::bit_cast<std::uint64_t>(value) >> 63), raw, place_of(k, fixed <= scientific));
 }
 
 /// So many digits where they read back as the same number. Slow.
@@ -201,31 +216,22 @@ inline Place place_of_digits(int k, int digits)
 }
 
 /// The same for 1 to 15 digits of a number that is not 0 and not small.
-///
-/// As in print_shortest, 15 digits with the zeros at their end taken off are the shortest decimal, if that has no more. If
-/// it has no more than were asked for, it is what these are.
 [[gnu::noinline]] char* print_at_least(char* to, double value, int least) noexcept
 {
-  constexpr int digits = 15;
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const Scaled scaled = scale(bits & ~sign_bit, digits);
-  const std::uint64_t eighth = std::uint64_t{ 1 } << (scaled.shift - 3);
-  const std::uint64_t whole = (scaled.product + eighth) >> scaled.shift;
-  const int k = digits - 1 - scaled.q;
-  double back = 0;
-  if (k >= digits || whole >= whole_power_of_ten(digits))
+  const Fifteen found = fifteen_digits(value);
+  if (!found.fits)
   {
     return print_checked(to, value, least);
   }
-  if (((scaled.product + eighth) & (8 * eighth - 1)) > 2 * eighth ||
-    !to_double(whole, -scaled.q, back) || back != std::abs(value))
+  if (!found.exact)
   {
     return print_exactly(to, value, 0);
   }
-  const Seventeen raw = seventeen_digits(whole * 100);
+  const Seventeen raw = seventeen_digits(found.whole * 100);
+  const int digits = std::max(least, static_cast<int>(raw.length()));
   *to = '-';
   return lay_out_seventeen(
-    to + (bits >> 63), raw, place_of_digits(k, std::max(least, static_cast<int>(raw.length()))));
+    to + (std::bit_cast<std::uint64_t>(value) >> 63), raw, place_of_digits(found.k, digits));
 }
 
 /// A number rounded to some digits.
@@ -301,31 +307,6 @@ inline char* print_natural(char* to, std::uint64_t x) noexcept
 }
 }
 
-NumberFormat parse_number_format(std::string_view text)
-{
-  if (text == "%g")
-  {
-    return { 6 };
-  }
-  if (text == "shortest")
-  {
-    return { 0 };
-  }
-  if (text.size() >= 4 && text.starts_with("%.") && text.ends_with('g'))
-  {
-    const std::string_view number = text.substr(2, text.size() - 3);
-    int digits = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), digits);
-    if (error == std::errc{} && end == number.data() + number.size() && number[0] != '0' &&
-      digits >= 1 && digits <= 17)
-    {
-      return { digits };
-    }
-  }
-  throw FormatError("expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '" +
-    std::string(text) + "'");
-}
-
 char* print_number(char* to, double value, NumberFormat format) noexcept
 {
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -359,13 +340,6 @@ char* print_number(char* to, double value, NumberFormat format) noexcept
   }
   return format.digits < 6 ? print_few(to, value, format.digits)
                            : print_many(to, value, format.digits);
-}
-
-std::string to_text(NumberFormat format)
-{
-  return format.digits == 0 ? "shortest"
-    : format.digits == 6    ? "%g"
-                            : "%." + std::to_string(format.digits) + "g";
 }
 
 double as_fixed(double value) noexcept
