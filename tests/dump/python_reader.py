@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """granular.reader and granular.update: the reader that fits, and errors as exceptions, each once."""
+import gc
 import os
 import subprocess
 import sys
@@ -87,6 +88,20 @@ refused(lambda: granular.update(average), RuntimeError, "expected points as outp
 series = granular.reader(good("grains.dump"))
 granular.update(series, 2000)
 assert series.FieldData["timestep"].GetRange() == (2000, 2000)
+
+# no proxy waits for the garbage collector, which may come while ranks update together, and would then have them wait for ever
+for use in (lambda: granular.update(clip), lambda: granular.fetch(clip), lambda: granular.save(clip, "kept.dump"),
+            lambda: granular.save(clip, "kept.vtu"), lambda: granular.reader(good("grains_1000.dump"))):
+    gc.collect()
+    gc.disable()
+    use()
+    gc.set_debug(gc.DEBUG_SAVEALL)
+    gc.collect()
+    kept = [type(each).__name__ for each in gc.garbage if "Proxy" in type(each).__name__ or "vtkSM" in type(each).__name__]
+    gc.set_debug(0)
+    gc.garbage.clear()
+    gc.enable()
+    assert not kept, kept
 
 said = subprocess.run([sys.executable if "pvpython" in sys.executable else "pvpython", __file__, "said"], capture_output=True,
                       text=True)

@@ -12,20 +12,18 @@ def output_names(source: Any) -> list[str]:
 
 
 def upstream(source: Any) -> list[Any]:
-    """Returns a source and all that it depends on, readers first."""
+    """Returns a source and all that it depends on, the farthest first."""
     from paraview import servermanager
 
-    found: dict[int, Any] = {}
-
-    def visit(proxy: Any) -> None:
-        if not proxy.IsA("vtkSMSourceProxy") or proxy.GetGlobalID() in found:
-            return
+    # Without a recursive function: its cycle would keep proxies until Python's garbage collector comes, perhaps while ranks
+    # update together.
+    found = [source.SMProxy]
+    for proxy in found:  # which grows
         for i in range(proxy.GetNumberOfProducers()):
-            visit(proxy.GetProducerProxy(i))
-        found[proxy.GetGlobalID()] = servermanager._getPyProxy(proxy)
-
-    visit(source.SMProxy)
-    return list(found.values())
+            producer = proxy.GetProducerProxy(i)
+            if producer.IsA("vtkSMSourceProxy") and producer not in found:
+                found.append(producer)
+    return [servermanager._getPyProxy(proxy) for proxy in reversed(found)]
 
 
 def message_of(source: Any) -> str:
