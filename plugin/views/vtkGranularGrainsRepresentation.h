@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularGrainsRepresentation
- * @brief   Point Gaussian for grains: whole on any number of ranks, and right far from the origin.
+ * @brief   Point Gaussian for particles: whole on any number of ranks, and right far from the origin.
  *
  * vtkPointGaussianRepresentation tells ParaView where the points are, not the spheres. Three things
  * follow from that, and are put right here:
@@ -11,9 +11,9 @@
  *   keeps a sphere in the picture whose centre has left it.
  * - The ranks' pictures are laid over one another in the order of the regions of space they stand
  *   for. Spheres reach into other regions, where that order is wrong. Here each pixel is taken from
- *   the rank where it is nearest, as for surfaces, unless the grains are translucent: then the order
+ *   the rank where it is nearest, as for surfaces, unless the particles are translucent: then the order
  *   of regions is the best there is.
- * - For that order points are sent from rank to rank. Here opaque grains stay where they were read.
+ * - For that order points are sent from rank to rank. Here opaque particles stay where they were read.
  *
  * Its mapper makes floats of the coordinates as they are: spheres of 5e-4 at 1024 lie on a lattice of a quarter of
  * their radius, and at 2^20 nothing is seen of them. Here a place near the centre of the view is subtracted in doubles first. It depends on

@@ -11,7 +11,7 @@
  * the field data of a vtkGranularDumpReader (Coordinates, PointOrigin, BoxOrigin, BoxVectors, BoxBounds, Boundary,
  * timestep, time, units, label) say what they are. Where a reader kept a coordinate column as an array, its own
  * numbers are written, as long as they are those of the point within rounding. Without a box one is made
- * from the bounds of the grains, with a warning. A missing id is the number of the point, a missing type 1, missing
+ * from the bounds of the particles, with a warning. A missing id is the number of the point, a missing type 1, missing
  * image counts are 0, each with a warning. Points that are duplicates of another process' are left out.
  *
  * The bytes do not depend on the number of processes and threads. See vtkGranularWriter for the rest.

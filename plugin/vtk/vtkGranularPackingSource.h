@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularPackingSource
- * @brief   Makes grains that do not overlap, at random places, on a lattice or in fibres, without a file.
+ * @brief   Makes particles that do not overlap, at random places, on a lattice or in fibres, without a file.
  *
- * Output port 0 holds the grains (vtkPolyData, one vertex a grain), port 1 the box (vtkUnstructuredGrid, one
+ * Output port 0 holds the particles (vtkPolyData, one vertex a particle), port 1 the box (vtkUnstructuredGrid, one
  * hexahedron), with the arrays and field data that vtkGranularDumpReader gives for a dump of timestep 0 with the
  * columns id type x y z radius vx vy vz: `id` (vtkTypeInt64Array from 1 on, and the pedigree ids), `type`
  * (vtkTypeInt32Array), `radius`, `v` (3). In fibres, also `mol` (vtkTypeInt64Array): their number, from 1 on.
@@ -13,10 +13,10 @@
  * `id2` (vtkTypeInt64Array), `btype` (vtkTypeInt32Array, 1), `equilibrium_length`, and `length`, which is equal.
  *
  * Grains are wholly inside the box; along periodic axes their centres are, and their periodic images do not
- * overlap grains either. Random grains do not touch one another, those of lattices and fibres of spacing 1 do.
+ * overlap particles either. Random particles do not touch one another, those of lattices and fibres of spacing 1 do.
  *
- * Each grain follows from the properties and its number: any pieces, threads and ranks give the same.
- * Pieces hold equal numbers of grains, in the order of their ids, and the bonds of these with greater ids, in
+ * Each particle follows from the properties and its number: any pieces, threads and ranks give the same.
+ * Pieces hold equal numbers of particles, in the order of their ids, and the bonds of these with greater ids, in
  * the order of (id1, id2); the box is in piece 0 alone.
  */
 
@@ -76,7 +76,7 @@ public:
   ///@{
   /**
    * The box: its low corner, (0, 0, 0) by default; its lengths lx ly lz, greater than 0, or (0, 0, 0), the default: then
-   * a box is made for the grains; its tilts xy xz yz, (0, 0, 0) by default, of a box whose lengths are given. The
+   * a box is made for the particles; its tilts xy xz yz, (0, 0, 0) by default, of a box whose lengths are given. The
    * box vectors are (lx, 0, 0), (xy, ly, 0) and (xz, yz, lz). In the unit of the radii.
    */
   vtkSetVector3Macro(BoxOrigin, double);
@@ -90,7 +90,7 @@ public:
   ///@{
   /**
    * What the faces along the three box vectors are: one or two of the letters p (periodic), f, s, m
-   * (grains stay inside) each. "ff ff ff" by default.
+   * (particles stay inside) each. "ff ff ff" by default.
    */
   void SetBoundary(const char* boundary);
   const char* GetBoundary();
@@ -98,7 +98,7 @@ public:
 
   ///@{
   /**
-   * ONE: all grains have Radius. TWO, the default: a share of them, SecondShare, 0 to 1 and 0.3 by default,
+   * ONE: all particles have Radius. TWO, the default: a share of them, SecondShare, 0 to 1 and 0.3 by default,
    * has SecondRadius, and type 2. RANGE: evenly from Radius to SecondRadius. Radii are greater than 0,
    * the larger at most 20 times the smaller; 0.003 and 0.005 by default.
    */
@@ -114,8 +114,8 @@ public:
 
   ///@{
   /**
-   * SolidFraction: volume of random grains by that of the box, where not both their number and the box are
-   * given; greater than 0, 0.2 by default, and up to about 0.3 grains find their places. Spacing: distance
+   * SolidFraction: volume of random particles by that of the box, where not both their number and the box are
+   * given; greater than 0, 0.2 by default, and up to about 0.3 particles find their places. Spacing: distance
    * of nearest neighbours, of lattices and fibres, by the largest diameter; at least 1, the default, where
    * they touch. GrainsPerFibre: of a FIBRE_BUNDLE, at least 1, 20 by default; the last fibre may have fewer.
    */
@@ -127,14 +127,14 @@ public:
   vtkGetMacro(GrainsPerFibre, vtkTypeInt64);
   ///@}
 
-  /// 0, the default: no bonds. From 1 to 3: bonds between grains whose centres are no farther apart than this times
+  /// 0, the default: no bonds. From 1 to 3: bonds between particles whose centres are no farther apart than this times
   /// the sum of their radii, within rounding; through periodic faces, too, but one at most for a pair. In
-  /// fibres it is the consecutive grains of each that are bonded, whatever the factor.
+  /// fibres it is the consecutive particles of each that are bonded, whatever the factor.
   vtkSetMacro(BondFactor, double);
   vtkGetMacro(BondFactor, double);
 
   /// Speed: standard deviation of each component of the velocities, which are normally distributed around
-  /// 0; at least 0, the default: grains at rest. Seed: another one gives other places, sizes and
+  /// 0; at least 0, the default: particles at rest. Seed: another one gives other places, sizes and
   /// velocities; 1 by default.
   vtkSetMacro(Speed, double);
   vtkGetMacro(Speed, double);
