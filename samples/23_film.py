@@ -19,7 +19,7 @@ def save_state(name):
     view = GetActiveViewOrCreate("RenderView")
     granular.set_properties(view, ViewSize=[600, 580], OrientationAxesVisibility=0, CameraPosition=[0.22, -0.30, 0.19],
                             CameraFocalPoint=[0.0, 0.01, 0.069], CameraViewUp=[0, 0, 1])
-    display = granular.show(reader, view, color="v", box=True)
+    granular.show(reader, view, color="v", box=True)
     colours = GetColorTransferFunction("v")
     colours.ApplyPreset(granular.preset("Plasma"))
     colours.RescaleTransferFunction(0, 1.5)

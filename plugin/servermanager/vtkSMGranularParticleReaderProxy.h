@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMGranularParticleReaderProxy
- * @brief   Suggests the representation Grains only where it fits.
- *
- * Grains draws the radii of the point array `radius` in the unit of the points. Where that array is
- * not among those to be read, and where the points are scaled coordinates, GetHints() leaves the
- * suggestion out, and ParaView chooses a representation as for any other points.
+ * @brief   Chooses the arrays of particle readers anew when other files are opened.
  *
  * Made for elements GranularParticleReaderProxy of the server manager's XML.
  */
@@ -15,7 +11,6 @@
 
 #include "vtkGranularServerManagerModule.h" // For export macro
 #include "vtkSMSourceProxy.h"
-#include "vtkSmartPointer.h" // for vtkSmartPointer
 
 class VTKGRANULARSERVERMANAGER_EXPORT vtkSMGranularParticleReaderProxy : public vtkSMSourceProxy
 {
@@ -23,11 +18,6 @@ public:
   static vtkSMGranularParticleReaderProxy* New();
   vtkTypeMacro(vtkSMGranularParticleReaderProxy, vtkSMSourceProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * The hints of the XML; without those for Grains where that does not fit what was read last.
-   */
-  vtkPVXMLElement* GetHints() override;
 
   /**
    * Chooses anew from the arrays if none that was chosen is there any more: the user has named the
@@ -39,18 +29,9 @@ protected:
   vtkSMGranularParticleReaderProxy();
   ~vtkSMGranularParticleReaderProxy() override;
 
-  /**
-   * Asks for the arrays and what is chosen of them, too: GetHints() speaks of what was read last.
-   */
-  void PostUpdateData(bool usingCache) override;
-
 private:
   vtkSMGranularParticleReaderProxy(const vtkSMGranularParticleReaderProxy&) = delete;
   void operator=(const vtkSMGranularParticleReaderProxy&) = delete;
-
-  bool HasRadii();
-
-  vtkSmartPointer<vtkPVXMLElement> HintsWithoutGrains;
 };
 
 #endif

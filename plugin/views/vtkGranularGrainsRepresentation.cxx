@@ -125,8 +125,33 @@ vtkSmartPointer<vtkDataObject> CountedFrom(const Place& place, vtkDataObject* da
   return moved;
 }
 
+// Returns true if points are in units of the box, which no radius is.
+bool AreScaled(vtkFieldData* fields)
+{
+  vtkAbstractArray* kind = fields ? fields->GetAbstractArray("Coordinates") : nullptr;
+  return kind && kind->GetNumberOfValues() == 1 && kind->GetVariantValue(0).ToString() == "Scaled";
+}
+
+// Returns true if data have no radii of this name, or none in the unit of their points. Without a name all radii are 1.
+bool LackRadii(vtkDataObject* data, const char* name)
+{
+  if (!name || !name[0])
+  {
+    return false;
+  }
+  for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(data))
+  {
+    if (block->GetPointData()->HasArray(name) && !AreScaled(block->GetFieldData()))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 // A mapper that is right where floats are not: vtkOpenGLPointGaussianMapper makes floats of coordinates as they
-// are, here they are first counted from a place in view, in doubles. The actor adds the place again.
+// are, here they are first counted from a place in view, in doubles. The actor adds the place again. It draws points with the
+// property's size where there are no radii, as it does for a factor of 0.
 class GrainsMapper : public vtkOpenGLPointGaussianMapper
 {
 public:
@@ -146,6 +171,12 @@ public:
 
   void Render(vtkRenderer* renderer, vtkActor* actor) override
   {
+    const bool dots = LackRadii(this->Grains, this->ScaleArray);
+    if (dots != this->AreDots)
+    {
+      this->AreDots = dots;
+      this->Modified();
+    }
     const Place place = InData(PlaceInView(renderer->GetActiveCamera()), actor);
     if (place != this->From)
     {
@@ -155,6 +186,11 @@ public:
     this->Superclass::Render(renderer, actor);
   }
 
+  double GetScaleFactor() override
+  {
+    return this->AreDots ? 0.0 : this->Superclass::GetScaleFactor();
+  }
+
   vtkDataObject* GetGrains() { return this->Grains; } // where they are
   const Place& GetFrom() { return this->From; }
 
@@ -162,6 +198,7 @@ private:
   vtkSmartPointer<vtkDataObject> Grains;
   vtkMTimeType Time = 0;
   Place From{};
+  bool AreDots = false;
 };
 vtkStandardNewMacro(GrainsMapper);
 
@@ -172,7 +209,7 @@ void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
   auto* mapper = vtkPointGaussianMapper::SafeDownCast(actor->GetMapper());
   const char* name = mapper->GetScaleArray();
   vtkDataArray* radii = name ? data->GetPointData()->GetArray(name) : nullptr;
-  const double factor = mapper->GetScaleFactor();
+  const double factor = LackRadii(data, name) ? 0.0 : mapper->GetScaleFactor();
   vtkMatrix4x4* matrix = actor->vtkProp3D::GetIsIdentity() ? nullptr : actor->GetMatrix();
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
@@ -234,10 +271,7 @@ void AddBox(vtkBoundingBox& bounds, vtkActor* actor, vtkFieldData* fields)
 {
   vtkDataArray* origin = FindNumbers(fields, "BoxOrigin", 3);
   vtkDataArray* edges = FindNumbers(fields, "BoxVectors", 9); // a, b, c
-  vtkAbstractArray* kind = fields ? fields->GetAbstractArray("Coordinates") : nullptr;
-  const bool scaled =
-    kind && kind->GetNumberOfValues() == 1 && kind->GetVariantValue(0).ToString() == "Scaled";
-  if (!origin || !edges || scaled) // scaled points are not where the box is
+  if (!origin || !edges)
   {
     return;
   }
@@ -245,15 +279,17 @@ void AddBox(vtkBoundingBox& bounds, vtkActor* actor, vtkFieldData* fields)
     return of->GetComponent(i / of->GetNumberOfComponents(), i % of->GetNumberOfComponents());
   };
   vtkDataArray* zero = FindNumbers(fields, "PointOrigin", 3);
+  const bool scaled = AreScaled(fields);
   for (int corner = 0; corner < 8; ++corner)
   {
     double place[4] = { 0.0, 0.0, 0.0, 1.0 };
     for (int axis = 0; axis < 3; ++axis)
     {
-      place[axis] = number(origin, axis) - (zero ? number(zero, axis) : 0.0);
+      place[axis] = (scaled ? 0.0 : number(origin, axis)) - (zero ? number(zero, axis) : 0.0);
       for (int edge = 0; edge < 3; ++edge)
       {
-        place[axis] += (corner >> edge & 1) * number(edges, 3 * edge + axis);
+        const double unit = edge == axis ? 1.0 : 0.0;
+        place[axis] += (corner >> edge & 1) * (scaled ? unit : number(edges, 3 * edge + axis));
       }
     }
     if (!actor->vtkProp3D::GetIsIdentity())

@@ -21,7 +21,10 @@
  *
  * A frame without particles, on any rank, has the bounds of the simulation box, which the field data BoxOrigin and
  * BoxVectors give: the first frame of most runs that insert particles is empty, and ParaView puts the camera where
- * the first frame wants it. Scaled coordinates have no such box.
+ * the first frame wants it. Of scaled coordinates it is the unit cube.
+ *
+ * Particles without radii are drawn as points with the size of the property PointSize, and so are those with scaled
+ * coordinates, which radii do not fit.
  *
  * Made for the preset Sphere and radii without a transfer function, as the XML sets them.
  */
@@ -45,7 +48,7 @@ public:
 
   /**
    * Name of the point array of the radii, in the unit of the points. Where there is no such array,
-   * and where the name is empty, all radii are 1. All are multiplied by the splat size.
+   * points are drawn. Where the name is empty, all radii are 1. All are multiplied by the splat size.
    */
   void SetRadiusArray(const char* name);
 

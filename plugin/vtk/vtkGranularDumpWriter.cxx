@@ -158,7 +158,7 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
     internals.Tell(this, "Columns are of the Style Custom: this is Atom");
   }
   granular::DumpFormat format =
-    MakeFormat(this->FileName, this->Dialect, this->Columns, this->NumberFormat);
+    MakeFormat(this->FileName, DialectOf(this->Dialect), this->Columns, this->NumberFormat);
   format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;
   format.atom = { this->Scaled, this->Image };
   format.units = this->WriteUnits;

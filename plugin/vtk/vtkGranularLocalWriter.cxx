@@ -76,7 +76,7 @@ void vtkGranularLocalWriter::SetDialect(int dialect)
 std::unique_ptr<FrameWriter> vtkGranularLocalWriter::OpenFile(Internals& internals)
 {
   granular::DumpFormat format =
-    MakeFormat(this->FileName, this->Dialect, this->Columns, this->NumberFormat);
+    MakeFormat(this->FileName, DialectOf(this->Dialect), this->Columns, this->NumberFormat);
   format.style = granular::DumpStyle::Local;
   format.counted = TextOf(this->Label);
   return std::make_unique<File>(

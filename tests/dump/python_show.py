@@ -27,12 +27,12 @@ def write(name, text):
     return OpenDataFile(os.path.abspath(name))
 
 
-def radii(display):
-    """Radii of what is left and right of the middle, from its width, height and area."""
+def radii(display, middle):
+    """Radii of what is left and right of a place on both axes, from its width, height and area."""
     display.ColorArrayName = [None, ""]
     display.AmbientColor = display.DiffuseColor = [1, 1, 1]
     Render(view)  # the first one resets the camera
-    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 50], [0, 0, 0], [0, 1, 0]
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [middle, middle, 50], [middle, middle, 0], [0, 1, 0]
     view.CameraParallelScale = 400 / PIXELS
     SaveScreenshot("spheres.png", view, ImageResolution=[800, 800])
     png = vtkPNGReader()
@@ -44,8 +44,8 @@ def radii(display):
                math.sqrt(half.sum() / math.pi) / PIXELS)
 
 
-def expect(display, left, right):
-    for is_, truth in zip(radii(display), (left, right)):
+def expect(display, left, right, middle=0):
+    for is_, truth in zip(radii(display, middle), (left, right)):
         assert all(abs(one - truth) <= 1.5 / PIXELS for one in is_), (is_, truth)
 
 
@@ -70,16 +70,24 @@ granular.show(reader, color="type")
 assert display.ColorArrayName[1] == "type"
 Hide(reader, view)
 
-# no radius: points, for Grains would make up radii; our way half the mean distance
+# no radius: dots of the point size, as no radius is made up; our way half the mean distance
 plain = write("plain.dump", "id type x y z\n1 1 -4 0 0\n2 1 4 0 0\n")
 points = Show(plain, view)
-assert points.Representation == "Surface", points.Representation
+assert points.Representation == "Grains", points.Representation
 box = Show(OutputPort(plain, 1), view)
 assert box.Representation == "Wireframe", box.Representation
 Hide(OutputPort(plain, 1), view)
 points.PointSize = 10
 expect(points, *2 * [5 / PIXELS])
 expect(granular.show(plain, view), 2, 2)
+display = Show(plain, view)
+expect(display, 2, 2)  # as it was: one radius for all, of no array
+display.GrainRadiusArray = "radius"
+expect(display, *2 * [5 / PIXELS])
+display.GrainScale = 3
+expect(display, *2 * [5 / PIXELS])
+display.GrainRadiusArray = ""
+expect(display, 3, 3)
 Hide(plain, view)
 
 # radii are lengths, scaled coordinates are not
@@ -88,19 +96,20 @@ display = granular.show(reader, view)
 assert display.GrainRadiusArray == "" and display.GrainScale < 1
 Delete(reader)
 
-# so it is when opened the plain way, and where the radii are not loaded; what counts is the last read
-for change in ({"Coordinates": "Scaled"}, {"PointArrayStatus": ["id"]},
-               {"FileNames": [os.path.abspath("plain.dump")]}):
-    reader = OpenDataFile(os.path.abspath("two.dump"))
-    for name, value in change.items():
-        reader.SetPropertyWithName(name, value)
+# so it is when opened the plain way, and where the radii are not loaded: dots, and spheres again with radii
+plain_name, name = (os.path.abspath(each) for each in ("plain.dump", "two.dump"))
+for other, back, middle in (({"Coordinates": "Scaled"}, {"Coordinates": "Absolute"}, 0.5),
+                            ({"PointArrayStatus": ["id"]}, {"PointArrayStatus": ["id", "type", "radius"]}, 0),
+                            ({"FileNames": [plain_name]}, {"FileNames": [name]}, 0)):
+    reader = OpenDataFile(name)
     display = Show(reader, view)
-    assert display.Representation == "Surface", (change, display.Representation)
+    display.PointSize = 10
+    expect(display, 3, 0.5)
+    granular.set_properties(reader, **other)
+    expect(display, *2 * [5 / PIXELS], middle)
+    granular.set_properties(reader, **back)
+    expect(display, 3, 0.5)
     Delete(reader)
-reader = OpenDataFile(os.path.abspath("plain.dump"))
-reader.FileNames = [os.path.abspath("two.dump")]
-display = Show(reader, view)
-expect(display, 3, 0.5)
 
 # a state brings back what was chosen
 display = Show(plain, view)

@@ -74,8 +74,8 @@ DumpFormat text_of(Dialect dialect, int digits = 6, bool units_and_time = false)
 DumpFormat as_it_was(bool units_and_time = false)
 {
   DumpFormat format = text_of(Dialect::Liggghts, 3, units_and_time);
-  format.same_dialect = true;
-  format.same_digits = true;
+  format.dialect.reset();
+  format.numbers = automatic_numbers;
   return format;
 }
 

@@ -111,8 +111,9 @@ TEST(WriterErrors, PropertiesThatMakeNoSense)
   for (const char* format : { "", "%d", "%.18g", "%.0g", "%g %g", "hello" })
   {
     writer->SetNumberFormat(format);
-    expect(std::string(
-             "expected NumberFormat Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '") +
+    expect(
+      std::string(
+        "expected a number format of Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '") +
       format + "'");
   }
   writer->SetNumberFormat("%g");

@@ -517,7 +517,8 @@ TEST(LocalWriterErrors, Properties)
          "force, length, position1, position2");
   writer->SetColumns(nullptr);
   writer->SetNumberFormat("%d");
-  expect("expected NumberFormat Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '%d'");
+  expect(
+    "expected a number format of Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '%d'");
   writer->SetNumberFormat("%g");
   auto scaled = MakeBonds();
   AddText(scaled, "Coordinates", "Scaled");

@@ -134,6 +134,11 @@ TEST(NumberFormat, FromText)
   EXPECT_EQ(parse_number_format("%g"), NumberFormat{ 6 });
   EXPECT_EQ(parse_number_format("%g"), NumberFormat{});
   EXPECT_EQ(parse_number_format("shortest"), NumberFormat{ 0 });
+  EXPECT_EQ(parse_number_format("Automatic"), granular::automatic_numbers);
+  for (const char* const text : { "Automatic", "shortest", "%g", "%.9g" })
+  {
+    EXPECT_EQ(granular::to_text(parse_number_format(text)), text);
+  }
   for (int digits = 1; digits <= most_digits; ++digits)
   {
     EXPECT_EQ(parse_number_format("%." + std::to_string(digits) + "g"), NumberFormat{ digits });
@@ -144,7 +149,7 @@ TEST(NumberFormat, RefusesOthers)
 {
   for (const char* text : { "", "g", "%", "%.g", "%.0g", "%.00g", "%.06g", "%.18g",
          "%.99999999999g", "%.-1g", "%.+6g", "%6g", "%.6e", "%.6f", "%f", "%G", "%.6G", "%.6g ",
-         " %g", "Shortest", "%.6gg", "%.1.g", "%lg" })
+         " %g", "Shortest", "automatic", "%.6gg", "%.1.g", "%lg" })
   {
     try
     {
@@ -154,7 +159,7 @@ TEST(NumberFormat, RefusesOthers)
     catch (const granular::FormatError& error)
     {
       EXPECT_EQ(error.what(),
-        "expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '" +
+        "expected a number format of Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '" +
           std::string(text) + "'");
     }
   }

@@ -42,6 +42,16 @@ def show(path):
     return reader, display
 
 
+def write_plain(name, *frames):
+    """Writes a dump without radii."""
+    write(name, BOX, *frames)
+    with open(name) as file:
+        text = file.read()
+    with open(name, "w") as file:
+        file.write(text.replace(" radius\n", "\n"))
+    return os.path.abspath(name)
+
+
 # One row, in the first of the bytes: with several ranks only one of them has it.
 empty_first = write("empty_first.dump", BOX, [], ["1 12 0 5 2\n"])
 reader, display = show(empty_first)
@@ -60,6 +70,22 @@ expect("box again", [10, -10, 0], [30, 10, 40])
 reader.PointOrigin = [10, 20, 30]
 Render(view)
 expect("box from PointOrigin", [0, -30, -30], [20, -10, 10])
+Delete(reader)
+
+# opened the plain way, without radii: dots, which have no extent
+reader = OpenDataFile(write_plain("plain.dump", [], ["1 12 0 5\n", "2 12 4 5\n"]))
+Show(reader, view)
+view.ViewTime = 0
+Render(view)
+expect("box without radii", [10, -10, 0], [30, 10, 40])
+reader.Coordinates = "Scaled"
+Render(view)
+expect("scaled box", [0, 0, 0], [1, 1, 1])
+reader.Coordinates = "Absolute"
+view.ViewTime = 10
+Render(view)
+expect("dots", [12, 0, 5], [12, 4, 5])
+view.ViewTime = 0
 Delete(reader)
 
 reader, _ = show(write("tilted.dump", TILTED, []))

@@ -12,6 +12,10 @@ namespace granular
 {
 NumberFormat parse_number_format(std::string_view text)
 {
+  if (text == "Automatic")
+  {
+    return automatic_numbers;
+  }
   if (text == "%g")
   {
     return { 6 };
@@ -31,14 +35,16 @@ NumberFormat parse_number_format(std::string_view text)
       return { digits };
     }
   }
-  throw FormatError("expected a number format of %g, %.Ng with N from 1 to 17, or shortest, got '" +
+  throw FormatError(
+    "expected a number format of Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '" +
     std::string(text) + "'");
 }
 
 std::string to_text(NumberFormat format)
 {
-  return format.digits == 0 ? "shortest"
-    : format.digits == 6    ? "%g"
-                            : "%." + std::to_string(format.digits) + "g";
+  return format == automatic_numbers ? "Automatic"
+    : format.digits == 0             ? "shortest"
+    : format.digits == 6             ? "%g"
+                                     : "%." + std::to_string(format.digits) + "g";
 }
 }

@@ -21,7 +21,10 @@ struct NumberFormat
   bool operator==(const NumberFormat&) const = default;
 };
 
-/// "%g", "%.Ng" with N from 1 to 17, or "shortest". Throws FormatError.
+/// The digits of the text that a number comes from, and more where it needs them; the shortest for a number that comes from none.
+inline constexpr NumberFormat automatic_numbers = { 0, true };
+
+/// "Automatic", "%g", "%.Ng" with N from 1 to 17, or "shortest". Throws FormatError.
 NumberFormat parse_number_format(std::string_view text);
 
 /// The same backwards: "%g", "%.9g", "shortest".

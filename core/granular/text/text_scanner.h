@@ -58,9 +58,6 @@ public:
   /// buffer. Valid until the next call.
   std::string_view before(std::size_t bytes, std::string& buffer) const;
 
-  /// The bytes after the last line that are in the window already. Valid until the next call.
-  std::string_view ahead() const noexcept { return { window_.data() + at_, end_ - at_ }; }
-
   std::int64_t offset() const noexcept { return window_offset_ + static_cast<std::int64_t>(at_); }
   std::int64_t line() const noexcept { return line_; } ///< number of the line that comes next
 

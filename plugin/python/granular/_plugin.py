@@ -9,6 +9,13 @@ from typing import Any
 from ._folders import LIBRARY_FOLDER
 
 
+def expect_plugin(there: bool) -> None:
+    """Raises RuntimeError unless the plugin is there."""
+    if not there:
+        raise RuntimeError("expected the plugin Granular, got a ParaView without it: load it first, as with "
+                           "granular.load_plugin()")
+
+
 def _loaded_plugin(servermanager: Any) -> str | None:
     """Returns the path of the plugin that this process has loaded, or None."""
     plugins = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()

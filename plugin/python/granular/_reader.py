@@ -7,6 +7,7 @@ from typing import Any, Iterable
 
 from ._errors import raised
 from ._files import files
+from ._plugin import expect_plugin
 
 _READERS = ("GranularDumpReader", "GranularLocalReader", "GranularRestartReader", "GranularDataFileReader",
             "GranularDecompositionReader", "GranularEulerReader")
@@ -58,13 +59,11 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     """
     from paraview import servermanager, simple
 
+    expect_plugin(hasattr(simple, _READERS[0]))
     given = [paths] if isinstance(paths, (str, os.PathLike)) else paths
     connection = servermanager.ActiveConnection
     names = _names([os.fspath(path) for path in given], connection is not None and connection.IsRemote())
     kind = _find_reader(names[0])
-    if not hasattr(simple, kind):
-        raise RuntimeError("expected the plugin Granular, got a ParaView without it: load it first, as with "
-                           "granular.load_plugin()")
     if kind == "GranularRestartReader" and len(names) > 1:
         bases = [name for name in names if "base" in os.path.basename(name)]
         names = bases or names  # the files of the other ranks are found beside them

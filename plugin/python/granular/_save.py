@@ -17,9 +17,9 @@ _WRITERS = {
     "subdomains": ("GranularDecompositionWriter", (".decomposition", ".vtk", ".vtu")),
     "cells": ("GranularEulerWriter", (".euler", ".vtk")),
 }
-# Endings of one writer alone: it says what it expects where the data do not fit. All other endings are ParaView's.
-_OWN = {".bonds": "GranularLocalWriter", ".decomposition": "GranularDecompositionWriter", ".euler": "GranularEulerWriter",
-        **{ending: "GranularDumpWriter" for ending in _WRITERS["particles"][1]}}
+# Endings that no other writer has: it says what it expects where the data do not fit.
+_ALONE = {".bonds": "GranularLocalWriter", ".decomposition": "GranularDecompositionWriter", ".euler": "GranularEulerWriter",
+          ".bin": "GranularDumpWriter", ".lammpsbin": "GranularDumpWriter"}
 
 
 def _names(attributes: Any) -> set[str]:
@@ -74,12 +74,17 @@ def _paraview_endings(output: Any) -> list[str]:
 
 def _choose(output: Any, path: str) -> str | None:
     """The name of a writer of this plugin, or None for ParaView's."""
+    ending = _ending(path)
+    if ending in _ALONE:
+        return _ALONE[ending]
+    update(output)  # what the data are is known then
     kind = _kind(output)
     writer, ours = _WRITERS[kind]
-    ending = _ending(path)
-    if ending in ours or ending in _OWN:
-        return writer if ending in ours else _OWN[ending]
-    theirs = [each for each in _paraview_endings(output) if each not in {*_OWN, ".gz", ".zst"}]
+    if ending in ours:
+        return writer
+    if ending in _DUMPS:
+        return "GranularDumpWriter"  # all that has points can be a dump
+    theirs = [each for each in _paraview_endings(output) if each not in {*_ALONE, *_DUMPS, ".gz", ".zst"}]
     if ending in theirs and not path.endswith((".gz", ".zst")):
         return None
     known = ", ".join([*ours, *(each for each in theirs if each not in ours)])
@@ -126,8 +131,8 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
     from paraview import servermanager
 
     path = os.fspath(path)
-    if time is not None or writer is None:
-        update(proxy, time)  # what the data are is known then
+    if time is not None:
+        update(proxy, time)
     writer = writer or _choose(proxy, path)
     if writer is None:
         _save_by_paraview(proxy, path, properties)

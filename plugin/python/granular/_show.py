@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from ._errors import output_names, upstream
+from ._plugin import expect_plugin
 
 # Eight colours that most people can tell apart: Okabe and Ito (2008).
 _COLOURS = [(0.00, 0.45, 0.70), (0.90, 0.60, 0.00), (0.00, 0.62, 0.45), (0.80, 0.47, 0.65),
@@ -36,14 +37,15 @@ def _is_scaled(source: Any) -> bool:
 def _range_of(source: Any, name: str, view: Any) -> tuple[float, float] | None:
     """The range of an array, of a vector that of its length; where a frame has no particles, in the last frame."""
     array = source.PointData[name]
-    times = [time for each in upstream(source) if each.SMProxy.GetProperty("TimestepValues") for time in each.TimestepValues]
-    if array is None and times:
+    times = [] if array else [time for each in upstream(source) if each.SMProxy.GetProperty("TimestepValues")
+                              for time in each.TimestepValues]
+    if times:
         source.UpdatePipeline(max(times))
         array = source.PointData[name]
-        found = array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
+    found = array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
+    if times:
         source.UpdatePipeline(view.ViewTime)
-        return found
-    return array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
+    return found
 
 
 def _colour_by_type(display: Any, source: Any, view: Any) -> None:
@@ -97,9 +99,7 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
 
     view = view or simple.GetActiveViewOrCreate("RenderView")
     display = simple.Show(reader, view)
-    if "Grains" not in display.GetProperty("Representation").Available:
-        raise RuntimeError("expected the plugin Granular, got a ParaView without it: load it first, "
-                           "as with granular.load_plugin()")
+    expect_plugin("Grains" in display.GetProperty("Representation").Available)
     display.SetRepresentationType("Grains")
     # ParaView does not know the arrays of a frame without particles: later ones will have them
     empty = reader.GetDataInformation().GetNumberOfPoints() == 0

@@ -73,6 +73,9 @@ public:
 
   virtual const FrameHeader& header() const noexcept = 0;
 
+  /// FrameHeader::digits, by the first rows. Reads the source.
+  virtual std::vector<int> digits() const { return {}; }
+
   /// Who reads rows of it, as long as this lives.
   virtual std::unique_ptr<RowReader> reader() const = 0;
 

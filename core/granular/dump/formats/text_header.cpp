@@ -294,14 +294,15 @@ bool TextHeader::parse_rows(Words words)
 bool TextHeader::parse_box(Words words)
 {
   Words rest = words.subspan(2);
-  box_words_are_long_ = true;
   const bool tilted = begins_with(rest, "xy xz yz");
   const bool general = begins_with(rest, "abc origin");
   rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
+  constexpr std::size_t lammps = 22; // characters of its %.16e
+  std::size_t shortest = lammps;
   std::array<std::array<double, 4>, 3> n = {};
   for (auto& numbers : n)
   {
-    if (!this->read_numbers(general ? 4 : tilted ? 3 : 2, numbers.data()))
+    if (!this->read_numbers(general ? 4 : tilted ? 3 : 2, numbers.data(), &shortest))
     {
       return false;
     }
@@ -320,12 +321,12 @@ bool TextHeader::parse_box(Words words)
                          : Box::from_bounds(lo, hi);
   }
   header_.box.boundary = join_words(rest);
-  header_.dialect = box_words_are_long_ ? Dialect::Lammps : Dialect::Liggghts;
+  header_.dialect = shortest >= lammps ? Dialect::Lammps : Dialect::Liggghts;
   has_box_ = true;
   return true;
 }
 
-bool TextHeader::read_numbers(std::size_t count, double* numbers)
+bool TextHeader::read_numbers(std::size_t count, double* numbers, std::size_t* shortest)
 {
   std::string_view line;
   if (!this->value_line(line))
@@ -349,9 +350,10 @@ bool TextHeader::read_numbers(std::size_t count, double* numbers)
     {
       this->fail("a number", words[i]);
     }
-    constexpr std::size_t lammps = 22; // characters of %.16e
-    box_words_are_long_ =
-      box_words_are_long_ && words[i].size() >= lammps && words[i].find('e') != words[i].npos;
+    if (shortest)
+    {
+      *shortest = std::min(*shortest, words[i].size());
+    }
   }
   return true;
 }

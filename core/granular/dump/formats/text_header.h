@@ -84,7 +84,7 @@ private:
   bool parse_box(Words words);
   bool parse_columns(Words words);
   bool skip_section(Words words);
-  bool read_numbers(std::size_t count, double* numbers);
+  bool read_numbers(std::size_t count, double* numbers, std::size_t* shortest = nullptr);
   std::int64_t integer(std::string_view word, const char* what) const;
   void require(bool seen, const char* section) const;
   std::string columns_section() const;
@@ -105,7 +105,6 @@ private:
   bool has_rows_ = false;
   bool has_box_ = false;
   bool has_columns_ = false;
-  bool box_words_are_long_ = false;
 };
 }
 #endif

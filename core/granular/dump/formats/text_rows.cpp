@@ -7,7 +7,6 @@
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -33,14 +32,6 @@ int digits_of(std::string_view word) noexcept
   return is_real ? digits : 0;
 }
 
-void count_digits(std::span<const std::string_view> row, std::vector<int>& digits) noexcept
-{
-  constexpr int most = 17; // more tell doubles no more
-  for (std::size_t i = 0; i < std::min(row.size(), digits.size()); ++i)
-  {
-    digits[i] = std::max(digits[i], std::min(digits_of(row[i]), most));
-  }
-}
 }
 
 TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
@@ -97,30 +88,36 @@ std::vector<std::string> TextRows::read_header()
   rows_offset_ = scanner.offset();
   rows_line_ = scanner.line();
   const bool is_header = header_.rows >= 0;
-  header_.digits.resize(entry_.kind->schema.columns().size());
-  if (is_header)
+  if (is_header &&
+    !makes_columns(reader.column_names(), this->first_row(scanner), entry_.kind->schema))
   {
-    const std::vector<std::string_view> row = this->first_row(scanner);
-    count_digits(row, header_.digits);
-    if (!makes_columns(reader.column_names(), row, entry_.kind->schema))
-    {
-      header_.rows = -1;
-    }
-    std::string_view rest = scanner.ahead();
-    std::vector<std::string_view> words;
-    for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n'))
-    {
-      words.clear();
-      append_words(rest.substr(0, end), words);
-      if (!words.empty() && words.front() == item_mark)
-      {
-        break;
-      }
-      count_digits(words, header_.digits);
-      rest.remove_prefix(end + 1);
-    }
+    header_.rows = -1;
   }
   return reader.column_names();
+}
+
+std::vector<int> TextRows::digits() const
+{
+  constexpr std::int64_t most_bytes = 4096; // some dozen rows
+  constexpr int most = 17;                  // more tell doubles no more
+  std::vector<int> digits(entry_.kind->schema.columns().size());
+  std::string text(
+    static_cast<std::size_t>(std::clamp(entry_.end - rows_offset_, std::int64_t{ 0 }, most_bytes)),
+    ' ');
+  text.resize(source_.read(rows_offset_, text.data(), text.size()));
+  std::string_view rest = text;
+  std::vector<std::string_view> words;
+  for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n'))
+  {
+    words.clear();
+    append_words(rest.substr(0, end), words);
+    for (std::size_t i = 0; i < std::min(words.size(), digits.size()); ++i)
+    {
+      digits[i] = std::max(digits[i], std::min(digits_of(words[i]), most));
+    }
+    rest.remove_prefix(end + 1);
+  }
+  return digits;
 }
 
 std::unique_ptr<RowReader> TextRows::reader() const

@@ -19,6 +19,7 @@ public:
   TextRows(const ByteSource& source, const FrameEntry& entry);
 
   const FrameHeader& header() const noexcept override { return header_; }
+  std::vector<int> digits() const override;
   std::unique_ptr<RowReader> reader() const override;
   void locate(Misfits& misfits) const override;
 

@@ -26,6 +26,10 @@ FrameDecoder::FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema
   where_ = where_of(pieces.front());
   header_ = request.header.value_or(first_->rows->header());
   header_.rows = rows_of(pieces);
+  const auto full =
+    std::ranges::find_if(pieces, [](const FramePiece& piece) { return piece.entry.rows > 0; });
+  const auto sample = full == pieces.end() ? 0 : static_cast<std::size_t>(full - pieces.begin());
+  header_.digits = this->open(sample)->rows->digits();
 }
 
 std::shared_ptr<const FrameDecoder::Source> FrameDecoder::open(std::size_t piece)

@@ -3,6 +3,7 @@
 #define granular_dump_write_column_plan_h
 
 #include "granular/common/error.h"
+#include "granular/numbers/number_print.h"
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/frame_view.h"
 
@@ -34,9 +35,11 @@ struct ColumnSource
   ColumnRole role = ColumnRole::Other; ///< of coordinates, those in arrays, too
   int axis = 0;                        ///< of coordinates and Kind::Image
   bool whole = false; ///< text shows integral numbers with all their digits, whatever their type
-  int digits =
-    0; ///< of real numbers in the text that the column comes from, to which values are put back that are those within
-       ///< rounding; 0: it comes from none, or its digits are not wanted
+  NumberFormat numbers = {}; ///< of real numbers in text
+
+  /// Digits of the text that the column comes from, to which values are put back that are those within rounding; 0: it comes from
+  /// none, or its digits are not wanted.
+  int kept_digits() const noexcept { return numbers.exact ? numbers.digits : 0; }
 };
 
 /// The columns of a dump, and what else they need.

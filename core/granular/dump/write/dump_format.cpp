@@ -35,10 +35,10 @@ std::string replace_first(const std::string& path, char mark, const std::string&
 Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept
 {
   const bool names_are_lost = format.binary && !header.digits.empty();
-  const bool lammps_alone = names_are_lost || format.units || format.time;
-  return !format.same_dialect ? format.dialect
-    : lammps_alone            ? Dialect::Lammps
-                              : header.dialect.value_or(Dialect::Lammps);
+  const Dialect same = names_are_lost || format.units || format.time
+    ? Dialect::Lammps
+    : header.dialect.value_or(Dialect::Lammps);
+  return format.dialect.value_or(same);
 }
 
 void check_format(const DumpFormat& format, const std::string& path)

@@ -8,6 +8,7 @@
 #include "granular/numbers/number_print.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,9 +27,8 @@ enum class DumpStyle : std::uint8_t
 struct DumpFormat
 {
   DumpStyle style = DumpStyle::Custom;
-  Dialect dialect = Dialect::Lammps;
-  bool same_dialect =
-    false; ///< as the file that the first frame comes from, where that is known: see choose_dialect
+  std::optional<Dialect> dialect =
+    Dialect::Lammps; ///< none: that of the file that the first frame comes from, see choose_dialect
   bool binary = false;
   Compression compression = Compression::None; ///< of text only: no program reads compressed binary
   AtomForm atom;                               ///< of DumpStyle::Atom
@@ -36,11 +36,8 @@ struct DumpFormat
     columns; ///< not of DumpStyle::Atom; empty: see default_columns, or default_table_columns
   std::string counted = "ENTRIES"; ///< what rows are called; of DumpStyle::Local
   NumberFormat numbers;            ///< of real numbers in text
-  bool same_digits =
-    false; ///< those of the file that a column comes from (FrameHeader::digits), and more where a number needs them;
-           ///< the shortest of other columns: `numbers` does not count then
-  bool units = false; ///< ITEM: UNITS in the first frame of the file; Lammps only
-  bool time = false;  ///< ITEM: TIME; Lammps only
+  bool units = false;              ///< ITEM: UNITS in the first frame of the file; Lammps only
+  bool time = false;               ///< ITEM: TIME; Lammps only
   bool sort_by_id = false;
 
   /// Values of a chunk of a binary file, which counts them with 32 bits: less than 2^31 - 1.

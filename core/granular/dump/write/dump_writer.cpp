@@ -257,8 +257,7 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
     [&]
     {
       FramePlan plan = plan_frame(frame, format_, ranks_, notices);
-      format_.dialect = choose_dialect(format_, plan.header);
-      format_.same_dialect = false; // a file has one
+      format_.dialect = plan.header.dialect; // later frames have the same
       this->check_step(plan.header.timestep, notices);
       if (is_name_of_steps(path_))
       {

@@ -99,7 +99,7 @@ std::string encode_text(const FrameHeader& header, const std::vector<std::string
 {
   const bool lammps = format.dialect == Dialect::Lammps;
   const bool custom = format.style == DumpStyle::Custom;
-  TextHeaderWriter writer(format.dialect, box);
+  TextHeaderWriter writer(lammps ? Dialect::Lammps : Dialect::Liggghts, box);
   if (lammps && format.units && first)
   {
     writer.item("UNITS", header.units);

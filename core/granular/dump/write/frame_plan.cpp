@@ -24,7 +24,7 @@ static void pass(Archive& archive, typename Archive::template Passed<ColumnSourc
   archive.number(column.role);
   archive.number(column.axis);
   archive.number(column.whole);
-  archive.number(column.digits);
+  archive.number(column.numbers);
   archive.number(column.values.type);
   archive.number(column.values.factor);
   archive.number(column.own);
@@ -127,16 +127,24 @@ ColumnPlan plan_names(const std::vector<std::string>& names, const FrameView& fr
                           : plan_columns(names, frame, format.binary, notices);
 }
 
-/// The digits that real numbers have in the file that the frame comes from: six at least, as zeros at the end are not printed.
-void take_digits(const FrameView& frame, ColumnPlan& plan)
+/// How real numbers are printed, column by column.
+void choose_numbers(const FrameView& frame, NumberFormat numbers, ColumnPlan& plan)
 {
-  constexpr int least = 6;
+  for (ColumnSource& column : plan.columns)
+  {
+    column.numbers = numbers;
+  }
+  if (numbers != automatic_numbers)
+  {
+    return;
+  }
+  constexpr int least = 6; // zeros at the end are not printed
   for (std::size_t i = 0; i < std::min(frame.columns.size(), frame.header.digits.size()); ++i)
   {
     const auto column = std::ranges::find(plan.columns, frame.columns[i], &ColumnSource::name);
     if (column != plan.columns.end())
     {
-      column->digits = std::max(least, frame.header.digits[i]);
+      column->numbers.digits = std::max(least, frame.header.digits[i]);
     }
   }
 }
@@ -183,8 +191,7 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
   check_line(lead.header.label, "the label");
   check_line(lead.header.units, "the units");
   check_bounds(box);
-  const bool lammps =
-    choose_dialect(format, lead.header) == Dialect::Lammps; // the other has neither
+  const bool lammps = lead.header.dialect == Dialect::Lammps; // the other has neither
   if (lammps && format.units && lead.header.units.empty())
   {
     throw Error("expected the units of the frame for ITEM: UNITS, got none");
@@ -229,7 +236,7 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat&
     {
       fail_others(names[i]);
     }
-    plan.columns[i].digits = other.digits;
+    plan.columns[i].numbers = other.numbers;
   }
   if (plan.ids.has_value() != lead.columns.ids.has_value())
   {
@@ -278,13 +285,14 @@ FramePlan plan_frame(
   if (ranks.rank() == leader)
   {
     lead.header = frame.header;
+    lead.header.dialect = choose_dialect(format, frame.header);
     choose_box(lead, frame, format, surveys);
     const std::vector<std::string> names = choose_names(frame, format, lead.notices);
     check_names(names);
     lead.columns = plan_names(names, frame, format, lead.notices);
-    if (format.same_digits && !format.binary)
+    if (!format.binary)
     {
-      take_digits(frame, lead.columns);
+      choose_numbers(frame, format.numbers, lead.columns);
     }
     check_frame(lead, format, lead.notices);
     ArchiveWriter packer;

@@ -117,8 +117,10 @@ bool note_print_loss(const RoundingLoss& loss, const RoundingLimit& limit, const
 PrintLoss::PrintLoss(const ColumnPlan& plan, const FrameView& frame, const Box& box,
   const DumpFormat& format, const RoundingLimit& limit)
   : box_(box)
-  , of_box_(format.same_digits ? NumberFormat{ 6, true } : box_numbers(box, format.dialect, limit))
-  , numbers_(format.binary || format.same_digits ? NumberFormat{ 0 } : format.numbers)
+  , of_box_(format.numbers == automatic_numbers
+        ? NumberFormat{ 6, true }
+        : box_numbers(box, format.dialect.value_or(Dialect::Lammps), limit))
+  , numbers_(format.binary ? NumberFormat{ 0 } : format.numbers)
 {
   const bool exact_box = format.binary || is_exact(of_box_);
   const Vector3 of_box =

@@ -142,11 +142,6 @@ void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
       check_texts(columns[i], plan.columns[i].name);
     }
   }
-  std::vector<NumberFormat> formats;
-  for (const ColumnSource& column : plan.columns)
-  {
-    formats.push_back(format.same_digits ? NumberFormat{ column.digits, true } : format.numbers);
-  }
   const bool trailing_blank = has_trailing_blanks(format);
   char* const begin = to.room(most_text_bytes(columns, values.rows()));
   char* end = begin;
@@ -154,7 +149,7 @@ void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
   {
     for (std::size_t i = 0; i < columns.size(); ++i)
     {
-      end = print_value(end, columns[i], row, formats[i]);
+      end = print_value(end, columns[i], row, plan.columns[i].numbers);
       *end++ = ' ';
     }
     end -= trailing_blank ? 0 : 1;

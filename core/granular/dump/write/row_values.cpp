@@ -112,7 +112,7 @@ Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
 /// Whether a coordinate depends on no other, nor on image counts.
 bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box& box) noexcept
 {
-  return source.role == ColumnRole::ScaledPosition && !source.own && source.digits == 0 &&
+  return source.role == ColumnRole::ScaledPosition && !source.own && source.kept_digits() == 0 &&
     !box.tilted && frame.coordinates == Coordinates::Absolute;
 }
 
@@ -179,7 +179,7 @@ void RowValues::load_coordinate(
   {
     to[i] = all[3 * i + axis];
   }
-  if (!source.own && source.digits == 0)
+  if (!source.own && source.kept_digits() == 0)
   {
     return;
   }
@@ -202,7 +202,7 @@ void RowValues::load_coordinate(
     }
     else
     {
-      put_back_digits(to[i], source.digits, allowed);
+      put_back_digits(to[i], source.kept_digits(), allowed);
     }
   }
 }
@@ -241,12 +241,12 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
     {
       case Kind::Array:
         load_array(source, rows, plan.binary, column);
-        if (source.digits > 0 && source.values.type == ValueType::Float32)
+        if (source.kept_digits() > 0 && source.values.type == ValueType::Float32)
         {
           constexpr double half_unit = 0x1p-24;
           std::ranges::for_each(column.reals,
             [&](double& value)
-            { put_back_digits(value, source.digits, half_unit * std::abs(value)); });
+            { put_back_digits(value, source.kept_digits(), half_unit * std::abs(value)); });
         }
         break;
       case Kind::Coordinate:

@@ -36,29 +36,21 @@ void Complete(RowsInput& data, const FrameTime& time, granular::Notices& notices
 }
 }
 
-granular::DumpFormat MakeFormat(
-  const char* path, int dialect, const char* columns, const char* numberFormat)
+std::optional<granular::Dialect> DialectOf(int property)
+{
+  return property == 0 ? std::optional(granular::Dialect::Liggghts)
+    : property == 1    ? std::optional(granular::Dialect::Lammps)
+                       : std::nullopt;
+}
+
+granular::DumpFormat MakeFormat(const char* path, std::optional<granular::Dialect> dialect,
+  const char* columns, const char* numberFormat)
 {
   granular::DumpFormat format;
-  format.dialect = dialect == 0 ? granular::Dialect::Liggghts : granular::Dialect::Lammps;
-  format.same_dialect = dialect == 2;
+  format.dialect = dialect;
   format.binary = granular::is_binary_name(path);
   format.compression = granular::compression_of_name(path);
-  const std::string numbers = TextOf(numberFormat);
-  format.same_digits = numbers == "Automatic";
-  if (!format.same_digits)
-  {
-    try
-    {
-      format.numbers = granular::parse_number_format(numbers);
-    }
-    catch (const granular::Error&)
-    {
-      throw granular::Error(
-        "expected NumberFormat Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '" +
-        numbers + "'");
-    }
-  }
+  format.numbers = granular::parse_number_format(TextOf(numberFormat));
   const std::string names = TextOf(columns);
   for (const std::string_view name : granular::split_words(names))
   {

@@ -8,16 +8,22 @@
 #include "granular/dump/write/dump_writer.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace vtkGranularPrivate
 {
 /**
- * How a dump is written, by its name and the properties that all writers of dumps have. dialect: 0 LIGGGHTS, 1 LAMMPS, 2 that of
- * the file that was read; numberFormat: "Automatic", or what granular::parse_number_format takes.
+ * What the property Dialect of a writer says: 0 LIGGGHTS, 1 LAMMPS, any other that of the file that was read.
  */
-granular::DumpFormat MakeFormat(
-  const char* path, int dialect, const char* columns, const char* numberFormat);
+std::optional<granular::Dialect> DialectOf(int property);
+
+/**
+ * How a dump is written, by its name and the properties that all writers of dumps have. Without a dialect: that of the file that
+ * was read. Throws what granular::parse_number_format does.
+ */
+granular::DumpFormat MakeFormat(const char* path, std::optional<granular::Dialect> dialect,
+  const char* columns, const char* numberFormat);
 
 /**
  * A dump that is being written, of particles or of anything else that has rows.
