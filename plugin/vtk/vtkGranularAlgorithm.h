@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularAlgorithm
- * @brief   What sources and filters have in common that work on many threads and processes.
+ * @brief   Base class of sources and filters that work on many threads and ranks.
  *
- * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to abort holds for one
- * update: the outputs are empty then, and the next update starts afresh.
+ * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to abort holds for one update:
+ * that update gives empty outputs, and the next one starts afresh.
  */
 
 #ifndef vtkGranularAlgorithm_h

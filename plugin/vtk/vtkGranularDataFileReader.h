@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDataFileReader
- * @brief   Reads the data files of LAMMPS and LIGGGHTS: particles, bonds and the box.
+ * @brief   Reads data files of LAMMPS and LIGGGHTS: particles, bonds and the box.
  *
- * Reads the text files that `read_data` reads and `write_data` writes, also compressed with gzip or Zstandard: the sections
- * Atoms, Velocities and Bonds; all others are passed over. Each file is a frame, of the timestep in its title, or 0: see
- * vtkGranularSeriesReader. A file that is not complete is left out with a warning.
+ * Reads the text files of `read_data` and `write_data`, plain or compressed with gzip or Zstandard: the sections Atoms, Velocities
+ * and Bonds. Other sections are skipped. Each file is a frame; its timestep is the one in the title, or 0: see
+ * vtkGranularSeriesReader. Incomplete files are left out with a warning.
  *
- * Output port 0 holds the particles (vtkPolyData) in the order of the section Atoms, with the arrays that a dump reader gives
- * them: `id`, `type`, `radius` (and `diameter`) and `density` of sphere, `mol`, `q`, `ellipsoidflag` as the atom style has them,
- * `image` where rows have image counts, and, where there are velocities, `v`, `omega` of sphere, `angmom` of ellipsoid.
+ * Output port 0 holds the particles (vtkPolyData) in the order of the section Atoms, with the arrays of a dump reader: `id`, `type`,
+ * `image` where rows have image counts, and the columns of the atom style: `radius` (and `diameter`) and `density` of sphere, `mol`,
+ * `q`, `ellipsoidflag`. With velocities there are also `v`, `omega` of sphere and `angmom` of ellipsoid.
  *
- * Output port 1 holds the bonds as lines (vtkPolyData) with the arrays `bond_id`, `btype`, `id1`, `id2` and `length` of their
- * cells. Bonds of which a particle is not there are left out with a warning; so are, without one, bonds of particles that Stride or
- * RegionOfInterest leave out. Lines
- * are in absolute coordinates where Coordinates is SCALED.
+ * Output port 1 holds the bonds as lines (vtkPolyData) with the cell arrays `bond_id`, `btype`, `id1`, `id2` and `length`. Bonds
+ * without one of their particles are left out, with a warning unless Stride or RegionOfInterest left the particle out. Lines are in
+ * absolute coordinates where Coordinates is SCALED.
  *
- * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid). All carry field data as those of
+ * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid). All outputs carry the field data of
  * vtkGranularDumpReader.
  *
- * A pipeline may ask for any piece of any number: the pieces hold each particle and bond once, in the order of the whole.
+ * A pipeline may ask for any piece of any number. The pieces hold each particle and bond once, in the order of the whole.
  */
 
 #ifndef vtkGranularDataFileReader_h

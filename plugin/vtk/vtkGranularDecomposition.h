@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDecomposition
- * @brief   Counts particles in the subdomains of the processes of a simulation, and shows these as voxels.
+ * @brief   Counts the particles in the subdomains of a simulation's ranks and shows the subdomains as voxels.
  *
- * Which subdomains: see SetMode. Each particle counts once: of subdomains that do not overlap it belongs to the
- * one with lo <= x < hi along each axis, at the upper end of the box x <= hi. Particles beyond periodic faces are where
- * their images in the box are, on the same side of every face as the exact image. Those outside of all subdomains are counted, with a warning. Duplicates of
- * ghosts are left out.
+ * SetMode chooses the subdomains. Each particle counts once: it belongs to the subdomain with lo <= x < hi along each axis, and x <= hi
+ * at the upper end of the box. Particles beyond periodic faces count where their images in the box are, on the same side of every face
+ * as the exact image. A warning counts the particles outside all subdomains. Ghost duplicates are left out.
  *
- * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled,
- * PointOrigin); the voxels are where the points are: scaled with scaled ones, less the same origin.
+ * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled, PointOrigin). The
+ * voxels are where the points are: scaled with scaled points, and relative to the same origin.
  *
- * Field data: those of the input, and `imbalance`, the largest number of particles of a process divided by the
- * mean, and `outside`, how many particles are in no subdomain.
+ * Field data: those of the input; `imbalance`, the largest number of particles of a rank divided by the mean; and `outside`, the
+ * number of particles outside all subdomains.
  */
 
 #ifndef vtkGranularDecomposition_h

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDecompositionAlgorithm
- * @brief   What the source and the filter of decompositions have in common: a grid of processes, and voxels.
+ * @brief   Base class of the source and the filter of decompositions: a grid of ranks, and voxels.
  *
- * The output holds a VTK_VOXEL for each subdomain, with the cell arrays `nlocal` (how many particles it has;
- * vtkTypeInt64Array, and the scalars) and `proc` (the rank of its process; vtkTypeInt32Array). Points are double. Point
- * 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p, each 0 (low) or 1 (high) along x, y, z; cell p has the points
- * 8p + {0, 4, 2, 6, 1, 5, 3, 7}.
+ * The output holds a VTK_VOXEL for each subdomain, with the cell arrays `nlocal` (number of particles, vtkTypeInt64Array; the scalars)
+ * and `proc` (the rank, vtkTypeInt32Array). Points are double. Point 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p, each 0
+ * (low) or 1 (high) along x, y, z; cell p has the points 8p + {0, 4, 2, 6, 1, 5, 3, 7}.
  *
- * A pipeline may ask for any piece of any number: pieces hold equal numbers of subdomains, in their order.
+ * A pipeline may ask for any piece of any number. The pieces hold equal numbers of subdomains, in their order.
  */
 
 #ifndef vtkGranularDecompositionAlgorithm_h

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDecompositionReader
- * @brief   Reads the subdomains of the processes of a simulation: the files of dump decomposition/vtk.
+ * @brief   Reads `dump decomposition/vtk` files: the subdomains of a simulation's ranks.
  *
- * - Rectilinear grids in legacy VTK text, of LIGGGHTS-PUBLIC and PFM: one cell a process. They hold no counts, and
- *   do not say which process owns which cell. Several of them in one file are time steps; the files that PFM
- *   writes for each process (`%`) are put together, and then it is known.
- * - Voxels in unstructured .vtk (ASCII and BINARY) and .vtu files, of LIGGGHTS-INL and vtkGranularDecompositionWriter, with
- *   the cell arrays `nlocal` and `proc`. LIGGGHTS-INL writes mirror images, which have no volume: they are put
- *   right, with a warning.
+ * - Rectilinear grids in legacy VTK text, of LIGGGHTS-PUBLIC and PFM: one cell per rank. They hold no counts and do not tell which
+ *   rank owns which cell. Several grids in one file are timesteps. PFM writes a file per rank (`%`); the reader merges these and then
+ *   knows the ranks.
+ * - Voxels in unstructured .vtk (ASCII and BINARY) and .vtu files, of LIGGGHTS-INL and vtkGranularDecompositionWriter, with the cell
+ *   arrays `nlocal` and `proc`. LIGGGHTS-INL writes mirror images, which have no volume; the reader corrects them, with a warning.
  *
- * The timestep is the last number in the name of a file, of those that differ between the files; where a file holds several frames, or has no number, they
- * are counted from 0. Which frames there are, and their times: see vtkGranularSeriesReader.
+ * The timestep is the last number in the file name that differs between the files. Frames are counted from 0 if a file holds several
+ * of them, or if its name has no number. vtkGranularSeriesReader tells which frames there are, and their times.
  *
- * The output and its pieces are those of vtkGranularDecompositionAlgorithm: voxels, with `nlocal` and `proc` as far as the
- * file has them. Field data: the smallest box around all as BoxOrigin, BoxVectors and BoxBounds, `timestep`, and where
- * there are counts `imbalance`, the largest divided by the mean.
+ * The output and its pieces are those of vtkGranularDecompositionAlgorithm: voxels, with `nlocal` and `proc` if the file has them.
+ * Field data: the smallest box around all subdomains as BoxOrigin, BoxVectors and BoxBounds, `timestep`, and with counts `imbalance`,
+ * the largest divided by the mean.
  */
 
 #ifndef vtkGranularDecompositionReader_h

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDecompositionSource
- * @brief   Makes the subdomains of a grid of processes in a box, as voxels, without a file.
+ * @brief   Makes the subdomains of a grid of ranks in a box, as voxels, without a file.
  *
- * `nlocal` is 0: there are no particles; vtkGranularDecomposition counts some. The field data are those of a dump in
- * that box, but for a timestep, which it does not have.
+ * `nlocal` is 0, because there are no particles; vtkGranularDecomposition counts some. The field data are those of a dump in the same
+ * box, without a timestep.
  */
 
 #ifndef vtkGranularDecompositionSource_h

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDecompositionWriter
- * @brief   Writes subdomains as `dump decomposition/vtk` of LIGGGHTS does.
+ * @brief   Writes subdomains in the format of `dump decomposition/vtk` of LIGGGHTS.
  *
- * Writes the voxels of a vtkUnstructuredGrid - or hexahedra, if they lie along the axes - with the cell arrays nlocal,
- * how many particles a process has, and proc (or procID), which process it is, as far as there are any. Each
- * process has a part of the cells, or none: they are written in the order of the processes, by the first one, so that the
- * bytes do not depend on the number of processes. Cells that are duplicates of another process' are left out. The field data
- * of this library's readers and filters (Coordinates, PointOrigin, BoxOrigin, BoxVectors, timestep, time) are
- * heeded: absolute coordinates are written.
+ * Writes the voxels of a vtkUnstructuredGrid, or hexahedra along the axes, with the cell arrays nlocal (number of particles) and proc
+ * or procID (the rank), if present. Each rank of ParaView has a part of the cells, or none. The first one writes all cells in the order
+ * of proc, so the bytes do not depend on the number of ranks. Ghost duplicates are left out. Coordinates are written as absolute
+ * ones, by the field data of this library's readers and filters (Coordinates, PointOrigin, BoxOrigin, BoxVectors, timestep, time).
  *
- * The name says the form: `.vtk` and `.decomposition` legacy text, `.vtu` XML, also text. A `*` in the name stands for
- * the timestep. Subdomains that overlap or leave gaps are written as they are.
+ * The ending chooses the format: legacy text for `.vtk` and `.decomposition`, XML text for `.vtu`. A `*` in the name stands for the
+ * timestep. Overlaps and gaps of subdomains are not checked.
  *
- * A timestep is written once, as LIGGGHTS does by its lasttimestep: who asks for it again, with the same name and Dialect,
- * leaves the file as it was, and Written is true. Without a timestep that goes for data that have not changed.
+ * A timestep is written once, like LIGGGHTS with its lasttimestep: a second request with the same name and Dialect leaves the file
+ * alone, and Written is true. Data without a timestep are written again only if they have changed.
  *
- * See vtkGranularWriter for the rest. ParallelMode changes nothing here.
+ * vtkGranularWriter describes the rest. ParallelMode has no effect here.
  */
 
 #ifndef vtkGranularDecompositionWriter_h

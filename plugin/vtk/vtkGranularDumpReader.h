@@ -1,38 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDumpReader
- * @brief   Reads the particle dumps of LIGGGHTS and LAMMPS.
+ * @brief   Reads particle dumps of LIGGGHTS and LAMMPS.
  *
- * Reads the files of `dump atom` and `dump custom`, text and binary, also compressed with gzip or
- * Zstandard: every header there has been since 2010, any box, any columns in any order. Binary files
- * of either byte order; those of LIGGGHTS, and of LAMMPS before 2020, do not name their columns: see
- * SetColumnNames. `dump local` is read by vtkGranularLocalReader. Which frames there are: see vtkGranularSeriesReader.
+ * Reads the files of `dump atom` and `dump custom`: text and binary, plain or compressed with gzip or Zstandard, with every header
+ * since 2010, any box, and any columns in any order. Binary files may have either byte order. Binary files of LIGGGHTS, and of LAMMPS
+ * before 2020, do not name their columns: see SetColumnNames. vtkGranularLocalReader reads `dump local`. vtkGranularSeriesReader tells
+ * which frames there are.
  *
- * Output port 0 holds the particles (vtkPolyData), output port 1 the simulation box as one
- * hexahedron (vtkUnstructuredGrid). Both are relative to PointOrigin.
+ * Output port 0 holds the particles (vtkPolyData), output port 1 the simulation box as one hexahedron (vtkUnstructuredGrid). Both are
+ * relative to PointOrigin.
  *
  * Columns become point arrays:
- * - `id` is a vtkTypeInt64Array, and the pedigree ids too; `type` is a vtkTypeInt32Array; the other
- *   integer columns are vtkTypeInt64Array; `element` is a vtkStringArray; all else is double;
+ * - `id` is a vtkTypeInt64Array, and the pedigree ids; `type` is a vtkTypeInt32Array; other integer columns are vtkTypeInt64Array;
+ *   `element` is a vtkStringArray; all other columns are double;
  * - vx vy vz become `v`; likewise f, omega, mu, angmom, tq, shape (3), quat (4), image (3 int32);
  * - c_ID[1] .. c_ID[n], complete and in this order, become `c_ID`; likewise f_, v_, i2_, d2_;
- * - `radius` is made from `diameter` where only that is there;
- * - every other column becomes an array of its own name. Coordinate columns (x, xs, xu, ...) become
- *   the points, and arrays only where the selection says so.
+ * - `radius` is made from `diameter` if the file has no `radius`;
+ * - every other column becomes an array of its own name. Coordinate columns (x, xs, xu, ...) become the points, and arrays only if
+ *   selected.
  *
- * Both outputs carry field data: `Coordinates` (Absolute, Unwrapped or Scaled: what the points
- * are), `PointOrigin` (3), `BoxOrigin` (3), `BoxVectors` (9: a, b, c), `BoxBounds`
- * (the header's own numbers: xlo xhi ylo yhi zlo zhi, and xy xz yz of a tilted box), `Boundary` (such as
- * "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and `label`, `units`
- * and `time` where the file has them. Where Stride or RegionOfInterest leave out particles, `ParticlesLeftOut` names them.
+ * Both outputs carry field data: `Coordinates` (Absolute, Unwrapped or Scaled: the form of the points), `PointOrigin` (3), `BoxOrigin`
+ * (3), `BoxVectors` (9: a, b, c), `BoxBounds` (the header's own numbers: xlo xhi ylo yhi zlo zhi, and xy xz yz of a tilted box),
+ * `Boundary` (such as "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and, if the file has them,
+ * `label`, `units` and `time`. `ParticlesLeftOut` names Stride or RegionOfInterest if they leave out particles.
  *
- * Only what is asked for is read: the frame shown, the arrays switched on, the rows of Stride and
- * RegionOfInterest.
+ * The reader reads only the current frame, the arrays that are on, and the rows of Stride and RegionOfInterest.
  *
- * A pipeline may ask for any piece of any number, such as one a rank: the pieces hold each particle
- * once, in the order of the whole. Of a text a particle belongs to the piece in whose share of the bytes
- * its row begins; of a binary dump, and of sorted particles, pieces have equal numbers of rows. The box
- * is in piece 0 alone. See SetController for how the ranks of a parallel program read.
+ * A pipeline may ask for any piece of any number, such as one per rank. The pieces hold each particle once, in the order of the whole.
+ * In text, a particle belongs to the piece whose share of the bytes contains the start of its row. Pieces of binary dumps and of sorted
+ * particles have equal numbers of rows. Only piece 0 has the box. SetController describes how the ranks of a parallel program read.
  */
 
 #ifndef vtkGranularDumpReader_h

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularDumpWriter
- * @brief   Writes particle dumps as LIGGGHTS and LAMMPS do.
+ * @brief   Writes particle dumps in the formats of LIGGGHTS and LAMMPS.
  *
- * Writes the points of a vtkPointSet, and their arrays, as `dump atom` or `dump custom` would: as text, or,
- * where the name ends in `.bin` or `.lammpsbin`, binary; compressed where it ends in `.gz` or `.zst`.
+ * Writes the points of a vtkPointSet and their arrays like `dump atom` or `dump custom`. Files are text, or binary if the name ends in
+ * `.bin` or `.lammpsbin`; text is compressed if the name ends in `.gz` or `.zst`.
  *
- * A vector becomes the columns that the reader makes it from: v becomes vx vy vz, image ix iy iz, an array A of n
- * components that has no such columns A[1] .. A[n]. x, xs, xu and xsu come from the points, which are put right first:
- * the field data of a vtkGranularDumpReader (Coordinates, PointOrigin, BoxOrigin, BoxVectors, BoxBounds, Boundary,
- * timestep, time, units, label) say what they are. Where a reader kept a coordinate column as an array, its own
- * numbers are written, as long as they are those of the point within rounding. Without a box one is made
- * from the bounds of the particles, with a warning. A missing id is the number of the point, a missing type 1, missing
- * image counts are 0, each with a warning. Points that are duplicates of another process' are left out.
+ * A vector becomes the columns from which the reader makes it: v becomes vx vy vz, image ix iy iz. An array A of n components without
+ * such columns becomes A[1] .. A[n]. The points give x, xs, xu and xsu, which are converted by the field data of
+ * vtkGranularDumpReader (Coordinates, PointOrigin, BoxOrigin, BoxVectors, BoxBounds, Boundary, timestep, time, units, label). Where a
+ * reader kept a coordinate column as an array, its numbers are written as long as they match the point within rounding. Without a box,
+ * the bounds of the particles become the box, with a warning. A missing id is the number of the point, a missing type is 1, missing
+ * image counts are 0, each with a warning. Ghost duplicates are left out.
  *
- * The bytes do not depend on the number of processes and threads. See vtkGranularWriter for the rest.
+ * The bytes do not depend on the number of ranks and threads. vtkGranularWriter describes the rest.
  */
 
 #ifndef vtkGranularDumpWriter_h

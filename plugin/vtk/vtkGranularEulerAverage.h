@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularEulerAverage
- * @brief   Averages particles over the cells of a regular grid: fields from grains.
+ * @brief   Averages particles over the cells of a regular grid.
  *
- * For each cell of volume V, with the share w of each particle in it, its mass m, radius r, velocity v and stress times volume S:
+ * For each cell of volume V, with the share w of each particle in the cell, its mass m, radius r, velocity v and stress times volume S:
  * - `v_avg` = sum w m v / sum w m [m/s]
  * - `volumefraction` = volume of the particles in the cell / V [-]
  * - `radius` = sum w r / sum w [m]
  * - `pressure` = -(xx + yy + zz) / 3 [Pa] of the stress sum(-w m (v - v_avg)(v - v_avg) + w S) / V; with a StressArray also the
- *   stress itself, `sigma` (xx yy zz) and `tau` (xy xz yz). Without one it is the part of the fluctuations of velocity alone: the
- *   contacts' is missing.
+ *   stress itself, `sigma` (xx yy zz) and `tau` (xy xz yz). Without a StressArray the pressure contains only the velocity
+ *   fluctuations, not the contacts.
  *
- * as fix ave/euler of LIGGGHTS has it, where w is 1 or 0. Empty cells are 0. Where two particles overlap each other, their common
- * volume counts twice in volumefraction. Particles of one velocity have a pressure of 0: what rounding of v_avg may make is no
- * fluctuation. These are averages over space at one moment; see SetTimeAverage. Sums are correctly rounded: the result is the same, to the bit, for any order of particles and any number of
- * threads and processes.
+ * These are the definitions of fix ave/euler of LIGGGHTS, where w is 1 or 0. Empty cells are 0. Where two particles overlap, their
+ * common volume counts twice in volumefraction. Particles with one common velocity have a pressure of 0: the rounding of v_avg does
+ * not count as fluctuation. The averages are over space at one moment; see SetTimeAverage. Sums are correctly rounded, so the result
+ * is the same, bit for bit, for any order of particles and any number of threads and ranks.
  *
- * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled, PointOrigin);
- * the output has the same PointOrigin. Duplicates of ghosts are left out, and, with a warning that counts them, particles
- * that touch no cell, with a number that is nan or infinite, or with a negative mass or radius. Another warning says that the reader
- * left out particles by Stride or RegionOfInterest, where the field data `ParticlesLeftOut` of the input name them.
+ * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled, PointOrigin). The
+ * output has the same PointOrigin. Ghost duplicates are left out. Particles that touch no cell, have a nan or infinite number, or a
+ * negative mass or radius, are left out with a warning that counts them. Another warning tells that the reader left out particles by
+ * Stride or RegionOfInterest (field data `ParticlesLeftOut` of the input).
  */
 
 #ifndef vtkGranularEulerAverage_h

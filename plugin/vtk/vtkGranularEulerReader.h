@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularEulerReader
- * @brief   Reads averages over cells of space: the files of dump euler/vtk.
+ * @brief   Reads `dump euler/vtk` files: averages over the cells of a grid.
  *
- * LIGGGHTS writes legacy VTK text with a point for each cell of fix ave/euler, and the point arrays `v_avg`, the velocity
- * weighted by mass [m/s], `volumefraction` of solids, `radius`, the mean [m], and `pressure` [Pa]; its fork PFM also `sigma`
- * (xx yy zz) and `tau` (xy xz yz), and grids with the arrays in the cells. Legacy files into which VTK has turned these are read, too. Numbers
- * are doubles; nan and infinities are numbers. LIGGGHTS before 3.2.1 divided velocities once more by the number of
- * particles in the cell, which no file says.
+ * LIGGGHTS writes legacy VTK text with a point for each cell of fix ave/euler. Point arrays: `v_avg`, the mass-weighted velocity [m/s],
+ * `volumefraction` of solids, `radius`, the mean [m], and `pressure` [Pa]. Its fork PFM also writes `sigma` (xx yy zz) and `tau` (xy xz
+ * yz), and grids with the arrays in the cells. Legacy files that VTK made of these are read, too. Numbers are doubles; nan and
+ * infinities are accepted. LIGGGHTS before 3.2.1 divided velocities a second time by the number of particles in the cell; the file
+ * does not tell.
  *
- * The timestep is the last number in the name of a file, of those that differ between the files. Files of
- * one timestep are repetitions, of which the last counts, unless SetRepeatedSteps says that they are pieces. Which frames there are, and their times: see vtkGranularSeriesReader.
+ * The timestep is the last number in the file name that differs between the files. If several files have one timestep, the last file
+ * counts, unless SetRepeatedSteps declares them pieces. vtkGranularSeriesReader tells which frames there are, and their times.
  *
- * The output has one point for each cell (vtkPolyData), or it has the cells, see SetOutputType. Field data: the smallest
- * box around all points or cells as BoxOrigin, BoxVectors and BoxBounds, and `timestep`. A frame without cells makes an empty
- * output of the same type.
+ * The output has one point for each cell (vtkPolyData), or the cells themselves: see SetOutputType. Field data: the smallest box
+ * around all points or cells as BoxOrigin, BoxVectors and BoxBounds, and `timestep`. A frame without cells gives an empty output of
+ * the same type.
  */
 
 #ifndef vtkGranularEulerReader_h

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularEulerWriter
- * @brief   Writes averages over cells of space as `dump euler/vtk` of LIGGGHTS does.
+ * @brief   Writes averages over cells in the format of `dump euler/vtk` of LIGGGHTS.
  *
- * Writes a point for each cell: the points of a vtkPointSet with the point arrays v_avg (3), volumefraction, radius and
- * pressure, or the middles of the cells of a vtkImageData or vtkRectilinearGrid with these cell arrays, or of a composite
- * of such. A missing array is an error. Cells that are duplicates of another process' are left out. The field data of this library's
- * readers and filters (Coordinates, PointOrigin, BoxOrigin, BoxVectors, timestep, time) are heeded: absolute coordinates are
- * written.
+ * Writes a point for each cell: the points of a vtkPointSet with the point arrays v_avg (3), volumefraction, radius and pressure, or
+ * the cell centres of a vtkImageData or vtkRectilinearGrid with these cell arrays, or of a composite of such grids. A missing array is
+ * an error. Ghost duplicates are left out. Coordinates are written as absolute ones, by the field data of this library's readers and
+ * filters (Coordinates, PointOrigin, BoxOrigin, BoxVectors, timestep, time).
  *
- * The first process writes for all. Cells of a grid are in the order of LIGGGHTS, x fastest and z slowest, whichever process
- * has them; points, and the grids of a composite, are in the order of the processes.
+ * The first rank writes for all. Cells of a grid are in the order of LIGGGHTS, x fastest and z slowest, whichever rank has them. Points,
+ * and the grids of a composite, are in the order of the ranks.
  *
- * Any name will do; text is compressed where it ends in `.gz` or `.zst`. A `*` in the name stands for the timestep;
- * without one a file holds one time step.
+ * The name may have any ending; text is compressed if it ends in `.gz` or `.zst`. A `*` in the name stands for the timestep; without
+ * it, a file holds one timestep.
  *
- * A timestep is written once, as LIGGGHTS does: who asks for it again, with the same name and Dialect, leaves the file as it
- * was, and Written is true. Without a timestep that goes for data that have not changed.
+ * A timestep is written once, as in LIGGGHTS: a second request with the same name and Dialect leaves the file alone, and Written is
+ * true. Data without a timestep are written again only if they have changed.
  *
- * See vtkGranularWriter for the rest. ParallelMode and Threads change nothing here.
+ * vtkGranularWriter describes the rest. ParallelMode and Threads have no effect here.
  */
 
 #ifndef vtkGranularEulerWriter_h

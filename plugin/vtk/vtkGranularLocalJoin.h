@@ -3,27 +3,26 @@
  * @class   vtkGranularLocalJoin
  * @brief   Draws contacts and bonds, which name two particles by id, as lines between the particles of a dump.
  *
- * Port 0 has the particles, a vtkPointSet with the point array `id`; port 1 the rows, each of which names two of them in
- * `id1` and `id2`: cells of a vtkDataSet or rows of a vtkTable. Ids are integers, in arrays of any type. Each row whose two
- * particles are there becomes a line with two points of its own; others are left out, with a warning that counts them. Of
- * lines that were split the first part counts, whose integer `part` is 0. Of particles with the same id the first is taken, with a warning; duplicates of ghosts are left out.
+ * Port 0 has the particles, a vtkPointSet with the point array `id`. Port 1 has the rows, each of which names two particles in `id1`
+ * and `id2`: cells of a vtkDataSet or rows of a vtkTable. Ids are integers, in arrays of any type. Each row with both particles present
+ * becomes a line with two points of its own. Other rows are left out, with a warning that counts them. Of a line that was split, only
+ * the first part counts, whose integer `part` is 0. Among particles with the same id the first one is taken, with a warning. Ghost
+ * duplicates are left out.
  *
  * Cell arrays, besides those of the rows:
- * - `length` of the whole line, the shortest of its images but for AS_WRITTEN [m]
- * - `elongation` = length - l0 [m] and `strain` = elongation / l0 [-], where the equilibrium length l0 is known; nan where it is 0
- * - `A_mean`, `A_difference`: of the array A at both ends (second less first), see SetAverages
- * - `row` and `part`, only with SPLIT: the number of the row that a line is a part of, from 0, and which part it is, 0 for that
- *   at the first end, 1, 2, ...
+ * - `length` of the whole line, of its shortest image except with AS_WRITTEN [m]
+ * - `elongation` = length - l0 [m] and `strain` = elongation / l0 [-], if the equilibrium length l0 is known; nan where it is 0
+ * - `A_mean`, `A_difference`: mean and difference of the array A at both ends (second minus first), see SetAverages
+ * - `row` and `part`, only with SPLIT: the number of the row, from 0, and the number of the part, 0 at the first end
  *
- * all double, but for `row` (vtkTypeInt64Array) and `part` (vtkTypeInt32Array).
+ * all double, except `row` (vtkTypeInt64Array) and `part` (vtkTypeInt32Array).
  *
- * Lines are where the points are shown, whatever these are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled,
- * PointOrigin): from unwrapped points they go to the nearest image of the other end; lengths are never scaled. The box is that
- * in the field data of the particles, or where they have none, of the rows. Field data are those of the particles, but for the
- * Columns, which are the rows'.
+ * Lines connect the points as shown (see the field data of vtkGranularDumpReader: Unwrapped, Scaled, PointOrigin). From unwrapped
+ * points they go to the nearest image of the other end; lengths are never scaled. The box is that of the particles' field data, or of
+ * the rows' if the particles have none. The field data are those of the particles, with the Columns of the rows.
  *
- * Warnings also tell how many lines are not as long as their array `dist` says, and that the timesteps of both inputs differ,
- * if the rows have several times. Each is given once: again only when inputs or properties have changed, or when it came back.
+ * Warnings also tell how many lines differ from their array `dist`, and that the timesteps of both inputs differ, if the rows have
+ * several times. A warning is repeated only after inputs or properties have changed, or when it came back.
  */
 
 #ifndef vtkGranularLocalJoin_h

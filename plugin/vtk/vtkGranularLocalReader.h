@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularLocalReader
- * @brief   Reads contacts and bonds: the files of dump local.
+ * @brief   Reads `dump local` files: contacts and bonds.
  *
- * Reads the text files of `dump local` of LIGGGHTS and LAMMPS, whatever they count (ENTRIES, or the word of `dump_modify
- * label`), with and without a box, of one process each (`%`: all but the first of these have no header). Which frames there
- * are: see vtkGranularSeriesReader. vtkGranularDataFileReader reads the bonds of data files.
+ * Reads the text files of `dump local` of LIGGGHTS and LAMMPS with any word for their rows (ENTRIES, or that of `dump_modify label`),
+ * with and without a box, and with one file per rank (`%`), where only the first file has a header. vtkGranularSeriesReader tells which
+ * frames there are. vtkGranularDataFileReader reads the bonds of data files.
  *
- * Output port 0 holds lines (vtkPolyData), one cell a row with two points of its own, if the columns say where the ends
- * are; else it is empty. Output port 1 holds the rows as a table (vtkTable), which vtkGranularLocalJoin makes lines of by the ids of
- * particles. What columns mean: see SetPreset and SetColumnMap. They become arrays of the cells and of the table:
- * - `id1` and `id2`, the particles at the ends, are vtkTypeInt64Array, `btype` and `periodic` vtkTypeInt32Array, all others double;
+ * Output port 0 holds lines (vtkPolyData), one cell per row with two points of its own, if the columns give the ends; otherwise it is
+ * empty. Output port 1 holds the rows as a table (vtkTable), from which vtkGranularLocalJoin makes lines by the ids of particles.
+ * SetPreset and SetColumnMap define the meaning of the columns, which become arrays of the cells and of the table:
+ * - `id1` and `id2`, the particles at the ends, are vtkTypeInt64Array; `btype` and `periodic` are vtkTypeInt32Array; others are double;
  * - three columns x, y, z of a vector become one array: `force`, `torque`, `v1` and so on;
- * - `length` is the length of the line that is drawn, of all its parts where it is split;
- * - `position1` and `position2` are the ends as the file has them, only if they are asked for;
- * - `row` and `part`, where lines are split: the number of the row in the frame, from 0 (vtkTypeInt64Array), and which part of
- *   the line it is, 0 for that at the first end, 1, 2, ... (vtkTypeInt32Array);
- * - columns of the file that are named `length`, `row` or `part`, too, are `length_2` and so on of the lines.
+ * - `length` is the length of the drawn line, over all its parts if it is split;
+ * - `position1` and `position2` are the ends as the file has them, only if selected;
+ * - `row` and `part`, if lines are split: the number of the row in the frame, from 0 (vtkTypeInt64Array), and the number of the part,
+ *   0 at the first end (vtkTypeInt32Array);
+ * - columns of the file that are named `length`, `row` or `part` become `length_2` and so on.
  *
- * Both outputs carry field data as those of vtkGranularDumpReader: box, PointOrigin, Columns, timestep; the box only if the file has
- * one. A pipeline may ask for any piece of any number: the pieces hold each row once.
+ * Both outputs carry the field data of vtkGranularDumpReader: PointOrigin, Columns, timestep, and the box if the file has one. A
+ * pipeline may ask for any piece of any number. The pieces hold each row once.
  */
 
 #ifndef vtkGranularLocalReader_h

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularLocalWriter
- * @brief   Writes contacts and bonds as `dump local` of LIGGGHTS and LAMMPS does.
+ * @brief   Writes contacts and bonds in the format of `dump local` of LIGGGHTS and LAMMPS.
  *
- * Writes a row for each line of a vtkPolyData, with its cell arrays and its ends, or for each row of a vtkTable: what
- * vtkGranularLocalReader, vtkGranularLocalJoin and the bonds of vtkGranularPackingSource are. Text, compressed where the name
+ * Writes a row for each line of a vtkPolyData, with its cell arrays and its ends, or for each row of a vtkTable: the outputs of
+ * vtkGranularLocalReader and vtkGranularLocalJoin, and the bonds of vtkGranularPackingSource. The file is text, compressed if the name
  * ends in `.gz` or `.zst`.
  *
- * Columns have the names by which vtkGranularLocalReader knows them again: force becomes forcex forcey forcez, another array A
- * of n components A[1] .. A[n]. The ends of lines are x1 y1 z1 x2 y2 z2: the arrays position1 and position2 where there are
- * such, else the points, put right by the field data Coordinates, PointOrigin, BoxOrigin and BoxVectors; unwrapped ones are
- * written as they are. The parts of a line that was split, one after the other with the numbers 0, 1, ... in the cell array
- * `part`, are one row, from the first point of the first to the last point of the last. Integers are written with all their digits, and
- * so are whole numbers in id1 and id2. Without a box in the field data none is written. Duplicates of ghost cells are left out.
+ * Columns have names that vtkGranularLocalReader recognises: force becomes forcex forcey forcez, another array A of n components A[1]
+ * .. A[n]. The ends of lines are x1 y1 z1 x2 y2 z2: the arrays position1 and position2 if present, otherwise the points, converted by
+ * the field data Coordinates, PointOrigin, BoxOrigin and BoxVectors; unwrapped points are written as they are. The parts of a split
+ * line, with the consecutive numbers 0, 1, ... in the cell array `part`, become one row, from the first point of the first part to the
+ * last point of the last. Integers are written with all their digits, and so are whole numbers in id1 and id2. The file has a box only
+ * if the field data have one. Ghost cells are left out.
  *
- * The bytes do not depend on the number of processes and threads. See vtkGranularWriter for the rest.
+ * The bytes do not depend on the number of ranks and threads. vtkGranularWriter describes the rest.
  */
 
 #ifndef vtkGranularLocalWriter_h

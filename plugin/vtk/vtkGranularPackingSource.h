@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularPackingSource
- * @brief   Makes particles that do not overlap, at random places, on a lattice or in fibres, without a file.
+ * @brief   Makes particles that do not overlap, at random positions, on a lattice or in fibres, without a file.
  *
- * Output port 0 holds the particles (vtkPolyData, one vertex a particle), port 1 the box (vtkUnstructuredGrid, one
- * hexahedron), with the arrays and field data that vtkGranularDumpReader gives for a dump of timestep 0 with the
- * columns id type x y z radius vx vy vz: `id` (vtkTypeInt64Array from 1 on, and the pedigree ids), `type`
- * (vtkTypeInt32Array), `radius`, `v` (3). In fibres, also `mol` (vtkTypeInt64Array): their number, from 1 on.
+ * Output port 0 holds the particles (vtkPolyData, one vertex per particle), port 1 the box (vtkUnstructuredGrid, one hexahedron), with
+ * the arrays and field data that vtkGranularDumpReader gives for a dump of timestep 0 with the columns id type x y z radius vx vy vz:
+ * `id` (vtkTypeInt64Array from 1, and the pedigree ids), `type` (vtkTypeInt32Array), `radius`, `v` (3). Fibres also have `mol`
+ * (vtkTypeInt64Array), their number from 1.
  *
- * Port 2 holds the bonds that BondFactor asks for (vtkPolyData, one line a bond, with two points of its own),
- * from a centre to the nearest image of the other, and the same field data. Cell arrays are `id1` and the greater
- * `id2` (vtkTypeInt64Array), `btype` (vtkTypeInt32Array, 1), `equilibrium_length`, and `length`, which is equal.
+ * Port 2 holds the bonds of BondFactor (vtkPolyData, one line per bond, with two points of its own), from a centre to the nearest image
+ * of the other, and the same field data. Cell arrays are `id1` and the greater `id2` (vtkTypeInt64Array), `btype` (vtkTypeInt32Array,
+ * 1), `equilibrium_length`, and `length`, which is equal.
  *
- * Grains are wholly inside the box; along periodic axes their centres are, and their periodic images do not
- * overlap particles either. Random particles do not touch one another, those of lattices and fibres of spacing 1 do.
+ * Particles lie entirely inside the box; along periodic axes only their centres do, and their periodic images do not overlap particles
+ * either. Random particles do not touch; particles on lattices and in fibres do at Spacing 1.
  *
- * Each particle follows from the properties and its number: any pieces, threads and ranks give the same.
- * Pieces hold equal numbers of particles, in the order of their ids, and the bonds of these with greater ids, in
- * the order of (id1, id2); the box is in piece 0 alone.
+ * Each particle depends only on the properties and its number, so any pieces, threads and ranks give the same ones. Pieces hold equal
+ * numbers of particles, in the order of their ids, and their bonds to greater ids, in the order of (id1, id2). Only piece 0 has the
+ * box.
  */
 
 #ifndef vtkGranularPackingSource_h

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularRestartReader
- * @brief   Reads the restart files of LIGGGHTS: particles in full precision, and bonds with their history.
+ * @brief   Reads restart files of LIGGGHTS: particles in full precision, and bonds with their history.
  *
- * Reads what `restart` and `write_restart` of LIGGGHTS and its forks write, of either byte order and any sizes of integers, in one
- * file or in one a process (`%`: the file with `base` in its name stands for all). Each file is a frame, of the timestep in its
- * header: see vtkGranularSeriesReader. A file that is not complete, as one of two that a run writes in turn may be, is left
- * out with a warning. Restart files of LAMMPS have another format: an error says how to make a dump of one.
+ * Reads the files that `restart` and `write_restart` of LIGGGHTS and its forks write, of either byte order and any sizes of integers,
+ * in one file or one per rank (`%`: the file with `base` in its name stands for all). Each file is a frame with the timestep of its
+ * header: see vtkGranularSeriesReader. An incomplete file, such as one of two that a run writes in turn, is left out with a warning.
+ * LAMMPS writes restart files in another format; the error tells how to convert one to a dump.
  *
- * Output port 0 holds the particles (vtkPolyData) in the order of the file, with the arrays that a dump reader gives them:
+ * Output port 0 holds the particles (vtkPolyData) in the order of the file, with the arrays of a dump reader:
  * - `id`, `type`, `mask` (a bit for each group), `image` and `v` of all atom styles;
- * - what the style adds: `radius`, `mass`, `density`, `omega` of granular and sphere, `mol` of bond/gran, and so on; of a style that is not known
- *   only the above is read, with a warning;
- * - what fix property/atom stores, as `f_ID`. (Of fixes of the same size the file does not say which is which where one was defined
- *   again during the run: their values may be exchanged.)
+ * - the columns of the style: `radius`, `mass`, `density`, `omega` of granular and sphere, `mol` of bond/gran, and so on; of an
+ *   unknown style only the above is read, with a warning;
+ * - the values of fix property/atom, as `f_ID`. (If a fix was defined again during the run, the file does not tell fixes of the same
+ *   size apart: their values may be exchanged.)
  *
- * Output port 1 holds the bonds as lines (vtkPolyData), each once, between the particles that it holds together, with the arrays `id1`,
- * `id2`, `btype` and `length` of their cells, and the history of the bond, named as SetHistoryLayout says. `id1` is the lower id where both particles
- * hold the bond, and the history is that which its copy has: forces are those on the particle id1. (Old programs store both copies
- * with the same sign; then the file does not say on which of the two they act.) Bonds of which a particle is not there have no line.
+ * Output port 1 holds the bonds as lines (vtkPolyData), each once, with the cell arrays `id1`, `id2`, `btype` and `length`, and the
+ * history of the bond, named by SetHistoryLayout. If both particles hold a bond, `id1` is the lower id, and the history is that of its
+ * copy: forces act on the particle id1. (Old programs store both copies with the same sign; then the file does not tell on which of
+ * the two they act.) Bonds without one of their particles have no line.
  *
  * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid).
  *
- * The outputs carry field data as those of vtkGranularDumpReader, and the first one `Groups`, the names of the bits of `mask`. A
- * pipeline may ask for any piece of any number: they hold each particle and bond once, a bond where its particle id1 is. Each process reads the
- * whole file where there are bonds.
+ * The outputs carry the field data of vtkGranularDumpReader, and the first one `Groups`, the names of the bits of `mask`. A pipeline may
+ * ask for any piece of any number. The pieces hold each particle and bond once, a bond with its particle id1. Each rank reads the whole
+ * file if there are bonds.
  */
 
 #ifndef vtkGranularRestartReader_h

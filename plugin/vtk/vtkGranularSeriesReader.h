@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularSeriesReader
- * @brief   What readers of the files of a run have in common: files, frames and times.
+ * @brief   Base class of readers of the files of a run: files, frames and times.
  *
- * All frames of all files form one run, ordered by timestep. Files may be compressed with gzip or
- * Zstandard, whatever their names. A last frame that is not complete is left out, because the
- * simulation is still writing it. Files with `boundingBox` in their names, which LIGGGHTS writes beside
- * some dumps, are passed over.
+ * All frames of all files form one run, ordered by timestep. Files may be compressed with gzip or Zstandard, under any name. An
+ * incomplete last frame is left out, because the simulation is still writing it. Files with `boundingBox` in their names, which LIGGGHTS
+ * writes beside some dumps, are skipped.
  *
- * Frames of the same timestep in several files are pieces of one (one file a process, `%` in the
- * name of a dump), or repetitions of a restarted run: see SetRepeatedSteps.
+ * Frames of one timestep in several files are pieces of one frame (one file per rank, `%` in the name of a dump), or repetitions of a
+ * restarted run: see SetRepeatedSteps.
  *
- * Time is ITEM: TIME if every frame has it and it strictly increases, else timestep x TimestepSize: the double nearest to
- * the product of the decimal numbers, so that 3 x 1e-5 is 3e-05. An ITEM: TIME that is such a product but for its rounding
- * is that double, too. Timesteps from 2^53 on that would share a time are at the next doubles, with a warning.
- * A request for a time shows the last frame at or before it, or the first.
+ * The time is ITEM: TIME if every frame has one and it strictly increases, otherwise timestep x TimestepSize: the double nearest to the
+ * product of the decimal numbers, so that 3 x 1e-5 is 3e-05. An ITEM: TIME that equals this product but for rounding becomes that
+ * double, too. Timesteps from 2^53 that would share a time get the next doubles, with a warning. A request for a time shows the last
+ * frame at or before it, or the first frame.
  *
- * The files are looked at when FileNames changes and at Refresh; with RefreshOnUpdate at every update.
- * What was appended is read then, and earlier frames are not read again. A file that shrank or was
- * replaced is read anew; one that is gone takes its frames with it, with a warning.
+ * The reader looks at the files when FileNames changes and at Refresh; with RefreshOnUpdate at every update. It then reads what was
+ * appended, and does not read earlier frames again. A file that shrank or was replaced is read again from its beginning. The frames of
+ * a file that is gone disappear, with a warning.
  *
- * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to
- * abort holds for one update: the outputs are empty then, and the next update starts afresh.
+ * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to abort holds for one update: that
+ * update gives empty outputs, and the next one starts afresh.
  */
 
 #ifndef vtkGranularSeriesReader_h

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularWriter
- * @brief   What writers have in common: the file, the frames and the processes.
+ * @brief   Base class of writers: the file, the frames and the ranks.
  *
- * Write() writes what the input shows now, or with WriteTimeSteps all its time steps, one after the other.
- * A `*` in the name of the file stands for the timestep, and gives each its file; a `%` stands for the
- * process, and gives each its file; both as in the `dump` command.
+ * Write() writes what the input shows now, or with WriteTimeSteps all its timesteps, one after the other. A `*` in the name of the file
+ * stands for the timestep and a `%` for the rank, one file each, as in the `dump` command.
  *
- * A file is there when it is complete: until then, and after an error, the old one is as it was. Write()
- * returns 0 after an error, and GetErrorCode() is not vtkErrorCode::NoError then.
+ * Files are written under a temporary name and renamed when complete. After an error the old file is untouched, Write() returns 0, and
+ * GetErrorCode() is not vtkErrorCode::NoError.
  */
 
 #ifndef vtkGranularWriter_h
