@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Open a dump, go to its last frame, and see the grains as spheres of their own size."""
+"""Open a dump, go to its last frame, and see the particles as spheres of their own size."""
 import sys
 from pathlib import Path
 
@@ -9,8 +9,7 @@ from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
-reader = OpenDataFile(path)
-reader.TimestepSize = 2e-5  # seconds, from the input script
+reader = granular.reader(path, dt=2e-5)  # seconds, the timestep of the input script
 
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
@@ -19,8 +18,8 @@ view.OrientationAxesVisibility = 0
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 GetAnimationScene().GoToLast()
 
-# The first output: the grains, coloured by the length of their velocity v.
-grains = granular.show(reader, view, color="v")
+# The first output holds the particles. Their colour is the length of the velocity v.
+particles = granular.show(reader, view, color="v")
 colors = GetColorTransferFunction("v")
 colors.ApplyPreset(granular.preset("Plasma"))
 colors.RescaleTransferFunction(0, 1.5)
@@ -28,7 +27,7 @@ legend = GetScalarBar(colors, view)
 granular.set_properties(legend, Title="speed [m/s]", ComponentTitle="", HorizontalTitle=1,
                         WindowLocation="Any Location", Position=[0.84, 0.35], ScalarBarLength=0.4,
                         UseCustomLabels=1, CustomLabels=[0.5, 1.0], **granular.label_format("%.1f"))
-grains.SetScalarBarVisibility(view, True)
+particles.SetScalarBarVisibility(view, True)
 
 # The second output: the box of the simulation.
 gray = [0.3, 0.3, 0.3]
@@ -51,5 +50,5 @@ assert shown["radius"].GetRange() == (column["radius"].min(), column["radius"].m
 assert np.allclose(shown["v"].GetRange(-1), (speed.min(), speed.max()), rtol=1e-15)
 assert reader.GetDataInformation().GetBounds()[4] == column["z"].min()
 
-print(f"{len(rows)} grains of radius {column['radius'].min():g} to {column['radius'].max():g} m")
+print(f"{len(rows)} particles of radius {column['radius'].min():g} to {column['radius'].max():g} m")
 print(f"at t = {view.ViewTime:g} s they move at up to {speed.max():.2f} m/s; see grains.png")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load only what a picture needs: fewer columns, fewer grains, a part of the box."""
+"""Load only what a picture needs: fewer columns, fewer particles, a part of the box."""
 import sys
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
-reader = OpenDataFile(path)
+reader = granular.reader(path)
 LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
@@ -17,11 +17,11 @@ GetAnimationScene().GoToLast()
 
 
 def load(what, **properties):
-    """Sets properties of the reader; prints and returns how many grains and KiB it then loads."""
+    """Sets properties of the reader; prints and returns how many particles and KiB it then loads."""
     granular.set_properties(reader, **properties)
     reader.UpdatePipeline(view.ViewTime)
     loaded = reader.GetDataInformation()
-    print(f"{what:30} {loaded.GetNumberOfPoints():5} grains {loaded.GetMemorySize():4} KiB")
+    print(f"{what:30} {loaded.GetNumberOfPoints():5} particles {loaded.GetMemorySize():4} KiB")
     return loaded.GetNumberOfPoints(), loaded.GetMemorySize()
 
 
@@ -29,15 +29,15 @@ def load(what, **properties):
 everything = load("everything")
 columns = load("id, radius and velocity", PointArrayStatus=["id", "radius", "v"])
 
-# Every tenth grain: those with id 10, 20, 30, ..., the same ones in every frame.
-tenth = load("  of every tenth grain", Stride=10)
+# Every tenth particle: those with id 10, 20, 30, ..., the same ones in every frame.
+tenth = load("  of every tenth particle", Stride=10)
 
 # A slice through the middle: xmin xmax ymin ymax zmin zmax. An axis with min > max is left alone.
 slab = load("  of a slice 14 mm thick", Stride=1, RegionOfInterest=[1, -1, -0.007, 0.007, 1, -1])
 SaveData("slice.vtp", reader, DataMode="Binary")  # raw data break with today's libexpat
 
-grains = granular.show(reader, view, color="v")
-grains.SetScalarBarVisibility(view, True)
+particles = granular.show(reader, view, color="v")
+particles.SetScalarBarVisibility(view, True)
 Show(OutputPort(reader, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3, LineWidth=2)
 granular.set_properties(view, ViewSize=[640, 640], OrientationAxesVisibility=0, CameraViewUp=[0, 0, 1],
                         CameraPosition=[0.013, -0.36, 0.14], CameraFocalPoint=[0.013, 0, 0.071])

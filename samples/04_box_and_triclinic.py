@@ -22,7 +22,7 @@ strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
 points = {}
 for place, form, radius in (1, "Scaled", 0.036), (5, "Absolute", 0.3), (6, "Unwrapped", 0.3):
-    reader = OpenDataFile(path, Coordinates=form)
+    reader = granular.reader(path, Coordinates=form)
     points[form], corners = points_of(reader), points_of(OutputPort(reader, 1))
     view = CreateRenderView(OrientationAxesVisibility=0, CameraParallelProjection=1)
     AssignViewToLayout(view, strip, place)
@@ -54,7 +54,7 @@ print(f"{len(s)} atoms in the box, {np.sum(image.any(axis=1))} have crossed a fa
 # move by 0.03, and the reader warns.
 away = [f"{lo!r} {hi!r} {tilt!r}\n" for lo, hi, tilt in (hull + [1e6, 1e6, 0]).tolist()]
 Path("far.dump").write_text(text.replace(bounds, "".join(away)))
-single = OpenDataFile("far.dump", PointPrecision="Single", PointOrigin=[1e6] * 3)
+single = granular.reader("far.dump", PointPrecision="Single", PointOrigin=[1e6] * 3)
 error = abs(points_of(single) - points["Absolute"]).max()
 print(f"far away in single precision, PointOrigin 1e+06: largest error {error:.1g}")
 assert 1e-8 < error < 1e-6

@@ -13,11 +13,11 @@ path, text_path = sys.argv[1:3] if sys.argv[2:] else (data / "grains.bin", data 
 
 # LIGGGHTS does not write the names of columns into a binary file: take them from the input script.
 names = "id type x y z ix iy iz vx vy vz radius"
-binary = OpenDataFile(str(path), ColumnNames=names)
-text = OpenDataFile(str(text_path))
+binary = granular.reader(path, ColumnNames=names)
+text = granular.reader(text_path)
 assert list(binary.TimestepValues) == list(text.TimestepValues)
 
-# How far the 6 digits of the text are from where a grain was: the last one of 0.0999999 m is worth
+# How far the 6 digits of the text are from where a particle was: the last one of 0.0999999 m is worth
 # 0.1 micrometres, that of 0.100000 m ten times as much.
 shift = PythonCalculator(Input=[binary, text], ArrayName="shift",
                          Expression="mag(inputs[0].Points - inputs[1].Points) * 1e9")
@@ -26,8 +26,8 @@ view = GetActiveViewOrCreate("RenderView")
 granular.set_properties(view, ViewSize=[640, 680], OrientationAxesVisibility=0, ViewTime=2000,
                         CameraPosition=[0.014, -0.36, 0.13], CameraFocalPoint=[0.014, 0, 0.073],
                         CameraViewUp=[0, 0, 1])
-grains = granular.show(shift, view, color="shift")
-grains.SetScalarBarVisibility(view, True)
+particles = granular.show(shift, view, color="shift")
+particles.SetScalarBarVisibility(view, True)
 Show(OutputPort(binary, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3, LineWidth=2)
 colors = GetColorTransferFunction("shift")
 colors.ApplyPreset(granular.preset("Plasma"))
@@ -64,7 +64,7 @@ while at < len(content):
 
 
 def overlaps(digits):
-    """How far each two grains of the last frame reach into each other."""
+    """How far each two particles of the last frame reach into each other."""
     *centres, radius = (rounded(column[name], digits) for name in ("x", "y", "z", "radius"))
     distance = np.sqrt(sum(np.subtract.outer(centre, centre)**2 for centre in centres))
     return np.add.outer(radius, radius) - distance
@@ -72,5 +72,5 @@ def overlaps(digits):
 
 touching = np.triu(overlaps(17) > 0, 1)
 wrong = abs(overlaps(6) / overlaps(17) - 1)[touching] > 0.01
-print(f"{touching.sum()} pairs of grains touch at step {step}: the text has the overlap, and so")
+print(f"{touching.sum()} pairs of particles touch at step {step}: the text has the overlap, and so")
 print(f"the force, wrong by more than 1 % for {wrong.sum()} of them; see lost.png")

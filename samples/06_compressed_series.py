@@ -17,7 +17,7 @@ plain.write_bytes(gzip.decompress(packed[1].read_bytes()))
 files = [packed[0], plain, packed[2]]
 
 # The files may come in any order: frames are ordered by timestep. A step is 0.005 in units lj.
-reader = OpenDataFile([str(file) for file in reversed(files)], TimestepSize=0.005)
+reader = granular.reader(reversed(files), dt=0.005)
 times = list(reader.TimestepValues)
 assert times == [0, 0.25, 0.5]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One file a process (% in the name of the dump): the pieces of each step become one frame."""
+"""One file per rank (% in the name of the dump): the pieces of each step become one frame."""
 import sys
 from pathlib import Path
 
@@ -15,15 +15,15 @@ whole = Path(sys.argv[2]) if sys.argv[2:] else data / "grains.dump"
 # that they are pieces; where names do not, RepeatedSteps="Merge" does. Were one missing, its step
 # would be left out, with a warning that says which one.
 files = [Path(file) for file in granular.files(folder / "pieces_*.%.dump")]
-grains = OpenDataFile([str(file) for file in files], TimestepSize=2e-5)
-assert grains.RepeatedSteps == "Auto" and len(files) == 4 * len(grains.TimestepValues)
+particles = granular.reader(files, dt=2e-5)
+assert particles.RepeatedSteps == "Auto" and len(files) == 4 * len(particles.TimestepValues)
 
 # The particles come process by process: how many each file has tells whose they are.
 counts = {}
 for file in files:
     step, process = map(int, file.stem.split("_")[1].split("."))
     counts.setdefault(step, [0] * 4)[process] = int(file.read_text().splitlines()[3])
-owners = ProgrammableFilter(Input=grains, CopyArrays=1, Script=f"""
+owners = ProgrammableFilter(Input=particles, CopyArrays=1, Script=f"""
 import numpy
 counts = {counts}[int(inputs[0].FieldData["timestep"][0])]
 output.PointData.append(numpy.repeat(numpy.arange(4), counts), "process")
@@ -39,7 +39,7 @@ for place, step in zip((3, 4, 5, 6), sorted(counts)[1:]):
     granular.set_properties(view, ViewTime=step * 2e-5, CameraPosition=[0.25, -0.41, 0.21],
                             CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
     granular.show(owners, view, color="process")
-    Show(OutputPort(grains, 1), view)
+    Show(OutputPort(particles, 1), view)
     title = " + ".join(map(str, counts[step]))
     Show(Text(Text=f"{view.ViewTime:g} s: {title}"), view, WindowLocation="Upper Center")
 colors = GetColorTransferFunction("process")
@@ -62,8 +62,8 @@ def rows_of(path):
 
 
 pieces = np.concatenate([rows_of(file) for file in files if file.match(f"*_{step}.*")])
-grains.UpdatePipeline(view.ViewTime)
-frame = FetchData(grains)[0]
+particles.UpdatePipeline(view.ViewTime)
+frame = FetchData(particles)[0]
 arrays = [frame.GetPointData().GetArray(name) for name in ("id", "type", "radius")]
 points = np.array(frame.GetPoints().GetData())
 assert np.array_equal(np.column_stack(arrays[:2] + [points, arrays[2]]), pieces)

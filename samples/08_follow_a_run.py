@@ -9,7 +9,7 @@ import granular
 import numpy as np
 from paraview.simple import *
 
-# LAMMPS pours grains into a box, and rests after each frame, as if there were more to compute.
+# LAMMPS pours particles into a box, and rests after each frame, as if there were more to compute.
 # Where it is not installed, a script copies grains.dump in bursts that end inside lines and words.
 POUR = """
 units si
@@ -69,7 +69,7 @@ try:
     while not ready(run) and writer.poll() is None and time.monotonic() < give_up:
         time.sleep(0.02)
     assert ready(run), f"{command[0]} has written no frame"
-    reader = OpenDataFile(str(run), RefreshOnUpdate=1)  # every update looks at the file again
+    reader = granular.reader(run, RefreshOnUpdate=1)  # every update looks at the file again
     granular.show(reader, view, color="v")
     Show(OutputPort(reader, 1), view)
     colors = GetColorTransferFunction("v")
@@ -88,7 +88,7 @@ try:
         step = frame.GetFieldData().GetArray("timestep").GetValue(0)
         points = np.array(frame.GetPoints().GetData()).reshape(-1, 3)
         if step not in seen:
-            print(f"look {looks:2}: frame {frames:2} is the newest, with {len(points):4} grains")
+            print(f"look {looks:2}: frame {frames:2} is the newest, with {len(points):4} particles")
             seen[step] = looks, frames, points
         time.sleep(0.3)
 finally:

@@ -13,7 +13,7 @@ from paraview.simple import *
 
 
 def widen(source, target, tiles):
-    """The last three frames of 1200 grains, each tiles x tiles times side by side."""
+    """The last three frames of 1200 particles, each tiles x tiles times side by side."""
     frames = source.read_text().split("ITEM: TIMESTEP\n")[-3:]
     with open(target, "w") as out:
         for frame in frames:
@@ -35,12 +35,12 @@ def widen(source, target, tiles):
 def look(file, threads, picture):
     """What anybody would write; the only word about cores is Threads."""
     start = time.perf_counter()
-    reader = OpenDataFile(file, Threads=threads, TimestepSize=2e-5)
+    reader = granular.reader(file, Threads=threads, dt=2e-5)
     times = reader.TimestepValues
     for moment in times:
         reader.UpdatePipeline(moment)
     took = time.perf_counter() - start
-    grains = reader.GetDataInformation().GetNumberOfPoints()
+    particles = reader.GetDataInformation().GetNumberOfPoints()
     fastest = reader.PointData["v"].GetRange(-1)[1]
 
     LoadPalette("WhiteBackground")
@@ -51,7 +51,7 @@ def look(file, threads, picture):
     Render(view)  # the first picture moves the camera
     granular.set_properties(view, CameraPosition=[0.35, -0.75, 0.65], CameraFocalPoint=[0.35, 0.25, 0])
     SaveScreenshot(picture, view)
-    print(f"{grains} grains, the fastest at {fastest:.17g} m/s: {len(times)} frames in {took:.2f} s")
+    print(f"{particles} particles, the fastest at {fastest:.17g} m/s: {len(times)} frames in {took:.2f} s")
 
 
 def result(name, said):
@@ -77,4 +77,4 @@ else:
                granular.pvbatch(__file__, "wide.dump", "0", "four_processes.png", ranks=4)),
     }
     assert len(results) == 1, results
-    print("the same grains at the same speeds; see one_core.png and four_processes.png")
+    print("the same particles at the same speeds; see one_core.png and four_processes.png")

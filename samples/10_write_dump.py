@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From dump to dump: keep some grains with a filter; write all frames as text, gzip and binary."""
+"""From dump to dump: keep some particles with a filter; write all frames as text, gzip and binary."""
 import gzip
 import re
 import sys
@@ -11,8 +11,8 @@ from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
-# The large grains only. What a filter makes of a dump still knows its steps, box and columns.
-reader = OpenDataFile(path)
+# The large particles only. What a filter makes of a dump still knows its steps, box and columns.
+reader = granular.reader(path)
 large = Threshold(Input=reader, Scalars=["POINTS", "radius"], LowerThreshold=0.003,
                   UpperThreshold=1)
 
@@ -34,7 +34,7 @@ for place, file, color in (1, path, "v"), (2, "large.bin", "speed"):
     AssignViewToLayout(view, strip, place)
     granular.set_properties(view, ViewTime=2000, CameraPosition=[0.20, -0.33, 0.19],
                             CameraFocalPoint=[0.006, 0, 0.070], CameraViewUp=[0, 0, 1])
-    shown = OpenDataFile(file)
+    shown = granular.reader(file)
     granular.show(shown, view, color=color)
     Show(OutputPort(shown, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=Path(file).name), view, WindowLocation="Upper Center", FontSize=18)
@@ -47,7 +47,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", Compone
 strip.SetSize(1000, 560)
 SaveScreenshot("before_and_after.png", strip, SeparatorWidth=0)
 
-# The same from the text: its own lines, without those of small grains.
+# The same from the text: its own lines, without those of small particles.
 expected = ""
 for frame in re.split(r"(?=ITEM: TIMESTEP\n)", Path(path).read_text())[1:]:
     lines = frame.splitlines(keepends=True)
@@ -59,7 +59,7 @@ assert Path("large.dump").read_text() == expected
 assert gzip.open("large.dump.gz", "rt").read() == expected
 
 # The binary file read back has the numbers that were written, bit by bit.
-back = OpenDataFile("large.bin")
+back = granular.reader("large.bin")
 times = list(reader.TimestepValues)
 assert list(back.TimestepValues) == times
 for time in times:
@@ -74,4 +74,4 @@ for time in times:
             assert None not in arrays and np.array_equal(*arrays), (name, time)
 sizes = ", ".join(f"{name} {Path(name).stat().st_size}"
                   for name in ("large.dump", "large.dump.gz", "large.bin"))
-print(f"{len(kept)} grains are large; bytes: {sizes}; see before_and_after.png")
+print(f"{len(kept)} particles are large; bytes: {sizes}; see before_and_after.png")

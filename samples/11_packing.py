@@ -7,7 +7,7 @@ import granular
 import numpy as np
 from paraview.simple import *
 
-# Small and large grains in random places: as many as fill 20 % of a box, periodic in x and y.
+# Small and large particles in random places: as many as fill 20 % of a box, periodic in x and y.
 random = GranularPackingSource(NumberOfGrains=0, SolidFraction=0.2, BoxLengths=[0.1, 0.1, 0.15],
                                Boundary="pp pp ff", Radii="Two", Radius=0.0025,
                                SecondRadius=0.004, SecondShare=0.25, Speed=0.05, Seed=7)
@@ -20,7 +20,7 @@ lattice = GranularPackingSource(Arrangement="FaceCentredCubic", NumberOfGrains=0
 # Both programs read dumps as they would their own:
 #   read_dump random.LIGGGHTS 0 x y z vx vy vz radius box yes add yes
 #   read_dump random.LAMMPS 0 x y z vx vy vz box yes add keep
-# 17 digits, so that no rounding makes grains touch.
+# 17 digits, so that no rounding makes particles touch.
 sources = {"random": random, "lattice": lattice}
 for (name, source), dialect in itertools.product(sources.items(), ("LIGGGHTS", "LAMMPS")):
     granular.save(source, f"{name}.{dialect}", Dialect=dialect, NumberFormat="%.17g",
@@ -41,7 +41,7 @@ GetColorTransferFunction("radius").RGBPoints = [0.0025, 0.27, 0.45, 0.7, 0.004, 
 strip.SetSize(1000, 600)
 SaveScreenshot("packings.png", strip, SeparatorWidth=0)
 
-# The same from the text: grains of neither file overlap, nor do those beyond the periodic faces.
+# The same from the text: particles of neither file overlap, nor do those beyond the periodic faces.
 for name, dialect in itertools.product(sources, ("LIGGGHTS", "LAMMPS")):
     header, *rows = Path(f"{name}.{dialect}").read_text().split("ITEM: ATOMS ")[-1].splitlines()
     table = np.array([row.split() for row in rows], float)
@@ -52,5 +52,5 @@ for name, dialect in itertools.product(sources, ("LIGGGHTS", "LAMMPS")):
     closest = gap[np.triu_indices(len(rows), 1)].min()
     filled = (4 / 3 * np.pi * column["radius"]**3).sum() / (0.1 * 0.1 * 0.15)
     assert closest > 0 and column["id"].tolist() == list(range(1, len(rows) + 1))
-    print(f"{name:7} for {dialect:8}: {len(rows)} grains fill {filled:.1%} of the box, "
+    print(f"{name:7} for {dialect:8}: {len(rows)} particles fill {filled:.1%} of the box, "
           f"the closest two are {closest * 1e6:.3g} micrometres apart")

@@ -10,8 +10,8 @@ data = Path(__file__).parent / "data/grains.dump"
 
 
 def write(name):
-    """What anybody would write: each process reads, filters and writes a part of the grains."""
-    reader = OpenDataFile(str(data))
+    """What anybody would write: each process reads, filters and writes a part of the particles."""
+    reader = granular.reader(data)
     small = Threshold(Input=reader, Scalars=["POINTS", "radius"], LowerThreshold=0,
                       UpperThreshold=0.003)
     # Gather: the first process writes for all. MPI-IO: each writes where its part belongs.
@@ -44,7 +44,7 @@ else:
     written = {file.read_bytes() for file in Path().glob("*.dump")}
     assert len(written) == 1 and len(list(Path().glob("*.dump"))) == 4
 
-    # The same from the text of the run: its lines of small grains, as they are. Others are shorter.
+    # The same from the text of the run: its lines of small particles, as they are. Others are shorter.
     lines = written.pop().decode().splitlines()
     rows = [line for line in data.read_text().splitlines() if len(line.split()) == 19]
     small = [row for row in rows if float(row.split()[17]) < 0.003]

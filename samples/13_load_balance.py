@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How evenly are the grains of a parallel run spread over its processes, and how would other grids do?"""
+"""How evenly are the particles of a parallel run spread over its processes, and how would other grids do?"""
 from pathlib import Path
 
 import granular
@@ -7,10 +7,10 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
-grains = OpenDataFile(str(data / "grains.dump"))
+particles = granular.reader(data / "grains.dump")
 
 # The run had four processes, `processors 2 1 2`: what each of them owns is a voxel.
-domains = GranularDecomposition(Input=grains, ProcessorGrid=[2, 1, 2])
+domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
 
 LoadPalette("WhiteBackground")
 strip = CreateLayout()
@@ -20,7 +20,7 @@ for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
     view.ViewTime = step  # each view has its own
-    granular.show(grains, view)
+    granular.show(particles, view)
     voxels = Show(domains, view, Representation="Surface With Edges", Opacity=0.5)
     ColorBy(voxels, ("CELLS", "nlocal"))
     Show(Text(Text=f"step {step}"), view, WindowLocation="Upper Center", FontSize=18)
@@ -29,7 +29,7 @@ for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
                             CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("nlocal")
 colors.RescaleTransferFunction(0, 600)
-granular.set_properties(GetScalarBar(colors, view), Title="grains of a process", ComponentTitle="",
+granular.set_properties(GetScalarBar(colors, view), Title="particles per rank", ComponentTitle="",
                         WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.6,
                         **granular.label_format("%.0f"))
 voxels.SetScalarBarVisibility(view, True)
@@ -47,21 +47,21 @@ def count(**properties):
             voxels.GetFieldData().GetArray("imbalance").GetValue(0))
 
 
-# At the end the grains lie on the ground, and two of the four processes have nothing to do.
+# At the end the particles lie on the ground, and two of the four processes have nothing to do.
 own, imbalance = count()
-print(f"2 x 1 x 2: {own.tolist()} grains, imbalance {imbalance:.2f}")
+print(f"2 x 1 x 2: {own.tolist()} particles, imbalance {imbalance:.2f}")
 assert own.sum() == 1200 and imbalance > 1.9
 side_by_side, better = count(ProcessorGrid=[2, 2, 1])
-print(f"2 x 2 x 1: {side_by_side.tolist()} grains, imbalance {better:.2f}")
+print(f"2 x 2 x 1: {side_by_side.tolist()} particles, imbalance {better:.2f}")
 assert better < 1.1
-# Or cut the box where half of the grains lie below.
-points = servermanager.Fetch(grains).GetPoints()
+# Or cut the box where half of the particles lie below.
+points = servermanager.Fetch(particles).GetPoints()
 height = np.median([points.GetPoint(i)[2] for i in range(points.GetNumberOfPoints())])
 cut, balanced = count(ProcessorGrid=[2, 1, 2], ZCuts=[height])
-print(f"2 x 1 x 2, cut at half of them: {cut.tolist()} grains, imbalance {balanced:.2f}")
+print(f"2 x 1 x 2, cut at half of them: {cut.tolist()} particles, imbalance {balanced:.2f}")
 assert balanced < 1.1
 
-# The same from the text: how many grains of the last frame are where?
+# The same from the text: how many particles of the last frame are where?
 frame = (data / "grains.dump").read_text().split("ITEM: ATOMS ")[-1].splitlines()
 x, z = np.array([row.split() for row in frame[1:]], float)[:, [2, 4]].T
 owner = 2 * (x >= 0) + (z >= 0.075)

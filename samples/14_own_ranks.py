@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which part of the grains has each process of ParaView? Four of them show their own share as boxes."""
+"""Which part of the particles has each process of ParaView? Four of them show their own share as boxes."""
 import csv
 import sys
 from pathlib import Path
@@ -11,11 +11,11 @@ data = Path(__file__).parent / "data"
 
 
 def show(name):
-    grains = OpenDataFile(str(data / "grains.dump"))
+    particles = granular.reader(data / "grains.dump")
     # Mode Ranks: the bounds of what each process has. A piece of a dump is a part of its lines, wherever
-    # these grains are; D3 (Redistribute Data Set) sends each to a process that has the others around it.
-    near = D3(Input=grains)
-    shares = {"as they are read": (grains, GranularDecomposition(Input=grains, Mode="Ranks")),
+    # these particles are; D3 (Redistribute Data Set) sends each to a process that has the others around it.
+    near = D3(Input=particles)
+    shares = {"as they are read": (particles, GranularDecomposition(Input=particles, Mode="Ranks")),
               "redistributed": (near, GranularDecomposition(Input=near, Mode="Ranks"))}
     LoadPalette("WhiteBackground")
     strip = CreateLayout()
@@ -46,7 +46,7 @@ def show(name):
         with open("shares.csv") as file:
             counts = [int(row["nlocal"]) for row in csv.DictReader(file)]
         imbalance = max(counts) / (sum(counts) / 4)
-        print(f"{text}: {counts} grains, imbalance {imbalance:.2f}")
+        print(f"{text}: {counts} particles, imbalance {imbalance:.2f}")
         assert sum(counts) == 1200
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How densely are grains packed, and where is the surface of the heap? Averages over cells say it."""
+"""How densely are particles packed, and where is the surface of the heap? Averages over cells say it."""
 from pathlib import Path
 
 import granular
@@ -7,10 +7,10 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
-grains = OpenDataFile(str(data / "grains.dump"), TimestepSize=2e-5)
+particles = granular.reader(data / "grains.dump", dt=2e-5)
 
-# Cells of 10 mm: an image with cell data. Each grain counts in every cell by the part of its sphere there.
-cells = GranularEulerAverage(Input=grains, CellCounts=[10, 10, 15])
+# Cells of 10 mm: an image with cell data. Each particle counts in every cell by the part of its sphere there.
+cells = GranularEulerAverage(Input=particles, CellCounts=[10, 10, 15])
 fields = CellDatatoPointData(Input=cells)
 middle = Slice(Input=fields, SliceType="Plane")
 granular.set_properties(middle.SliceType, Origin=[0, 0, 0.075], Normal=[0, 1, 0])
@@ -21,14 +21,14 @@ strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
 views = []
-for place, text in ((1, "grains"), (5, "volume fraction"), (6, "where it is 0.3")):
+for place, text in ((1, "particles"), (5, "volume fraction"), (6, "where it is 0.3")):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
     view.ViewTime = 4000 * 2e-5  # each view has its own
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
-    Show(OutputPort(grains, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
+    Show(OutputPort(particles, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     views.append(view)
-granular.show(grains, views[0], color="radius").SetScalarBarVisibility(views[0], False)
+granular.show(particles, views[0], color="radius").SetScalarBarVisibility(views[0], False)
 shown = Show(middle, views[1], Ambient=1, Diffuse=0)
 ColorBy(shown, ("POINTS", "volumefraction"))
 colors = GetColorTransferFunction("volumefraction")
@@ -40,7 +40,7 @@ shown.SetScalarBarVisibility(views[1], True)
 shown = Show(surface, views[2])
 ColorBy(shown, None)
 granular.set_properties(shown, AmbientColor=[0.27, 0.45, 0.7], DiffuseColor=[0.27, 0.45, 0.7])
-granular.show(grains, views[2]).Opacity = 0.15
+granular.show(particles, views[2]).Opacity = 0.15
 for view in views:
     Render(view)  # the first picture moves the camera
     granular.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
@@ -65,9 +65,9 @@ solid = (4 / 3 * np.pi * radius**3 - np.pi * below**2 * (radius - below / 3)).su
 overlap = fetch()["volumefraction"]
 volume = 0.1 * 0.1 * 0.15 / len(overlap)
 assert abs(overlap.sum() * volume - solid) < 1e-12 * solid
-print(f"{len(radius)} grains have {solid * 1e6:.4f} ml in {len(overlap)} cells; fullest cell: {overlap.max():.3f}")
+print(f"{len(radius)} particles have {solid * 1e6:.4f} ml in {len(overlap)} cells; fullest cell: {overlap.max():.3f}")
 
-# Where each grain belongs to the cell of its centre, whole, as LIGGGHTS has it, small cells are ragged.
+# Where each particle belongs to the cell of its centre, whole, as LIGGGHTS has it, small cells are ragged.
 centre = fetch(Weights="Centre")["volumefraction"]
 print(f"by centres: {(centre == 0).sum()} cells are empty, not {(overlap == 0).sum()}; "
       f"fullest cell: {centre.max():.3f}")

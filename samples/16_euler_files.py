@@ -7,11 +7,11 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
-files = OpenDataFile(granular.files(str(data / "euler_*.vtk")))
-grains = OpenDataFile(str(data / "grains.dump"))
+files = granular.reader(data / "euler_*.vtk")
+particles = granular.reader(data / "grains.dump")
 
 # `fix ave/euler ... cell_size_relative 3`: cells of three times the largest diameter or more.
-averages = GranularEulerAverage(Input=grains, Output="Points", CellsBy="CellSizeRelative",
+averages = GranularEulerAverage(Input=particles, Output="Points", CellsBy="CellSizeRelative",
                                 CellSizeRelative=3, Weights="Centre")
 
 
@@ -25,7 +25,7 @@ def fetch(proxy, step):
 
 
 def processes_of(step):
-    """LIGGGHTS' processes wrote their grains into files of their own, too."""
+    """LIGGGHTS' processes wrote their particles into files of their own, too."""
     owner = {}
     for process in range(4):
         rows = (data / f"pieces/pieces_{step}.{process}.dump").read_text().split("ITEM: ATOMS ")[1]
@@ -34,8 +34,8 @@ def processes_of(step):
 
 
 def shared_cells(step, centres):
-    """Which cells have grains of several processes: all corners are at the same distance from a centre."""
-    points = servermanager.Fetch(grains)
+    """Which cells have particles of several processes: all corners are at the same distance from a centre."""
+    points = servermanager.Fetch(particles)
     places, ids = np.array(points.GetPoints().GetData()), np.array(points.GetPointData().GetArray("id"))
     places[:, :2] = (places[:, :2] + 0.05) % 0.1 - 0.05  # periodic in x and y
     nearest = (abs(places[:, None] - centres) / [0.1 / 4, 0.1 / 4, 0.15 / 7]).max(axis=2).argmin(axis=1)
@@ -45,7 +45,7 @@ def shared_cells(step, centres):
 
 
 # The files have six decimals, the dump six digits; of the stress the pressure needs it has none.
-# Where grains of two processes of LIGGGHTS meet in a cell, its own v_avg is too small, by up to 3.5e-5 of it:
+# Where particles of two processes of LIGGGHTS meet in a cell, its own v_avg is too small, by up to 3.5e-5 of it:
 # with one process it is not.
 print("largest differences    centre  volumefraction  radius   v_avg  v_avg of cells that processes share")
 for step in (1000, 2000, 3000, 4000):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How is the weight of a bed of grains carried? Its contacts as tubes, as thick and red as their force is large."""
+"""How is the weight of a bed of particles carried? Its contacts as tubes, as thick and red as their force is large."""
 from pathlib import Path
 
 import granular
@@ -7,9 +7,9 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
-grains = OpenDataFile(str(data / "settled_grains.dump.gz"))
+particles = granular.reader(data / "settled_grains.dump.gz")
 # The columns are called c_fc[1] and so on. Without a Preset the reader finds out what they are, and says what it took.
-contacts = OpenDataFile(str(data / "settled_contacts.dump.gz"), Preset="ContactsForce")
+contacts = granular.reader(data / "settled_contacts.dump.gz", Preset="ContactsForce")
 
 # Tubes take their radius from an array of points: each line has two of its own, so that nothing is mixed.
 strength = Calculator(Input=contacts, AttributeType="Cell Data", ResultArrayName="strength", Function="mag(force)")
@@ -19,23 +19,23 @@ chains = Tube(Input=CellDatatoPointData(Input=thickness), Scalars=["POINTS", "th
 
 LoadPalette("WhiteBackground")
 view = CreateRenderView(ViewSize=[1000, 500], OrientationAxesVisibility=0)
-grey = granular.show(grains, view)
+grey = granular.show(particles, view)
 granular.set_properties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
 shown = Show(chains, view)
 ColorBy(shown, ("POINTS", "strength"))
 shown.SetScalarBarVisibility(view, True)
 granular.set_properties(GetScalarBar(GetColorTransferFunction("strength"), view), Title="force [N]", ComponentTitle="",
                         HorizontalTitle=1, **granular.label_format("%.3f"))
-Show(OutputPort(grains, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
+Show(OutputPort(particles, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
 Render(view)
 granular.set_properties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoint=[0.004, 0, 0.006],
                         CameraViewUp=[0, 0, 1])
 SaveScreenshot("force_chains.png", view)
 
-# What acts on a grain that does not touch the ground: its weight, and the forces of its contacts, opposite at both ends.
+# What acts on a particle that does not touch the ground: its weight, and the forces of its contacts, opposite at both ends.
 rows = servermanager.Fetch(contacts, 0).GetCellData()
 id1, id2, force = (np.array(rows.GetArray(name)) for name in ("id1", "id2", "force"))
-points = servermanager.Fetch(grains, 0)
+points = servermanager.Fetch(particles, 0)
 ids, radius, mass, f = (np.array(points.GetPointData().GetArray(name)) for name in ("id", "radius", "mass", "f"))
 height = np.array(points.GetPoints().GetData())[:, 2]
 row = {number: index for index, number in enumerate(ids)}
@@ -45,5 +45,5 @@ np.add.at(total, [row[number] for number in id2], -force)
 total[:, 2] -= 9.81 * mass
 above = height > radius
 assert np.abs(total - f)[above].max() < 1e-7 * np.abs(force).max()
-print(f"{len(id1)} contacts of {len(ids)} grains; the largest force is {np.abs(force).max():.3f} N, "
-      f"{np.abs(force).max() / (9.81 * mass.mean()):.0f} times the weight of a grain")
+print(f"{len(id1)} contacts of {len(ids)} particles; the largest force is {np.abs(force).max():.3f} N, "
+      f"{np.abs(force).max() / (9.81 * mass.mean()):.0f} times the weight of a particle")

@@ -7,9 +7,9 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
-beads = OpenDataFile(str(data / "chain.dump"), TimestepSize=0.004)
+beads = granular.reader(data / "chain.dump", dt=0.004)
 # Columns in the order of the dump command; rows with ids alone are no lines by themselves.
-bonds = OpenDataFile(str(data / "chain_bonds.dump"), TimestepSize=0.004, Preset="BondTypeIdsForce")
+bonds = granular.reader(data / "chain_bonds.dump", dt=0.004, Preset="BondTypeIdsForce")
 lines = GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1), Averages="v", EquilibriumLength=1.05)
 
 LoadPalette("WhiteBackground")
@@ -44,7 +44,7 @@ for step in 0, 500, 1000:
           f"strained by {strain.min():+.3f} to {strain.max():+.3f}")
 
 # The bonds of a data file do as well: the ids are the same.
-pairs = OpenDataFile(str(data / "chain.data"), AtomStyle="bond")
+pairs = granular.reader(data / "chain.data", AtomStyle="bond")
 again = GranularLocalJoin(Input=beads, Lines=OutputPort(pairs, 1))
 again.UpdatePipeline(time)
 lines.UpdatePipeline(time)

@@ -8,12 +8,12 @@ block = GranularPackingSource(Arrangement="FaceCentredCubic", NumberOfGrains=0, 
                               BoxLengths=[0.16, 0.05, 0.05], BondFactor=1.05)
 bonds = OutputPort(block, "Bonds")
 
-# The cut is a plane: grains are on side 1 or -1 of it, and a bond whose ends differ crosses it.
+# The cut is a plane: particles are on side 1 or -1 of it, and a bond whose ends differ crosses it.
 sided = Calculator(Input=block, ResultArrayName="side", Function="sign(coordsX - 0.08 + 0.5*(coordsZ - 0.025))")
 told = GranularLocalJoin(Input=sided, Lines=bonds, Differences="side")
 kept = Threshold(Input=told, Scalars=["CELLS", "side_difference"], LowerThreshold=-0.5, UpperThreshold=0.5)
 
-# Both halves bend and part. The bonds follow their grains: each line is joined again, by the ids of its ends.
+# Both halves bend and part. The bonds follow their particles: each line is joined again, by the ids of its ends.
 bent = Calculator(Input=sided, CoordinateResults=1,
                   Function="(coordsX + 0.008*side)*iHat + coordsY*jHat + (coordsZ - 2*(coordsX - 0.08)^2)*kHat")
 before = GranularLocalJoin(Input=sided, Lines=bonds)
@@ -22,10 +22,10 @@ after = GranularLocalJoin(Input=bent, Lines=kept)
 LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 0.5)
-for place, grains, lines, text in ((1, sided, before, "whole"), (2, bent, after, "cut and bent")):
+for place, particles, lines, text in ((1, sided, before, "whole"), (2, bent, after, "cut and bent")):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    granular.show(grains, view).Opacity = 0.08
+    granular.show(particles, view).Opacity = 0.08
     shown = Show(Tube(Input=lines, Radius=0.0007), view)
     ColorBy(shown, ("CELLS", "strain"))
     GetColorTransferFunction("strain").RescaleTransferFunction(-0.2, 0.2)

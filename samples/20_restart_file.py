@@ -7,7 +7,7 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "restart"
-fibres = OpenDataFile([str(data / f"fibres.{step}.restart") for step in (10000, 20000, 40000)], TimestepSize=1e-6)
+fibres = granular.reader([data / f"fibres.{step}.restart" for step in (10000, 20000, 40000)], dt=1e-6)
 bonds = OutputPort(fibres, 1)
 
 LoadPalette("WhiteBackground")
@@ -18,8 +18,8 @@ for place, time in ((1, 0.01), (2, 0.04)):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
     view.ViewTime = time
-    grains = Show(fibres, view, AmbientColor=[0.85] * 3, DiffuseColor=[0.85] * 3, Opacity=0.25)
-    ColorBy(grains, ("POINTS", ""))
+    display = Show(fibres, view, AmbientColor=[0.85] * 3, DiffuseColor=[0.85] * 3, Opacity=0.25)
+    ColorBy(display, ("POINTS", ""))
     # The history says what bends each bond: the moment across it.
     moment = Calculator(Input=bonds, AttributeType="Cell Data", ResultArrayName="bending moment [N m]",
                         Function="mag(torque_tangential)")
@@ -45,9 +45,9 @@ for time in 0.01, 0.02, 0.04:
     arrays = {name: np.array(lines.GetCellData().GetArray(name))
               for name in ("id1", "id2", "length", "damage", "equilibrium_length", "torque_tangential")}
     assert len(positions) == 87 and lines.GetNumberOfCells() == 8 * 9 + 7 and (arrays["damage"] == 1).all()
-    # A fibre is held at its first grain, and bends most there.
+    # A fibre is held at its first particle, and bends most there.
     moments = np.linalg.norm(arrays["torque_tangential"], axis=1)
     fibre = (arrays["id1"] <= 10) & (arrays["id2"] <= 10)
     print(f"{1000 * time:.0f} ms: the first fibre's end is {-1000 * positions[10][2]:.2f} mm down, "
-          f"bent by {1e6 * moments[fibre].max():.2f} uN m at grain {arrays['id1'][fibre][moments[fibre].argmax()]}, "
+          f"bent by {1e6 * moments[fibre].max():.2f} uN m at particle {arrays['id1'][fibre][moments[fibre].argmax()]}, "
           f"bonds are stretched by {(arrays['length'] / arrays['equilibrium_length'] - 1).max():.1e} at most")

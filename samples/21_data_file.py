@@ -8,7 +8,7 @@ from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
 # The comment `Atoms # bond` would say the style; this file does not have it.
-chains = OpenDataFile(str(data / "chain.data"), AtomStyle="bond")
+chains = granular.reader(data / "chain.data", AtomStyle="bond")
 bonds = OutputPort(chains, 1)
 
 LoadPalette("WhiteBackground")

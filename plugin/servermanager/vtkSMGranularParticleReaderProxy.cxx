@@ -40,3 +40,12 @@ void vtkSMGranularParticleReaderProxy::UpdatePipelineInformation()
     this->UpdateVTKObjects();
   }
 }
+
+void vtkSMGranularParticleReaderProxy::PostUpdateData(bool usingCache)
+{
+  this->Superclass::PostUpdateData(usingCache);
+  if (vtkSMProperty* arrays = this->GetProperty("PointArrayInfo"))
+  {
+    this->UpdatePropertyInformation(arrays);
+  }
+}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMGranularParticleReaderProxy
- * @brief   Chooses the arrays of particle readers anew when other files are opened.
+ * @brief   Keeps the list of arrays of particle readers up to date.
  *
  * Made for elements GranularParticleReaderProxy of the server manager's XML.
  */
@@ -28,6 +28,11 @@ public:
 protected:
   vtkSMGranularParticleReaderProxy();
   ~vtkSMGranularParticleReaderProxy() override;
+
+  /**
+   * Asks for the arrays that the update has found, as after AtomStyle or ColumnNames has changed.
+   */
+  void PostUpdateData(bool usingCache) override;
 
 private:
   vtkSMGranularParticleReaderProxy(const vtkSMGranularParticleReaderProxy&) = delete;

@@ -19,6 +19,12 @@ def below_prefix(path):
 
 loaded_by_itself = hasattr(paraview.simple, "GranularDumpReader")
 assert loaded_by_itself == bool(os.environ["PV_PLUGIN_PATH"]), "is another plugin installed?"
+if not loaded_by_itself:
+    try:
+        granular.reader(__file__)
+        raise AssertionError("a reader without the plugin")
+    except RuntimeError as error:
+        assert "granular.load_plugin()" in str(error), error
 loaded = granular.load_plugin()
 tracker = vtkPVPluginTracker.GetInstance()
 plugins = {tracker.GetPluginName(i): i for i in range(tracker.GetNumberOfPlugins())}
