@@ -30,8 +30,8 @@ public:
 
   ///@{
   /**
-   * How many threads work. 0, the default: the cores of the machine, divided by the processes of the Controller that run on
-   * it. Changes no result. Below 0 is an error and changes nothing.
+   * Sets the number of threads. 0, the default: the cores of the machine, divided by the ranks of the Controller on it.
+   * The number changes no result. Numbers below 0 are an error and change nothing.
    */
   void SetThreads(int threads);
   vtkGetMacro(Threads, int);
@@ -39,21 +39,21 @@ public:
 
   ///@{
   /**
-   * The processes that work together, each with its part of the inputs and of the output: all of them must set it, set the same
-   * properties, and update together. What goes wrong on one of them is an error of all. The global controller by default;
-   * null: this process is alone, whatever others do.
+   * Sets the ranks that work together, each with its part of the inputs and the output. All of them must set the
+   * controller and the same properties, and update together. An error on one rank is an error on all. Default: the global
+   * controller; null: this rank works alone.
    */
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
   ///@}
 
   /**
-   * Stops the update that comes next, or that is running, on all processes of the Controller.
+   * Stops the next or the running update, on all ranks of the Controller.
    */
   void SetAbortExecute(vtkTypeBool abort) override;
 
   /**
-   * Returns the error of the last update, as it was told, or an empty text if there was none.
+   * Returns the error of the last update, or an empty text if there was none.
    */
   const char* GetErrorMessage();
 
@@ -65,14 +65,13 @@ protected:
     vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
 
   /**
-   * Tells that all outputs can be had in pieces.
+   * Announces that all outputs come in pieces.
    */
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
   /**
-   * Asks for the piece of the inputs that this process has. Who is asked for another one than its own makes that from the
-   * whole.
+   * Asks the inputs for the piece of this rank. If asked for another piece, the algorithm makes it from the whole.
    */
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -81,7 +80,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /**
-   * Fills the outputs. Called by all processes together; may throw what the core does.
+   * Fills the outputs. Collective; may throw the core's errors.
    */
   virtual void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;

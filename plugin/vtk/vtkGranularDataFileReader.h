@@ -41,7 +41,7 @@ public:
 
   ///@{
   /**
-   * The particles, and the bonds.
+   * Returns the particles, and the bonds.
    */
   vtkPolyData* GetOutput();
   vtkPolyData* GetBonds();
@@ -63,9 +63,9 @@ public:
 
   ///@{
   /**
-   * The atom style, which says what the columns are: atomic, charge, bond, angle, molecular, full, sphere, granular or ellipsoid.
-   * Empty or "automatic", the default: that of the comment `Atoms # style`; without one the only style that fits the first rows,
-   * with a warning, or else an error that lists those that fit.
+   * Sets the atom style, which defines the columns: atomic, charge, bond, angle, molecular, full, sphere, granular or
+   * ellipsoid. Empty or "automatic", the default: the style in the comment `Atoms # style`; without it the only style that
+   * fits the first rows, with a warning. If several styles fit, an error lists them.
    */
   void SetAtomStyle(const char* style);
   const char* GetAtomStyle();
@@ -73,8 +73,8 @@ public:
 
   ///@{
   /**
-   * The boundaries of the box, which data files do not say: "p p f" or "pp pp ff", see granular::parse_boundary. Empty, the
-   * default: periodic along the axes along which the image count of some particle is not 0.
+   * Sets the boundaries of the box, which data files do not contain: "p p f" or "pp pp ff", see granular::parse_boundary.
+   * Empty, the default: axes along which a particle has an image count other than 0 are periodic.
    */
   void SetBoundary(const char* boundary);
   const char* GetBoundary();
@@ -82,7 +82,7 @@ public:
 
   ///@{
   /**
-   * As of vtkGranularDumpReader. ABSOLUTE by default.
+   * Sets the form of the points, as in vtkGranularDumpReader. ABSOLUTE by default.
    */
   vtkSetClampMacro(Coordinates, int, ABSOLUTE, SCALED);
   vtkGetMacro(Coordinates, int);
@@ -90,8 +90,9 @@ public:
 
   ///@{
   /**
-   * How bonds across the periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the second
-   * particle. SPLIT: from both particles to the faces. AS_WRITTEN: from particle to particle, through the whole box.
+   * Sets how lines across periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the
+   * second particle; the line is short and may leave the box. SPLIT: from both particles to the faces, in parts.
+   * AS_WRITTEN: from end to end, through the whole box.
    */
   vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
@@ -99,7 +100,8 @@ public:
 
   ///@{
   /**
-   * Subtracted from the points of all outputs, in double precision and before any rounding. Any finite numbers; (0, 0, 0) by default.
+   * Sets a point that is subtracted from all points, in double precision and before any rounding; for data far from the
+   * origin. Any finite numbers; (0, 0, 0) by default.
    */
   vtkSetVector3Macro(PointOrigin, double);
   vtkGetVector3Macro(PointOrigin, double);
@@ -116,7 +118,8 @@ public:
 
   ///@{
   /**
-   * n keeps the particles whose id is a multiple of n. Below 1 is an error and changes nothing. 1 by default: all particles.
+   * Sets the stride: n keeps the particles whose id is a multiple of n. Numbers below 1 are an error and change nothing. 1
+   * by default: all particles.
    */
   void SetStride(vtkTypeInt64 stride);
   vtkGetMacro(Stride, vtkTypeInt64);
@@ -124,8 +127,8 @@ public:
 
   ///@{
   /**
-   * Keeps the particles whose centres are in xmin xmax ymin ymax zmin zmax, faces included, in absolute coordinates. An axis with min >
-   * max is free. (1, -1, 1, -1, 1, -1), all, by default.
+   * Sets a region, xmin xmax ymin ymax zmin zmax in absolute coordinates, faces included: only particles whose centres are
+   * inside are kept. An axis with min > max is not restricted. (1, -1, 1, -1, 1, -1), all particles, by default.
    */
   vtkSetVector6Macro(RegionOfInterest, double);
   vtkGetVector6Macro(RegionOfInterest, double);
@@ -133,16 +136,16 @@ public:
 
   ///@{
   /**
-   * Which arrays of particles and of bonds are read. Filled by UpdateInformation() with those of the first and the last file: all
-   * on, but for coordinate columns.
+   * Returns the selection of the particle or the bond arrays. UpdateInformation() fills it with the arrays of the first
+   * and the last file: all on, except coordinate columns.
    */
   virtual vtkDataArraySelection* GetPointDataArraySelection();
   virtual vtkDataArraySelection* GetCellDataArraySelection();
   ///@}
 
   /**
-   * True if the first bytes are a title and a header that counts atoms. False, silently, for all else, missing files and
-   * directories included.
+   * Returns true if the first bytes are a title and a header that counts atoms. Returns false, without a message, for all
+   * other files, missing files and directories.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

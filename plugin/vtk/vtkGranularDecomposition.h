@@ -37,11 +37,11 @@ public:
 
   ///@{
   /**
-   * PROCESSOR_GRID, the default: the grid of ProcessorGrid, NumberOfProcesses and the cuts, in the box of the field
-   * data, or in Bounds. PROCESS_ARRAY: for each process that the point array ProcessArray names (`proc` of a
-   * dump) the bounds of its particles. SUBDOMAINS: the voxels of the second input, such as a
-   * decomposition that was read. RANKS: for each process of the Controller, which is to say of ParaView, that has
-   * particles now the bounds of these. The results of the first three do not depend on the processes of the Controller.
+   * Sets which subdomains are used. PROCESSOR_GRID, the default: the grid of ProcessorGrid, NumberOfProcesses and the
+   * cuts, in the box of the field data, or in Bounds. PROCESS_ARRAY: the bounds of the particles of each rank in the point
+   * array ProcessArray (`proc` of a dump). SUBDOMAINS: the voxels of the second input, such as a decomposition file.
+   * RANKS: the bounds of the particles that each rank of the Controller (of ParaView) holds now, if any. The first three
+   * do not depend on the ranks of the Controller.
    */
   vtkSetClampMacro(Mode, int, PROCESSOR_GRID, RANKS);
   vtkGetMacro(Mode, int);
@@ -49,15 +49,14 @@ public:
 
   ///@{
   /**
-   * The point array of PROCESS_ARRAY: the rank of the process that owns the particle, a whole number from 0. "proc"
-   * by default.
+   * Sets the point array for PROCESS_ARRAY: the rank that owns each particle, integers from 0. "proc" by default.
    */
   vtkSetStringMacro(ProcessArray);
   vtkGetStringMacro(ProcessArray);
   ///@}
 
   /**
-   * The voxels of SUBDOMAINS: input port 1. nlocal need not be there, and is not used.
+   * Sets the voxels for SUBDOMAINS: input port 1. Their nlocal is not used.
    */
   void SetSubdomainsConnection(vtkAlgorithmOutput* output);
 

@@ -27,15 +27,15 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The subdomains.
+   * Returns the subdomains.
    */
   vtkUnstructuredGrid* GetOutput();
 
   ///@{
   /**
-   * The box that is divided, xlo xhi ylo yhi zlo zhi, in the unit of length of the simulation. Of the source: finite,
-   * lo <= hi, (0, 1, 0, 1, 0, 1) by default. Of the filter: an axis with lo > hi is that of the box in the field data of
-   * the input; (1, -1, 1, -1, 1, -1) by default.
+   * Sets the box that is divided, xlo xhi ylo yhi zlo zhi, in the simulation's unit of length. For the source: finite, lo
+   * <= hi, (0, 1, 0, 1, 0, 1) by default. For the filter: an axis with lo > hi uses the box in the field data of the
+   * input; (1, -1, 1, -1, 1, -1) by default.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -43,7 +43,7 @@ public:
 
   ///@{
   /**
-   * How many processes there are: px py pz of ProcessorGrid, or it is an error. 0, the default: as many as the grid has.
+   * Sets the total number of ranks, which must be px py pz of ProcessorGrid. 0, the default: as many as the grid has.
    */
   vtkSetMacro(NumberOfProcesses, int);
   vtkGetMacro(NumberOfProcesses, int);
@@ -51,9 +51,9 @@ public:
 
   ///@{
   /**
-   * px py pz, how many processes there are along x, y and z; (1, 1, 1) by default. A 0 is chosen, as the `*` of the
-   * command `processors`: such that the areas between subdomains are least, or as the cuts say. Process
-   * (i py + j) pz + k has the i-th subdomain along x, the j-th along y and the k-th along z, as in LIGGGHTS and LAMMPS.
+   * Sets the numbers of ranks along x, y and z, px py pz; (1, 1, 1) by default. A 0 stands for the `*` of the command
+   * `processors`: the number follows from the cuts, or is chosen for the smallest area between subdomains. Rank (i py + j)
+   * pz + k has the i-th subdomain along x, the j-th along y and the k-th along z, as in LIGGGHTS and LAMMPS.
    */
   vtkSetVector3Macro(ProcessorGrid, int);
   vtkGetVector3Macro(ProcessorGrid, int);
@@ -61,7 +61,7 @@ public:
 
   ///@{
   /**
-   * Where the box is cut along an axis: p - 1 positions inside the bounds, increasing. None, the default: evenly.
+   * Adds a cut along an axis: p - 1 positions inside the bounds, ascending. None, the default: equal parts.
    */
   void AddXCut(double position);
   void AddYCut(double position);
@@ -74,8 +74,8 @@ public:
 
   ///@{
   /**
-   * On: corners of several subdomains of a piece that are the same become one point, so that filters know the
-   * subdomains for neighbours. Off, the default: 8 points each.
+   * On: subdomains of a piece that touch share their corner points, so that filters see them as neighbours. Off, the
+   * default: 8 points each.
    */
   vtkSetMacro(SharedCorners, bool);
   vtkGetMacro(SharedCorners, bool);

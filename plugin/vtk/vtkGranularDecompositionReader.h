@@ -33,7 +33,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The voxels.
+   * Returns the voxels.
    */
   vtkUnstructuredGrid* GetOutput();
 
@@ -46,9 +46,9 @@ public:
 
   ///@{
   /**
-   * What becomes of subdomains that are not what they should be, an error (the default), a warning, or nothing: with
-   * CheckBounds where lower bounds are above upper ones, or are no numbers; with CheckOverlap where two share more than
-   * faces; with CheckGaps where together they do not fill the smallest box around all.
+   * Sets the action for wrong subdomains: an error (the default), a warning, or none. CheckBounds: lower bounds above
+   * upper ones, or not numbers. CheckOverlap: two subdomains share more than faces. CheckGaps: together they do not fill
+   * the smallest box around them.
    */
   vtkSetClampMacro(CheckBounds, int, ANSWER_ERROR, ANSWER_NOTHING);
   vtkGetMacro(CheckBounds, int);
@@ -60,7 +60,7 @@ public:
 
   ///@{
   /**
-   * What these checks let pass: an overlap of this part of the box's edge, and gaps of this part of its
+   * Sets what these checks accept: overlaps up to this fraction of the box's edge, and gaps up to this fraction of its
    * volume. 1e-9 by default.
    */
   vtkSetClampMacro(Tolerance, double, 0, 1);
@@ -69,7 +69,8 @@ public:
 
   ///@{
   /**
-   * On: corners of several subdomains of a piece that are the same become one point. Off by default.
+   * On: subdomains of a piece that touch share their corner points, so that filters see them as neighbours. Off, the
+   * default: 8 points each.
    */
   vtkSetMacro(SharedCorners, bool);
   vtkGetMacro(SharedCorners, bool);
@@ -77,8 +78,8 @@ public:
   ///@}
 
   /**
-   * Returns 1 if the file is of dump decomposition/vtk, by what is in it; other .vtk and .vtu files are for others.
-   * Never fails.
+   * Returns 1 if the contents of the file are those of dump decomposition/vtk, and 0 for other .vtk and .vtu files. Never
+   * fails.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

@@ -45,9 +45,9 @@ public:
 
   ///@{
   /**
-   * Whose files they are like. INL, the default: voxels with arrays, one time step a file. PUBLIC: the rectilinear grid of
-   * LIGGGHTS-PUBLIC, byte for byte: coordinates with six decimals, no arrays; legacy text only; subdomains must form a
-   * grid. Several time steps come one after the other in one file if there is no `*` in its name.
+   * Sets the program whose format is written. INL, the default: voxels with arrays, one timestep per file. PUBLIC: the
+   * rectilinear grid of LIGGGHTS-PUBLIC, byte for byte: coordinates with six decimals, no arrays, legacy text only; the
+   * subdomains must form a grid. Without a `*` in the name, several timesteps go into one file.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);
@@ -55,7 +55,7 @@ public:
 
   ///@{
   /**
-   * Off. On is an error of Write(): the format is text.
+   * Off by default. On is an error of Write(), because the format is text.
    */
   vtkSetMacro(Binary, bool);
   vtkGetMacro(Binary, bool);

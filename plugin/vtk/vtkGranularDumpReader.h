@@ -51,7 +51,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The particles.
+   * Returns the particles.
    */
   vtkPolyData* GetOutput();
 
@@ -71,26 +71,26 @@ public:
 
   ///@{
   /**
-   * Names of all columns, separated by blanks or commas, for binary files that do not hold them
-   * (LIGGGHTS, and LAMMPS before 2020). Empty, the default: 5 or 8 columns are those of dump atom,
-   * scaled, and frames of any other number cannot be read.
+   * Sets the names of all columns, separated by blanks or commas, for binary files without names (LIGGGHTS, and LAMMPS
+   * before 2020). Empty, the default: 5 or 8 columns are those of dump atom, scaled; frames with other numbers of columns
+   * cannot be read.
    */
   void SetColumnNames(const char* names);
   const char* GetColumnNames();
   ///@}
 
   /**
-   * True if the first 64 KiB, decompressed, are those of a dump of particles: a text with ITEM:
-   * TIMESTEP, UNITS or TIME and, as far as they reach, ITEM: NUMBER OF ATOMS; or a binary header that
-   * can be one. False, silently, for all else, missing files and directories included.
+   * Returns true if the first 64 KiB, decompressed, begin a dump of particles: text with ITEM: TIMESTEP, UNITS or TIME
+   * and, if they reach so far, ITEM: NUMBER OF ATOMS; or a plausible binary header. Returns false, without a message, for
+   * all other files, missing files and directories.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 
   ///@{
   /**
-   * What the points are, computed where the file holds another form. ABSOLUTE: in the box, as the
-   * simulation holds them. UNWRAPPED: plus the image counts times the box vectors. SCALED: in units
-   * of the box vectors, 0 to 1 inside the box. ABSOLUTE by default.
+   * Sets the form of the points, which are computed if the file holds another form. ABSOLUTE, the default: in the box, as
+   * the simulation holds them. UNWRAPPED: plus the image counts times the box vectors. SCALED: in units of the box
+   * vectors, 0 to 1 inside the box.
    */
   vtkSetClampMacro(Coordinates, int, ABSOLUTE, SCALED);
   vtkGetMacro(Coordinates, int);
@@ -98,8 +98,8 @@ public:
 
   ///@{
   /**
-   * vtkAlgorithm::SINGLE_PRECISION (7 digits of the coordinate less PointOrigin, half the memory) or
-   * vtkAlgorithm::DOUBLE_PRECISION, the default.
+   * Sets the precision of the points: vtkAlgorithm::SINGLE_PRECISION (7 digits of the coordinate minus PointOrigin, half
+   * the memory) or vtkAlgorithm::DOUBLE_PRECISION, the default.
    */
   vtkSetClampMacro(PointPrecision, int, SINGLE_PRECISION, DOUBLE_PRECISION);
   vtkGetMacro(PointPrecision, int);
@@ -107,9 +107,8 @@ public:
 
   ///@{
   /**
-   * Subtracted from the points and from the corners of the box, in double precision and before any
-   * rounding. In units of the coordinates: of length, but of box vectors where Coordinates is SCALED.
-   * Any finite numbers; (0, 0, 0) by default.
+   * Sets a point that is subtracted from the points and from the corners of the box, in double precision and before any
+   * rounding. Unit: length, or box vectors where Coordinates is SCALED. Any finite numbers; (0, 0, 0) by default.
    */
   vtkSetVector3Macro(PointOrigin, double);
   vtkGetVector3Macro(PointOrigin, double);
@@ -126,7 +125,7 @@ public:
 
   ///@{
   /**
-   * No cells, one cell with all points, or one cell a point. VERTEX by default.
+   * Sets the cells: none, one with all points, or one per point. VERTEX, one per point, by default.
    */
   vtkSetClampMacro(Vertices, int, NO_VERTICES, VERTEX);
   vtkGetMacro(Vertices, int);
@@ -134,8 +133,8 @@ public:
 
   ///@{
   /**
-   * n keeps the particles whose id is a multiple of n; where there are no ids, every n-th row from
-   * the first on. Below 1 is an error and changes nothing. 1 by default: all particles.
+   * Sets the stride: n keeps the particles whose id is a multiple of n; without ids, every n-th row from the first.
+   * Numbers below 1 are an error and change nothing. 1 by default: all particles.
    */
   void SetStride(vtkTypeInt64 stride);
   vtkGetMacro(Stride, vtkTypeInt64);
@@ -143,8 +142,8 @@ public:
 
   ///@{
   /**
-   * Keeps the particles whose centres are in xmin xmax ymin ymax zmin zmax, faces included, always in
-   * absolute coordinates. An axis with min > max is free. (1, -1, 1, -1, 1, -1), all, by default.
+   * Sets a region, xmin xmax ymin ymax zmin zmax in absolute coordinates, faces included: only particles whose centres are
+   * inside are kept. An axis with min > max is not restricted. (1, -1, 1, -1, 1, -1), all particles, by default.
    */
   vtkSetVector6Macro(RegionOfInterest, double);
   vtkGetVector6Macro(RegionOfInterest, double);
@@ -152,8 +151,8 @@ public:
 
   ///@{
   /**
-   * On: while a frame is shown the next one, in the direction in which they were looked at, is decoded in
-   * the background, which takes the memory of one more frame. It changes no result. Off by default.
+   * On: while a frame is shown, the next one in the same direction is decoded in the background, in the memory of one more
+   * frame. It changes no result. Off by default.
    */
   void SetPrefetch(bool prefetch);
   vtkGetMacro(Prefetch, bool);
@@ -161,8 +160,8 @@ public:
   ///@}
 
   /**
-   * Which point arrays are read. Filled by UpdateInformation() with the arrays of all frames: on, but
-   * for coordinate columns. What was chosen stays when the files are read again.
+   * Returns the selection of the point arrays. UpdateInformation() fills it with the arrays of all frames: on, except
+   * coordinate columns. The choice stays when the files are read again.
    */
   virtual vtkDataArraySelection* GetPointDataArraySelection();
 

@@ -44,8 +44,8 @@ public:
 
   ///@{
   /**
-   * Which columns there are. ATOM: those of `dump atom`: id, type, coordinates and, with Image, the image
-   * counts. CUSTOM, the default: Columns.
+   * Sets the columns. ATOM: those of `dump atom`: id, type, coordinates and, with Image, the image counts. CUSTOM, the
+   * default: see SetColumns.
    */
   void SetStyle(int style);
   vtkGetMacro(Style, int);
@@ -53,11 +53,11 @@ public:
 
   ///@{
   /**
-   * Whose bytes are written. LIGGGHTS: the box with six digits, binary files without the names of their columns, a
-   * blank at the end of each line of `dump custom`, and ITEM: LABEL where the input has one. LAMMPS: the box with 17 digits,
-   * binary files of revision 2 with names. AUTOMATIC, the default: that of the file that the input was read from, by its
-   * field data `Dialect`, else LAMMPS; LAMMPS also with WriteUnits or WriteTime, and for a binary file of a text, so that it names its
-   * columns.
+   * Sets the program whose bytes are written. LIGGGHTS: the box with six digits, binary files without the names of their
+   * columns, a blank at the end of each line of `dump custom`, and ITEM: LABEL if the input has one. LAMMPS: the box with
+   * 17 digits, binary files of revision 2 with names. AUTOMATIC, the default: the program of the file that the input was
+   * read from (field data `Dialect`), otherwise LAMMPS; LAMMPS also with WriteUnits or WriteTime, and for a binary file
+   * made from text, which then names its columns.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);
@@ -65,8 +65,7 @@ public:
 
   ///@{
   /**
-   * Of ATOM: coordinates in units of the box vectors (xs ys zs), as `dump atom` has it, and else x y z. On by
-   * default.
+   * On, the default: ATOM writes coordinates in units of the box vectors (xs ys zs), as `dump atom` does. Off: x y z.
    */
   vtkSetMacro(Scaled, bool);
   vtkGetMacro(Scaled, bool);
@@ -75,7 +74,7 @@ public:
 
   ///@{
   /**
-   * Of ATOM: the image counts ix iy iz, too. Off by default.
+   * On: ATOM also writes the image counts ix iy iz. Off by default.
    */
   vtkSetMacro(Image, bool);
   vtkGetMacro(Image, bool);
@@ -84,9 +83,9 @@ public:
 
   ///@{
   /**
-   * Of CUSTOM: names of columns, or of arrays, separated by blanks. Empty, the default: the columns of the
-   * file that the input was read from, and those of all arrays that are new; without such a file id, type, x, y, z and
-   * all arrays. Example: "id type xs ys zs v radius".
+   * Sets the names of columns or arrays for CUSTOM, separated by blanks. Empty, the default: the columns of the file that
+   * the input was read from, then all new arrays; without such a file id, type, x, y, z and all arrays. Example: "id type
+   * xs ys zs v radius".
    */
   vtkSetStringMacro(Columns);
   vtkGetStringMacro(Columns);
@@ -94,9 +93,10 @@ public:
 
   ///@{
   /**
-   * How real numbers look in text. "Automatic", the default, loses nothing: a column that was read from a text dump has that file's
-   * digits, and more only where a value has changed; other columns have as few digits as read back as the same number.
-   * "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" as few as read back as the same number.
+   * Sets the digits of real numbers in text. "Automatic", the default, loses nothing: a column that was read from a text
+   * dump keeps that file's digits, and gets more only where a value has changed; other columns have the fewest digits that
+   * read back as the same number. "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" the fewest that read back as the
+   * same number.
    */
   vtkSetStringMacro(NumberFormat);
   vtkGetStringMacro(NumberFormat);
@@ -104,8 +104,7 @@ public:
 
   ///@{
   /**
-   * On: rows are in the order of their ids, over all processes; needs memory for a copy. Off by default: the
-   * order of the points.
+   * On: rows are sorted by id, over all ranks; needs memory for a copy. Off, the default: the order of the points.
    */
   vtkSetMacro(SortById, bool);
   vtkGetMacro(SortById, bool);
@@ -114,8 +113,8 @@ public:
 
   ///@{
   /**
-   * Of LAMMPS: ITEM: UNITS in the first frame of a file, with Units, or with those of the input where that is
-   * empty. Off by default.
+   * On: LAMMPS files have ITEM: UNITS in their first frame, with Units, or with the input's units if that is empty. Off by
+   * default.
    */
   vtkSetMacro(WriteUnits, bool);
   vtkGetMacro(WriteUnits, bool);
@@ -126,8 +125,8 @@ public:
 
   ///@{
   /**
-   * Of LAMMPS: ITEM: TIME in each frame: the time that the file of the input gave, else that of the pipeline.
-   * Off by default.
+   * On: LAMMPS files have ITEM: TIME in each frame: the time from the input's file, otherwise that of the pipeline. Off by
+   * default.
    */
   vtkSetMacro(WriteTime, bool);
   vtkGetMacro(WriteTime, bool);
@@ -136,8 +135,8 @@ public:
 
   ///@{
   /**
-   * The box: a corner, and its three edges one after the other, (Lx 0 0 xy Ly 0 xz yz Lz) for a tilted one. Edges
-   * of 0, the default: the box of the input.
+   * Sets the box: a corner, and its three edges one after the other, (Lx 0 0 xy Ly 0 xz yz Lz) for a tilted one. Edges of
+   * 0, the default: the box of the input.
    */
   vtkSetVector3Macro(BoxOrigin, double);
   vtkGetVector3Macro(BoxOrigin, double);
@@ -147,7 +146,7 @@ public:
 
   ///@{
   /**
-   * The boundaries of the box as in dumps, "pp pp ff": p periodic, f fixed, s and m shrinking, the lower and the
+   * Sets the boundaries of the box as in dumps, "pp pp ff": p periodic, f fixed, s and m shrinking, for the lower and the
    * upper face of each axis. Empty, the default: those of the input.
    */
   vtkSetStringMacro(Boundary);

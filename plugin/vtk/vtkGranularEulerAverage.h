@@ -62,8 +62,8 @@ public:
 
   ///@{
   /**
-   * IMAGE_DATA, the default: vtkImageData with cell data; of several processes each has an extent of it. POINTS:
-   * vtkPolyData with a vertex at the centre of each cell and point data, as LIGGGHTS writes them.
+   * Sets the type of the output. IMAGE_DATA, the default: vtkImageData with cell data; each rank has an extent. POINTS:
+   * vtkPolyData with a vertex at the centre of each cell and point data, as LIGGGHTS writes it.
    */
   vtkSetClampMacro(OutputType, int, POINTS, IMAGE_DATA);
   vtkGetMacro(OutputType, int);
@@ -90,8 +90,8 @@ public:
 
   ///@{
   /**
-   * The box that is divided: xlo xhi ylo yhi zlo zhi. An axis with lo above hi, as all have by default, is that of the box
-   * in the field data of the input; of a tilted box its smallest bounds.
+   * Sets the box that is divided: xlo xhi ylo yhi zlo zhi. An axis with lo above hi, the default for all, uses the box in
+   * the field data of the input; of a tilted box its smallest bounds.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -129,10 +129,10 @@ public:
 
   ///@{
   /**
-   * On: the average over all time steps of the input: sums above are over the particles of all of them, and V is the volume of the cell
-   * times the number of time steps, those among them in which it is empty. v_avg is that of all time steps, so that stress and pressure
-   * hold what the mean velocity of a cell changes over time, too. Off by default. The output has no time then; cells must not
-   * change with time.
+   * On: the average over all timesteps of the input: the sums above are over the particles of all of them, and V is the
+   * volume of the cell times the number of timesteps, including those in which it is empty. v_avg is that of all
+   * timesteps, so stress and pressure contain the changes of a cell's mean velocity over time. The output then has no
+   * time; cells must not change with time. Off by default.
    */
   vtkSetMacro(TimeAverage, bool);
   vtkGetMacro(TimeAverage, bool);

@@ -54,13 +54,13 @@ public:
   ///@}
 
   /**
-   * Which arrays are read. Filled by UpdateInformation() with the arrays of the first frame that has cells: all on. Arrays
-   * of other frames are read unless they are off here. What was chosen stays when the files are read again.
+   * Returns the selection of the arrays. UpdateInformation() fills it with the arrays of the first frame that has cells:
+   * all on. Arrays of other frames are read unless they are off here. The choice stays when the files are read again.
    */
   virtual vtkDataArraySelection* GetPointDataArraySelection();
 
   /**
-   * Returns 1 if the file is of dump euler/vtk, by what is in it; other .vtk files are for others. Never fails.
+   * Returns 1 if the contents of the file are those of dump euler/vtk, and 0 for other .vtk files. Never fails.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

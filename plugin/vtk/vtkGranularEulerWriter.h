@@ -48,9 +48,9 @@ public:
 
   ///@{
   /**
-   * How numbers are written. LIGGGHTS, the default: byte for byte as it does, with six decimals, of type float. WIDE: the fewest
-   * digits that read back the same, of type double, and the arrays sigma (3) and tau (3), too, if all processes that
-   * have cells have them.
+   * Sets how numbers are written. LIGGGHTS, the default: byte for byte like LIGGGHTS, six decimals, type float. WIDE: the
+   * fewest digits that read back the same, type double; also the arrays sigma (3) and tau (3) if all ranks with cells have
+   * them.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);

@@ -42,7 +42,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The lines.
+   * Returns the lines.
    */
   vtkPolyData* GetOutput();
 
@@ -54,15 +54,15 @@ public:
   };
 
   /**
-   * The rows: input port 1.
+   * Sets the rows: input port 1.
    */
   void SetLinesConnection(vtkAlgorithmOutput* output);
 
   ///@{
   /**
-   * How lines across periodic faces of the box are drawn, which are those whose boundary flags are `pp`. MINIMUM_IMAGE, the
-   * default: from the first end to the nearest image of the second, out of the box. SPLIT: from both ends to the faces between
-   * them, in two parts or more; as MINIMUM_IMAGE from unwrapped points. AS_WRITTEN: from end to end, wherever they are.
+   * Sets how lines across periodic faces (boundary flags `pp`) are drawn. MINIMUM_IMAGE, the default: from the first end
+   * to the nearest image of the second; the line is short and may leave the box. SPLIT: from both ends to the faces, in
+   * two or more parts; lines between unwrapped points are not split. AS_WRITTEN: from end to end.
    */
   vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
@@ -70,8 +70,8 @@ public:
 
   ///@{
   /**
-   * Point arrays of the particles of which lines get A_mean, and A_difference: names separated by blanks or commas;
-   * "*" stands for all arrays of numbers but id. None by default.
+   * Sets the point arrays of the particles for which lines get A_mean and A_difference: names separated by blanks or
+   * commas; "*" stands for all numeric arrays but id. None by default.
    */
   vtkSetStringMacro(Averages);
   vtkGetStringMacro(Averages);
@@ -81,9 +81,9 @@ public:
 
   ///@{
   /**
-   * The length of lines at rest [m]: the array of the rows of that name, of which the magnitude counts, as some programs
-   * store it with a sign ("equilibrium_length" by default), or where they have none EquilibriumLength, 0 or more; 0, the
-   * default: not known.
+   * Sets the length of lines at rest [m]: the array of the rows with this name, whose sign is ignored because programs
+   * differ in it ("equilibrium_length" by default). Without it EquilibriumLength counts, 0 or more; 0, the default: not
+   * known.
    */
   vtkSetStringMacro(EquilibriumLengthArray);
   vtkGetStringMacro(EquilibriumLengthArray);

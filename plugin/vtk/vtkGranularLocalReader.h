@@ -42,12 +42,12 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The lines.
+   * Returns the lines.
    */
   vtkPolyData* GetOutput();
 
   /**
-   * The rows.
+   * Returns the rows.
    */
   vtkTable* GetRows();
 
@@ -105,9 +105,9 @@ public:
 
   ///@{
   /**
-   * How lines across the periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the second end, so
-   * that they are short and leave the box. SPLIT: from both ends to the faces. AS_WRITTEN: from end to end, through the
-   * whole box.
+   * Sets how lines across periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the
+   * second end; the line is short and may leave the box. SPLIT: from both ends to the faces, in parts. AS_WRITTEN: from
+   * end to end, through the whole box.
    */
   vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
@@ -115,21 +115,22 @@ public:
 
   ///@{
   /**
-   * Subtracted from the points, in double precision: for data far from the origin, as that of the particles. Any finite numbers;
-   * (0, 0, 0) by default.
+   * Sets a point that is subtracted from all points, in double precision and before any rounding; for data far from the
+   * origin. Any finite numbers; (0, 0, 0) by default.
    */
   vtkSetVector3Macro(PointOrigin, double);
   vtkGetVector3Macro(PointOrigin, double);
   ///@}
 
   /**
-   * Which arrays are read. Filled by UpdateInformation() with the arrays of all frames: on, but for position1 and position2.
+   * Returns the selection of the arrays. UpdateInformation() fills it with the arrays of all frames: on, except position1
+   * and position2.
    */
   virtual vtkDataArraySelection* GetCellDataArraySelection();
 
   /**
-   * True if the first 64 KiB, decompressed, are those of a text of dump local (ITEM: NUMBER OF something that is not
-   * ATOMS). False, silently, for all else, missing files and directories included.
+   * Returns true if the first 64 KiB, decompressed, are text of dump local (ITEM: NUMBER OF, but not ATOMS). Returns
+   * false, without a message, for all other files, missing files and directories.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

@@ -39,8 +39,8 @@ public:
 
   ///@{
   /**
-   * Whose bytes are written. LIGGGHTS: the box with six digits. LAMMPS: with 17 digits. AUTOMATIC, the default: those of the
-   * file that the input was read from, by its field data `Dialect`, else LAMMPS.
+   * Sets the program whose bytes are written. LIGGGHTS: the box with six digits. LAMMPS: with 17 digits. AUTOMATIC, the
+   * default: the program of the file that the input was read from (field data `Dialect`), otherwise LAMMPS.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);
@@ -48,8 +48,8 @@ public:
 
   ///@{
   /**
-   * What rows are called, as by `dump_modify label`: one word that is not that of another section of the file, such as BONDS or
-   * CONTACTS. "ENTRIES" by default.
+   * Sets the word for a row, as `dump_modify label` does: one word that names no other section of the file, such as BONDS
+   * or CONTACTS. "ENTRIES" by default.
    */
   vtkSetStringMacro(Label);
   vtkGetStringMacro(Label);
@@ -57,9 +57,9 @@ public:
 
   ///@{
   /**
-   * Names of columns, or of arrays, separated by blanks. Empty, the default: the columns of the file that the input was
-   * read from, then those of all arrays that are new, but for the cell arrays `length`, `row` and `part`, which are made of lines. Example:
-   * "id1 id2 btype x1 y1 z1 x2 y2 z2 force".
+   * Sets the names of columns or arrays, separated by blanks. Empty, the default: the columns of the file that the input
+   * was read from, then all new arrays except the cell arrays `length`, `row` and `part`, which belong to the lines.
+   * Example: "id1 id2 btype x1 y1 z1 x2 y2 z2 force".
    */
   vtkSetStringMacro(Columns);
   vtkGetStringMacro(Columns);
@@ -67,9 +67,10 @@ public:
 
   ///@{
   /**
-   * How real numbers look in text. "Automatic", the default, loses nothing: a column that was read from a text dump has that file's
-   * digits, and more only where a value has changed; other columns have as few digits as read back as the same number.
-   * "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" as few as read back as the same number.
+   * Sets the digits of real numbers in text. "Automatic", the default, loses nothing: a column that was read from a text
+   * dump keeps that file's digits, and gets more only where a value has changed; other columns have the fewest digits that
+   * read back as the same number. "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" the fewest that read back as the
+   * same number.
    */
   vtkSetStringMacro(NumberFormat);
   vtkGetStringMacro(NumberFormat);

@@ -38,7 +38,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The grains.
+   * Returns the particles.
    */
   vtkPolyData* GetOutput();
 
@@ -89,8 +89,8 @@ public:
 
   ///@{
   /**
-   * What the faces along the three box vectors are: one or two of the letters p (periodic), f, s, m
-   * (particles stay inside) each. "ff ff ff" by default.
+   * Sets the faces along the three box vectors: one or two of the letters p (periodic), f, s, m (particles stay inside)
+   * each. "ff ff ff" by default.
    */
   void SetBoundary(const char* boundary);
   const char* GetBoundary();

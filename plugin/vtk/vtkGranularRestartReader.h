@@ -47,7 +47,7 @@ public:
 
   ///@{
   /**
-   * The particles, and the bonds.
+   * Returns the particles, and the bonds.
    */
   vtkPolyData* GetOutput();
   vtkPolyData* GetBonds();
@@ -86,9 +86,9 @@ public:
 
   ///@{
   /**
-   * How bonds across the periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the second
-   * particle, so that lines are short and leave the box. SPLIT: from both particles to the faces. AS_WRITTEN: from particle to
-   * particle, through the whole box.
+   * Sets how lines across periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the
+   * second particle; the line is short and may leave the box. SPLIT: from both particles to the faces, in parts.
+   * AS_WRITTEN: from end to end, through the whole box.
    */
   vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
@@ -96,8 +96,8 @@ public:
 
   ///@{
   /**
-   * Subtracted from the points of all outputs, in double precision: for data far from the origin. Any finite numbers;
-   * (0, 0, 0) by default.
+   * Sets a point that is subtracted from all points, in double precision and before any rounding; for data far from the
+   * origin. Any finite numbers; (0, 0, 0) by default.
    */
   vtkSetVector3Macro(PointOrigin, double);
   vtkGetVector3Macro(PointOrigin, double);
@@ -105,17 +105,17 @@ public:
 
   ///@{
   /**
-   * Which arrays of particles and of bonds are read. Filled by UpdateInformation() with those of the first and the last file: all on; where some were
-   * switched off, others that come with another HistoryLayout or other files are off. Arrays that only other files have are read
-   * where none is off.
+   * Returns the selection of the particle or the bond arrays. UpdateInformation() fills it with the arrays of the first
+   * and the last file, all on. Once some were switched off, arrays that come with another HistoryLayout or other files are
+   * off. Arrays that only other files have are read unless one is off.
    */
   virtual vtkDataArraySelection* GetPointDataArraySelection();
   virtual vtkDataArraySelection* GetCellDataArraySelection();
   ///@}
 
   /**
-   * True if the first bytes are those of a restart file of LIGGGHTS or LAMMPS. False, silently, for all else, missing files and
-   * directories included.
+   * Returns true if the first bytes are those of a restart file of LIGGGHTS or LAMMPS. Returns false, without a message,
+   * for all other files, missing files and directories.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

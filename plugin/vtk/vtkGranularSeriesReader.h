@@ -55,7 +55,7 @@ public:
 
   ///@{
   /**
-   * The files of one run. Null and empty names are ignored. None by default.
+   * Sets the files of one run. Null and empty names are ignored. None by default.
    */
   void AddFileName(VTK_FILEPATH const char* fileName);
   void ClearFileNames();
@@ -64,13 +64,13 @@ public:
   ///@}
 
   /**
-   * Has the next update look at the files again, without reading earlier frames again.
+   * Makes the next update look at the files again, without reading earlier frames again.
    */
   void Refresh();
 
   ///@{
   /**
-   * On: every update looks whether the files changed, and if so does as after Refresh. Off by default.
+   * On: every update looks for changed files and then acts like Refresh. Off by default.
    */
   vtkSetMacro(RefreshOnUpdate, bool);
   vtkGetMacro(RefreshOnUpdate, bool);
@@ -79,11 +79,10 @@ public:
 
   ///@{
   /**
-   * What frames of the same timestep in several files are. MERGE: pieces of one frame; a timestep
-   * with fewer pieces than others is left out. LAST: repetitions, of which the one in the last file
-   * counts. AUTO, the default: pieces if the names differ in one number that counts from 0 and the
-   * files share the first and most timesteps, with the same boxes and columns, but no particles; else
-   * repetitions.
+   * Sets the meaning of several frames with the same timestep in different files. MERGE: pieces of one frame; a timestep
+   * with fewer pieces than others is left out. LAST: repetitions, of which the one in the last file counts. AUTO, the
+   * default: pieces if the names differ in one number that counts from 0, and if the files share the first and most
+   * timesteps, the boxes and the columns, but no particles; otherwise repetitions.
    */
   void SetRepeatedSteps(int repeated);
   vtkGetMacro(RepeatedSteps, int);
@@ -91,10 +90,10 @@ public:
 
   ///@{
   /**
-   * Where the places of the frames are kept for the next opening. NEVER, the default; CACHE: in
-   * $XDG_CACHE_HOME/granular or ~/.cache/granular; BESIDE: beside the first file, under its name with
-   * .granular.idx behind. What is kept is used as far as size, time, first and last bytes of a file
-   * are still the same; what is damaged is ignored with a warning.
+   * Sets where the positions of the frames are kept for the next opening. NEVER, the default; CACHE: in
+   * $XDG_CACHE_HOME/granular or ~/.cache/granular; BESIDE: beside the first file, under its name with .granular.idx
+   * appended. An index is used while size, time, first and last bytes of a file are unchanged; a damaged index is ignored
+   * with a warning.
    */
   void SetIndexFile(int where);
   vtkGetMacro(IndexFile, int);
@@ -102,9 +101,9 @@ public:
 
   ///@{
   /**
-   * Time of one timestep, in seconds (or the run's unit of time), where the files give no ITEM: TIME.
-   * Finite and greater than 0; anything else is an error and changes nothing. A size that makes the time of a frame infinite is
-   * an error of the next update. 1 by default.
+   * Sets the time of one timestep, in seconds (or the run's unit of time), for files without ITEM: TIME. Finite and
+   * greater than 0; anything else is an error and changes nothing. A size that makes the time of a frame infinite is an
+   * error of the next update. 1 by default.
    */
   void SetTimestepSize(double size);
   vtkGetMacro(TimestepSize, double);
@@ -112,9 +111,8 @@ public:
 
   ///@{
   /**
-   * How many threads look at files and decode frames. 0, the default: the cores of the machine, divided
-   * by the processes of the Controller that run on it. Changes how fast it goes and nothing else. Below
-   * 0 is an error and changes nothing.
+   * Sets the number of threads that look at files and decode frames. 0, the default: the cores of the machine, divided by
+   * the ranks of the Controller on it. The number changes no result. Numbers below 0 are an error and change nothing.
    */
   void SetThreads(int threads);
   vtkGetMacro(Threads, int);
@@ -122,22 +120,21 @@ public:
 
   ///@{
   /**
-   * The processes that read together, each of them its piece: all of them must set it, set the same
-   * properties, and update the reader, in the same order and all of them when one has something to read.
-   * Rank 0 looks at the files for all. What goes wrong on one of them is an error of all. The global
-   * controller by default; null: this process is alone, whatever others do.
+   * Sets the ranks that read together, each its piece. All of them must set the controller and the same properties, and
+   * update the reader in the same order, even those that have nothing to read. Rank 0 looks at the files for all. An error
+   * on one rank is an error on all. Default: the global controller; null: this rank reads alone.
    */
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
   ///@}
 
   /**
-   * Has the update that reads next, or that is reading, stop, on all ranks of the Controller: see above.
+   * Stops the next or the running update that reads, on all ranks of the Controller: see above.
    */
   void SetAbortExecute(vtkTypeBool abort) override;
 
   /**
-   * Returns the error of the last update, as it was told, or an empty text if there was none.
+   * Returns the error of the last update, or an empty text if there was none.
    */
   const char* GetErrorMessage();
 
@@ -151,18 +148,18 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /**
-   * Called when the files are going to be looked at, or a request failed: what is known of frames is to go.
+   * Forgets what is known of frames. Called before the files are looked at, and after a failed request.
    */
   virtual void ForgetFrames() {}
 
   /**
-   * Called when the files were looked at: the frames may be others.
+   * Notes that the frames may have changed. Called after the files were looked at.
    */
   virtual void FramesChanged() {}
 
   /**
-   * Called when the times are known, before data are asked for: to find out what frames have, and to tell the pipeline of the outputs.
-   * Collective; may throw.
+   * Finds out what the frames have, and describes the outputs to the pipeline. Called when the times are known, before
+   * data are requested. Collective; may throw.
    */
   virtual void InspectFrames(vtkInformationVector* outputVector);
 

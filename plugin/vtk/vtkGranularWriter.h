@@ -40,7 +40,7 @@ public:
 
   ///@{
   /**
-   * The file to write. None by default.
+   * Sets the file to write. None by default.
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
@@ -48,7 +48,7 @@ public:
 
   ///@{
   /**
-   * On: all time steps of the input are written. Off, the default: the one that it shows.
+   * On: all timesteps of the input are written. Off, the default: only the current one.
    */
   vtkSetMacro(WriteTimeSteps, bool);
   vtkGetMacro(WriteTimeSteps, bool);
@@ -57,9 +57,9 @@ public:
 
   ///@{
   /**
-   * How the processes write one file. GATHER, the default: the first one writes, and the others send it
-   * their rows, one after the other and a few at a time. MPI_IO: each writes its own where they belong;
-   * needs a file system that all of them see. The bytes are the same.
+   * Sets how the ranks write one file. GATHER, the default: the first rank writes; the others send it their rows, one rank
+   * after the other and a few rows at a time. MPI_IO: each rank writes its own rows in place, on a file system that all
+   * ranks share. The bytes are the same.
    */
   void SetParallelMode(int mode);
   vtkGetMacro(ParallelMode, int);
@@ -67,9 +67,8 @@ public:
 
   ///@{
   /**
-   * How many threads make the bytes. 0, the default: the cores of the machine, divided by the processes of
-   * the Controller that run on it. Changes how fast it goes and nothing else. Below 0 is an error and
-   * changes nothing.
+   * Sets the number of threads. 0, the default: the cores of the machine, divided by the ranks of the Controller on it.
+   * The number changes no result. Numbers below 0 are an error and change nothing.
    */
   void SetThreads(int threads);
   vtkGetMacro(Threads, int);
@@ -77,9 +76,8 @@ public:
 
   ///@{
   /**
-   * The processes that write together: all of them must set it, set the same properties, and call Write().
-   * What goes wrong on one of them is an error of all. The global controller by default; null: this process is
-   * alone, whatever others do.
+   * Sets the ranks that write together. All of them must set the controller and the same properties, and call Write()
+   * together. An error on one rank is an error on all. Default: the global controller; null: this rank works alone.
    */
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
@@ -87,25 +85,25 @@ public:
 
   ///@{
   /**
-   * How many layers of other processes' cells to ask the input for, as ParaView's writers may. 0 by default. It
-   * changes nothing in the file: points that are duplicates are left out.
+   * Sets the number of ghost layers that the input is asked for, as in ParaView's writers. 0 by default. It does not
+   * change the file: ghost duplicates are left out.
    */
   vtkSetClampMacro(GhostLevel, int, 0, VTK_INT_MAX);
   vtkGetMacro(GhostLevel, int);
   ///@}
 
   /**
-   * Writes. Returns 1, or 0 after an error, or if it was aborted.
+   * Writes the file or files. Returns 1, or 0 after an error or an abort.
    */
   int Write() override;
 
   /**
-   * Whether the last Write() wrote all that it should.
+   * Returns whether the last Write() was complete.
    */
   vtkGetMacro(Written, bool);
 
   /**
-   * Returns the error of the last Write(), as it was told, or an empty text if there was none.
+   * Returns the error of the last Write(), or an empty text if there was none.
    */
   const char* GetErrorMessage();
 
@@ -126,7 +124,7 @@ protected:
     const char* name, int& property, int choice, std::initializer_list<const char*> choices);
 
   /**
-   * Opens the file. Called by all processes together; may throw what the core does.
+   * Opens the file. Collective; may throw the core's errors.
    */
   virtual std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) = 0;
 
