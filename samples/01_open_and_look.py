@@ -40,7 +40,7 @@ granular.set_properties(view, CameraPosition=[0.22, -0.30, 0.19], CameraFocalPoi
                         CameraViewUp=[0, 0, 1])
 SaveScreenshot("grains.png", view, CompressionLevel="9")
 
-# The same numbers from the text of the last frame, without ParaView.
+# Compare with the text of the last frame, without ParaView.
 header, *rows = Path(path).read_text().split("ITEM: ATOMS ")[-1].splitlines()
 column = dict(zip(header.split(), np.array([row.split() for row in rows], dtype=float).T))
 speed = np.sqrt(column["vx"]**2 + column["vy"]**2 + column["vz"]**2)

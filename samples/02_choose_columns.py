@@ -32,7 +32,7 @@ columns = load("id, radius and velocity", PointArrayStatus=["id", "radius", "v"]
 # Every tenth particle: those with id 10, 20, 30, ..., the same ones in every frame.
 tenth = load("  of every tenth particle", Stride=10)
 
-# A slice through the middle: xmin xmax ymin ymax zmin zmax. An axis with min > max is left alone.
+# A slice through the middle: xmin xmax ymin ymax zmin zmax. An axis with min > max is not restricted.
 slab = load("  of a slice 14 mm thick", Stride=1, RegionOfInterest=[1, -1, -0.007, 0.007, 1, -1])
 SaveData("slice.vtp", reader, DataMode="Binary")  # raw data break with today's libexpat
 
@@ -49,7 +49,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", Compone
                         WindowLocation="Any Location", Position=[0.84, 0.3])
 SaveScreenshot("slice.png", view)
 
-# The same from the text of the last frame, and in the file that was written.
+# Compare with the text of the last frame, and with the file that was written.
 header, *rows = Path(path).read_text().split("ITEM: ATOMS ")[-1].splitlines()
 column = dict(zip(header.split(), np.array([row.split() for row in rows], dtype=float).T))
 assert everything[0] == columns[0] == len(rows) and columns[1] < 0.6 * everything[1]

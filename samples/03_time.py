@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One clock for all: steps become seconds, and a mesh in files that hold no time keeps up."""
+"""One clock for all: timesteps become seconds, and a mesh in files without times follows."""
 import re
 import sys
 from pathlib import Path
@@ -10,7 +10,7 @@ from paraview.simple import *
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 dt = 2e-5  # seconds a step, from the input script
 
-# A dump counts steps. TimestepSize makes seconds of them.
+# A dump counts timesteps. TimestepSize turns these into seconds.
 particles = granular.reader(path)
 steps = [int(step) for step in particles.TimestepValues]
 particles.TimestepSize = dt

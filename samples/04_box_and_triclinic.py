@@ -15,7 +15,7 @@ def points_of(source):
     return np.array(FetchData(source)[0].GetPoints().GetData())
 
 
-# One file, three ways to place its atoms. Orange ones have left the box through a periodic face.
+# One file, three forms of its coordinates. Orange atoms have left the box through a periodic face.
 LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
@@ -50,8 +50,8 @@ assert np.allclose(points["Unwrapped"], low + (s + image) @ box, atol=1e-13)
 assert np.array_equal(points["Scaled"], s) and np.allclose(corners[6], low + box.sum(axis=0))
 print(f"{len(s)} atoms in the box, {np.sum(image.any(axis=1))} have crossed a face; see forms.png")
 
-# A million lengths away, single precision will do only for points relative to a place near them: without PointOrigin they
-# move by 0.03, and the reader warns.
+# A million lengths away, single precision needs a PointOrigin near the points. Without it they move
+# by 0.03, and the reader warns.
 away = [f"{lo!r} {hi!r} {tilt!r}\n" for lo, hi, tilt in (hull + [1e6, 1e6, 0]).tolist()]
 Path("far.dump").write_text(text.replace(bounds, "".join(away)))
 single = granular.reader("far.dump", PointPrecision="Single", PointOrigin=[1e6] * 3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Read a binary dump, name its columns, and see what the text of the same run has lost."""
+"""Read a binary dump, name its columns, and see the digits that the text of the same run has lost."""
 import struct
 import sys
 from pathlib import Path
@@ -43,7 +43,7 @@ def rounded(numbers, digits):
     return np.char.mod(f"%.{digits}g", numbers).astype(float)
 
 
-# All frames from the bytes of the file, without ParaView. Each process wrote a chunk of a frame.
+# Decode all frames from the bytes, without ParaView. Each rank wrote a chunk of a frame.
 content, at = Path(path).read_bytes(), 0
 while at < len(content):
     step, *_, width, chunks = struct.unpack_from("<2q i 6i 6d 2i", content, at)

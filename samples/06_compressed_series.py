@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One run in many files, some of them compressed: they are opened as they are, as one series."""
+"""One run in many files, some of them compressed: they open as one series."""
 import gzip
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ from paraview.simple import *
 folder = Path(sys.argv[1]) if sys.argv[1:] else Path(__file__).parent / "data/compressed"
 packed = sorted(folder.glob("*.dump.gz"))
 
-# What is in a file counts, not its name: compressed and plain ones may be mixed.
+# The contents of a file count, not its name: compressed and plain files may be mixed.
 plain = Path(packed[1].stem)  # ortho_000050.dump
 plain.write_bytes(gzip.decompress(packed[1].read_bytes()))
 files = [packed[0], plain, packed[2]]
@@ -21,7 +21,7 @@ reader = granular.reader(reversed(files), dt=0.005)
 times = list(reader.TimestepValues)
 assert times == [0, 0.25, 0.5]
 
-# A crystal melts. Each atom keeps the colour of the layer where it was first: ids go up with z.
+# A crystal melts. Each atom keeps the colour of its first layer, because ids increase with z.
 LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)

@@ -11,14 +11,14 @@ data = Path(__file__).parent / "data"
 folder = Path(sys.argv[1]) if sys.argv[1:] else data / "pieces"
 whole = Path(sys.argv[2]) if sys.argv[2:] else data / "grains.dump"
 
-# All files in one list: 5 steps of 4 processes, by the pattern of the dump command. Their names tell
-# that they are pieces; where names do not, RepeatedSteps="Merge" does. Were one missing, its step
-# would be left out, with a warning that says which one.
+# All files in one list: 5 timesteps of 4 ranks, by the pattern of the dump command. Their names tell
+# that they are pieces; other names need RepeatedSteps="Merge". If a piece is missing, its timestep
+# is left out, and a warning names it.
 files = [Path(file) for file in granular.files(folder / "pieces_*.%.dump")]
 particles = granular.reader(files, dt=2e-5)
 assert particles.RepeatedSteps == "Auto" and len(files) == 4 * len(particles.TimestepValues)
 
-# The particles come process by process: how many each file has tells whose they are.
+# The particles come rank by rank, so the number of particles in each file gives their ranks.
 counts = {}
 for file in files:
     step, process = map(int, file.stem.split("_")[1].split("."))
@@ -51,7 +51,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="process", ComponentTi
 strip.SetSize(1200, 480)
 SaveScreenshot("pieces.png", strip, SeparatorWidth=0)
 
-# The same from the text: the last frame is that of the run as one file, in the pieces' order.
+# Compare with the text: the last frame equals that of the run in one file, in the order of the pieces.
 names = "id", "type", "x", "y", "z", "radius"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Watch a run while it is being written: each look finds the frames that are complete by then."""
+"""Watch a run while the simulation writes it: each look finds the frames that are complete."""
 import shutil
 import subprocess
 import time
@@ -9,8 +9,8 @@ import granular
 import numpy as np
 from paraview.simple import *
 
-# LAMMPS pours particles into a box, and rests after each frame, as if there were more to compute.
-# Where it is not installed, a script copies grains.dump in bursts that end inside lines and words.
+# LAMMPS pours particles into a box and pauses after each frame, as if there were more to compute.
+# If it is not installed, a script copies grains.dump in bursts that end inside lines and words.
 POUR = """
 units si
 atom_style sphere
@@ -113,7 +113,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", Compone
 strip.SetSize(1200, 480)
 SaveScreenshot("looks.png", strip, SeparatorWidth=0)
 
-# No frame is missing, and those that were seen on the way were complete: the same from the text.
+# Compare with the text: no frame is missing, and every frame seen on the way was complete.
 written = {}
 for frame in run.read_text().split("ITEM: TIMESTEP\n")[1:]:
     header, *rows = frame.split("ITEM: ATOMS ")[1].splitlines()

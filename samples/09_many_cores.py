@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same script on one core, on all cores, and on four processes: what it says is the same."""
+"""The same script on one core, on all cores, and on four ranks: the results are the same."""
 import re
 import shutil
 import subprocess
@@ -33,7 +33,7 @@ def widen(source, target, tiles):
 
 
 def look(file, threads, picture):
-    """What anybody would write; the only word about cores is Threads."""
+    """An ordinary script; only Threads is about cores."""
     start = time.perf_counter()
     reader = granular.reader(file, Threads=threads, dt=2e-5)
     times = reader.TimestepValues
@@ -55,13 +55,13 @@ def look(file, threads, picture):
 
 
 def result(name, said):
-    """Prints what a run said; without the time, it is the same for all."""
+    """Prints the output of a run; it is the same for all runs except for the time."""
     print(f"{name:15}{said}", end="")
     return said.partition(": ")[0]
 
 
 def python(threads, picture):
-    """In a ParaView of one process, as this one is."""
+    """In a ParaView with one rank, like this one."""
     command = [shutil.which("pvpython"), __file__, "wide.dump", threads, picture]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 

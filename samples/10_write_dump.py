@@ -11,18 +11,18 @@ from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
-# The large particles only. What a filter makes of a dump still knows its steps, box and columns.
+# Only the large particles. The output of a filter still has the timesteps, box and columns of the dump.
 reader = granular.reader(path)
 large = Threshold(Input=reader, Scalars=["POINTS", "radius"], LowerThreshold=0.003,
                   UpperThreshold=1)
 
-# What the end of the name says: text, compressed, binary. In the dialect of LIGGGHTS lines are what
-# LIGGGHTS wrote. granular.save does what SaveData does, for any name, and raises if that fails.
+# The ending of the name chooses text, compressed text or binary. The text has the lines that LIGGGHTS
+# wrote. granular.save is SaveData for any name, and raises an error if writing fails.
 SaveData("large.dump", large, WriteTimeSteps=1, Dialect="LIGGGHTS")
 granular.save(large, "large.dump.gz", WriteTimeSteps=1, Dialect="LIGGGHTS")
 
-# Binary files have all 16 digits, and with the dialect LAMMPS, the default, the names of their
-# columns. There may be new ones.
+# Binary files hold all digits and, in the dialect LAMMPS, the names of their columns.
+# New columns are possible.
 faster = Calculator(Input=large, Function="mag(v)", ResultArrayName="speed")
 granular.save(faster, "large.bin", WriteTimeSteps=1, Columns="id type x y z v radius speed")
 
@@ -47,7 +47,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", Compone
 strip.SetSize(1000, 560)
 SaveScreenshot("before_and_after.png", strip, SeparatorWidth=0)
 
-# The same from the text: its own lines, without those of small particles.
+# Compare with the text: its lines, without the lines of small particles.
 expected = ""
 for frame in re.split(r"(?=ITEM: TIMESTEP\n)", Path(path).read_text())[1:]:
     lines = frame.splitlines(keepends=True)
@@ -58,7 +58,7 @@ for frame in re.split(r"(?=ITEM: TIMESTEP\n)", Path(path).read_text())[1:]:
 assert Path("large.dump").read_text() == expected
 assert gzip.open("large.dump.gz", "rt").read() == expected
 
-# The binary file read back has the numbers that were written, bit by bit.
+# The binary file reads back bit by bit.
 back = granular.reader("large.bin")
 times = list(reader.TimestepValues)
 assert list(back.TimestepValues) == times

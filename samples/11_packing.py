@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Grains without a file: random ones of two sizes, and a lattice, as dumps for simulations."""
+"""Particles without a file: random ones of two sizes, and a lattice, as dumps for simulations."""
 import itertools
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import granular
 import numpy as np
 from paraview.simple import *
 
-# Small and large particles in random places: as many as fill 20 % of a box, periodic in x and y.
+# Small and large particles at random positions: 20 % of a box that is periodic in x and y.
 random = GranularPackingSource(NumberOfGrains=0, SolidFraction=0.2, BoxLengths=[0.1, 0.1, 0.15],
                                Boundary="pp pp ff", Radii="Two", Radius=0.0025,
                                SecondRadius=0.004, SecondShare=0.25, Speed=0.05, Seed=7)
@@ -17,7 +17,7 @@ lattice = GranularPackingSource(Arrangement="FaceCentredCubic", NumberOfGrains=0
                                 BoxLengths=[0.1, 0.1, 0.15], Boundary="pp pp ff", Radii="One",
                                 Radius=0.004)
 
-# Both programs read dumps as they would their own:
+# Both programs read these dumps like their own:
 #   read_dump random.LIGGGHTS 0 x y z vx vy vz radius box yes add yes
 #   read_dump random.LAMMPS 0 x y z vx vy vz box yes add keep
 # 17 digits, so that no rounding makes particles touch.
@@ -41,7 +41,7 @@ GetColorTransferFunction("radius").RGBPoints = [0.0025, 0.27, 0.45, 0.7, 0.004, 
 strip.SetSize(1000, 600)
 SaveScreenshot("packings.png", strip, SeparatorWidth=0)
 
-# The same from the text: particles of neither file overlap, nor do those beyond the periodic faces.
+# Check the text: no particles overlap in either file, not even across the periodic faces.
 for name, dialect in itertools.product(sources, ("LIGGGHTS", "LAMMPS")):
     header, *rows = Path(f"{name}.{dialect}").read_text().split("ITEM: ATOMS ")[-1].splitlines()
     table = np.array([row.split() for row in rows], float)

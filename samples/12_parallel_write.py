@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Four processes write one file together, and it has the bytes that one process writes."""
+"""Four ranks write one file together; it has the bytes that one rank would write."""
 import sys
 from pathlib import Path
 
@@ -10,11 +10,11 @@ data = Path(__file__).parent / "data/grains.dump"
 
 
 def write(name):
-    """What anybody would write: each process reads, filters and writes a part of the particles."""
+    """An ordinary script: each rank reads, filters and writes a part of the particles."""
     reader = granular.reader(data)
     small = Threshold(Input=reader, Scalars=["POINTS", "radius"], LowerThreshold=0,
                       UpperThreshold=0.003)
-    # Gather: the first process writes for all. MPI-IO: each writes where its part belongs.
+    # Gather: the first rank writes for all. MPI-IO: each rank writes its part in place.
     for mode in "Gather", "MPI-IO":
         granular.save(small, f"{name}_{mode}.dump", WriteTimeSteps=1, Dialect="LIGGGHTS",
                       ParallelMode=mode)
@@ -44,7 +44,7 @@ else:
     written = {file.read_bytes() for file in Path().glob("*.dump")}
     assert len(written) == 1 and len(list(Path().glob("*.dump"))) == 4
 
-    # The same from the text of the run: its lines of small particles, as they are. Others are shorter.
+    # Compare with the text of the run: its lines of small particles. The other lines are shorter.
     lines = written.pop().decode().splitlines()
     rows = [line for line in data.read_text().splitlines() if len(line.split()) == 19]
     small = [row for row in rows if float(row.split()[17]) < 0.003]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How evenly are the particles of a parallel run spread over its processes, and how would other grids do?"""
+"""How evenly are the particles of a parallel run distributed over its ranks, and would other grids be better?"""
 from pathlib import Path
 
 import granular
@@ -9,7 +9,7 @@ from paraview.simple import *
 data = Path(__file__).parent / "data"
 particles = granular.reader(data / "grains.dump")
 
-# The run had four processes, `processors 2 1 2`: what each of them owns is a voxel.
+# The run had four ranks, `processors 2 1 2`. Each subdomain is a voxel.
 domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
 
 LoadPalette("WhiteBackground")
@@ -38,7 +38,7 @@ SaveScreenshot("load_balance.png", strip, SeparatorWidth=0)
 
 
 def count(**properties):
-    """Grains of each process, and the largest number divided by the mean."""
+    """Particles of each rank, and the largest number divided by the mean."""
     granular.set_properties(domains, **properties)
     domains.UpdatePipeline(4000)
     voxels = servermanager.Fetch(domains)
@@ -47,7 +47,7 @@ def count(**properties):
             voxels.GetFieldData().GetArray("imbalance").GetValue(0))
 
 
-# At the end the particles lie on the ground, and two of the four processes have nothing to do.
+# At the end the particles lie on the ground, and two of the four ranks have nothing to do.
 own, imbalance = count()
 print(f"2 x 1 x 2: {own.tolist()} particles, imbalance {imbalance:.2f}")
 assert own.sum() == 1200 and imbalance > 1.9
@@ -61,7 +61,7 @@ cut, balanced = count(ProcessorGrid=[2, 1, 2], ZCuts=[height])
 print(f"2 x 1 x 2, cut at half of them: {cut.tolist()} particles, imbalance {balanced:.2f}")
 assert balanced < 1.1
 
-# The same from the text: how many particles of the last frame are where?
+# Compare with the text: count the particles of the last frame.
 frame = (data / "grains.dump").read_text().split("ITEM: ATOMS ")[-1].splitlines()
 x, z = np.array([row.split() for row in frame[1:]], float)[:, [2, 4]].T
 owner = 2 * (x >= 0) + (z >= 0.075)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which part of the particles has each process of ParaView? Four of them show their own share as boxes."""
+"""Which particles does each rank of ParaView hold? Four ranks show their shares as boxes."""
 import csv
 import sys
 from pathlib import Path
@@ -12,8 +12,8 @@ data = Path(__file__).parent / "data"
 
 def show(name):
     particles = granular.reader(data / "grains.dump")
-    # Mode Ranks: the bounds of what each process has. A piece of a dump is a part of its lines, wherever
-    # these particles are; D3 (Redistribute Data Set) sends each to a process that has the others around it.
+    # Mode Ranks: the bounds of the particles of each rank. A piece of a dump is a part of its lines, wherever
+    # their particles are. D3 (Redistribute Data Set) sends each particle to the rank of its neighbours.
     near = D3(Input=particles)
     shares = {"as they are read": (particles, GranularDecomposition(Input=particles, Mode="Ranks")),
               "redistributed": (near, GranularDecomposition(Input=near, Mode="Ranks"))}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How densely are particles packed, and where is the surface of the heap? Averages over cells say it."""
+"""How densely are particles packed, and where is the surface of the heap? Averages over cells tell."""
 from pathlib import Path
 
 import granular
@@ -9,7 +9,7 @@ from paraview.simple import *
 data = Path(__file__).parent / "data"
 particles = granular.reader(data / "grains.dump", dt=2e-5)
 
-# Cells of 10 mm: an image with cell data. Each particle counts in every cell by the part of its sphere there.
+# Cells of 10 mm: an image with cell data. Each cell gets the part of each sphere inside it.
 cells = GranularEulerAverage(Input=particles, CellCounts=[10, 10, 15])
 fields = CellDatatoPointData(Input=cells)
 middle = Slice(Input=fields, SliceType="Plane")
@@ -57,7 +57,7 @@ def fetch(**properties):
     return {name: np.array(arrays.GetArray(name)) for name in ("v_avg", "volumefraction")}
 
 
-# The same from the text: the volume of all spheres, but for what sinks into the ground, which is outside.
+# Compare with the text: the volume of all spheres, without the parts below the ground, which are outside.
 frame = (data / "grains.dump").read_text().split("ITEM: ATOMS ")[-1].splitlines()
 column = dict(zip(frame[0].split(), np.array([row.split() for row in frame[1:]], float).T))
 radius, below = column["radius"], np.clip(column["radius"] - column["z"], 0, None)
@@ -67,18 +67,18 @@ volume = 0.1 * 0.1 * 0.15 / len(overlap)
 assert abs(overlap.sum() * volume - solid) < 1e-12 * solid
 print(f"{len(radius)} particles have {solid * 1e6:.4f} ml in {len(overlap)} cells; fullest cell: {overlap.max():.3f}")
 
-# Where each particle belongs to the cell of its centre, whole, as LIGGGHTS has it, small cells are ragged.
+# LIGGGHTS gives the whole particle to the cell of its centre: small cells are ragged then.
 centre = fetch(Weights="Centre")["volumefraction"]
 print(f"by centres: {(centre == 0).sum()} cells are empty, not {(overlap == 0).sum()}; "
       f"fullest cell: {centre.max():.3f}")
 assert centre.max() > overlap.max()
 
-# Over all frames: one image, in which v_avg is weighted by mass.
+# Average over all frames: one image, with v_avg weighted by mass.
 mean = fetch(Weights="Overlap", TimeAverage=1)
 print(f"over all frames: {mean['volumefraction'].max():.3f} in the fullest cell, "
       f"and at most {np.linalg.norm(mean['v_avg'], axis=1).max():.2f} m/s")
 
-# Files as LIGGGHTS writes them, one a step.
+# Files in the format of LIGGGHTS, one per timestep.
 cells.TimeAverage = 0
 granular.save(cells, "cells_*.euler", WriteTimeSteps=1)
 print("written:", *sorted(path.name for path in Path.cwd().glob("cells_*.euler")))

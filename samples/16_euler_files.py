@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What LIGGGHTS' fix ave/euler wrote, and what averages of the dump of the same run say: cell by cell."""
+"""Compare the files of LIGGGHTS' fix ave/euler with averages of the dump of the same run, cell by cell."""
 from pathlib import Path
 
 import granular
@@ -25,7 +25,7 @@ def fetch(proxy, step):
 
 
 def processes_of(step):
-    """LIGGGHTS' processes wrote their particles into files of their own, too."""
+    """The rank of each particle: each rank of LIGGGHTS also wrote a file of its own."""
     owner = {}
     for process in range(4):
         rows = (data / f"pieces/pieces_{step}.{process}.dump").read_text().split("ITEM: ATOMS ")[1]
@@ -34,7 +34,7 @@ def processes_of(step):
 
 
 def shared_cells(step, centres):
-    """Which cells have particles of several processes: all corners are at the same distance from a centre."""
+    """Cells with particles of several ranks; all corners are at the same distance from a centre."""
     points = servermanager.Fetch(particles)
     places, ids = np.array(points.GetPoints().GetData()), np.array(points.GetPointData().GetArray("id"))
     places[:, :2] = (places[:, :2] + 0.05) % 0.1 - 0.05  # periodic in x and y
@@ -44,9 +44,9 @@ def shared_cells(step, centres):
     return np.array([len(set(owners[nearest == cell])) > 1 for cell in range(len(centres))])
 
 
-# The files have six decimals, the dump six digits; of the stress the pressure needs it has none.
-# Where particles of two processes of LIGGGHTS meet in a cell, its own v_avg is too small, by up to 3.5e-5 of it:
-# with one process it is not.
+# The files have six decimals, the dump has six digits, and lacks the stress that the pressure needs.
+# Where particles of two ranks of LIGGGHTS meet in a cell, its v_avg is too small by up to 3.5e-5;
+# a run with one rank is right.
 print("largest differences    centre  volumefraction  radius   v_avg  v_avg of cells that processes share")
 for step in (1000, 2000, 3000, 4000):
     theirs, ours = fetch(files, step), fetch(averages, step)

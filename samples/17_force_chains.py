@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How is the weight of a bed of particles carried? Its contacts as tubes, as thick and red as their force is large."""
+"""Which contacts carry the weight of a bed of particles? Tubes show them, thick and red where the force is large."""
 from pathlib import Path
 
 import granular
@@ -8,10 +8,10 @@ from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
 particles = granular.reader(data / "settled_grains.dump.gz")
-# The columns are called c_fc[1] and so on. Without a Preset the reader finds out what they are, and says what it took.
+# The columns are called c_fc[1] and so on. Without a Preset the reader finds their meaning and reports it.
 contacts = granular.reader(data / "settled_contacts.dump.gz", Preset="ContactsForce")
 
-# Tubes take their radius from an array of points: each line has two of its own, so that nothing is mixed.
+# Tubes take their radius from a point array. Each line has two points of its own, so no values mix.
 strength = Calculator(Input=contacts, AttributeType="Cell Data", ResultArrayName="strength", Function="mag(force)")
 thickness = Calculator(Input=strength, AttributeType="Cell Data", ResultArrayName="thickness", Function="0.12*strength")
 chains = Tube(Input=CellDatatoPointData(Input=thickness), Scalars=["POINTS", "thickness"],
@@ -32,7 +32,7 @@ granular.set_properties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoi
                         CameraViewUp=[0, 0, 1])
 SaveScreenshot("force_chains.png", view)
 
-# What acts on a particle that does not touch the ground: its weight, and the forces of its contacts, opposite at both ends.
+# The forces on a particle that does not touch the ground: its weight and its contacts, opposite at both ends.
 rows = servermanager.Fetch(contacts, 0).GetCellData()
 id1, id2, force = (np.array(rows.GetArray(name)) for name in ("id1", "id2", "force"))
 points = servermanager.Fetch(particles, 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bonds drawn right where they cross a periodic face, and how far they are stretched."""
+"""Bonds across a periodic face, and their elongation."""
 from pathlib import Path
 
 import granular
@@ -8,7 +8,7 @@ from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
 beads = granular.reader(data / "chain.dump", dt=0.004)
-# Columns in the order of the dump command; rows with ids alone are no lines by themselves.
+# Columns in the order of the dump command. Rows without positions become lines only with the particles.
 bonds = granular.reader(data / "chain_bonds.dump", dt=0.004, Preset="BondTypeIdsForce")
 lines = GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1), Averages="v", EquilibriumLength=1.05)
 
@@ -34,7 +34,7 @@ for place, periodic in ((1, "AsWritten"), (5, "MinimumImage"), (6, "Split")):
 strip.SetSize(900, 900)
 SaveScreenshot("bonds.png", strip, SeparatorWidth=0)
 
-# The simulation says how long its bonds are: so are the lines, in all three frames.
+# The simulation wrote the length of its bonds; the lines have the same lengths in all three frames.
 for step in 0, 500, 1000:
     lines.UpdatePipeline(step * 0.004)
     arrays = servermanager.Fetch(lines).GetCellData()
@@ -43,7 +43,7 @@ for step in 0, 500, 1000:
     print(f"step {step}: bonds from {length.min():.3f} to {length.max():.3f} long, "
           f"strained by {strain.min():+.3f} to {strain.max():+.3f}")
 
-# The bonds of a data file do as well: the ids are the same.
+# The bonds of a data file work as well, because the ids are the same.
 pairs = granular.reader(data / "chain.data", AtomStyle="bond")
 again = GranularLocalJoin(Input=beads, Lines=OutputPort(pairs, 1))
 again.UpdatePipeline(time)

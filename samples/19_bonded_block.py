@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bonded block without a file, whole and cut in two: which bonds cross the cut, and how a bend strains the others."""
+"""A bonded block without a file, whole and cut in two: which bonds cross the cut, and how bending strains the others."""
 import granular
 import numpy as np
 from paraview.simple import *
@@ -8,12 +8,12 @@ block = GranularPackingSource(Arrangement="FaceCentredCubic", NumberOfGrains=0, 
                               BoxLengths=[0.16, 0.05, 0.05], BondFactor=1.05)
 bonds = OutputPort(block, "Bonds")
 
-# The cut is a plane: particles are on side 1 or -1 of it, and a bond whose ends differ crosses it.
+# The cut is a plane. Particles are on side 1 or -1; a bond with both signs crosses the cut.
 sided = Calculator(Input=block, ResultArrayName="side", Function="sign(coordsX - 0.08 + 0.5*(coordsZ - 0.025))")
 told = GranularLocalJoin(Input=sided, Lines=bonds, Differences="side")
 kept = Threshold(Input=told, Scalars=["CELLS", "side_difference"], LowerThreshold=-0.5, UpperThreshold=0.5)
 
-# Both halves bend and part. The bonds follow their particles: each line is joined again, by the ids of its ends.
+# Both halves bend and separate. The bonds follow the particles: each line is joined again by the ids of its ends.
 bent = Calculator(Input=sided, CoordinateResults=1,
                   Function="(coordsX + 0.008*side)*iHat + coordsY*jHat + (coordsZ - 2*(coordsX - 0.08)^2)*kHat")
 before = GranularLocalJoin(Input=sided, Lines=bonds)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a restart file holds: particles in full precision, and bonds with what they carry."""
+"""The contents of a restart file: particles in full precision, and bonds with forces and torques."""
 from pathlib import Path
 
 import granular
@@ -20,7 +20,7 @@ for place, time in ((1, 0.01), (2, 0.04)):
     view.ViewTime = time
     display = Show(fibres, view, AmbientColor=[0.85] * 3, DiffuseColor=[0.85] * 3, Opacity=0.25)
     ColorBy(display, ("POINTS", ""))
-    # The history says what bends each bond: the moment across it.
+    # The history holds the bending moment of each bond.
     moment = Calculator(Input=bonds, AttributeType="Cell Data", ResultArrayName="bending moment [N m]",
                         Function="mag(torque_tangential)")
     shown = Show(Tube(Input=moment, Radius=0.0004), view)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a simulation begins with: the particles, bonds and box of a data file."""
+"""The start of a simulation: the particles, bonds and box of a data file."""
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +7,7 @@ import granular
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
-# The comment `Atoms # bond` would say the style; this file does not have it.
+# This file lacks the comment `Atoms # bond`, which would give the style.
 chains = granular.reader(data / "chain.data", AtomStyle="bond")
 bonds = OutputPort(chains, 1)
 
@@ -26,10 +26,10 @@ SaveScreenshot("data_file.png", view)
 particles, lines = (servermanager.Fetch(chains, idx=port) for port in (0, 1))
 lengths = np.array(lines.GetCellData().GetArray("length"))
 assert particles.GetNumberOfPoints() == 100 and lines.GetNumberOfCells() == 96
-# Image counts say that chains cross the box along x: no bond is drawn through the whole box.
+# The image counts tell that chains cross the box along x: no bond is drawn through the whole box.
 assert (lengths == 1).all()
 print(f"{particles.GetNumberOfPoints()} beads, {len(lengths)} bonds of length {lengths.min()} to {lengths.max()}")
-# The rest of the pipeline does not mind where particles come from.
+# The rest of the pipeline works with particles from any source.
 chains.Stride = 5
 chains.UpdatePipeline()
 assert chains.GetDataInformation().GetNumberOfPoints() == 20
