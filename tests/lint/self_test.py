@@ -327,6 +327,14 @@ class vtkGranularA : public vtkPolyDataAlgorithm
         self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)),
                          ["xml/a.xml:3", "xml/a.xml:4", "xml/a.xml:5"])
 
+    def test_times(self):
+        size, other = (self.property(f'name="{name}"') for name in ("TimestepSize", "b"))
+        group = '<PropertyGroup label="{}"><Property name="TimestepSize"/></PropertyGroup>'
+        for body, wanted in ((f"{size}\n{group.format('a timestep')}\n{other}", []), (other, []), (size, ["xml/a.xml:2"]),
+                             (f"{size}\n{group.format('a')}", ["xml/a.xml:2"]),
+                             (f"{other}\n{size}\n{group.format('a timestep')}", ["xml/a.xml:2"])):
+            self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)), wanted)
+
     def test_element(self):
         text = self.xml("").replace("SourceProxy", "GranularAProxy")
         self.assertEqual(self.check(xml__a_dot_xml=text), ["xml/a.xml:2"])

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The XML of the server manager against the classes it speaks of: every command is a method of the
 class, an element of our own has its proxy class, every property says what it is, no property has a
-label (a label would become its name in Python), and no two proxies of a kind claim one file
-extension, but readers that look into files."""
+label (a label would become its name in Python), no two proxies of a kind claim one file
+extension, but readers that look into files, and the panel of a reader with times begins with them."""
 import os
 import re
 from xml.parsers import expat
@@ -115,6 +115,17 @@ def check_proxy(root, path, proxy):
             yield path, prop.line, f"{prop.get('name')}: there is no property {information}"
 
 
+def check_times(path, proxy):
+    """The first line of the panel tells that times are timesteps: the label of a group of TimestepSize alone."""
+    shown = [child.get("name") for child in proxy.children if child.tag.endswith("VectorProperty") and
+             child.get("panel_visibility") != "never" and not child.get("information_only")]
+    if "TimestepSize" in shown:
+        groups = [[each.get("name") for each in child.all("Property")] for child in proxy.children
+                  if child.tag == "PropertyGroup" and "timestep" in child.get("label")]
+        if shown[0] != "TimestepSize" or ["TimestepSize"] not in groups:
+            yield path, proxy.line, f"{proxy.get('name')}: TimestepSize is not first, in a group whose label tells what times are"
+
+
 def check_extensions(root, found):
     """found: (kind, extension, path, line, proxy, class) of every claim. Readers that look into a file may share its
     extension."""
@@ -142,6 +153,7 @@ def check(root):
                 if not proxy.get("class"):
                     continue
                 yield from check_proxy(root, path, proxy)
+                yield from check_times(path, proxy)
                 for kind in ("ReaderFactory", "WriterFactory"):
                     for hint in proxy.all(kind):
                         claims += [(kind, extension, path, hint.line, proxy.get("name"), proxy.get("class"))
