@@ -14,12 +14,22 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
+#include <initializer_list>
 #include <string>
 #include <utility>
 
 using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularEulerWriter);
+
+namespace
+{
+constexpr std::initializer_list<const char*> Names = { "LIGGGHTS", "Wide", "Automatic" };
+static_assert(
+  vtkGranularEulerWriter::LIGGGHTS == static_cast<int>(granular::EulerDialect::Liggghts) &&
+  vtkGranularEulerWriter::WIDE == static_cast<int>(granular::EulerDialect::Wide) &&
+  vtkGranularEulerWriter::AUTOMATIC == static_cast<int>(granular::EulerDialect::Automatic));
+}
 
 //------------------------------------------------------------------------------
 /**
@@ -29,10 +39,9 @@ class vtkGranularEulerWriter::File : public WholeFile
 {
 public:
   File(vtkGranularEulerWriter* self, Internals& internals)
-    : WholeFile({ self->FileName, "cells", self->Dialect == WIDE ? "Wide" : "" },
-        internals.GetRanks(), *self->Past, internals.Notices)
-    , Dialect(
-        self->Dialect == WIDE ? granular::EulerDialect::Wide : granular::EulerDialect::Liggghts)
+    : WholeFile({ self->FileName, "cells", Names.begin()[self->Dialect] }, internals.GetRanks(),
+        *self->Past, internals.Notices)
+    , Dialect(static_cast<granular::EulerDialect>(self->Dialect))
   {
   }
 
@@ -89,7 +98,7 @@ void vtkGranularEulerWriter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkGranularEulerWriter::SetDialect(int dialect)
 {
-  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "Wide" });
+  this->SetChoice("Dialect", this->Dialect, dialect, Names);
 }
 
 //------------------------------------------------------------------------------

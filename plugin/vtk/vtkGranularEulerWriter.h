@@ -43,14 +43,16 @@ public:
   enum DialectType
   {
     LIGGGHTS = 0,
-    WIDE = 1
+    WIDE = 1,
+    AUTOMATIC = 2
   };
 
   ///@{
   /**
-   * Sets how numbers are written. LIGGGHTS, the default: byte for byte like LIGGGHTS, six decimals, type float. WIDE: the
-   * fewest digits that read back the same, type double; also the arrays sigma (3) and tau (3) if all ranks with cells have
-   * them.
+   * Sets how numbers are written. LIGGGHTS: byte for byte like LIGGGHTS, six decimals, type float. WIDE: the fewest digits that
+   * read back the same, type double; also the arrays sigma (3) and tau (3) if all ranks with cells have them. AUTOMATIC, the
+   * default: LIGGGHTS if its text has the same values and the centres need no warning, as for cells from a file of LIGGGHTS,
+   * otherwise WIDE.
    */
   void SetDialect(int dialect);
   vtkGetMacro(Dialect, int);
@@ -62,7 +64,7 @@ protected:
 
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
-  int Dialect = LIGGGHTS;
+  int Dialect = AUTOMATIC;
 
 private:
   vtkGranularEulerWriter(const vtkGranularEulerWriter&) = delete;

@@ -168,11 +168,11 @@ for properties in ({"Coordinates": "Unwrapped"}, {"Coordinates": "Scaled"}, {"Po
 for kind in ("Points", "ImageData"):
     overlap.Output = kind
     overlap.UpdatePipeline(2000)
-    granular.save(overlap, f"{kind}_*.euler")
+    granular.save(overlap, f"{kind}_*.euler", Dialect="LIGGGHTS")
     wanted = {"centres": plain_euler.grid(LO, HI, (5, 6, 7)), **expected}
     with open(f"{kind}_2000.euler") as file:
         assert file.read() == plain_euler.text(wanted), kind
-    granular.save(overlap, "wide_*.vtk", writer="GranularEulerWriter", Dialect="Wide")
+    granular.save(overlap, "wide_*.vtk", writer="GranularEulerWriter")  # by default all digits
     again = OpenDataFile(os.path.abspath("wide_2000.vtk"))
     assert again.GetXMLName() == "GranularEulerReader"
     same(values(again)[1], expected, kind)

@@ -116,6 +116,47 @@ TEST(EncodeEuler, bytes_of_liggghts)
   expect_same_text(encoded({}, EulerDialect::Liggghts), no_points());
 }
 
+/// LIGGGHTS' text where it has the same values, all digits where it has not.
+TEST(EncodeEuler, automatic)
+{
+  const auto expect_as = [](EulerDialect dialect, const EulerCells& cells)
+  { expect_same_text(encoded(cells, EulerDialect::Automatic), encoded(cells, dialect)); };
+  for (const std::string name : { "euler_1000", "euler_4000", "euler/parallel_2000" })
+  {
+    EulerFile file(data_file("good/" + name + ".vtk"));
+    expect_as(EulerDialect::Liggghts, cells_of(file.read()));
+  }
+  expect_as(EulerDialect::Liggghts, {});
+  expect_as(EulerDialect::Wide, cells_of_two(true)); // has stresses
+  const EulerCells cells = cells_of_two(false);
+  expect_as(EulerDialect::Liggghts, cells);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double value :
+    { 0.000001, 0.1, -0.0, 123456.789012, 1e22, infinity, -infinity, std::nan("") })
+  {
+    EulerCells same = cells;
+    same.pressure.back() = same.velocities.front() = value;
+    expect_as(EulerDialect::Liggghts, same);
+  }
+  for (const double value : { 1.0 / 3, 1e-7, 5e-7, std::nextafter(0.1, 1), -5e-324 })
+  {
+    for (const EulerArray& array : euler_arrays())
+    {
+      EulerCells others = cells;
+      (others.*array.values).resize(static_cast<std::size_t>(2 * array.components));
+      (others.*array.values).back() = value;
+      expect_as(EulerDialect::Wide, others);
+    }
+  }
+  // centres of grids are computed: they may be between the decimals, by up to 1 % of a radius
+  EulerCells moved = cells;
+  moved.centres.front() += 1e-3 / 3;
+  moved.radius = { 0.01, 0.01 };
+  expect_as(EulerDialect::Liggghts, moved);
+  moved.radius = { 0.00001, 0.00001 };
+  expect_as(EulerDialect::Wide, moved);
+}
+
 TEST(EncodeEuler, bytes_of_printf)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -85,11 +85,13 @@ public:
     }
   }
 
+  /// Returns true if there is nothing to tell.
+  bool is_none() const { return joined_ == std::array<std::size_t, 3>{} && this->text().empty(); }
+
   /// Throws Error where cells would be in one place along an axis.
   void tell(Notices& notices) const
   {
-    std::string text =
-      loss_.text(RoundingLimit(Box::from_bounds(lo_, hi_), loss_.radius()), "centres", names_);
+    std::string text = this->text();
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const std::string places =
@@ -117,6 +119,11 @@ public:
 
 private:
   static constexpr double most = 5e-7; ///< that a number is moved by
+
+  std::string text() const
+  {
+    return loss_.text(RoundingLimit(Box::from_bounds(lo_, hi_), loss_.radius()), "centres", names_);
+  }
 
   /// Where centres are along an axis, and which become the same.
   void find_places(std::size_t axis)
@@ -183,12 +190,29 @@ private:
   Vector3 lo_ = {};
   Vector3 hi_ = {};
 };
+
+/// Returns true if the text of LIGGGHTS has the same values, and centres that are not worth a notice: those of grids are computed.
+bool decimals_are_enough(const EulerCells& cells)
+{
+  const auto exact = [](double value) { return !std::isfinite(value) || as_fixed(value) == value; };
+  return DecimalLoss(cells).is_none() &&
+    std::ranges::all_of(euler_arrays(),
+      [&](const EulerArray& array)
+      {
+        const std::vector<double>& values = cells.*array.values;
+        return array.optional ? values.empty() : std::ranges::all_of(values, exact);
+      });
+}
 }
 
 std::string encode_euler(
   const EulerCells& cells, EulerDialect dialect, Notices& notices, Progress& progress)
 {
   const auto count = static_cast<std::size_t>(cells.count());
+  if (dialect == EulerDialect::Automatic)
+  {
+    dialect = decimals_are_enough(cells) ? EulerDialect::Liggghts : EulerDialect::Wide;
+  }
   const bool wide = dialect == EulerDialect::Wide;
   const std::string_view type = wide ? "double" : "float";
   std::string text = "# vtk DataFile Version 2.0\nLIGGGHTS mesh/VTK export\nASCII\n"

@@ -15,13 +15,13 @@ namespace granular
 enum class EulerDialect : std::uint8_t
 {
   Liggghts, ///< byte for byte as LIGGGHTS: %f, which has six decimals, of type float
-  Wide      ///< the same lines, but of type double with the fewest digits that read back the same
+  Wide,     ///< the same lines, but of type double with the fewest digits that read back the same
+  Automatic ///< Liggghts if that text has the same values and centres worth no notice, otherwise Wide
 };
 
-/// The file, points and arrays v_avg, volumefraction, radius, pressure; Wide also sigma and tau where they are known, which
-/// Liggghts leaves out. One notice says how much %f loses, if that is more than a RoundingLimit or centres become equal; values
-/// other than radii are held against the largest of their array. Throws Error where all centres along an axis would become
-/// equal; Cancelled.
+/// Returns the file: points and the arrays v_avg, volumefraction, radius, pressure; Wide also has sigma and tau if they are known.
+/// One notice tells how much %f loses, if that is more than a RoundingLimit or centres become equal; values other than radii are
+/// compared with the largest of their array. Throws Error if all centres along an axis would become equal; Cancelled.
 std::string encode_euler(
   const EulerCells& cells, EulerDialect dialect, Notices& notices, Progress& progress);
 }
