@@ -163,6 +163,14 @@ for grains in (granular.reader("typed.dump"), Calculator(Input=granular.reader("
     points = list(GetColorTransferFunction("radius").RGBPoints)
     assert (points[0], points[-4]) == (0.5, 3), points
 
+# an array that is not there, neither in this frame nor in the last one
+for source in (granular.reader("typed.dump"), granular.reader("two.dump")):
+    try:
+        granular.show(source, view, color="v")
+        raise AssertionError("a colour of nothing")
+    except ValueError as error:
+        assert str(error) == "expected a point array to colour by, of id, radius, type, got 'v'", error
+
 # bonds and boxes of sources, through filters; and what has none
 packing = GranularPackingSource(Arrangement="Chain", NumberOfGrains=5, BondFactor=1)
 before = len(view.Representations)

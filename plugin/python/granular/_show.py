@@ -35,7 +35,10 @@ def _is_scaled(source: Any) -> bool:
 
 
 def _range_of(source: Any, name: str, view: Any) -> tuple[float, float] | None:
-    """The range of an array, of a vector that of its length; where a frame has no particles, in the last frame."""
+    """The range of an array, or of a vector's length; where the frame lacks the array, in the last frame.
+
+    Returns None if the last frame has no arrays, and raises ValueError if it has only others.
+    """
     array = source.PointData[name]
     times = [] if array else [time for each in upstream(source) if each.SMProxy.GetProperty("TimestepValues")
                               for time in each.TimestepValues]
@@ -43,8 +46,11 @@ def _range_of(source: Any, name: str, view: Any) -> tuple[float, float] | None:
         source.UpdatePipeline(max(times))
         array = source.PointData[name]
     found = array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
+    names = ", ".join(source.PointData.keys())
     if times:
         source.UpdatePipeline(view.ViewTime)
+    if not array and names:
+        raise ValueError(f"expected a point array to colour by, of {names}, got '{name}'")
     return found
 
 
@@ -92,8 +98,8 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     same on any number of ranks. They are flat discs with the shading of spheres: where they overlap
     they do not cut into each other.
 
-    Raises RuntimeError if the plugin was not loaded before, ValueError if box or bonds is wanted and nothing before the
-    source has one.
+    Raises RuntimeError if the plugin was not loaded before, and ValueError if there is no array `color`, or no output for box or
+    bonds.
     """
     from paraview import simple
 
@@ -125,5 +131,6 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
         if limits:
             display.LookupTable.RescaleTransferFunction(*limits)
     elif color is not None:
+        _range_of(reader, color, view)
         simple.ColorBy(display, ("POINTS", color))
     return display
