@@ -10,8 +10,8 @@
 
 namespace granular
 {
-/// Where things are in the record of a particle in a restart file, in doubles from its begin: first what all atom styles have,
-/// then what bond/gran adds. Source: pack_restart of LIGGGHTS' atom styles.
+/// The positions in the record of a particle in a restart file, in doubles from its beginning: first the common part of all
+/// atom styles, then that of bond/gran. Source: pack_restart of LIGGGHTS' atom styles.
 struct RecordSlots
 {
   static constexpr std::size_t length = 0; ///< of the record, in doubles, itself among them
@@ -29,7 +29,7 @@ struct RecordSlots
     13; ///< type and partner of each; then, if n_h > 0, n_h and the history
 };
 
-/// A double that is a length, a whole number from least to most; 0: it is none.
+/// Returns a double as a length, an integer from least to most; 0: it is none.
 inline std::size_t length_of(double number, std::size_t least, std::size_t most) noexcept
 {
   const bool in_range = number >= static_cast<double>(least) && number <= static_cast<double>(most);
@@ -37,21 +37,21 @@ inline std::size_t length_of(double number, std::size_t least, std::size_t most)
   return static_cast<double>(length) == number ? length : 0;
 }
 
-/// How whole numbers stand in doubles.
+/// The form of integers in doubles.
 enum class WholeNumbers : std::uint8_t
 {
   Values, ///< as doubles that have this value
   Bits    ///< as the bits of 64-bit integers
 };
 
-/// The form of the tag, type and mask of a record, which is the same for these three. The type tells: as a value it is at least 1,
-/// as bits it is a double next to 0. Throws FormatError, with what was got, if it is neither.
+/// Returns the common form of the tag, type and mask of a record. The type tells: as a value it is at least 1, as bits it is
+/// a double next to 0. Throws FormatError with the number if it is neither.
 WholeNumbers whole_numbers_of(std::span<const double> block);
 
-/// A whole number out of a double. Throws FormatError if it is none, or no 64-bit integer.
+/// Returns the integer in a double. Throws FormatError if there is none, or if it exceeds 64 bits.
 std::int64_t to_whole(double number, WholeNumbers form);
 
-/// The same of 32 bits; name is for the error: "a bond type". Throws FormatError.
+/// Returns the integer of 32 bits in a double; name is for the error: "a bond type". Throws FormatError.
 std::int32_t to_int32(double number, WholeNumbers form, const char* name);
 
 /// The counts of an image: fields of so many bits (10 where ids have 4 bytes, 21 where they have 8), biased by half of their
@@ -67,10 +67,11 @@ struct ImageCounts
 
 ImageCounts unpack_image(std::int64_t image, int field_bits) noexcept;
 
-/// Throws LimitError if a count does not fit into the field: -512 to 511 of 10 bits, -2^20 to 2^20 - 1 of 21.
+/// Packs three image counts. Throws LimitError if a count does not fit into its field: -512 to 511 for 10 bits, -2^20 to 2^20
+/// - 1 for 21.
 std::int64_t pack_image(const ImageCounts& counts, int field_bits);
 
-/// The bonds in the block of bond/gran, seen where they are.
+/// The bonds in the block of bond/gran, as a view.
 struct BondBlock
 {
   std::int64_t bonds = 0;          ///< b
@@ -80,11 +81,11 @@ struct BondBlock
   std::size_t size = 0;            ///< doubles of the block, from its length word on
 };
 
-/// Looks at a block that begins at its length word. `length` is how long it is: that of its own word, or, of a record of this style
-/// alone, at most that, as what fixes have added comes behind; may_have_more says which. history_values is that of other records of
-/// the file, or -1: a particle without bonds may leave open whether n_h is stored, then it is not if the next double is not it.
-/// Throws FormatError: b is no whole number from 0 to most_bonds, n_h is not that of the others, the block is too short or too
-/// long for what it says. The errors name the double of the record at which it is wrong.
+/// Views a block that begins at its length word. `length` is the length of the block: from its own word, or, for a record of
+/// this style alone, an upper limit, because the data of fixes follow; may_have_more tells which. history_values is that of
+/// other records of the file, or -1. A particle without bonds may leave open whether n_h is stored; it is not if the next
+/// double differs from it. Throws FormatError if b is not an integer from 0 to most_bonds, n_h differs from the others, or
+/// the block is too short or too long. The errors name the wrong double of the record.
 BondBlock look_at_bonds(std::span<const double> block, bool may_have_more,
   std::int64_t history_values, std::int64_t most_bonds);
 }

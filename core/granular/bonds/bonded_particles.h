@@ -13,28 +13,29 @@
 
 namespace granular
 {
-/// Bytes that particles take.
+/// The memory of particles, in bytes.
 struct BondedMemory
 {
   std::size_t described = 0; ///< n_max (5 x 24 + 4 (4 + B) + 8 B n_h), as bond/gran estimates it
-  std::size_t allocated = 0; ///< by this object, all of it
+  std::size_t allocated = 0; ///< by this object, in total
 };
 
-/// Particles with bonds, as the atom style bond/gran of LIGGGHTS' forks holds them: one array for each quantity, with a row for
-/// each particle. Spans are good until the object grows, and tell of the particles that there are, not of the capacity.
+/// Particles with bonds, in the layout of the atom style bond/gran of LIGGGHTS' forks: one array per quantity, with a row for
+/// each particle. Spans are valid until the object grows and cover the particles, not the capacity.
 ///
-/// A particle holds at most B bonds: each has a type, the global id of its partner, and n_h history values (see history_layouts).
-/// A bond is usually with both of its particles. Types and ids may have any value; what holds a bond twice or with itself is kept.
+/// A particle holds at most B bonds: each has a type, the global id of its partner, and n_h history values (see
+/// history_layouts). A bond is usually stored with both of its particles. Types and ids may have any value; duplicate bonds
+/// and bonds of a particle with itself are kept.
 class BondedParticles
 {
 public:
-  /// What grow(0) adds, and reserve at least.
+  /// The growth of grow(0), and the least growth of reserve.
   static constexpr std::size_t growth = 10000;
 
-  /// B and n_h. Throws LimitError if B < 1, n_h < 0 or B n_h > 2^40.
+  /// Sets B and n_h. Throws LimitError if B < 1, n_h < 0 or B n_h > 2^40.
   BondedParticles(std::int32_t most_bonds, std::int32_t history_values);
 
-  /// What was moved from keeps B and n_h, and has neither particles nor room.
+  /// A moved-from object keeps B and n_h, and has neither particles nor room.
   BondedParticles(BondedParticles&& other) noexcept;
   BondedParticles& operator=(BondedParticles&& other) noexcept;
   BondedParticles(const BondedParticles&) = delete;
@@ -46,17 +47,17 @@ public:
   std::size_t size() const noexcept { return size_; }
   std::size_t capacity() const noexcept { return capacity_; }
 
-  /// Makes room for so many particles, 0: for 10,000 more. Keeps the particles. Throws LimitError if there are more particles than
-  /// that, or if no memory could be as large; std::bad_alloc; then all is as it was. This is how the style grows, step by step:
-  /// each step copies all there is, so what adds many particles one by one calls reserve, as resize and add do.
+  /// Makes room for so many particles; 0: for 10,000 more. Keeps the particles. Throws LimitError if there are more
+  /// particles, or if no memory could be as large; std::bad_alloc; then nothing has changed. The style grows in such steps,
+  /// each of which copies all particles; to add many one by one call reserve, as resize and add do.
   void grow(std::size_t capacity = 0);
 
-  /// Makes room for so many particles if there is less: then for half as many again as there was room for, and for 10,000
-  /// more at least, so that each particle is copied a few times only, however many are added. Throws as grow does.
+  /// Makes room for so many particles if there is less: for half as many again as before, and at least 10,000 more, so each
+  /// particle is copied only a few times. Throws like grow.
   void reserve(std::size_t size);
 
-  /// Makes it so many particles, with room as reserve makes it. Those that come are as add makes them, of type 0 at the origin.
-  /// Throws as grow does. Who writes fields of all that come says so: these may then have any value.
+  /// Sets the number of particles, with room as in reserve. New particles are like those of add, of type 0 at the origin.
+  /// Throws like grow. A caller who writes all fields of new particles may say so; they may then have any value.
   void resize(std::size_t size, PackFieldSet written = 0);
 
   /// Adds a particle without bonds and returns its row: tag 0, mask 1, molecule 0, image 0; v, f, x_mol and v_mol are zero.
@@ -67,7 +68,7 @@ public:
   void add_bond(
     std::size_t i, std::int32_t type, std::int64_t partner, std::span<const double> history);
 
-  /// Sets how many bonds a particle holds. Those that come have type, partner and history 0. Throws LimitError.
+  /// Sets the number of bonds of a particle. New bonds have type, partner and history 0. Throws LimitError.
   void set_bonds(std::size_t i, std::size_t count);
 
   /// Removes a particle: the last one takes its row. Throws LimitError if there is no such particle.
@@ -83,7 +84,7 @@ public:
   std::span<Vector3> f() noexcept { return { arrays_.f.get(), size_ }; }
   std::span<const Vector3> f() const noexcept { return { arrays_.f.get(), size_ }; }
 
-  /// Of what a particle is part of.
+  /// The molecule that a particle belongs to.
   std::span<Vector3> x_mol() noexcept { return { arrays_.x_mol.get(), size_ }; }
   std::span<const Vector3> x_mol() const noexcept { return { arrays_.x_mol.get(), size_ }; }
   std::span<Vector3> v_mol() noexcept { return { arrays_.v_mol.get(), size_ }; }
@@ -99,18 +100,18 @@ public:
   std::span<std::int32_t> type() noexcept { return { arrays_.type.get(), size_ }; }
   std::span<const std::int32_t> type() const noexcept { return { arrays_.type.get(), size_ }; }
 
-  /// A bit for each group that a particle is in.
+  /// A bit for each group of a particle.
   std::span<std::int32_t> mask() noexcept { return { arrays_.mask.get(), size_ }; }
   std::span<const std::int32_t> mask() const noexcept { return { arrays_.mask.get(), size_ }; }
 
-  /// How often a particle has crossed the periodic box.
+  /// The crossings of the periodic box by a particle.
   std::span<ImageCounts> image() noexcept { return { arrays_.image.get(), size_ }; }
   std::span<const ImageCounts> image() const noexcept { return { arrays_.image.get(), size_ }; }
 
-  /// How many bonds each particle holds: b, 0 to B.
+  /// The number of bonds of each particle: b, 0 to B.
   std::span<const std::int32_t> bonds() const noexcept { return { arrays_.bonds.get(), size_ }; }
 
-  /// Of the bonds of a particle, which must be there: b types, b partners, and n_h values of the first, of the second, ...
+  /// The bonds of a particle, which must exist: b types, b partners, and n_h values of the first, of the second, ...
   std::span<std::int32_t> bond_types(std::size_t i) noexcept
   {
     return { arrays_.bond_types.get() + i * this->width(), this->count(i) };
@@ -159,7 +160,7 @@ private:
   std::size_t width() const noexcept { return static_cast<std::size_t>(most_bonds_); }
   std::size_t history_width() const noexcept { return this->width() * this->values(); }
 
-  /// Calls visit(array, elements of a particle) for each.
+  /// Calls visit(array, elements per particle) for each array.
   template <class Visit>
   void for_arrays(const Visit& visit) const;
 

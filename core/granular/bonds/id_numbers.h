@@ -7,7 +7,7 @@
 
 namespace granular
 {
-/// Ids of this size and below are doubles of the same value: 2^53.
+/// Ids up to this magnitude are doubles of the same value: 2^53.
 inline constexpr std::int64_t largest_id_value = std::int64_t{ 1 } << 53;
 
 constexpr bool is_id_value(std::int64_t id) noexcept
@@ -15,7 +15,7 @@ constexpr bool is_id_value(std::int64_t id) noexcept
   return id >= -largest_id_value && id <= largest_id_value;
 }
 
-/// Whether a double is what an id of 2^53 at most becomes: a whole number, and not the negative zero.
+/// Returns true if the double is an exact integer id (magnitude at most 2^53, not -0.0).
 constexpr bool is_id_value(double number) noexcept
 {
   constexpr auto largest = static_cast<double>(largest_id_value);
@@ -25,11 +25,12 @@ constexpr bool is_id_value(double number) noexcept
     std::bit_cast<std::uint64_t>(number);
 }
 
-/// An id as a double for a buffer: of 2^53 at most as its value, which is what codes with 32-bit ids send; beyond as its bits.
+/// Returns an id as a double for a buffer: up to 2^53 as its value, as codes with 32-bit ids send it; beyond as its bits.
 ///
-/// Some large ids have the bits of a double that is the value of a small one: 4607182418800017408 those of 1. Such an id changes
-/// places with the small one: it has the bits of the integer 1, which no id has otherwise. So each of the 2^64 ids is a double of
-/// its own and comes back from it, and each double is an id. The double may be a signalling nan: copy it, do not calculate.
+/// Some large ids have the bits of a double that is the value of a small id: 4607182418800017408 has those of 1. Such an id
+/// changes places with the small one: it gets the bits of the integer 1, which no other id has. So each of the 2^64 ids has a
+/// double of its own and comes back from it, and each double is an id. The double may be a signalling nan: copy it, do not
+/// calculate.
 constexpr double id_to_number(std::int64_t id) noexcept
 {
   if (is_id_value(id))
@@ -40,7 +41,7 @@ constexpr double id_to_number(std::int64_t id) noexcept
   return is_id_value(number) ? std::bit_cast<double>(static_cast<std::int64_t>(number)) : number;
 }
 
-/// The id that became this double.
+/// Returns the id of such a double.
 constexpr std::int64_t number_to_id(double number) noexcept
 {
   if (is_id_value(number))

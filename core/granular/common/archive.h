@@ -18,12 +18,12 @@
 
 namespace granular
 {
-/// Appends the parts of a thing to bytes, for another rank or for a file. ArchiveReader has the same functions, so that one
-/// description of a thing, pass(archive, thing), serves both. Numbers are as in memory.
+/// Appends the parts of an object to bytes, for another rank or for a file. ArchiveReader has the same functions, so one
+/// description of an object, pass(archive, thing), serves both. Numbers are as in memory.
 class ArchiveWriter
 {
 public:
-  /// Type of a thing whose parts are passed.
+  /// The type of an object whose parts are passed.
   template <typename Thing>
   using Passed = const Thing;
 
@@ -91,8 +91,8 @@ inline void require(bool good, const char* expected)
   }
 }
 
-/// Takes what an ArchiveWriter wrote. Every function throws FormatError where the bytes do not hold what is taken; nothing is
-/// allocated for more than is there.
+/// Reads the bytes of an ArchiveWriter. Every function throws FormatError if the bytes do not hold the requested part; memory
+/// is allocated only for bytes that are there.
 class ArchiveReader
 {
 public:
@@ -112,7 +112,7 @@ public:
     std::memcpy(&value, this->take(sizeof value).data(), sizeof value);
   }
 
-  /// Takes a number of things, each of which takes at least so many bytes.
+  /// Reads a number of items, each of at least so many bytes.
   std::size_t count(std::size_t bytes)
   {
     std::uint64_t value = 0;

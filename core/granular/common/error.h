@@ -10,7 +10,7 @@
 
 namespace granular
 {
-/// A place in a file. What is not known stays at its default and is not printed.
+/// A position in a file. Unknown members keep their defaults and are not printed.
 struct Where
 {
   std::string path = {};
@@ -19,7 +19,7 @@ struct Where
   std::string column = {}; ///< name of the column as the file spells it
 };
 
-/// "path:line: column 'name'" or "path@byte: column 'name'", as far as known.
+/// Returns "path:line: column 'name'" or "path@byte: column 'name'", as far as known.
 std::string to_string(const Where& where);
 
 /// Base of all errors of the core. what() is "place: text": lower case, says expected and got.
@@ -29,7 +29,7 @@ public:
   explicit Error(const std::string& text, Where where = {});
   const Where& where() const noexcept { return where_; }
 
-  /// what() without the place.
+  /// Returns what() without the position.
   const std::string& text() const noexcept { return text_; }
 
 private:
@@ -37,20 +37,20 @@ private:
   Where where_;
 };
 
-/// The operating system refused: open, read, stat; or the file changed under us.
+/// The operating system refused an operation (open, read, stat), or the file changed meanwhile.
 class IoError : public Error
 {
 public:
   explicit IoError(const std::string& text, Where where = {}, std::errc code = {});
 
-  /// The system's own word for it; std::errc{} if the file is there, but not what it was.
+  /// Returns the system's error code; std::errc{} if the file exists but has changed.
   std::errc code() const noexcept { return code_; }
 
 private:
   std::errc code_;
 };
 
-/// The bytes are not what the format says.
+/// The bytes contradict the format.
 class FormatError : public Error
 {
   using Error::Error;
@@ -62,24 +62,23 @@ class LimitError : public Error
   using Error::Error;
 };
 
-/// Legal, but not something this library does.
+/// Legal, but not supported by this library.
 class UnsupportedError : public Error
 {
   using Error::Error;
 };
 
-/// Something a user should know that lost no data.
+/// A message for the user that is not an error.
 struct Notice
 {
   Where where;
   std::string text;
-  std::string
-    topic = {}; ///< of notices with the same topic a user gets the first of a file; empty: each
+  std::string topic = {}; ///< a user gets the first notice of a topic per file; empty: each
 };
 
 using Notices = std::vector<Notice>;
 
-/// "place: text".
+/// Returns "place: text".
 std::string to_string(const Notice& notice);
 }
 #endif

@@ -9,9 +9,8 @@
 
 namespace granular
 {
-/// Tells bytes that changed from those that did not; no proof against somebody who wants it to fail.
-/// After FNV-1a (Fowler, Noll, Vo), eight bytes at a time. How the bytes are split over the calls
-/// is part of the hash.
+/// A hash that detects changed bytes; it does not withstand deliberate forgery. After FNV-1a (Fowler, Noll, Vo), eight bytes
+/// at a time. The division of the bytes into calls is part of the hash.
 class Hash
 {
 public:

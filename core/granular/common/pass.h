@@ -35,7 +35,7 @@ void pass(Archive& archive, typename Archive::template Passed<std::string>& text
   archive.text(text);
 }
 
-/// Passes one of many things: plain numbers as they are in memory, others as pass() knows them.
+/// Passes one of many items: plain numbers as in memory, others by pass().
 template <typename Archive, typename Thing>
 void pass_item(Archive& archive, Thing& thing)
 {

@@ -6,13 +6,13 @@
 
 namespace granular
 {
-/// Thrown out of a long task after Progress::report asked it to stop. Not an Error: nothing is wrong.
+/// Thrown from a long task after Progress::report asked it to stop. Not an Error: nothing is wrong.
 struct Cancelled
 {
 };
 
-/// How a long task tells its caller how far it is, and hears that it should stop.
-/// Called on the caller's thread only, at most once a chunk.
+/// Reports the progress of a long task to its caller, and learns that it should stop. Called only on the caller's thread, at
+/// most once per chunk.
 class Progress
 {
 public:
@@ -25,7 +25,7 @@ public:
     return true;
   }
 
-  /// Reports, and throws Cancelled if the answer is to stop.
+  /// Reports, and throws Cancelled if the task should stop.
   void step(double fraction)
   {
     if (!this->report(fraction))
@@ -35,7 +35,7 @@ public:
   }
 };
 
-/// The progress of a part of a task, as that of the whole, which never goes back.
+/// The progress of a part of a task, reported as that of the whole, which never decreases.
 class PartialProgress final : public Progress
 {
 public:
@@ -44,7 +44,7 @@ public:
   {
   }
 
-  /// What is reported from now on lies in [first, last] of the whole.
+  /// Maps later reports to [first, last] of the whole.
   void set_part(double first, double last) noexcept
   {
     first_ = first;

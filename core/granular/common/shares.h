@@ -6,8 +6,8 @@
 
 namespace granular
 {
-/// Where part of parts begins among so many rows: rows * part / parts, rounded down. part may be parts:
-/// the end of the last. For rows up to 2^62.
+/// Returns where part `part` of `parts` begins among the rows: rows * part / parts, rounded down. part may be parts: the end
+/// of the last. For rows up to 2^62.
 inline std::int64_t begin_of_part(std::int64_t rows, int part, int parts) noexcept
 {
   // of the rest, less than parts, the product fits

@@ -10,7 +10,7 @@
 
 namespace granular
 {
-/// Instruction sets that text is decoded with; results do not depend on the choice.
+/// Instruction sets for decoding text; the results are the same for all.
 enum class Simd : std::uint8_t
 {
   Portable,
@@ -18,7 +18,7 @@ enum class Simd : std::uint8_t
   Avx512
 };
 
-/// The best one this processor has.
+/// Returns the best one of this processor.
 Simd best_simd() noexcept;
 }
 #endif

@@ -15,10 +15,10 @@ constexpr bool is_blank(char c) noexcept
   return static_cast<unsigned char>(c) <= ' ';
 }
 
-/// What a text of UTF-8 may begin with.
+/// The mark at the beginning of some UTF-8 texts.
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// Takes the first word off a line, with what is before it. Empty: the line has none.
+/// Takes the first word off a line, with the blanks before it. Returns an empty word if the line has none.
 inline std::string_view take_word(std::string_view& line) noexcept
 {
   const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
@@ -32,7 +32,7 @@ inline bool has_words(std::string_view line) noexcept
   return !take_word(line).empty();
 }
 
-/// Adds the words of a line.
+/// Appends the words of a line.
 inline void append_words(std::string_view line, std::vector<std::string_view>& words)
 {
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
@@ -41,7 +41,7 @@ inline void append_words(std::string_view line, std::vector<std::string_view>& w
   }
 }
 
-/// The words of a line.
+/// Returns the words of a line.
 inline std::vector<std::string_view> split_words(std::string_view line)
 {
   std::vector<std::string_view> words;
@@ -49,7 +49,7 @@ inline std::vector<std::string_view> split_words(std::string_view line)
   return words;
 }
 
-/// Words, separated by blanks.
+/// Returns words, separated by blanks.
 template <class Words>
 std::string join_words(const Words& words)
 {
@@ -61,7 +61,7 @@ std::string join_words(const Words& words)
   return text;
 }
 
-/// In quotes, shortened to what fits a message; other than printable bytes become '?'.
+/// Returns a text in quotes, shortened for a message; unprintable bytes become '?'.
 inline std::string quoted(std::string_view text)
 {
   constexpr std::size_t longest = 40;

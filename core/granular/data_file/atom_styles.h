@@ -12,8 +12,8 @@
 
 namespace granular
 {
-/// What rows of the sections Atoms and Velocities hold under an atom style: names of columns as dumps have them. Three
-/// image counts ix iy iz may follow in all rows of Atoms.
+/// The columns of the sections Atoms and Velocities in an atom style, with the names in dumps. Three image counts ix iy iz
+/// may follow in all rows of Atoms.
 struct AtomStyle
 {
   std::string_view name;
@@ -22,7 +22,7 @@ struct AtomStyle
   bool has_bonds = false; ///< particles of the style may have bonds
 };
 
-/// THE table of atom styles, after the documentation of LAMMPS (read_data) and the sources of LIGGGHTS.
+/// The table of atom styles, from the documentation of LAMMPS (read_data) and the sources of LIGGGHTS.
 std::span<const AtomStyle> atom_styles() noexcept;
 
 /// The columns of a data file.
@@ -32,9 +32,9 @@ struct DataColumns
   std::vector<std::string> velocities; ///< the first is id; empty: the file has none
 };
 
-/// Finds out what the columns are: those of the style that the user names, else of the one in the comment `Atoms # style`,
-/// else of the only one that fits the first rows, which a notice says. asked: empty or "automatic" leaves it to the file.
-/// Throws FormatError that says which styles would fit.
+/// Finds the columns: of the style that the user names; otherwise of the one in the comment `Atoms # style`; otherwise of the
+/// only one that fits the first rows, with a notice. asked: empty or "automatic" leaves the choice to the file. Throws
+/// FormatError that lists the styles that would fit.
 DataColumns find_data_columns(
   const DataLayout& layout, std::string_view asked, const std::string& path, Notices& notices);
 }

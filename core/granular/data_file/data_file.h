@@ -8,12 +8,12 @@
 
 namespace granular
 {
-/// Data files of LAMMPS and LIGGGHTS (read_data, write_data), for a RunIndex: one frame each, of the timestep that the title says,
+/// Data files of LAMMPS and LIGGGHTS (read_data, write_data), for a RunIndex: one frame each, with the timestep of the title,
 /// or 0.
 const FileFormat& data_file_format() noexcept;
 
-/// Whether a file is one of these, by content: a title and a header that counts atoms. Looks at the first 64 KiB of what is inside.
-/// Never throws: what cannot be read is none.
+/// Returns true if the contents of a file are a title and a header that counts atoms. Looks at the first 64 KiB,
+/// decompressed. Returns false, and never throws, for unreadable files.
 bool is_data_file(const std::string& path) noexcept;
 }
 #endif

@@ -27,15 +27,14 @@ struct DataSection
   bool has_comments = false; ///< some lines before the end have a #
 };
 
-/// Where the parts of a data file of LAMMPS or LIGGGHTS are (documentation of LAMMPS, read_data).
+/// The positions of the parts of a data file of LAMMPS or LIGGGHTS (documentation of LAMMPS, read_data).
 struct DataLayout
 {
   std::int64_t timestep = 0; ///< write_data puts it into the title; 0 without
   std::string units;         ///< likewise; may be empty
   std::int64_t atoms = 0;
   std::int64_t bonds = 0;
-  Box
-    box; ///< -0.5 to 0.5 along axes of which the header says nothing; boundaries are not in the file
+  Box box; ///< -0.5 to 0.5 along axes that the header lacks; boundaries are not in the file
   std::optional<DataSection> particles; ///< section Atoms
   std::optional<DataSection> velocities;
   std::optional<DataSection> bond_rows; ///< section Bonds
@@ -44,11 +43,11 @@ struct DataLayout
 /// Returns true if the first bytes of a file are a title and a header that counts atoms.
 bool starts_data_file(std::string_view first_bytes);
 
-/// Reads the header alone. Throws FormatError.
+/// Reads only the header. Throws FormatError.
 DataLayout read_data_header(const ByteSource& source);
 
-/// Reads the header and passes over all sections, counting the rows of those that the layout has. A section Atoms or Bonds
-/// without rows may be missing. Throws FormatError where rows are missing or too many; IoError; Cancelled.
+/// Reads the header and skips all sections, counting the rows of those in the layout. A section Atoms or Bonds without rows
+/// may be missing. Throws FormatError if rows are missing or too many; IoError; Cancelled.
 DataLayout read_data_layout(const ByteSource& source, Progress& progress);
 }
 #endif

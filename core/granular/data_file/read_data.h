@@ -12,7 +12,7 @@
 
 namespace granular
 {
-/// What of a data file is wanted.
+/// The wanted part of a data file.
 struct DataRequest
 {
   DumpRequest
@@ -37,15 +37,15 @@ ColumnSchema make_particle_schema(const DataColumns& columns);
 /// Returns the columns of the section Bonds: bond_id btype id1 id2.
 ColumnSchema make_data_bond_schema();
 
-/// Decodes a data file. Particles are decoded as read_dump does it, from the section Atoms; velocities get to them by their
-/// ids, in any order of rows. Bonds of which a particle is not there are left out, with a notice; without one if stride
-/// or region leave out particles. Lines are in absolute coordinates where points are scaled.
+/// Decodes a data file. Particles are decoded from the section Atoms, like read_dump; velocities join them by ids, in any
+/// order of rows. Bonds without one of their particles are left out, with a notice unless stride or region leave out
+/// particles. Lines are in absolute coordinates if points are scaled.
 ///
-/// Collective: with several ranks each decodes its share of the rows, and particles.piece must be the rank, particles.pieces the number
-/// of ranks. A rank alone that wants one of several pieces decodes all, and keeps its piece.
+/// Collective: each rank decodes its share of the rows; particles.piece must be the rank, particles.pieces the number of
+/// ranks. A single rank that wants one of several pieces decodes all rows and keeps its piece.
 ///
-/// Throws FormatError with path, line and column: also where a particle has no velocity, or an id several; IoError; LimitError;
-/// Cancelled; std::bad_alloc.
+/// Throws FormatError with path, line and column, also for a particle without a velocity and an id with several; IoError;
+/// LimitError; Cancelled; std::bad_alloc.
 DataFrame read_data(const FramePiece& file, const DataRequest& request, Communicator& ranks,
   Notices& notices, Progress& progress);
 }

@@ -10,16 +10,14 @@
 
 namespace granular
 {
-/// A legacy VTK file (version 3.0, ASCII) with an unstructured grid of voxels: as LIGGGHTS-INL writes it - points in
-/// that order, cell arrays nlocal and proc, as far as they are known - but with the right order of corners, coordinates
-/// as doubles with the fewest digits that read back the same, and counts of 2^31 and more as vtktypeint64. Throws
-/// Cancelled.
+/// Returns a legacy VTK file (version 3.0, ASCII) with an unstructured grid of voxels, like LIGGGHTS-INL: points in that
+/// order, cell arrays nlocal and proc if known. The corners are in the right order, coordinates are doubles with the fewest
+/// digits that read back the same, and counts of 2^31 and more are vtktypeint64. Throws Cancelled.
 std::string encode_voxels(const Decomposition& decomposition, Progress& progress);
 
-/// The rectilinear grid that LIGGGHTS-PUBLIC writes, byte for byte (%f: six decimals). A notice says where these are
-/// too few: cuts that differ become equal, or one moves by more than a thousandth of the thinnest slab. Throws Error
-/// where the box would become flat, and
-/// UnsupportedError where the subdomains do not form a grid, which is all that such a file can hold.
+/// Returns the rectilinear grid of LIGGGHTS-PUBLIC, byte for byte (%f: six decimals). A notice tells if these are too few:
+/// different cuts become equal, or one moves by more than a thousandth of the thinnest slab. Throws Error if the box would
+/// become flat, and UnsupportedError if the subdomains do not form a grid, which is all that such a file can hold.
 std::string encode_grid(const Decomposition& decomposition, Notices& notices);
 }
 #endif

@@ -10,10 +10,9 @@
 
 namespace granular
 {
-/// Finds the slab between cuts that holds a coordinate: lo <= x < hi, in the last one x <= hi, and where cuts
-/// coincide the last that begins there. Comparisons with the cuts alone decide. Bins only say which cut to compare
-/// with: the number of a bin never falls as x grows, however it is rounded, so that all cuts in lower bins are
-/// below x, and all in higher ones above.
+/// Finds the slab between cuts that holds a coordinate: lo <= x < hi, in the last one x <= hi, and where cuts coincide the
+/// last that begins there. Only comparisons with the cuts decide; bins tell which cut to compare with. The number of a bin
+/// never falls as x grows, in any rounding, so all cuts in lower bins are below x, and all in higher ones above.
 class SlabFinder
 {
   struct Bin
@@ -27,7 +26,7 @@ public:
   class Guess
   {
   public:
-    /// The number of the slab, or below 0: search must look.
+    /// Returns the number of the slab, or below 0 if search must find it.
     std::int32_t operator()(double x) const noexcept
     {
       const Bin& bin = bins_[this->bin_of(x)];
@@ -37,7 +36,7 @@ public:
   private:
     friend SlabFinder;
 
-    /// Also of what is outside or no number.
+    /// Accepts coordinates outside, and nan.
     std::size_t bin_of(double x) const noexcept
     {
       const double bin = std::min(last_, std::max(0.0, (x - origin_) * scale_)); // nan becomes 0
@@ -50,7 +49,7 @@ public:
     const Bin* bins_ = nullptr;
   };
 
-  /// cuts: finite, none below the one before; fewer than two make no slab.
+  /// cuts: finite, not decreasing; fewer than two make no slab.
   explicit SlabFinder(std::span<const double> cuts);
 
   /// Valid as long as this stays where it is.
@@ -61,7 +60,7 @@ public:
     return guess;
   }
 
-  /// The number of the slab, or -1: none holds the coordinate.
+  /// Returns the number of the slab, or -1 if none holds the coordinate.
   std::int32_t search(double x) const noexcept;
 
 private:

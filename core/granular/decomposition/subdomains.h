@@ -13,8 +13,8 @@
 
 namespace granular
 {
-/// The box along the axes that one process of a simulation owns, in the simulation's unit of length, and how many
-/// particles it has.
+/// The box along the axes that one rank of a simulation owns, in the simulation's unit of length, with its number of
+/// particles.
 struct Subdomain
 {
   Vector3 lo = {};
@@ -25,16 +25,16 @@ struct Subdomain
   bool operator==(const Subdomain&) const = default;
 };
 
-/// How a simulation box is divided: the box is the disjoint union of the subdomains.
+/// The division of a simulation box: the box is the disjoint union of the subdomains.
 struct Decomposition
 {
   std::vector<Subdomain> subdomains;
-  bool has_particles = true; ///< false: nobody has counted, particles are 0
-  bool has_ranks = true;     ///< false: nobody knows which process owns which, ranks are counted
+  bool has_particles = true; ///< false: the particles are unknown, and 0
+  bool has_ranks = true;     ///< false: the ranks are unknown, and counted
 };
 
-/// The bounds of all processes as dump decomposition/vtk collects them: of process p of P s = (x_min, x_max) lies in
-/// x_data[2p] and x_data[2p + 1], t in y_data, u in z_data, its number of particles in particles[p].
+/// The bounds of all ranks as collected by dump decomposition/vtk: of rank p of P, s = (x_min, x_max) lies in x_data[2p] and
+/// x_data[2p + 1], t in y_data, u in z_data, its number of particles in particles[p].
 struct GatheredBounds
 {
   std::vector<double> x_data; ///< 2P
@@ -43,30 +43,29 @@ struct GatheredBounds
   std::vector<std::int64_t> particles; ///< P
 };
 
-/// Gives rank 0 the bounds and counts of all ranks, in the order of the ranks; others get nothing. own.rank is
-/// not looked at. Collective.
+/// Gives rank 0 the bounds and counts of all ranks, in rank order; others get nothing. own.rank is ignored. Collective.
 GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks);
 
-/// The subdomains with these bounds, p = 0 .. P - 1. Throws Error where an array has not its size.
+/// Returns the subdomains with these bounds, p = 0 .. P - 1. Throws Error if an array has a wrong size.
 Decomposition decomposition_of(const GatheredBounds& bounds);
 
-/// Joins parts of one decomposition, in their order. Counts or ranks that a part with subdomains lacks are unknown: then all
-/// counts are 0, or ranks are counted.
+/// Joins parts of one decomposition, in order. Counts or ranks that a part with subdomains lacks are unknown: then all counts
+/// are 0, or ranks are counted.
 Decomposition join(std::span<const Decomposition> parts);
 
-/// The subdomains of all ranks, in the order of the ranks, on all. What not all who have any know of them nobody
-/// knows. Collective.
+/// Returns the subdomains of all ranks, in rank order, on all ranks. Counts or ranks that one of the ranks with subdomains
+/// lacks are unknown for all. Collective.
 Decomposition gather_decomposition(const Decomposition& own, Communicator& ranks);
 
-/// The smallest box around all, without particles; 0 along an axis without numbers. A nan counts for nothing, lo may be
-/// above hi.
+/// Returns the smallest box around all, without particles; 0 along an axis without numbers. nan is ignored; lo may be above
+/// hi.
 Subdomain bounds_of(std::span<const Subdomain> subdomains) noexcept;
 
-/// The largest number of particles divided by the mean, made as largest * processes / sum; 1 without particles. processes: how
-/// many there are, at least the subdomains; 0: as many as subdomains.
+/// Returns the largest number of particles divided by the mean, as largest * processes / sum; 1 without particles. processes:
+/// the number of ranks, at least the subdomains; 0: as many as subdomains.
 double imbalance_of(std::span<const Subdomain> subdomains, std::int64_t processes = 0) noexcept;
 
-/// What becomes of a check that fails.
+/// The action for a failed check.
 enum class Answer : std::uint8_t
 {
   Error,
@@ -74,21 +73,21 @@ enum class Answer : std::uint8_t
   None
 };
 
-/// What is required of subdomains.
+/// The checks of subdomains.
 struct SubdomainChecks
 {
   Answer bounds = Answer::Error;  ///< lo <= hi, all finite
   Answer overlap = Answer::Error; ///< no two share more than faces
   Answer gap = Answer::Error;     ///< together they fill the smallest box around all
-  /// Two overlap by more than this part of the box's edge along each axis, gaps have more than this part of its
-  /// volume.
+  /// The tolerance: two overlap by more than this fraction of the box's edge along each axis, gaps have more than this
+  /// fraction of its volume.
   double tolerance = 1e-9;
 };
 
-/// Holds subdomains against the checks, each of which gives one Error or Notice, that names the first two at fault
-/// (a process by its rank) and counts them, up to 10^6 overlaps. Those without bounds are left out of the overlaps; gaps
-/// are looked for where all have bounds and no two overlap. In a box that is flat areas may not overlap, and there are
-/// no gaps. A grid has neither, which takes no more than finding it; others take n log n (see find_overlaps). Throws FormatError; Cancelled.
+/// Checks subdomains. Each check gives one Error or Notice that names the first two wrong ones (by rank) and counts them, up
+/// to 10^6 overlaps. Subdomains without bounds are left out of the overlaps; gaps are checked if all have bounds and no two
+/// overlap. In a flat box areas must not overlap, and there are no gaps. A grid has neither, which costs only finding it;
+/// others take n log n (see find_overlaps). Throws FormatError; Cancelled.
 void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChecks& checks,
   const Where& where, Notices& notices, Progress& progress);
 }

@@ -32,14 +32,14 @@ struct Voxels
   Block connectivity; ///< of each subdomain 8 std::int64_t, in the order of VTK_VOXEL
 };
 
-/// Point 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p less the origin, rounded once. shared_corners:
-/// corners of several subdomains whose coordinates are equal become one point, the one that comes first, and points
-/// are numbered in the order in which they come first; a nan is equal to nothing. Does not depend on threads. Throws std::bad_alloc; Cancelled.
+/// Makes voxels. Point 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p minus the origin, rounded once.
+/// shared_corners: equal corners of several subdomains become one point, the first one, and points are numbered by first
+/// occurrence; nan equals nothing. The result does not depend on threads. Throws std::bad_alloc; Cancelled.
 Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
   bool shared_corners, const Executor& executor, Progress& progress,
   const std::shared_ptr<BlockPool>& pool = nullptr);
 
-/// In which order the points of a cell are.
+/// The order of the points of a cell.
 enum class CornerOrder : std::uint8_t
 {
   Voxel,      ///< i + 2j + 4k
@@ -48,9 +48,9 @@ enum class CornerOrder : std::uint8_t
   None        ///< another, or no box along the axes
 };
 
-/// Finds the order by which corners share coordinates (a nan is equal to a nan), and sets the bounds: those of the
-/// corner that comes first are lo, also where they are above hi. points: of the corners in the order of the cell. What is
-/// flat or a point (equal bounds) counts as Voxel where it could be. None leaves the bounds alone.
+/// Finds the order by which corners share coordinates (a nan equals a nan), and sets the bounds: those of the first corner
+/// are lo, even above hi. points: of the corners in the order of the cell. Flat cells and points (equal bounds) count as
+/// Voxel where possible. None leaves the bounds unchanged.
 CornerOrder bounds_of_cell(
   std::span<const Vector3, corners_of_voxel> points, Subdomain& subdomain) noexcept;
 }

@@ -19,7 +19,7 @@
 
 namespace granular
 {
-/// Cells of a grid that a process wants: those of a range whose numbers are in [first, last), in the order of these.
+/// The cells of a grid that a rank wants: those of a range with numbers in [first, last), in order.
 struct WantedCells
 {
   CellRange range;
@@ -30,7 +30,7 @@ struct WantedCells
 
   std::int64_t count(const EulerGrid& grid) const noexcept;
 
-  /// Which of the wanted ones a cell is, or -1.
+  /// Returns the index of a cell among the wanted ones, or -1.
   std::int64_t place(const EulerGrid& grid, const std::array<std::int64_t, 3>& cell) const noexcept;
 };
 
@@ -39,31 +39,31 @@ struct EulerAverageRequest
   EulerGrid grid;
   GrainCells::Options cells;
   GrainArrays arrays;
-  WantedCells wanted;     ///< of this process
+  WantedCells wanted;     ///< of this rank
   bool keep_sums = false; ///< fill EulerAverages::sums
 };
 
-/// What averages of several frames are made of: structure of arrays, of the wanted cells.
+/// The sums behind averages over several frames: structure of arrays, of the wanted cells.
 struct EulerSums
 {
-  std::vector<double> share;    ///< of the particles in each cell, as far as they are in it: sum w
+  std::vector<double> share;    ///< share of the particles in each cell: sum w
   std::vector<double> mass;     ///< sum w m [kg]
   std::vector<double> momentum; ///< sum w m v, three a cell [kg m/s]
   std::vector<double> volume;   ///< of the cell [m3]
 };
 
-/// Averages over the grains of a frame.
+/// Averages over the particles of a frame.
 struct EulerAverages
 {
   EulerCells cells; ///< the wanted ones
   EulerSums sums;   ///< of the wanted ones, or empty
   std::int64_t outside =
-    0; ///< particles that touch no cell; by centres those whose centre is in none
+    0; ///< particles that touch no cell; with Centre, particles whose centre is in none
   std::int64_t broken = 0; ///< particles that were left out: see GrainValues::load
 };
 
-/// v - mean; 0 where the two may differ by the rounding of mean alone: its terms, sums and quotients are rounded up to
-/// ten times. Without that one particle, or particles of one velocity, would have a pressure.
+/// Returns v - mean, or 0 if the difference may come from the rounding of the mean: its terms, sums and quotients are rounded
+/// up to ten times. Otherwise one particle, or particles with one common velocity, would have a pressure.
 inline double deviation(double v, double mean) noexcept
 {
   const double difference = v - mean;
@@ -90,7 +90,8 @@ inline double deviation(double v, double mean) noexcept
 EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,
   Communicator& ranks, const Executor& executor, Notices& notices, Progress& progress);
 
-/// The largest radius of the grains of all ranks; 0 without grains. Throws Error, on all, where there are no radii. Collective.
+/// Returns the largest radius of the particles of all ranks; 0 without particles. Throws Error, on all ranks, if there are no
+/// radii. Collective.
 double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks);
 }
 #endif

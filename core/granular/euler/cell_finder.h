@@ -12,14 +12,14 @@
 
 namespace granular
 {
-/// Finds the cells of a grid that hold points: lo <= x < hi, in the last along an axis x <= hi. Comparisons with the
-/// faces decide, however they are rounded.
+/// Finds the cells of a grid that hold points: lo <= x < hi, in the last along an axis x <= hi. Comparisons with the rounded
+/// faces decide.
 class CellFinder
 {
 public:
   explicit CellFinder(const EulerGrid& grid) noexcept;
 
-  /// The number along an axis, or -1: none holds it.
+  /// Returns the number along an axis, or -1 if none holds it.
   std::int64_t find(std::size_t axis, double x) const noexcept
   {
     const Axis& a = axes_[axis];
@@ -35,12 +35,12 @@ public:
     return this->find_by_faces(axis, x);
   }
 
-  /// Whether a sphere is wholly, and not just, inside of a cell of a range, and the number of this cell there.
+  /// Returns true if a sphere is entirely, and clearly, inside a cell of a range, with the number of this cell there.
   bool find_whole(const double* centre, double radius, const CellRange& within,
     std::int64_t& cell) const noexcept;
 
-  /// The numbers within a range, x fastest, of the cells of points x y z; -1 for those elsewhere. Whether there are none of
-  /// these.
+  /// Stores the numbers within a range, x fastest, of the cells of points x y z; -1 for others. Returns true if all are
+  /// others.
   bool find(
     std::span<const double> points, const CellRange& within, std::int64_t* cells) const noexcept;
 

@@ -11,8 +11,8 @@
 
 namespace granular
 {
-/// Cells of space with averages of the particles in them: structure of arrays, the same number of cells in each.
-/// Empty cells are 0 but for the centre.
+/// Cells with averages of the particles in them: structure of arrays, with the same number of cells in each. Empty cells are
+/// 0 except for the centre.
 struct EulerCells
 {
   std::vector<double> centres;         ///< x y z of each cell [m]
@@ -23,7 +23,7 @@ struct EulerCells
   std::vector<double> normal_stress;   ///< xx yy zz, or empty: not known [Pa]
   std::vector<double> shear_stress;    ///< xy xz yz, or empty: not known [Pa]
 
-  /// Number of cells.
+  /// Returns the number of cells.
   std::int64_t count() const noexcept { return static_cast<std::int64_t>(volume_fraction.size()); }
 
   /// Makes all arrays, but for stresses, that long; new values are 0.

@@ -13,7 +13,7 @@
 
 namespace granular
 {
-/// What of a dataset is read; numbers of the rest are passed over.
+/// The part of a dataset that is read; other numbers are skipped.
 enum class EulerRead : std::uint8_t
 {
   Look,  ///< types of cells, and no more than tells whether this is an Euler file
@@ -32,19 +32,18 @@ struct EulerDataset
 
   bool has(std::string_view name) const noexcept;
 
-  /// Whether the arrays are there that tell Euler cells from others.
+  /// Returns true if the arrays that mark Euler cells are there.
   bool is_euler() const noexcept;
 
-  /// Whether this is as LIGGGHTS begins: points that are vertices, which those of its meshes are not, and no other
-  /// arrays.
+  /// Returns true if this begins like LIGGGHTS' file: points that are vertices, unlike its meshes, and no other arrays.
   bool may_become_euler() const noexcept;
 
-  /// Whether it has the title that LIGGGHTS writes, of meshes as well.
+  /// Returns true if it has LIGGGHTS' title, which meshes have, too.
   bool has_title() const noexcept;
 };
 
-/// Reads a dataset, from its header to the next one or the end; of arrays the values of those that `wanted` says yes
-/// to by name. What was read before an error is there. Throws Error; see LegacyVtk::ended.
+/// Reads a dataset, from its header to the next one or the end, with the values of the arrays that `wanted` accepts by name.
+/// Data before an error are kept. Throws Error; see LegacyVtk::ended.
 void read_dataset(LegacyVtk& file, EulerRead what,
   const std::function<bool(std::string_view)>& wanted, EulerDataset& dataset);
 }

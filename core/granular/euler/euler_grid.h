@@ -22,15 +22,15 @@ struct EulerGrid
 
   std::int64_t size() const noexcept { return counts[0] * counts[1] * counts[2]; }
 
-  /// The edge of a cell, (hi - lo) / n, rounded in this order.
+  /// Returns the edge of a cell, (hi - lo) / n, rounded in this order.
   double spacing(std::size_t axis) const noexcept;
 
-  /// Where cell i of an axis begins and cell i - 1 ends, 0 <= i <= n: lo + i spacing, rounded in this order as
-  /// vtkImageData does, and hi for the last. Neighbours share it to the bit.
+  /// Returns where cell i of an axis begins and cell i - 1 ends, 0 <= i <= n: lo + i spacing, rounded in this order like
+  /// vtkImageData, and hi for the last. Neighbours share it to the bit.
   double face(std::size_t axis, std::int64_t i) const noexcept;
   std::vector<double> faces(std::size_t axis) const; ///< all n + 1
 
-  /// lo + (i + 1/2) spacing, as LIGGGHTS has it.
+  /// Returns lo + (i + 1/2) spacing, like LIGGGHTS.
   double centre(std::size_t axis, std::int64_t i) const noexcept;
 
   bool operator==(const EulerGrid&) const = default;
@@ -42,7 +42,7 @@ struct CellRange
   std::array<std::int64_t, 3> first = {};
   std::array<std::int64_t, 3> last = {};
 
-  /// How many cells there are.
+  /// Returns the number of cells.
   std::int64_t size() const noexcept
   {
     std::int64_t cells = 1;
@@ -53,7 +53,7 @@ struct CellRange
     return cells;
   }
 
-  /// The number of a cell in the range, x fastest; -1: it is not there.
+  /// Returns the number of a cell in the range, x fastest; -1: not there.
   std::int64_t number(const std::array<std::int64_t, 3>& cell) const noexcept
   {
     std::int64_t number = 0;
@@ -86,7 +86,7 @@ struct CellRange
   }
 };
 
-/// How a user says what cells there are.
+/// A user's description of the cells.
 struct EulerGridRequest
 {
   enum class By : std::uint8_t
@@ -110,8 +110,8 @@ struct EulerGridRequest
 inline constexpr std::int64_t most_cells = std::int64_t{ 1 } << 40;
 inline constexpr std::int64_t most_cells_of_axis = std::int64_t{ 1 } << 31;
 
-/// Throws Error: bounds that are not finite or lo not below hi, counts below 1, sizes that are not above 0,
-/// cells without thickness (faces that coincide); LimitError: too many cells.
+/// Makes the grid. Throws Error for bounds that are not finite or lo not below hi, counts below 1, sizes not above 0, and
+/// cells without thickness (coinciding faces); LimitError for too many cells.
 EulerGrid make_euler_grid(const EulerGridRequest& request);
 }
 #endif

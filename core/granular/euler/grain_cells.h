@@ -18,14 +18,14 @@
 
 namespace granular
 {
-/// To which cells a grain belongs.
+/// The division of a particle among cells.
 enum class CellWeights : std::uint8_t
 {
-  Centre, ///< to that of its centre, whole, as in LIGGGHTS
-  Overlap ///< to each that it touches, by its volume there
+  Centre, ///< the whole particle in the cell of its centre, as in LIGGGHTS
+  Overlap ///< each cell has the volume of the particle inside it
 };
 
-/// Finds the cells of grains and of their periodic images.
+/// Finds the cells of particles and of their periodic images.
 class GrainCells
 {
 public:
@@ -40,17 +40,17 @@ public:
   GrainCells(const GrainCells&) = delete;
   GrainCells& operator=(const GrainCells&) = delete;
 
-  /// Whether each grain has one cell at most, that of its centre: see CellFinder.
+  /// Returns true if each particle has at most one cell, that of its centre: see CellFinder.
   bool is_direct() const noexcept
   {
     return weights_ == CellWeights::Centre && !images_.of_centres();
   }
   const CellFinder& finder() const noexcept { return finder_; }
 
-  /// Room for the work of a thread.
+  /// Working memory of a thread.
   using Shares = std::vector<CellShare>;
 
-  /// Calls visit(range) with the cells that each image of a grain may belong to, if there are any.
+  /// Calls visit(range) with the cells that each image of a particle may belong to, if any.
   template <class Visit>
   void each_range(const double* centre, double radius, const Visit& visit) const
   {
@@ -73,8 +73,8 @@ public:
       });
   }
 
-  /// Calls add(cell, share, volume) for each cell within a range that a grain belongs to: its number in the range, the part
-  /// of the grain that is in it, in (0, 1] and a multiple of 2^quantum(), and that part of the volume.
+  /// Calls add(cell, share, volume) for each cell in a range that a particle belongs to: its number in the range, the
+  /// particle's part in it, in (0, 1] and a multiple of 2^quantum(), and the volume of that part.
   template <class Add>
   void each_share(const double* centre, double radius, const CellRange& within, Shares& shares,
     const Add& add) const
@@ -113,8 +113,8 @@ public:
     }
   }
 
-  /// Makes sure that grains of that radius and smaller can be divided: throws LimitError. Returns the most shares that one may
-  /// have in one cell: those of its images. To be called before any range or share is asked for.
+  /// Checks that particles up to that radius can be divided; throws LimitError. Returns the largest number of shares that one
+  /// may have in one cell: those of its images. Call it before asking for ranges or shares.
   std::int64_t check(double radius) const
   {
     const double reach = weights_ == CellWeights::Overlap ? radius : 0;
@@ -122,14 +122,14 @@ public:
     return images_.most_in_cell(reach);
   }
 
-  /// largest_volume: of all grains. To be called before each_share, whenever weights are Overlap.
+  /// largest_volume: of all particles. Call it before each_share if weights are Overlap.
   void set_largest_volume(double largest_volume) noexcept;
 
   /// Shares are multiples of 2^quantum, 2^-64 of a grain or of the smallest cell, whatever is less; 0 for Centre.
   int quantum() const noexcept { return quantum_; }
 
 private:
-  /// Whether it belongs to one cell whole: what has no volume does, too.
+  /// Returns true if the particle belongs to one cell as a whole; so do particles without volume.
   bool is_point(double radius) const noexcept
   {
     return weights_ == CellWeights::Centre || sphere_volume(radius) == 0;

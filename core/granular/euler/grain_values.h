@@ -18,7 +18,7 @@
 
 namespace granular
 {
-/// The names of the arrays that averages are made from; an empty one: none. Names are those of arrays (`radius`) or of columns of dumps.
+/// The names of the averaged arrays; empty: none. Names are those of arrays (`radius`) or of columns of dumps.
 struct GrainArrays
 {
   std::string velocity = "v";    ///< three components
@@ -28,7 +28,7 @@ struct GrainArrays
     stress = {}; ///< volume times stress, xx yy zz xy xz yz (compute stress/atom); empty: none
 };
 
-/// What a frame has of these. Different ranks may have different rows, but not different arrays.
+/// The values of a frame. Ranks may have different rows, but not different arrays.
 struct GrainSources
 {
   std::array<std::optional<ValueSource>, 3> velocity;
@@ -38,11 +38,10 @@ struct GrainSources
   std::array<std::optional<ValueSource>, 6> stress;
 };
 
-/// Throws Error where an array has another number of components than it should, or texts, and where an array for
-/// stress is named that is not there.
+/// Throws Error if an array has a wrong number of components, or texts, and if a named stress array is missing.
 GrainSources find_grain_sources(const FrameView& frame, const GrainArrays& names);
 
-/// Magnitudes of numbers but 0, as their bits, which are in the order of the numbers.
+/// Magnitudes of nonzero numbers, as their bits, which are in the order of the numbers.
 class Magnitudes
 {
 public:
@@ -77,18 +76,18 @@ private:
   std::uint64_t less_one_ = ~std::uint64_t{ 0 };
 };
 
-/// Values of some grains.
+/// Values of some particles.
 struct GrainBlock
 {
   static constexpr std::size_t most_rows = 256;
 
   std::size_t rows = 0;
   const double* positions = nullptr;     ///< x y z of each, absolute
-  const double* velocities = nullptr;    ///< three of each; 0 where nobody knows
-  const double* radius = nullptr;        ///< 0 where nobody knows
-  const double* mass = nullptr;          ///< 1 where nobody knows
+  const double* velocities = nullptr;    ///< three of each; 0 if unknown
+  const double* radius = nullptr;        ///< 0 if unknown
+  const double* mass = nullptr;          ///< 1 if unknown
   const double* stresses = nullptr;      ///< six of each, or null
-  const unsigned char* usable = nullptr; ///< 0: the grain is left out; null: all are usable
+  const unsigned char* usable = nullptr; ///< 0: the particle is left out; null: all are usable
 
   bool uses(std::size_t i) const noexcept { return !usable || usable[i] != 0; }
 
@@ -101,19 +100,19 @@ struct GrainBlock
   std::array<unsigned char, most_rows> usable_buffer;
 };
 
-/// Loads grains of a frame.
+/// Loads particles of a frame.
 class GrainValues
 {
 public:
-  /// What is known of the numbers of grains.
+  /// The known magnitudes of the particles' numbers.
   struct Scan
   {
     Magnitudes mass;
     Magnitudes speed; ///< of components
     Magnitudes radius;
     Magnitudes stress;
-    std::int64_t broken = 0; ///< grains that are left out, but duplicates
-    std::int64_t moved = 0;  ///< grains whose positions are not those of an array in memory
+    std::int64_t broken = 0; ///< particles left out, except duplicates
+    std::int64_t moved = 0;  ///< particles whose positions are not those of an array in memory
 
     void add(const Scan& other) noexcept;
   };
@@ -123,11 +122,11 @@ public:
 
   bool has_stress() const noexcept { return sources_.stress[0].has_value(); }
 
-  /// Rows in increasing order, at most most_rows. Duplicates of ghosts are not usable, nor are grains with a number that
-  /// is not finite or too large to add (2^290), or a radius or mass below 0. From any thread.
+  /// Loads rows in increasing order, at most most_rows. Not usable are ghost duplicates, particles with a number that is not
+  /// finite or too large to add (2^290), and those with a radius or mass below 0. May be called from any thread.
   void load(std::span<const std::int64_t> rows, GrainBlock& block) const;
 
-  /// The same, and looks at the numbers of those that are usable.
+  /// Loads rows and includes the numbers of usable particles in the known magnitudes.
   void scan(std::span<const std::int64_t> rows, GrainBlock& block, Scan& scan) const;
 
   /// From now on load need not look at what the scan of all grains has found.

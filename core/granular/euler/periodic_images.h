@@ -11,24 +11,24 @@
 
 namespace granular
 {
-/// The images that grains have along the periodic axes of a box, as far as they reach into a grid.
+/// The images of particles along the periodic axes of a box that reach into a grid.
 class PeriodicImages
 {
 public:
   /// box: null or tilted: there are none but the grains themselves.
   PeriodicImages(const EulerGrid& grid, const Box* box);
 
-  /// Whether centres in the box may have images in the grid.
+  /// Returns true if centres in the box may have images in the grid.
   bool of_centres() const noexcept { return of_centres_; }
 
-  /// Whether a grain surely has no image in the grid but itself.
+  /// Returns true if a particle surely has no image in the grid but itself.
   bool alone(const double* centre, double radius) const noexcept
   {
     return this->alone(0, centre[0], radius) && this->alone(1, centre[1], radius) &&
       this->alone(2, centre[2], radius);
   }
 
-  /// Calls visit(centre of the image) for each that may reach into the grid, the grain itself among them.
+  /// Calls visit(centre of the image) for each image that may reach into the grid, including the particle itself.
   template <class Visit>
   void each(const double* centre, double radius, const Visit& visit) const
   {
@@ -47,11 +47,11 @@ public:
       });
   }
 
-  /// Makes sure that grains of that radius and smaller, with centres in the box, have no more images than can be counted: throws
-  /// LimitError. To be called before each().
+  /// Checks that particles up to that radius, with centres in the box, have no more images than can be counted; throws
+  /// LimitError. Call it before each().
   void check(double radius) const;
 
-  /// The most images of a grain of that radius, or smaller, that one cell may have.
+  /// Returns the largest number of images of a particle up to that radius in one cell.
   std::int64_t most_in_cell(double radius) const noexcept;
 
   /// Whether a place along an axis is that of a grain whose image one period below is in the grid, too: at the upper

@@ -18,13 +18,12 @@ struct RegularGrid
   std::int64_t first = 0;
 };
 
-/// The regular grids that the cells of a frame form, as they follow one another in it: one (`parallel no` of fix
-/// ave/euler), or those of processes that divide a box by planes (`parallel yes`), x fastest; processes that go on with the
-/// same grid may be one. Edges of cells are found from the distances of centres, within what six decimals allow, or single
-/// precision or six digits where all centres have no more; neighbours share their faces to the bit. Where a grid is one cell
-/// thick, that is what the grids beside it leave, or their distance; where there is none the mean edge along the other axes,
-/// with a notice. Faces of a rectilinear grid count as they are. Throws UnsupportedError that names the first cell that is in
-/// none.
+/// Returns the regular grids that consecutive cells of a frame form: one (`parallel no` of fix ave/euler), or those of ranks
+/// that divide a box by planes (`parallel yes`), x fastest; ranks that continue the same grid may be one. The distances of
+/// centres give the edges of cells, within six decimals, or within single precision or six digits if all centres have no
+/// more; neighbours share their faces to the bit. The thickness of a grid one cell thick comes from the grids beside it, or
+/// from their distance; without such grids it is the mean edge along the other axes, with a notice. Faces of a rectilinear
+/// grid count unchanged. Throws UnsupportedError that names the first cell outside any grid.
 std::vector<RegularGrid> find_regular_grids(const EulerFrame& frame, Notices& notices);
 }
 #endif

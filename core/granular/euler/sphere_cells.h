@@ -12,25 +12,25 @@
 
 namespace granular
 {
-/// The volume that a sphere has in a cell of a grid.
+/// The volume of a sphere in a cell of a grid.
 struct CellShare
 {
-  std::int64_t cell = 0; ///< number in the range that was asked for, x fastest
+  std::int64_t cell = 0; ///< number in the requested range, x fastest
   double volume = 0;     ///< above 0
 };
 
-/// Divides spheres among the cells of a grid, each volume as exact as centred_box_volume's.
+/// Divides spheres among the cells of a grid, each volume as exact as in centred_box_volume.
 class SphereCells
 {
 public:
-  /// short_cuts: false has each cell that the bounds of a sphere touch done by centred_box_volume, for comparison.
+  /// short_cuts: false computes each cell in the bounds of a sphere by centred_box_volume, for comparison.
   explicit SphereCells(const EulerGrid& grid, bool short_cuts = true);
 
-  /// The cells that the bounds of a sphere touch; none where the sphere itself touches no cell. radius^2 is a normal number.
+  /// Returns the cells in the bounds of a sphere; none if the sphere itself touches no cell. radius^2 is a normal number.
   CellRange range(const Twofold3& centre, double radius) const noexcept;
 
-  /// Adds the shares of a sphere at hi + lo of the centre, finite, radius >= 0, in cells within a range of the grid.
-  /// A sphere without volume has no shares. From any thread.
+  /// Adds the shares of a sphere at hi + lo of the centre, finite, radius >= 0, in cells within a range of the grid. A sphere
+  /// without volume has no shares. May be called from any thread.
   void find(const Twofold3& centre, double radius, const CellRange& within,
     std::vector<CellShare>& shares) const;
 

@@ -6,9 +6,9 @@
 
 namespace granular
 {
-/// The volume that a sphere around the origin has in common with a box, 0 <= lo <= hi, by quadrature of the areas of
-/// its slices: a sum of what is positive, so that nothing cancels however small the box is against the
-/// sphere. The cube of the radius must neither over- nor underflow.
+/// Returns the common volume of a sphere around the origin and a box, 0 <= lo <= hi, by quadrature of the areas of its
+/// slices: a sum of positive terms, so nothing cancels, however small the box is against the sphere. The cube of the radius
+/// must neither over- nor underflow.
 double octant_volume(double radius, Vector3 lo, Vector3 hi) noexcept;
 }
 #endif

@@ -16,14 +16,14 @@
 
 namespace granular
 {
-/// Whose bytes a dump has.
+/// The program whose format a dump has.
 enum class Dialect : std::uint8_t
 {
   Liggghts, ///< box with six digits, or all where these are too few; binary without names, dump custom with trailing blanks
   Lammps    ///< box with 17 digits, binary of revision 2 with names
 };
 
-/// What the header of one frame of a dump says.
+/// The header of one frame of a dump.
 struct FrameHeader
 {
   std::int64_t timestep = 0;
@@ -32,14 +32,14 @@ struct FrameHeader
   std::string units; ///< ITEM: UNITS of this frame or an earlier one of the file
   std::int64_t rows = 0;
   Box box;
-  std::string counted = "ATOMS";       ///< what rows are: ITEM: NUMBER OF ...
-  bool has_box = true;                 ///< false: the box is none, of no size
-  std::optional<Dialect> dialect = {}; ///< of the header, where it can be told
+  std::string counted = "ATOMS";       ///< name of rows: ITEM: NUMBER OF ...
+  bool has_box = true;                 ///< false: there is no box, and its size is 0
+  std::optional<Dialect> dialect = {}; ///< of the header, if known
   std::vector<int>
-    digits = {}; ///< of a text: the most that a real number of each column has in the first rows, 0 if none is seen
+    digits = {}; ///< in text, the largest number of digits in a real number of each column in the first rows; 0: none was seen
 };
 
-/// What many frames have in common.
+/// Properties that many frames share.
 struct FrameKind
 {
   static constexpr int text = -1;
@@ -47,22 +47,22 @@ struct FrameKind
 
   ColumnSchema schema;
   std::string units;
-  int layout = text; ///< below FileFormat::layouts: which of them; or text, or bare
-  bool named = true; ///< false: nobody has named the columns of a binary file, these are stand-ins
-  bool guessed = false;         ///< nobody has, and they are taken for those of dump atom
+  int layout = text;    ///< below FileFormat::layouts: which of them; or text, or bare
+  bool named = true;    ///< false: the columns of a binary file have no names, only stand-ins
+  bool guessed = false; ///< the columns have no names and are taken for those of dump atom
   std::uint64_t names_hash = 0; ///< of the columns; set where the kind is shared
 
   bool is_text() const noexcept { return layout < 0; }
   bool operator==(const FrameKind&) const = default;
 };
 
-/// The kinds of the frames of a run, each held once. Several threads may share them.
+/// The kinds of frames in a run, each stored once. Several threads may share them.
 class FrameKinds
 {
 public:
   std::shared_ptr<const FrameKind> share(FrameKind kind);
 
-  /// The one that was shared last, or null: the next frame is mostly of the same kind.
+  /// Returns the kind that was shared last, or null: the next frame is mostly of the same kind.
   std::shared_ptr<const FrameKind> last() const;
 
 private:
@@ -71,12 +71,12 @@ private:
   std::vector<std::shared_ptr<const FrameKind>> kinds_;
 };
 
-/// Where a frame lies in its file, and what is needed to find it among others. There may be millions:
-/// all else is read again from the frame's header when the frame is.
+/// The position of a frame in its file, and what is needed to find it among others. There may be millions of entries; the
+/// rest is read again from the header together with the frame.
 struct FrameEntry
 {
   static constexpr double no_time = std::numeric_limits<double>::quiet_NaN();
-  static constexpr std::uint64_t whole = 0; ///< shape of what is no piece by what is in the file
+  static constexpr std::uint64_t whole = 0; ///< shape of a frame that its file marks as whole
 
   std::int64_t timestep = 0;
   std::int64_t rows = 0;
@@ -88,18 +88,18 @@ struct FrameEntry
   std::shared_ptr<const FrameKind> kind;
 };
 
-/// What frames of one timestep must share to be pieces of one: a hash of the box and the column names.
+/// Returns what pieces of one frame must share: a hash of the box and the column names.
 std::uint64_t hash_shape(const FrameHeader& header, const FrameKind& kind);
 
-/// The place of a frame: the line of its header, or the byte in a binary file.
+/// Returns the position of a frame: the line of its header, or the byte in a binary file.
 Where where_of(const std::string& path, const FrameEntry& entry);
 
-/// Makes sure that the header found at the place of a frame is the one that was there when the file
-/// was indexed; columns are the names in it, or none if it names none; units are its own, or empty. Throws IoError.
+/// Checks that the header at the position of a frame is the one that was indexed. `columns` are its names, or empty if it has
+/// none; `units` are its own, or empty. Throws IoError.
 void check_header(const std::string& path, const FrameEntry& entry, const FrameHeader& header,
   const std::vector<std::string>& columns);
 
-/// The same of cells, which frames of other files have instead of rows.
+/// Checks the same for cells, which frames of other files have instead of rows.
 void check_cells(const FrameEntry& entry, std::int64_t cells, const Where& where);
 }
 #endif

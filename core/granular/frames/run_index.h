@@ -20,36 +20,35 @@ namespace granular
 {
 struct FileSeries;
 
-/// What frames of the same timestep in several files are.
+/// Meaning of several frames with the same timestep in different files.
 ///
-/// Auto takes files for pieces (`%` in the name of a dump) if their names, less .gz and .zst,
-/// differ in one number that counts from 0, as the programs count processes; and if these files share
-/// the first timestep and at least half of all, or all that a file has so far, with the same boxes and
-/// columns, but not the same particles, of which the first of some files are looked at. A run that was
-/// restarted does not share the first timestep, a series none, and one that was done again has the same
-/// particles.
+/// Auto takes files for pieces (`%` in the name of a dump) on three conditions. Their names, without .gz and .zst, differ in
+/// one number that counts from 0, like the ranks of a simulation. The files share the first timestep and at least half of all
+/// timesteps, or all that a file has so far, with the same boxes and columns. They do not share particles; the first
+/// particles of some files are compared. A restarted run does not share the first timestep, a series shares none, and a
+/// repeated run has the same particles.
 ///
-/// Pieces are in the order of that number; with Merge in the order of the files. A frame that has
-/// not a piece for each number from 0 on, or whose boxes or columns differ, is left out with a
-/// notice; a single one at the end silently if its files are all there, because it is being written.
+/// Pieces are in the order of that number; with Merge in the order of the files. A frame is left out with a notice if it
+/// lacks the piece of a number, or if boxes or columns differ. A single incomplete frame at the end is left out silently if
+/// all its files exist, because it is being written.
 enum class RepeatedSteps : std::uint8_t
 {
-  Auto,  ///< Merge for files that can only be pieces, Last for all others
-  Merge, ///< pieces of one frame, one file a process
+  Auto,  ///< Merge for files that can only be pieces, otherwise Last
+  Merge, ///< pieces of one frame, one file per rank
   Last   ///< repetitions of a restarted run: the last one counts
 };
 
-/// What is the user's word.
+/// Options of the user.
 struct IndexOptions
 {
   const FileFormat* format = nullptr;         ///< of the files; must be there
   std::vector<std::string> column_names = {}; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
   KeepIndex keep_index = KeepIndex::Never;
-  int threads = 1; ///< >= 1; what is found does not depend on it
+  int threads = 1; ///< at least 1; does not change the result
 };
 
-/// A piece of a frame: all of it, or what one process wrote.
+/// A piece of a frame: the whole frame, or the part of one rank.
 struct FramePiece
 {
   const FileIndex& file;
@@ -62,50 +61,47 @@ std::shared_ptr<const ByteSource> open_piece(const FramePiece& piece);
 
 Where where_of(const FramePiece& piece);
 
-/// All complete frames of a run, dumps or other files, found at scan speed without decoding rows.
+/// The complete frames of a run, of dumps or other files, found at scan speed without decoding rows.
 ///
-/// Frames are ordered by timestep. Where a timestep is repeated the frames are pieces of one, or the
-/// one that stands last is taken, in the order of the files and in its file: see RepeatedSteps. A last
-/// frame that is not complete is left out: its writer is still at work. Frames in the middle that are
-/// not what their header says are left out with a notice. Files with `boundingBox` in their names,
-/// which LIGGGHTS writes beside some dumps, and index files are passed over.
+/// Frames are ordered by timestep. Frames with the same timestep are pieces, or the last one counts, in the order of the
+/// files and within a file: see RepeatedSteps. An incomplete last frame is left out, because it is still being written.
+/// Frames in the middle that contradict their header are left out with a notice. Index files, and files with `boundingBox` in
+/// their names, which LIGGGHTS writes beside some dumps, are skipped.
 class RunIndex
 {
 public:
-  /// Brings the index up to what the files hold now. Files that only grew are read from where the
-  /// last complete frame ended; files that are the same are not read; others are read anew.
-  /// notices gets what is to be said of the files that were read now, and of those that cannot be.
-  /// Throws IoError or FormatError if no file yields a frame, saying what is wrong with the first;
+  /// Updates the index to the current contents of the files. Files that grew are read from the end of the last complete
+  /// frame, unchanged files are not read, and other files are read again. Appends notices about the files that were read now
+  /// and about unreadable files. Throws IoError or FormatError with the error of the first file if no file yields a frame;
   /// Cancelled.
   void update(const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
 
-  /// Whether a file is not what it was at the last update, to judge by size, time and inode.
+  /// Returns true if the size, time or inode of a file has changed since the last update.
   bool changed() const;
 
   std::size_t size() const noexcept;
   const std::vector<FileIndex>& files() const noexcept { return files_; }
 
-  /// The pieces of a frame, at least one. Valid until the next update.
+  /// Returns the pieces of a frame, at least one. Valid until the next update.
   std::vector<FramePiece> pieces(std::size_t frame) const;
 
-  /// The first piece of a frame.
+  /// Returns the first piece of a frame.
   FramePiece first_piece(std::size_t frame) const;
 
-  /// Returns the time of every frame [s]: ITEM: TIME if every frame has one and it strictly increases, else timestep x
-  /// timestep_size; see frame_times, which has the notices, too. Throws Error where timestep_size makes a time infinite.
+  /// Returns the time of every frame [s]: ITEM: TIME if every frame has one and it strictly increases, otherwise timestep x
+  /// timestep_size. See frame_times for the notices. Throws Error if timestep_size makes a time infinite.
   std::vector<double> times(double timestep_size, Notices& notices) const;
   std::vector<double> times(double timestep_size) const;
 
-  /// The last frame at or before a time, of times that increase; the first if there is none.
-  /// A time that misses a frame by less than 1e-9 of the way to it is meant to be its own: a product of doubles may be a
-  /// little less than the time of a frame.
+  /// Returns the last frame at or before a time, or the first frame; times increase. A time that misses a frame by less than
+  /// 1e-9 of the distance to it counts as the frame's own, because a product of doubles may be slightly too small.
   static std::size_t find(const std::vector<double>& times, double time) noexcept;
 
-  /// All that is needed to read every frame elsewhere, as bytes; not what is wrong with files.
+  /// Returns all that another rank needs to read every frame, as bytes; without the errors of files.
   std::string encode() const;
 
-  /// Becomes the index that was encoded. Throws FormatError.
+  /// Restores an encoded index. Throws FormatError.
   void decode(std::string_view bytes);
 
 private:
@@ -126,12 +122,12 @@ private:
   std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
 };
 
-/// Collective: RunIndex::update on rank 0, which alone looks at files, has notices and reports; then
-/// all ranks have the same index. Throws the same on all, and then their indexes have no frames.
+/// Updates the index on rank 0, which alone looks at files, has notices and reports progress; then all ranks have the same
+/// index. Collective. Throws the same error on all ranks, whose indexes then have no frames.
 void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
   const IndexOptions& options, Notices& notices, Progress& progress);
 
-/// Collective: RunIndex::changed on rank 0, for all.
+/// Returns RunIndex::changed of rank 0 on all ranks. Collective.
 bool is_changed(const RunIndex& index, Communicator& ranks);
 }
 #endif

@@ -58,10 +58,10 @@ struct CompensatedSum
     lo += a.lo * b.hi;
   }
 
-  /// A sum that left the finite numbers has lost its meaning in lo: hi alone says which way.
+  /// Handles a sum that has overflowed: lo means nothing then, only hi gives the sign.
   double value() const noexcept { return std::isfinite(hi) ? hi + lo : hi; }
 
-  /// As value(), but with the bits below it too.
+  /// Returns value() with the bits below it, too.
   Twofold twofold() const noexcept
   {
     if (!std::isfinite(hi))
@@ -72,7 +72,7 @@ struct CompensatedSum
     return { sum, lo - (sum - hi) };
   }
 
-  /// The sum divided by b.
+  /// Returns the sum divided by b.
   Twofold over(Twofold b) const noexcept
   {
     const Twofold a = this->twofold();

@@ -11,7 +11,7 @@
 
 namespace granular
 {
-/// Returns the largest double that is not above a sum of which hi is the nearest double.
+/// Returns the largest double not above a sum whose nearest double is hi.
 inline double floor_of(Twofold sum) noexcept
 {
   return sum.lo < 0 ? std::nextafter(sum.hi, -HUGE_VAL) : sum.hi;
@@ -46,7 +46,7 @@ public:
     this->add(term.lo);
   }
 
-  /// Two terms.
+  /// Sets the sum of two terms.
   void add_product(double a, double b) noexcept
   {
     const double product = a * b;
@@ -54,17 +54,17 @@ public:
     this->add(product);
   }
 
-  /// Four terms.
+  /// Sets the sum of four terms.
   void add_product(double a, Twofold b) noexcept
   {
     this->add_product(a, b.lo);
     this->add_product(a, b.hi);
   }
 
-  /// -1, 0 or 1.
+  /// Returns the sign: -1, 0 or 1.
   int sign() const noexcept { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
 
-  /// Returns the largest double that is not above the sum: it is below another double where the sum is.
+  /// Returns the largest double not above the sum: it is below another double exactly if the sum is.
   double floor() const noexcept
   {
     double sum = 0;
@@ -81,7 +81,7 @@ public:
     return sum;
   }
 
-  /// The sum to 106 bits; lo is 0 where hi is all of it.
+  /// Returns the sum to 106 bits; lo is 0 if hi is exact.
   Twofold twofold() const noexcept
   {
     Twofold sum;
@@ -94,7 +94,7 @@ public:
     return sum;
   }
 
-  /// The doubles whose sum it is, the smallest first.
+  /// Returns the doubles whose sum it is, the smallest first.
   std::span<const double> parts() const noexcept { return { parts_.data(), size_ }; }
 
 private:

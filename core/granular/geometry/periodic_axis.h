@@ -12,7 +12,7 @@ namespace granular
 /// A coordinate as an exact sum, with room for a number of periods.
 using ExactCoordinate = Expansion<16>;
 
-/// An axis of a box that is not tilted: x and x + length are the same place.
+/// An axis of an orthogonal box: x and x + length are the same position.
 struct PeriodicAxis
 {
   double lo = 0;
@@ -21,9 +21,9 @@ struct PeriodicAxis
 
   bool holds(double x) const noexcept { return x >= lo && x < hi; }
 
-  /// Returns the largest double that is not above the exact image in [lo, hi) of a coordinate: comparisons with doubles tell
-  /// the same of both. nearby: the coordinate within some ulps. What is 2^52 lengths away, where no bit tells the place, stays
-  /// nearby.
+  /// Returns the largest double not above the exact image in [lo, hi) of a coordinate: comparisons with doubles give the same
+  /// result for both. nearby: the coordinate within some ulps. A coordinate 2^52 lengths away, where no bit gives the
+  /// position, stays nearby.
   double wrap(const ExactCoordinate& x, double nearby) const noexcept
   {
     if (!(std::abs(nearby - lo) < 0x1p52 * length.value()))

@@ -12,7 +12,7 @@
 
 namespace granular
 {
-/// Which coordinates points have.
+/// The form of coordinates.
 enum class Coordinates : std::uint8_t
 {
   Absolute,  ///< in the box, as the simulation holds them
@@ -20,14 +20,14 @@ enum class Coordinates : std::uint8_t
   Scaled     ///< in units of the box vectors, 0 to 1 inside the box
 };
 
-/// "Absolute", "Unwrapped", "Scaled".
+/// Returns "Absolute", "Unwrapped" or "Scaled".
 const char* to_string(Coordinates coordinates) noexcept;
 
-/// Whether a coordinate column of this role is in units of the box vectors, and whether it is as if never wrapped.
+/// Returns whether a coordinate column of this role is in units of the box vectors, and whether it is unwrapped.
 bool is_scaled(ColumnRole role) noexcept;
 bool is_unwrapped(ColumnRole role) noexcept;
 
-/// From which columns the points of a frame are made, and how.
+/// The columns that give the points of a frame, and the conversions.
 struct PositionPlan
 {
   struct Axis
@@ -38,27 +38,26 @@ struct PositionPlan
   };
 
   std::array<Axis, 3> axes;
-  std::array<int, 3> images = { -1, -1, -1 };      ///< columns, where any axis needs a shift
-  Coordinates coordinates = Coordinates::Absolute; ///< what the points will be
+  std::array<int, 3> images = { -1, -1, -1 };      ///< columns, if any axis needs a shift
+  Coordinates coordinates = Coordinates::Absolute; ///< form of the points
 };
 
-/// Chooses the columns. What the file cannot give is replaced by what it can, with a notice.
-/// Throws FormatError if there is no coordinate column, UnsupportedError if a tilted box comes
-/// with scaled coordinates on one axis and absolute ones on another.
+/// Chooses the columns. A form that the file cannot give is replaced by a possible one, with a notice. Throws FormatError
+/// without a coordinate column, UnsupportedError for a tilted box with scaled coordinates on one axis and absolute ones on
+/// another.
 PositionPlan plan_positions(const ColumnSchema& schema, const Box& box, Coordinates wanted,
   const Where& where, Notices& notices);
 
-/// Whether a coordinate is multiplied or divided by the box.
+/// Returns true if a coordinate is multiplied or divided by the box.
 inline bool is_rescaled(const PositionPlan& plan, const PositionPlan::Axis& axis) noexcept
 {
   return axis.column >= 0 && axis.scaled != (plan.coordinates == Coordinates::Scaled);
 }
 
-/// Makes sure that a finite box can make points from scaled coordinates, or the other way, where a plan does so. Throws
-/// FormatError for one of no volume.
+/// Checks that a finite box can convert scaled coordinates, if a plan does so. Throws FormatError for a box without volume.
 void check_scale(const PositionPlan& plan, const Box& box, const Where& where);
 
-/// Whether points are other numbers than the columns.
+/// Returns true if points differ from the numbers of the columns.
 bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexcept;
 
 /// Turns the columns' values into points minus point_origin, in place: points holds x y z of each
@@ -72,8 +71,8 @@ bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexc
 void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& point_origin,
   std::span<const double> images, std::span<double> points) noexcept;
 
-/// Turns absolute coordinates along one axis of a box that is not tilted into scaled ones, in place: as
-/// convert_positions does for rows.
+/// Converts absolute coordinates along one axis of an orthogonal box to scaled ones, in place, like convert_positions for
+/// rows.
 void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept;
 }
 #endif

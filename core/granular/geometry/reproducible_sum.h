@@ -24,30 +24,30 @@ class SumScale
 public:
   static constexpr std::size_t lanes = 8;
 
-  /// What is known of the terms of a sum: magnitudes are below 2^top, and what counts are multiples of 2^bottom: each
-  /// term is rounded to one, which changes nothing in those that are.
+  /// The known bounds of the terms of a sum: magnitudes are below 2^top, and significant parts are multiples of 2^bottom.
+  /// Each term is rounded to one, which does not change such multiples.
   struct Range
   {
     int top = 0;
     int bottom = 0;
   };
 
-  /// terms: the most there can be in one sum, at most 2^40. Tops are at most 900: terms are below 8e270.
+  /// terms: the largest number in one sum, at most 2^40. Tops are at most 900: terms are below 8e270.
   SumScale(const std::array<Range, lanes>& ranges, std::int64_t terms);
 
   std::size_t levels() const noexcept { return shifts_.size(); }
 
-  /// 64-bit integers of the eight sums.
+  /// Returns the 64-bit integers of the eight sums.
   std::size_t size() const noexcept { return lanes * shifts_.size(); }
 
   using Terms = std::array<double, lanes>;
 
-  /// Adds a term to each of the sums of a cell, for each of the cells; those that have none get 0. The sums of cell c are
-  /// at sums + c size().
+  /// Adds a term to each of the sums of a cell, for each of the cells; sums without a term get 0. The sums of cell c are at
+  /// sums + c size().
   void add(std::span<const Terms> terms, const std::int64_t* cells, std::int64_t* sums,
     Simd simd = best_simd()) const noexcept;
 
-  /// The eight sums, each correctly rounded.
+  /// Returns the eight sums, each correctly rounded.
   Terms values(const std::int64_t* sums) const noexcept;
 
 private:

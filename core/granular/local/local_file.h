@@ -9,17 +9,17 @@
 
 namespace granular
 {
-/// The files of dump local, for a RunIndex: as text dumps of particles, but something else than ATOMS is counted, and
-/// there need be no box (LIGGGHTS 2). A `%` in the name of such a dump gives the first process a header, of its own rows,
-/// and the others files of rows alone: these belong to the file whose name has 0 in the same place, if that has one
-/// frame; rows of several frames (a name without `*`) cannot be told apart: these frames are left out with a notice.
+/// Files of dump local, for a RunIndex. They are like text dumps of particles, but count other rows than ATOMS, and may lack
+/// the box (LIGGGHTS 2). A `%` in the name of such a dump gives the first rank's file a header for its own rows; the files of
+/// other ranks have only rows. These belong to the file with 0 in the same place of the name, if that has one frame. Rows of
+/// several frames (a name without `*`) cannot be told apart; these frames are left out with a notice.
 const FileFormat& local_format() noexcept;
 
-/// Whether the first bytes of a file, uncompressed, are those of a dump of local data.
+/// Returns true if the first bytes of a file, uncompressed, are those of a dump of local data.
 bool is_local(std::string_view first_bytes);
 
-/// The same of a file by name, which may be compressed: looks at its first 64 KiB. Never throws: what cannot be
-/// read is none.
+/// Returns the same for a file by name, which may be compressed, from its first 64 KiB. Returns false, and never throws, for
+/// unreadable files.
 bool is_local_file(const std::string& path) noexcept;
 }
 #endif

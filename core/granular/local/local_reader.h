@@ -15,36 +15,35 @@
 
 namespace granular
 {
-/// What of a frame of local data is wanted.
+/// The wanted part of a frame of local data.
 struct LocalRequest
 {
-  std::vector<std::string> columns; ///< a name for each of the file: see find_columns
+  std::vector<std::string> columns; ///< a name for each column of the file: see find_columns
   std::function<bool(std::string_view name)>
-    wanted;          ///< which arrays; empty: all but the positions of the ends
-  LineRequest lines; ///< also what says how many threads there are, and where the memory comes from
-  int piece = 0;     ///< the part of the rows that is wanted, of `pieces` in all: see read_dump
+    wanted;          ///< wanted arrays; empty: all but the positions of the ends
+  LineRequest lines; ///< also gives the number of threads and the source of the memory
+  int piece = 0;     ///< part of the rows, of `pieces` in all: see read_dump
   int pieces = 1;
 };
 
-/// A decoded frame of local data: a table, and where its rows say where the ends are, lines.
+/// A decoded frame of local data: a table, and lines if the rows give the ends.
 struct LocalFrame
 {
   DumpFrame table;        ///< without points
-  bool has_lines = false; ///< else the rows have but the ids of the ends
+  bool has_lines = false; ///< false: the rows have only the ids of the ends
   Lines lines;            ///< of the rows of the table
   std::int64_t first_row =
     0; ///< of this part in the frame, where lines have rows of their own (Split)
 };
 
-/// Arrays that make lines, and of which users see lines.
+/// Arrays that make lines, which users see as lines.
 bool is_end_array(std::string_view name) noexcept;
 
-/// Some rows of a run, those of the frame with most of them: to find out what the columns are. `kind` of frames.
+/// Returns some rows of a run, from the frame with most of them, to find out the meaning of the columns. `kind` of frames.
 LocalSample read_sample(const RunIndex& index, const FrameKind& kind, Progress& progress);
 
-/// Decodes a frame, as read_dump does and by the same means. Collective. Ids that are no integers are an error; such
-/// as were printed with an exponent, so that digits are lost, are counted in a notice; so are lines whose column `dist` says that
-/// the ends are as far apart as they are not drawn.
+/// Decodes a frame, like read_dump. Collective. Ids that are not integers are an error. A notice counts ids that were printed
+/// with an exponent and so lost digits; another one counts lines whose length differs from the column `dist`.
 LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest& request,
   Communicator& ranks, Notices& notices, Progress& progress);
 }

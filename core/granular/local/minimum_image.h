@@ -10,32 +10,32 @@
 
 namespace granular
 {
-/// How many of each box vector.
+/// The count of each box vector.
 using BoxCounts = std::array<std::int64_t, 3>;
 
-/// Finds the shortest of the periodic images of a vector, in any box, however tilted.
+/// Finds the shortest periodic image of a vector, in any box, however tilted.
 class MinimumImage
 {
 public:
-  /// Axes are periodic where the boundary flags of the box say so and its vector has a length. A tilted box whose periodic
-  /// vectors are in one plane or line, to twelve digits, and have no common measure there, has no images.
+  /// An axis is periodic if the boundary flags of the box say so and its vector has a length. A tilted box has no images if
+  /// its periodic vectors are in one plane or line, to twelve digits, without a common measure there.
   explicit MinimumImage(const Box& box);
 
-  /// Whether any axis is.
+  /// Returns true if any axis is periodic.
   bool is_periodic() const noexcept { return periodic_; }
 
-  /// The box vectors to be added to a vector to get the shortest of its images; 0 along axes that are not periodic,
-  /// and for a vector that is not finite, or so long that no bit tells its image: 2^50 vectors. Of images of the same
-  /// length, within rounding, that with the smallest counts.
+  /// Returns the box vectors to add to a vector to get its shortest image; 0 along axes that are not periodic, for a vector
+  /// that is not finite, and for one so long that no bit gives its image: 2^50 vectors. Among images of the same length,
+  /// within rounding, the one with the smallest counts is taken.
   BoxCounts find(const Vector3& vector) const noexcept
   {
     return straight_ ? this->find_straight(vector) : this->find_tilted(vector);
   }
 
-  /// That many box vectors, rounded once.
+  /// Returns a number of box vectors, rounded once.
   Vector3 shift(const BoxCounts& counts) const noexcept { return this->moved({}, counts, {}); }
 
-  /// A point and that many box vectors, less another point, rounded once.
+  /// Returns a point plus a number of box vectors minus another point, rounded once.
   Vector3 moved(const Vector3& point, const BoxCounts& counts, const Vector3& less) const noexcept;
 
 private:

@@ -11,7 +11,7 @@
 
 namespace granular
 {
-/// Bonds between grains, in the order of (id1, id2).
+/// Bonds between particles, in the order of (id1, id2).
 struct GrainBonds
 {
   std::int64_t count = 0;
@@ -24,16 +24,16 @@ struct GrainBonds
   Block points; ///< 2 x 3 doubles a bond: the centre of id1, and id2's image nearest to it, rounded
 };
 
-/// Bonds the grains that make_packing made for a plan; not collective. In chains and bundles consecutive grains of a
-/// fibre are bonded, whatever the factor. Of other arrangements all pairs are whose centres are no farther
-/// apart than the factor, 1 to 3, times the sum of the radii, within rounding: at 1, the neighbours of a lattice
-/// of spacing 1. Periodic images count, and of several of a pair the nearest, so that a pair has one bond
-/// at most, and a grain none with itself; of equally near ones that moved by fewer box vectors.
+/// Bonds the particles that make_packing made for a plan; not collective. In chains and bundles consecutive particles of a
+/// fibre are bonded, for any factor. In other arrangements all pairs are bonded whose centres are no farther apart than the
+/// factor, 1 to 3, times the sum of the radii, within rounding: at 1, the neighbours of a lattice of spacing 1. Periodic
+/// images count, and of several images of a pair the nearest, so a pair has at most one bond, and a particle none with
+/// itself; among equally near images the one moved by fewer box vectors counts.
 ///
-/// A bond belongs to the piece of its lower id; the piece holds all of its own, and pieces and threads change
-/// nothing else. Where there are several a process makes the grains of the layers within reach around its piece once more.
+/// A bond belongs to the piece of its lower id; the piece holds all its bonds, and pieces and threads change nothing else.
+/// With several pieces, a rank makes the particles of the layers around its piece once more.
 ///
-/// Throws LimitError for other factors and as make_packing does; Cancelled; std::bad_alloc.
+/// Throws LimitError for other factors, and the errors of make_packing; Cancelled; std::bad_alloc.
 GrainBonds make_bonds(
   const PackingPlan& plan, const DumpFrame& grains, double factor, Progress& progress);
 }

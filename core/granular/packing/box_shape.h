@@ -9,10 +9,10 @@
 
 namespace granular
 {
-/// A box in plain doubles, and what follows from it. Scaled coordinates are in units of the box vectors.
+/// A box in plain doubles, and derived values. Scaled coordinates are in units of the box vectors.
 struct BoxShape
 {
-  /// The box has a boundary as checked_boundary gives it. Throws LimitError if it is no box.
+  /// The box has a boundary of checked_boundary. Throws LimitError if it is not a valid box.
   explicit BoxShape(const Box& box);
 
   Vector3 origin;
@@ -22,13 +22,13 @@ struct BoxShape
   double volume = 0;
   double reach = 0; ///< the largest magnitude of a coordinate of a corner
 
-  /// How much nearer than in exact arithmetic two points may come, because they were rounded.
+  /// Returns how much nearer than in exact arithmetic two points may be because of rounding.
   double rounding() const noexcept;
 
-  /// A place in space, rounded the same way whoever asks.
+  /// Returns a position in space, always rounded in the same way.
   Vector3 point(const Vector3& scaled) const noexcept;
 
-  /// From the origin of the box.
+  /// Returns the position from the origin of the box.
   Vector3 edge(const Vector3& scaled) const noexcept
   {
     Vector3 sum;
@@ -41,11 +41,11 @@ struct BoxShape
   }
 };
 
-/// How many cells as large as two grains of a radius fit into the widths, but not many more than there are grains.
+/// Returns how many cells of two radii fit into the widths, but not many more than there are particles.
 Vector3 count_cells(const Vector3& widths, double radius, std::int64_t grains) noexcept;
 
-/// "pp ff fs" from that or from "p f fs": three words of one or two of the letters p (periodic), f, s and
-/// m, p never with another. Throws LimitError.
+/// Returns "pp ff fs" from that or from "p f fs": three words of one or two of the letters p (periodic), f, s and m; p is
+/// never combined with another. Throws LimitError.
 std::string checked_boundary(const std::string& boundary);
 }
 #endif

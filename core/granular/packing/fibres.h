@@ -11,9 +11,9 @@
 
 namespace granular
 {
-/// Straight rows of grains along the first box vector, each a radius inside the low face in the beginning:
-/// one in the middle of the box, or a bundle in closest packing, whose fibres are nowhere nearer to
-/// each other than the distance of grains. Grains are in the order of fibres, each from low to high.
+/// Straight rows of particles along the first box vector, which begin one radius inside the low face: one in the middle of
+/// the box, or a bundle in closest packing, whose fibres are nowhere nearer to each other than neighbouring particles.
+/// Particles are in the order of fibres, each from low to high.
 class Fibres
 {
 public:
@@ -23,25 +23,25 @@ public:
     Bundle
   };
 
-  /// distance: of neighbours along a fibre, and of fibres. grains_a_fibre: 0 for as many as the box holds.
-  /// Throws LimitError where they do not fit.
+  /// distance: of neighbours along a fibre, and of fibres. grains_a_fibre: 0 for as many as the box holds. Throws LimitError
+  /// if they do not fit.
   Fibres(
     Kind kind, const BoxShape& box, double distance, double radius, std::int64_t grains_a_fibre);
 
-  /// How many grains there are.
+  /// Returns the number of particles.
   std::int64_t capacity() const noexcept;
 
-  /// The place of a grain in units of the box vectors.
+  /// Returns the position of a particle in units of the box vectors.
   Vector3 scaled(std::int64_t row) const noexcept;
 
   /// From 0 on.
   std::int64_t fibre(std::int64_t row) const noexcept { return row / grains_a_fibre_; }
 
-  /// Whether a row is not the first one of its fibre.
+  /// Returns true if a row is not the first one of its fibre.
   bool is_inside(std::int64_t row) const noexcept { return row % grains_a_fibre_ != 0; }
 
-  /// The lengths of a box that has room for a number of fibres, its cross-section as much like a square as
-  /// whole cells allow. Across periodic axes images are as far away as grains are from each other.
+  /// Returns the lengths of a box for a number of fibres, with a cross-section as square as whole cells allow. Across
+  /// periodic axes images are as far away as particles are from each other.
   static Vector3 lengths_for(Kind kind, const std::array<bool, 3>& periodic, double distance,
     double radius, std::int64_t grains_a_fibre, std::int64_t fibres);
 

@@ -37,21 +37,20 @@ enum class LatticeKind : std::uint8_t
 class Lattice
 {
 public:
-  /// Throws LimitError where no cell fits.
+  /// Throws LimitError if no cell fits.
   Lattice(LatticeKind kind, const BoxShape& box, double distance, double radius);
 
-  /// How many grains there are: the cells times the grains of each.
+  /// Returns the number of particles: the cells times the particles of each.
   std::int64_t capacity() const noexcept;
 
-  /// The place of a grain in units of the box vectors, x fastest, then y, then z.
+  /// Returns the position of a particle in units of the box vectors, x fastest, then y, then z.
   Vector3 scaled(std::int64_t row) const noexcept;
 
-  /// Rows after some, in order, that have all those later ones that may be nearer to one of them than a
-  /// distance: whole layers across z, to the next cells and through a periodic face.
+  /// Returns ranges of later rows that contain every particle within a distance of a particle in `rows`: whole layers across
+  /// z, up to the next cells and through a periodic face.
   std::vector<RowRange> rows_near(const RowRange& rows, const BoxShape& box, double distance) const;
 
-  /// The lengths of a box that has room for a number of grains, as much like a cube as whole cells
-  /// allow.
+  /// Returns the lengths of a box for a number of particles, as much like a cube as whole cells allow.
   static Vector3 lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,
     double radius, std::int64_t grains);
 

@@ -19,16 +19,16 @@ enum class Arrangement : std::uint8_t
   SimpleCubic,
   FaceCentredCubic,
   Hexagonal,
-  Chain,      ///< one straight row of grains along the first box vector, in the middle of the box
+  Chain, ///< one straight row of particles along the first box vector, in the middle of the box
   FibreBundle ///< parallel chains, in closest packing
 };
 
-/// Which grains are wanted. At least one of grains and box must be given.
+/// The wanted particles. At least one of grains and box must be given.
 struct PackingRequest
 {
   Arrangement arrangement = Arrangement::Random;
   std::int64_t grains = 0;           ///< 0: as many as the box holds
-  std::optional<Box> box;            ///< none: one is made for the grains
+  std::optional<Box> box;            ///< none: a box is made for the particles
   Vector3 corner = {};               ///< of a box that is made
   std::string boundary = "ff ff ff"; ///< of the box: see checked_boundary
   RadiusChoice radii;
@@ -39,32 +39,31 @@ struct PackingRequest
   std::int64_t grains_per_fibre = 20; ///< of a bundle, >= 1; its last fibre may have fewer
   double speed = 0; ///< standard deviation of each component of the velocities, >= 0
   std::uint64_t seed = 1;
-  int piece = 0; ///< the part of the grains that is wanted, of `pieces` in all: see make_packing
+  int piece = 0; ///< part of the particles, of `pieces` in all: see make_packing
   int pieces = 1;
-  int threads = 1;     ///< >= 1; changes no result
-  bool ranges = false; ///< whether to find the ranges of points and arrays
+  int threads = 1;     ///< at least 1; changes no result
+  bool ranges = false; ///< true: find the ranges of points and arrays
 };
 
 class PackingPlan;
 
-/// Makes grains that do not overlap one another: as a frame of timestep 0 with the columns id type x y z
-/// radius vx vy vz, and mol, the number of its fibre from 1 on, of chains and bundles. Each is a function of the request and of its number: the parts hold each grain once,
-/// in the order of their ids, which count from 1, and are equal in number; threads and pieces
-/// change nothing else. Random grains are those of random sequential adsorption: one after the other comes to a random place,
-/// the largest first, and stays if it overlaps none before; those of a range of radii in classes a twentieth wide, each
-/// with the room of the largest of its class. They are numbered along the highest axis of the box.
+/// Makes particles that do not overlap, as a frame of timestep 0 with the columns id type x y z radius vx vy vz; chains and
+/// bundles also have mol, the number of the fibre from 1. Each particle is a function of the request and of its number. The
+/// parts hold each particle once, in the order of their ids, which count from 1, and are of equal size; threads and pieces
+/// change nothing else. Random particles are those of random sequential adsorption: one after the other is placed at a random
+/// position, the largest first, and stays if it overlaps no earlier one. A range of radii has classes of 5 % in width, each
+/// with the room of its largest particle. Random particles are numbered along the highest axis of the box.
 ///
-/// Grains are wholly inside the box, but for periodic axes: there centres are, and images do not overlap
-/// grains either. Random grains do not touch; coordinates are rounded, and neighbours of a lattice of
-/// spacing 1 touch as far as that allows. A fibre begins a radius inside the face, is never stretched, and
-/// an error if it is longer than the box.
+/// Particles are entirely inside the box; along periodic axes only centres are, and images do not overlap particles either.
+/// Random particles do not touch; neighbours of a lattice of spacing 1 touch within the rounding of coordinates. A fibre
+/// begins one radius inside the face and is never stretched; a fibre longer than the box is an error.
 ///
-/// Throws LimitError for what cannot be: values out of bounds, a box without room, random grains that find
-/// no place; Cancelled; std::bad_alloc.
+/// Throws LimitError for impossible requests: values out of bounds, a box without room, random particles without a position;
+/// Cancelled; std::bad_alloc.
 DumpFrame make_packing(const PackingRequest& request, Progress& progress);
 
-/// The same, where several ranks share the work: each makes its own part, and of random grains those around it. The plan is
-/// collective, this is not.
+/// Makes particles where several ranks share the work: each makes its own part, and the random particles around it. The plan
+/// is collective, this function is not.
 DumpFrame make_packing(const PackingPlan& plan, Progress& progress);
 }
 #endif

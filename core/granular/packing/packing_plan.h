@@ -17,13 +17,13 @@
 
 namespace granular
 {
-/// What a request comes to: its box, how many grains, of which sizes, and where. The requests of all ranks are the same but
-/// for their pieces and threads.
+/// The plan of a request: its box, and the number, sizes and positions of particles. The requests of all ranks are the same
+/// except for pieces and threads.
 class PackingPlan
 {
 public:
-  /// Collective, of random grains alone: each rank places those of its part of the box, and the ranks count. Throws on all ranks
-  /// LimitError for what cannot be; Cancelled.
+  /// Collective for random particles only: each rank places those of its part of the box, and the ranks count. Throws on all
+  /// ranks LimitError for impossible requests; Cancelled.
   PackingPlan(const PackingRequest& request, Communicator& ranks, Progress& progress);
 
   PackingPlan(const PackingPlan&) = delete;
@@ -36,14 +36,14 @@ public:
   std::int64_t grains = 0;
   Radii radii;
 
-  /// The rows of the piece.
+  /// Returns the rows of the piece.
   RowRange rows() const noexcept;
 
-  /// Any rows of the grains: each place is a function of the request and of its row. Throws Cancelled.
+  /// Returns any rows of the particles: each position is a function of the request and of its row. Throws Cancelled.
   void place_rows(const GrainRows& rows, Progress& progress) const;
 
-  /// Rows after some, in order, that have all those later ones that may be nearer to one of them than a
-  /// distance, which is at most six of the largest radii. Not of fibres. rows are not empty.
+  /// Returns ranges of later rows that contain every particle within a distance, at most six of the largest radii, of a
+  /// particle in `rows`. Not for fibres. rows are not empty.
   std::vector<RowRange> rows_near(const RowRange& rows, double distance) const;
 
 private:

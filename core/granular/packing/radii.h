@@ -7,7 +7,7 @@
 
 namespace granular
 {
-/// How large grains are to be, in the unit of the box.
+/// The sizes of particles, in the unit of the box.
 struct RadiusChoice
 {
   enum class Kind : std::uint8_t
@@ -27,20 +27,20 @@ struct RadiusChoice
   double mean_volume() const noexcept;
 };
 
-/// Grains that are placed alike: of nearly the same size.
+/// Particles of nearly the same size, which are placed alike.
 struct SizeClass
 {
   double radius = 0; ///< the largest of them
   std::int64_t grains = 0;
   std::int32_t type = 1;
-  std::int64_t first = 0; ///< how many grains are in classes before
+  std::int64_t first = 0; ///< number of particles in earlier classes
 };
 
-/// Throws LimitError for what cannot be.
+/// Throws LimitError for impossible values.
 void check(const RadiusChoice& choice);
 
-/// The radius of each of a number of grains. Sizes are dealt out, not thrown for each: of Two the share
-/// is exact to one grain, of Range each of as many equal parts of the range occurs once.
+/// The radii of a number of particles. Sizes are dealt out, not drawn for each: with Two the share is exact to one particle,
+/// with Range each of as many equal parts of the range occurs once.
 class Radii
 {
 public:
@@ -50,10 +50,10 @@ public:
   double radius(std::int64_t grain) const noexcept;
   std::int32_t type(std::int64_t grain) const noexcept;
 
-  /// All grains by size, the largest first; none are empty. Radii of a class differ by a twentieth at most.
+  /// Returns all particles by size, the largest first; no class is empty. Radii of a class differ by at most 5 %.
   std::vector<SizeClass> classes() const;
 
-  /// The radius of a grain of a class, where radii are dealt out in each of the classes.
+  /// Returns the radius of a particle of a class, where radii are dealt out within the classes.
   double radius(const SizeClass& size_class, std::int64_t grain) const noexcept;
 
 private:
@@ -63,7 +63,7 @@ private:
 
   RadiusChoice choice_;
   std::int64_t grains_;
-  std::int64_t seconds_; ///< of Two, how many have `second`
+  std::int64_t seconds_; ///< with Two, the number with `second`
   std::uint64_t seed_;
 };
 }

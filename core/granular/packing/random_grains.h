@@ -15,21 +15,20 @@
 
 namespace granular
 {
-/// Grains at random places: exactly random sequential adsorption, the largest grains first. Grains of a size arrive until
-/// there are as many as asked for; that moment alone depends on the whole box. Then any rows are found from what
-/// arrived near to them.
+/// Particles at random positions: exactly random sequential adsorption, the largest first. Particles of a size arrive until
+/// their number is reached; only that moment depends on the whole box. Any rows are then found from the arrivals near them.
 class RandomGrains
 {
 public:
-  /// Lets the grains of all classes arrive. Collective: each rank finds those of its shelves, and the ranks count.
-  /// box and radii must live as long as this. Throws LimitError if some find no place; Cancelled.
+  /// Lets the particles of all classes arrive. Collective: each rank finds those of its shelves, and the ranks count. box and
+  /// radii must live as long as this. Throws LimitError if some find no position; Cancelled.
   RandomGrains(const BoxShape& box, const Radii& radii, std::uint64_t seed, Communicator& ranks,
     int threads, Progress& progress);
 
-  /// Finds some of the grains. Not collective. Throws Cancelled.
+  /// Finds some of the particles. Not collective. Throws Cancelled.
   void place(const GrainRows& rows, int threads, Progress& progress) const;
 
-  /// Rows after some, in order, that have all those later ones that may be nearer to one of them than a distance.
+  /// Returns ranges of later rows that contain every particle within a distance of a particle in `rows`.
   std::vector<RowRange> rows_near(const RowRange& rows, double distance) const;
 
 private:

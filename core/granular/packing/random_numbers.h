@@ -17,13 +17,13 @@ constexpr std::uint64_t scramble(std::uint64_t value) noexcept
   return value ^ value >> 31;
 }
 
-/// A number in [0, 1) from random bits.
+/// Returns a number in [0, 1) from random bits.
 constexpr double unit_of(std::uint64_t bits) noexcept
 {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-/// What numbers are drawn for.
+/// The purposes of random numbers.
 enum class Stream : std::uint64_t
 {
   Places = 1,
@@ -31,9 +31,8 @@ enum class Stream : std::uint64_t
   Velocities
 };
 
-/// The random numbers of one thing, such as a grain, by their place and not by what was drawn before:
-/// whoever asks, in whichever order, gets the same. Integers, sums, products, divisions and roots
-/// alone, which are the same on all machines.
+/// The random numbers of one item, such as a particle, by position and not by earlier draws: they are the same in any order
+/// of requests. They use only integers, sums, products, divisions and roots, which are the same on all machines.
 class RandomNumbers
 {
 public:
@@ -45,10 +44,10 @@ public:
 
   constexpr std::uint64_t bits() noexcept { return scramble(key_ + step * count_++); }
 
-  /// Evenly in [0, 1).
+  /// Returns a uniform number in [0, 1).
   constexpr double unit() noexcept { return unit_of(this->bits()); }
 
-  /// Of the normal distribution with mean 0 and standard deviation 1 (G. Marsaglia's polar method).
+  /// Returns a number of the normal distribution with mean 0 and standard deviation 1 (G. Marsaglia's polar method).
   double normal() noexcept
   {
     double x = 0;
@@ -65,7 +64,7 @@ public:
 private:
   static constexpr std::uint64_t step = 0xd1342543de82ef95; // odd: no number comes twice
 
-  /// The natural one, to some ulp. Those of the C library differ from machine to machine.
+  /// Returns the natural logarithm, to some ulps. Those of C libraries differ from machine to machine.
   static double logarithm(double value) noexcept
   {
     int exponent = 0;

@@ -10,29 +10,28 @@
 
 namespace granular
 {
-/// Cores of the machine, at least 1.
+/// Returns the cores of the machine, at least 1.
 int machine_cores() noexcept;
 
-/// Cores that this process may run on, at least 1.
+/// Returns the cores that this process may use, at least 1.
 int available_cores() noexcept;
 
 /// Runs chunks of work on threads of its own.
 class Executor
 {
 public:
-  /// threads >= 1, the caller's own among them.
+  /// threads: at least 1, including the caller's.
   explicit Executor(int threads = 1) noexcept;
 
   int threads() const noexcept { return threads_; }
 
-  /// How many workers parallel_for has for that many chunks, at least 1.
+  /// Returns the number of workers that parallel_for has for a number of chunks, at least 1.
   std::size_t workers(std::size_t chunks) const noexcept;
 
-  /// Calls task(chunk, worker) for each chunk from 0 to chunks - 1, with worker < workers(chunks). Chunks
-  /// are begun in their order, each worker does one at a time, and worker 0 is the caller, who also
-  /// reports progress before each chunk that it does. All work has ended when this returns or throws.
-  /// After a chunk that threw no other is begun; what comes out is the exception of the first by
-  /// number, whatever the number of threads. Throws Cancelled if progress says so.
+  /// Calls task(chunk, worker) for each chunk from 0 to chunks - 1, with worker < workers(chunks). Chunks begin in order, and
+  /// each worker does one at a time. Worker 0 is the caller, which also reports progress before each of its chunks. All work
+  /// has ended on return or throw. After a chunk throws, no other begins; the exception of the lowest chunk comes out, for
+  /// any number of threads. Throws Cancelled if progress asks for it.
   void parallel_for(std::size_t chunks,
     const std::function<void(std::size_t chunk, std::size_t worker)>& task,
     Progress& progress) const;
@@ -41,8 +40,8 @@ private:
   int threads_;
 };
 
-/// Lets the chunks of a parallel_for pass a place one after the other, in their order. Each of them must
-/// pass, also one that fails; Turn sees to that.
+/// Lets the chunks of a parallel_for pass a gate one after the other, in order. Every chunk must pass, even after an error;
+/// Turn ensures that.
 class Turns
 {
 public:

@@ -11,8 +11,8 @@
 
 namespace granular
 {
-/// Returns the thing of every rank, by rank, on all ranks. Collective; meant for what is small. A thing is of plain numbers, which
-/// are sent as they are in memory, or one that pass(archive, thing) knows.
+/// Returns the value of every rank, by rank, on all ranks. Collective; for small data. A value consists of plain numbers,
+/// which are sent as in memory, or is known to pass(archive, thing).
 template <typename Thing>
 std::vector<Thing> gather(Communicator& ranks, const Thing& own)
 {

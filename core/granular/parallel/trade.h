@@ -12,8 +12,8 @@
 
 namespace granular
 {
-/// Sends things of so many values each: out[r] of them to rank r, one rank after the other. Returns what came, in[r] things from
-/// rank r, by rank. Collective.
+/// Sends out[r] items of so many values each to rank r, stored one rank after the other. Returns the received items, in[r] of
+/// them from rank r, by rank. Collective.
 template <class Values>
 auto trade(const Values& values, const std::vector<std::int64_t>& out,
   const std::vector<std::int64_t>& in, Communicator& ranks, std::size_t width = 1)
@@ -34,7 +34,7 @@ auto trade(const Values& values, const std::vector<std::int64_t>& out,
   return came;
 }
 
-/// Gives each rank its number. Returns the numbers that the ranks have for this one, by rank. Collective.
+/// Gives each rank its number. Returns the numbers for this rank, by rank. Collective.
 inline std::vector<std::int64_t> swap_numbers(
   const std::vector<std::int64_t>& numbers, Communicator& ranks)
 {

@@ -16,33 +16,33 @@
 
 namespace granular
 {
-/// Where the particles of a frame are, whatever its points are: absolute, with the origin added that was
-/// subtracted, each coordinate rounded once, to the nearest double.
+/// The positions of the particles of a frame in any form of its points: absolute, with the subtracted origin added again,
+/// each coordinate rounded once, to the nearest double.
 class AbsolutePositions
 {
 public:
   static constexpr std::size_t most_rows = 1024; ///< at a time
 
-  /// wrap: into the box along its periodic axes, lo <= x < hi, where the frame has a box that is not tilted. A coordinate that
-  /// is not between the faces becomes the largest double that is not above its exact image, less than an ulp below: it is on
-  /// that side of any double, a face or a cut, on which the image is. What is 2^52 periods away, where no bit tells the place in
-  /// one, stays there.
-  /// Other unwrapped points lose their image counts, or are moved into the box along periodic axes, tilted or not, where the
-  /// frame has none: see count_crossings. Throws Error where points are scaled or unwrapped and there is no box. The frame must
-  /// outlive this.
+  /// wrap: into the box along its periodic axes, lo <= x < hi, if the frame has an orthogonal box. A coordinate outside the
+  /// faces becomes the largest double not above its exact image, less than an ulp below it: both are on the same side of any
+  /// double, such as a face or a cut. A coordinate 2^52 periods away, where no bit gives the position in one, stays there.
+  /// Other unwrapped points lose their image counts; without counts they are moved into the box along periodic axes, tilted
+  /// or not: see count_crossings. Throws Error if points are scaled or unwrapped and there is no box. The frame must outlive
+  /// this.
   AbsolutePositions(const FrameView& frame, bool wrap);
 
-  /// x y z of rows [first, first + count), count <= most_rows: in the array of the points itself where
-  /// nothing is to be done and all are finite, else in buffer, which has room for most_rows * 3 numbers. From any thread.
+  /// Returns x y z of rows [first, first + count), count <= most_rows: in the array of the points itself if it needs no
+  /// conversion and all are finite, otherwise in buffer, which has room for most_rows * 3 numbers. May be called from any
+  /// thread.
   const double* load(std::int64_t first, std::size_t count, double* buffer) const;
 
-  /// Where load found that nothing is to be done, the same without looking again.
+  /// Returns the rows of an array that load found to need no conversion, without checking again.
   const double* loaded(std::int64_t first) const noexcept
   {
     return static_cast<const double*>(frame_.points->components[0]) + 3 * first;
   }
 
-  /// The same of rows in any order, always in the buffer.
+  /// Returns rows in any order, always in the buffer.
   void load(std::span<const std::int64_t> rows, double* buffer) const;
 
 private:

@@ -19,8 +19,8 @@ struct DumpArray
 {
   ArrayInfo info;
   Block block;                    ///< values; of a Text the std::int32_t indices of its words
-  std::vector<std::string> words; ///< of a Text: those that occur, each once
-  ValueRange range;               ///< of the values, if it is known
+  std::vector<std::string> words; ///< of a Text: the distinct words
+  ValueRange range;               ///< of the values, if known
 };
 
 /// A decoded frame. The blocks may be given away.
@@ -32,8 +32,8 @@ struct DumpFrame
   Block points;                                    ///< rows x 3, double or float
   ValueRange points_range;
   std::vector<DumpArray> arrays;
-  FrameHeader header;  ///< of the first piece; rows are those of all
-  ColumnSchema schema; ///< of all pieces, types as they came to be
+  FrameHeader header;  ///< of the first piece; rows of all
+  ColumnSchema schema; ///< of all pieces, with the final types
 };
 }
 #endif

@@ -14,14 +14,14 @@ namespace granular
 class FrameRanges
 {
 public:
-  /// Of no rows of the frame.
+  /// Begins with no rows of a frame.
   explicit FrameRanges(const DumpFrame& frame);
 
-  /// Takes rows of a frame with such arrays into account. single: its points are floats.
+  /// Includes rows of a frame with such arrays. single: its points are floats.
   void add(const DumpFrame& frame, std::int64_t first, std::size_t rows, bool single = false);
   void add(const FrameRanges& other);
 
-  /// Gives them to the frame.
+  /// Gives the ranges to the frame.
   void store(DumpFrame& frame) const;
 
 private:

@@ -23,12 +23,12 @@ struct ArrayView
   ValueType type = ValueType::Float64;      ///< up to Text, std::string
   std::vector<const void*> components = {}; ///< the first row's value of each
   std::int64_t step = 1;                    ///< values from one row to the next
-  std::vector<std::string> columns = {};    ///< in local data: what its components are called
+  std::vector<std::string> columns = {};    ///< in local data: names of its components
   bool places = false;                      ///< in local data: x y z of an end of each line
 
   int size() const noexcept { return static_cast<int>(components.size()); }
 
-  /// Whether the numbers of a row are doubles x y z, one behind the other.
+  /// Returns true if each row is doubles x y z, and the rows are contiguous.
   bool are_triples() const noexcept
   {
     const auto* const first = static_cast<const double*>(components[0]);
@@ -37,7 +37,7 @@ struct ArrayView
   }
 };
 
-/// An array whose rows lie one after the other, `size` values each.
+/// Returns an array whose rows are contiguous, `size` values each.
 template <class Value>
 ArrayView view_rows(std::string name, ValueType type, const Value* values, int size = 1)
 {
@@ -49,35 +49,34 @@ ArrayView view_rows(std::string name, ValueType type, const Value* values, int s
   return view;
 }
 
-/// The rows that one process has of a frame that is to be written. Nothing is copied: what the views point at
-/// must stay until the frame is written.
+/// The rows of one rank of a frame to be written. Nothing is copied: the viewed data must stay until the frame is written.
 struct FrameView
 {
   FrameHeader header; ///< of the frame; rows are counted when it is written, box counts if has_box
   bool has_box =
     true; ///< false: the box is made from the bounds of the grains, and local data have none
-  std::int64_t rows = 0; ///< of this process
+  std::int64_t rows = 0; ///< of this rank
   std::optional<ArrayView>
     points = {}; ///< three numbers a row; needed where there are rows, but of local data
-  Coordinates coordinates = Coordinates::Absolute; ///< what the points are
-  Vector3 point_origin = {};                       ///< what was subtracted from them
+  Coordinates coordinates = Coordinates::Absolute; ///< form of the points
+  Vector3 point_origin = {};                       ///< subtracted from the points
   std::vector<ArrayView> arrays = {};
   std::vector<std::string> columns = {}; ///< of the file that the rows come from; may be empty
   const unsigned char* ghosts = nullptr; ///< a value a row, or null; see duplicate_row
 
-  /// Bit of a ghost value that says that another process has the row, too: it is left out.
+  /// The bit of a ghost value that marks a duplicate of another rank's row, which is left out.
   static constexpr unsigned char duplicate_row = 1;
 
-  /// Whether another process has the row, too.
+  /// Returns true if another rank has the row, too.
   bool is_duplicate(std::int64_t row) const noexcept { return is_duplicate(ghosts, row); }
 
-  /// The same by ghost values, a value a row, or null.
+  /// Returns the same by ghost values, one per row, or null.
   static bool is_duplicate(const unsigned char* ghosts, std::int64_t row) noexcept
   {
     return ghosts && (ghosts[row] & duplicate_row) != 0;
   }
 
-  /// The first array of that name, or null.
+  /// Returns the first array of that name, or null.
   const ArrayView* find(std::string_view name) const noexcept
   {
     const auto found = std::ranges::find(arrays, name, &ArrayView::name);

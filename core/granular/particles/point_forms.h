@@ -13,28 +13,28 @@
 
 namespace granular
 {
-/// Whether rows are one behind the other; true for none.
+/// Returns true if rows are contiguous; true for no rows.
 bool is_consecutive(std::span<const std::int64_t> rows) noexcept;
 
 /// Writes the values of some rows as double or std::int64_t, from any type but texts, not multiplied by the factor.
 template <class Number>
 void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, Number* to);
 
-/// Whether a box is periodic along an axis, by its boundary flags.
+/// Returns true if a box is periodic along an axis, by its boundary flags.
 bool is_periodic(const Box& box, std::size_t axis) noexcept;
 
-/// Where a coordinate of the points lies; there must be points.
+/// Returns where a coordinate of the points lies; there must be points.
 ValueSource point_values(const FrameView& frame, std::size_t axis);
 
-/// From what the points are to what a column of this role holds.
+/// Returns the conversion from the points to a column of this role.
 PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept;
 
-/// The box in the coordinates of points that an origin was subtracted from, so that no digit is lost by adding
-/// it to them.
+/// Returns the box in the coordinates of points from which an origin was subtracted, so that adding it to them loses no
+/// digit.
 Box box_of_points(const FrameView& frame, const Box& box);
 
-/// How often unwrapped points have crossed the box along its periodic axes: three counts a point, 0 along others. Exact, in
-/// tilted boxes, too, up to 2^52 crossings.
+/// Returns how often unwrapped points have crossed the box along its periodic axes: three counts per point, 0 along others.
+/// Exact, also in tilted boxes, up to 2^52 crossings.
 void count_crossings(const Box& box, std::span<const double> points, std::vector<double>& images);
 }
 #endif

@@ -9,12 +9,12 @@
 
 namespace granular
 {
-/// What rows in the box lose where an origin is subtracted from absolute coordinates, in doubles.
+/// Returns the loss of rows in the box if an origin is subtracted from absolute coordinates, in doubles.
 void add_rounding(
   std::int64_t rows, const Box& box, const Vector3& origin, RoundingLoss& loss) noexcept;
 
-/// Says how much points of a frame have lost, if that is more than a RoundingLimit: once a file and
-/// origin. origin is what was subtracted from them; single: they are floats.
+/// Adds a notice about the loss of a frame's points if it exceeds a RoundingLimit: once per file and origin. origin:
+/// subtracted from the points; single: they are floats.
 void note_point_loss(const RoundingLoss& loss, const Box& box, const Vector3& origin, bool single,
   const Where& where, Notices& notices);
 }

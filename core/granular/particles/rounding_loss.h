@@ -12,13 +12,13 @@
 
 namespace granular
 {
-/// How far rounding may move a point along each axis before a user is told: 1 % of the smallest radius. Without radii,
-/// 1e-4 of the length of the box; without such a length, as far as it likes.
+/// The distance by which rounding may move a point along each axis without a notice: 1 % of the smallest radius. Without
+/// radii, 1e-4 of the length of the box; without such a length, any distance.
 struct RoundingLimit
 {
   static constexpr double of_radius = 0.01;
   static constexpr double of_box = 1e-4;
-  static constexpr double of_value = 1e-3; ///< how much of itself a value may change
+  static constexpr double of_value = 1e-3; ///< largest relative change of a value
 
   /// smallest_radius: HUGE_VAL without radii.
   RoundingLimit(const Box& box, double smallest_radius) noexcept;
@@ -28,21 +28,21 @@ struct RoundingLimit
   Vector3 distance;
 };
 
-/// What rounding does to the points and values of a frame, whoever rounds, in reading or writing. Losses of threads and
-/// ranks add up to the same in any order.
+/// The effect of rounding on the points and values of a frame, in reading or writing. Losses of threads and ranks add up to
+/// the same in any order.
 class RoundingLoss
 {
 public:
-  /// A point has moved so far along an axis. No number is no distance.
+  /// Adds the movement of a point along an axis. nan is no distance.
   void move(std::size_t axis, double distance) noexcept
   {
     moved_[axis] = distance > moved_[axis] ? distance : moved_[axis];
   }
 
-  /// A value of a column has become another. 0 and what is not finite cannot change.
+  /// Adds the change of a value in a column. 0 and non-finite values cannot change.
   void change(std::size_t column, double value, double rounded) noexcept;
 
-  /// Of a particle. What is not above 0 is none.
+  /// Adds the radius of a particle; radii that are not above 0 are ignored.
   void add_radius(double radius) noexcept
   {
     radius_ = radius > 0 && radius < radius_ ? radius : radius_;
@@ -50,11 +50,11 @@ public:
 
   void add(const RoundingLoss& other) noexcept;
 
-  /// The smallest radius, or HUGE_VAL.
+  /// Returns the smallest radius, or HUGE_VAL.
   double radius() const noexcept { return radius_; }
 
-  /// What is more than the limit: "move particles by up to 0.25 along x, where the smallest radius is 0.001, and
-  /// change 'radius' by up to 19 %". Empty if nothing is. points: what moves; names: of the columns.
+  /// Returns the losses above the limit: "move particles by up to 0.25 along x, where the smallest radius is 0.001, and
+  /// change 'radius' by up to 19 %". Empty if there are none. points: the moved things; names: of the columns.
   std::string text(
     const RoundingLimit& limit, const char* points, std::span<const std::string> names) const;
 
@@ -68,10 +68,10 @@ private:
 /// Adds the losses of all ranks, on all. Collective.
 RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks);
 
-/// How far rounding to doubles can move a point of the box, less an origin, along each axis.
+/// Returns how far rounding to doubles can move a point of the box, minus an origin, along each axis.
 Vector3 rounding_of_points(const Box& box, const Vector3& origin) noexcept;
 
-/// How far the corners of a box are from those of another, along each axis.
+/// Returns the distance between the corners of two boxes, along each axis.
 Vector3 distance_of_corners(const Box& one, const Box& other) noexcept;
 }
 #endif

@@ -7,9 +7,9 @@
 
 namespace granular
 {
-/// Gives ranks without rows, whose frame may know nothing, what the first rank that has rows knows of it: header,
-/// box, and what points are. Where none has rows, what the first one knows that has a box. Throws Error, on all,
-/// where ranks with rows have other boxes. Collective.
+/// Gives ranks without rows, whose frame may lack everything, the header, box and form of points of the first rank that has
+/// rows. If no rank has rows, the first one with a box counts. Throws Error, on all ranks, if ranks with rows have different
+/// boxes. Collective.
 void share_header(FrameView& frame, Communicator& ranks);
 }
 #endif

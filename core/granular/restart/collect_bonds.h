@@ -13,12 +13,12 @@
 
 namespace granular
 {
-/// The bonds that all particles of a file hold, and what is needed to draw them.
+/// The bonds of all particles of a file, and the data to draw them.
 class BondCollector
 {
 public:
-  /// blocks: of a RecordScan. ids and points of all rows, from 0, which may not be there yet; where they are null they are
-  /// collected, too.
+  /// blocks: of a RecordScan. ids and points of all rows, from 0, which may not be filled yet; if null they are collected,
+  /// too.
   BondCollector(const RecordPlan& plan, std::int64_t rows, std::size_t blocks,
     const std::int64_t* ids, const double* points, const std::shared_ptr<BlockPool>& pool);
 

@@ -13,7 +13,7 @@
 
 namespace granular
 {
-/// What a search for the particles came to.
+/// The result of a search for the particles.
 struct ChunkSearch
 {
   bool found = false;

@@ -11,11 +11,11 @@
 
 namespace granular
 {
-/// What is known of fixes.
+/// The known properties of fixes.
 struct FixSearch
 {
   bool found = false;
-  std::int64_t global = 0; ///< how many have a state of their own
+  std::int64_t global = 0; ///< number of fixes with a state of their own
   std::vector<RestartFix> fixes;
 };
 

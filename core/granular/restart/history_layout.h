@@ -10,7 +10,7 @@
 
 namespace granular
 {
-/// What the history values of a bond are, by program.
+/// The history values of a bond, by program.
 struct HistoryLayout
 {
   std::string_view name; ///< of the program
@@ -18,7 +18,7 @@ struct HistoryLayout
     version; ///< a word in the header of its files that no others have; empty: there is none
   std::span<const std::string_view> columns; ///< in turn, as make_local_schema takes them
 
-  /// Values from here on have no sign, whichever copy of the bond they are of.
+  /// Values from here on have no sign, in either copy of the bond.
   static constexpr std::size_t unsigned_from = 12;
 };
 
@@ -30,12 +30,12 @@ inline constexpr int automatic_history = -1;
 /// Instead of a place in the table: history1, history2, ...
 inline constexpr int numbered_history = -2;
 
-/// That of so many values, by its place in the table; version is that of the program in the header of the file. Null: there is none, or
-/// the layout has another number of values.
+/// Returns the layout for a number of values, by its place in the table; version: of the program, from the file's header.
+/// Null: there is none, or the layout has another number of values.
 const HistoryLayout* find_history_layout(
   int layout, std::string_view version, std::int64_t values) noexcept;
 
-/// Names for so many values of such a layout; where there is none: history1, history2, ...
+/// Returns names for the values of a layout; without one: history1, history2, ...
 std::vector<std::string> history_columns(int layout, std::string_view version, std::int64_t values);
 }
 #endif

@@ -13,7 +13,7 @@
 
 namespace granular
 {
-/// The bonds that some particles hold, in rows one behind the other.
+/// The bonds of some particles, row by row.
 struct BondCopies
 {
   enum State : unsigned char
@@ -34,7 +34,7 @@ struct BondCopies
   std::size_t size() const noexcept { return partners.size(); }
 };
 
-/// What there is to say about bonds.
+/// Counts for notices about bonds.
 struct BondCounts
 {
   std::int64_t without_partner = 0;

@@ -10,7 +10,7 @@
 
 namespace granular
 {
-/// Names of the files of processes that belong to one with `base` in its name: `before`, the number of the process, `behind`.
+/// The names of the ranks' files that belong to a file with `base` in its name: `before`, the rank, `behind`.
 struct ProcessNames
 {
   std::string before; ///< with the folder
@@ -18,27 +18,27 @@ struct ProcessNames
 
   std::string of(int process) const { return before + std::to_string(process) + behind; }
 
-  /// Whether a path is one of these.
+  /// Returns true if a path is one of these.
   bool match(const std::string& path) const;
 };
 
-/// The names that a path could stand for: one for each `base` in the name of the file, the last one first.
+/// Returns the possible patterns of a path: one for each `base` in the name of the file, the last one first.
 std::vector<ProcessNames> process_names(const std::string& base_path);
 
-/// The one of these of which there is a file of process 0, or null.
+/// Returns the pattern for which a file of rank 0 exists, or null.
 const ProcessNames* find_process_names(const std::vector<ProcessNames>& candidates);
 
-/// Whether there is a file, or anything else, of this name. Throws IoError where the system does not say.
+/// Returns true if a file, or anything else, of this name exists. Throws IoError if the system cannot tell.
 bool is_there(const std::string& path);
 
-/// What is inside of a packed source, in memory, with its path.
+/// Returns the contents of a packed source, in memory, with its path.
 std::string read_content(const ByteSource& source, Progress& progress);
 
-/// Looks at the files of all processes: layout.chunks and layout.records. Each is a count and so many doubles, records all of them.
+/// Looks at the files of all ranks: layout.chunks and layout.records. Each is a count and so many doubles, only records.
 /// Throws FormatError that names the file; IoError; Cancelled.
 void read_process_files(const ProcessNames& names, RestartLayout& layout, Progress& progress);
 
-/// Whether a source is as the file of a process is: a count, so many doubles, the first of them a length; or a count of 0 alone.
+/// Returns true if a source is like a rank's file: a count and so many doubles, the first one a length; or only a count of 0.
 bool is_process_file(const ByteSource& source);
 }
 #endif

@@ -17,7 +17,7 @@
 
 namespace granular
 {
-/// What of a record a column is.
+/// The source of a column in a record.
 struct RecordColumn
 {
   enum class Kind : std::uint8_t
@@ -44,16 +44,16 @@ struct FoundBonds
   WholeNumbers form = WholeNumbers::Values; ///< of types and partners
 };
 
-/// Where everything is in the records of a file. A record is a part for each style, one behind the other, each with its own
-/// length, but for the first, and a part for each fix. Source: pack_restart of AtomVecHybrid and the fixes of LIGGGHTS.
+/// The positions of all parts in the records of a file. A record is a part for each style, one after the other, each with its
+/// own length except the first, and a part for each fix. Source: pack_restart of AtomVecHybrid and the fixes of LIGGGHTS.
 class RecordPlan
 {
 public:
   static constexpr std::int64_t most_history = 1024; ///< values of a bond
   static constexpr std::int64_t most_values = 1024;  ///< of a fix
 
-  /// Looks at the styles and the first records: those until it is known whether bonds have history. Throws FormatError,
-  /// IoError, Cancelled.
+  /// Looks at the styles and the first records, until it is known whether bonds have history. Throws FormatError, IoError,
+  /// Cancelled.
   RecordPlan(
     const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress);
 
@@ -65,15 +65,15 @@ public:
   const RecordColumn* molecule() const noexcept; ///< the column of whole numbers, if there is one
   int image_bits() const noexcept { return image_bits_; }
 
-  /// Finds the parts of a record: where each begins, styles first, then fixes, null if these are not as they should be; and
-  /// its bonds. Throws FormatError with what is wrong.
+  /// Finds the parts of a record: where each begins, styles first, then fixes, null if these are wrong; and its bonds. Throws
+  /// FormatError with the reason.
   void find_parts(
     std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const;
 
 private:
   struct Part
   {
-    const StyleLayout* style = nullptr; ///< null: nobody knows it
+    const StyleLayout* style = nullptr; ///< null: unknown
     std::string name;
     bool searched = false; ///< the first one, of which the end is where the next begins
     std::int64_t most_bonds = 0;

@@ -19,7 +19,7 @@
 
 namespace granular
 {
-/// A number out of bytes, of this machine's order or the other one.
+/// Returns a number from bytes in this machine's order or the other one.
 template <class Number>
 Number load_number(const char* bytes, bool swapped) noexcept
 {
@@ -32,7 +32,7 @@ Number load_number(const char* bytes, bool swapped) noexcept
   return std::bit_cast<Number>(own);
 }
 
-/// What a search may cost, whatever a file is made of: it is over when this is used up.
+/// The budget of a search, for any file: the search ends when it is used up.
 struct SearchBudget
 {
   std::int64_t steps = 0; ///< counts, strings and records that may still be looked at
@@ -45,17 +45,17 @@ struct SearchBudget
 class RestartBytes
 {
 public:
-  /// The most bytes of a string, with the zero behind it.
+  /// The largest number of bytes in a string, with its final zero.
   static constexpr std::int64_t most_text = 1024;
 
-  /// Of a compressed source the size is not known: it passes for endless. budget: pays for what is read; null: nobody does.
+  /// The size of a compressed source is unknown; it counts as endless. budget: pays for reading; null: unlimited.
   explicit RestartBytes(
     const ByteSource& source, bool swapped = false, SearchBudget* budget = nullptr);
 
   const ByteSource& source() const noexcept { return source_; }
   std::int64_t size() const noexcept { return size_; }
 
-  /// Whether the file has not this machine's byte order.
+  /// Returns true if the file has the other byte order.
   bool swapped() const noexcept { return swapped_; }
   void set_swapped(bool swapped) noexcept { swapped_ = swapped; }
 
@@ -70,7 +70,7 @@ public:
     return this->load<Number>(this->need(offset, sizeof(Number), what));
   }
 
-  /// The same, and goes behind it.
+  /// Reads a value and goes behind it.
   template <class Number>
   Number next(std::int64_t& at, std::string_view what)
   {
@@ -79,21 +79,21 @@ public:
     return number;
   }
 
-  /// A string, and goes behind it: how many bytes it has with the zero behind it, then these. Throws FormatError also where it is
-  /// none: the count is not in 2 .. most_text, a byte is not printable, there is no zero at the end, or one before.
+  /// Reads a string and goes behind it: the number of bytes with the final zero, then the bytes. Throws FormatError, also if
+  /// the count is not in 2 .. most_text, a byte is not printable, or a zero is missing at the end or comes before.
   std::string next_text(std::int64_t& at, std::string_view what);
 
-  /// The byte behind such a string; -1 where there is none.
+  /// Returns the byte behind such a string; -1 if there is none.
   std::int64_t text_end(std::int64_t offset);
 
-  /// Whether there are so many bytes; false of none, also for an offset outside of the file.
+  /// Returns true if there are so many bytes; false also for an offset outside the file.
   bool has(std::int64_t offset, std::size_t bytes) { return this->find(offset, bytes) != nullptr; }
 
-  /// The bytes from offset on that are in the window, which is moved there if it has fewer than so many: at least these, or all up
-  /// to the end of the file. Valid until the next call.
+  /// Returns the bytes from an offset in the window, which moves if it has fewer than requested: at least these, or all up to
+  /// the end of the file. Valid until the next call.
   std::string_view view(std::int64_t offset, std::size_t at_least);
 
-  /// A number out of a view.
+  /// Returns a number from a view.
   template <class Number>
   Number load(const char* bytes) const noexcept
   {
@@ -101,7 +101,7 @@ public:
   }
 
 private:
-  /// The bytes, or null if the file ends before.
+  /// Returns the bytes, or null if the file ends before.
   const char* find(std::int64_t offset, std::size_t bytes);
   const char* need(std::int64_t offset, std::size_t bytes, std::string_view what);
   void move_to(std::int64_t offset, std::size_t at_least);

@@ -8,12 +8,13 @@
 
 namespace granular
 {
-/// Restart files of LIGGGHTS, for a RunIndex: one frame each, of which the header says the timestep. A file that is not complete
-/// is left out with a notice that says what was understood. Files of processes beside their base are passed over.
+/// Restart files of LIGGGHTS, for a RunIndex: one frame each, with the timestep of the header. An incomplete file is left out
+/// with a notice about the parts that were understood. Files of ranks beside their base are skipped.
 const FileFormat& restart_format() noexcept;
 
-/// Whether a file is one of these, by content: the first words of the header, in either byte order; also those of LAMMPS, and the files
-/// of processes beside their base, so that the user hears why these cannot be read. Never throws: what cannot be read is none.
+/// Returns true if the contents of a file are a restart file: the first words of the header, in either byte order. Also true
+/// for LAMMPS' files and for files of ranks beside their base, so that the user learns why they cannot be read. Returns
+/// false, and never throws, for unreadable files.
 bool is_restart_file(const std::string& path) noexcept;
 }
 #endif

@@ -14,7 +14,7 @@
 
 namespace granular
 {
-/// What a restart file holds of each particle, and of each bond.
+/// The columns of each particle and bond in a restart file.
 struct RestartColumns
 {
   std::vector<std::string>
@@ -27,20 +27,19 @@ struct RestartColumns
 RestartColumns find_restart_columns(
   const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress);
 
-/// The arrays of bonds: id1 id2 btype and the history, see history_columns.
+/// Returns the arrays of bonds: id1 id2 btype and the history, see history_columns.
 ColumnSchema make_bond_schema(
   int history_layout, std::string_view version, std::int64_t history_values);
 
-/// What of a restart file is wanted.
+/// The wanted part of a restart file.
 struct RestartRequest
 {
   std::function<bool(std::string_view name)> wanted;       ///< arrays of particles; empty: all
   std::function<bool(std::string_view name)> wanted_bonds; ///< arrays of bonds; empty: all
   bool bonds = true;
   int history_layout = automatic_history;
-  LineRequest lines; ///< also what says how many threads there are, and where the memory comes from
-  int piece =
-    0; ///< the part of the records that is wanted, of `pieces` in all; a bond is where its first particle is
+  LineRequest lines; ///< also gives the number of threads and the source of the memory
+  int piece = 0;     ///< part of the records, of `pieces` in all; a bond is with its first particle
   int pieces = 1;
 };
 
@@ -54,13 +53,14 @@ struct RestartFrame
 
 /// Decodes the particles of a restart file in full precision, and its bonds.
 ///
-/// A bond that both particles hold is one: that of the particle with the lower id, with its history, whatever the sign of the
-/// other copy. One that only one of them holds is that one. Where several are held between two particles each is one: as many as
-/// that particle holds which holds more. Where newton_bond says that bonds are stored once every copy is one. Bonds of which a
-/// particle is not in the file have no line and no row; these, bonds of a particle to itself and copies whose history is
-/// not the same, but for the sign and rounding to 1e-6, are counted in notices, those of the whole file, whatever the piece.
+/// A bond that both particles hold becomes one: the copy of the particle with the lower id, with its history, whatever the
+/// sign of the other copy. A bond that only one particle holds becomes one, too. Several bonds between two particles remain
+/// several: as many as the particle with more of them holds. If newton_bond says that bonds are stored once, every copy is a
+/// bond. Bonds without one of their particles in the file have no line and no row. Notices count these, bonds of a particle
+/// with itself, and copies whose histories differ by more than the sign and rounding to 1e-6, over the whole file in any
+/// piece.
 ///
-/// Reads the records once, on several threads. Throws FormatError that names the record (from 1), the particle's id where it is known,
+/// Reads the records once, on several threads. Throws FormatError that names the record (from 1), the particle's id if known,
 /// and the byte; IoError; Cancelled; std::bad_alloc.
 RestartFrame read_restart(const ByteSource& source, const RestartLayout& layout,
   const RestartRequest& request, Notices& notices, Progress& progress);

@@ -12,7 +12,7 @@
 
 namespace granular
 {
-/// What an atom style has in the record of a particle: what all have (RecordSlots), values, and lists.
+/// The part of an atom style in a particle's record: the common values (RecordSlots), values, and lists.
 struct StyleLayout
 {
   static constexpr std::size_t most_lists = 4;
@@ -29,14 +29,14 @@ struct StyleLayout
   bool has_lists() const noexcept { return lists[0] > 0; }
 };
 
-/// THE table of atom styles. Source: pack_restart of the atom styles of LIGGGHTS-PUBLIC 3.8.0 and its forks; files of 3.8.0.
+/// The table of atom styles. Source: pack_restart of the atom styles of LIGGGHTS-PUBLIC 3.8.0 and its forks; files of 3.8.0.
 std::span<const StyleLayout> style_layouts() noexcept;
 
-/// A style, or null.
+/// Returns a style, or null.
 const StyleLayout* find_style(std::string_view name) noexcept;
 
-/// How many doubles the part of a style takes up that begins here: up to the end of its lists. Not of one with history.
-/// Throws FormatError, with the double of the part, where it is more than there are.
+/// Returns the doubles of a style's part that begins here, up to the end of its lists. Not for styles with history. Throws
+/// FormatError, with the double of the part, if it needs more doubles than there are.
 std::size_t measure_lists(std::span<const double> block, const StyleLayout& style);
 }
 #endif

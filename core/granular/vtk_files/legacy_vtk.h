@@ -17,10 +17,10 @@
 
 namespace granular
 {
-/// What the first line of a legacy VTK file begins with.
+/// The beginning of the first line of a legacy VTK file.
 inline constexpr std::string_view legacy_vtk_mark = "# vtk DataFile";
 
-/// A place in a file. Lines are not counted in binary files.
+/// A position in a file. Lines are not counted in binary files.
 struct VtkPlace
 {
   std::int64_t offset = 0;
@@ -37,76 +37,75 @@ struct VtkHeader
   std::string dataset; ///< kind, in capitals; empty: another header or the end comes instead
 };
 
-/// Cells of a dataset: those of VTK before 9 (the number of points, then these, for each) or with offsets.
+/// Cells of a dataset: in the form of VTK before 9 (the number of points, then the points, for each cell) or with offsets.
 struct VtkCells
 {
   std::int64_t size = 0;
   std::vector<std::int64_t> offsets;      ///< size + 1: where the points of each cell begin
   std::vector<std::int64_t> connectivity; ///< numbers of points
-  VtkArray values;      ///< what stands in the file: connectivity and, if counted, counts
-  VtkPlace place;       ///< of the first of values
-  bool counted = false; ///< each cell begins with the number of its points
+  VtkArray values;                        ///< in the file: connectivity and, if counted, counts
+  VtkPlace place;                         ///< of the first of values
+  bool counted = false;                   ///< each cell begins with the number of its points
 };
 
-/// Reads legacy VTK files (1.0 to 5.1, ASCII and BINARY) section by section: the caller knows which sections a dataset
-/// has. Sections begin with a line of words; keywords are the same in small letters. Numbers of a text may
-/// spread over lines in any way. Counts are claims: nothing is allocated before the bytes that they need are
-/// there.
+/// Reads legacy VTK files (1.0 to 5.1, ASCII and BINARY) section by section; the caller knows the sections of a dataset.
+/// Sections begin with a line of words; keywords may be in small letters. Numbers of a text may spread over lines in any way.
+/// Counts are claims: memory is allocated only for bytes that are there.
 ///
-/// All members throw FormatError and LimitError that name the line, of binary files the byte, what reading throws,
-/// and Cancelled.
+/// All members throw FormatError and LimitError with the line, or the byte in binary files, the errors of reading, and
+/// Cancelled.
 class LegacyVtk
 {
 public:
   static constexpr std::int64_t no_end = std::numeric_limits<std::int64_t>::max();
 
-  /// Begins at a place, the start of a header or a section. Bytes from end on are not there; no_end: nobody
-  /// knows how many there are.
+  /// Begins at a position, the start of a header or a section. Bytes from `end` on do not exist; no_end: their number is
+  /// unknown.
   LegacyVtk(const ByteSource& source, const VtkPlace& place, std::int64_t end, Progress& progress);
 
-  /// Where the next byte is.
+  /// Returns the position of the next byte.
   VtkPlace place() const noexcept;
   Where where(const VtkPlace& place) const;
   void go_to(const VtkPlace& place) noexcept;
 
-  /// Passes over blanks. Whether a header is next.
+  /// Skips blanks. Returns true if a header is next.
   bool at_header();
 
-  /// Whether no byte is left.
+  /// Returns true if no byte is left.
   bool at_end() { return !this->have(1); }
 
-  /// Goes to the next header from a place on, in whatever line. False: at the end, there is none.
+  /// Goes to the next header after a position, in any line. Returns false if there is none before the end.
   bool find_header(const VtkPlace& from);
 
   VtkHeader read_header();
 
-  /// Goes to the next line with words; METADATA is passed over. False where there is none: at the end, which may be
-  /// an unfinished line of another header, or a header. A section without its last line feed throws.
+  /// Goes to the next line with words; METADATA is skipped. Returns false if there is none: at the end, which may be an
+  /// unfinished line of another header, or at a header. Throws if a section lacks its last line feed.
   bool next();
 
-  /// The same; throws if there is none. what: was expected, for the message.
+  /// Goes to the next line, or throws if there is none; `what` was expected, for the message.
   void need(const std::string& what);
 
-  /// The words of that line, until the next one.
+  /// Returns the words of that line; valid until the next one.
   const std::vector<std::string_view>& words() const noexcept { return words_; }
   const VtkPlace& line_place() const noexcept { return line_place_; }
 
-  /// Whether the first word is that, in small letters or capitals.
+  /// Returns true if the first word is the keyword, in small letters or capitals.
   bool is(std::string_view keyword) const noexcept;
 
-  /// A word as a count, 0 or more, or as a type.
+  /// Returns a word as a count, 0 or more, or as a type.
   std::int64_t count(std::size_t word) const;
   ValueType type(std::size_t word) const;
 
-  /// The values behind a line "KEYWORD tuples type".
+  /// Returns the values behind a line "KEYWORD tuples type".
   VtkArray values(std::int64_t components) const;
 
-  /// The values that come next: doubles, or whole ones as std::int64_t.
+  /// Reads the next values: doubles, or integers as std::int64_t.
   template <class T>
   void read(const VtkArray& array, std::vector<T>& numbers);
   void skip(const VtkArray& array);
 
-  /// Reads them, or passes over them.
+  /// Reads the next values, or skips them.
   template <class T>
   void take(const VtkArray& array, bool keep, std::vector<T>& numbers)
   {
@@ -115,24 +114,24 @@ public:
 
   using TakeArray = std::function<bool(const VtkArray&)>;
 
-  /// Arrays of point, cell or field data that the line begins: one, or those of a FIELD. take is called before the
-  /// values of each, and returns true if it has read them. False: the line begins none.
+  /// Takes the arrays of point, cell or field data that the line begins: one array, or the arrays of a FIELD. Calls `take`
+  /// before the values of each array; it returns true if it has read them. Returns false if the line begins no array.
   bool take_arrays(std::int64_t tuples, const TakeArray& take);
 
-  /// The cells that the line ("CELLS size values", or VERTICES, LINES, ...) begins; keep: with their points.
+  /// Returns the cells that the line ("CELLS size values", or VERTICES, LINES, ...) begins; keep: with their points.
   VtkCells cells(bool keep);
 
-  /// Places of values that were read or passed over, for messages.
+  /// Returns the position of a value that was read or skipped, for messages.
   Where where_of(const VtkPlace& first, const VtkArray& array, std::int64_t number);
   Where where_of(const VtkCells& cells, std::int64_t cell);
 
-  /// Whether the file ended where more had to come: it may still be growing.
+  /// Returns true if the file ended where more was expected: the file may still be growing.
   bool ended() const noexcept { return ended_; }
 
-  /// Throws: "expected ..., got ..." of the line that next() gave.
+  /// Throws "expected ..., got ..." for the line of next().
   [[noreturn]] void fail(const std::string& expected, std::string_view got) const;
 
-  /// Throws: what had to come does not, because the end or another header does; cause: why that may be.
+  /// Throws that something is missing because the end or another header comes first; `cause` may explain it.
   [[noreturn]] void fail_missing(const std::string& expected, const std::string& cause = "");
 
 private:

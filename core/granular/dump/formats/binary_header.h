@@ -17,22 +17,22 @@
 
 namespace granular
 {
-/// How the header of a binary dump is laid out.
+/// The layout of a binary dump's header.
 struct BinaryLayout
 {
   const char* name;
-  bool magic;     ///< begins with DUMPATOM or DUMPCUSTOM and says what follows
-  bool wide;      ///< timestep and number of atoms are int64, else int32
+  bool magic;     ///< begins with DUMPATOM or DUMPCUSTOM and describes the rest
+  bool wide;      ///< timestep and number of atoms are int64, otherwise int32
   bool triclinic; ///< has the flag
   bool boundary;  ///< has the six flags of the faces
   bool swapped;   ///< of the other byte order
 };
 
-/// All layouts, the likeliest first. Sources: dump_atom.cpp and dump_custom.cpp of LIGGGHTS and LAMMPS;
-/// the sizes of integers are those of lmptype.h (-DLAMMPS_SMALLSMALL).
+/// All layouts, the most likely first. Sources: dump_atom.cpp and dump_custom.cpp of LIGGGHTS and LAMMPS; lmptype.h defines
+/// the sizes of integers (-DLAMMPS_SMALLSMALL).
 std::span<const BinaryLayout> binary_layouts() noexcept;
 
-/// What the header of a frame of a binary dump says.
+/// The header of a frame of a binary dump.
 struct BinaryHeader
 {
   FrameHeader frame;
@@ -46,7 +46,7 @@ struct BinaryHeader
   std::int64_t values() const noexcept { return frame.rows * size_one; }
 };
 
-/// Reads numbers in their order, through a small buffer.
+/// Reads numbers in order, through a small buffer.
 class BinaryCursor
 {
 public:
@@ -57,7 +57,7 @@ public:
   {
   }
 
-  /// The next number; 0 past the end of the source.
+  /// Returns the next number; 0 after the end of the source.
   template <typename T>
   T take()
   {
@@ -75,7 +75,7 @@ public:
   void set_swapped(bool swapped) noexcept { swapped_ = swapped; }
 
   std::int64_t offset() const noexcept { return offset_; }
-  bool ended() const noexcept { return ended_; } ///< whether something past the end was asked for
+  bool ended() const noexcept { return ended_; } ///< true: bytes after the end were requested
 
 private:
   void copy(char* to, std::size_t bytes);
@@ -89,21 +89,21 @@ private:
   bool ended_ = false;
 };
 
-/// Reads the header at offset. Nothing at the end of the source, also within the header.
-/// Throws FormatError, with the byte of the field at fault; UnsupportedError.
+/// Reads the header at an offset. Returns nothing at the end of the source, also within the header. Throws FormatError, with
+/// the byte of the wrong field; UnsupportedError.
 std::optional<BinaryHeader> read_binary_header(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout);
 
-/// What a layout makes of the beginning of a source.
+/// The beginning of a source as read by a layout.
 struct HeaderCheck
 {
   std::optional<BinaryHeader> header; ///< of the first frame; none at the end of the source, and
                                       ///< where more is wrong than that a box may be none
-  std::optional<FormatError> error;   ///< about the first field that cannot be
-  int faults = 0;                     ///< how many cannot be
+  std::optional<FormatError> error;   ///< about the first impossible field
+  int faults = 0;                     ///< number of impossible fields
 };
 
-/// Reads the first header, also behind what is wrong. Without magic the box must look like one.
+/// Reads the first header, also after errors. Without magic the box must be plausible.
 HeaderCheck check_binary_header(const ByteSource& source, const BinaryLayout& layout);
 }
 #endif

@@ -10,8 +10,8 @@
 
 namespace granular
 {
-/// The rows of a frame of a binary dump: what each process wrote, one after the other, as doubles,
-/// row-major. Values are narrowed to the column's type where that is exact; others are a fault.
+/// The rows of a frame of a binary dump: the chunks of the ranks, one after the other, as doubles, row-major. Values are
+/// narrowed to the column's type if that is exact; others are an error.
 class BinaryRows final : public FrameRows
 {
 public:
@@ -24,7 +24,7 @@ public:
 private:
   friend class BinaryReader;
 
-  /// What one process wrote: rows behind their number.
+  /// The rows of one rank, after their number.
   struct Run
   {
     std::int64_t first; ///< row

@@ -16,21 +16,20 @@ namespace granular
 /// Dumps of particles.
 const FileFormat& dump_format() noexcept;
 
-/// True if the first bytes of a file, uncompressed, are those of a dump of particles that
-/// index_dump can read.
+/// Returns true if the first bytes of a file, uncompressed, are those of a dump of particles that index_dump can read.
 bool is_dump(std::string_view first_bytes);
 
-/// The same of a file by name, which may be compressed: looks at its first 64 KiB. Never throws:
-/// what cannot be read is no dump.
+/// Returns the same for a file by name, which may be compressed, from its first 64 KiB. Returns false, and never throws, for
+/// unreadable files.
 bool is_dump_file(const std::string& path) noexcept;
 
-/// FileFormat::index of dumps, text or binary: finds the frames from index.resume_offset on. A last frame
-/// that is not complete is left out, silently; a frame in the middle that is not what its header
-/// says with a notice. Throws IoError, LimitError; FormatError of compressed data; Cancelled. Large frames of a text are passed over by several threads.
+/// FileFormat::index for dumps, text or binary: finds the frames from index.resume_offset on. An incomplete last frame is
+/// left out silently, a frame in the middle that contradicts its header with a notice. Several threads skip large frames of a
+/// text. Throws IoError, LimitError; FormatError for compressed data; Cancelled.
 void index_dump(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
 
-/// FileFormat::fits of dumps: looks at the headers of the first and last frames, and of those whose timestep does not grow.
+/// FileFormat::fits for dumps: compares the headers of the first and last frames, and of frames whose timestep does not grow.
 bool dump_fits(const ByteSource& source, const FileIndex& index);
 }
 #endif

@@ -7,10 +7,11 @@
 
 namespace granular
 {
-/// FileFormat::first_rows of particles: the ids, where there are any.
+/// FileFormat::first_rows for particles: the ids, if there are any.
 FirstRows find_first_ids(const FileIndex& file, const FrameEntry& entry);
 
-/// The same of rows of other things, which may be equal by chance: where a text has no ids, a hash of the words of each row.
+/// FileFormat::first_rows for other rows, which may be equal by chance: for text without ids, a hash of the words of each
+/// row.
 FirstRows find_first_rows(const FileIndex& file, const FrameEntry& entry);
 }
 #endif

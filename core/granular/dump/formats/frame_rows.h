@@ -29,15 +29,15 @@ struct Misfit
   Where where = {};        ///< set by FrameRows::locate
 };
 
-/// Misfits that were found together, by place: a RowReader throws the first one, and the first of every other column in the rows
-/// that were read with it.
+/// Misfits that were found together, by position: a RowReader throws the first one, and the first of every other column in
+/// the rows read with it.
 using Misfits = std::vector<Misfit>;
 
-/// The size of a frame in its own measure, by which it is cut into pieces and chunks: bytes of a text,
-/// header and rows; rows of a binary dump.
+/// The size of a frame in its own measure, which divides it into pieces and chunks: bytes of text, header and rows; rows of a
+/// binary dump.
 std::int64_t extent_of(const FrameEntry& entry) noexcept;
 
-/// The extent of a chunk of about so many bytes, at least 1.
+/// Returns the extent of a chunk of about so many bytes, at least 1.
 std::int64_t chunk_extent(const FrameEntry& entry, std::size_t bytes) noexcept;
 
 /// Reads some rows of a frame at a time. One for each thread.
@@ -51,13 +51,13 @@ public:
   /// FormatError of compressed data, LimitError.
   virtual void open(std::int64_t first, std::int64_t last) = 0;
 
-  /// How many rows there are, decoded or not.
+  /// Returns the number of rows, decoded or not.
   virtual std::int64_t rows() const noexcept = 0;
 
-  /// Whether there are rows that were not decoded.
+  /// Returns true if rows are left to decode.
   virtual bool more() const noexcept = 0;
 
-  /// Whether a row that was decoded since the last open had more words than there are columns.
+  /// Returns true if a row decoded since the last open had more words than there are columns.
   virtual bool surplus() const noexcept { return false; }
 
   /// Decodes the next rows, at most max_rows, into the sinks and moves them on. Returns how many; 0 only
@@ -73,7 +73,7 @@ public:
 
   virtual const FrameHeader& header() const noexcept = 0;
 
-  /// FrameHeader::digits, by the first rows. Reads the source.
+  /// Returns FrameHeader::digits, from the first rows. Reads the source.
   virtual std::vector<int> digits() const { return {}; }
 
   /// Who reads rows of it, as long as this lives.

@@ -16,10 +16,10 @@
 
 namespace granular
 {
-/// What became of a chunk of rows.
+/// The result of a chunk of rows.
 struct DecodedChunk
 {
-  std::int64_t row = 0;   ///< of the frame in memory, where its first row was put
+  std::int64_t row = 0;   ///< row of the frame in memory where its first row went
   std::int64_t rows = 0;  ///< decoded
   std::int64_t kept = 0;  ///< by the filters
   bool surplus = false;   ///< see RowReader::surplus
@@ -27,18 +27,18 @@ struct DecodedChunk
   std::vector<std::vector<std::string>> words; ///< of each column of texts, by their indices
 };
 
-/// What the points of all chunks have lost.
+/// Returns the loss in the points of all chunks.
 RoundingLoss loss_of_points(const std::deque<DecodedChunk>& chunks, const FrameLayout& layout);
 
-/// Decodes chunks of rows along the wires of a layout. One for each thread.
+/// Decodes chunks of rows into a layout. One for each thread.
 class ChunkDecoder
 {
 public:
   ChunkDecoder(FrameLayout& layout, const DumpRequest& request);
 
-  /// Decodes the rows that a reader has opened, at most room of them, to chunk.row on. number is that
-  /// of the first of them in the frame. ranges, of the frame of the layout, take the rows that stay
-  /// into account. Throws Misfits; LimitError at where.
+  /// Decodes the rows that a reader has opened, at most `room` of them, from chunk.row on. `number` is the number of the
+  /// first one in the frame. `ranges`, of the frame of the layout, includes the rows that stay. Throws Misfits; LimitError at
+  /// `where`.
   void decode(RowReader& reader, std::int64_t number, std::int64_t room, const Where& where,
     DecodedChunk& chunk, FrameRanges& ranges);
 

@@ -15,10 +15,10 @@ using FramePieces = std::vector<FramePiece>;
 
 std::int64_t rows_of(const FramePieces& pieces) noexcept;
 
-/// Throws the FormatError for a piece that has other rows than its header promises.
+/// Throws the FormatError for a piece whose number of rows contradicts its header.
 [[noreturn]] void fail_count(const FramePiece& piece, std::int64_t rows);
 
-/// Part of a piece: the rows that begin in [first, last) of its extent.
+/// A range of a piece: the rows that begin in [first, last) of its extent.
 struct PieceRows
 {
   std::size_t piece;
@@ -26,23 +26,24 @@ struct PieceRows
   std::int64_t last;
 };
 
-/// Part `part` of `parts` of a frame: its pieces, one behind the other, cut by their extents. The parts
-/// hold each row once, in their order; there may be more of them than rows.
+/// Returns part `part` of `parts` of a frame: its pieces in order, divided by their extents. The parts hold each row once, in
+/// order; there may be more parts than rows.
 std::vector<PieceRows> cut_frame(const FramePieces& pieces, int part, int parts);
 
-/// As many rows as the ranges have at most, if the pieces have what their headers promise: no part has more than the pieces that
-/// it is of.
+/// Returns the largest number of rows in the ranges if the headers of the pieces are right: a part has at most the rows of
+/// its pieces.
 std::int64_t most_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges);
 
-/// As many as they have as a rule: rows of a text differ in length, but a part of it rarely has many more than its share.
+/// Returns the usual number of rows in the ranges: rows of text differ in length, but a part rarely has many more than its
+/// share.
 std::int64_t likely_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges);
 
-/// The rows of a frame, or as many as the bytes of its file can be: of a packed one as they are packed as a rule.
+/// Returns the rows of a frame, limited by the bytes of its file; for a packed file at the usual ratio.
 std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source);
 
-/// Ranges in chunks of about so many bytes, but none longer than the longest row: a row that is too
-/// long does not fit one, and so is found. The bounds do not depend on the ranges. Takes memory for each range,
-/// none for a chunk: how long a range is may be no more than a claim.
+/// Divides ranges into chunks of about so many bytes, none longer than the longest row: a row that is too long does not fit
+/// and is detected. The bounds do not depend on the ranges. Memory is needed per range, not per chunk, because the length of
+/// a range may be only a claim.
 class ChunkCuts
 {
 public:

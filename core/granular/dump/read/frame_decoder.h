@@ -21,35 +21,35 @@ namespace granular
 {
 /// Decodes a part of a frame, chunk by chunk, on several threads.
 ///
-/// The chunks are read by whoever has time, those of compressed files in their order; each counts its
-/// rows, and so knows the place of the first row of the next. From then on nobody waits for anybody.
+/// Any free thread reads the next chunk, of compressed files in order. It counts the rows of the chunk and thus knows the
+/// position of the next one's first row. From then on no thread waits for another.
 class FrameDecoder
 {
 public:
   FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request,
     Notices& notices);
 
-  /// Decodes all rows, or up to a value that does not fit: returns it, and those found with it.
+  /// Decodes all rows, or up to a value that does not fit; returns it and the misfits found with it.
   Misfits run(Progress& progress);
 
-  /// The frame; ids gets the ids where they are needed for sorting and no array of the frame.
+  /// Returns the frame; `ids` gets the ids if they are needed for sorting but not as an array.
   DumpFrame take(Block& ids);
 
-  /// What the points have lost by rounding.
+  /// Returns the loss of the points by rounding.
   RoundingLoss loss() const { return loss_of_points(decoded_, *layout_); }
 
-  /// Rows of each piece that are in this part.
+  /// Returns the rows of each piece in this part.
   std::vector<std::int64_t> take_counts() { return std::move(counts_); }
 
 private:
-  /// A piece, open.
+  /// An open piece.
   struct Source
   {
     std::shared_ptr<const ByteSource> bytes;
     std::unique_ptr<const FrameRows> rows;
   };
 
-  /// What a thread has of its own.
+  /// The state of a thread.
   struct Worker
   {
     std::shared_ptr<const Source> source;

@@ -15,7 +15,7 @@
 
 namespace granular
 {
-/// Where values go: by the row of the frame, or by the row of the batch into a thread's own memory.
+/// The destination of values: a row of the frame, or a row of the batch in a thread's own memory.
 struct Destination
 {
   char* base = nullptr;
@@ -29,7 +29,7 @@ struct Destination
   }
 };
 
-/// A column on its way: to its first destination by the decoder, from there to others.
+/// A column on its way: the decoder writes it to its first destination, from where it is copied to others.
 struct Wire
 {
   struct Copy
@@ -43,45 +43,44 @@ struct Wire
   std::vector<Copy> copies;
 };
 
-/// Points: three doubles a row, made from columns.
+/// Points: three doubles per row, made from columns.
 struct PointsWire
 {
   PositionPlan plan;
   Vector3 point_origin = {};
   Destination xyz;
-  std::optional<Destination> images; ///< three doubles
+  std::optional<Destination> images; ///< three doubles per row
 };
 
-/// A column of texts, which become indices of the words that occur.
+/// A column of texts, which become indices of the distinct words.
 struct TextWire
 {
   std::size_t array; ///< in the frame
   Destination texts; ///< std::string_views of a batch
 };
 
-/// The memory that a frame is decoded into, and the wires from its columns to there. Any number of
-/// threads decode along it, each into rows of its own.
+/// The memory of a decoded frame, and the connections from its columns. Any number of threads decode into it, each into its
+/// own rows.
 class FrameLayout
 {
 public:
-  /// rows is how many there is room for. Throws what plan_positions throws; std::bad_alloc.
+  /// rows: the room. Throws the errors of plan_positions; std::bad_alloc.
   FrameLayout(const ColumnSchema& schema, const FrameHeader& header, const DumpRequest& request,
     std::int64_t rows, const Where& where, Notices& notices);
 
-  /// Cuts the memory to the rows that there are. ids gets the ids where they are needed for sorting
-  /// and no array of the frame.
+  /// Cuts the memory to the actual rows. `ids` gets the ids if they are needed for sorting but not as an array.
   DumpFrame take(std::int64_t rows, Block& ids);
 
-  /// Whether points are not the numbers of the file.
+  /// Returns true if the points are not the numbers of the file.
   bool rounds() const noexcept;
 
-  /// Points have been moved so far along the axes of their coordinates.
+  /// Adds a movement of the points along the axes of their coordinates.
   void add_moved(const Vector3& moved, RoundingLoss& loss) const noexcept;
 
-  /// What points within the box have lost where they were rounded to doubles.
+  /// Returns the loss of points in the box where they were rounded to doubles.
   void add_rounding(RoundingLoss& loss) const noexcept;
 
-  /// Calls visit(block, bytes a row) for every block that has rows.
+  /// Calls visit(block, bytes per row) for every block that has rows.
   template <typename Visit>
   void for_each_block(Visit&& visit)
   {

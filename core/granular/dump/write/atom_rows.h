@@ -12,37 +12,36 @@
 
 namespace granular
 {
-/// The columns of dump atom. With a tilted box or not, as text or binary, it has 16 forms.
+/// The columns of dump atom. With tilted or orthogonal boxes, as text or binary, it has 16 forms.
 struct AtomForm
 {
-  bool scaled = true; ///< xs ys zs, else x y z
-  bool image = false; ///< and ix iy iz
+  bool scaled = true; ///< xs ys zs; false: x y z
+  bool image = false; ///< also ix iy iz
 };
 
-/// Values a row: 5, or 8 with the image.
+/// Returns the values per row: 5, or 8 with the image counts.
 int atom_row_values(const AtomForm& form) noexcept;
 
-/// "id type xs ys zs", "id type x y z ix iy iz", ...
+/// Returns "id type xs ys zs", "id type x y z ix iy iz", ...
 std::vector<std::string> atom_columns(const AtomForm& form);
 
-/// The atoms of one process, in the arrays of a simulation code.
+/// The atoms of one rank, in the arrays of a simulation code.
 struct AtomRows
 {
   std::int64_t rows = 0;
   const std::int64_t* ids = nullptr;
   const std::int32_t* types = nullptr;
-  const double* positions = nullptr;    ///< x y z of each, in the box
-  const std::int32_t* images = nullptr; ///< three of each; null: none was crossed
+  const double* positions = nullptr;    ///< x y z of each atom, in the box
+  const std::int32_t* images = nullptr; ///< three for each atom; null: all are 0
 };
 
-/// The frame that they are.
+/// Returns the frame of these atoms.
 FrameView view_atoms(const AtomRows& atoms, const FrameHeader& header);
 
-/// Packs rows [first, first + count) as dump atom does, atom_row_values doubles each: id, type, c, image, where c
-/// is x, or lambda with x = x_lo + H lambda, the columns of H being the vectors of the box: (Lx, 0, 0),
-/// (xy, Ly, 0), (xz, yz, Lz), by back substitution. Each lambda is the exact one rounded, as convert_positions
-/// has it. Throws Error for a scaled form of a box without volume, LimitError for ids that are no doubles,
-/// rows that there are not, and too little room.
+/// Packs rows [first, first + count) like dump atom, atom_row_values doubles each: id, type, c, image. c is x, or lambda with
+/// x = x_lo + H lambda, by back substitution, where the columns of H are the box vectors (Lx, 0, 0), (xy, Ly, 0), (xz, yz,
+/// Lz). Each lambda is the exact value rounded, as in convert_positions. Throws Error for scaled coordinates in a box without
+/// volume, and LimitError for ids that are not doubles, missing rows, and too little room.
 void pack_atom_rows(const AtomRows& atoms, const Box& box, const AtomForm& form, std::int64_t first,
   std::int64_t count, std::span<double> to);
 }

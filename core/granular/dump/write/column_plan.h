@@ -16,72 +16,69 @@
 
 namespace granular
 {
-/// What a column of a dump is made from.
+/// The source of a dump column.
 struct ColumnSource
 {
   enum class Kind : std::uint8_t
   {
     Array,
-    Coordinate, ///< of the points, in the form of its role
+    Coordinate, ///< the points, in the form of the role
     Image,
-    RowNumber, ///< from 1, over all processes: an id where there is none
-    One        ///< 1 in each row: a type where there is none
+    RowNumber, ///< from 1, over all ranks: a missing id
+    One        ///< 1 in each row: a missing type
   };
 
   std::string name = {};
   Kind kind = Kind::Array;
   ValueSource values = {}; ///< of Kind::Array
-  bool own = false;        ///< of Kind::Coordinate: values holds the file's own numbers, too
-  ColumnRole role = ColumnRole::Other; ///< of coordinates, those in arrays, too
+  bool own = false;        ///< for Kind::Coordinate: values also holds the file's own numbers
+  ColumnRole role = ColumnRole::Other; ///< of coordinates, also those in arrays
   int axis = 0;                        ///< of coordinates and Kind::Image
-  bool whole = false; ///< text shows integral numbers with all their digits, whatever their type
+  bool whole = false;        ///< text shows integral numbers with all their digits, for any type
   NumberFormat numbers = {}; ///< of real numbers in text
 
-  /// Digits of the text that the column comes from, to which values are put back that are those within rounding; 0: it comes from
-  /// none, or its digits are not wanted.
+  /// Returns the digits of the text that the column comes from, to which values within rounding are set back; 0: not from
+  /// text, or its digits are not wanted.
   int kept_digits() const noexcept { return numbers.exact ? numbers.digits : 0; }
 };
 
-/// The columns of a dump, and what else they need.
+/// The columns of a dump, and other data that they need.
 struct ColumnPlan
 {
   std::vector<ColumnSource> columns = {};
-  std::array<std::optional<ValueSource>, 3>
-    images = {};                       ///< where there are any and they are needed
-  std::optional<ValueSource> ids = {}; ///< integers to sort by, if there are any
-  bool binary = false; ///< whole numbers may be loaded as doubles, where each is one
+  std::array<std::optional<ValueSource>, 3> images = {}; ///< if present and needed
+  std::optional<ValueSource> ids = {};                   ///< integers to sort by, if present
+  bool binary = false; ///< integers may be loaded as doubles if each is one
   bool wraps = false;  ///< image counts are found by wrapping unwrapped points into the box
 
   std::vector<std::string> names() const;
 };
 
-/// Filters may give a frame without rows no arrays: such a one can have any columns.
+/// Returns true for a frame without rows and arrays, as filters make it; it can have any columns.
 bool is_blank_frame(const FrameView& frame) noexcept;
 
-/// Throws the Error that there is nothing to make a column from.
+/// Throws an Error: there is no source for a column.
 [[noreturn]] void fail_missing(const FrameView& frame, const std::string& name);
 
-/// The columns of the file that a frame comes from for which is_there says that there is something to make them from; with
-/// a notice of those that are left out.
+/// Returns the columns of the frame's file for which is_there is true; a notice names the others.
 std::vector<std::string> kept_columns(const FrameView& frame,
   const std::function<bool(std::size_t column)>& is_there, Notices& notices);
 
-/// The columns of a frame that are written where nobody says which: those of the file that it comes from, as
-/// far as there is something to make them from, with a notice of those that are left out, and then the
-/// arrays that are new; else id, type, x, y, z and all arrays. Texts that a binary dump cannot hold, and an array
-/// whose column is that of another, are left out with a notice.
+/// Returns the default columns of a frame: the columns of its file that have a source, with a notice about the others, then
+/// new arrays; without a file id, type, x, y, z and all arrays. Texts that a binary dump cannot hold, and arrays whose
+/// columns exist already, are left out with a notice.
 std::vector<std::string> default_columns(
   const FrameView& frame, Notices& notices, bool binary = false);
 
-/// A list of columns with the names of arrays replaced by those of their columns: v by vx vy vz, and an array A
-/// of n components that the table does not know by A[1] .. A[n].
+/// Replaces the names of arrays by those of their columns: v by vx vy vz, and an unknown array A of n components by A[1] ..
+/// A[n].
 std::vector<std::string> expand_columns(
   const std::vector<std::string>& names, const FrameView& frame);
 
-/// Finds what each column is made from: the array of that name, a component of the array that columns of this
-/// name become (see ColumnSchema), the points, the image counts. A missing id is the number of the row, a
-/// missing type 1, missing image counts are 0, each with a notice; all else that is missing is an
-/// Error. binary: texts are no numbers; an element becomes the type. Throws Error, UnsupportedError.
+/// Finds the source of each column: the array of that name, a component of the array that columns of this name become (see
+/// ColumnSchema), the points, or the image counts. A missing id is the number of the row, a missing type 1, missing image
+/// counts are 0, each with a notice; any other missing source is an Error. binary: texts are not numbers; an element becomes
+/// the type. Throws Error, UnsupportedError.
 ColumnPlan plan_columns(
   const std::vector<std::string>& names, const FrameView& frame, bool binary, Notices& notices);
 }

@@ -15,15 +15,15 @@
 
 namespace granular
 {
-/// Which command of the simulation code would have written the file.
+/// The command of the simulation code that would have written the file.
 enum class DumpStyle : std::uint8_t
 {
   Atom,   ///< dump atom: the columns of an AtomForm
   Custom, ///< dump custom: any columns
-  Local   ///< dump local: rows of any arrays, which are no particles; text only
+  Local   ///< dump local: rows of any arrays, not particles; text only
 };
 
-/// How a dump is written.
+/// The format of a dump to write.
 struct DumpFormat
 {
   DumpStyle style = DumpStyle::Custom;
@@ -34,42 +34,40 @@ struct DumpFormat
   AtomForm atom;                               ///< of DumpStyle::Atom
   std::vector<std::string>
     columns; ///< not of DumpStyle::Atom; empty: see default_columns, or default_table_columns
-  std::string counted = "ENTRIES"; ///< what rows are called; of DumpStyle::Local
+  std::string counted = "ENTRIES"; ///< name of rows; for DumpStyle::Local
   NumberFormat numbers;            ///< of real numbers in text
   bool units = false;              ///< ITEM: UNITS in the first frame of the file; Lammps only
   bool time = false;               ///< ITEM: TIME; Lammps only
   bool sort_by_id = false;
 
-  /// Values of a chunk of a binary file, which counts them with 32 bits: less than 2^31 - 1.
+  /// Values per chunk of a binary file, which counts them with 32 bits: less than 2^31 - 1.
   std::int64_t chunk_values = (std::int64_t{ 1 } << 31) - 2;
 };
 
-/// Makes sure that a file can have such a format: local data that are text, and are not called as something else is in a dump.
-/// Throws Error, UnsupportedError for binary dumps that are compressed or of local data.
+/// Checks that a file can have this format: local data are text, and their rows have no other section's name. Throws Error,
+/// and UnsupportedError for binary dumps that are compressed or of local data.
 void check_format(const DumpFormat& format, const std::string& path);
 
-/// The dialect of a dump whose first frame has this header. That of LAMMPS where the other lacks what is wanted: units, a time, or,
-/// in a binary dump of a text, names of columns.
+/// Returns the dialect of a dump whose first frame has this header: LAMMPS if the other dialect lacks a wanted feature, such
+/// as units, a time, or column names in a binary dump made from text.
 Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept;
 
-/// Whether a name is that of a binary dump: it ends in .bin or .lammpsbin, as LAMMPS has it, but for the end that
-/// says that it is compressed.
+/// Returns true if a name is that of a binary dump: it ends in .bin or .lammpsbin, before an ending for compression.
 bool is_binary_name(std::string_view path) noexcept;
 
-/// What the end of a name says: .gz, .zst.
+/// Returns the compression that a name ends in: .gz, .zst.
 Compression compression_of_name(std::string_view path) noexcept;
 
-/// The name with '*' replaced by the timestep, as the dump command has it; the first '*' only, and none in
-/// folders.
+/// Returns the name with the first '*' replaced by the timestep, as in the dump command; folders are left alone.
 std::string name_of_step(const std::string& path, std::int64_t timestep);
 
-/// Whether each frame is a file of its own: the name of the file holds '*'.
+/// Returns true if each frame is a file of its own: the name holds '*'.
 bool is_name_of_steps(const std::string& path) noexcept;
 
-/// Whether ranks write files of their own: the name of the file holds '%'.
+/// Returns true if ranks write files of their own: the name holds '%'.
 bool is_name_of_ranks(const std::string& path) noexcept;
 
-/// The name with '%' replaced by the rank.
+/// Returns the name with '%' replaced by the rank.
 std::string name_of_rank(const std::string& path, int rank);
 }
 #endif

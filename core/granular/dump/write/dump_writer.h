@@ -14,47 +14,45 @@
 
 namespace granular
 {
-/// How ranks write a file together.
+/// Ways of ranks to write a file together.
 enum class ParallelMode : std::uint8_t
 {
-  Gather, ///< the first rank writes; the others send it their rows, one after the other, chunk by chunk
-  MpiIo ///< each rank writes its rows where they belong; where ranks cannot, and compressed files: as Gather
+  Gather, ///< the first rank writes; the others send their rows, one rank after the other, chunk by chunk
+  MpiIo ///< each rank writes its rows in place; Gather for compressed files and ranks without MPI-IO
 };
 
 struct FramePlan;
 
-/// What changes how a dump is written, and no byte of it.
+/// Options of the writing that do not change the bytes.
 struct WriteOptions
 {
   ParallelMode mode = ParallelMode::Gather;
-  int threads = 1; ///< >= 1, of each rank
+  int threads = 1; ///< at least 1, of each rank
 };
 
-/// Writes a dump of one or more frames, from the rows of all ranks in the order of the ranks: the bytes do not
-/// depend on their number, nor on that of threads. The file is there when finish() is done, and until then the
-/// old one is as it was; so it stays where a writer ends without. A name with '%' gives each rank a
-/// file of its own with its number for the '%', and its own number of atoms, and one with '*' each frame one
-/// with its timestep for the '*', which is there when write() is done, as the dump command has it. With '%' each file of
-/// local data, too, has a header of its own, which programs give to the first one only.
+/// Writes a dump of one or more frames, from the rows of all ranks in rank order. The bytes do not depend on the number of
+/// ranks or threads. The file appears when finish() is done; until then, and if the writer ends without it, the old file is
+/// untouched. As in the dump command, a name with '%' gives each rank a file with its number for the '%' and its own number
+/// of atoms. A name with '*' gives each frame a file with its timestep for the '*', which appears when write() is done. With
+/// '%', each file of local data has a header, which programs write only to the first one.
 ///
-/// All functions, the destructor too, are collective. Errors of one rank are thrown on all (see agree);
-/// after one the writer is of no use. Memory beside the rows: some 64 MiB; sorting copies the rows.
+/// All functions, also the destructor, are collective. An error on one rank is thrown on all (see agree); afterwards the
+/// writer is of no use. Memory beside the rows: about 64 MiB; sorting copies the rows.
 class DumpWriter
 {
 public:
-  /// Opens the file under another name. Throws IoError, and what check_format does.
+  /// Opens the file under a temporary name. Throws IoError, and the errors of check_format.
   DumpWriter(std::string path, DumpFormat format, const WriteOptions& options, Communicator& ranks);
   DumpWriter(const DumpWriter&) = delete;
   DumpWriter& operator=(const DumpWriter&) = delete;
   ~DumpWriter();
 
-  /// Adds a frame: see FrameView for what it is made of, and plan_columns for how. A timestep that was written before
-  /// gets a notice, and where each has a file of its own an Error. The first frame whose numbers lose more than a
-  /// RoundingLimit gets a notice that says how much. Throws Error, Cancelled; std::logic_error
-  /// after finish().
+  /// Adds a frame: see FrameView for its data and plan_columns for its columns. A repeated timestep gets a notice, and an
+  /// Error if each timestep has its own file. The first frame whose numbers lose more than a RoundingLimit gets a notice with
+  /// the amount. Throws Error, Cancelled; std::logic_error after finish().
   void write(const FrameView& frame, Notices& notices, Progress& progress);
 
-  /// Gives the file its name. Nothing more can be written then.
+  /// Gives the file its name. No frame can be added afterwards.
   void finish();
 
 private:
@@ -68,7 +66,7 @@ private:
   WriteOptions options_;
   Communicator& ranks_;
   std::unique_ptr<File> file_;
-  std::set<std::int64_t> steps_; ///< that are written
+  std::set<std::int64_t> steps_; ///< that were written
   bool told_loss_ = false;
 };
 }

@@ -15,25 +15,25 @@
 
 namespace granular
 {
-/// Writes bytes one behind the other, compressed or not, on several threads. What comes out depends on the
-/// bytes and on where parts end, and on nothing else.
+/// Writes bytes one after the other, compressed or not, on several threads. The result depends only on the bytes and on where
+/// parts end.
 class FileAppender
 {
 public:
-  /// member_bytes: of what is compressed, that a member of a gzip file or a frame of a Zstandard file holds.
+  /// member_bytes: uncompressed bytes in a member of a gzip file or a frame of a Zstandard file.
   FileAppender(OutputFile& file, Compression compression, const Executor& executor,
     std::size_t member_bytes = std::size_t{ 1 } << 20);
 
   void append(std::string_view bytes) { this->append(std::span(&bytes, 1)); }
   void append(std::span<const std::string_view> pieces);
 
-  /// Whether bytes go into the file as they are: then they may also be written by whoever has taken the place at
-  /// the end, from any thread.
+  /// Returns true if bytes go into the file unchanged: then they may also be written to the position at the end, from any
+  /// thread.
   bool is_plain() const noexcept { return compression_ == Compression::None; }
   std::int64_t take(std::size_t bytes) noexcept;
   void write_at(std::int64_t offset, std::string_view bytes) { file_.write_at(offset, bytes); }
 
-  /// Ends a part of the file, so that a reader may begin behind it: a new member begins there.
+  /// Ends a part of the file, so that a reader may begin after it: a new member begins there.
   void end_part() { this->compress_pending(true); }
 
   std::int64_t size() const noexcept

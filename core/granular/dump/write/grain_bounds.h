@@ -9,7 +9,7 @@
 
 namespace granular
 {
-/// How far grains reach along the axes.
+/// The extent of particles along the axes.
 struct GrainBounds
 {
   Vector3 lo = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
@@ -17,12 +17,12 @@ struct GrainBounds
 
   void add(const GrainBounds& other) noexcept;
 
-  /// The box around them, with boundaries that nothing crosses; at 0 where there are none.
+  /// Returns the box around the particles, with boundaries that nothing crosses; at 0 without particles.
   Box box() const;
 };
 
-/// The bounds of the spheres where there are radii, else of the points; of duplicates and of what is not finite
-/// none. The points of the frame are absolute. Throws Error where there are rows without points.
+/// Returns the bounds of the spheres, or of the points without radii; duplicates and non-finite points are ignored. The
+/// points of the frame are absolute. Throws Error for rows without points.
 GrainBounds bounds_of_grains(const FrameView& frame);
 }
 #endif

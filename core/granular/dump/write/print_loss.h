@@ -13,20 +13,21 @@
 
 namespace granular
 {
-/// The smallest radius of the rows of a frame; HUGE_VAL without radii.
+/// Returns the smallest radius of the rows of a frame; HUGE_VAL without radii.
 double smallest_radius(const FrameView& frame);
 
-/// How the numbers of the box are printed in a text dump: LAMMPS has all digits, LIGGGHTS six. Where six would move the corners
-/// by a tenth of the limit, or change a length by more than a value may, they are printed with all digits for LIGGGHTS, too: whoever reads
-/// a dump reads any number.
+/// Returns the format of the box in a text dump: all digits for LAMMPS, six for LIGGGHTS. LIGGGHTS also gets all digits if
+/// six would move the corners by a tenth of the limit, or change a length by more than a value may change; any reader of
+/// dumps reads any number.
 NumberFormat box_numbers(const Box& box, Dialect dialect, const RoundingLimit& limit);
 
-/// Says how much the rows of all ranks lose where that is more than the limit. Returns whether it is. names: of the columns.
+/// Adds a notice about the loss in the rows of all ranks if it exceeds the limit. Returns true if it does. names: of the
+/// columns.
 bool note_print_loss(const RoundingLoss& loss, const RoundingLimit& limit, const DumpFormat& format,
   const std::vector<std::string>& names, Notices& notices);
 
-/// Measures what the format of a dump does to its rows. A column costs a comparison a value, unless the digits
-/// printed may be too few for its largest values: then these are printed and read back.
+/// Measures the loss that the format of a dump causes. A column costs a comparison per value; if the printed digits may be
+/// too few for its largest values, these are printed and read back.
 class PrintLoss
 {
 public:
@@ -36,7 +37,7 @@ public:
   PrintLoss(const ColumnPlan& plan, const FrameView& frame, const Box& box,
     const DumpFormat& format, const RoundingLimit& limit);
 
-  /// How the numbers of the box are printed: see box_numbers.
+  /// Returns the format of the box: see box_numbers.
   NumberFormat of_box() const noexcept { return of_box_; }
 
   /// Rows of the frame.
@@ -47,8 +48,8 @@ private:
   struct Place
   {
     std::size_t column;
-    Vector3 unit;  ///< how far 1 in the column is along the axes
-    Vector3 moved; ///< by what is rounded elsewhere: the box that scales it, or a sum of doubles
+    Vector3 unit;  ///< length of 1 in the column along the axes
+    Vector3 moved; ///< by other rounding: of the box that scales it, or of a sum of doubles
     double safe;   ///< no value up to this one moves too far
   };
 

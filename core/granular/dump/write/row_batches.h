@@ -14,27 +14,27 @@
 
 namespace granular
 {
-/// The rows of one process as the bytes of a dump, some chunks at a time, which threads encode together.
-/// Where chunks end depends on the rows alone. Needs some MiB, however many rows there are.
+/// The rows of one rank as the bytes of a dump, several chunks at a time, which threads encode together. The ends of chunks
+/// depend only on the rows. Needs some MiB for any number of rows.
 class RowBatches
 {
 public:
   RowBatches(const RowEncoder& encoder, const Executor& executor);
 
-  /// Encodes all rows, and writes each chunk to a plain file as soon as that is done, by any thread, all in their order.
+  /// Encodes all rows. Any thread writes each chunk to a plain file as soon as it is done, in order.
   void write_to(FileAppender& file, Progress& progress);
 
-  /// Encodes the next batch. False behind the last. Reports how far the rows are.
+  /// Encodes the next batch. Returns false after the last. Reports the progress of the rows.
   bool next(Progress& progress);
 
-  /// The bytes of the batch, a chunk each. Valid until the next one.
+  /// Returns the bytes of the batch, one string per chunk. Valid until the next batch.
   std::vector<std::string_view> bytes() const;
 
-  /// The chunk that the next batch begins with; may be set to one that a batch began with before.
+  /// The first chunk of the next batch; may be set to the first chunk of an earlier batch.
   std::size_t place() const noexcept { return place_; }
   void go_to(std::size_t place) noexcept { place_ = place; }
 
-  /// What becomes of the rows so far when they are read.
+  /// Returns the loss in the rows so far.
   RoundingLoss loss() const;
 
 private:
@@ -46,14 +46,13 @@ private:
   std::size_t chunks_;
   std::size_t place_ = 0;
   std::size_t filled_ = 0;
-  std::vector<std::int64_t>
-    kept_before_; ///< rows before a chunk that are no duplicates; empty: all
+  std::vector<std::int64_t> kept_before_; ///< rows before a chunk, without duplicates; empty: all
   std::vector<RowBuffer> buffers_;
   std::vector<RowValues> values_;    ///< of each worker
   std::vector<RoundingLoss> losses_; ///< of each worker
 };
 
-/// Rows of the view that are written: all but duplicates.
+/// Returns the rows of the view that are written: all but duplicates.
 std::int64_t count_kept(const FrameView& frame, std::int64_t first, std::int64_t end) noexcept;
 }
 #endif

@@ -8,18 +8,16 @@
 
 namespace granular
 {
-/// Bytes of rows that are being written. Grows in steps of 2^20 bytes at least, as the buffers of dump atom
-/// do, but its sizes have 64 bits.
+/// Bytes of rows being written. Grows in steps of at least 2^20 bytes, like the buffers of dump atom, but with 64-bit sizes.
 class RowBuffer
 {
 public:
   static constexpr std::size_t step = std::size_t{ 1 } << 20;
 
-  /// Makes room for so many more bytes. What is written there counts once add() says so. Throws
-  /// std::bad_alloc, and is as it was then.
+  /// Makes room for more bytes. They count once add() is called. Throws std::bad_alloc and is unchanged then.
   char* room(std::size_t bytes);
 
-  /// The next bytes of the room are written.
+  /// Counts the next bytes of the room as written.
   void add(std::size_t bytes) noexcept { size_ += bytes; }
 
   void clear() noexcept { size_ = 0; }

@@ -13,12 +13,12 @@
 
 namespace granular
 {
-/// The values of rows [first, first + count) as the doubles of a binary dump, row by row; `to` has room for all,
-/// and need not be aligned. Throws LimitError for integers that are no doubles.
+/// Stores the values of rows [first, first + count) as the doubles of a binary dump, row by row. `to` has room for all, and
+/// need not be aligned. Throws LimitError for integers that are not doubles.
 void pack_rows(
   const RowValues& values, const ColumnPlan& plan, std::size_t first, std::size_t count, char* to);
 
-/// Packs rows of a frame as the bytes of a dump. Several threads may use one at the same time.
+/// Packs rows of a frame as the bytes of a dump. Several threads may share an encoder.
 struct RowEncoder
 {
   const FrameView& frame;
@@ -30,8 +30,8 @@ struct RowEncoder
   std::int64_t first_in_file; ///< which of those in its file
   PrintLoss print_loss = {};
 
-  /// Adds the rows of the view from first to first + count, duplicates left out; kept_before is the number of
-  /// those before that are not. loss: what becomes of the rows when they are read. Throws LimitError, FormatError.
+  /// Adds the rows of the view from first to first + count, without duplicates; kept_before is the number of earlier rows
+  /// that are not duplicates. loss: of the rows. Throws LimitError, FormatError.
   void encode(std::int64_t first, std::int64_t count, std::int64_t kept_before, RowValues& values,
     RowBuffer& to, RoundingLoss& loss) const;
 

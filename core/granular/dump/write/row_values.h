@@ -12,13 +12,13 @@
 
 namespace granular
 {
-/// The values of some rows of a frame, column by column, as the columns of a dump have them.
+/// The values of some rows of a frame, column by column, for the columns of a dump.
 class RowValues
 {
 public:
   static constexpr std::size_t most_rows = 256; ///< at a time: they stay in the nearest cache
 
-  /// One column: whole numbers, real numbers or texts.
+  /// One column: integers, real numbers or texts.
   struct Column
   {
     ValueType type = ValueType::Float64; ///< Int64, Float64 or Text
@@ -28,9 +28,8 @@ public:
     std::vector<const std::string*> texts = {};
   };
 
-  /// Loads rows [first, first + count) of the view but duplicates, count <= most_rows. row_number: from 0, of
-  /// the first of them that is kept, among the rows of all processes. Throws LimitError for integers of
-  /// 2^63 and more.
+  /// Loads rows [first, first + count) of the view without duplicates, count <= most_rows. row_number: of the first row that
+  /// is kept, from 0, among the rows of all ranks. Throws LimitError for integers of 2^63 and more.
   void load(const FrameView& frame, const ColumnPlan& plan, const Box& box, std::int64_t first,
     std::int64_t count, std::int64_t row_number);
 
@@ -46,11 +45,10 @@ private:
   std::vector<std::int64_t> kept_; ///< rows of the view
   std::size_t rows_ = 0;
   std::vector<Column> columns_;
-  Box box_;                    ///< in the coordinates of the points, see point_origin
-  std::vector<double> points_; ///< three of each row
-  std::vector<double> images_; ///< three of each row
-  std::array<std::vector<double>, 4>
-    forms_; ///< of the points, as far as they are needed, see form_of
+  Box box_;                                  ///< in the coordinates of the points, see point_origin
+  std::vector<double> points_;               ///< three of each row
+  std::vector<double> images_;               ///< three of each row
+  std::array<std::vector<double>, 4> forms_; ///< of the points, if needed: see form_of
   std::vector<double> own_;
 };
 }

@@ -12,13 +12,12 @@
 
 namespace granular
 {
-/// The columns of a frame that is to be written, copied and in the order of their ids.
+/// The columns of a frame to be written, copied and sorted by id.
 class SortedRows
 {
 public:
-  /// Copies the rows of the view, duplicates left out, as the columns of the plan have them, and gives each rank
-  /// its part of the sorted rows of all: see sort_by_id. The plan is that of view() then. The frame must
-  /// have ids. Collective.
+  /// Copies the rows of the view, without duplicates, in the columns of the plan, and gives each rank its part of all sorted
+  /// rows: see sort_by_id. The plan then belongs to view(). The frame must have ids. Collective.
   SortedRows(const FrameView& frame, FramePlan& plan, Communicator& ranks, const Executor& executor,
     Progress& progress);
 

@@ -11,21 +11,20 @@
 
 namespace granular
 {
-/// The columns of rows that are no particles, but contacts, bonds or anything else. Nothing is made up for them, and no name
-/// stands for another one: a column is an array of that name, or A[3] the third component of A, if the array does not say what
-/// its components are called.
+/// The columns of rows that are not particles, but contacts, bonds or others. No column is made up, and no name stands for
+/// another: a column is an array of that name, or A[3] the third component of A, unless the array names its components.
 
-/// The columns that are written where nobody says which: those of the file that the rows come from, as far as there are
-/// arrays, with a notice of those that are left out, and then the arrays that are new.
+/// Returns the default columns: those of the file that the rows come from, if there are arrays, with a notice about the
+/// others, and then new arrays.
 std::vector<std::string> default_table_columns(const FrameView& frame, Notices& notices);
 
-/// A list of columns with the names of arrays of several components replaced by those of these: A by A[1] .. A[n], or as
-/// the array has it.
+/// Replaces the names of arrays with several components by those of the components: A by A[1] .. A[n], or by the array's own
+/// names.
 std::vector<std::string> expand_table_columns(
   const std::vector<std::string>& names, const FrameView& frame);
 
-/// Finds the array, or the component of one, of each column. The ids of the ends, id1 and id2, are written with all their
-/// digits, whatever their type. Throws Error where there is none, but in a frame without rows and arrays.
+/// Finds the array, or the component of an array, for each column. The ids of the ends, id1 and id2, are written with all
+/// digits, for any type. Throws Error if there is none, except in a frame without rows and arrays.
 ColumnPlan plan_table_columns(const std::vector<std::string>& names, const FrameView& frame);
 }
 #endif
