@@ -14,7 +14,7 @@ os.makedirs("first/post")
 for step in (0, 1000, 2000):
     shutil.copy(good / f"grains_{step}.dump", "first/post")
 reader = granular.reader("first/post/grains_*.dump", dt=2e-5)
-granular.show(reader, color="v", box=True)
+granular.show(reader, color="radius", box=True)
 SaveState("first/run.pvsm")
 state = Path("first/run.pvsm").read_bytes()
 
