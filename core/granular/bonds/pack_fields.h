@@ -9,7 +9,7 @@
 
 namespace granular
 {
-/// What a particle is, in a buffer.
+/// The fields of a particle in a buffer.
 enum class PackField : std::uint8_t
 {
   X,
@@ -39,7 +39,7 @@ constexpr std::size_t doubles_of(std::span<const PackField> fields) noexcept
   return doubles;
 }
 
-/// Fields, as bits.
+/// A set of fields, one bit each.
 using PackFieldSet = std::uint32_t;
 
 constexpr PackFieldSet set_of(PackField field) noexcept
@@ -57,10 +57,10 @@ constexpr PackFieldSet set_of(std::span<const PackField> fields) noexcept
   return set;
 }
 
-/// The tables: what each routine of the atom style bond/gran sends of a particle, in turn. Two dialects: that of PFM, whose particles
-/// are part of something that moves, and that of WITH-BONDS and Flexible_Fibers (`plain`). Their pack_comm, pack_comm_vel,
-/// pack_border, pack_border_vel, pack_border_hybrid, pack_reverse and pack_exchange. Where PFM packs x x_mol v v_mol, which is in
-/// one case of a moving periodic box, these are what it unpacks.
+/// The tables of the fields that each routine of the atom style bond/gran sends, in their order: pack_comm,
+/// pack_comm_vel, pack_border, pack_border_vel, pack_border_hybrid, pack_reverse and pack_exchange. There are two
+/// dialects: PFM, whose particles belong to moving molecules, and `plain`, which WITH-BONDS and Flexible_Fibers use.
+/// PFM packs x x_mol v v_mol in one case of a moving periodic box; the tables list what it unpacks.
 namespace pack_tables
 {
 using enum PackField;
@@ -76,7 +76,7 @@ inline constexpr std::array border_velocity_plain{ X, Tag, Type, Mask, Molecule,
 inline constexpr std::array border_hybrid{ Molecule };
 inline constexpr std::array reverse{ F };
 
-/// Between the length of the record and the number of bonds.
+/// The fields between the length of the record and the number of bonds.
 inline constexpr std::array exchange_pfm{ X, V, Tag, Type, Mask, Image, Molecule, XMol, VMol };
 inline constexpr std::array exchange_plain{ X, V, Tag, Type, Mask, Image, Molecule };
 }

@@ -11,11 +11,11 @@
 
 namespace granular
 {
-/// Added to this, a number becomes one whose last bits are those of the nearest integer: a conversion that is defined for all
-/// doubles, and without a branch.
+/// Adding this to a double puts the nearest integer into the last bits of the sum: a conversion without a branch that
+/// is defined for all doubles.
 inline constexpr double integer_bias = 0x1.8p52;
 
-/// A double of an integer of 32 bits as that integer; of any other double some integer.
+/// Returns the 32-bit integer that the double holds; an arbitrary integer if the double holds none.
 inline std::int32_t low_integer(double number) noexcept
 {
   return static_cast<std::int32_t>(
@@ -32,10 +32,10 @@ inline std::uint64_t difference(double a, double b) noexcept
   return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
 }
 
-/// Bits of an image count in a buffer.
+/// The number of bits of an image count in a buffer.
 inline constexpr int buffer_image_bits = 21;
 
-/// Values as doubles, and back from doubles that have no fault.
+/// Converts values to doubles, and valid doubles back to values.
 struct ExactNumbers
 {
   static void join(const ExactNumbers&) noexcept {}
@@ -58,8 +58,8 @@ struct ExactNumbers
   }
 };
 
-/// The same for ids below 2^51 and all else that nearly all particles have, without a branch: if doubtful() then says so, what was
-/// made may be wrong, and is to be made again by ExactNumbers.
+/// Converts like ExactNumbers, without branches, but only ids below 2^51 and other usual values. If doubtful() then
+/// returns true, the result may be wrong and ExactNumbers must convert again.
 class FastNumbers
 {
 public:
@@ -87,7 +87,7 @@ public:
     value = static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
   }
 
-  /// Adds the doubts of another one.
+  /// Takes over the doubts of another object.
   void join(const FastNumbers& other) noexcept
   {
     differences_ |= other.differences_;

@@ -17,16 +17,16 @@ namespace granular
 [[noreturn]] void refuse_number(
   const std::string& expected, std::size_t particle, std::size_t at, double got);
 
-/// "in double 3 of the buffer, of particle 0"
+/// Returns the place for a message: "in double 3 of the buffer, of particle 0".
 std::string buffer_place(std::size_t particle, std::size_t at);
 
-/// Throws LimitError if not all rows are of particles.
+/// Throws LimitError if a row is not that of a particle.
 void expect_rows(const BondedParticles& particles, const ParticleRows& rows);
 
-/// Throws LimitError if a buffer is not of the size that is needed.
+/// Throws LimitError if the buffer has another size than needed.
 void expect_size(std::size_t needed, std::size_t size);
 
-/// The arrays of all fields, in the order of PackField.
+/// Returns the arrays of all fields, in the order of PackField.
 template <class Particles>
 auto arrays_of(Particles& particles) noexcept
 {
@@ -36,14 +36,14 @@ auto arrays_of(Particles& particles) noexcept
     particles.molecule().data());
 }
 
-/// A table of fields that is known when this is compiled, so that loops over it are none.
+/// A table of fields that is known at compile time, so that loops over it are unrolled.
 template <const auto& fields>
 struct PackTable
 {
   static constexpr std::size_t doubles = doubles_of(std::span<const PackField>(fields));
   static constexpr PackFieldSet set = set_of(std::span<const PackField>(fields));
 
-  /// Calls visit(k) with the place of each field as a constant.
+  /// Calls visit(k) with the index of each field as a constant.
   template <class Visit>
   static constexpr void for_each(const Visit& visit)
   {
@@ -54,7 +54,7 @@ struct PackTable
     (std::make_index_sequence<fields.size()>{});
   }
 
-  /// The arrays of the fields, in turn.
+  /// Returns the arrays of the fields, in the order of the table.
   template <class Particles>
   static auto arrays_of(Particles& particles) noexcept
   {
@@ -66,7 +66,7 @@ struct PackTable
     (std::make_index_sequence<fields.size()>{});
   }
 
-  /// Where the doubles of a field are.
+  /// The index of a field's first double.
   template <std::size_t k>
   static constexpr std::size_t offset = doubles_of(std::span<const PackField>(fields).first(k));
 
@@ -100,7 +100,7 @@ struct PackTable
       });
   }
 
-  /// What is there has no fault.
+  /// Unpacks doubles that have been checked.
   template <class Arrays>
   static void get(const double* from, const Arrays& arrays, std::size_t row) noexcept
   {
@@ -115,7 +115,7 @@ struct PackTable
       });
   }
 
-  /// Whether types and masks may have a fault: bits that say so.
+  /// Returns bits that are set if types or masks may be invalid.
   static std::uint64_t look_at_integers(const double* from) noexcept
   {
     std::uint64_t doubts = 0;
@@ -130,7 +130,7 @@ struct PackTable
     return doubts;
   }
 
-  /// Throws FormatError at the first fault of a particle whose doubles begin at a place of the buffer.
+  /// Throws FormatError at the first invalid double of the particle that begins at index place of the buffer.
   static void check(std::span<const double> buffer, std::size_t place, std::size_t particle)
   {
     for_each(

@@ -8,8 +8,8 @@
 
 namespace granular
 {
-/// A file that is being written under another name and takes the place of the old one when it is
-/// complete. Without finish nothing is left of it, and the old file is as it was.
+/// A file that is written under a temporary name and takes the place of the old file when it is complete. Without
+/// finish() the temporary file is removed and the old file stays untouched.
 class OutputFile
 {
 public:
@@ -18,27 +18,27 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
   virtual ~OutputFile() = default;
 
-  /// In any order, also beyond the end: what lies between is zero. From any thread for NewFile. Throws
-  /// IoError; what was written of these bytes is not known then.
+  /// Writes bytes at an offset, in any order, also beyond the end; gaps are filled with zeros. May be called from any
+  /// thread for NewFile. Throws IoError; the content of that range is then undefined.
   virtual void write_at(std::int64_t offset, std::string_view bytes) = 0;
 
-  /// The file gets its name. Nothing may follow. Throws IoError; collective if opened by open_together.
+  /// Gives the file its name. No other call may follow. Throws IoError; collective if opened by open_together.
   virtual void finish() = 0;
 };
 
-/// One that this process writes. A symbolic link stays and gets a new file behind it; permissions
-/// are those of the old file, or what the umask leaves. What is there and no regular file is an error.
+/// An output file that one rank writes. A symbolic link stays, and the file that it points to is replaced. Permissions
+/// are those of the old file, or what the umask leaves. Something at the path that is not a regular file is an error.
 class NewFile final : public OutputFile
 {
 public:
-  /// Throws IoError.
+  /// Opens a temporary file in the folder of path. Throws IoError.
   explicit NewFile(const std::string& path);
   ~NewFile() override;
 
   void write_at(std::int64_t offset, std::string_view bytes) override;
   void finish() override;
 
-  /// What it is called until it is finished, in the same folder.
+  /// Returns the temporary name, which is in the same folder.
   const std::string& temporary_name() const noexcept { return name_; }
 
 private:
@@ -51,12 +51,12 @@ private:
   int permissions_ = -1; ///< of the old file; -1: there is none
 };
 
-/// Writes into the file of that name, which is there; beyond its end, too. Throws IoError that names path.
+/// Writes into the existing file `name` at an offset, also beyond its end. Throws IoError that names path.
 void write_into(
   const std::string& name, std::int64_t offset, std::string_view bytes, const std::string& path);
 
-/// Writes a file whole or not at all: a reader sees the old content or the new one; if this fails, the
-/// old file is as it was. Like NewFile. Throws IoError.
+/// Writes a file completely or not at all, as NewFile does: a reader sees the old content or the new one. After an
+/// error the old file is untouched. Throws IoError.
 void write_file(const std::string& path, std::string_view bytes);
 }
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the decompressors of byte_source_*.cpp share; for these files alone.
+// Shared by the decompressors in byte_source_*.cpp; private to these files.
 #ifndef granular_bytes_byte_source_unpack_h
 #define granular_bytes_byte_source_unpack_h
 
@@ -12,7 +12,7 @@
 
 namespace granular
 {
-/// The bytes of a compressed file, one after the other, through a buffer.
+/// Reads the bytes of a compressed file in order, through a buffer.
 class PackedInput
 {
 public:
@@ -20,19 +20,19 @@ public:
 
   const std::string& path() const { return source_.path(); }
 
-  /// Of the next byte in the file.
+  /// Returns the offset of the next byte in the file.
   std::int64_t position() const noexcept { return start_ + static_cast<std::int64_t>(next_); }
   void seek(std::int64_t position) noexcept;
 
-  /// Sees to it that there is a next byte; false at the end of the file, which may grow. IoError.
+  /// Fills the buffer if it is empty. Returns false at the end of the file, which may still grow. Throws IoError.
   bool more();
 
-  /// The bytes that are in the buffer.
+  /// Returns the bytes in the buffer.
   const unsigned char* data() const noexcept { return buffer_.get() + next_; }
   std::size_t size() const noexcept { return filled_ - next_; }
   void skip(std::size_t bytes) noexcept { next_ += bytes; }
 
-  /// The next byte; -1 at the end of the file.
+  /// Returns the next byte, or -1 at the end of the file.
   int get();
 
 private:
@@ -43,7 +43,7 @@ private:
   std::size_t next_ = 0;
 };
 
-/// Decompresses forwards, and notes where it could start again.
+/// Decompresses from start to end, and records points from which decompression can restart.
 class Decoder
 {
 public:
@@ -54,37 +54,37 @@ public:
   }
   virtual ~Decoder() = default;
 
-  /// Goes on at a point; SeekPoints::Point{} is the start of the file.
+  /// Continues at a point; SeekPoints::Point{} is the start of the file.
   virtual void restart(const SeekPoints::Point& point) = 0;
 
-  /// Writes the next bytes of the content, as many as there are at once; 0 only at the end of what
-  /// the file holds. Throws IoError, FormatError and LimitError; restart() is due after each.
+  /// Writes the next bytes of the content, as many as are available at once; returns 0 only at the end of the file.
+  /// Throws IoError, FormatError and LimitError; after each of them restart() must be called.
   virtual std::size_t decode(char* out, std::size_t bytes) = 0;
 
-  /// After decode gave 0: whether the file ends before its data do.
+  /// Returns true if decode() returned 0 because the file is truncated.
   bool cut() const noexcept { return cut_; }
 
   const std::string& path() const { return in_.path(); }
 
-  /// As users spell the format.
+  /// Returns the name of the format as users spell it.
   virtual const char* name() const noexcept = 0;
 
-  /// Of the next byte in the file.
+  /// Returns the offset of the next byte in the file.
   std::int64_t position() const noexcept { return in_.position(); }
 
 protected:
-  /// Bytes of content up to where the next point is due; 0: it is.
+  /// Returns the bytes of content up to the next restart point; 0 if the point is due.
   std::int64_t to_next_point() const noexcept;
   void add_point(SeekPoints::Point point);
 
-  /// Says that the end of the file was met, within the data or behind them. Gives false.
+  /// Records that the end of the file was reached, within the compressed data (cut) or after it. Returns false.
   bool end_of_file(bool cut) noexcept
   {
     cut_ = cut;
     return false;
   }
 
-  /// Throws the FormatError for data that are none of the format, found at the next byte.
+  /// Throws FormatError for invalid compressed data at the next byte.
   [[noreturn]] void fail(const std::string& why) const;
 
   PackedInput in_;

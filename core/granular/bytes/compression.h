@@ -16,13 +16,13 @@ enum class Compression : std::uint8_t
   Zstd  ///< level 3, with checksum
 };
 
-/// One gzip member or one zstd frame that holds the bytes: members one after the other are a file. Equal
-/// bytes give equal members. From any thread. Throws UnsupportedError if the library that is there
-/// refuses, and std::bad_alloc.
+/// Returns one gzip member or one Zstandard frame that holds the bytes. Concatenated members make a file, and equal
+/// bytes give equal members. May be called from any thread. Throws UnsupportedError if the compression library refuses,
+/// and std::bad_alloc.
 std::string compress(std::string_view bytes, Compression how);
 
-/// Decompresses data in zlib's format (RFC 1950), which must fill the bytes. False: they do not, or are damaged. Throws
-/// std::bad_alloc.
+/// Decompresses data in zlib's format (RFC 1950) into `bytes`, which the content must fill exactly. Returns false if it
+/// does not or if the data are damaged. Throws std::bad_alloc.
 bool decompress_zlib(std::string_view packed, std::span<char> bytes);
 }
 #endif

@@ -12,8 +12,8 @@
 
 namespace granular
 {
-/// What a column means, where code must know; all else is Other. A role is the first column's that
-/// has it.
+/// The meaning of a column, where code depends on it; Other for the rest. If several columns have the same meaning, the
+/// first one gets the role.
 enum class ColumnRole : std::uint8_t
 {
   Other,
@@ -27,13 +27,13 @@ enum class ColumnRole : std::uint8_t
   Diameter
 };
 
-/// Whether a column is a coordinate, in whatever form.
+/// Returns true if the role is a coordinate of any kind.
 constexpr bool is_position(ColumnRole role) noexcept
 {
   return role >= ColumnRole::Position && role <= ColumnRole::ScaledUnwrappedPosition;
 }
 
-/// One row of the table of names that LIGGGHTS and LAMMPS give to columns.
+/// One row of the table of column names of LIGGGHTS and LAMMPS.
 struct KnownColumn
 {
   std::string_view name; ///< as printed; a trailing '*' stands for any rest
@@ -46,10 +46,11 @@ struct KnownColumn
   std::string_view meaning;
 };
 
-/// THE table. Readers, writers, documentation and tests take names, types and meanings from here.
+/// Returns the table of known columns. Readers, writers, documentation and tests take names, types and meanings from
+/// it.
 std::span<const KnownColumn> known_columns() noexcept;
 
-/// The row of a table for a name, or null.
+/// Returns the row of a table for a name, or null.
 const KnownColumn* find_known_column(
   std::string_view name, std::span<const KnownColumn> table = known_columns()) noexcept;
 
@@ -63,7 +64,7 @@ struct ColumnInfo
   bool known = false;
 };
 
-/// One array that columns become: a scalar, or a vector from several columns.
+/// One array made from columns: a scalar, or a vector of several columns.
 struct ArrayInfo
 {
   std::string name; ///< unique in its schema
@@ -78,18 +79,18 @@ struct ArrayInfo
   int components() const noexcept { return static_cast<int>(columns.size()); }
 };
 
-/// The ordered columns of a frame, and the arrays they become:
-/// - columns of the table join the vectors the table names, if all components are there;
-/// - c_ID[1] .. c_ID[n] (also f_, v_, i2_, d2_), n >= 2, complete and in this order in the file,
-///   become one array c_ID of n components, in the file's order (no tensor reordering);
-/// - a column of texts is always an array of its own, and so are the others of its vector then;
+/// The ordered columns of a frame, and the arrays made from them:
+/// - columns of the table join the vectors that the table names, if all components are present;
+/// - c_ID[1] .. c_ID[n] (also f_, v_, i2_, d2_), n >= 2, complete and in this order in the file, become one array c_ID
+///   of n components, in the file's order (tensors are not reordered);
+/// - a text column is always an array of its own, and so are then the other columns of its vector;
 /// - every other column becomes an array under its own name;
 /// - a name that is taken gets "_2", "_3", ...;
-/// - `radius` is made from `diameter` where only that is there.
+/// - `radius` is computed from `diameter` if the file has only the diameter.
 class ColumnSchema
 {
 public:
-  /// What becomes of a column.
+  /// A new type for a column.
   struct TypeChange
   {
     int column;
@@ -98,31 +99,32 @@ public:
 
   ColumnSchema() = default;
 
-  /// The table must outlive the schema, and its copies. Takes time in proportion to the columns.
+  /// Makes the schema of named columns. The table must outlive the schema and its copies. Time is proportional to the
+  /// number of columns.
   explicit ColumnSchema(
     const std::vector<std::string>& names, std::span<const KnownColumn> table = known_columns());
 
   const std::vector<ColumnInfo>& columns() const noexcept { return columns_; }
   const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }
 
-  /// The first column with this role and axis, or -1.
+  /// Returns the first column with this role and axis, or -1.
   int find(ColumnRole role, int component = 0) const noexcept;
 
-  /// Index into arrays(), or -1.
+  /// Returns the index into arrays(), or -1.
   int find_array(std::string_view name) const noexcept;
 
-  /// Of each column the index into arrays(): of a diameter its own array, and not the radius.
+  /// Returns for each column its index into arrays(). For a diameter this is its own array, not the radius.
   std::vector<int> arrays_of_columns() const;
 
-  /// The names, blank-separated, in the file's order and spelling.
+  /// Returns the names, separated by blanks, in the file's order and spelling.
   std::string text() const;
 
-  /// Changes the types of columns. An integer column that holds other numbers becomes Float64, together with the other
-  /// columns of its array; an unknown column of words becomes Text, by itself, which may split an array. Ids that are
-  /// no integers are ids no more. Takes time in proportion to the columns, however many change.
+  /// Changes the types of columns. An integer column with other numbers becomes Float64, together with the other
+  /// columns of its array. An unknown column with words becomes Text by itself, which may split an array. Ids that are
+  /// not integers lose the role Id. Time is proportional to the number of columns, however many change.
   void set_types(std::span<const TypeChange> changes);
 
-  /// The same for one column. To change many, one after the other, takes time in proportion to their square.
+  /// Changes the type of one column. Changing n columns one by one takes time proportional to n^2.
   void set_type(int column, ValueType type);
 
   bool operator==(const ColumnSchema& other) const;

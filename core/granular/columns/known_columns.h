@@ -6,9 +6,9 @@
 
 namespace granular
 {
-// Names: the columns that `dump atom` and `dump custom` of LIGGGHTS (2.3 to 4.0, PFM) and LAMMPS
-// print. Vectors are named as in the files of LIGGGHTS' own `dump custom/vtk`.
-// A name with a '*' comes after the names that it would also match.
+// Names of the columns that `dump atom` and `dump custom` of LIGGGHTS (2.3 to 4.0, PFM) and LAMMPS print. Vectors are
+// named as in the files of LIGGGHTS' own `dump custom/vtk`. A name with a '*' follows the names that it would also
+// match.
 inline constexpr KnownColumn known_column_table[] = {
   // clang-format off
   // name              type                role                                array         i  n  unit      meaning

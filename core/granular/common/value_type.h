@@ -7,8 +7,8 @@
 
 namespace granular
 {
-/// Types of values in files and in memory. Columns of files become Int32, Int64, Float64 or Text; arrays that are written have
-/// any type up to Text; only legacy VTK files have all.
+/// Types of values in files and in memory. Columns of files become Int32, Int64, Float64 or Text. Written arrays have
+/// any type up to Text; only legacy VTK files have all types.
 enum class ValueType : std::uint8_t
 {
   Int8,
@@ -36,7 +36,8 @@ constexpr bool is_number(ValueType type) noexcept
   return type < ValueType::Text || type == ValueType::Bit;
 }
 
-/// Returns the bytes of a value in an array; of a text, those of the index of its word, std::int32_t; 0 for others.
+/// Returns the bytes of one value in an array. For Text these are the bytes of the word's index, std::int32_t; for
+/// types without a fixed size 0.
 constexpr std::size_t size_of(ValueType type) noexcept
 {
   constexpr std::size_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, sizeof(std::int32_t), 0, 0 };

@@ -11,15 +11,15 @@
 
 namespace granular
 {
-/// The rows of a section of a data file as those of a frame, for read_dump: rows without a header. File and source must
-/// outlive it.
+/// Presents the rows of a section of a data file as the rows of a frame without a header, for read_dump. The file and
+/// the source must outlive this object.
 class SectionRows
 {
 public:
   SectionRows(const FramePiece& file, const ByteSource& source, const DataSection& section,
     const std::vector<std::string>& columns);
 
-  /// One piece, which points into this.
+  /// Returns one piece, which points into this object.
   std::vector<FramePiece> pieces() const;
 
 private:

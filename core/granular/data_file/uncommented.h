@@ -10,11 +10,11 @@
 
 namespace granular
 {
-/// A text in which each comment, from # to the end of its line, is blank. The source must outlive it.
+/// A byte source in which each comment, from # to the end of the line, is blank. The underlying source must outlive it.
 class Uncommented final : public ByteSource
 {
 public:
-  /// begin: the start of a line; nothing before it is looked at.
+  /// begin: the start of a line; no byte before it is read.
   Uncommented(const ByteSource& source, std::int64_t begin)
     : source_(source)
     , begin_(begin)

@@ -8,9 +8,9 @@
 
 namespace granular
 {
-/// Gives the particles of a frame, which must have the array id, what the rows of a table with their ids have. Rows and
-/// particles may be on any ranks. schema: of both. source: where the section of the table is. Throws FormatError where a
-/// particle has no row, or an id several. Collective.
+/// Adds the arrays of a table (section Velocities) to the particles with the same ids. The frame must have the array
+/// id; rows and particles may be on different ranks. schema: the columns of both frames. section: the section of the
+/// table in the source, for errors. Throws FormatError if a particle has no row or an id has several. Collective.
 void add_velocities(DumpFrame& particles, const DumpFrame& table, const ColumnSchema& schema,
   const ByteSource& source, const DataSection& section, const std::shared_ptr<BlockPool>& pool,
   Communicator& ranks);

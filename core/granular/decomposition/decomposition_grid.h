@@ -16,10 +16,11 @@
 
 namespace granular
 {
-/// More processes than any machine has: a few coordinates may claim as many as they like.
+/// The largest number of ranks that a file may claim: more than any machine has. Without the limit, a few coordinates
+/// could claim any number of them.
 inline constexpr std::int64_t most_processes = std::int64_t{ 1 } << 24;
 
-/// A dataset of a decomposition file as it stands there. What is in vectors is there only if it was to be kept.
+/// A dataset of a decomposition file, as it stands in the file. Vectors are filled only if they were to be kept.
 struct DecompositionGrid
 {
   VtkHeader header;
@@ -38,11 +39,11 @@ struct DecompositionGrid
   std::vector<double> points;
   VtkCells voxels; ///< of eight points each, all of them there
 
-  /// Whether DIMENSIONS say more cells than there are, as in the files of single processes that PFM writes.
+  /// Returns true if DIMENSIONS announce more cells than the dataset has, as in the per-rank files of PFM.
   bool is_piece() const noexcept;
 };
 
-/// An array of cells that tells what is known of a process.
+/// A cell array that describes ranks.
 struct ProcessArray
 {
   std::string_view name;
@@ -51,19 +52,18 @@ struct ProcessArray
   std::int64_t most;
   bool only_if_none; ///< another name that is less usual
 
-  /// One value a cell: throws FormatError where one is not from 0 to most.
+  /// Throws FormatError if a value is not from 0 to most. There is one value per cell.
   void check(const std::vector<std::int64_t>& values, const WhereOf& where_of) const;
 };
 
-/// nlocal, proc, procID.
+/// Returns the arrays nlocal, proc and procID.
 std::span<const ProcessArray> process_arrays() noexcept;
 
-/// The bounds of a cell of an unstructured grid; see bounds_of_cell. Throws FormatError where one of its points is not
-/// there.
+/// Returns the bounds of a cell of an unstructured grid; see bounds_of_cell. Throws FormatError if a point is missing.
 CornerOrder bounds_of(
   const DecompositionGrid& grid, std::int64_t cell, const WhereOf& where_of, Subdomain& subdomain);
 
-/// Reads a dataset, from its header to the next one or the end; keep: with its numbers. Throws Error; see
+/// Reads a dataset, from its header to the next one or to the end. keep: store the numbers. Throws Error; see
 /// LegacyVtk::ended.
 DecompositionGrid read_grid(LegacyVtk& file, bool keep);
 }

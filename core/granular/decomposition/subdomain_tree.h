@@ -11,9 +11,10 @@
 
 namespace granular
 {
-/// A tree of bounds: a node has two halves, or is a leaf of a few entries. A search leaves out each node whose bounds
-/// do not meet what it looks for. Each subdomain is in one leaf, so that memory is bounded whatever the sizes are. Building
-/// takes n log n. Halves share little room where planes divide the subdomains, as after recursive bisection.
+/// A tree of bounding boxes. A node has two halves, or is a leaf with a few entries. A search skips each node whose
+/// bounds miss the target. Each subdomain is in exactly one leaf, so memory is bounded for any sizes. Building takes
+/// time proportional to n log n. Halves overlap little where planes divide the subdomains, as after recursive
+/// bisection.
 class SubdomainTree
 {
 public:
@@ -34,13 +35,13 @@ public:
     std::uint32_t axis;   ///< along which the halves mostly differ
   };
 
-  /// Each entry has lo <= hi. drop_equal: of equal entries in a leaf (empty subdomains may be equal) only the last one is
-  /// kept.
+  /// Builds the tree; each entry has lo <= hi. drop_equal: of equal entries in a leaf (empty subdomains may be equal)
+  /// keep only the last.
   SubdomainTree(std::vector<Entry> entries, bool drop_equal);
 
   const Node& root() const noexcept { return nodes_.front(); }
 
-  /// Two, or none.
+  /// Returns the two halves of a node, or none for a leaf.
   std::span<const Node> halves(const Node& node) const noexcept
   {
     return { nodes_.data() + node.halves, node.halves > 0 ? 2U : 0U };

@@ -15,20 +15,20 @@
 
 namespace granular
 {
-/// The unstructured grids in a .vtu file, which are its pieces. Those without cells are left out.
+/// The unstructured grids (pieces) in a .vtu file. Grids without cells are left out.
 class VtuGrids
 {
 public:
-  /// Passes over the elements of a text, which must outlive this; path is for errors. Throws Error.
+  /// Finds the grids in a text, which must outlive this object. path is used in errors. Throws Error.
   VtuGrids(std::string_view text, const std::string& path);
 
   std::size_t size() const noexcept { return pieces_.size(); }
   std::int64_t cells() const noexcept { return cells_; } ///< of all
 
-  /// Throws Error.
+  /// Returns a grid. Throws Error.
   DecompositionGrid read(std::size_t grid) const;
 
-  /// The place of a cell of a grid, for messages.
+  /// Returns the place of a cell of a grid, for messages.
   Where where_of(std::size_t grid, std::int64_t cell) const;
 
 private:

@@ -12,16 +12,16 @@
 
 namespace granular
 {
-/// The passes over the grains that averages take: one looks how large their numbers are and in which blocks of cells they
-/// lie; then, for some blocks at a time, one makes the sums, and another, when the mean velocities are known, those of the
-/// stress. All ranks do the same blocks at the same time.
+/// The passes of an average over the particles. The first pass finds the magnitudes of the numbers and the blocks of
+/// cells that each particle touches. Then, for some blocks at a time, the second pass makes the sums, and the third,
+/// with the mean velocities known, the sums for the stress. All ranks work on the same blocks at the same time.
 class AveragePasses
 {
 public:
-  /// Bytes of the sums of a group. More of them have fewer sums of ranks to wait for.
+  /// Bytes of the sums of a group. Larger groups mean fewer reductions over ranks.
   static constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
 
-  /// rows: of all ranks.
+  /// rows: the number of rows of all ranks.
   AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
     const EulerAverageRequest& request, Communicator& ranks, const Executor& executor,
     Progress& progress);
@@ -37,7 +37,7 @@ private:
     Stress
   };
 
-  /// Blocks [first, last), each summed by so many tasks.
+  /// Blocks [first, last), each summed by this many tasks.
   struct Group
   {
     std::int64_t first = 0;
@@ -47,7 +47,7 @@ private:
     std::int64_t blocks() const noexcept { return last - first; }
   };
 
-  /// Rows [first, last) of those of a block.
+  /// Rows [first, last) of the rows of a block.
   struct Part
   {
     std::int64_t block;
@@ -55,7 +55,7 @@ private:
     std::int64_t last;
   };
 
-  /// The shares of a part, as long as there are not too many.
+  /// The shares of a part, kept as long as there are not too many.
   struct KeptShares
   {
     struct Share

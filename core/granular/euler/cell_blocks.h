@@ -14,7 +14,7 @@
 
 namespace granular
 {
-/// Tells how far places lie at equal distances.
+/// Finds how many places lie at equal distances.
 class EqualSteps
 {
 public:
@@ -24,7 +24,7 @@ public:
   {
   }
 
-  /// Whether that goes on with this place.
+  /// Returns true if this place continues the sequence.
   bool add(double place) noexcept
   {
     ++steps_;
@@ -41,36 +41,36 @@ private:
   double most_ = std::numeric_limits<double>::infinity();
 };
 
-/// Cells that follow one another as those of a grid, x fastest.
+/// Consecutive cells that form a grid, x fastest.
 struct CellBlock
 {
   std::int64_t first = 0;
   std::array<std::int64_t, 3> counts = {};
 };
 
-/// Cuts the cells of a frame into such, by their centres.
+/// Divides the cells of a frame into blocks, by their centres.
 class CellBlocks
 {
 public:
-  /// Throws UnsupportedError where a centre is not finite.
+  /// Throws UnsupportedError if a centre is not finite.
   explicit CellBlocks(const EulerFrame& frame);
 
-  /// The largest block that begins with a cell.
+  /// Returns the largest block that begins with a cell.
   CellBlock block(std::int64_t first) const;
 
-  /// A coordinate of a centre.
+  /// Returns a coordinate of a cell's centre.
   double at(std::int64_t cell, std::size_t axis) const noexcept
   {
     return frame_.centres[static_cast<std::size_t>(3 * cell) + axis];
   }
 
-  /// By how much distances of so much may be wrong.
+  /// Returns the tolerance for distances equal to spacing.
   double tolerance(std::size_t axis, double spacing) const noexcept
   {
     return std::min(tolerances_[axis], spacing / 4);
   }
 
-  /// Throws UnsupportedError: a cell is in no grid.
+  /// Throws UnsupportedError: the cell belongs to no grid.
   [[noreturn]] void fail(std::int64_t cell, const std::string& why) const;
 
 private:

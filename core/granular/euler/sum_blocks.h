@@ -22,12 +22,12 @@ public:
 
   std::int64_t size() const noexcept { return blocks_[0] * blocks_[1] * blocks_[2]; }
 
-  /// Cells of a block that none has more of.
+  /// Returns the number of cells of the largest block.
   std::int64_t largest() const noexcept { return largest_; }
 
   CellRange range(std::int64_t block) const noexcept;
 
-  /// Calls visit(block) for each block that has cells of the range.
+  /// Calls visit(block) for each block that contains cells of the range.
   template <class Visit>
   void each(const CellRange& range, const Visit& visit) const
   {
@@ -53,11 +53,11 @@ private:
   std::int64_t largest_ = 1;
 };
 
-/// Which rows have something to do with which block. Rows may be in several.
+/// The rows that contribute to each block. A row may be in several blocks.
 class BlockRows
 {
 public:
-  /// A row of a chunk of rows.
+  /// A row of a chunk, and a block.
   struct Entry
   {
     std::uint32_t block;
@@ -66,17 +66,17 @@ public:
     bool operator==(const Entry&) const = default;
   };
 
-  /// A single block has all rows.
+  /// Returns the lists for a single block, which has all rows.
   static BlockRows all(std::int64_t rows);
 
-  /// entries of each chunk of that many rows; they are freed on the way.
+  /// Sorts the entries of all chunks by block. Each chunk has this many rows; the entries are freed on the way.
   static BlockRows sorted(
     std::vector<std::vector<Entry>>& chunks, std::int64_t rows_of_chunk, std::int64_t blocks);
 
-  /// Of all blocks, one after the other.
+  /// Returns the number of entries of all blocks.
   std::int64_t size() const noexcept { return starts_.back(); }
 
-  /// Where among these those of a block begin, and how many they are.
+  /// Returns the index of the block's first entry.
   std::int64_t start(std::int64_t block) const noexcept
   {
     return starts_[static_cast<std::size_t>(block)];
@@ -86,7 +86,7 @@ public:
     return this->start(block + 1) - this->start(block);
   }
 
-  /// Rows [first, last) of those of the block, at most as many as buffer has room for.
+  /// Returns entries [first, last) of a block as rows, at most as many as the buffer holds.
   std::span<const std::int64_t> rows(std::int64_t block, std::int64_t first, std::int64_t last,
     std::span<std::int64_t> buffer) const noexcept;
 

@@ -16,36 +16,38 @@ namespace granular
 struct FileIndex;
 struct FrameEntry;
 
-/// Numbers by which rows of files are compared.
+/// Numbers that identify the first rows of a file, for comparing files.
 struct FirstRows
 {
   std::vector<std::int64_t> keys;
   bool are_ids = false; ///< no two rows have the same; else equal rows have
 };
 
-/// What files hold that are indexed frame by frame.
+/// The operations on a file format whose files are indexed frame by frame.
 struct FileFormat
 {
   const char* name; ///< for messages: "a dump"
 
-  /// Finds the frames from index.resume_offset to the end of the source: frames that are not complete are left out. Lists in
-  /// index.beside which other files it has looked at. Throws IoError, LimitError; FormatError of packed data; Cancelled.
+  /// Finds the frames from index.resume_offset to the end of the source; incomplete frames are left out. Lists the
+  /// other files that it examined in index.beside. Throws IoError, LimitError; FormatError for compressed data;
+  /// Cancelled.
   void (*index)(
     const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead);
 
-  /// Completes what frames do not say by themselves from all files of a run and their names, or null; may be called again
+  /// Completes frames that lack information from all files of a run and their names; may be null. May be called again
   /// with files that it has completed.
   void (*complete)(std::vector<FileIndex>& files, Notices& notices) = nullptr;
 
-  /// Whether what an index file says of a file with frames can be true, which nothing shows that is looked at when a frame is read.
-  /// Looks at little of the source. May throw Error: it cannot be true then.
+  /// Returns true if the contents of an index file can be true for a file with frames, as far as reading a frame would
+  /// not show it. Reads little of the source. May throw Error, which also means false. May be null.
   bool (*fits)(const ByteSource& source, const FileIndex& index) = nullptr;
 
-  /// What the first row of a frame holds, for who is to name its columns, or null. May throw Error.
+  /// Returns a description of the first row of a frame, for a user who has to name its columns; may be null. May throw
+  /// Error.
   std::string (*describe)(const ByteSource& source, const FrameEntry& entry) = nullptr;
 
-  /// The first rows of a frame, by which pieces are told from repetitions, or null; none where they tell nothing. Throws
-  /// IoError.
+  /// Returns the first rows of a frame, which tell pieces from repetitions; none if they tell nothing; may be null.
+  /// Throws IoError.
   FirstRows (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
 
   int layouts = 0; ///< how many FrameKind::layout there are that are no text

@@ -13,7 +13,8 @@
 
 namespace granular
 {
-/// The frames of a run, ordered by timestep, and where their pieces are: the part of a RunIndex that tells them apart.
+/// The frames of a run, ordered by timestep, and the places of their pieces: the part of a RunIndex that distinguishes
+/// runs.
 struct FileSeries
 {
   struct Place
@@ -27,18 +28,18 @@ struct FileSeries
 
   std::size_t size() const noexcept { return starts.size() - 1; }
 
-  /// The pieces of a frame, at least one.
+  /// Returns the pieces of a frame, at least one.
   std::span<const Place> pieces(std::size_t frame) const noexcept
   {
     return std::span(places).subspan(starts[frame], starts[frame + 1] - starts[frame]);
   }
 };
 
-/// Returns the frames of the files in their order; see RepeatedSteps for what is left out with a notice.
+/// Returns the frames of the files in order; see RepeatedSteps for frames that are left out with a notice.
 FileSeries order_frames(
   const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
 
-/// To bytes and back; files are those of before. Throws FormatError.
+/// Writes the series to bytes, and reads it back; files must be the same files as before. Throws FormatError.
 void write_series(ArchiveWriter& out, const FileSeries& series);
 FileSeries read_series(ArchiveReader& in, const std::vector<FileIndex>& files);
 }

@@ -7,7 +7,7 @@
 
 namespace granular
 {
-/// All of a header but the rows.
+/// Archives a header, except its rows.
 template <class Archive>
 void pass(Archive& archive, typename Archive::template Passed<FrameHeader>& header)
 {

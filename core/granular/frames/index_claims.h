@@ -6,8 +6,8 @@
 
 namespace granular
 {
-/// Holds the numbers that an index file says of a file against the size that it says of it: places of frames and rows, their order,
-/// seek points. Memory that is made for them is bounded by the bytes of the file then. Throws FormatError.
+/// Checks the numbers that an index file claims for a file against the claimed size: places of frames and rows, their
+/// order, seek points. Memory allocated for them is then bounded by the size of the file. Throws FormatError.
 void check_claims(const FileIndex& file);
 }
 #endif

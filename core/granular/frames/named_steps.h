@@ -8,13 +8,14 @@
 
 namespace granular
 {
-/// Gives the frames of files that do not say their timestep (see FileFormat) one: the last number in the name of
-/// the file, of those that differ between files whose names differ in numbers only, but not one that counts its
-/// pieces; frames of a file with several, and of one without a number, are counted from 0.
+/// Gives timesteps to the frames of files that do not contain them (see FileFormat). The timestep is the last number in
+/// the name of the file that differs between files whose names differ only in numbers and that does not count pieces.
+/// Frames of a file with several frames, or of a file without a number, are numbered from 0.
 ///
-/// A number counts pieces if it counts from 0 without gaps, as far for each value of the others, and if there are several
-/// of these, or the files are pieces by what is in them: frames with a shape other than FrameEntry::whole, or no
-/// frame in any but the first. With a notice for frames that are counted in several files.
+/// A number counts pieces if it runs from 0 without gaps, equally far for each value of the other numbers, and if there
+/// are several such numbers, or the contents show that the files are pieces: frames with a shape other than
+/// FrameEntry::whole, or no frame in any file but the first. A notice reports frames that are numbered in several
+/// files.
 void name_steps(std::vector<FileIndex>& files, Notices& notices);
 }
 #endif

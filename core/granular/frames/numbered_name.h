@@ -13,7 +13,7 @@
 
 namespace granular
 {
-/// A number in a name: without leading zeros, so that 007 is 7.
+/// A number in a name, without leading zeros, so that 007 equals 7.
 struct NameNumber
 {
   std::string text;
@@ -25,7 +25,7 @@ struct NameNumber
   }
 };
 
-/// The name of a file, its numbers taken out.
+/// The name of a file without its numbers, and the numbers.
 struct NumberedName
 {
   std::string rest; ///< with folder, without what compression adds
@@ -34,13 +34,13 @@ struct NumberedName
 
 NumberedName split_name(std::string_view path);
 
-/// Files whose names differ in numbers only: the numbers of each, by its place in the list of files.
+/// Files whose names differ only in numbers: the numbers of each file, by its index in the list of files.
 using Family = std::map<std::uint32_t, std::vector<NameNumber>>;
 
-/// All files by what their names have in common.
+/// Returns all files, grouped by the common part of their names.
 std::map<std::string, Family> families_of(const std::vector<FileIndex>& files);
 
-/// The files of a family by what one of the numbers is for given others.
+/// The files of a family by the value of one number, for given values of the other numbers.
 using Siblings = std::map<std::vector<NameNumber>, std::map<NameNumber, std::uint32_t>>;
 
 Siblings group_by_others(const Family& family, std::size_t at);

@@ -19,7 +19,7 @@ struct PieceSet
   std::string missing;              ///< the numbers that no file of the set has
 };
 
-/// The sets of files that can only be pieces of the same frames: see RepeatedSteps.
+/// Returns the sets of files that can only be pieces of the same frames: see RepeatedSteps.
 std::vector<PieceSet> find_piece_sets(const std::vector<FileIndex>& files);
 }
 #endif

@@ -13,7 +13,7 @@
 
 namespace granular
 {
-/// Where the index of a run is kept between openings.
+/// The place where the index of a run is kept between openings.
 enum class KeepIndex : std::uint8_t
 {
   Never,
@@ -21,34 +21,32 @@ enum class KeepIndex : std::uint8_t
   Beside ///< beside the first file: its name and ".granular.idx"
 };
 
-/// What the name of every index file ends in.
+/// The ending of every index file's name.
 inline constexpr std::string_view index_file_suffix = ".granular.idx";
 
-/// The path of the index file for a run whose first file is given. Empty: there is none, because
-/// of Never, or because the user has no folder for it.
+/// Returns the path of the index file for a run whose first file is given. Empty for Never, and if the user has no
+/// cache folder.
 std::string index_file_path(KeepIndex where, const std::string& first_file);
 
-/// The files that are described there, marked as loaded: whether they are still what they were is
-/// for update_file_index to see. A file that is not there is no news; one that is damaged, or made
-/// by another version of this library, yields nothing and a notice. kinds will be shared by all.
-/// Files below the folder of the first one when they were saved are below it now: a folder may be
-/// moved with its index. Their paths begin with it as first_file spells it.
+/// Returns the files described in an index file, marked as loaded: update_file_index checks whether they are unchanged.
+/// A missing index file is normal. A damaged one, or one of another version of this library, yields nothing and a
+/// notice. kinds is shared by all files. Paths below the folder of the first file are relative to it: a folder may be
+/// moved with its index. They begin with the folder as first_file spells it.
 std::vector<FileIndex> load_index(const std::string& path, const std::string& first_file,
   const std::shared_ptr<FrameKinds>& kinds, Notices& notices);
 
-/// Writes the index file, whole or not at all; says so in a notice if that fails. Makes the folder
-/// of the cache. Where no file has a frame there is nothing to keep, and nothing is written. Files
-/// with an error are left out: they are read again next time.
+/// Writes the index file completely or not at all; a failure is a notice. Creates the cache folder. If no file has a
+/// frame, nothing is written. Files with an error are left out: they are read again next time.
 void save_index(const std::string& path, const std::vector<FileIndex>& files, Notices& notices);
 
-/// The content of an index file: all files but those with an error, which are read again next time.
+/// Returns the content of an index file: all files except those with an error, which are read again next time.
 std::string encode_index(const std::vector<FileIndex>& files);
 
-/// The same of all files, with their paths as they are.
+/// Returns the content for all files, with their paths unchanged.
 std::string encode_files(const std::vector<FileIndex>& files);
 
-/// The files in the content of an index file; see load_index; of encode_files, where first_file is empty. Throws FormatError;
-/// UnsupportedError if it is of another version.
+/// Returns the files in the content of an index file (see load_index), or of encode_files if first_file is empty.
+/// Throws FormatError; UnsupportedError for another version.
 std::vector<FileIndex> decode_index(
   std::string_view bytes, const std::string& first_file, const std::shared_ptr<FrameKinds>& kinds);
 }

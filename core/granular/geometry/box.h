@@ -27,7 +27,7 @@ inline Vector3 cross(const Vector3& a, const Vector3& b) noexcept
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
-/// The smallest box along the axes around a box, and its tilts: what the headers of dumps hold.
+/// The smallest axis-aligned box around a box, and the tilts: the numbers in the headers of dumps.
 struct BoxBounds
 {
   Vector3 lo = {};
@@ -37,9 +37,9 @@ struct BoxBounds
   double yz = 0;
 };
 
-/// The simulation box: a corner and three edge vectors, any units of length.
-/// Edge vectors are differences of the file's numbers and so need more bits than a double has:
-/// far from the origin, or where sums cancel, a rounded length would show in the coordinates.
+/// The simulation box: a corner and three edge vectors, in any unit of length. Edge vectors are differences of the
+/// file's numbers and need more bits than a double has: far from the origin, or where sums cancel, a rounded length
+/// would show in the coordinates.
 struct Box
 {
   Twofold3 origin = {};
@@ -48,34 +48,34 @@ struct Box
   bool tilted = false;  ///< any of xy, xz, yz or a general cell: not axis-aligned
   bool general = false; ///< a and b need not lie in x and the xy plane
 
-  /// From the bounds of an axis-aligned box.
+  /// Returns the axis-aligned box with these bounds.
   static Box from_bounds(const Vector3& lo, const Vector3& hi);
 
-  /// From the bounding box of a tilted box and its tilts xy, xz, yz. The files hold the bounds,
-  /// the box is: xlo = xlo_bound - min(0, xy, xz, xy + xz), xhi = xhi_bound - max(0, xy, xz,
-  /// xy + xz), likewise y with yz (documentation of LAMMPS, "Triclinic simulation boxes").
+  /// Returns the tilted box with this bounding box and the tilts xy, xz, yz. Files hold the bounds, the box is xlo =
+  /// xlo_bound - min(0, xy, xz, xy + xz), xhi = xhi_bound - max(0, xy, xz, xy + xz), and likewise y with yz
+  /// (documentation of LAMMPS, "Triclinic simulation boxes").
   static Box from_tilted_bounds(
     const Vector3& lo, const Vector3& hi, double xy, double xz, double yz);
 
-  /// From a corner and three edges (LAMMPS' general triclinic boxes).
+  /// Returns the box with this corner and these edges (LAMMPS' general triclinic boxes).
   static Box from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vectors);
 
-  /// Of a box that is not general, each number rounded once: those that it was made from come back as they
-  /// were.
+  /// Returns the bounds of a box that is not general triclinic, each rounded once: the numbers that the box was made
+  /// from come back unchanged.
   BoxBounds bounds() const;
 
-  /// The corner (i, j, k), each 0 or 1, less a point, correctly rounded.
+  /// Returns the corner (i, j, k), each 0 or 1, minus the point `less`, correctly rounded.
   Vector3 corner(int i, int j, int k, const Vector3& less = {}) const;
 };
 
-/// The boundary flags as dumps print them, "pp pp ff", from that or from one letter an axis, "p p f": p is
-/// periodic, f fixed, s and m shrinking. Throws FormatError.
+/// Returns the boundary flags as dumps print them, "pp pp ff", from that form or from one letter per axis, "p p f": p
+/// is periodic, f fixed, s and m shrinking. Throws FormatError.
 std::string parse_boundary(const std::string& text);
 
-/// Makes sure that a box can be written: throws Error where an upper bound is below its lower one, or is no number.
+/// Checks that a box can be written. Throws Error if an upper bound is below its lower bound or is not a number.
 void check_bounds(const Box& box);
 
-/// Makes sure that a box can scale coordinates: throws Error where it has no volume.
+/// Checks that a box can scale coordinates. Throws Error if it has no volume.
 void check_volume(const Box& box);
 }
 #endif

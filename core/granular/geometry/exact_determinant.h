@@ -9,16 +9,16 @@
 
 namespace granular
 {
-/// A vector, each component the exact sum of few doubles.
+/// A vector whose components are exact sums of a few doubles.
 using ExactVector = std::array<Expansion<8>, 3>;
 
 ExactVector exact_vector(const Twofold3& vector) noexcept;
 
-/// Six permutations, products of three components, and four terms of each.
+/// Room for six permutations, products of three components, and four terms of each component.
 using ExactDeterminant = Expansion<6 * 8 * 2 * 2 * 4>;
 
-/// Returns the determinant of three vectors, exactly, as long as no product of three components underflows. Components of b and
-/// c are sums of two doubles at most.
+/// Returns the exact determinant of three vectors, as long as no product of three components underflows. Components of
+/// b and c are sums of at most two doubles.
 ExactDeterminant determinant(
   const ExactVector& a, const ExactVector& b, const ExactVector& c) noexcept;
 }

@@ -9,11 +9,11 @@
 
 namespace granular
 {
-/// Whether a vector of a box is one: not zero, and finite.
+/// Returns true if a box vector is finite and not zero.
 bool has_length(const Twofold3& vector) noexcept;
 
-/// The part of one of at most three vectors that is perpendicular to the others: its product with any vector tells how many
-/// of that one are in it. Zero where there is no such part, to twelve digits.
+/// Returns the part of one of at most three vectors that is perpendicular to the other vectors: its product with any
+/// vector counts how many times the chosen vector is in it. Zero if there is no such part, to twelve digits.
 Vector3 own_part(std::span<const Vector3> vectors, std::size_t which) noexcept;
 }
 #endif

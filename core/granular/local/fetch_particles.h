@@ -11,7 +11,7 @@
 
 namespace granular
 {
-/// What a rank has of the particles.
+/// The particles that a rank owns.
 struct OwnParticles
 {
   std::span<const std::int64_t> ids; ///< one a row
@@ -19,7 +19,7 @@ struct OwnParticles
   const ParticleValues& values;      ///< the same arrays on all ranks
 };
 
-/// Particles of all ranks that one rank has asked for.
+/// Particles that one rank has requested from all ranks.
 struct FetchedParticles
 {
   std::vector<std::int64_t> ids; ///< each once
@@ -28,10 +28,10 @@ struct FetchedParticles
     0; ///< particles that this rank has seen whose id an earlier one has; see below
 };
 
-/// Finds the particles that the two ends of this rank's lines name, wherever they are; those that nobody has are left
-/// out. Of particles with the same id the first of the lowest rank is taken. Each id belongs to one rank, by
-/// its hash, which is told who has it and answers those who ask; it counts the repeated ones. No
-/// rank needs memory for more than its own particles, its share of the ids, and what it asks for. Collective.
+/// Finds the particles that the two ends of this rank's lines name, on whichever rank they are; missing ones are left
+/// out. Of particles with the same id, the first of the lowest rank counts. Each id is assigned to a rank by its hash;
+/// that rank learns who owns the particle, answers requests, and counts repeated ids. No rank needs memory for more
+/// than its own particles, its share of the ids, and its requests. Collective.
 FetchedParticles fetch_particles(const OwnParticles& own, std::span<const std::int64_t> id1,
   std::span<const std::int64_t> id2, Communicator& ranks);
 }

@@ -9,7 +9,7 @@
 
 namespace granular
 {
-/// Spreads ids, however regular, over 64 bits. After Mix13 of David Stafford.
+/// Returns a 64-bit hash that spreads even regular ids. After Mix13 of David Stafford.
 inline std::uint64_t hash_of_id(std::int64_t id) noexcept
 {
   auto hash = static_cast<std::uint64_t>(id);
@@ -18,7 +18,7 @@ inline std::uint64_t hash_of_id(std::int64_t id) noexcept
   return hash ^ hash >> 31;
 }
 
-/// Ids, each with a place, in a hash table that grows: any 64-bit integers.
+/// A growing hash table from ids, which may be any 64-bit integers, to places.
 class IdTable
 {
 public:
@@ -26,19 +26,19 @@ public:
 
   IdTable() noexcept = default;
 
-  /// Room for so many ids, before it must grow. Throws std::bad_alloc.
+  /// Reserves room for this many ids. Throws std::bad_alloc.
   explicit IdTable(std::size_t ids);
 
-  /// Gives an id a place >= 0; false: it has one, and keeps it. Throws std::bad_alloc.
+  /// Stores a place >= 0 for an id. Returns false if the id has a place, which stays. Throws std::bad_alloc.
   bool add(std::int64_t id, std::int64_t place);
 
-  /// Its place, or nowhere.
+  /// Returns the place of an id, or nowhere.
   std::int64_t find(std::int64_t id) const noexcept
   {
     return taken_ == 0 ? nowhere : this->slot(id).place;
   }
 
-  /// Brings into the cache what add and find need.
+  /// Prefetches the memory that add and find need.
   void prefetch(std::int64_t id) const noexcept
   {
     __builtin_prefetch(slots_.data() + (hash_of_id(id) & mask_));
@@ -51,7 +51,7 @@ private:
     std::int64_t place = nowhere;
   };
 
-  /// That of the id, or the free one where it would be: never more than half of them are taken.
+  /// Returns the slot of an id, or the free slot where it would be. At most half of the slots are taken.
   const Slot& slot(std::int64_t id) const noexcept
   {
     std::size_t i = hash_of_id(id) & mask_;
@@ -69,8 +69,8 @@ private:
   std::size_t taken_ = 0;
 };
 
-/// Finds where an id is in a list of ids. Where these are close together it looks into a plain table, else
-/// into a hash table; neither needs more than 64 bytes an id.
+/// Finds the index of an id in a list of ids. Dense ids use a plain table, others a hash table; both take at most 64
+/// bytes per id.
 class IdFinder
 {
 public:
@@ -78,14 +78,14 @@ public:
 
   IdFinder() noexcept = default;
 
-  /// The place of ids[i] is i; of equal ids the first counts. Left out are those of which their ghost value, one an
-  /// id or null, says so: FrameView::is_duplicate. Throws std::bad_alloc.
+  /// The place of ids[i] is i; of equal ids the first counts. Ids whose ghost value (one per id, or null) marks a
+  /// duplicate are left out: FrameView::is_duplicate. Throws std::bad_alloc.
   explicit IdFinder(std::span<const std::int64_t> ids, const unsigned char* ghosts = nullptr);
 
-  /// Ids that an earlier one is equal to.
+  /// Returns the number of ids that repeat an earlier one.
   std::int64_t repeated() const noexcept { return repeated_; }
 
-  /// The place of each, or nowhere. From any thread.
+  /// Stores the place of each id, or nowhere. May be called from any thread.
   void find(std::span<const std::int64_t> ids, std::int64_t* places) const noexcept;
 
 private:

@@ -12,14 +12,13 @@
 
 namespace granular
 {
-/// The ids that an array of numbers holds: seen where they are if they lie there one after the other as Int64, else
-/// converted.
+/// The ids in an array of numbers: used in place if they are contiguous Int64, otherwise converted.
 class Ids
 {
 public:
   Ids() = default;
 
-  /// Throws Error, with the name of the array and the row, where there is more than one number a row, or one that is no
+  /// Throws Error with the array's name and the row if there is more than one number per row, or one that is not a
   /// 64-bit integer: a fraction, nan, or too large; Cancelled; std::bad_alloc.
   Ids(const ArrayView& array, std::int64_t rows, const Executor& executor, Progress& progress);
 

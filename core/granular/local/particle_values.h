@@ -14,7 +14,7 @@
 
 namespace granular
 {
-/// Where particles are, and arrays of theirs, in any order of rows.
+/// Positions of particles, and some of their arrays, in any order of rows.
 struct ParticleValues
 {
   const double* points =
@@ -25,13 +25,13 @@ struct ParticleValues
     own; ///< what is in no memory of the frame's; stays where it is when this is moved
 };
 
-/// Sees the values of a frame where they are; positions are computed where the points are something else, or not
-/// doubles one after the other. Arrays that a frame without rows lacks are of size 0. Throws Error if an array, the
-/// points or the box of scaled ones are not there, or texts are wanted; Cancelled; std::bad_alloc.
+/// Returns the values of a frame without copying where possible. Positions are computed if the points are scaled or
+/// unwrapped, or not contiguous doubles. Arrays that a frame without rows lacks have size 0. Throws Error if an array,
+/// the points, or the box of scaled points is missing, or if texts are requested; Cancelled; std::bad_alloc.
 ParticleValues view_particles(const FrameView& frame, std::span<const std::string> names,
   const Executor& executor, Progress& progress);
 
-/// Gives arrays of size 0 that which they have on other ranks, or 1. Throws Error where ranks differ. Collective.
+/// Gives arrays of size 0 the size that they have on other ranks, or 1. Throws Error if ranks disagree. Collective.
 void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks);
 }
 #endif

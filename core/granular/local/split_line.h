@@ -10,27 +10,28 @@
 
 namespace granular
 {
-/// A part of a line, between two faces of the box or its ends.
+/// A part of a line, between two faces of the box or ends of the line.
 struct LinePart
 {
   Vector3 begin;
   Vector3 end;
 };
 
-/// Splits lines where they leave the box.
+/// Splits lines at the faces of the box.
 class LineSplitter
 {
 public:
   static constexpr std::size_t most_parts = 4;
 
-  /// images: those of the box; must outlive this.
+  /// images: the images of the box; must outlive this object.
   LineSplitter(const Box& box, const MinimumImage& images, const Vector3& point_origin);
 
-  /// The line from first to the image of second that is that many box vectors away: along each axis with a count it goes
-  /// through one face, the upper one if the count is positive, and goes on from the opposite one, or as many vectors back as
-  /// the count says. Where that place is outside of the line, as ends are outside of the box, it is the nearer end.
-  /// Returns how many parts there are, at least 1. Parts shorter than rounding are left out, as long as there is another.
-  /// The first begins at first and the last ends at second, or at an image of it where it was left out.
+  /// Splits the line from `first` to the image of `second` that is `counts` box vectors away. Along each axis with a
+  /// count, the line leaves through one face, the upper one if the count is positive, and enters at the opposite face,
+  /// or that many vectors back. If the crossing is outside the line, because an end is outside the box, the nearer end
+  /// is used. Returns the number of parts, at least 1. Parts shorter than rounding are left out if another part
+  /// remains. The first part begins at `first`; the last ends at `second`, or at an image of `second` if the last part
+  /// was left out.
   std::size_t split(const Vector3& first, const Vector3& second, const BoxCounts& counts,
     std::array<LinePart, most_parts>& parts) const noexcept;
 

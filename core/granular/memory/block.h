@@ -9,9 +9,9 @@ namespace granular
 {
 class BlockPool;
 
-/// Raw memory of an output array, given away without a copy: whoever takes the pointer with
-/// release() frees it with Block::free, from any thread. Untouched parts cost address space, not
-/// memory, so a block may be made for the most there can be and shrunk to what there is.
+/// Raw memory of an output array that can be handed over without a copy: the owner of the pointer from release() frees
+/// it with Block::free, from any thread. Untouched parts take address space but no memory, so a block may be allocated
+/// for the largest possible size and shrunk to the actual size.
 class Block
 {
 public:
@@ -19,8 +19,8 @@ public:
 
   Block() noexcept = default;
 
-  /// bytes of uninitialised memory, aligned for vector instructions. All but small blocks come from the
-  /// pool and go back to it, if it is still there then. Throws std::bad_alloc.
+  /// Allocates uninitialised memory, aligned for vector instructions. All but small blocks come from the pool and go
+  /// back to it if it still exists. Throws std::bad_alloc.
   explicit Block(std::size_t bytes, const std::shared_ptr<BlockPool>& pool = nullptr);
 
   Block(Block&& other) noexcept;
@@ -30,18 +30,18 @@ public:
   void* data() const noexcept { return data_; }
   std::size_t bytes() const noexcept { return bytes_; }
 
-  /// Where it came from and another one of its kind should; null: there is none, or it is gone.
+  /// Returns the pool of this block; null if there is none or it is gone.
   std::shared_ptr<BlockPool> pool() const noexcept;
 
-  /// Keeps the first bytes; bytes <= this->bytes(). Pointers into the block become invalid. Frees what
-  /// is worth it: of a large block whole large pages, of a small one half and more.
+  /// Keeps the first bytes; bytes <= this->bytes(). Pointers into the block become invalid. Frees memory where that
+  /// pays: from a large block whole large pages, from a small one if at least half is unused.
   void shrink(std::size_t bytes) noexcept;
 
-  /// Hands the memory over; the block is empty afterwards. Never null for a block that was made.
+  /// Returns the memory and leaves the block empty. Never null for a block that was allocated.
   void* release() noexcept;
 
-  /// Frees what release() handed over, and what malloc gave: an array of VTK that takes new memory from
-  /// malloc frees that by the same function.
+  /// Frees memory from release(), and from malloc: a VTK array that reallocates with malloc frees both with the same
+  /// function.
   static void free(void* data) noexcept;
 
 private:

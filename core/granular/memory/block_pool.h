@@ -10,12 +10,12 @@
 
 namespace granular
 {
-/// Memory of Blocks that came back, for the next ones: touching fresh memory costs more than filling
-/// it. All methods may be called from any thread. Blocks may outlive their pool.
+/// Keeps the memory of freed blocks for new ones: touching fresh memory costs more than filling it. All methods may be
+/// called from any thread. Blocks may outlive their pool.
 class BlockPool
 {
 public:
-  /// Keeps at most that many bytes of memory, which counts what may be in memory, not the address space.
+  /// Keeps at most this many bytes of resident memory; address space does not count.
   explicit BlockPool(std::size_t limit) noexcept;
 
   BlockPool(const BlockPool&) = delete;
@@ -24,21 +24,21 @@ public:
 
   std::size_t limit() const noexcept { return limit_; }
 
-  /// Bytes of memory that wait for a block.
+  /// Returns the bytes of memory that wait for a block.
   std::size_t idle_bytes() const;
 
-  /// To be called once a frame: frees what waited since the call before the last.
+  /// Frees memory that has waited since the call before the last one. Call once per frame.
   void next_frame();
 
-  /// Frees all that waits.
+  /// Frees all waiting memory.
   void clear();
 
-  /// For Block: memory for that many bytes, of which no more than half as much again may be resident;
-  /// null base if none of that kind waits.
+  /// Returns memory for this many bytes, of which at most half as much again may be resident; a null base if none fits.
+  /// For Block.
   Mapping take(std::size_t bytes);
 
-  /// For Block: memory that waits from now on, or is freed. The longest waiting goes where the limit
-  /// is passed.
+  /// Keeps memory for later use, or frees it. The memory that has waited longest is freed if the limit is passed. For
+  /// Block.
   void give_back(const Mapping& mapping) noexcept;
 
 private:

@@ -7,7 +7,7 @@
 
 namespace granular
 {
-/// Address space straight from the system. What was never touched takes no memory.
+/// Address space from the operating system. Untouched parts take no memory.
 struct Mapping
 {
   void* base = nullptr;     ///< null: there is none
@@ -15,24 +15,24 @@ struct Mapping
   std::size_t resident = 0; ///< at most so many bytes, from the start, take memory
 };
 
-/// Address space for at least that many bytes; null base if the system has none.
+/// Returns address space for at least this many bytes; a null base if the system has none.
 Mapping map_memory(std::size_t bytes) noexcept;
 
 void unmap_memory(const Mapping& mapping) noexcept;
 
-/// To be called before the first bytes are filled, bytes <= capacity. First touch of fresh memory costs
-/// more than what is written into it, a page at a time; large pages make that less.
+/// Prepares for filling the first bytes, bytes <= capacity. The first touch of fresh memory costs more than writing to
+/// it, page by page; large pages reduce that cost.
 void expect_bytes(Mapping& mapping, std::size_t bytes) noexcept;
 
-/// Gives back the memory behind the first bytes, but not the address space. Large pages stay whole.
+/// Returns the memory behind the first bytes to the system, but keeps the address space. Large pages stay whole.
 void keep_bytes(Mapping& mapping, std::size_t bytes) noexcept;
 
-/// Nobody needs what is written there: where the system runs short of memory it may take that of large
-/// pages, and else leaves it as it is.
+/// Declares the contents unneeded: if memory is short, the system may take that of large pages; otherwise it leaves it
+/// in place.
 void forget_bytes(const Mapping& mapping) noexcept;
 
-/// Bytes of memory that this process can still get without others losing theirs, as the system estimates it and the group
-/// that the process belongs to allows; the largest number there is where nobody knows.
+/// Returns the bytes of memory that this process can still get without taking it from other processes, as the system
+/// estimates, and within the limit of its control group. Returns the largest integer if unknown.
 std::int64_t available_memory() noexcept;
 }
 #endif

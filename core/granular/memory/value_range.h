@@ -9,7 +9,7 @@
 
 namespace granular
 {
-/// The least and the largest of each component of some rows, and of the sums of squares of a row.
+/// The minimum and maximum of each component of some rows, and of the rows' sums of squares.
 class ValueRange
 {
 public:
@@ -21,20 +21,19 @@ public:
   {
   }
 
-  /// Takes rows of a type into account: double, float, std::int32_t or std::int64_t.
+  /// Adds rows of type double, float, std::int32_t or std::int64_t.
   template <typename T>
   void add(const T* values, std::size_t rows) noexcept;
 
   void add(const ValueRange& other) noexcept;
 
-  /// Whether there were values, all of them finite, and the sums of squares, too. Else nothing is
-  /// known.
+  /// Returns true if there were values and all values and sums of squares are finite. Otherwise the range is unknown.
   bool known() const noexcept;
 
-  /// Of each component.
+  /// Returns the range of each component.
   const std::vector<Bounds>& components() const noexcept { return components_; }
 
-  /// Of x^2 + y^2 + ..., added up in doubles from the first component on.
+  /// Returns the range of x^2 + y^2 + ..., added up in doubles from the first component on.
   const Bounds& squares() const noexcept { return squares_; }
 
 private:

@@ -12,14 +12,14 @@
 
 namespace granular
 {
-/// The processes of an MPI communicator. What MPI finds wrong becomes an IoError; after one the state of
-/// the communicator is MPI's affair.
+/// The ranks of an MPI communicator. Errors of MPI become IoError; afterwards the state of the communicator is
+/// undefined.
 class MpiCommunicator final : public Communicator
 {
 public:
-  /// Collective, like the destructor. Works on a duplicate, so that messages never mix with others of
-  /// the program; between MPI_Init and MPI_Finalize. MPI counts in int: what is larger than most_bytes
-  /// goes in several messages; from 8 to 2^31 - 1, the same on all ranks.
+  /// Duplicates the communicator, so that messages never mix with others of the program. Call between MPI_Init and
+  /// MPI_Finalize. MPI counts in int: larger data than most_bytes go in several messages; most_bytes is from 8 to 2^31
+  /// - 1 and the same on all ranks. Collective, like the destructor.
   explicit MpiCommunicator(MPI_Comm ranks, std::int64_t most_bytes = std::int64_t{ 1 } << 30);
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;

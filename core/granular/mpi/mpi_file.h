@@ -14,17 +14,17 @@
 
 namespace granular
 {
-/// A file that all ranks write by MPI-IO. Rank 0 makes it and gives it its name, as NewFile does.
+/// A file that all ranks write with MPI-IO. Rank 0 creates it and gives it its name, as NewFile does.
 class MpiFile final : public OutputFile
 {
 public:
-  /// Neither collective nor open yet. MPI counts in int: what is larger than most_bytes goes in several
-  /// writes. The ranks must outlive the file.
+  /// Stores the arguments; not collective, and the file is not open yet. MPI counts in int: larger data than most_bytes
+  /// go in several writes. The ranks must outlive the file.
   MpiFile(Communicator& ranks, const std::string& path, std::int64_t most_bytes);
   ~MpiFile() override;
 
-  /// Collective. Throws IoError on all ranks if one cannot open the file. False, and of no use, where
-  /// the path has a colon in it: to MPI that may be the end of the name of a file system.
+  /// Opens the file. Throws IoError on all ranks if one cannot open it. Returns false, and the object is unusable, if
+  /// the path contains a colon: MPI may read it as the name of a file system. Collective.
   bool open();
 
   void write_at(std::int64_t offset, std::string_view bytes) override;

@@ -2,7 +2,7 @@
 #ifndef granular_numbers_number_print_layout_h
 #define granular_numbers_number_print_layout_h
 
-// From digits to text, with as few branches as can be. Only for number_print.cpp.
+// Conversion of digits to text with as few branches as possible. Only for number_print.cpp.
 
 #include "granular/numbers/decimal.h"
 
@@ -18,8 +18,8 @@ __extension__ using Wide = unsigned __int128;
 
 inline constexpr std::uint64_t eight_zeros = 0x3030303030303030;
 
-/// The digits of x < 10^8, one a byte, the first one lowest: halves, then quarters, then eighths at
-/// once. Reciprocals are exact in their range: x < 10^4 by 100, x < 100 by 10.
+/// Returns the digits of x < 10^8, one per byte, the first in the lowest byte: splits into halves, quarters and eighths
+/// in parallel. The reciprocals are exact in their range: x < 10^4 by 100, x < 100 by 10.
 inline std::uint64_t eight_digits(std::uint64_t x)
 {
   const std::uint64_t high = x * 3518437209 >> 45; // x / 10^4
@@ -30,7 +30,7 @@ inline std::uint64_t eight_digits(std::uint64_t x)
   return (pairs << 8) - tens * ((10 << 8) - 1);
 }
 
-/// How many of eight digits there are up to the last that is not 0; at least one.
+/// Returns the number of digits, of eight, up to the last non-zero one; at least one.
 inline unsigned significant(std::uint64_t digits)
 {
   const std::uint64_t reversed = __builtin_bswap64(digits) | std::uint64_t{ 1 } << 63;
@@ -48,14 +48,14 @@ inline constexpr auto three_digits = []
   return table;
 }();
 
-/// The same for x < 10^6, and two zeros.
+/// Returns the digits of x < 10^6, and two zeros.
 inline std::uint64_t six_digits(std::uint64_t x)
 {
   const std::uint64_t high = x * 1073742 >> 30; // x / 1000
   return three_digits[high] | std::uint64_t{ three_digits[x - high * 1000] } << 24;
 }
 
-/// The first one is in the lowest byte.
+/// Stores eight characters; the first is in the lowest byte.
 inline void store(char* to, std::uint64_t eight_chars)
 {
   if constexpr (std::endian::native == std::endian::big)
@@ -80,7 +80,7 @@ struct Layout
 inline constexpr int least_fixed = -4; // %g prints smaller numbers with an exponent
 inline constexpr int smallest_exponent = -324;
 
-/// By the decimal exponent of a number that is printed without it.
+/// The layouts of numbers printed without an exponent, by decimal exponent.
 inline constexpr auto layouts = []
 {
   std::array<Layout, 17 - least_fixed> table{};
@@ -94,7 +94,7 @@ inline constexpr auto layouts = []
     }
     else if (k < 16)
     {
-      // of the last eight digits none is seen where there is no room for them
+      // without room for the last eight digits, none of them is shown
       layout = { 0, byte(8 * k), byte(k + 1), byte(k + 2), byte(k < 8 ? k + 10 : 17), byte(k + 1),
         byte(k + 1) };
     }
@@ -106,7 +106,7 @@ inline constexpr auto layouts = []
   return table;
 }();
 
-/// "e-05" in the lower bytes, its length in the highest one. First that of no exponent: nothing.
+/// The exponents: "e-05" in the lower bytes, its length in the highest byte. The first entry is empty.
 inline constexpr auto exponents = []
 {
   std::array<std::uint64_t, 2 + largest_power - smallest_exponent> table{};
@@ -131,14 +131,14 @@ struct Place
   std::uint64_t exponent;
 };
 
-/// Where a number stands whose first digit is times 10^k.
+/// Returns the place of a number whose first digit has the weight 10^k.
 inline Place place_of(int k, bool fixed)
 {
   return { layouts[static_cast<std::size_t>((fixed ? k : 0) - least_fixed)],
     exponents[fixed ? 0 : static_cast<std::size_t>(k - smallest_exponent + 1)] };
 }
 
-/// What is around the digits, of which so many are not zeros at the end.
+/// Writes the characters around the digits; `length` is the number of digits without trailing zeros.
 inline char* finish(char* to, const Place& place, unsigned length)
 {
   to[place.layout.point] = '.';
@@ -151,7 +151,7 @@ inline char* finish(char* to, const Place& place, unsigned length)
 
 inline constexpr std::uint64_t zeros_and_point = '0' | '.' << 8 | eight_zeros << 16;
 
-/// Eight digits.
+/// Lays out eight digits.
 inline char* lay_out_eight(char* to, std::uint64_t raw, const Place& place)
 {
   store(to, zeros_and_point);
@@ -160,7 +160,7 @@ inline char* lay_out_eight(char* to, std::uint64_t raw, const Place& place)
   return finish(to, place, significant(raw));
 }
 
-/// Seventeen digits: one, and twice eight.
+/// Seventeen digits: one, and two groups of eight.
 struct Seventeen
 {
   std::uint64_t first;

@@ -2,7 +2,7 @@
 #ifndef granular_numbers_number_scan_h
 #define granular_numbers_number_scan_h
 
-// Plain numbers at the beginning of a text, inline: what parse_double and parse_int64 do first.
+// Inline parsing of plain numbers at the beginning of a text: the first attempt of parse_double and parse_int64.
 
 #include "granular/numbers/decimal.h"
 
@@ -18,7 +18,7 @@ constexpr bool is_digit(char c) noexcept
   return static_cast<unsigned char>(c - '0') <= 9;
 }
 
-/// Eight characters as a number, the first in the lowest byte, whatever the machine's order.
+/// Returns eight characters as a number, the first in the lowest byte, on machines of any byte order.
 inline std::uint64_t load_eight(const char* first) noexcept
 {
   std::uint64_t bytes = 0;
@@ -29,7 +29,7 @@ inline std::uint64_t load_eight(const char* first) noexcept
   return bytes;
 }
 
-/// The number that eight digits are, each of 0 to 9 in a byte, the first in the lowest.
+/// Returns the value of eight digits, each 0 to 9 in a byte, the first in the lowest byte.
 constexpr std::uint64_t combine_eight(std::uint64_t digits) noexcept
 {
   const std::uint64_t pairs = (digits * 10 + (digits >> 8)) & 0x00ff00ff00ff00ff;
@@ -37,14 +37,14 @@ constexpr std::uint64_t combine_eight(std::uint64_t digits) noexcept
   return (fours * 10000 + (fours >> 32)) & 0xffffffff;
 }
 
-/// A number that digits were appended to, and the end of the digits.
+/// A number with digits appended, and the end of the digits.
 struct Digits
 {
   const char* end;
   std::uint64_t number;
 };
 
-/// Appends the digits at first to number, as long as there are any.
+/// Appends the digits at `first` to number, as far as they go.
 inline Digits take_digits(const char* first, const char* last, std::uint64_t number) noexcept
 {
   static constexpr std::uint64_t powers[] = { 1, 10, 100, 1000, 10000, 100000, 1000000, 10000000,
@@ -52,12 +52,12 @@ inline Digits take_digits(const char* first, const char* last, std::uint64_t num
   while (last - first >= 8)
   {
     const std::uint64_t digits = load_eight(first) ^ 0x3030303030303030;
-    // a byte above 9 sets its highest bit; what it carries over lies behind it
+    // a byte above 9 sets its highest bit; a carry affects only bytes behind it
     const std::uint64_t others = ((digits + 0x7676767676767676) | digits) & 0x8080808080808080;
     if (others != 0)
     {
-      // none behind 8 or 16 of them, or a single one: where it ends is known before the arithmetic
-      // is done, and the next word starts early
+      // no digit after 8 or 16 of them, or a single one: the end is known before the arithmetic is done, and the next
+      // word starts early
       if ((others & 0x80) != 0)
       {
         return { first, number };
@@ -80,8 +80,8 @@ inline Digits take_digits(const char* first, const char* last, std::uint64_t num
   return { first, number };
 }
 
-/// The exponent at first: a letter, a sign or none, up to four digits. Returns its end; null if it is
-/// none of these.
+/// Parses the exponent at `first`: a letter, an optional sign, up to four digits. Returns its end; null if it has
+/// another form.
 inline const char* take_exponent(const char* first, const char* last, std::int64_t& power) noexcept
 {
   ++first;
@@ -97,18 +97,18 @@ inline const char* take_exponent(const char* first, const char* last, std::int64
   return first == start || first - start == 5 ? nullptr : first;
 }
 
-/// The digits of [first, last), of which others may be points, from the first on that is not 0.
+/// Returns the number of digits in [first, last), from the first non-zero one; points are skipped.
 inline std::ptrdiff_t count_significant(const char* first, const char* last) noexcept
 {
   const auto is_leading = [](char c) { return c == '0' || c == '.'; };
   return std::count_if(std::find_if_not(first, last, is_leading), last, is_digit);
 }
 
-/// Digits that 64 bits hold, whatever they are.
+/// The number of digits that always fit into 64 bits.
 inline constexpr std::ptrdiff_t most_digits = 19;
 
-/// The number that a text begins with, if it is a plain one: a minus sign or none, up to 19 digits
-/// and a point, perhaps an exponent. Returns its end; null, with value left alone, for all others.
+/// Parses a plain number at the beginning of a text: an optional minus sign, up to 19 digits and a point, and an
+/// optional exponent. Returns its end; null, with value unchanged, for other forms.
 inline const char* scan_number(const char* first, const char* last, double& value) noexcept
 {
   const bool negative = first != last && *first == '-';
@@ -150,7 +150,7 @@ inline const char* scan_number(const char* first, const char* last, double& valu
   return end;
 }
 
-/// The same for an integer: a minus sign or none, and up to 18 digits.
+/// Parses a plain integer: an optional minus sign, and up to 18 digits.
 inline const char* scan_number(const char* first, const char* last, std::int64_t& value) noexcept
 {
   const bool negative = first != last && *first == '-';

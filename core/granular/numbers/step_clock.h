@@ -6,7 +6,7 @@
 
 namespace granular
 {
-/// The clock of a run that counts steps.
+/// Computes times from timesteps.
 class StepClock
 {
 public:
@@ -14,7 +14,7 @@ public:
   explicit StepClock(double step_size) noexcept;
 
   /// Returns the double nearest to step times the shortest decimal number that reads back as step_size, ties to even;
-  /// infinite where no finite double is near. Three steps of 1e-05 take 3e-05: the product of the two doubles is
+  /// infinite if the product is too large. Three steps of 1e-05 give 3e-05, whereas the product of the two doubles is
   /// 3.0000000000000004e-05.
   double time(std::int64_t step) const noexcept;
 

@@ -18,7 +18,7 @@ inline void add_integer(std::string& text, std::int64_t value)
   text.append(digits.data(), print_integer(digits.data(), value));
 }
 
-/// Adds a line of words, whole numbers among them.
+/// Appends a line of words and integers.
 template <class... Words>
 void add_line(std::string& text, const Words&... words)
 {

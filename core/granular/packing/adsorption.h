@@ -13,10 +13,11 @@
 
 namespace granular
 {
-/// Random sequential adsorption: grains arrive one after the other at random places, and those stay that overlap none
-/// that stayed before. Whether one stays depends on the few that arrived near to it, so any shelves of the box can be
-/// found alone, from a margin around them. Beyond the margin nothing is known; where that matters the outcome is
-/// unknown, and spreads, in the end it may be, to the shelves themselves. Then a wider margin is needed.
+/// Random sequential adsorption: particles arrive one after the other at random places, and a particle stays if it
+/// overlaps no earlier one that stayed. That depends only on the few particles that arrived nearby, so any shelves of
+/// the box can be computed alone, with a margin around them. The outcome beyond the margin is unknown; where it
+/// matters, the outcome inside is unknown too, and this may spread to the shelves themselves. A wider margin is needed
+/// then.
 class Adsorption
 {
 public:
@@ -28,23 +29,24 @@ public:
     std::int32_t next; ///< in the same cell, or none
   };
 
-  /// Shelves from first to last - 1, and a margin of so many of the largest diameters.
+  /// Prepares the shelves from first to last - 1, with a margin of this many largest diameters.
   Adsorption(const AdsorptionGrid& grid, std::int64_t first, std::int64_t last, double margin);
 
-  /// Lets arrive what has not yet arrived here, the last of the rounds without settling who stays: its end may change.
-  /// Gives false when anything in the shelves is unknown; then this is of no more use. Throws Cancelled.
+  /// Lets the new rounds arrive, the last one without settling which particles stay, because its end may change.
+  /// Returns false if anything in the shelves is unknown; the object is then useless. Throws Cancelled.
   bool follow(const std::vector<Arrivals>& rounds, const Executor& executor, Progress& progress);
 
-  /// The moments of those of the last round that stay, in the shelves.
+  /// Returns the arrival times of the particles of the last round that stay, in the shelves.
   std::vector<std::uint64_t> moments() const;
 
-  /// Settles the last of the rounds.
+  /// Settles which particles of the last round stay.
   void finish(const std::vector<Arrivals>& rounds, const Executor& executor);
 
-  /// Whether shelves were found, and nothing in them is unknown.
+  /// Returns true if these shelves were computed and nothing in them is unknown.
   bool has(std::int64_t first, std::int64_t last) const noexcept;
 
-  /// The grains that stay in a layer, in the same order whatever the shelves and threads. Must be there.
+  /// Returns the particles that stay in a layer, in the same order for any shelves and threads. The layer must have
+  /// been computed.
   const std::vector<Grain>& grains(std::size_t level, std::int64_t layer) const noexcept
   {
     return this->find(level, layer)->grains;
@@ -61,7 +63,7 @@ private:
     Unknown
   };
 
-  /// One that overlaps none of those that stayed in the rounds before.
+  /// A particle that overlaps none of those that stayed in earlier rounds.
   struct Fresh
   {
     Vector3 scaled; ///< in the order of axes

@@ -13,17 +13,17 @@
 
 namespace granular
 {
-/// Cells of a box, in which random grains are found again by their places. Grains of different sizes are on levels,
-/// each with radii up to twice those of the next and cells about as large as two of its grains. Along an axis that is
-/// not periodic, the cells divide what is left for centres between the faces. Axes are ordered by the heights of the
-/// box, the highest last: cells of the same place along the last axis are a layer, and a line of a layer runs along the
-/// first axis. Shelves are parts of the box that layers of all levels are sorted into.
+/// Cells of a box for finding random particles by position. Particles of different sizes are on levels: radii on a
+/// level are up to twice those on the next one, and cells are about as large as two of its particles. Along an axis
+/// that is not periodic, the cells divide the range that the faces leave for centres. Axes are ordered by the heights
+/// of the box, the highest last. Cells with the same index along the last axis are a layer; a line of a layer runs
+/// along the first axis. Shelves are parts of the box into which layers of all levels are sorted.
 class AdsorptionGrid
 {
 public:
   using Cells = std::array<std::int64_t, 3>;
 
-  /// From cell `first` to `last` of an axis; beyond the cells of a periodic axis its images go on.
+  /// Cells from `first` to `last` of an axis; indices beyond the cells of a periodic axis mean its images.
   struct Range
   {
     std::int64_t first;
@@ -37,21 +37,21 @@ public:
   std::size_t levels() const noexcept { return levels_.size(); }
   std::size_t level_of(std::size_t size_class) const noexcept { return level_of_[size_class]; }
 
-  /// The largest radius on a level.
+  /// Returns the largest radius on a level.
   double radius(std::size_t level) const noexcept { return levels_[level].radius; }
 
-  /// How many cells a level has along each axis, in the order of this grid.
+  /// Returns the number of cells of a level along each axis, in the order of this grid.
   const Cells& cells(std::size_t level) const noexcept { return levels_[level].cells; }
 
-  /// Which axis of the box comes at a place in the order.
+  /// Returns the axis of the box at a place in the order.
   std::size_t axis(std::size_t place) const noexcept { return order_[place]; }
 
-  /// How much more than touching grains are kept apart, for the rounding of coordinates.
+  /// Returns the extra distance between touching particles, which allows for the rounding of coordinates.
   double gap() const noexcept { return gap_; }
 
   std::int64_t shelves() const noexcept { return shelves_; }
 
-  /// The layers of a level from one shelf on: the first of them, or of the next shelf that has any.
+  /// Returns the first layer of a level in a shelf, or in the next shelf that has one.
   std::int64_t first_layer(std::size_t level, std::int64_t shelf) const noexcept
   {
     const std::int64_t layers = levels_[level].cells[2];
@@ -72,20 +72,23 @@ public:
     }
   }
 
-  /// In how many shelves before or after its own a grain may have others nearer than a distance.
+  /// Returns the number of shelves before or after its own in which a particle may have others nearer than a distance.
   std::int64_t shelves_within(double distance) const noexcept;
 
-  /// A part of the last axis that has all layers of shelves from first to last - 1, with a margin of so many layers.
+  /// Returns the part of the last axis that contains all layers of shelves from first to last - 1, with a margin of
+  /// this many layers.
   std::array<double, 2> window(std::int64_t first, std::int64_t last, double margin) const noexcept;
 
-  /// The scaled coordinate of a grain, from its place between 0 and 1 in the cells along an axis of the order.
+  /// Returns the scaled coordinate of a particle from its place between 0 and 1 in the cells along an axis of the
+  /// order.
   double scaled(std::size_t size_class, std::size_t place, double part) const noexcept
   {
     const double inset = insets_[size_class][place];
     return inset + part * (1 - 2 * inset);
   }
 
-  /// The cells of a level that may have centres nearer than a distance to a scaled coordinate along an axis of the order.
+  /// Returns the cells of a level that may have centres nearer than a distance to a scaled coordinate along an axis of
+  /// the order.
   Range near(std::size_t level, std::size_t place, double scaled, double distance) const noexcept
   {
     const Level& on = levels_[level];
@@ -105,7 +108,7 @@ public:
   }
 
 private:
-  /// From a scaled coordinate to cells, for one inset.
+  /// Maps scaled coordinates to cells, for one inset.
   struct Map
   {
     double inset = 0;
@@ -125,7 +128,7 @@ private:
     std::array<Map, 3> most = {};  ///< for the largest
   };
 
-  /// The largest integer that is not greater.
+  /// Returns the largest integer that is not greater than value.
   static std::int64_t whole(double value) noexcept
   {
     const auto cut = static_cast<std::int64_t>(value);

@@ -11,8 +11,9 @@
 
 namespace granular
 {
-/// Grains of one class that arrive in a span of time, a round. They are a Poisson process in space and time: on each line of
-/// cells a number with this mean, each at a place and a moment of its own, all drawn from hashes: the same whoever asks.
+/// The particles of one size class that arrive in a round, which is a span of time. They are a Poisson process in space
+/// and time: on each line of cells a random number with this mean, each particle at a random place and time. All are
+/// drawn from hashes, so every rank and thread draws the same.
 class Arrivals
 {
 public:
@@ -27,13 +28,14 @@ public:
   std::uint64_t last =
     std::numeric_limits<std::uint64_t>::max(); ///< moments after this one do not count
 
-  /// How many grains arrive on a line of a layer.
+  /// Returns the number of particles that arrive on a line of a layer.
   std::uint64_t count(std::int64_t layer, std::int64_t line) const noexcept;
 
-  /// When one of them does: no two moments of a round are the same.
+  /// Returns the arrival time of a particle; no two times of a round are equal.
   std::uint64_t moment(std::int64_t layer, std::int64_t line, std::uint64_t arrival) const noexcept;
 
-  /// Where the one of a moment does: its place between 0 and 1 in the cells along each axis of the grid.
+  /// Returns the place of the particle that arrives at a time, between 0 and 1 in the cells along each axis of the
+  /// grid.
   Vector3 place(std::int64_t layer, std::int64_t line, std::uint64_t moment) const noexcept;
 
 private:

@@ -12,7 +12,7 @@
 
 namespace granular
 {
-/// Rows of grains, from first to last - 1; a grain's id is its row + 1.
+/// Rows of particles from first to last - 1; a particle's id is its row + 1.
 struct RowRange
 {
   std::int64_t first = 0;
@@ -21,7 +21,7 @@ struct RowRange
   std::int64_t count() const noexcept { return last - first; }
 };
 
-/// Rows of grains, and where they go.
+/// Rows of particles, and the frame that receives them.
 struct GrainRows : RowRange
 {
   double* points = nullptr; ///< three a row
@@ -50,7 +50,7 @@ void for_row_chunks(std::int64_t rows, int threads, Progress& progress, const Wo
     progress);
 }
 
-/// The values of an array that the frame has.
+/// Returns the values of an array of the frame.
 template <typename T>
 T* array_of(const DumpFrame& frame, std::string_view name)
 {

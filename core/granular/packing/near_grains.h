@@ -14,7 +14,7 @@
 
 namespace granular
 {
-/// Grains that are where they are: the points are three coordinates a row.
+/// Particles at given positions; points are three coordinates per row.
 struct PlacedGrains
 {
   RowRange rows;
@@ -27,9 +27,9 @@ struct PlacedGrains
   }
 };
 
-/// Finds the grains, and periodic images of grains, that are near to some: nearer than a factor times the
-/// sum of the radii. Grains are in cells, those of different sizes on levels, each with radii up to
-/// twice those of the next and cells as large as two of its grains.
+/// Finds the particles and periodic images that are nearer to given particles than a factor times the sum of the radii.
+/// Particles of different sizes are on levels: radii on a level are up to twice those on the next one, and cells are as
+/// large as two of its particles.
 class NearGrains
 {
 public:
@@ -42,17 +42,17 @@ public:
       image; ///< how many of each box vector the image is away from the centre
   };
 
-  /// own: those whose neighbours are asked for; not empty. others: further ones that may be near to them.
+  /// own: the particles whose neighbours are requested; not empty. others: further particles that may be near them.
   NearGrains(const BoxShape& box, double factor, const PlacedGrains& own,
     const std::vector<PlacedGrains>& others);
 
-  /// How near the centres of grains of two sizes are at most, rounding allowed for.
+  /// Returns the largest distance of near centres for a sum of two radii, with an allowance for rounding.
   double limit(double sum_of_radii) const noexcept
   {
     return sum_of_radii * factor_ + 2 * box_.rounding();
   }
 
-  /// Where the image is, rounded.
+  /// Returns the rounded position of an image.
   Vector3 point(const Grain& grain) const noexcept
   {
     const Vector3& at = grain.centre;
@@ -65,11 +65,11 @@ public:
     return { at[0] + edge[0], at[1] + edge[1], at[2] + edge[2] };
   }
 
-  /// Calls visit(number, grain) for a number of grains, among them all that are near, each as often as images are.
+  /// Calls visit(number, particle) for a set of particles that contains all near ones, once per image.
   template <class Visit>
   void visit(const Vector3& point, double radius, const Visit& visit) const;
 
-  /// The grain of a number that visit told.
+  /// Returns the particle with a number that visit received.
   const Grain& operator[](std::uint32_t number) const noexcept { return grains()[number]; }
 
 private:

@@ -9,8 +9,8 @@
 
 namespace granular
 {
-/// The collected bonds of which the first particle is in rows from first to end, as lines of a frame whose header is there. Uses up the
-/// collector.
+/// Makes the lines of a frame, whose header is set, from the collected bonds whose first particle is in rows from first
+/// to end. Empties the collector.
 void make_bond_frame(BondCollector& bonds, const RestartLayout& layout,
   const RestartRequest& request, std::int64_t first, std::int64_t end, const Where& where,
   LocalFrame& local, Notices& notices, Progress& progress);

@@ -15,7 +15,7 @@
 
 namespace granular
 {
-/// Some records that are looked at together, while they are in the cache.
+/// Records that are examined together while they are in the cache.
 struct RecordRows
 {
   static constexpr std::size_t most = 128;
@@ -33,7 +33,7 @@ struct RecordRows
   std::array<std::int64_t, most> molecules = {};
   std::array<FoundBonds, most> bonds = {};
 
-  /// Finds what is in the records of a batch from `begin` on, at most so many. Throws FormatError with the record.
+  /// Finds the fields of at most end - begin records of a batch. Throws FormatError with the record.
   void load(const RecordPlan& plan, const RecordBatch& batch, std::size_t begin, std::size_t end);
 
 private:
@@ -42,21 +42,21 @@ private:
   const RecordColumn* molecule_;
 };
 
-/// The particles of a part of the rows, on their way into a frame. Any number of threads store rows of their own.
+/// Stores the particles of a range of rows in a frame. Any number of threads may store different rows.
 class ParticleStore
 {
 public:
-  /// Rows from first to end. Throws std::bad_alloc.
+  /// Allocates rows from first to end. Throws std::bad_alloc.
   ParticleStore(const RecordPlan& plan, const RestartLayout& layout, const RestartRequest& request,
     std::int64_t first, std::int64_t end);
 
-  /// Those of the rows that are wanted; of others it is only looked at what fixes have.
+  /// Stores the requested rows; of other rows only the data of fixes are checked.
   void store(const RecordRows& rows);
 
-  /// Ids of the rows, or null if nobody wanted them.
+  /// Returns the ids of the rows, or null if they were not requested.
   const std::int64_t* ids() const noexcept;
 
-  /// Coordinates of the points.
+  /// Returns the coordinates of the points.
   const double* points() const noexcept { return static_cast<const double*>(frame_.points.data()); }
 
   const FrameHeader& header() const noexcept { return frame_.header; }
@@ -64,7 +64,7 @@ public:
   DumpFrame take(const Where& where, Notices& notices);
 
 private:
-  /// Doubles from one place of each record, one behind the other.
+  /// Doubles from one place of each record, stored one after the other.
   struct Doubles
   {
     std::size_t part;
@@ -74,7 +74,7 @@ private:
     std::size_t stride;
   };
 
-  /// A number that is not stored as it is.
+  /// A number that is converted before it is stored.
   struct Number
   {
     RecordColumn column;
@@ -82,7 +82,7 @@ private:
     std::size_t stride;
   };
 
-  /// Records that are wanted, and where they belong.
+  /// Requested records, and their rows.
   struct Part
   {
     std::size_t begin;

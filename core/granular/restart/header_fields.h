@@ -17,7 +17,7 @@ enum class FieldKind : std::uint8_t
   Real
 };
 
-/// By their numbers, which are those of the flags in the file (write_restart.cpp of LIGGGHTS-PUBLIC 3; the last one is of
+/// The header fields, indexed by the flags in the file (write_restart.cpp of LIGGGHTS-PUBLIC 3; the last one comes from
 /// LIGGGHTS-INL).
 struct HeaderField
 {

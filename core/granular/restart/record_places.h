@@ -19,7 +19,7 @@ inline bool has_position_of(std::span<const double> part, std::span<const double
            part.data() + RecordSlots::x, record.data() + RecordSlots::x, 3 * sizeof(double)) == 0;
 }
 
-/// The type of a particle, in either form; 0: it is none.
+/// Returns the type of a particle from either representation; 0 if invalid.
 inline std::int64_t type_of(std::span<const double> part) noexcept
 {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
@@ -30,7 +30,7 @@ inline std::int64_t type_of(std::span<const double> part) noexcept
   return value >= 1 && value <= most ? value : 0;
 }
 
-/// Whether the part of a style may begin there.
+/// Returns true if the data of an atom style may begin there.
 inline bool begins_part(std::span<const double> record, std::size_t at) noexcept
 {
   if (at > record.size() || record.size() - at < RecordSlots::common)
@@ -42,7 +42,7 @@ inline bool begins_part(std::span<const double> record, std::size_t at) noexcept
     has_position_of(part, record) && type_of(part) > 0 && type_of(part) == type_of(record);
 }
 
-/// Calls take(part, begin, length) for the parts of so many fixes. False: there are not so many, up to the end.
+/// Calls take(part, begin, length) for the data of each fix. Returns false if the record has fewer fixes.
 template <class Take>
 bool walk_fixes(std::span<const double> record, std::size_t at, std::size_t fixes, const Take& take)
 {

@@ -18,7 +18,7 @@
 
 namespace granular
 {
-/// A part of the records of a process, that a thread reads at a time.
+/// A part of the records of a rank that a thread reads at a time.
 struct RecordBlock
 {
   std::size_t chunk = 0;
@@ -26,7 +26,7 @@ struct RecordBlock
   std::int64_t last = 0;  ///< the records that begin before it
 };
 
-/// The records that begin in a block, one behind the other.
+/// The records that begin in a block, in order.
 struct RecordBatch
 {
   const double* data = nullptr;
@@ -43,37 +43,38 @@ struct RecordBatch
   }
 };
 
-/// An error with the place of a record: its number, from 1, its particle if it can be told, and its byte.
+/// Throws FormatError with the place of a record: its number from 1, its particle if known, and its byte.
 [[noreturn]] void refuse_record(const RecordBatch& batch, std::size_t i, const std::string& text);
 
-/// Passes over the records of a restart file, once, on several threads: each reads a block, learns from the one before
-/// where the first record begins there, and hops over the lengths, in its turn; then it looks at the records while others
-/// go on.
+/// Passes over the records of a restart file once, on several threads. Each thread reads a block, learns from the block
+/// before where the first record begins, and follows the lengths in turn; then it examines the records while other
+/// threads continue.
 class RecordScan
 {
 public:
   static constexpr std::int64_t block_doubles = std::int64_t{ 1 } << 17;
 
-  /// Throws FormatError where the chunks have no room for so many records.
+  /// Throws FormatError if the chunks have no room for this many records.
   RecordScan(const ByteSource& source, const RestartLayout& layout,
     std::int64_t doubles_a_block = block_doubles);
 
   std::size_t blocks() const noexcept { return blocks_.size(); }
 
-  /// Sees some records. block is their number, below blocks(), worker that of the thread: see Executor.
+  /// Receives some records. block: their block's number, below blocks(). worker: the number of the thread; see
+  /// Executor.
   using Visit =
     std::function<void(std::size_t worker, std::size_t block, const RecordBatch& batch)>;
 
-  /// Up to the block in which the records before end_row end. Throws FormatError, of lengths of records, and what visit throws:
-  /// that of the first block; IoError; Cancelled.
-  /// Blocks behind that are not read, but for one of each other thread.
+  /// Visits the blocks up to the one that contains the end of the records before end_row. Throws FormatError for
+  /// lengths of records, and exceptions of visit, those of the first block first; IoError; Cancelled. Later blocks are
+  /// not read, except one per other thread.
   void run(const Executor& executor, std::int64_t end_row, const Visit& visit, Progress& progress);
 
-  /// For a visit that has seen enough: no more blocks are read in this run.
+  /// Stops the run; no further blocks are read. For a visit that has seen enough.
   void stop() noexcept { stopped_ = true; }
 
 private:
-  /// Of a thread.
+  /// The buffer of a thread.
   struct Buffer
   {
     std::unique_ptr<double[]> doubles;

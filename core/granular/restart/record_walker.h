@@ -10,25 +10,26 @@
 
 namespace granular
 {
-/// Goes from record to record, and looks whether each could be one of a particle.
+/// Goes from record to record, and checks whether each could be a particle.
 class RecordWalker
 {
 public:
   RecordWalker(const ByteSource& source, bool swapped, const RestartHeader& header,
     SearchBudget& budget, Progress& progress);
 
-  /// Forgets the records. in_box: from now on positions must lie in the box, or no further away than it is long.
+  /// Forgets the records. in_box: from now on positions must lie in the box, or at most one box length outside.
   void restart(bool in_box) noexcept
   {
     records_ = 0;
     in_box_ = in_box;
   }
 
-  /// Walks the records of a chunk, which must end where the chunk does: each of a whole length, with a whole id of at least 0, a type of
-  /// those that there are, and a whole mask. False if they do not, at() is then the record that is none; or when the budget is spent.
+  /// Walks the records of a chunk, which must end with the chunk. Each must have an integer length, an integer id of at
+  /// least 0, an existing type, and an integer mask. Returns false if one does not, in which case at() is that record,
+  /// or if the budget is spent.
   bool walk(std::int64_t offset, std::int64_t doubles);
 
-  /// In all chunks since the last restart.
+  /// Returns the number of records in all chunks since the last restart.
   std::int64_t records() const noexcept { return records_; }
   std::int64_t at() const noexcept { return at_; }
 

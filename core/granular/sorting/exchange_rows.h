@@ -18,14 +18,14 @@ namespace granular
 class RowExchange
 {
 public:
-  /// rows: of all ranks. sorted: the ids of this rank. Among equal ids those of the lower ranks are first.
-  /// Each rank gets its part of all, exactly.
+  /// rows: the number of rows of all ranks. sorted: the sorted ids of this rank. Among equal ids those of lower ranks
+  /// come first. Each rank gets exactly its part of all rows.
   RowExchange(std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks);
 
   std::int64_t rows() const noexcept { return rows_; } ///< that this rank gets
 
-  /// Brings the rows of a block, width bytes each, into the order in which they leave, which is that of
-  /// the sorted ids, sends and receives them, and brings what came, by rank, into the order arrive.
+  /// Moves the rows of a block, width bytes each: orders them by `leave`, the order of the sorted ids, sends and
+  /// receives them, and orders the received rows, which come by rank, by `arrive`.
   void move(Block& block, std::size_t width, const RowOrder& leave, const RowOrder& arrive,
     const Executor& executor) const;
 

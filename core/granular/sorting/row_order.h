@@ -11,21 +11,20 @@
 
 namespace granular
 {
-/// An order of rows, to be given to many blocks.
+/// An order of rows that can be applied to many blocks.
 class RowOrder
 {
 public:
-  /// As the rows are.
+  /// Makes the order that changes nothing.
   RowOrder() noexcept = default;
 
-  /// By id; rows of the same id keep their order. Throws std::bad_alloc.
+  /// Makes the order by id; rows with the same id keep their order. Throws std::bad_alloc.
   explicit RowOrder(std::span<const std::int64_t> ids);
 
-  /// Whether any row moves.
+  /// Returns true if any row moves.
   bool moves() const noexcept { return rows_.bytes() > 0; }
 
-  /// Brings the rows of a block, width bytes each, into this order. A block without bytes stays as it
-  /// is. Throws std::bad_alloc.
+  /// Brings the rows of a block, width bytes each, into this order. Empty blocks are unchanged. Throws std::bad_alloc.
   void apply(Block& block, std::size_t width, const Executor& executor) const;
 
 private:

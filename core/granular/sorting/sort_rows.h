@@ -10,22 +10,20 @@
 
 namespace granular
 {
-/// Brings the rows of a frame into the order of their ids; rows of the same id keep theirs.
-/// ids holds frame.rows ids, or is empty if the frame has an array with the role Id. If there are
-/// neither, the order stays and a notice says so.
+/// Sorts the rows of a frame by id; rows with the same id keep their order. ids holds frame.rows ids, or is empty if
+/// the frame has an array with the role Id. Without either, the order is unchanged and a notice says so.
 void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where,
   const Executor& executor = Executor());
 
-/// The same for a frame whose rows are spread over the ranks, who all call this: sorts the rows of all,
-/// those of the same id by rank and then as they were, and leaves rank r of n with part r of n of them
-/// (begin_of_part in shares), so that the ranks one after the other hold what one process would. All ranks
-/// have the same arrays, also those without rows; texts get the words of all ranks. Without ids
-/// nothing moves, and each rank gets the notice. Throws on all ranks (see agree); the frame is lost then.
-/// Needs memory for one more copy of the largest block, and some 40 bytes a row.
+/// Sorts the rows of all ranks by id, and those with the same id by rank and then by their order. Rank r of n keeps
+/// part r of n (begin_of_part in shares), so that the ranks together hold what one rank would. All ranks must have the
+/// same arrays, also ranks without rows; texts get the words of all ranks. Without ids nothing moves, and each rank
+/// gets the notice. Throws on all ranks (see agree); the frame is lost then. Needs memory for one more copy of the
+/// largest block and about 40 bytes per row. Collective.
 void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
   const Where& where, const Executor& executor = Executor());
 
-/// Leaves count rows from first on.
+/// Keeps `count` rows from `first` on and removes the others.
 void keep_rows(DumpFrame& frame, std::int64_t first, std::int64_t count);
 }
 #endif

@@ -15,7 +15,7 @@
 
 namespace granular
 {
-/// Lets words be looked up without a copy.
+/// A hash for looking up words without copying them.
 struct WordHash
 {
   using is_transparent = void;
@@ -26,15 +26,14 @@ struct WordHash
   }
 };
 
-/// The words of a column of texts, each once, in the order in which they came. There are few words, and
-/// rows may be many.
+/// The distinct words of a text column, in order of appearance. Words are few, while rows may be many.
 class TextDictionary
 {
 public:
-  /// Writes the index of each text, and adds those that are new. Throws LimitError at where.
+  /// Stores the index of each text, and adds new ones. Throws LimitError at `where`.
   void index(std::span<const std::string_view> texts, std::int32_t* indices, const Where& where);
 
-  /// The index of a word, which is added if it is new.
+  /// Returns the index of a word, which is added if it is new.
   std::int32_t index(std::string_view word, const Where& where);
 
   const std::vector<std::string>& words() const noexcept { return words_; }

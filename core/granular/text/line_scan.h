@@ -9,14 +9,14 @@
 
 namespace granular
 {
-/// What is known of the line that a scan is in.
+/// The state of the line that a scan is in.
 struct LineState
 {
   bool start = true; ///< no byte of it was passed
   bool blank = true; ///< no word of it was passed
 };
 
-/// What scan_lines passed over.
+/// The lines that scan_lines passed over.
 struct LineScan
 {
   const char* ptr;                       ///< the line that begins with the mark, or last
@@ -26,12 +26,12 @@ struct LineScan
   LineState state = {};                  ///< at ptr
 };
 
-/// Counts line feeds of [first, last) up to the first line whose first byte is mark.
-/// state is that of the line at first. The text lies in a PaddedBuffer.
+/// Counts the line feeds of [first, last) up to the first line whose first byte is `mark`. state is the state of the
+/// line at `first`. The text must be in a PaddedBuffer.
 LineScan scan_lines(const char* first, const char* last, char mark, LineState state,
   Simd simd = best_simd()) noexcept;
 
-/// The same up to the first line that begins with a word, which may go on behind last, up to end.
+/// Counts line feeds up to the first line that begins with a word, which may continue after `last`, up to `end`.
 LineScan scan_to_word(const char* first, const char* last, const char* end, std::string_view word,
   LineState state) noexcept;
 }

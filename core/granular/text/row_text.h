@@ -13,7 +13,7 @@
 
 namespace granular
 {
-/// A column of a text that is wanted, and where its next value goes.
+/// A requested column of a text, and the destination of its next value.
 struct ColumnSink
 {
   std::uint32_t column = 0; ///< place of the word in its row, from 0
@@ -32,8 +32,8 @@ enum class RowStatus : std::uint8_t
   TooMany     ///< more rows than there is room for
 };
 
-/// What decode_rows did. After an error, ptr is the start of the row at fault (TooFew) or of the
-/// word (NotANumber, NotExact), column its column, and rows counts the rows before it.
+/// The result of decode_rows. After an error, ptr is the start of the invalid row (TooFew) or word (NotANumber,
+/// NotExact), column is the word's column, and rows counts the rows before it.
 struct RowResult
 {
   const char* ptr;
@@ -45,16 +45,15 @@ struct RowResult
 
 /// Decodes rows of blank-separated words into columns.
 ///
-/// [first, last) holds whole lines: it is empty or ends in LF. It lies in a PaddedBuffer: up to
-/// 64 bytes before and after are read (and ignored). columns is the number of words a row must
-/// have; sinks names those that are wanted, by increasing column, and each sink's data is moved on
-/// past the rows decoded. Lines without words are passed over. At most max_rows rows are decoded.
-/// Numbers are parsed as by parse_double and parse_int64, to the bit. Does not throw or allocate.
-/// After an error the sinks' data is where it happens to be.
+/// [first, last) holds whole lines: it is empty or ends in LF. It must be in a PaddedBuffer: up to 64 bytes before and
+/// after are read and ignored. columns is the number of words that a row must have. sinks names the requested columns
+/// in increasing order; each sink's data pointer is advanced past the decoded rows. Lines without words are skipped. At
+/// most max_rows rows are decoded. Numbers equal those of parse_double and parse_int64 to the last bit. Does not throw
+/// or allocate. After an error the sinks' data pointers are unspecified.
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
   std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd = best_simd()) noexcept;
 
-/// What decode_rows says of a single word: Done, NotANumber or NotExact.
+/// Returns the status that decode_rows gives for a single word: Done, NotANumber or NotExact.
 RowStatus check_word(std::string_view word, ValueType type) noexcept;
 }
 #endif

@@ -16,8 +16,7 @@ struct RowPlan
 
 void store_text(const char* first, const char* last, char* data) noexcept;
 
-/// Goes on from result, word by word, until it has max_rows rows, the text ends or a word is not
-/// what it should be.
+/// Continues from `result`, word by word, until it has max_rows rows, the text ends, or a word is invalid.
 void decode_plain(
   const char* last, RowPlan& plan, std::int64_t max_rows, RowResult& result) noexcept;
 

@@ -21,8 +21,7 @@ namespace granular::row_text
 {
 inline constexpr std::ptrdiff_t batch_bytes = 16384;
 
-/// Edges of words in up to batch_bytes of text; a little room more, since they are written in
-/// groups without looking.
+/// The edges of words in up to batch_bytes of text, with some extra room because groups are written without checks.
 struct Edges
 {
   std::uint32_t count;
@@ -31,7 +30,7 @@ struct Edges
   alignas(64) std::uint16_t line_ends[batch_bytes + 128];
 };
 
-/// Rows of a batch, by the index of their first edge.
+/// The rows of a batch, by the index of their first edge.
 struct Rows
 {
   std::uint32_t count;
@@ -40,7 +39,7 @@ struct Rows
   std::uint16_t first_edges[batch_bytes / 2];
 };
 
-/// Words of some columns of a batch, and the bits of their values.
+/// The words of some columns of a batch, and the bits of their values.
 struct Words
 {
   std::uint32_t count;

@@ -16,11 +16,10 @@
 
 namespace granular
 {
-/// What the line of a section begins with.
+/// The beginning of a section's line.
 inline constexpr std::string_view item_mark = "ITEM:";
 
-/// How bulk is passed over by several threads, where the source lets them. What is found is the same
-/// for all values.
+/// The settings for skipping rows on several threads, if the source allows it. The result is the same for all values.
 struct ScanAhead
 {
   int threads = 1;
@@ -28,46 +27,46 @@ struct ScanAhead
   std::size_t chunk = std::size_t{ 1 } << 18;   ///< bytes that a thread takes at a time
 };
 
-/// Reads a text line by line, and passes over bulk at scan speed, knowing line and byte.
+/// Reads a text line by line, skips rows at scan speed, and keeps count of lines and bytes.
 class TextScanner
 {
 public:
-  /// A header line longer than this is a LimitError: no dump has one, a file of zeros does.
+  /// The longest header line; a longer one is a LimitError. No dump has such a line, but a file of zeros does.
   static constexpr std::size_t longest_line = std::size_t{ 1 } << 22;
 
-  /// Starts at byte offset, which is the start of line number line. window is how many bytes are
-  /// read at a time; lines may be longer.
+  /// Starts at byte `offset`, which is the start of line number `line`. window is the number of bytes that are read at
+  /// a time; lines may be longer.
   TextScanner(const ByteSource& source, std::int64_t offset, std::int64_t line,
     std::size_t window = std::size_t{ 1 } << 18, const ScanAhead& ahead = {});
 
-  /// The next line without its LF or CRLF. False at the end of the text. A last line without LF
-  /// counts as not there: its writer may not be done with it. Valid until the next call.
+  /// Gives the next line without its LF or CRLF. Returns false at the end of the text. A last line without LF does not
+  /// count: the program that writes it may not have finished. Valid until the next call.
   bool next(std::string_view& line);
 
-  /// Makes the line that next() gave come again.
+  /// Makes next() give the last line again.
   void put_back() noexcept;
 
-  /// Goes to another place, the start of line number line.
+  /// Moves to another place, the start of line number `line`.
   void go_to(std::int64_t offset, std::int64_t line) noexcept;
 
-  /// Passes over lines up to one that begins with "ITEM:", or to the end of the text.
-  /// Returns how many lines with words were passed; one without LF is not counted.
+  /// Skips lines up to one that begins with "ITEM:", or to the end of the text. Returns the number of skipped lines
+  /// with words; a line without LF does not count.
   std::int64_t skip_to_item(Progress& progress);
 
-  /// The bytes before the next line, as many as asked for: those in the window, or read again into the
-  /// buffer. Valid until the next call.
+  /// Returns this many bytes before the next line, from the window or read again into the buffer. Valid until the next
+  /// call.
   std::string_view before(std::size_t bytes, std::string& buffer) const;
 
   std::int64_t offset() const noexcept { return window_offset_ + static_cast<std::int64_t>(at_); }
   std::int64_t line() const noexcept { return line_; } ///< number of the line that comes next
 
-  /// Place of the line that next() gave last.
+  /// Returns the place of the last line that next() gave.
   Where where() const { return { source_.path(), last_line_, -1, {} }; }
   std::int64_t last_offset() const noexcept { return last_offset_; }
   std::int64_t last_line() const noexcept { return last_line_; }
 
 private:
-  /// What skip_to_item has passed over.
+  /// The lines that skip_to_item has passed.
   struct Passed
   {
     std::int64_t rows = 0;

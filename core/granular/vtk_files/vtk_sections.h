@@ -21,20 +21,20 @@ struct VtkSection
   bool optional = false;
 };
 
-/// Reads the sections of a dataset, each of which comes once.
+/// Reads the sections of a dataset, each of which may occur once.
 template <class Reader>
 class VtkSections
 {
 public:
-  /// At most 32 sections.
+  /// Stores the table of sections, at most 32.
   VtkSections(LegacyVtk& file, std::span<const VtkSection<Reader>> sections)
     : file_(file)
     , sections_(sections)
   {
   }
 
-  /// Reads the section that the line begins. False: the line begins none of this dataset. Throws FormatError: the section
-  /// was there before.
+  /// Reads the section that the line begins. Returns false if the line begins no section of this dataset. Throws
+  /// FormatError for a repeated section.
   bool read(std::string_view dataset, Reader& reader)
   {
     const auto section = std::find_if(sections_.begin(), sections_.end(),
@@ -53,7 +53,7 @@ public:
     return true;
   }
 
-  /// Throws FormatError where one is missing: at the end, or before the line at hand, with which data begin.
+  /// Throws FormatError if a section is missing at the end, or before the current line, which begins the data.
   void end(std::string_view dataset, bool at_end) const
   {
     for (std::size_t i = 0; i < sections_.size(); ++i)

@@ -10,7 +10,7 @@
 
 namespace granular
 {
-/// Values that stand together in a file.
+/// A contiguous range of values in a file.
 struct VtkArray
 {
   std::string name = {}; ///< as the file spells it
@@ -21,16 +21,16 @@ struct VtkArray
   std::int64_t size() const noexcept; ///< values; the largest number there is, where it is larger
 };
 
-/// Cells of a rectilinear grid with so many positions along each axis, one where they are flat; the largest number there
-/// is, where there are more.
+/// Returns the number of cells of a rectilinear grid with this many positions along each axis; a flat axis counts as
+/// one cell. Returns the largest integer if the number is larger.
 std::int64_t cells_between(const std::array<std::int64_t, 3>& positions) noexcept;
 
-/// Returns the bytes of a binary number in a VTK file; 0 for bits, of which eight are a byte, and for words. Binary numbers have
-/// the most significant byte first, `long` has eight bytes, vtkIdType four.
+/// Returns the bytes of a binary number in a VTK file; 0 for words, and for bits, of which eight make a byte. Binary
+/// numbers have the most significant byte first, `long` has eight bytes, vtkIdType four.
 std::int64_t bytes_of(ValueType type) noexcept;
 
-/// Converts binary numbers to double or std::int64_t. Returns how many could be: all, or those before the first that is
-/// not whole or does not fit.
+/// Converts binary numbers to double or std::int64_t. Returns the number of converted values: all, or those before the
+/// first that is not an integer or does not fit.
 template <class T>
 std::int64_t load_numbers(
   ValueType type, const char* bytes, std::int64_t count, T* numbers) noexcept;

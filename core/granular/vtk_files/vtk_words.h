@@ -10,11 +10,11 @@
 
 namespace granular
 {
-/// What a word of a text must be, for messages.
+/// The kind of word that a text must contain, for messages.
 template <class T>
 constexpr const char* kind_of_word = std::is_integral_v<T> ? "a whole number" : "a number";
 
-/// Takes a word for a number of that kind; false where it is none.
+/// Parses a word as a number of that kind; returns false if it is none.
 inline bool parse_word(std::string_view word, double& number) noexcept
 {
   return static_cast<bool>(parse_double(word.data(), word.data() + word.size(), number));

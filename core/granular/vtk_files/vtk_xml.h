@@ -17,7 +17,7 @@ namespace granular
 /// A DataArray of a VTK XML file. It refers to the text of the file.
 struct VtkXmlArray
 {
-  /// How the values stand there.
+  /// The encoding of the values.
   enum class Form : std::uint8_t
   {
     Ascii,
@@ -34,38 +34,39 @@ struct VtkXmlArray
   std::size_t begin = 0;   ///< the byte of its tag
 };
 
-/// Reads the XML files of VTK element by element: the caller knows which arrays a dataset has. Values are decoded
-/// when all elements were passed: those of appended arrays come last. Either byte order, headers of 32 and 64 bits,
-/// plain or with zlib. Counts are claims: nothing is allocated before the bytes that they need are there.
+/// Reads the XML files of VTK element by element; the caller knows which arrays a dataset has. Values are decoded after
+/// all elements were passed, because appended arrays come last. Handles both byte orders, headers of 32 and 64 bits,
+/// and plain or zlib data. Counts in a file are claims: memory is allocated only after the bytes that it needs are
+/// found.
 ///
-/// All members throw FormatError with line or byte, and UnsupportedError (another compressor).
+/// All members throw FormatError with line or byte, and UnsupportedError for other compressors.
 class VtkXml
 {
 public:
-  /// The text must outlive this; path is for errors.
+  /// Begins at the start of a text, which must outlive this object. path is used in errors.
   VtkXml(std::string_view text, std::string path);
 
-  /// The next element; see XmlTags. False at the end.
+  /// Moves to the next element; see XmlTags. Returns false at the end.
   bool next();
   const XmlTags& tags() const noexcept { return tags_; }
 
-  /// An attribute of the element that is a number of at least 0; one that is not there is the other one.
+  /// Returns an attribute of the element that is an integer of at least 0, or `otherwise` if it is missing.
   std::int64_t count(std::string_view attribute, std::int64_t otherwise) const;
 
-  /// The same; throws if it is not there.
+  /// Returns an attribute; throws if it is missing.
   std::int64_t count(std::string_view attribute) const { return this->count(attribute, -1); }
 
-  /// The element, a DataArray.
+  /// Returns the current element, which must be a DataArray.
   VtkXmlArray array() const;
 
-  /// The values of an array, which must be so many: doubles, or whole ones as std::int64_t.
+  /// Returns this many values of an array, as doubles or std::int64_t.
   template <class T>
   void read(const VtkXmlArray& array, std::int64_t count, std::vector<T>& numbers) const;
 
-  /// The place of a value of an array, for messages.
+  /// Returns the place of a value of an array, for messages.
   Where where_of(const VtkXmlArray& array, std::int64_t number) const;
 
-  /// The place of an array, with its name.
+  /// Returns the place of an array, with its name.
   Where where(const VtkXmlArray& array) const;
 
 private:

@@ -12,34 +12,34 @@
 
 namespace granular
 {
-/// Finds the tags of an XML text that begin elements, one after the other, and holds those that end them against
-/// them. Passes over declarations and comments. Entities are left as they are; <!DOCTYPE and CDATA are no tags.
+/// Finds the start tags of an XML text in order, and matches the end tags with them. Skips declarations and comments.
+/// Entities are left as they are; <!DOCTYPE and CDATA are not tags.
 class XmlTags
 {
 public:
-  /// The text must outlive this; path is for errors.
+  /// Begins at the start of a text, which must outlive this object. path is used in errors.
   XmlTags(std::string_view text, std::string path);
 
-  /// The next tag <name ...> or <name .../>. False at the end of the text, where all elements must have ended. Throws
-  /// FormatError with the line.
+  /// Moves to the next tag <name ...> or <name .../>. Returns false at the end of the text, where all elements must
+  /// have ended. Throws FormatError with the line.
   bool next();
 
-  /// Where it is: the names of the elements around it and its own, each behind a '/'.
+  /// Returns the path of the element: the names of the elements around it and its own, each followed by '/'.
   const std::string& element() const noexcept { return element_; }
 
-  /// The value of an attribute; empty: it has none.
+  /// Returns the value of an attribute; empty if it is missing.
   std::string_view attribute(std::string_view name) const noexcept;
 
-  /// The text behind it, up to the next tag.
+  /// Returns the text between the tag and the next one.
   std::string_view text() const noexcept;
 
   std::size_t begin() const noexcept { return begin_; } ///< the byte of its '<'
   std::size_t end() const noexcept { return end_; }     ///< behind its '>'
 
-  /// Goes on at a byte, which is behind end().
+  /// Continues at a byte, which must be after end().
   void go_to(std::size_t byte) noexcept { end_ = byte; }
 
-  /// The line of a byte of the text.
+  /// Returns the line of a byte of the text.
   Where where(std::size_t byte) const;
 
   [[noreturn]] void fail(const std::string& expected, const std::string& got) const;

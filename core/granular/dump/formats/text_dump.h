@@ -14,23 +14,24 @@
 
 namespace granular
 {
-/// True if the first bytes of a file are those of a text dump of particles: after an optional
-/// byte order mark and blank lines an ITEM: TIMESTEP, UNITS or TIME, and, as far as the bytes
-/// go, ITEM: NUMBER OF ATOMS (files of dump local count ENTRIES or a word of the user's).
+/// Returns true if a file begins like a text dump of particles: after an optional byte order mark and blank lines,
+/// ITEM: TIMESTEP, UNITS or TIME, and, if the bytes reach so far, ITEM: NUMBER OF ATOMS. Files of dump local count
+/// ENTRIES or a word chosen by the user instead.
 bool is_text_dump(std::string_view first_bytes);
 
-/// Whether the first bytes of a file are those of a text of dump local: as is_text_dump, but with something else than
-/// atoms that is counted, within these bytes.
+/// Returns true if a file begins like a text of dump local: as is_text_dump, but the bytes must reach a count of
+/// something other than atoms.
 bool is_text_of_others(std::string_view first_bytes);
 
-/// Whether the names in a header, and the words of the first row, which has none where there are no rows, make these columns.
+/// Returns true if the names in a header and the words of the first row make these columns. first_row is empty if there
+/// are no rows.
 bool makes_columns(const std::vector<std::string>& names,
   const std::vector<std::string_view>& first_row, const ColumnSchema& schema);
 
-/// FileFormat::fits of a text.
+/// FileFormat::fits for text dumps.
 bool text_dump_fits(const ByteSource& source, const FileIndex& index);
 
-/// As index_dump, of a text. index.kinds must be there.
+/// Indexes a text dump; see index_dump. index.kinds must be set.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
   const ScanAhead& ahead = {}, RowsOf rows_of = RowsOf::Particles);
 }

@@ -13,18 +13,18 @@
 
 namespace granular
 {
-/// A line "ITEM: ...": its words after the first. Empty for other lines.
+/// Returns the words after "ITEM:" of a line; none for other lines.
 std::vector<std::string_view> item_words(std::string_view line);
 
-/// Whether words begin with the blank-separated words of name; alone: and have no others.
+/// Returns true if words begin with the blank-separated words of name. alone: and there are no other words.
 bool begins_with(
   std::span<const std::string_view> words, std::string_view name, bool alone = false) noexcept;
 
-/// Whether the section of that name may be the first of a frame: TIMESTEP, or UNITS and TIME,
-/// which LAMMPS puts before it.
+/// Returns true if a section of that name may be the first of a frame: TIMESTEP, or UNITS and TIME, which LAMMPS prints
+/// before it.
 bool opens_frame(std::span<const std::string_view> words) noexcept;
 
-/// What the rows of a dump are: ITEM: NUMBER OF ATOMS, or ENTRIES or any words of the user's.
+/// The things that rows stand for: ITEM: NUMBER OF ATOMS, or ENTRIES or any words of the user.
 enum class RowsOf : std::uint8_t
 {
   Particles,
@@ -32,8 +32,8 @@ enum class RowsOf : std::uint8_t
   Any
 };
 
-/// Reads the header of one frame of a text dump, in any of its dialects: sections in any order
-/// up to ITEM: ATOMS, or what else it counts; unknown ones passed over.
+/// Reads the header of one frame of a text dump, in any dialect: sections in any order up to ITEM: ATOMS or its
+/// equivalent. Unknown sections are skipped.
 class TextHeader
 {
 public:
@@ -44,11 +44,10 @@ public:
     this->restart(units);
   }
 
-  /// Makes ready for the header of another frame.
+  /// Prepares for the header of another frame.
   void restart(const std::string& units);
 
-  /// Reads up to and including the line ITEM: ATOMS. False at the end of the text.
-  /// Throws FormatError.
+  /// Reads up to and including the line ITEM: ATOMS. Returns false at the end of the text. Throws FormatError.
   bool read();
 
   FrameHeader& header() noexcept { return header_; }

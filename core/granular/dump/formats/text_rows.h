@@ -12,7 +12,7 @@
 
 namespace granular
 {
-/// The rows of a frame of a text dump: the lines behind its header.
+/// The rows of a frame of a text dump: the lines after its header.
 class TextRows final : public FrameRows
 {
 public:
@@ -39,7 +39,7 @@ private:
   std::int64_t rows_line_ = 0;
 };
 
-/// Whole lines, all in memory: a row belongs to the chunk that holds its first byte.
+/// Reads whole lines that are in memory. A row belongs to the chunk that holds its first byte.
 class TextReader final : public RowReader
 {
 public:

@@ -10,7 +10,7 @@
 
 namespace granular
 {
-/// Names for columns that a binary file does not name.
+/// Names for the columns of a binary file that does not name them.
 struct UnnamedColumns
 {
   std::vector<std::string> names;
@@ -18,11 +18,11 @@ struct UnnamedColumns
   bool guessed = false;
 };
 
-/// Those of the user. Where there are none, and they cannot be those of dump atom, they get stand-ins: the frames can be listed, and
-/// the error comes when one is read.
+/// Returns the names that the user gave. Without names, and if the columns cannot be those of dump atom, returns
+/// placeholders: frames can be listed, and reading one is an error.
 UnnamedColumns name_columns(std::size_t columns, const std::vector<std::string>& of_user);
 
-/// Whether that is what the columns of a kind of frames are called.
+/// Returns true if the columns of a kind of frames have these names.
 bool is_named_so(const FrameKind& kind, const std::vector<std::string>& of_user);
 }
 #endif

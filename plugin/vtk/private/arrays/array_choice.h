@@ -16,7 +16,7 @@ class vtkDataArraySelection;
 namespace vtkGranularPrivate
 {
 /**
- * The arrays that files have, and which of them the user wants.
+ * The arrays in the files, and the user's selection of them.
  */
 class ArrayChoice
 {
@@ -27,26 +27,27 @@ public:
   vtkDataArraySelection* GetSelection() const { return this->Selection; }
 
   /**
-   * Begins to list the arrays that there are now; Add names them, End takes away those that are no more. What was chosen
-   * before stays, also for arrays that come back. Takes time in proportion to the arrays, if few of them are off. follow: new ones are off where the user has left out others.
+   * Begins a new list of the current arrays; Add names them, End removes those that are gone. The selection stays, also
+   * for arrays that return. Time is proportional to the number of arrays if few of them are off. follow: new arrays are
+   * off if the user has deselected others.
    */
   void Begin(bool follow = false);
   void Add(const std::string& name, bool on);
   void End();
 
   /**
-   * Whether all are on that were listed, but for those that are off if nobody chooses.
+   * Returns true if all listed arrays are on, except those that are off by default.
    */
   bool AreAllOn() const;
 
   /**
-   * The names of those that are on.
+   * Returns the names of the selected arrays.
    */
   std::set<std::string> GetWanted() const;
 
   /**
-   * A name that is asked for and that no frame has is a slip of the pen: without a word, a column is missing. others: names that
-   * are there, too, though they were not listed.
+   * Warns of selected names that no frame has: they are probably misspelt, and the column would be missing without a
+   * word. others: names that exist though they were not listed.
    */
   void CheckNames(const std::string& path, granular::Notices& notices,
     const std::vector<std::string>& others = {}) const;

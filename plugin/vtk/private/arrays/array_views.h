@@ -15,14 +15,14 @@ class vtkAbstractArray;
 namespace vtkGranularPrivate
 {
 /**
- * Arrays of VTK as the core sees them, where they are. Those whose memory is not laid out as VTK's own are copied, and
- * kept until this is gone.
+ * Views of VTK arrays for the core, in place. Arrays with another memory layout than VTK's own are copied; the copies
+ * live as long as this object.
  */
 class ArrayViews
 {
 public:
   /**
-   * What arrays have a value for each of: "points". It is named in errors.
+   * The things that arrays have a value for each of, such as "points", for errors.
    */
   explicit ArrayViews(const char* owners)
     : Owners(owners)
@@ -30,13 +30,14 @@ public:
   }
 
   /**
-   * Nothing for an array of a type that the core does not have, of variants for one. Throws what CheckTuples does.
+   * Returns a view of an array; nothing for a type that the core does not have, such as variants. Throws what
+   * CheckTuples throws.
    */
   std::optional<granular::ArrayView> See(
     vtkAbstractArray* array, const char* name, vtkIdType tuples);
 
   /**
-   * Throws Error where an array has not so many tuples.
+   * Throws Error if an array has another number of tuples.
    */
   void CheckTuples(vtkAbstractArray* array, const char* name, vtkIdType tuples) const;
 

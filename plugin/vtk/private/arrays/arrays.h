@@ -23,33 +23,33 @@ class vtkPoints;
 namespace vtkGranularPrivate
 {
 /**
- * An array that takes the memory of a decoded one, without a copy: Int32 becomes vtkTypeInt32Array,
- * Int64 vtkTypeInt64Array (never vtkIdTypeArray), Float64 vtkDoubleArray, Text vtkStringArray. The
- * columns give the names of components that have no axis: c_ID[1] and so on.
+ * Returns an array that takes over the memory of a decoded one without a copy: Int32 becomes vtkTypeInt32Array, Int64
+ * vtkTypeInt64Array (never vtkIdTypeArray), Float64 vtkDoubleArray, Text vtkStringArray. The columns name components
+ * that have no axis: c_ID[1] and so on.
  */
 vtkSmartPointer<vtkAbstractArray> TakeArray(
   granular::DumpArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns);
 
 /**
- * Adds such an array, whose name no other has. VTK compares the name of an array that is added with all others, which takes its time
- * where there are many: it gets its name afterwards.
+ * Adds such an array, whose name must be unique. VTK compares the name of an added array with all others, which takes
+ * long for many arrays; therefore the array gets its name afterwards.
  */
 void AddTaken(vtkFieldData* data, granular::DumpArray& array, vtkIdType rows,
   const std::vector<granular::ColumnInfo>& columns);
 
 /**
- * The same of an array that there is, and that must not know its range: a new name makes it forget that.
+ * Adds an existing array that has no ranges set: renaming would discard them.
  */
 void AddNew(vtkFieldData* data, vtkAbstractArray* array);
 
 /**
- * Points that take the memory of rows x 3 doubles or floats.
+ * Returns points that take over the memory of rows x 3 doubles or floats.
  */
 vtkSmartPointer<vtkPoints> TakePoints(
   granular::Block& block, vtkIdType rows, bool single, const granular::ValueRange& range);
 
 /**
- * Arrays for field data: one tuple, or one value a string.
+ * Returns arrays for field data: one tuple, or one value for a string.
  */
 vtkSmartPointer<vtkAbstractArray> MakeDoubles(const char* name, const std::vector<double>& values);
 vtkSmartPointer<vtkAbstractArray> MakeInteger(const char* name, vtkTypeInt64 value);
@@ -58,32 +58,32 @@ vtkSmartPointer<vtkAbstractArray> MakeStrings(
   const char* name, const std::vector<std::string>& values);
 
 /**
- * An array that takes the memory of tuples x components doubles.
+ * Returns an array that takes over the memory of tuples x components doubles.
  */
 vtkSmartPointer<vtkDoubleArray> TakeDoubles(
   const char* name, granular::Block& block, vtkIdType tuples, int components);
 
 /**
- * The tuples of an array that are listed, as another one of its kind.
+ * Returns the listed tuples of an array as an array of the same kind.
  */
 vtkSmartPointer<vtkAbstractArray> TakeTuples(vtkAbstractArray* array, vtkIdList* tuples);
 
 /**
- * Cells with so many points of their own each, one after the other; with 32-bit indices where they suffice. None is
- * no cells.
+ * Returns cells with this many consecutive points each; with 32-bit indices where they suffice. Zero points mean no
+ * cells.
  */
 vtkSmartPointer<vtkCellArray> MakeCells(
   vtkIdType cells, vtkIdType size, const std::shared_ptr<granular::BlockPool>& pool = nullptr);
 
 /**
- * Cells of equal size that take the memory of cells x size std::int64_t, the points of each.
+ * Returns cells of equal size that take over the memory of cells x size std::int64_t, the points of each cell.
  */
 vtkSmartPointer<vtkCellArray> TakeCells(granular::Block& connectivity, vtkIdType cells, int size);
 
 /**
- * One vertex a point, or one cell with all points, by MakeCells; the cells of the frame before where those would be the same. Nothing may be
- * changed in the cells of an output; who does that all the same, and says so, or who changes their
- * number, gets new ones with the next frame.
+ * Returns one vertex per point, or one cell with all points, from MakeCells; reuses the cells of the frame before if
+ * they would be equal. Cells of an output must not be changed. If somebody does so and calls Modified(), or changes
+ * their number, the next frame gets new cells.
  */
 class VertexCache
 {

@@ -15,7 +15,7 @@
 namespace vtkGranularPrivate
 {
 /**
- * An array that can be told its ranges.
+ * An interface for setting the ranges of an array.
  */
 class RangeHolder
 {
@@ -27,10 +27,10 @@ public:
 
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
 /**
- * An array of VTK that answers from the ranges it was told, for all tuples, until Modified() or another number
- * of values. VTK keeps ranges in information keys, too, but vtkPoints and, from VTK 9.3 on, vtkFieldData ask
- * these methods directly. It has the class name of its superclass, and its NewInstance() makes one of those:
- * copies know nothing.
+ * A VTK array that answers with the ranges that were set, for all tuples, until Modified() or a change of the number of
+ * values. VTK also keeps ranges in information keys, but vtkPoints and, from VTK 9.3 on, vtkFieldData call these
+ * methods directly. It has the class name of its superclass, and NewInstance() makes an array of that class: copies
+ * have no ranges set.
  */
 template <typename Array>
 class KnownRanges
@@ -134,7 +134,7 @@ private:
 #endif
 
 /**
- * Returns a new array that can be told its ranges. VTK 9.1 has other methods: its arrays have the keys alone.
+ * Returns a new array whose ranges can be set. VTK 9.1 has other methods: there, arrays have only the keys.
  */
 template <typename Array>
 vtkSmartPointer<Array> MakeArray()

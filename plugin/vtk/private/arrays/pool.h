@@ -10,9 +10,9 @@
 namespace vtkGranularPrivate
 {
 /**
- * The pool of a reader. The environment variable GRANULAR_POOL_MIB says how many MiB of memory it may
- * keep; an eighth of what the process may have where it is not set, or not a number, of which there is
- * a notice. Null for 0: no pool.
+ * Returns the memory pool of a reader. The environment variable GRANULAR_POOL_MIB sets how many MiB the pool may keep.
+ * If it is not set, or is not a number, which gives a notice, the limit is an eighth of the memory that the process may
+ * use. Returns null for 0: no pool.
  */
 std::shared_ptr<granular::BlockPool> MakePool(granular::Notices& notices);
 }

@@ -14,20 +14,20 @@
 #include <vector>
 
 /**
- * What source and filter share.
+ * The shared parts of the decomposition source and filter.
  */
 struct vtkGranularDecompositionAlgorithm::Internals
 {
   std::array<std::vector<double>, 3> Cuts;
 
   /**
-   * The grid of the properties in a box.
+   * Returns the grid that the properties define in a box.
    */
   granular::ProcessGrid MakeGrid(vtkGranularDecompositionAlgorithm* self,
     const granular::Vector3& lo, const granular::Vector3& hi) const;
 
   /**
-   * The form of the properties, for a number of threads of this process.
+   * Returns the options that the properties define, for a number of threads of this rank.
    */
   vtkGranularPrivate::VoxelForm MakeForm(vtkGranularDecompositionAlgorithm* self);
 };

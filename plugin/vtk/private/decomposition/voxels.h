@@ -12,7 +12,7 @@ class vtkUnstructuredGrid;
 namespace vtkGranularPrivate
 {
 /**
- * How voxels are to be.
+ * Options of voxels.
  */
 struct VoxelForm
 {
@@ -22,16 +22,17 @@ struct VoxelForm
 };
 
 /**
- * Subdomains as voxels with the cell arrays nlocal (int64) and proc (int32), as far as they are known. Throws Cancelled.
+ * Fills the output with subdomains as voxels with the cell arrays nlocal (int64) and proc (int32), as far as they are
+ * known. Throws Cancelled.
  */
 void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& decomposition,
   const VoxelForm& form, granular::Progress& progress);
 
 /**
- * The subdomains that cells are: voxels, in the right order or the mirrored one of LIGGGHTS-INL, or hexahedra,
- * along the axes; with the arrays nlocal and proc or procID, as far as they are there. Absolute: what was subtracted
- * from the points is added, scaled points are multiplied by the box. Duplicates of ghosts are left out. Throws
- * Error; UnsupportedError of other cells.
+ * Returns the subdomains that cells represent: voxels, in VTK's order or the mirrored one of LIGGGHTS-INL, or
+ * axis-aligned hexahedra, with the arrays nlocal and proc or procID, if present. Positions are absolute: a subtracted
+ * origin is added, and scaled points are multiplied by the box. Duplicate ghosts are left out. Throws Error;
+ * UnsupportedError for other cells.
  */
 granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices& notices);
 }

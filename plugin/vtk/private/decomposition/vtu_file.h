@@ -10,8 +10,9 @@
 namespace vtkGranularPrivate
 {
 /**
- * The text of a .vtu file, by VTK's own writer: voxels with the arrays nlocal and proc, as far as they are known,
- * nlocal with 32 bits where all fit, else 64, and the field TimeValue if there is a time. path is for errors. Throws Error.
+ * Returns the text of a .vtu file from VTK's own writer: voxels with the arrays nlocal and proc, as far as they are
+ * known, nlocal with 32 bits if all values fit and 64 otherwise, and the field TimeValue if the time is known. path is
+ * used in errors. Throws Error.
  */
 std::string EncodeVtu(const granular::Decomposition& decomposition, std::optional<double> time,
   const std::string& path);

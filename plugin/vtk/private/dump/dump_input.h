@@ -19,19 +19,19 @@ class vtkPointSet;
 namespace vtkGranularPrivate
 {
 /**
- * The box that field data speak of: BoxOrigin and BoxVectors, to the last bit where BoxBounds are those of the
- * same box. Nothing where there is none.
+ * Returns the box in the field data, from BoxOrigin and BoxVectors; exact to the last bit if BoxBounds describe the
+ * same box. Nothing if there is none.
  */
 std::optional<granular::Box> FindBox(vtkFieldData* data);
 
 /**
- * A box from a corner and nine numbers of its edges.
+ * Returns a box from a corner and the nine numbers of its edges.
  */
 granular::Box MakeBox(const double origin[3], const double vectors[9]);
 
 /**
- * What the core sees of the rows of a data set, where they are. Arrays whose memory is not laid out as VTK's own are
- * copied, and kept until this is gone.
+ * Views of the rows of a data set for the core, in place. Arrays with another memory layout than VTK's own are copied;
+ * the copies live as long as this object.
  */
 class RowsInput
 {
@@ -46,13 +46,13 @@ public:
 
 protected:
   /**
-   * Reads the field data. What rows are is named in errors: see ArrayViews.
+   * Reads the field data. `rows` names the rows in errors: see ArrayViews.
    */
   RowsInput(vtkDataObject* input, const char* rows);
 
   /**
-   * Adds the arrays to the view, but that of ghosts. Those that are no columns, of variants for one, are left out with a
-   * notice. Throws Error where an array has not a value for each row.
+   * Adds all arrays but ghosts to the view. Arrays that cannot be columns, such as variants, are left out with a
+   * notice. Throws Error if an array does not have a value for each row.
    */
   void SeeArrays(vtkDataSetAttributes* data, granular::Notices& notices);
 
@@ -63,20 +63,21 @@ private:
 };
 
 /**
- * Points, point arrays and field data.
+ * Views of points, point arrays and field data.
  */
 class DumpInput : public RowsInput
 {
 public:
   /**
-   * Throws what SeeArrays does.
+   * Throws what SeeArrays throws.
    */
   DumpInput(vtkPointSet* input, granular::Notices& notices);
 };
 
 /**
- * Where points are that are no grains, such as corners of cells: x y z of each, with the origin added that was subtracted,
- * and scaled ones multiplied by the box. Unwrapped ones are as they are: grains are unwrapped, cells are not.
+ * Returns the positions of points that are not particles, such as corners of cells: x y z of each. A subtracted origin
+ * is added, and scaled points are multiplied by the box. Unwrapped points are unchanged: particles are unwrapped, cells
+ * are not.
  */
 std::vector<double> ReadAbsolutePoints(vtkPointSet* input);
 }

@@ -16,13 +16,13 @@
 namespace vtkGranularPrivate
 {
 /**
- * Decodes a frame in the background, before it is asked for.
+ * Decodes a frame in the background before it is requested.
  */
 class FrameAhead
 {
 public:
   /**
-   * What is decoded: it is used only where all of it is asked for.
+   * Identifies a decoded frame; it is used only if all of this is requested.
    */
   struct Key
   {
@@ -41,20 +41,20 @@ public:
   ~FrameAhead();
 
   /**
-   * Begins, in place of what was begun before. What the pieces refer to must stay until Take or Drop.
-   * Throws what the lack of memory or of a thread throws, and has begun nothing then.
+   * Begins to decode, in place of an earlier frame. The pieces must stay until Take or Drop. Throws if memory or a
+   * thread is not available; nothing was begun then.
    */
   void Start(
     const Key& key, std::vector<granular::FramePiece> pieces, const granular::DumpRequest& request);
 
   /**
-   * The frame, if it is the one that was begun, once it is there; nothing if it is another one, if it
-   * could not be decoded, which who decodes it now will find, or if a file is not what it was.
+   * Returns the requested frame if it is the one that was begun, and waits for it. Returns nothing for another frame,
+   * if decoding failed (decoding it again reports the error), or if a file has changed.
    */
   std::optional<granular::DumpPart> Take(const Key& key, granular::Progress& progress);
 
   /**
-   * Stops the work, if there is any, and forgets it.
+   * Stops the work, if any, and discards it.
    */
   void Drop();
 

@@ -14,15 +14,15 @@ class vtkInformation;
 namespace vtkGranularPrivate
 {
 /**
- * The first input of an algorithm, frame by frame. The algorithm asks for it itself, not by its own executive: that one
- * would go on for ever where a frame cannot be made, hand over the blocks of a composite one by one, and begin to count
- * progress with each frame.
+ * The first input of an algorithm, frame by frame. The algorithm requests frames itself, not through its own executive,
+ * which would loop for ever if a frame fails, pass the blocks of a composite one by one, and restart the progress with
+ * each frame.
  */
 class InputFrames
 {
 public:
   /**
-   * What is asked for of each frame.
+   * The request for each frame.
    */
   struct Part
   {
@@ -36,7 +36,7 @@ public:
   void operator=(const InputFrames&) = delete;
 
   /**
-   * Who asks next means the time that was shown, not the last that was made.
+   * Makes the shown time the current one again, in place of the last one requested.
    */
   ~InputFrames();
 
@@ -45,18 +45,18 @@ public:
   vtkDataObject* GetData() const;
 
   /**
-   * The time of the data, as far as they know it.
+   * Returns the time of the data, if known.
    */
   std::optional<double> GetTime() const;
 
   /**
-   * Makes the data of a time, or of the one that is shown. False if that fails, on this process.
+   * Requests the data of a time, or of the shown one. Returns false if that fails on this rank.
    */
   bool Update(double time);
   bool Update();
 
   /**
-   * Whether there are data, if Update() said so. Throws Cancelled.
+   * Returns true if there are data after a successful Update(). Throws Cancelled.
    */
   bool Check(bool made) const;
 
@@ -71,8 +71,7 @@ private:
 };
 
 /**
- * Makes sure that all processes have the times of the first one: else they would wait for each other. Throws Error.
- * Collective.
+ * Checks that all ranks have the times of the first rank; otherwise they would wait for each other. Throws Error.
  */
 void CheckTimes(const std::vector<double>& times, granular::Communicator& ranks);
 }

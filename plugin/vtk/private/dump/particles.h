@@ -16,27 +16,27 @@ class vtkDataObject;
 namespace vtkGranularPrivate
 {
 /**
- * The particles that filters on several processes work on.
+ * The particles that filters on several ranks work on.
  */
 class Particles
 {
 public:
   /**
-   * What this process has of a data object. Throws, on all, if it is no vtkPointSet, and what DumpInput and
-   * share_header throw. Collective.
+   * Reads the particles of this rank from a data object. Throws on all ranks if it is not a vtkPointSet, and what
+   * DumpInput and share_header throw. Collective.
    */
   Particles(vtkDataObject* input, granular::Communicator& ranks);
 
   /**
-   * What all know: see granular::share_header.
+   * Returns the header that all ranks share: see granular::share_header.
    */
   granular::FrameView& View() { return this->Input->View; }
   const granular::FrameView& View() const { return this->Input->View; }
 
   /**
-   * The box: bounds that are given where the lower one is not above the upper one, else those of the field data. Throws
-   * Error where there are none; UnsupportedError for a tilted box, with what follows from it, or, where tilted is null, for one
-   * that has no bounds along the axes.
+   * Returns the box: the given bounds if each lower one is below its upper one, otherwise the box in the field data.
+   * Throws Error if there is none; UnsupportedError for a tilted box, with the text `tilted`, or, if tilted is null,
+   * for a box without axis-aligned bounds.
    */
   std::pair<granular::Vector3, granular::Vector3> FindBounds(
     const double given[6], const char* tilted) const;
@@ -46,13 +46,13 @@ private:
 };
 
 /**
- * Whether a process asks for the part of the whole that is its own. Who asks for another one gets it from the whole.
+ * Returns true if a rank requests its own part of the whole. Other parts are extracted from the whole.
  */
 bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks);
 
 /**
- * True: each process has asked for its own part of a whole. False: each has asked for all, or is alone. Throws
- * UnsupportedError where some have and some have not, if they must not. Collective.
+ * Returns true if each rank requests its own part of a whole, false if each requests all or is alone. Throws
+ * UnsupportedError on a mixture, if it is not allowed. Collective.
  */
 bool AreTogether(const PieceRequest& wanted, bool mayDiffer, granular::Communicator& ranks);
 }

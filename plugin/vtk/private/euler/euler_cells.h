@@ -18,40 +18,41 @@ class vtkPolyData;
 namespace vtkGranularPrivate
 {
 /**
- * Cells of a grid as VTK counts them, by the points at their faces: from extent[0] to extent[1] along x, and so on.
- * None where a first one is not below its last.
+ * An extent of cells as VTK counts them, by the points at their faces: from extent[0] to extent[1] along x, and so on.
+ * Empty if a first index is not below its last.
  */
 using CellExtent = std::array<int, 6>;
 
 /**
- * All cells of a grid. Throws LimitError where VTK cannot count them.
+ * Returns the extent of all cells of a grid. Throws LimitError if VTK cannot count them.
  */
 CellExtent ExtentOf(const granular::EulerGrid& grid);
 
 /**
- * Says what cells an image will have. AskedExtent() answers for whatever the pipeline asks.
+ * Announces the extent of an image. AskedExtent() returns the part that the pipeline requests.
  */
 void OfferExtent(vtkInformation* output, const CellExtent& whole);
 
 /**
- * The cells of a whole that an output is asked for. After an error VTK may still ask for those of a whole that there was:
- * then it is the piece of this one.
+ * Returns the cells that are requested for an output. After an error VTK may still request cells of an earlier whole;
+ * the result is then the piece of the current one.
  */
 CellExtent AskedExtent(vtkInformation* output, const CellExtent& whole);
 
 /**
- * Cells as a file would have them, under its names: v_avg, volumefraction, ... Takes their memory.
+ * Returns cells with the names in files: v_avg, volumefraction, ... Takes over their memory.
  */
 granular::EulerFrame MakeFrame(granular::EulerCells&& cells);
 
 /**
- * Cells [begin, end) of a frame as points less the origin, each with a vertex, and point arrays of doubles.
+ * Fills the output with cells [begin, end) of a frame as points minus the origin, each with a vertex, and point arrays
+ * of doubles.
  */
 void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
   vtkTypeInt64 end, const granular::Vector3& pointOrigin);
 
 /**
- * Which cells of a grid a frame has: those of an extent, x fastest, from cell First of the frame on.
+ * The cells of a grid that a frame has: those of an extent, x fastest, from cell First of the frame on.
  */
 struct HeldCells
 {
@@ -60,8 +61,8 @@ struct HeldCells
 };
 
 /**
- * Cells of a grid less the origin, with cell arrays of doubles: those of an extent, all of which the frame has. An extent
- * without cells makes an empty image.
+ * Fills the image with cells of a grid minus the origin, with cell arrays of doubles: those of an extent, all of which
+ * the frame must have. An empty extent gives an empty image.
  */
 void FillImage(vtkImageData* output, const granular::EulerGrid& grid, const CellExtent& extent,
   const granular::EulerFrame& frame, const HeldCells& held, const granular::Vector3& pointOrigin);

@@ -16,7 +16,7 @@ class vtkPointSet;
 namespace vtkGranularPrivate
 {
 /**
- * Cells one after the other along x, by the place of the first one in a grid that processes share.
+ * Consecutive cells along x, identified by the place of the first one in a grid that ranks share.
  */
 struct CellRun
 {
@@ -27,7 +27,7 @@ struct CellRun
 };
 
 /**
- * The cells that a process has.
+ * The cells of a rank.
  */
 struct EulerInput
 {
@@ -37,14 +37,14 @@ struct EulerInput
 };
 
 /**
- * Takes points with point arrays, or a vtkImageData or vtkRectilinearGrid with cell arrays, each cell at its middle, or a composite of
- * such, one after the other. Absolute: what was subtracted from the points is added. Duplicates of
- * ghosts are left out. Throws UnsupportedError of other data, and where an array is missing.
+ * Reads points with point arrays, or a vtkImageData or vtkRectilinearGrid with cell arrays, where each cell counts at
+ * its centre, or a composite of such data. Positions are absolute: a subtracted origin is added. Duplicate ghosts are
+ * left out. Throws UnsupportedError for other data, and if an array is missing.
  */
 EulerInput ReadCells(vtkDataObject* input);
 
 /**
- * All cells, on rank 0: of a grid z slowest, then y, then x; else in the order of the ranks. Collective.
+ * Returns all cells on rank 0: of a grid z slowest, then y, then x; otherwise in the order of the ranks. Collective.
  */
 granular::EulerCells GatherCells(EulerInput&& own, granular::Communicator& ranks);
 }

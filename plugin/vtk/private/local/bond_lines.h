@@ -9,8 +9,8 @@ class vtkPolyData;
 namespace vtkGranularPrivate
 {
 /**
- * A line a bond, with two points of its own, and cell data: id1, id2, btype, equilibrium_length and length.
- * Takes the memory of the bonds.
+ * Fills the output with a line for each bond, with two points of its own and the cell data id1, id2, btype,
+ * equilibrium_length and length. Takes over the memory of the bonds.
  */
 void FillBonds(vtkPolyData* output, granular::GrainBonds& bonds);
 }

@@ -14,16 +14,16 @@ namespace vtkGranularPrivate
 class LocalRows;
 
 /**
- * Rows of contacts, bonds or anything else: of a table, or lines with their cell arrays, and with their ends as the arrays
- * position1 and position2 if they have none of these names. Components of arrays that local_known_columns knows have its
- * names.
+ * Rows of contacts, bonds or anything else: of a table, or lines with their cell arrays, and with their ends as the
+ * arrays position1 and position2 unless they have such arrays. Components of arrays that local_known_columns knows get
+ * its names.
  */
 class LocalInput : public RowsInput
 {
 public:
   /**
-   * made: with the cell arrays `length` and `row`, which readers and joins make of lines. Throws UnsupportedError for other data
-   * and cells that are no lines of two points; and what SeeArrays and ReadAbsolutePoints do.
+   * made: keep the cell arrays `length` and `row`, which readers and joins add to lines. Throws UnsupportedError for
+   * other data and for cells that are not lines of two points; and what SeeArrays and ReadAbsolutePoints throw.
    */
   LocalInput(vtkDataObject* input, bool made, granular::Notices& notices);
 

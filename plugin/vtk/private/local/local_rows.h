@@ -23,53 +23,53 @@ class vtkFieldData;
 namespace vtkGranularPrivate
 {
 /**
- * Rows that name particles at the ends of lines: of a table, or cells of lines. Each counts once: where there are integers
- * `part`, as AddParts makes them, those with another one than 0 are left out, and so are duplicates of ghosts.
+ * Rows that name particles at the ends of lines: of a table, or cells of lines. Each row counts once: if there are
+ * integers `part`, as AddParts makes them, only those with part 0 count. Duplicate ghosts are left out.
  */
 class LocalRows
 {
 public:
   /**
-   * Throws UnsupportedError if it is neither a vtkDataSet nor a vtkTable.
+   * Throws UnsupportedError if the data are neither a vtkDataSet nor a vtkTable.
    */
   explicit LocalRows(vtkDataObject* input);
 
   vtkIdType Count() const { return this->AreAll ? this->AllTuples : std::ssize(this->Tuples); }
 
   /**
-   * The cells, or tuples of the table, at which each row begins, and at which it ends. Throws Error where the parts of a
-   * line do not follow each other.
+   * Returns the cells, or tuples of the table, at which each row begins and ends. Throws Error if the parts of a line
+   * are not consecutive.
    */
   std::vector<vtkIdType> FindBegins() const;
   std::vector<vtkIdType> FindEnds() const;
 
   /**
-   * Those of so many from the first: [first, last).
+   * Keeps rows [first, last).
    */
   void Keep(std::pair<vtkTypeInt64, vtkTypeInt64> range);
 
   bool Has(const char* name) const;
 
   /**
-   * Whether an array has one number a row.
+   * Returns true if an array has one number per row.
    */
   bool HasNumbers(const char* name) const;
 
   /**
-   * Whether there are parts of lines that were split.
+   * Returns true if there are parts of split lines.
    */
   bool HasParts() const;
 
   /**
-   * The ids of each row; so many numbers, of the rows that are listed, or where no list is, of the first ones. Throws Error if the
-   * array is not there, or has others; granular::Cancelled.
+   * Returns the ids of the listed rows, or of the first rows if no list is given. Throws Error if the array is missing
+   * or holds other numbers; granular::Cancelled.
    */
   std::vector<std::int64_t> ReadIds(const char* name, granular::Progress& progress);
   std::vector<double> ReadNumbers(
     const char* name, const std::vector<std::int64_t>& rows, vtkIdType count);
 
   /**
-   * All arrays, with the values of as many rows, in any order.
+   * Returns all arrays, with the values of as many rows, in any order.
    */
   void Pass(const std::vector<std::int64_t>& rows, vtkIdType count, vtkDataSetAttributes* to) const;
 

@@ -8,8 +8,8 @@
 namespace vtkGranularPrivate
 {
 /**
- * Returns true if the user has asked the algorithm to stop. VTK 9.1 asks the algorithm itself alone, later versions
- * the pipeline behind it as well.
+ * Returns true if the user has asked the algorithm to stop. VTK 9.1 asks only the algorithm itself, later versions also
+ * the pipeline behind it.
  */
 template <typename Algorithm>
 bool AskedToStop(Algorithm* self)
@@ -25,7 +25,7 @@ bool AskedToStop(Algorithm* self)
 }
 
 /**
- * Returns true if the output that an information belongs to is marked so.
+ * Returns true if the output of an information is marked as aborted.
  */
 template <typename Algorithm>
 bool IsMarkedStopped(vtkInformation* output)
@@ -41,7 +41,7 @@ bool IsMarkedStopped(vtkInformation* output)
 }
 
 /**
- * Marks the outputs of the algorithm as those of one that was stopped, or not. VTK 9.1 has no such mark.
+ * Marks the outputs of the algorithm as aborted, or not. VTK 9.1 has no such mark.
  */
 template <typename Algorithm>
 void MarkStopped(Algorithm* self, bool stopped)

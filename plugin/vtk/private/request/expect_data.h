@@ -12,8 +12,8 @@
 namespace vtkGranularPrivate
 {
 /**
- * The input as a data set of a type. Throws UnsupportedError if it is of another one: what is expected ("a vtkPointSet to write"),
- * and what there is.
+ * Returns the input as a data set of a type. Throws UnsupportedError if it has another type, with the expected one ("a
+ * vtkPointSet to write") and the actual one.
  */
 template <typename Type>
 Type* ExpectData(vtkDataObject* input, const char* expected, const granular::Where& where = {})

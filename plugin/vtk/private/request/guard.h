@@ -24,7 +24,7 @@ void EmptyOutputs(vtkInformationVector* outputs);
 void SetErrorCode(vtkAlgorithm* self, unsigned long code);
 
 /**
- * What a request came to.
+ * The result of a request.
  */
 enum class Outcome
 {
@@ -35,7 +35,7 @@ enum class Outcome
 };
 
 /**
- * How a request ended that threw: the text of the error, or none if it was cancelled.
+ * The end of a request that threw: the text of the error, or none if it was cancelled.
  */
 struct Failure
 {
@@ -45,13 +45,14 @@ struct Failure
 };
 
 /**
- * Says in VTK's terms what an exception of the core is.
+ * Converts an exception of the core to VTK's terms.
  */
 Failure DescribeException(const std::exception_ptr& exception);
 
 /**
- * The one place where exceptions end: runs the task of a request, which all ranks have, and which may be collective. If a rank
- * throws, all report the same error, and all outputs are empty: the ranks agree at the end of the task, too.
+ * Runs the task of a request, which all ranks have and which may be collective; the only place where exceptions end. If
+ * a rank throws, all ranks report the same error and all outputs are empty: the ranks also agree at the end of the
+ * task.
  */
 template <typename Ranks, typename Task>
 Outcome Guard(vtkAlgorithm* self, Ranks& ranks, vtkInformationVector* outputs, Task&& task)
@@ -70,7 +71,7 @@ Outcome Guard(vtkAlgorithm* self, Ranks& ranks, vtkInformationVector* outputs, T
 }
 
 /**
- * Hands the progress of a task of the core to an algorithm, and the wish to stop back.
+ * Passes the progress of a task of the core to an algorithm, and the user's wish to stop back.
  */
 class AlgorithmProgress : public granular::Progress
 {

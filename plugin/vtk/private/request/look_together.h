@@ -8,8 +8,8 @@
 namespace vtkGranularPrivate
 {
 /**
- * Has rank 0 look at something, for all: look(packer) there puts what it has found into the packer, take(unpacker) on all ranks takes
- * it out. Throws on all ranks what one of them throws. Collective.
+ * Lets rank 0 examine something for all ranks: look(packer) puts the findings into the packer there, and take(unpacker)
+ * extracts them on all ranks. Throws on all ranks what one of them throws. Collective.
  */
 template <typename Look, typename Take>
 void LookTogether(granular::Communicator& ranks, const Look& look, const Take& take)

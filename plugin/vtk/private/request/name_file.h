@@ -7,7 +7,7 @@
 namespace vtkGranularPrivate
 {
 /**
- * Does work on what is read from, or to be written to, a file, and says in errors which it is.
+ * Runs a function on a file, and names the file in errors.
  */
 template <typename Work>
 void NameFile(granular::Where where, const Work& work)

@@ -17,7 +17,7 @@ class vtkInformation;
 namespace vtkGranularPrivate
 {
 /**
- * The part of a pipeline's piece that an output wants.
+ * The part of a pipeline's piece that an output requests.
  */
 struct PieceRequest
 {
@@ -27,15 +27,15 @@ struct PieceRequest
   static PieceRequest Of(vtkInformation* output);
 
   /**
-   * Those of so many things that belong to the piece: [first, last).
+   * Returns the part [first, last) of `count` things that belongs to the piece.
    */
   std::pair<vtkTypeInt64, vtkTypeInt64> RangeOf(vtkTypeInt64 count) const;
 };
 
 /**
- * Whether the ranks want the pieces of one thing, each its own: then they read it together. Else each is alone, such as where a
- * filter asks one rank for another time. What must be the same on ranks that read together are the names of the arrays, and all that
- * form(archive) writes. Collective.
+ * Returns true if the ranks request the pieces of one thing, each its own; they then read it together. Otherwise each
+ * rank is alone, for example if a filter asks one rank for another time. Ranks that read together must agree on the
+ * names of the arrays and on everything that form(archive) writes. Collective.
  */
 bool AskTogether(granular::Communicator& ranks, const PieceRequest& wanted,
   const std::set<std::string>& arrays, const std::function<void(granular::ArchiveWriter&)>& form);

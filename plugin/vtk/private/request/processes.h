@@ -21,13 +21,13 @@ class vtkMultiProcessController;
 namespace vtkGranularPrivate
 {
 /**
- * The processes that do the requests of an algorithm together, and how the last request ended.
+ * The ranks that handle the requests of an algorithm together, and the result of the last request.
  */
 class Processes
 {
 public:
   /**
-   * Those of the global controller.
+   * Uses the ranks of the global controller.
    */
   Processes();
   ~Processes();
@@ -35,45 +35,47 @@ public:
   vtkMultiProcessController* GetController() const;
 
   /**
-   * False: they are those of before.
+   * Sets the controller. Returns false if it is unchanged.
    */
   bool SetController(vtkMultiProcessController* controller);
 
   /**
-   * Collective when it is called first.
+   * Returns the ranks. The first call is collective.
    */
   granular::Communicator& Get();
 
   /**
-   * To be called in ComputePipelineMTime, the first call of every update. A request to abort holds for one update, and
-   * observers of progress may make it again while the pipeline leaves the aborted one: it is forgotten
-   * here, and what was aborted is done again; so is a request that the system refused a file for.
+   * Begins an update; call in ComputePipelineMTime, the first call of every update. A request to abort holds for one
+   * update, and observers of progress may repeat it while the pipeline leaves the aborted one. It is forgotten here,
+   * and the aborted work is done again. The same holds for a request that failed because the system refused access to a
+   * file.
    */
   void BeginUpdate(vtkAlgorithm* self);
 
   /**
-   * What is left to do when a request is done with. Returns what the request returns.
+   * Finishes a request. Returns the value that the request must return.
    */
   int EndRequest(vtkAlgorithm* self, Outcome outcome);
 
   /**
-   * Whether the last request was.
+   * Returns true if the last request failed.
    */
   bool IsCancelled() const { return this->Cancelled; }
 
   /**
-   * Forgets the last failure: a request succeeded, or begins afresh.
+   * Forgets the last failure, because a request succeeded or starts again.
    */
   void Forget(vtkAlgorithm* self);
 
   /**
-   * Tells a failure as an error of the algorithm, and keeps the executive from adding that the algorithm failed. A failure
-   * that was told is not told again until it is forgotten or the algorithm is modified: pipelines ask again and again.
+   * Reports a failure as an error of the algorithm, and keeps the executive from adding that the algorithm failed. A
+   * reported failure is not reported again until it is forgotten or the algorithm is modified, because pipelines repeat
+   * requests.
    */
   Outcome Fail(vtkAlgorithm* self, const Failure& failure);
 
   /**
-   * The error of the last request; empty if there was none.
+   * Returns the error of the last request; empty if there was none.
    */
   const std::string& GetMessage() const { return this->Message; }
 

@@ -11,14 +11,14 @@ class vtkMultiProcessController;
 namespace vtkGranularPrivate
 {
 /**
- * The processes of a controller, who all call this. One alone where there is no controller, or one of
- * another kind than MPI.
+ * Returns the ranks of a controller, all of which must call this; a single rank if there is no controller or it is not
+ * an MPI controller.
  */
 std::unique_ptr<granular::Communicator> MakeRanks(vtkMultiProcessController* controller);
 
 /**
- * How many threads a rank has: those that are wanted, or for 0 its share of the cores of the machine,
- * at most those that it may run on.
+ * Returns the number of threads of a rank: the requested number, or for 0 its share of the cores of the machine, and at
+ * most the cores that it may run on.
  */
 int ChooseThreads(int wanted, const granular::Communicator& ranks);
 }

@@ -20,7 +20,7 @@ class vtkInformation;
 class vtkInformationVector;
 
 /**
- * The files, what is known of them, and what the user was told.
+ * The files of a series reader, the index of their frames, and the notices that the user has received.
  */
 struct vtkGranularSeriesReader::Internals
 {
@@ -39,18 +39,18 @@ struct vtkGranularSeriesReader::Internals
   bool PoolMade = false;
 
   /**
-   * The processes that read together. Collective when it is called first.
+   * Returns the ranks that read together. The first call is collective.
    */
   granular::Communicator& GetRanks() { return this->Ranks.Get(); }
 
   /**
-   * Brings the index up to the files, if they are to be looked at at all: rank 0 looks, for all. Throws,
-   * on all ranks, and leaves the index invalid, if there is nothing to show. Collective.
+   * Updates the index from the files, if they need to be examined: rank 0 does so for all ranks. Throws on all ranks,
+   * and leaves the index invalid, if there is nothing to show. Collective.
    */
   void Update(Self* self);
 
   /**
-   * The frame that a request shows.
+   * Returns the frame that a request shows.
    */
   struct Shown
   {
@@ -65,19 +65,19 @@ struct vtkGranularSeriesReader::Internals
   };
 
   /**
-   * Readies the memory for a frame.
+   * Prepares the memory pool for a frame.
    */
   void StartFrame(granular::Notices& notices);
 
   /**
-   * Does a request for data: show(shown) fills the outputs where there is a frame to show; it is collective, and between two
-   * collectives any rank may throw. Returns what the request returns.
+   * Handles a request for data: show(shown) fills the outputs if there is a frame to show. It is collective, and
+   * between two collective calls any rank may throw. Returns the value that the request must return.
    */
   int Run(Self* self, vtkInformation* request, vtkInformationVector* outputs,
     const std::function<void(Shown&)>& show);
 
   /**
-   * One warning a file, and each notice once, for whichever frame it came first; not too many.
+   * Warns once per file, and once per notice, whichever frame it came with first; the number of warnings is limited.
    */
   void Tell(Self* self, const granular::Notices& notices, bool ofFrames);
 };

@@ -5,7 +5,7 @@
 namespace vtkGranularPrivate
 {
 /**
- * The text of a string property, which is null where it is empty.
+ * Returns the text of a string property; VTK stores null for an empty one.
  */
 inline const char* TextOf(const char* text)
 {

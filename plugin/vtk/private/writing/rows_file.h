@@ -14,19 +14,20 @@
 namespace vtkGranularPrivate
 {
 /**
- * What the property Dialect of a writer says: 0 LIGGGHTS, 1 LAMMPS, any other that of the file that was read.
+ * Returns the dialect for the property Dialect of a writer: 0 LIGGGHTS, 1 LAMMPS, any other value that of the file that
+ * was read.
  */
 std::optional<granular::Dialect> DialectOf(int property);
 
 /**
- * How a dump is written, by its name and the properties that all writers of dumps have. Without a dialect: that of the file that
- * was read. Throws what granular::parse_number_format does.
+ * Returns the format of a dump, by its name and the properties that all writers of dumps share. Without a dialect: the
+ * dialect of the file that was read. Throws what granular::parse_number_format throws.
  */
 granular::DumpFormat MakeFormat(const char* path, std::optional<granular::Dialect> dialect,
   const char* columns, const char* numberFormat);
 
 /**
- * A dump that is being written, of particles or of anything else that has rows.
+ * A dump that is being written, of particles or other rows.
  */
 class RowsFile : public FrameWriter
 {
@@ -40,7 +41,7 @@ public:
 
 protected:
   /**
-   * Takes what this process has of a frame. Not collective.
+   * Takes this rank's part of a frame. Not collective.
    */
   virtual std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) = 0;
 

@@ -13,7 +13,7 @@ class vtkPointSet;
 namespace vtkGranularPrivate
 {
 /**
- * What a process knows of a frame beside its cells.
+ * The facts that a rank knows about a frame besides its cells.
  */
 struct FrameFacts
 {
@@ -26,13 +26,13 @@ struct FrameFacts
 };
 
 /**
- * The facts of an input with these points and field data.
+ * Returns the facts of an input with these points and field data.
  */
 FrameFacts MakeFacts(
   vtkDataObject* input, vtkPointSet* points, bool hasCells, const FrameTime& time);
 
 /**
- * What all know: the word of the first who has cells, or of the first.
+ * Returns the facts that all ranks share: those of the first rank with cells, or of the first rank.
  */
 struct SharedFacts : FrameFacts
 {
@@ -40,14 +40,13 @@ struct SharedFacts : FrameFacts
 };
 
 /**
- * The files that a writer has written, with the frames that are in them. Of the first process alone.
+ * The files that a writer has written, with the frames in them. Only on the first rank.
  */
 class WrittenFiles
 {
 public:
   /**
-   * Writes a file, or leaves it if it is there and has the frames of these keys; with a notice if it has other things
-   * of them.
+   * Writes a file, or leaves it if it exists and has the frames with these keys; a notice reports different contents.
    */
   void Write(const std::string& path, const std::string& text, const std::string& keys,
     const std::string& things, granular::Notices& notices);
@@ -63,7 +62,7 @@ private:
 };
 
 /**
- * How a WholeFile is written.
+ * The format of a WholeFile.
  */
 struct WholeFileForm
 {
@@ -74,8 +73,8 @@ struct WholeFileForm
 };
 
 /**
- * A file of text that the first process writes for all at once: a frame, or a file for each timestep. A timestep is written
- * once.
+ * A text file that the first rank writes for all ranks at once: one frame, or a file for each timestep. Each timestep
+ * is written once.
  */
 class WholeFile : public FrameWriter
 {
@@ -89,18 +88,18 @@ public:
 
 protected:
   /**
-   * Takes what this process has of a frame. Not collective.
+   * Takes this rank's part of a frame. Not collective.
    */
   virtual FrameFacts Take(
     vtkDataObject* input, const FrameTime& time, granular::Notices& notices) = 0;
 
   /**
-   * Brings together what all have taken. Collective.
+   * Gathers the parts of all ranks. Collective.
    */
   virtual void Gather(granular::Notices& notices, granular::Progress& progress) = 0;
 
   /**
-   * The text of that, on the first process.
+   * Returns the text of the file, on the first rank.
    */
   virtual std::string Encode(
     const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress) = 0;

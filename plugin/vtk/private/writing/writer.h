@@ -22,7 +22,7 @@ class vtkDataObject;
 namespace vtkGranularPrivate
 {
 /**
- * When in a run a frame is, as far as the pipeline knows.
+ * The time and timestep of a frame, as far as the pipeline knows them.
  */
 struct FrameTime
 {
@@ -32,7 +32,7 @@ struct FrameTime
 };
 
 /**
- * A file that is being written, frame by frame. All functions are collective, and throw what the core does.
+ * A file that is being written frame by frame. All functions are collective and throw what the core throws.
  */
 class FrameWriter
 {
@@ -46,7 +46,7 @@ public:
 }
 
 /**
- * What a writer knows while it writes.
+ * The state of a writer while it writes.
  */
 struct vtkGranularWriter::Internals
 {
@@ -56,17 +56,17 @@ struct vtkGranularWriter::Internals
   std::set<std::string> Told; ///< topics, or texts, of this file that the user has had
 
   /**
-   * The processes that write together. Collective when it is called first.
+   * Returns the ranks that write together. The first call is collective.
    */
   granular::Communicator& GetRanks() { return this->Ranks.Get(); }
 
   /**
-   * How the rows of dumps are written, as the properties say.
+   * Returns the format of the rows of dumps, from the properties.
    */
   granular::WriteOptions MakeOptions(const vtkGranularWriter* self);
 
   /**
-   * Warns of each topic once a file; a text without one is its own.
+   * Warns once per topic and file; a text without a topic is a topic of its own.
    */
   void Tell(vtkGranularWriter* self);
   void Tell(vtkGranularWriter* self, const std::string& text, const std::string& topic = {});
