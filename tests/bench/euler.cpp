@@ -310,12 +310,12 @@ void speed_and_error(benchmark::State& state, const CellSize& size, std::int64_t
   {
     return;
   }
-  tell(state, "grains", static_cast<double>(count), "1");
+  tell(state, "particles", static_cast<double>(count), "1");
   tell(state, "cells", static_cast<double>(all.grid.size()), "1");
   tell(state, "cells touched", cells_touched(size.edge), "1");
   for (const char* name : { "Centre", "Overlap", "without short cuts" })
   {
-    tell(state, name, 1e9 * median(rounds.of(name)), "ns/grain");
+    tell(state, name, 1e9 * median(rounds.of(name)), "ns/particle");
   }
   tell(state, "Overlap, time against Centre",
     median_ratio(rounds.of("Overlap"), rounds.of("Centre")), "1");
@@ -492,8 +492,8 @@ void against_plain(benchmark::State& state, const PlainCase& each, std::int64_t 
   {
     return;
   }
-  tell(state, "plain", 1e9 * median(rounds.of("plain")), "ns/grain");
-  tell(state, "Centre", 1e9 * median(rounds.of("Centre")), "ns/grain");
+  tell(state, "plain", 1e9 * median(rounds.of("plain")), "ns/particle");
+  tell(state, "Centre", 1e9 * median(rounds.of("Centre")), "ns/particle");
   tell(state, "time against plain", median_ratio(rounds.of("Centre"), rounds.of("plain")), "1");
   tell(state, "spread", spread_of_ratio(rounds.of("Centre"), rounds.of("plain")), "1");
 }
@@ -561,7 +561,7 @@ void growth(benchmark::State& state, const std::vector<std::int64_t>& counts,
       if (each.name == name)
       {
         times.push_back(median(each.samples));
-        tell(state, name + ", " + power_of_ten(each.of.count()), 1e9 * times.back(), "ns/grain");
+        tell(state, name + ", " + power_of_ten(each.of.count()), 1e9 * times.back(), "ns/particle");
       }
     }
     const auto [least, most] = std::ranges::minmax_element(times);
@@ -623,8 +623,8 @@ void two_threads(benchmark::State& state, const CellSize& size, std::int64_t mos
   const auto tell_pair = [&](const std::string& name, const Threaded& one, const Threaded& two)
   {
     const double grain = 1e9 / static_cast<double>(count);
-    tell(state, name + ", 1 thread", grain * median(one.on_wall), "ns/grain");
-    tell(state, name + ", 2 threads", grain * median(two.on_wall), "ns/grain");
+    tell(state, name + ", 1 thread", grain * median(one.on_wall), "ns/particle");
+    tell(state, name + ", 2 threads", grain * median(two.on_wall), "ns/particle");
     tell(state, name + ", speed of 2 threads", median_ratio(one.on_wall, two.on_wall), "1");
     tell(state, name + ", spread", spread_of_ratio(one.on_wall, two.on_wall), "1");
     tell(state, name + ", processor time of 2 threads",

@@ -1,665 +1,55 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and writes report.md, report.csv and plots.
 
-A part is a program bench_NAME whose benchmarks are called NAME/case and tell figures called
-metric:unit, and an entry of PARTS below. A program fails where results are wrong, and then so does
-this; what is slow is said, no more."""
+A part is a program bench_NAME, whose benchmarks are called NAME/case and tell figures called metric:unit, or a script
+scenes/NAME.py that does so, and an entry of PARTS (for developers) or SCENE_PARTS (for users). A program fails where
+results are wrong, and then so does this; what is slow is said, no more."""
 import argparse
 import csv
 import json
 import os
 import re
-import shutil
+import signal
 import subprocess
 import sys
 import tempfile
-from collections import namedtuple
+import time
+from multiprocessing import Process, Value
 
-# metric of the cases that match; how: "<=" or ">="; judged where there are so many cores
-Target = namedtuple("Target", "cases metric how limit cores", defaults=(1,))
-# What stands in a column: heading, metric with unit, format, and what if there is no such figure.
-Column = namedtuple("Column", "heading metric format missing", defaults=("",))
+import page
+import summary
+from parts import PARTS
+from scene_parts import SCENE_PARTS
+from tables import Figures, is_met
 
-
-def columns(form, *metrics):
-    """Columns of one format, headed by their metrics, with the unit where there is one."""
-    def heading(metric):
-        name, unit = metric.lstrip(", ").rsplit(":", 1)
-        return name if unit == "1" else f"{name} {unit}".strip()
-    return [Column(heading(metric), metric, form) for metric in metrics]
-
-
-class Figures:
-    """What the benchmarks of a part told: value by case and 'metric:unit', in their order."""
-
-    def __init__(self, cores):
-        self.cases, self.cores = {}, cores
-
-    def get(self, case, metric):
-        return self.cases[case].get(metric)
-
-    def all(self, pattern):
-        return [case for case in self.cases if re.search(pattern, case)]
-
-
-class Part:
-    def __init__(self, name, title, about, tables, targets=(), plot=None, needs=None, page=None):
-        self.name, self.title, self.about = name, title, " ".join(about.split())
-        self.tables, self.targets, self.plot = tables, targets, plot
-        self.needs = needs  # without which a build does not have this part
-        self.page = page  # the page and the picture of docs that --docs makes anew
-
-
-# ---- targets and tables --------------------------------------------------------------------------
-def is_met(target, value):
-    return value <= target.limit if target.how == "<=" else value >= target.limit
-
-
-def verdict(part, figures, case, metric, quick):
-    """For a cell of the target column; empty where there is none."""
-    value = figures.get(case, metric)
-    for target in part.targets:
-        if target.metric == metric and re.search(target.cases, case) and value is not None:
-            wanted = f"{target.how} {target.limit:g}"
-            if quick or figures.cores < target.cores:
-                return f"{wanted}, not judged"
-            return f"met ({wanted})" if is_met(target, value) else f"**not met** ({wanted})"
-    return ""
-
-
-def markdown(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|---" + "|--:" * (len(head) - 1) + "|"]
-    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
-
-
-def cases_by_metrics(cases, *columns):
-    """A table: a row a case, a column a metric; the last one says whether targets are met."""
-    def make(part, figures, quick):
-        rows = []
-        for case in figures.all(cases):
-            cells, verdicts = [], []
-            for column in columns:
-                value = figures.get(case, column.metric)
-                cells.append(column.missing if value is None else format(value, column.format))
-                verdicts.append(verdict(part, figures, case, column.metric, quick))
-            rows.append([f"`{case}`"] + cells + ["; ".join(filter(None, verdicts))])
-        return markdown(["case"] + [column.heading for column in columns] + ["target"], rows)
-    return make
-
-
-def by_numbers(name):
-    """A key to sort names by in which 2 comes before 16."""
-    return [int(word) if word.isdigit() else word for word in re.split(r"(\d+)", name)]
-
-
-def contenders_by_metrics(*columns):
-    """A table: a row a contender of a case. Its metrics begin with its name; it has that of the first
-    column."""
-    def make(part, figures, quick):
-        rows = []
-        for case, told in figures.cases.items():
-            own = columns[0].metric
-            names = [metric[:-len(own)] for metric in told if metric.endswith(own)]
-            for name in sorted(names, key=by_numbers):
-                values = [told.get(name + column.metric) for column in columns]
-                verdicts = [verdict(part, figures, case, name + column.metric, quick)
-                            for column in columns]
-                rows.append([f"`{case}`: {name}"] +
-                            ["" if value is None else format(value, column.format)
-                             for column, value in zip(columns, values)] +
-                            ["; ".join(filter(None, verdicts))])
-        return markdown(["case"] + [column.heading for column in columns] + ["target"], rows)
-    return make
-
-
-def growth_table(part, figures, quick):
-    case = "more and more rows"
-    if case not in figures.cases:
-        return []
-    times = {metric[:-len(":ns/row")]: value for metric, value in figures.cases[case].items()
-             if metric.endswith(":ns/row")}
-    fastest = min(times.values())
-    rows = [[f"`{name}`", format(time, ".1f"), format(time / fastest, ".2f"),
-             format(figures.get(case, name + ", page faults a 1000 rows:1"), ".1f"), ""]
-            for name, time in sorted(times.items())]
-    metric = "slowest against fastest:1"
-    ratio = figures.get(case, metric)
-    rows.append(["slowest against fastest", "", format(ratio, ".2f"), "",
-                 verdict(part, figures, case, metric, quick)])
-    return markdown(["12 columns", "ns/row", "against the fastest", "page faults/1000 rows",
-                     "target"], rows)
-
-
-def split_way(case):
-    """(box, text, points, origin)"""
-    box, *rest = case.split("; ")
-    return box, *rest
-
-
-def scientific(value):
-    return "0" if value == 0 else f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e+")
-
-
-def pair(figures, case, metric, unit):
-    if case not in figures.cases:
-        return "an error"
-    largest, rms = (figures.get(case, f"{metric}, {what}:{unit}") for what in ("largest", "rms"))
-    return f"{scientific(largest)} ({scientific(rms)})"
-
-
-def positions_table(part, figures, quick):
-    boxes = list(dict.fromkeys(split_way(case)[0] for case in figures.cases))
-    ways = list(dict.fromkeys(split_way(case)[1:] for case in figures.cases))
-    lengths, radii, text_rows = [], [], {}
-    for text, points, origin in ways:
-        cases = [f"{box}; {text}; {points}; {origin}" for box in boxes]
-        way = [f"`{text}`", points, origin]
-        read = [case for case in cases if case in figures.cases]
-        time = sum(figures.get(case, "time:ns/row") for case in read) / len(read)
-        cost = [format(time, ".0f"), format(figures.get(read[0], "memory:B/row"), ".0f")]
-        lengths.append(way + cost + [pair(figures, case, "error", "box length") for case in cases] + [
-            scientific(figures.get(case, "error of reading, largest:box length")) if case in read
-            else "an error" for case in cases])
-        radii.append(way + [pair(figures, case, "error", "smallest radius") for case in cases])
-        text_rows[text] = [f"`{text}`"] + [pair(figures, case, "error of text", "box length")
-                                           for case in cases]
-    head = ["text", "points", "PointOrigin"]
-    return (["Error of the points, largest (rms), in box lengths, and the largest that reading adds "
-             "to the text's. A box that is printed without a length is an error:", ""] +
-            markdown(head + ["ns/row", "bytes/grain"] + boxes + [f"reading, {box}" for box in boxes],
-                     lengths) +
-            ["What the text loses, largest (rms), in box lengths:", ""] +
-            markdown(["text"] + boxes, text_rows.values()) +
-            ["Error of the points, largest (rms), in smallest radii:", ""] +
-            markdown(head + boxes, radii))
-
-
-# ---- plots ---------------------------------------------------------------------------------------
-def plot_decode(pyplot, figures):
-    sets = [name for name in ("from_chars", "portable", "AVX2", "AVX-512")
-            if any(f"{name}:GB/s" in told for told in figures.cases.values())]
-    cases = [case for case, told in figures.cases.items() if "from_chars:GB/s" in told]
-    figure, axes = pyplot.subplots(figsize=(9, 1 + 0.6 * len(cases)), layout="constrained")
-    height = 0.8 / len(sets)
-    for i, name in enumerate(sets):
-        axes.barh([row + i * height for row in range(len(cases))],
-                  [figures.get(case, f"{name}:GB/s") for case in cases], height, label=name)
-    axes.set_yticks([row + 0.4 - height / 2 for row in range(len(cases))], cases)
-    axes.invert_yaxis()
-    axes.set_xlabel("text decoded [GB/s]")
-    axes.legend()
-    return figure
-
-
-def plot_read(pyplot, figures):
-    told = figures.cases["more and more rows"]
-    points = sorted((10 ** int(match.group(1)), value) for match, value in
-                    ((re.fullmatch(r"10\^(\d+) rows:ns/row", metric), value)
-                     for metric, value in told.items()) if match)
-    figure, axes = pyplot.subplots(figsize=(6, 3.5), layout="constrained")
-    axes.plot(*zip(*points), "o-")
-    axes.set_xscale("log")
-    axes.set_ylim(0, 1.2 * max(time for _, time in points))
-    axes.set_xlabel("rows of 12 columns")
-    axes.set_ylabel("time to read [ns/row]")
-    return figure
-
-
-def plot_positions(pyplot, figures):
-    exact = 1e-19  # where errors of 0 are drawn
-    boxes = list(dict.fromkeys(split_way(case)[0] for case in figures.cases))
-    texts = list(dict.fromkeys(split_way(case)[1] for case in figures.cases))
-    figure, panels = pyplot.subplots(1, len(boxes), figsize=(12, 5.2), sharex=True, sharey=True,
-                                     squeeze=False)
-    figure.subplots_adjust(left=0.07, right=0.99, top=0.94, bottom=0.26, wspace=0.05)
-    for case in figures.cases:
-        box, text, points, origin = split_way(case)
-        color = f"C{texts.index(text)}"
-        panels[0][boxes.index(box)].plot(
-            figures.get(case, "time:ns/row"),
-            max(exact, figures.get(case, "error, largest:box length")),
-            "o" if points == "double" else "v", color=color, markersize=11 - 1.5 * texts.index(text),
-            markerfacecolor=color if origin == "no origin" else "none")
-    for axes, box in zip(panels[0], boxes):
-        axes.set_title(box)
-        axes.set_yscale("log")
-        axes.set_xlim(left=0)
-        axes.set_xlabel("time to read [ns/row]")
-        axes.axhline(1e-3, color="grey", linewidth=0.8, linestyle=":")
-        axes.axhline(exact, color="grey", linewidth=0.8, linestyle=":")
-    first = panels[0][0]
-    first.set_ylabel("largest error [box lengths]")
-    first.text(1, 1.3e-3, "smallest radius", fontsize=8, color="grey")
-    first.text(1, 1.8 * exact, "exact", fontsize=8, color="grey")
-    handles = [first.plot([], [], "s", color=f"C{i}", label=text)[0] for i, text in enumerate(texts)]
-    handles += [first.plot([], [], mark, color="k", markerfacecolor=face, label=label)[0]
-                for mark, face, label in (("o", "k", "double"), ("v", "k", "single"),
-                                          ("o", "none", "PointOrigin at the box centre"))]
-    figure.legend(handles=handles, loc="lower center", ncol=3, fontsize=9)
-    return figure
-
-
-def plot_euler(pyplot, figures):
-    cases = figures.all(r"^cells of")
-    sizes = [float(case.split()[2]) for case in cases]
-    ways = (("Centre", "C1", "o", "-"), ("Overlap", "C0", "s", "-"),
-            ("without short cuts", "C2", "^", ":"))
-    figure, (time, error, both) = pyplot.subplots(1, 3, figsize=(13, 4.6), layout="constrained")
-    for name, *style in ways:
-        look = dict(zip(("color", "marker", "linestyle"), style))
-        label = name if name != "without short cuts" else "Overlap without short cuts"
-        times = [figures.get(case, f"{name}:ns/grain") for case in cases]
-        largest, rms = ([figures.get(case, f"{name}, error, {what}:1") for case in cases]
-                        for what in ("largest", "rms"))
-        time.plot(sizes, times, **look, label=label)
-        if name == "without short cuts":  # its errors are those of Overlap
-            continue
-        error.plot(sizes, largest, **look, label=f"{name}, largest")
-        error.plot(sizes, rms, **{**look, "linestyle": "--"}, label=f"{name}, rms",
-                   markerfacecolor="none")
-        both.plot(times, rms, **look, label=name)
-        beside = ((12, -4), (12, -4)) if name == "Centre" else ((0, 7), (0, -14))
-        for i, (case, x, y) in enumerate(zip(cases, times, rms)):
-            both.annotate(case.split()[2], (x, y), textcoords="offset points", xytext=beside[i % 2],
-                          ha="center", fontsize=8)
-    for axes in (time, error, both):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.grid(color="0.9")
-        axes.legend(fontsize=8)
-    for axes in (time, error):
-        axes.set_xlabel("cell size / radius")
-    both.margins(0.1)
-    time.set_ylabel("time [ns/grain]")
-    error.set_ylabel("error of the volume fraction")
-    both.set_xlabel("time [ns/grain]")
-    both.set_ylabel("error of the volume fraction, rms")
-    both.set_title("numbers: cell size / radius", fontsize=9)
-    return figure
-
-
-# ---- the parts -----------------------------------------------------------------------------------
-PARTS = (
-    Part("decode", "Decode: text to columns in memory",
-         """GB of text a second (10^9 bytes), one thread, into memory that was touched before.
-         from_chars is a plain one-pass loop (skip blanks, std::from_chars, next) that does not even
-         look for the ends of lines. ratio is its time by ours for the best instruction set. Every
-         value of every contender was found equal to strtod's, bit for bit. The targets for all
-         forms are those of %g.""",
-         [cases_by_metrics(r"^(8|12) columns",
-                           *columns(".2f", "from_chars:GB/s", "portable:GB/s", "AVX2:GB/s", "AVX-512:GB/s",
-                                    "portable ratio:1", "AVX2 ratio:1", "ratio:1"),
-                           Column("spread", "ratio spread:1", ".0%")),
-          cases_by_metrics(r"three of 12",
-                           Column("time against all 12", "time against all:1", ".2f"),
-                           Column("spread", "time against all spread:1", ".0%"))],
-         [Target(r"columns", "ratio:1", ">=", 2),
-          Target(r"^first three", "time against all:1", "<=", 0.6)],
-         plot_decode),
-    Part("print", "Print: numbers to text",
-         """ns a value, or a row `id type x y z ix iy iz` ("%d %d %g %g %g %d %d %d\\n"), one thread, into
-         memory that was touched before; fprintf writes to a stream in memory. All print the same bytes.
-         Positions are in [-1, 1] and velocities about 1e-3, both of six digits as a text had them; full
-         doubles have 53 random bits, in [-1, 1]. Ratios are their times by ours.""",
-         [cases_by_metrics(r"^(%|shortest)",
-                           *columns(".1f", "ours:ns", "to_chars:ns", "snprintf:ns", "to_chars ratio:1",
-                                    "snprintf ratio:1"),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^row",
-                           *columns(".0f", "ours:ns", "fprintf:ns"),
-                           *columns(".1f", "fprintf ratio:1"),
-                           *columns(".0%", "spread:1"))],
-         [Target(r"^row", "fprintf ratio:1", ">=", 5)]),
-    Part("write", "Write: a frame to a file",
-         """ns a row `id type c ix iy iz` of dump atom, 10^6 rows into a file in memory (/dev/shm), time on
-         the wall: text with %g, against a loop of fprintf; binary, against one write() of all bytes. All
-         write the same bytes. With xs ys zs our rows are scaled on the way; the others are given what
-         comes out. speed against other is their time by ours with one thread.""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "other:ns/row", "1 thread:ns/row", "2 threads:ns/row"),
-                           *columns(".2f", "speed against other:1", "speed of 2 threads:1"),
-                           *columns(".0%", "spread:1"))],
-         [Target(r"^text", "speed against other:1", ">=", 5),
-          Target(r"^binary", "speed against other:1", ">=", 0.7),
-          Target(r"", "speed of 2 threads:1", ">=", 1.4)]),
-    Part("index", "Index: where the frames of a file are",
-         """file: RunIndex::update, against reading the file (in the page cache) the same way and
-         counting line feeds with memchr. memory: scan_lines against memchr in a window of 256 KiB
-         that is in the cache. ratio is our time by memchr's.""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "memchr:GB/s", "portable:GB/s", "index:GB/s"),
-                           *columns(".2f", "ratio:1"),
-                           Column("spread", "ratio spread:1", ".0%"))],
-         [Target(r"", "ratio:1", "<=", 2)]),
-    Part("read", "Read: a file to arrays, the whole way",
-         """read_dump of a file in the page cache, double points and all arrays, against decode_rows
-         of the same text in memory into memory that was touched before. Arrays are new memory each
-         time, as they are for a user: the page faults are those of memory that the process did not
-         have yet (small arrays come back from an earlier read). Peak memory is VmHWM of a process
-         of its own.""",
-         [cases_by_metrics(r"^(8|12) columns$",
-                           *columns(".1f", "decode alone:ns/row", "read:ns/row"),
-                           Column("ratio", "time against decode alone:1", ".2f")),
-          growth_table,
-          cases_by_metrics(r"^memory",
-                           *columns(".1f", "arrays:MiB", "peak:MiB", "above the arrays:MiB"))],
-         [Target(r"^more", "slowest against fastest:1", "<=", 1.5),
-          Target(r"^memory", "above the arrays:MiB", "<=", 32)],
-         plot_read),
-    Part("binary", "Binary: the rows of a binary dump to arrays",
-         """GB of rows a second, 10^6 rows. copy is the plainest loop there is, from memory: row by row,
-         in it column by column, each double to an array of its column, nothing looked at. file
-         decodes the frame from the page cache, memory from a buffer, both into memory that was
-         touched before: id to 64-bit, type to 32-bit integers, vectors together, every value
-         checked to fit. read_dump makes new arrays each time, as it does for a user, and points of
-         scaled coordinates (5 columns).""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "copy:GB/s", "memory:GB/s", "file:GB/s", "read_dump:GB/s"),
-                           Column("memory, speed against copy", "memory against copy:1", ".2f"),
-                           Column("file", "file against copy:1", ".2f"),
-                           Column("read_dump", "read_dump against copy:1", ".2f"),
-                           *columns(".0%", "spread:1"))],
-         [Target(r"", "file against copy:1", ">=", 0.6),
-          Target(r"", "memory against copy:1", ">=", 0.6)]),
-    Part("compressed", "Compressed: gzip and Zstandard",
-         """A text dump of 200 MiB, 190 frames of 10^4 rows, 12 columns of %g: one member of gzip
-         (level 6), one frame of Zstandard (level 3). MB of text a second. library is zlib's inflate
-         (which checks the CRC) or ZSTD_decompressStream alone; both sides read the file in the page
-         cache and hand out 256 KiB at a time. in order: unpack(), which keeps the last MiB and notes
-         where it could start again; index: RunIndex::update, against decompressing alone. A frame
-         in the middle is read by an index that knows where to start, and without that from the start
-         of the file; plain is the frame of the same text uncompressed. What is one frame of Zstandard
-         has no places to start from.""",
-         [cases_by_metrics(r"(in order|index)$",
-                           *columns(".0f", "library:MB/s", "ours:MB/s"),
-                           *columns(".2f", "time against library:1"),
-                           *columns(".0%", "spread:1"),
-                           *columns(".1f", "time against plain text:1", "seek points:MiB")),
-          cases_by_metrics(r"middle$",
-                           *columns(".2f", "indexed:ms"),
-                           *columns(".1f", "from the start:ms"),
-                           Column("time against that", "time against the start:1", ".3f"),
-                           *columns(".2f", "plain:ms"))],
-         [Target(r"^gzip, in order", "time against library:1", "<=", 1.15)]),
-    Part("series", "Series: long runs",
-         """Rows of 8 columns, in the page cache. 1000 frames are of 10^4 rows each in one file; 10^4
-         files have a frame of 100 rows each; of 1000 frames of 4 files each piece has 100 rows.
-         yardstick: of one file, to read it and count line feeds with memchr; of many, to open each,
-         read its first 4 KiB and close it. index is RunIndex::update; from index file the same
-         where the index of an earlier one lies beside the dump; again an update where nothing
-         changed. Memory is what operator new gave and still has out, peak the most on the way; each
-         frame counts once, however many files it has. The last frame is read alone: no byte of
-         another is. threads: the index made by one thread and by two, time on the wall; of frames of
-         10^6 rows both pass over one, of files each takes its own, and a file of smaller frames is for
-         one thread.""",
-         [cases_by_metrics(r"^1",
-                           *columns(".1f", "yardstick:ms", "index:ms"),
-                           *columns(".2f", "ratio:1"),
-                           *columns(".0%", "spread:1"),
-                           *columns(".1f", "from index file:ms"),
-                           Column("against index", "from index file against index:1", ".3f"),
-                           *columns(".1f", "again:ms"),
-                           *columns(".0f", "memory:B/frame", "peak:B/frame")),
-          cases_by_metrics(r"^threads",
-                           *columns(".1f", "1 thread:ms", "2 threads:ms"),
-                           Column("ratio", "2 against 1:1", ".2f"),
-                           Column("spread", "2 against 1, spread:1", ".0%")),
-          cases_by_metrics(r"^last",
-                           *columns(".2f", "last frame:ms"),
-                           Column("time against the first", "against the first:1", ".2f"),
-                           Column("bytes read against its own",
-                                  "bytes read against the frame's:1", ".2f"))],
-         [Target(r"^1000 frames$", "ratio:1", "<=", 2),
-          Target(r"^10\^4 files$", "ratio:1", "<=", 3),
-          Target(r"^10\^6 frames", "memory:B/frame", "<=", 100)]),
-    Part("pool", "Pool: memory of the frame before",
-         """The arrays of 12 columns (92 bytes a row) are made and filled, frame after frame, each as long
-         as the next one takes. touched: memory that is never freed, and so the time of filling alone;
-         pool: Blocks of a pool; fresh: Blocks without; malloc: the C library's, with the thresholds
-         that it starts with (it raises them while memory is freed), and tuned to keep what it can,
-         arrays of at most 32 MiB. What first touch costs is the difference to touched.""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "touched:ns/row", "pool:ns/row", "fresh:ns/row", "malloc:ns/row"),
-                           *columns(".2f", "pool against touched:1"),
-                           *columns(".0%", "spread:1"),
-                           Column("fresh", "fresh against touched:1", ".2f"),
-                           Column("malloc", "malloc against touched:1", ".2f"),
-                           Column("page faults pool", "pool, page faults a frame:1", ".0f"),
-                           Column("fresh", "fresh, page faults a frame:1", ".0f"),
-                           Column("malloc", "malloc, page faults a frame:1", ".0f"))],
-         [Target(r"", "pool against touched:1", "<=", 1.2)]),
-    Part("positions", "Positions: speed against error",
-         """Grains of radii from 1e-3 in boxes of length 1 whose corner lies at 0, 1e3 and 1e6. The
-         true position is the double that the simulation holds; what the text says, and all errors,
-         are worked out in 113 bits. Points are rounded where they are kept; with a PointOrigin (the
-         box centre) they are smaller numbers and lose less, and it is added again before comparing.
-         Losses may cancel: %.16e is not the double that it was printed from, but reads as that.
-         LIGGGHTS prints rows and box with %g, so that its box at 1e6 says 1e+06 twice; LAMMPS
-         prints the box with %.16e, and rows with %g unless told otherwise. Bounds that are not as
-         round as these lose digits with %g in all boxes. Time is the mean over the boxes,
-         into memory that came back from an earlier read; bytes are those of points, id, type and
-         radius.""",
-         [positions_table], (), plot_positions),
-    Part("packing", "Packing: grains without a file",
-         """make_packing, 10^6 grains with velocities and ranges, into new memory, periodic boxes, time on the
-         wall; speed of 2 threads is against 1, as the median of rounds. Numbers behind random
-         are solid fractions.""",
-         [cases_by_metrics(r"",
-                           *columns(".0f", "1 thread:ns/grain", "2 threads:ns/grain"),
-                           *columns(".2f", "speed of 2 threads:1"),
-                           *columns(".0%", "spread:1"))]),
-    Part("bonds", "Bonded particles into buffers",
-         """pack and unpack of rows one after the other, against memcpy of as many bytes from buffer to buffer in turns;
-         numbers behind the routines are particles. border_new adds rows, which have more fields than are sent;
-         exchange has two bonds of twelve history values. --large goes to 10^7.""",
-         [cases_by_metrics(r"",
-                           *columns(".2f", "pack:ns/particle"),
-                           Column("against memcpy", "speed of pack against memcpy:1", ".2f"),
-                           Column("spread", "spread of pack:1", ".0%"),
-                           *columns(".2f", "unpack:ns/particle"),
-                           Column("against memcpy", "speed of unpack against memcpy:1", ".2f"),
-                           Column("spread", "spread of unpack:1", ".0%"))]),
-    Part("restart", "Restart files",
-         """read_restart against reading the bytes of the file, into memory that holds all of it and into a MiB that is used
-         again and again; time on the wall, files in the page cache, outputs in memory of a frame before. find is read_layout, which looks
-         for the particles. grains have 31 doubles, fibres up to 75, with nine bonds of 14 history values to ten grains.""",
-         [cases_by_metrics(r"",
-                           *columns(".0f", "file:MiB"),
-                           *columns(".3f", "find:s"),
-                           *columns(".2f", "read:GB/s"),
-                           Column("ns/particle", "ns:ns/particle", ".0f"),
-                           Column("whole file GB/s", "whole:GB/s", ".2f"),
-                           Column("against that", "read against whole:1", ".2f"),
-                           Column("reused MiB GB/s", "reused:GB/s", ".2f"),
-                           Column("against that", "read against reused:1", ".2f"))],
-         [Target(r"", "read against whole:1", ">=", 0.3), Target(r"", "find:s", "<=", 2)]),
-    Part("voxels", "Voxels: subdomains as cells",
-         """make_voxels, 10^6 subdomains: of a grid, and as a random recursive bisection makes them; time on the
-         wall, against filling arrays of the same size with one value, in new memory and in that of a frame
-         before. Shared corners are found by hashing eight corners a subdomain, on one thread: arrays
-         become small, the search does not. check holds them against all checks, text is encode_voxels.""",
-         [cases_by_metrics(r"^(grid|bisection)(, shared corners)?$",
-                           Column("new memory ns", "new memory:ns/subdomain", ".0f"),
-                           Column("against writing", "new memory against writing:1", ".2f"),
-                           Column("2 threads", "new memory against writing, 2 threads:1", ".2f"),
-                           Column("spread", "new memory, spread:1", ".0%"),
-                           Column("pooled ns", "pooled memory:ns/subdomain", ".0f"),
-                           Column("against writing", "pooled memory against writing:1", ".2f"),
-                           Column("2 threads", "pooled memory against writing, 2 threads:1", ".2f"),
-                           Column("spread", "pooled memory, spread:1", ".0%")),
-          cases_by_metrics(r"checks and text$",
-                           *columns(".0f", "check:ns/subdomain", "text:ns/subdomain"))],
-         [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
-          Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)]),
-    Part("count", "Count: particles of the subdomains of processes",
-         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (10^7 where it says so) everywhere alike in
-         the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that
-         trusts the index it computes, (x - lo) p / (hi - lo) cut off to an integer and clamped: it needs an even
-         grid, and at faces it is wrong by rounding. With std::floor it takes longer. even and
-         uneven are grids with even cuts and with cuts at random; bisection: as many subdomains that form no grid,
-         from recursive bisection, in no order. All find their place by comparison with the faces, and set
-         up what they need for that each time.""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "plain:ns/particle"),
-                           Column("floor against plain", "plain, floor, time against plain:1", ".2f"),
-                           Column("even against plain", "even, time against plain:1", ".2f"),
-                           Column("uneven against plain", "uneven, time against plain:1", ".2f"),
-                           *columns(".0f", "bisection:ns/particle"),
-                           *columns(".0%", "spread:1"))],
-         [Target(r"", "even, time against plain:1", "<=", 2),
-          Target(r"", "uneven, time against plain:1", "<=", 4)]),
-    Part("euler", "Euler: averages of grains over cells",
-         """average_in_cells, one thread unless said, spheres of equal radius in no order in a cube that they would
-         fill by half if they did not overlap; none reaches beyond its walls. 10^6 grains; fewer where that would take
-         long. There are 8.4 / s^3 cells of s radii for each grain, and its time contains theirs. Error is that of volumefraction: of Centre against Overlap, all cells; of
-         Overlap against sums of volumes with 113 bits, in cells at random (exact cells). cells touched
-         is how many cells a grain touches on average, by geometry. plain is a loop of += on doubles that
-         trusts a computed index: count, mass, momentum, radius, volume and, in a second pass, the six
-         stresses. In order: the grains of a cell follow one another. More grains in more cells: 7.5
-         grains in each, edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two threads:
-         time on the wall; cores: processor time of 2 threads by their time on the wall, which is how many the
-         machine let them have: near 1 there is nothing to gain. processor time: that of 2 threads against 1.""",
-         [cases_by_metrics(r"^cells of",
-                           *columns(".0f", "grains:1"),
-                           *columns(".2f", "cells touched:1"),
-                           *columns(".0f", "Centre:ns/grain", "Overlap:ns/grain", "without short cuts:ns/grain"),
-                           Column("against Overlap", "without short cuts, time against Overlap:1", ".2f"),
-                           Column("Overlap against Centre", "Overlap, time against Centre:1", ".2f"),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^cells of",
-                           Column("Centre, largest error", "Centre, error, largest:1", ".1e"),
-                           Column("rms", "Centre, error, rms:1", ".1e"),
-                           Column("Overlap, largest error", "Overlap, error, largest:1", ".1e"),
-                           Column("rms", "Overlap, error, rms:1", ".1e"),
-                           Column("without short cuts, largest error",
-                                  "without short cuts, error, largest:1", ".1e"),
-                           Column("rms", "without short cuts, error, rms:1", ".1e"),
-                           Column("largest difference from Overlap",
-                                  "without short cuts, largest difference from Overlap:1", ".1e"),
-                           *columns(".0f", "exact cells:1")),
-          cases_by_metrics(r"^plain",
-                           *columns(".1f", "plain:ns/grain", "Centre:ns/grain"),
-                           Column("Centre against plain", "time against plain:1", ".2f"),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^more",
-                           *(Column(f"{name} 10^{power} ns/grain", f"{name}, 10^{power}:ns/grain", ".0f")
-                                  for name in ("Centre", "Overlap") for power in (4, 5, 6, 7)),
-                           *columns(".2f", "Centre, slowest against fastest:1"),
-                           Column("Overlap", "Overlap, slowest against fastest:1", ".2f")),
-          cases_by_metrics(r"^two threads",
-                           *(Column(heading.format(name), f"{name}, {metric}", form)
-                             for name in ("Centre", "Overlap") for heading, metric, form in (
-                                 ("{} ns/grain", "1 thread:ns/grain", ".0f"),
-                                 ("speed of 2 threads", "speed of 2 threads:1", ".2f"),
-                                 ("spread", "spread:1", ".0%"),
-                                 ("cores", "cores that 2 threads had:1", ".2f"),
-                                 ("processor time", "processor time of 2 threads:1", ".2f"))))],
-         [Target(r"^plain", "time against plain:1", "<=", 3),
-          Target(r"^cells of 20 ", "Overlap, time against Centre:1", "<=", 3),
-          Target(r"^cells of 4 ", "Overlap, time against Centre:1", "<=", 10),
-          Target(r"^more", "Centre, slowest against fastest:1", "<=", 1.5),
-          Target(r"^more", "Overlap, slowest against fastest:1", "<=", 1.5),
-          Target(r"^two threads", "Centre, speed of 2 threads:1", ">=", 1.5, cores=2),
-          Target(r"^two threads", "Overlap, speed of 2 threads:1", ">=", 1.5, cores=2)],
-         plot_euler, page=("euler_averages.md", "euler_speed_error.png")),
-    Part("local", "Local: contacts read, and lines joined with particles",
-         """read: a text of 10^6 contacts with 12 columns in the page cache, memory of a frame before: as a dump of particles with
-         the same rows (read_dump), as a table of local data, as lines (read_local), and as lines that are split at the
-         faces. The others: join_lines, one thread, 10^7 lines between 10^6 particles, ten lines a particle everywhere. gather copies the
-         positions of both ends, 3 doubles each, by rows that are known, and nothing else; join finds the rows by id, sets up
-         what it needs for that, and copies as much. Both take memory from a pool. ids from 1: in
-         no order, without gaps; any ids: anywhere in 64 bits. The ends of a line are any particles; in order: neighbours, one line
-         after the other, as a dump has them. 7 values: also the mean of a scalar, and mean and difference of a vector.
-         Where many particles are in no order, memory is what both wait for.""",
-         [cases_by_metrics(r"^read",
-                           *columns(".1f", "dump:ns/row"),
-                           *(Column(f"{name} against dump", f"{name}, time against dump:1", ".2f")
-                                  for name in ("table", "lines", "split")),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^join",
-                           *columns(".1f", "gather:ns/line", "join:ns/line"),
-                           Column("join against gather", "join, time against gather:1", ".2f"),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^more",
-                           *(Column(f"{name} 10^{power} ns/line", f"{name}, 10^{power}:ns/line", ".1f")
-                                  for name in ("gather", "join") for power in (4, 5, 6, 7)),
-                           *columns(".2f", "join, slowest against fastest:1"))],
-         [Target(r"^read, threads: 1", "table, time against dump:1", "<=", 1.05),
-          Target(r"^join", "join, time against gather:1", "<=", 15),
-          Target(r"^more.*in order", "join, slowest against fastest:1", "<=", 1.5)]),
-    Part("threads", "Threads: one frame, read by several",
-         """read_dump of 12 columns (%g where they are text), 10^6 rows and three times as many, file in
-         the page cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread. speed
-         against from_chars: the plain
-         loop of the part decode, one thread, on the same text in memory, not compressed. decode alone is
-         decode_rows on one thread, on the same text in memory. Both write to memory that was touched
-         before. gzip (level 6) is one member and Zstandard (level 3) one frame, which can only be
-         decompressed in order: threads decode what has been decompressed.""",
-         [contenders_by_metrics(
-              *columns(".1f", ":ns/row"),
-              *columns(".2f", ", speed against 1 thread:1"),
-              *columns(".0%", ", spread:1"),
-              Column("processor time", ", processor time against 1 thread:1", ".2f"),
-              *columns(".1f", ", speed against from_chars:1"),
-              *columns(".2f", ", time against decode alone:1"))],
-         [Target(r"^text", "1 thread, time against decode alone:1", "<=", 1.3),
-          Target(r"^text", "2 threads, speed against 1 thread:1", ">=", 1.5, cores=2),
-          Target(r"^text", "16 threads, speed against 1 thread:1", ">=", 8, cores=16)]),
-    Part("ranks", "Ranks: one frame, read by several processes together",
-         """read_dump by the ranks of MPI, each its part of a text of 10^6 rows and 12 columns, with one
-         thread and the memory of a frame before; time on the wall from one barrier to the next. Sorted by
-         id, the rows that each rank reads go to those that they belong to.""",
-         [contenders_by_metrics(
-              *columns(".1f", ":ns/row"),
-              *columns(".2f", ", speed against 1 rank:1"),
-              *columns(".0%", ", spread:1"))],
-         [Target(r"order", "2 ranks, speed against 1 rank:1", ">=", 1.6, cores=2)], needs="MPI"),
-    Part("pipeline", "Pipeline: stepping through a run in ParaView",
-         """UpdatePipeline(time) in pvpython, frame after frame of a text of 10 frames of 10^6 rows and 12
-         columns, in the page cache; time on the wall, and of the processor where one thread works.
-         decode alone is decode_rows of the same text in memory, into memory that was touched before. no
-         pool: GRANULAR_POOL_MIB is 0. The filter is a Threshold that keeps half of the particles: with
-         prefetch, the next frame is read meanwhile, by another thread. Data information: what the window asks
-         for after each update, ranges of all arrays and bounds.""",
-         [contenders_by_metrics(
-              *columns(".1f", ":ns/row"),
-              Column("time against decode alone", ", time against decode:1", ".2f"),
-              *columns(".0%", ", spread:1"),
-              Column("processor time", ", processor time against decode:1", ".2f"))],
-         [Target(r"", "1 thread, time against decode:1", "<=", 1.3)], needs="ParaView"),
-    Part("vtp", "VTP: opening a file in ParaView",
-         """From OpenDataFile to the data of a frame in pvpython, 10^6 rows of 12 columns, file in the page
-         cache, time on the wall: a text dump, against the same data as ParaView saves it in a .vtp of
-         VTK, appended raw, read by ParaView's own reader. Some versions of libexpat refuse what ParaView
-         has saved so: then there is nothing to measure.""",
-         [cases_by_metrics(r"",
-                           Column("vtp ms", "vtp:ms", ".0f", "not measured"),
-                           *columns(".0f", "text, 1 thread:ms", "text, all threads:ms"),
-                           Column("1 thread against vtp", "text, 1 thread, time against vtp:1", ".2f"),
-                           Column("spread", "text, 1 thread, spread:1", ".0%"),
-                           Column("all threads against vtp",
-                                  "text, all threads, time against vtp:1", ".2f"),
-                           Column("spread", "text, all threads, spread:1", ".0%"))],
-         [Target(r"not compressed", "text, all threads, time against vtp:1", "<=", 1)],
-         needs="ParaView"),
-)
+HERE = os.path.dirname(os.path.abspath(__file__))
+ALL_PARTS = SCENE_PARTS + PARTS
 
 
 # ---- running and writing -------------------------------------------------------------------------
 def has_program(part, programs):
-    return os.path.exists(os.path.join(programs, "bench_" + part.name))
+    return part.script or os.path.exists(os.path.join(programs, "bench_" + part.name))
+
+
+def command_of(part, programs, how_much, out):
+    if part.script:
+        return ["/usr/bin/python3", "-B", os.path.join(HERE, "scenes", part.name + ".py"), "--out", out] + how_much
+    return [os.path.join(programs, "bench_" + part.name), "--benchmark_out=" + out, "--benchmark_out_format=json"] + how_much
 
 
 def run_part(part, programs, how_much, folder):
     """(figures, context) of the part's program; leaves this script where results are wrong."""
     out = os.path.join(folder, part.name + ".json")
-    command = [os.path.join(programs, "bench_" + part.name), "--benchmark_out=" + out,
-               "--benchmark_out_format=json"] + how_much
-    print("-- bench_" + part.name, file=sys.stderr, flush=True)
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          check=False)
+    done = subprocess.Popen(command_of(part, programs, how_much, out), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            text=True, start_new_session=True)
+    try:
+        said, _ = done.communicate()
+    except KeyboardInterrupt:
+        os.killpg(done.pid, signal.SIGTERM)
+        done.wait()
+        raise
     if done.returncode != 0:
-        sys.exit(done.stdout + f"\nbench_{part.name} failed ({done.returncode}): wrong results")
+        sys.exit(said + f"\n{part.name} failed ({done.returncode}): wrong results")
     with open(out, encoding="utf-8") as stream:
         told = json.load(stream)
     figures = Figures(int(told["context"]["cores"]))
@@ -667,8 +57,48 @@ def run_part(part, programs, how_much, folder):
         case = re.sub(r"/iterations:\d+/manual_time$", "", benchmark["name"]).split("/", 1)[1]
         figures.cases[case] = {key: value for key, value in benchmark.items() if ":" in key}
     if not figures.cases:
-        sys.exit(f"bench_{part.name} has no benchmarks")
+        sys.exit(f"{part.name} has no benchmarks")
     return figures, told["context"]
+
+
+def spin(until, spent):
+    start = time.process_time()
+    while time.monotonic() < until:
+        pass
+    spent.value = time.process_time() - start
+
+
+def cores_given(wanted=2, seconds=0.4):
+    """Returns how many of so many cores the machine gives just now: the processor time of as many busy processes by their
+    time on the wall."""
+    spent = [Value("d", 0.0) for _ in range(wanted)]
+    start = time.monotonic()
+    busy = [Process(target=spin, args=(start + seconds, each)) for each in spent]
+    for each in busy:
+        each.start()
+    for each in busy:
+        each.join()
+    return sum(each.value for each in spent) / (time.monotonic() - start)
+
+
+def run_parts(parts, programs, how_much, folder, tell):
+    """Yields (part, figures, context), and tells how far it has come; ends early on Ctrl-C."""
+    expected, begun = sum(part.seconds for part in parts), time.monotonic()
+    for i, part in enumerate(parts):
+        spent, behind = time.monotonic() - begun, sum(each.seconds for each in parts[:i])
+        left = (expected - behind) * (spent / behind if behind and "--full" in how_much else 1)
+        if "--full" in how_much or "--large" in how_much:
+            tell(f"-- {part.name} ({i + 1} of {len(parts)}; about {left / 60:.0f} min left)")
+        try:
+            given = cores_given() if part.wants_cores > 1 and how_much else 2
+            figures, context = run_part(part, programs, how_much, folder)
+            figures.given = min(given, cores_given() if part.wants_cores > 1 and how_much else 2)
+            if figures.given < 1.6:
+                figures.cores = 1
+        except KeyboardInterrupt:
+            tell(f"-- stopped; not measured: {' '.join(each.name for each in parts[i:])}")
+            return
+        yield part, figures, context
 
 
 def machine(context):
@@ -686,19 +116,25 @@ def machine(context):
             f"load {load[0]:.1f} at the start, {context['date'][:10]}")
 
 
+def depends_on_machine(metric, unit):
+    """Times, their ratios and what the system does; not errors, sizes and shares."""
+    is_time = re.match(r"(ns|ms|s|GB/s|MB/s)(/|$)", unit)
+    return "yes" if is_time or re.search(r"against|ratio|speed|spread|time|faults|cores", metric) else "no"
+
+
 def write_csv(path, results):
     with open(path, "w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(["part", "case", "metric", "value", "unit"])
+        writer.writerow(["part", "case", "metric", "value", "unit", "depends on the machine"])
         for part, figures in results:
             for case, told in figures.cases.items():
                 for key, value in told.items():
                     metric, unit = key.rsplit(":", 1)
-                    writer.writerow([part.name, case, metric, repr(value), unit])
+                    writer.writerow([part.name, case, metric, repr(value), unit, depends_on_machine(metric, unit)])
 
 
 def draw(folder, results):
-    """Names of the parts that have a plot now."""
+    """Names of the pictures that were made."""
     try:
         import matplotlib
         matplotlib.use("Agg")
@@ -708,11 +144,12 @@ def draw(folder, results):
         return set()
     drawn = set()
     for part, figures in results:
-        if part.plot:
-            figure = part.plot(pyplot, figures)
-            figure.savefig(os.path.join(folder, part.name + ".png"), dpi=100)
+        plots = part.plot if isinstance(part.plot, dict) else {part.name: part.plot} if part.plot else {}
+        for name, plot in plots.items():
+            figure = plot(pyplot, figures)
+            figure.savefig(os.path.join(folder, name + ".png"), dpi=100)
             pyplot.close(figure)
-            drawn.add(part.name)
+            drawn.add(name)
     return drawn
 
 
@@ -729,57 +166,39 @@ def missed(results):
 
 
 def write_markdown(path, results, context, drawn, left_out, quick):
-    lines = ["<!-- SPDX-License-Identifier: BSD-3-Clause -->", "# Benchmarks", ""]
+    lines = ["<!-- SPDX-License-Identifier: BSD-3-Clause -->", "# Speed and error", ""]
+    if quick:
+        lines += ["**A quick run: small files, one round. Its times mean nothing.**", ""]
+    lines += [f"* {line}" for line in summary.lines_of(results)] + [""]
     lines += [machine(context) + ".", ""]
     lines += ["Each figure is a median over many short rounds in which all contenders take turns; "
               "ratios are medians of the ratios within a round, and spread is half the distance of "
               "their quartiles. Times are processor time, unless several threads or processes work: "
               "then they are those on the wall. All results were checked before they were "
               "timed. `report.csv` has every figure.", ""]
-    if quick:
-        lines += ["**A quick run: small files, one round. Its times mean nothing.**", ""]
-    else:
-        misses = list(missed(results))
-        lines += ["Targets not met:" if misses else "All targets are met.", ""]
-        lines += [f"* {miss}" for miss in misses] + ([""] if misses else [])
-    lines += [f"* Left out, because this build is without {part.needs}: {part.name}" for part in left_out]
-    lines += [""] if left_out else []
     for part, figures in results:
         lines += [f"## {part.title}", "", part.about, ""]
+        if part.wants_cores > figures.cores and not quick:
+            lines += [f"**Times of several threads are no measurement here: the machine gave {figures.given:.1f} cores of 2.**", ""]
         for table in part.tables:
             lines += table(part, figures, quick)
-        if part.name in drawn:
-            lines += [f"![{part.title}]({part.name}.png)", ""]
+        for name in part.plot if isinstance(part.plot, dict) else [part.name]:
+            lines += [f"![{part.title}]({name}.png)", ""] if name in drawn else []
+    if not quick:
+        misses = list(missed(results))
+        lines += ["## Targets of developers", "", "Not met:" if misses else "All are met.", ""]
+        lines += [f"* {miss}" for miss in misses] + ([""] if misses else [])
+    lines += [f"* Left out, because this build is without {part.needs}: {part.name}" for part in left_out]
     with open(path, "w", encoding="utf-8") as stream:
         stream.write("\n".join(lines).rstrip() + "\n")
 
 
-def write_pages(report, results, context, drawn):
-    """Between the marks of a page is what the part says, and its picture beside it."""
-    docs = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "developers")
-    for part, figures in results:
-        if not part.page:
-            continue
-        page, picture = (os.path.join(docs, name) for name in part.page)
-        with open(page, encoding="utf-8") as stream:
-            text = stream.read()
-        begin, end = f"<!-- made by tests/bench/run --docs {part.name} -->\n", "<!-- until here -->"
-        lines = [machine(context) + ".", "", part.about, ""]
-        for table in part.tables:
-            lines += table(part, figures, False)
-        before, rest = text.split(begin)
-        with open(page, "w", encoding="utf-8") as stream:
-            stream.write(before + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
-        if part.name in drawn:
-            shutil.copy(os.path.join(report, part.name + ".png"), picture)
-
-
 def main():
-    names = [part.name for part in PARTS]
+    names = [part.name for part in ALL_PARTS]
     parser = argparse.ArgumentParser(prog="tests/bench/run")
     parser.add_argument("--quick", action="store_true", help="small files, one round")
     parser.add_argument("--large", action="store_true", help="also what takes many minutes")
-    parser.add_argument("--docs", action="store_true", help="also pages and pictures of docs")
+    parser.add_argument("--docs", action="store_true", help="also docs/speed_and_error.md and its pictures")
     parser.add_argument("--programs", required=True, help="folder of the programs bench_*")
     parser.add_argument("--report", required=True, help="folder to write to")
     parser.add_argument("parts", nargs="*", metavar="part", help=" ".join(names))
@@ -791,29 +210,33 @@ def main():
         parser.error("--quick means nothing but itself")
     how_much = [] if options.quick else ["--large" if options.large else "--full"]
     os.makedirs(options.report, exist_ok=True)
-    wanted = [part for part in PARTS if not options.parts or part.name in options.parts]
+    wanted = [part for part in ALL_PARTS if not options.parts or part.name in options.parts]
     left_out = [part for part in wanted if part.needs and not has_program(part, options.programs)]
     for part in left_out:
         print(f"-- this build is without {part.needs}: {part.name} is left out", file=sys.stderr)
-    if wanted == left_out:
+    measured = [part for part in wanted if part not in left_out]
+    if not measured:
         sys.exit("nothing is left to measure")
     results, context = [], None
     with tempfile.TemporaryDirectory() as folder:
-        for part in wanted:
-            if part not in left_out:
-                figures, one = run_part(part, options.programs, how_much, folder)
-                results.append((part, figures))
-                context = context or one
+        for part, figures, one in run_parts(measured, options.programs, how_much, folder,
+                                            lambda text: print(text, file=sys.stderr, flush=True)):
+            results.append((part, figures))
+            context = context if context and context["instruction set"] != "of the processor" else one
+    if not results:
+        sys.exit(130)
     write_csv(os.path.join(options.report, "report.csv"), results)
     drawn = draw(options.report, results)
     write_markdown(os.path.join(options.report, "report.md"), results, context, drawn, left_out,
                    options.quick)
     if options.docs:
-        write_pages(options.report, results, context, drawn)
+        page.write(os.path.join(HERE, "..", "..", "docs"), options.report, results, machine(context), drawn)
     if not options.quick:
-        for miss in missed(results):
-            print("-- target not met: " + miss, file=sys.stderr)
+        for line in summary.lines_of(results):
+            print(line)
     print(os.path.join(options.report, "report.md"))
+    if len(results) < len(measured):
+        sys.exit(130)
 
 
 if __name__ == "__main__":

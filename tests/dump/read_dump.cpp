@@ -4,13 +4,16 @@
 #include "granular/dump/read/dump_reader.h"
 
 #include "../support/dumps.h"
+#include "../support/hard_case.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -172,6 +175,26 @@ TEST(ReadDump, RadiusFromDiameter)
   const Decoded only = dump.read(wanting({ "radius" }));
   EXPECT_EQ(only.names(), "radius");
   EXPECT_EQ(only.values("radius"), (Doubles{ 0.15, 0 }));
+
+  HardCase hard("radii",
+    "from diameters of 1e-300 to 1e300 in text: not half of the nearest double", "radii", 0);
+  std::mt19937_64 random(1);
+  std::string rows;
+  Doubles halves;
+  for (int i = 1; i <= 10000; ++i)
+  {
+    const std::string word =
+      std::to_string(random()) + "e" + std::to_string(static_cast<int>(random() % 600) - 320);
+    rows += std::to_string(i) + " 0 0 0 " + word + "\n";
+    halves.push_back(std::strtod(word.c_str(), nullptr) / 2);
+  }
+  const Dump many(one_frame("id x y z diameter", rows));
+  const Doubles radii = many.read().values("radius");
+  ASSERT_EQ(radii.size(), halves.size());
+  for (std::size_t i = 0; i < radii.size(); ++i)
+  {
+    hard.add(radii[i] == halves[i] ? 0 : 1);
+  }
 }
 
 TEST(ReadDump, ArraysThatNobodyWantsAreNeitherThereNorParsed)

@@ -2,6 +2,7 @@
 // Averages where numbers are difficult, missing or wrong.
 #include "made_grains.h"
 
+#include "../support/hard_case.h"
 #include "../support/quad.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +50,9 @@ TEST(EulerAverageHard, VelocitiesCancelAndMassesDiffer)
     mass += grain.mass;
   }
   const Quad momentum = Quad(1e-6 * 1e-12); // one rounded product is left
-  EXPECT_NEAR(cells.velocities[0] / static_cast<double>(momentum / mass), 1, 1e-15);
+  HardCase hard("sums",
+    "mean velocity, masses 1e12 apart, momenta that cancel to 1e-24: relative error", "1", 1e-15);
+  hard.add(std::abs(cells.velocities[0] / static_cast<double>(momentum / mass) - 1), 2001);
   EXPECT_EQ(cells.velocities[1], 0);
   EXPECT_EQ(cells.velocities[2], 0.5);
 }
@@ -71,6 +74,14 @@ TEST(EulerAverageHard, TenMillionGrainsInOneCell)
   request.keep_sums = true;
   const EulerAverages averages = average(frame, request, 2);
   const Quad rows = 1e7;
+  HardCase hard(
+    "sums", "10^7 particles in one cell: mass or volume not correctly rounded", "sums", 0);
+  hard.add(averages.sums.mass[0] == static_cast<double>(rows * grain.mass) ? 0 : 1, frame.rows);
+  hard.add(
+    averages.cells.volume_fraction[0] == static_cast<double>(rows * sphere_volume(grain.radius))
+      ? 0
+      : 1,
+    0);
   EXPECT_EQ(averages.sums.mass[0], static_cast<double>(rows * grain.mass));
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

@@ -3,6 +3,8 @@
 
 #include "exact_sum.h"
 
+#include "../support/hard_case.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,6 +87,9 @@ std::vector<Terms> make_terms(std::size_t count, int orders, unsigned seed)
 
 TEST(ReproducibleSum, IsCorrectlyRoundedWhateverTheTermsAre)
 {
+  HardCase hard("sums",
+    "terms over up to 980 binary orders, against exact expansions: not correctly rounded", "sums",
+    0);
   for (const int orders : { 0, 3, 10, 40, 140 })
   {
     for (const std::size_t count : { 1U, 2U, 3U, 100U, 5000U })
@@ -92,7 +97,9 @@ TEST(ReproducibleSum, IsCorrectlyRoundedWhateverTheTermsAre)
       const std::vector<Terms> terms =
         make_terms(count, orders, static_cast<unsigned>(orders) + static_cast<unsigned>(count));
       const SumScale scale = scale_for(terms);
-      EXPECT_EQ(scale.values(sum_of(scale, terms).data()), exact(terms))
+      const Terms values = scale.values(sum_of(scale, terms).data());
+      hard.add(values == exact(terms) ? 0 : 1, SumScale::lanes);
+      EXPECT_EQ(values, exact(terms))
         << orders << " orders, " << count << " terms, " << scale.levels() << " levels";
     }
   }
@@ -142,7 +149,11 @@ TEST(ReproducibleSum, CancelsToTheLastBit)
   EXPECT_EQ(scale.values(sum_of(scale, terms).data()), Terms{});
   terms.push_back({ 1e-12, 1e-12, 1e-30, -1e-30, 1e-40, 0x1p-200, -0x1p-200, 1e-60 });
   const SumScale wider = scale_for(terms);
-  EXPECT_EQ(wider.values(sum_of(wider, terms).data()), terms.back());
+  HardCase hard(
+    "sums", "2000 terms that cancel, and 1e-12 to 1e-60 that remains: not what remains", "sums", 0);
+  const Terms values = wider.values(sum_of(wider, terms).data());
+  hard.add(values == terms.back() ? 0 : 1, SumScale::lanes);
+  EXPECT_EQ(values, terms.back());
 }
 
 TEST(ReproducibleSum, RoundsTiesToEvenAndLooksBelowThem)

@@ -4,6 +4,7 @@ import os
 import tempfile
 import unittest
 
+import hard_cases
 import layering
 import links
 import messages
@@ -19,13 +20,17 @@ SPDX = "// SPDX-License-Identifier: BSD-3-Clause\n"
 
 def found(check, **files):
     """'path:line' of every complaint about a tree of these files; __ in a name stands for /."""
+    return sorted({f"{path}:{line}" for path, line, _ in complaints(check, files)})
+
+
+def complaints(check, files):
     with tempfile.TemporaryDirectory() as root:
         for name, text in files.items():
             path = os.path.join(root, *name.replace("_dot_", ".").split("__"))
             os.makedirs(os.path.dirname(path), exist_ok=True)
             with open(path, "w", encoding="utf-8", newline="") as stream:
                 stream.write(text)
-        return sorted({f"{path}:{line}" for path, line, _ in check(root)})
+        return list(check(root))
 
 
 class Stripping(unittest.TestCase):
@@ -72,6 +77,29 @@ class Reference(unittest.TestCase):
         self.assertEqual(self.pages(), ["docs/reference/GranularX.md:1"])
         self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page, docs__reference__GranularY_dot_md="old\n"),
                          ["docs/reference/GranularY.md:1"])
+
+
+class HardCases(unittest.TestCase):
+    SOURCE = ('TEST(Sums, Cancel)\n{\n  HardCase hard(\n    "sums", "terms that "\n    "cancel", "ulp", 0.5);\n}\n')
+    ROW = "| sums | terms that cancel | ulp | 0.5 | 0.25 | 10 | `tests/a.cpp: Sums.Cancel` |\n"
+
+    def check(self, row, source=SOURCE):
+        page = f"{hard_cases.BEGIN}{hard_cases.HEAD}\n|---|\n{row}{hard_cases.END}"
+        files = {"docs__speed_and_error_dot_md": page, "tests__a_dot_cpp": source}
+        return [text for _, _, text in complaints(hard_cases.check, files) if "no hard case of" not in text]
+
+    def test_rows_are_what_tests_hold(self):
+        self.assertEqual(self.check(self.ROW), [])
+        self.assertEqual(len(self.check("")), 1)  # a test without a row
+        self.assertEqual(len(self.check(self.ROW, "")), 1)  # a row without a test
+        self.assertEqual(len(self.check(self.ROW.replace("0.5", "0.1"))), 3)  # another bound: both, and worse than it
+        self.assertEqual(len(self.check(self.ROW.replace("0.25", "0.75"))), 1)  # worse than promised
+        self.assertEqual(len(self.check(self.ROW.replace("10", "0"))), 1)  # nothing was tried
+
+    def test_subjects_are_complete(self):
+        page = hard_cases.BEGIN + hard_cases.HEAD + "\n|---|\n" + hard_cases.END
+        told = complaints(hard_cases.check, {"docs__speed_and_error_dot_md": page})
+        self.assertEqual(len(told), len(hard_cases.SUBJECTS))
 
 
 class Layering(unittest.TestCase):

@@ -2,7 +2,9 @@
 // The filter from C++: what lines get, what is said, inputs that are none, pieces, stopping, printing.
 #include "vtkGranularLocalJoin.h"
 
+#include "../support/hard_case.h"
 #include "../support/observer.h"
+#include "../support/quad.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -39,6 +41,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -404,6 +407,61 @@ TEST(LocalJoinFilter, ElongationAndStrain)
 }
 
 /// Lines lie where the points are, and are as long as in the simulation.
+/// The strain of bonds from 1e-9 to 1e6 long that are stretched by 1e-12 to 1, against 113 bits.
+TEST(LocalJoinFilter, StrainsOfShortAndLongBonds)
+{
+  HardCase hard("strains",
+    "bonds 1e-9 to 1e6 long, ends up to 1e6 away, strains of 1e-12 to 1: error", "2^-52", 2);
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  constexpr std::size_t bonds = 2000;
+  Values points;
+  Values ids;
+  Values rest;
+  std::vector<Quad> expected;
+  for (std::size_t i = 0; i < bonds; ++i)
+  {
+    const double size = std::pow(10, -1.5 + 7.5 * unit(random));
+    Quad square = 0;
+    Values second;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      points.push_back(1e6 * unit(random) * (i % 2));
+      second.push_back(points.back() + size * unit(random));
+      const Quad along = static_cast<Quad>(second.back()) - points.back();
+      square += along * along;
+    }
+    points.insert(points.end(), second.begin(), second.end());
+    ids.push_back(static_cast<double>(2 * i + 1));
+    const double nearest = std::sqrt(static_cast<double>(square));
+    const Quad length = (nearest + square / nearest) / 2; // a step of Newton's: 106 bits
+    rest.push_back(nearest / (1 + std::pow(10, -6 + 6 * unit(random))));
+    expected.push_back((length - rest.back()) / rest.back());
+  }
+  Values second_ids;
+  Values all;
+  for (const double id : ids)
+  {
+    second_ids.push_back(id + 1);
+    all.insert(all.end(), { id, id + 1 });
+  }
+  vtkNew<vtkPolyData> particles;
+  vtkNew<vtkPoints> places;
+  places->SetData(MakeArray("points", points, 3));
+  particles->SetPoints(places);
+  particles->GetPointData()->AddArray(MakeArray<vtkTypeInt64Array>("id", all));
+  const auto table = MakeTable(ids, second_ids);
+  table->AddColumn(MakeArray("equilibrium_length", rest));
+  Filter filter(particles, table);
+  filter->Update();
+  const Values strains = filter.ValuesOf("strain");
+  ASSERT_EQ(strains.size(), bonds);
+  for (std::size_t i = 0; i < bonds; ++i)
+  {
+    hard.add(static_cast<double>(absolute(static_cast<Quad>(strains[i]) - expected[i])) / 0x1p-52);
+  }
+}
+
 TEST(LocalJoinFilter, PointsOfAllKinds)
 {
   auto particles = MakeParticles();

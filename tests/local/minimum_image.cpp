@@ -2,6 +2,7 @@
 // The shortest image of a vector, held against all images near it, in 113 bits and in integers.
 #include "granular/local/minimum_image.h"
 
+#include "../support/hard_case.h"
 #include "../support/quad.h"
 
 #include <gtest/gtest.h>
@@ -108,7 +109,8 @@ std::string to_text(const Box& box, const Vector3& vector, const BoxCounts& coun
 }
 
 /// No image within reach is shorter than what is found, but for the rounding of the vector.
-void expect_shortest(const Box& box, const MinimumImage& images, const Vector3& vector, int reach)
+/// Returns how much longer it is than the shortest, in units of that rounding.
+double expect_shortest(const Box& box, const MinimumImage& images, const Vector3& vector, int reach)
 {
   const BoxCounts counts = images.find(vector);
   const std::array<bool, 3> periodic = axes_of(box);
@@ -121,6 +123,7 @@ void expect_shortest(const Box& box, const MinimumImage& images, const Vector3& 
   const double size = std::hypot(vector[0], vector[1], vector[2]);
   EXPECT_LE(found, best * (1 + 0x1p-50) + size * 0x1p-46)
     << to_text(box, vector, counts) << ": found " << found << ", there is " << best;
+  return (found - best) / (best * 0x1p-50 + size * 0x1p-46);
 }
 
 class Numbers
@@ -240,6 +243,10 @@ TEST(MinimumImage, TiltedByHalfTheBoxAndMore)
 
 TEST(MinimumImage, ShortestInRandomTiltedBoxes)
 {
+  HardCase hard("minimum image",
+    "tilts of up to 6 box lengths, vectors of up to 1e13: excess over the shortest of 17^3 images, "
+    "by its rounding",
+    "bounds", 1);
   Numbers numbers;
   for (int run = 0; run < 700; ++run)
   {
@@ -255,7 +262,7 @@ TEST(MinimumImage, ShortestInRandomTiltedBoxes)
     const MinimumImage images(box);
     for (const double scale : { 0.5, 2., 30., 1e6, 1e13 })
     {
-      expect_shortest(box, images, numbers.vector(scale), run % 50 == 0 ? 20 : 8);
+      hard.add(expect_shortest(box, images, numbers.vector(scale), run % 50 == 0 ? 20 : 8));
     }
   }
 }
@@ -473,6 +480,8 @@ TEST(MinimumImage, SmallestCountsOfTies)
 
 TEST(MinimumImage, ShiftsAreRoundedOnce)
 {
+  HardCase hard("minimum image", "sums of up to 10^6 box vectors of tilted boxes, 1e9 away: error",
+    "ulp", 0.51);
   Numbers numbers;
   for (int run = 0; run < 2000; ++run)
   {
@@ -491,6 +500,8 @@ TEST(MinimumImage, ShiftsAreRoundedOnce)
     {
       EXPECT_LE(static_cast<double>(absolute(static_cast<Quad>(shift[axis]) - exact[axis])),
         0.501 * ulp(exact[axis]) + 1e6 * 4 * 0x1p-100);
+      hard.add(static_cast<double>(absolute(static_cast<Quad>(shift[axis]) - exact[axis])) /
+        ulp(exact[axis]));
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "granular/numbers/number.h"
 
 #include "../support/decimals.h"
+#include "../support/hard_case.h"
 #include "../support/quad.h"
 #include "granular/numbers/decimal.h"
 
@@ -88,12 +89,16 @@ void expect_as_strtod(const std::string& word, const char* kind)
 // GRANULAR_NUMBERS=50000000 build/core-only/tests/bin/test_number --gtest_filter='*Strtod*'
 TEST(ParseDouble, EqualsStrtodBitForBit)
 {
+  HardCase hard("numbers, read",
+    "words of up to 800 digits, many next to the middle of two doubles: not the nearest double",
+    "words", 0);
   Decimals decimals(20240607);
   const std::int64_t count = numbers_to_try(2'000'000);
   for (std::int64_t i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i)
   {
     const std::string& word = decimals.next();
     expect_as_strtod(word, decimals.kind());
+    hard.add(::testing::Test::HasFatalFailure() ? 1 : 0);
   }
 }
 
@@ -403,10 +408,13 @@ TEST(ParseInt64, RefusesWhatADoubleDoesNotHoldExactly)
 
 TEST(ParseInt64, RandomIntegersOfEveryLength)
 {
+  HardCase hard("ids", "integers of up to 64 bits, read as ids: changed ones", "ids", 0);
   std::mt19937_64 random(7);
   for (int i = 0; i < 200'000; ++i)
   {
     const auto value = static_cast<std::int64_t>(random()) >> (random() % 64);
-    ASSERT_EQ(integer_of(std::to_string(value)), value);
+    const std::int64_t found = integer_of(std::to_string(value));
+    hard.add(found == value ? 0 : 1);
+    ASSERT_EQ(found, value);
   }
 }

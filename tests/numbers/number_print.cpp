@@ -3,6 +3,7 @@
 
 #include "../support/decimals.h"
 #include "../support/exact_decimal.h"
+#include "../support/hard_case.h"
 #include "granular/common/error.h"
 
 #include <gtest/gtest.h>
@@ -341,12 +342,15 @@ TEST(PrintNumber, NearTies)
 // GRANULAR_NUMBERS=50000000 build/core-only/tests/bin/test_number_print
 TEST(PrintNumber, EqualsPrintfForAnyBits)
 {
+  HardCase hard("numbers, written",
+    "%.1g to %.17g of doubles of any bits: other bytes than those of printf", "words", 0);
   std::mt19937_64 random(1);
   const std::int64_t count = numbers_to_try(1'000'000);
   for (std::int64_t i = 0; i < count; ++i)
   {
     const double value = random_double(random);
     const int digits = 1 + static_cast<int>(i % most_digits);
+    hard.add(printed(value, digits) == by_printf(value, digits) ? 0 : 1);
     ASSERT_EQ(printed(value, digits), by_printf(value, digits)) << hexadecimal(value);
   }
 }
@@ -428,11 +432,14 @@ TEST(PrintShortest, ReadsBackAndIsNeverLonger)
       ASSERT_FALSE(::testing::Test::HasFatalFailure());
     }
   }
+  HardCase hard("numbers, written",
+    "shortest: words that do not read back, or that a shorter one reads back as", "words", 0);
   std::mt19937_64 random(4);
   const std::int64_t count = numbers_to_try(1'000'000) / 5;
   for (std::int64_t i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i)
   {
     expect_shortest(i % 4 == 0 ? random_double(random) : usual_double(random));
+    hard.add(::testing::Test::HasFatalFailure() ? 1 : 0);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grains at random places: none overlap, all are there, and nothing shows where the box was cut.
+#include "../support/hard_case.h"
 #include "../support/packings.h"
 
 #include <gtest/gtest.h>
@@ -72,6 +73,8 @@ TEST_P(PackingRandom, NoneOverlapAndAllAreInside)
 {
   const Grains grains(request_of(GetParam()));
   ASSERT_GT(grains.size(), 10u);
+  HardCase hard("packings", "random particles: overlap of the nearest two", "diameters", 0);
+  hard.add(std::max(0.0, -grains.least_gap()), static_cast<std::int64_t>(grains.size()));
   EXPECT_GT(grains.least_gap(), 0);
   EXPECT_GE(grains.least_inside(), GetParam().boundary == std::string("f f f") ? 0 : -1e-9);
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());

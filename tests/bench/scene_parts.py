@@ -1,0 +1,350 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The parts that a user asks for: what each choice costs, and what it loses. docs/speed_and_error.md is made of them."""
+import math
+
+from parts import EULER
+from tables import Column, Part, Target, cases_by_metrics, columns, markdown, scientific, verdict
+
+PLACES = ("0", "1e3", "1e6")
+EXACT = 1e-17  # where errors of 0 are drawn
+
+
+def error(figures, case, metric, unit, form="largest"):
+    """Largest (rms) of an error, or one of the two; empty where there is none."""
+    if case not in figures.cases or figures.get(case, f"{metric}, largest:{unit}") is None:
+        return ""
+    largest, rms = (scientific(figures.get(case, f"{metric}, {what}:{unit}")) for what in ("largest", "rms"))
+    return largest if form == "largest" or largest == rms else f"{largest} ({rms})"
+
+
+# ---- storing -------------------------------------------------------------------------------------
+def stored(figures):
+    """Ways to store that were timed."""
+    return [case for case in figures.cases if "; box at" not in case]
+
+
+def position_error(figures, way, place):
+    return figures.get(f"{way}; box at {place}", "position, largest:radius")
+
+
+def costs(figures, way):
+    return (figures.get(f"{way}; box at 1e3", "size:B/particle"), figures.get(way, "write:ns/particle"),
+            figures.get(way, "read:ns/particle"))
+
+
+def is_dominated(figures, way, place):
+    """Returns a way that is no worse in bytes, writing, reading and error of positions, and better in one; or None."""
+    def all_of(name):
+        return (*costs(figures, name), position_error(figures, name, place))
+    mine = all_of(way)
+    for other in stored(figures):
+        if all(a <= b for a, b in zip(all_of(other), mine)) and all_of(other) != mine:
+            return other
+    return None
+
+
+def store_table(part, figures, quick):
+    head = ["way", "B/particle", "write ns/particle", "against custom %g", "read ns/particle", "against custom %g",
+            *(f"position error at {place} [radii]" for place in PLACES), *(f"strain error at {place}" for place in PLACES),
+            "velocity error [rms velocity]", "force error, relative", "target"]
+    rows = []
+    for way in stored(figures):
+        size, write, read = costs(figures, way)
+        dominated = all(is_dominated(figures, way, place) for place in PLACES)
+        case = f"{way}; box at 1e3"
+        rows.append([f"_{way}_" if dominated else f"**{way}**", f"{size:.0f}", f"{write:.0f}",
+                     f"{figures.get(way, 'write against custom %g:1'):.2f}", f"{read:.0f}",
+                     f"{figures.get(way, 'read against custom %g:1'):.2f}",
+                     *(error(figures, f"{way}; box at {place}", "position", "radius", "both") for place in PLACES),
+                     *(error(figures, f"{way}; box at {place}", "strain", "1") for place in PLACES),
+                     error(figures, case, "velocity", "rms"), error(figures, case, "force", "1"),
+                     verdict(part, figures, case, "position, largest:radius", quick)])
+    never = [way for way in stored(figures) if all(is_dominated(figures, way, place) for place in PLACES)]
+    words = [f"{way} (by {is_dominated(figures, way, '1e3')})" for way in never]
+    return markdown(head, rows) + [
+        "Never right, because another way is at least as good in bytes, writing, reading and error, wherever the box is: " +
+        (", ".join(words) if words else "none") + ".", ""]
+
+
+def front(points):
+    """The points that no other one beats in both, in order."""
+    best, found = math.inf, []
+    for x, y, name in sorted(points):
+        if y < best:
+            best = y
+            found.append((x, y, name))
+    return found
+
+
+def scatter(axes, points, label):
+    """Points and their front; those behind it are grey."""
+    ahead = front(points)
+    names = {name for _, _, name in ahead}
+    for x, y, name in points:
+        axes.plot(x, max(y, EXACT), "o", color="C0" if name in names else "0.75", zorder=3 if name in names else 2)
+    axes.step([x for x, _, _ in ahead], [max(y, EXACT) for _, y, _ in ahead], where="post", color="C0", linewidth=1)
+    for i, (x, y, name) in enumerate(ahead):
+        axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(6, 5 + 9 * (i % 2)), fontsize=7)
+    axes.set_yscale("log")
+    axes.set_ylim(EXACT / 5, 100)
+    axes.axhline(1e-2, color="0.6", linewidth=0.8, linestyle=":")
+    axes.grid(color="0.93")
+    axes.set_xlabel(label)
+    axes.set_xlim(left=0, right=1.35 * max(x for x, _, _ in points))
+
+
+def plot_store(pyplot, figures):
+    ways = stored(figures)
+    figure, panels = pyplot.subplots(2, 3, figsize=(14, 8.5), sharey=True, layout="constrained")
+    for axes, place in zip(panels[0], PLACES):
+        scatter(axes, [(costs(figures, way)[0], position_error(figures, way, place), way) for way in ways], "bytes a particle")
+        axes.set_title(f"box at {place} lengths from the origin")
+    texts = [way for way in ways if "gzip" not in way]
+    for axes, index, label in ((panels[1][0], 1, "time to write [ns/particle]"), (panels[1][1], 2, "time to read [ns/particle]")):
+        scatter(axes, [(costs(figures, way)[index], position_error(figures, way, "1e3"), way) for way in texts], label)
+        axes.set_title("box at 1e3; gzip left out")
+    axes = panels[1][2]
+    digits = [("%g", 6), ("%.9g", 9), ("%.12g", 12), ("%.17g", 17)]
+    for place, color in zip(PLACES, ("C0", "C1", "C3")):
+        for form, style in (("custom", "o-"), ("scaled", "s--")):
+            points = [(count, figures.get(f"{form} {text}; box at {place}", "strain, largest:1"))
+                      for text, count in digits if f"{form} {text}; box at {place}" in figures.cases]
+            axes.plot([x for x, _ in points], [max(y, EXACT) for _, y in points], style, color=color,
+                      label=f"{form}, box at {place}")
+    axes.axhline(1e-4, color="0.4", linewidth=0.8)
+    axes.text(6, 1.5e-4, "a strain of 1e-4", fontsize=8, color="0.4")
+    axes.set_yscale("log")
+    axes.set_xlabel("digits of text")
+    axes.set_title("largest error of strain")
+    axes.grid(color="0.93")
+    axes.legend(fontsize=7)
+    for row in panels:
+        row[0].set_ylabel("largest error of positions [smallest radii]")
+    panels[0][0].text(2, 1.4e-2, "1 % of a radius", fontsize=8, color="0.4")
+    panels[0][0].text(2, 1.4 * EXACT, "exact", fontsize=8, color="0.4")
+    return figure
+
+
+# ---- looking -------------------------------------------------------------------------------------
+LOOKS = ("double", "double, PointOrigin", "single", "single, PointOrigin")
+
+
+def place_name(power):
+    return f"1e{power}" if power else "0"
+
+
+def look_table(part, figures, quick):
+    rows = []
+    for way in LOOKS:
+        rows.append([f"`{way}`", f"{figures.get(way, 'points:B/particle'):.0f}", f"{figures.get(way, 'data:B/particle'):.0f}",
+                     f"{figures.get(way, 'read:ns/particle'):.0f}", f"{figures.get(way, 'read against double:1'):.2f}",
+                     *(error(figures, f"{way}; box at {place_name(power)}", "position", "radius", "both")
+                       for power in (0, 3, 6, 12)),
+                     verdict(part, figures, f"{way}; box at 1e3", "position, largest:radius", quick)])
+    head = ["points", "B/particle of points", "of all arrays", "read ns/particle", "against double",
+            *(f"error at {place_name(power)} [radii]" for power in (0, 3, 6, 12)), "target"]
+    scaled = [[f"`{case}`", error(figures, case, "position", "ulp", "both"),
+               verdict(part, figures, case, "position, largest:ulp", quick)] for case in figures.all(" crossings$")]
+    return markdown(head, rows) + ["Scaled coordinates and image counts, made into positions, against fractions:", ""] + \
+        markdown(["box", "error, largest (rms) [ulp]", "target"], scaled)
+
+
+def plot_look(pyplot, figures):
+    figure, axes = pyplot.subplots(figsize=(8, 4.6), layout="constrained")
+    for way, style in zip(LOOKS, ("o-", "s--", "v-", "^--")):
+        values = [figures.get(f"{way}; box at {place_name(power)}", "position, largest:radius") for power in range(13)]
+        axes.plot([10.0 ** power for power in range(13)], [max(value, EXACT) for value in values], style, label=way)
+    axes.axhline(1, color="0.4", linewidth=0.8)
+    axes.text(1.2, 1.4, "one radius", fontsize=8, color="0.4")
+    axes.text(1.2, 1.5 * EXACT, "exact", fontsize=8, color="0.4")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("distance of the box from the origin [box lengths]")
+    axes.set_ylabel("largest error of positions [smallest radii]")
+    axes.grid(color="0.93")
+    axes.legend(fontsize=8, loc="center right")
+    return figure
+
+
+def plot_layer(pyplot, figures):
+    """Circles of the particles of a layer, as single precision has them."""
+    figure, panels = pyplot.subplots(1, 2, figsize=(10, 5.2), sharex=True, sharey=True, layout="constrained")
+    told = figures.cases["layer"]
+    for axes, name in zip(panels, ("single", "single, PointOrigin")):
+        numbers = sorted(int(metric.split(" of ")[1].split(":")[0]) for metric in told if metric.startswith(name + ", x of "))
+        for i in numbers:
+            centre = [told[f"{name}, {axis} of {i}:lattice constants"] for axis in "xy"]
+            axes.add_patch(pyplot.Circle(centre, 0.5 / 2 ** 0.5, facecolor="C0", edgecolor="k", alpha=0.6, linewidth=0.5))
+        axes.set_xlim(-0.5, 9)
+        axes.set_ylim(-0.5, 9)
+        axes.set_aspect("equal")
+        axes.set_title(name)
+        axes.set_xticks([])
+        axes.set_yticks([])
+    return figure
+
+
+# ---- only what the scene needs --------------------------------------------------------------------
+def plot_choose(pyplot, figures):
+    figure, panels = pyplot.subplots(1, 2, figsize=(12, 4.8), layout="constrained")
+    groups = (("columns", "o", "C0"), ("Stride", "s", "C1"), ("RegionOfInterest", "^", "C2"), ("frame", "D", "C3"),
+              ("points of", "*", "C4"))
+    for axes, metric, label in zip(panels, ("read", "memory"), ("time", "memory")):
+        axes.plot([0.005, 1], [0.005, 1], color="0.6", linewidth=1)
+        axes.text(0.02, 0.012, "in proportion", fontsize=8, color="0.5", rotation=38)
+        for group, mark, color in groups:
+            points = []
+            for case in figures.cases:
+                against = [value for name, value in figures.cases[case].items() if name.startswith(f"{metric} against")]
+                if group in case and against and not case.startswith("opening"):
+                    points.append((figures.get(case, "kept:1"), against[0]))
+            if points:
+                axes.plot(*zip(*sorted(points)), mark, color=color, label=group if group != "frame" else "frames of a run",
+                          linestyle="-" if len(points) > 1 else "", linewidth=0.8)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("part that is kept")
+        axes.set_ylabel(f"{label} against everything")
+        axes.grid(color="0.93")
+        axes.legend(fontsize=8)
+    return figure
+
+
+# ---- cells ---------------------------------------------------------------------------------------
+def plot_average(pyplot, figures):
+    figure, panels = pyplot.subplots(1, 2, figsize=(11, 4.4), layout="constrained")
+    for axes, metric, label in zip(panels, ("volume fraction, rms error:1", "velocity, rms error:of shear"),
+                                   ("volume fraction (expected 0.3)", "velocity (shear 0 to 2, fluctuations 0.5)")):
+        for motion, style in (("moving", "-"), ("at rest", "--")):
+            for weights, color in (("Centre", "C1"), ("Overlap", "C0")):
+                cases = figures.all(f"^{motion}, {weights}")
+                axes.plot([figures.get(case, "time:ns/particle") for case in cases],
+                          [figures.get(case, metric) for case in cases], "o" + style, color=color, label=f"{weights}, {motion}")
+                for case in cases:
+                    axes.annotate(case.split(", ")[2].split()[0], (figures.get(case, "time:ns/particle"), figures.get(case, metric)),
+                                  textcoords="offset points", xytext=(4, 4), fontsize=7)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("time, reading included [ns/particle of a frame]")
+        axes.set_ylabel("rms error")
+        axes.set_title(label + "; numbers: frames", fontsize=9)
+        axes.grid(color="0.93")
+        axes.legend(fontsize=8)
+    return figure
+
+
+SUMS = ("+= float", "pairwise float", "+= double", "pairwise double", "compensated", "exact")
+
+
+def sums_table(part, figures, quick):
+    kinds = figures.all(r"^(alike|masses|cancelling)")
+    rows = [[f"`{name}`", *(cell for kind in kinds for cell in (
+        f"{figures.get(kind, name + ':ns/term'):.2f}", scientific(figures.get(kind, name + ', relative error:1'))))]
+        for name in SUMS]
+    head = ["sum", *(cell for kind in kinds for cell in (f"{kind}, ns/term", "relative error"))]
+    words = figures.all("^words")
+    names = ("digits times a power", "std::from_chars", "parse_double")
+    numbers = [[f"`{name}`", *(cell for case in words for cell in (
+        f"{figures.get(case, name + ':ns/word'):.1f}", f"{figures.get(case, name + ', wrong words of 10^9:1'):.0f}"))] for name in names]
+    return markdown(head, rows) + ["Words of text into doubles:", ""] + markdown(
+        ["way", *(cell for case in words for cell in (f"{case}, ns/word", "wrong of 10^9"))], numbers)
+
+
+def plot_sums(pyplot, figures):
+    figure, axes = pyplot.subplots(figsize=(8, 4.4), layout="constrained")
+    for kind, mark in zip(figures.all(r"^(alike|masses|cancelling)"), "os^"):
+        for i, name in enumerate(SUMS):
+            axes.plot(figures.get(kind, name + ":ns/term"), max(figures.get(kind, name + ", relative error:1"), EXACT), mark,
+                      color=f"C{i}", label=name if mark == "o" else None)
+        axes.plot([], [], mark, color="k", markerfacecolor="none", label=kind)
+    axes.set_yscale("log")
+    axes.set_xlim(left=0)
+    axes.axhline(2.0 ** -53, color="0.5", linewidth=0.8, linestyle=":")
+    axes.text(0.02, 1.4 * 2.0 ** -53, "half an ulp", fontsize=8, color="0.4")
+    axes.set_xlabel("time [ns/term]")
+    axes.set_ylabel("relative error of the sum")
+    axes.grid(color="0.93")
+    axes.legend(fontsize=8, ncol=2)
+    return figure
+
+
+# ---- lines, cores, others --------------------------------------------------------------------------
+def lines_table(part, figures, quick):
+    rows = []
+    for case in figures.cases:
+        rows.append([f"`{case}`", error(figures, case, "length", "ulp", "both"), f"{figures.get(case, 'wrong image:1'):.1%}",
+                     f"{figures.get(case, 'longest against true:1'):.3g}",
+                     verdict(part, figures, case, "length, largest:ulp", quick)])
+    return markdown(["box; lines", "error of length, largest (rms) [ulp]", "lines to a wrong image", "longest against true",
+                     "target"], rows)
+
+
+def others_table(part, figures, quick):
+    rows, absent = [], []
+    for case in figures.cases:
+        if figures.get(case, "not installed:1"):
+            absent.append(case)
+            continue
+        wrong, ratio = figures.get(case, "wrong values:1"), figures.get(case, "read against ours:1")
+        rows.append([f"`{case}`", f"{figures.get(case, 'read:ns/particle'):.0f}", "" if ratio is None else f"{ratio:.1f}",
+                     "" if wrong is None else f"{wrong:.0%}",
+                     "" if wrong is None else scientific(figures.get(case, "error, largest:ulp")),
+                     verdict(part, figures, case, "error, largest:ulp", quick)])
+    words = [f"Not installed, and so left out: {', '.join(absent)}.", ""] if absent else []
+    return markdown(["program; text", "read ns/particle", "against ours", "wrong values", "largest error [ulp]", "target"],
+                    rows) + words
+
+
+SCENE = """A packing of 111,132 particles of radius 5.6e-3 in a box of length 1, stretched by 5 %; 12 columns: id type x y z vx vy
+vz fx fy fz radius. One thread, processor time, files in the page cache. """
+
+SCENE_PARTS = (
+    Part("store", "Storing a scene",
+         SCENE + """Time and bytes are those at 1e3. Errors: largest (rms). Bold: not beaten in everything by another way; italics:
+         beaten. Reading takes the file apart again, without looking for its frames.""",
+         [store_table],
+         [Target(r"shortest|%\.17g|binary", "position, largest:radius", "<=", 0)], plot_store, script=True),
+    Part("look", "Looking at a scene",
+         SCENE + """Errors are those of point + PointOrigin, largest (rms), in smallest radii.""",
+         [look_table],
+         [Target(r"^double; ", "position, largest:radius", "<=", 0),
+          Target(r"^single, PointOrigin; ", "position, largest:radius", "<=", 1e-5),
+          Target(r"crossings", "position, largest:ulp", "<=", 0.501)], {"look": plot_look, "layer": plot_layer}, script=True),
+    Part("choose", "Only what the scene needs",
+         """333,396 particles as above, text of %g; and a file of 20 frames. kept: the part of the values, or of the particles, that
+         is asked for. One thread, processor time.""",
+         [cases_by_metrics(r"^(?!.*(frame|opening))", *columns(".3f", "kept:1"), *columns(".0f", "read:ns/particle"),
+                           *columns(".2f", "read against everything:1"), *columns(".0f", "memory:B/particle"),
+                           *columns(".2f", "memory against everything:1")),
+          cases_by_metrics(r"frame|opening", *columns(".2f", "kept:1"), Column("ns a particle of the run", "read:ns/particle", ".1f"),
+                           *columns(".3f", "read against all:1"))],
+         [Target(r"^1 frame", "read against all:1", "<=", 0.06)], plot_choose, script=True),
+    EULER,
+    Part("average", "Averages over frames",
+         """20,000 equal spheres at random, which may overlap, in 8 x 8 x 8 cells: 39 in each. The expected volume fraction is 0.3 and
+         the expected velocity 2 z, with fluctuations of 0.5. Time is that of reading and averaging all frames, for a particle of
+         one of them. Files of cells: what is read back against what was written.""",
+         [cases_by_metrics(r"frames$", *columns(".0f", "time:ns/particle"), Column("against 1 frame", "time against 1 frame:1", ".2f"),
+                           *columns(".1e", "volume fraction, rms error:1", "velocity, rms error:of shear")),
+          cases_by_metrics(r"^(six|Wide)", *columns(".0f", "size:B/cell"),
+                           *columns(".1e", "volumefraction, largest error:rms", "v_avg, largest error:rms", "pressure, largest error:rms"))],
+         [Target(r"^Wide", "v_avg, largest error:rms", "<=", 0)], plot_average, script=True),
+    Part("sums", "Sums and numbers",
+         """10^6 terms into one sum. Alike: 0.5 to 1.5. Masses 1e12 apart: halves of 1e6 and 1e-6. Cancelling: pairs to and fro in any
+         order, and 1e-12 that remains. exact makes eight sums at once, and its time is that of one of them. The exact sum is
+         made of integers. Words: 10^6 decimals from -1 to 1; digits times a power is the loop that many programs have.""",
+         [sums_table], [], plot_sums),
+    Part("lines", "Lines between particles in tilted boxes",
+         """1000 pairs in boxes of length 1, up to 0.09 apart, ends wrapped into the box. Coordinates are multiples of 2^-40, and the
+         true length is the least over images, by integers.""",
+         [lines_table], [Target(r"minimum image", "length, largest:ulp", "<=", 2)], script=True),
+    Part("cores", "Cores",
+         """333,396 particles: a text of %g read, 20 x 20 x 20 Overlap cells averaged, a text of shortest numbers written. Time on the
+         wall. All thread counts give the same bits, or this fails.""",
+         [cases_by_metrics(r"", *columns(".0f", "time:ns/particle"), *columns(".2f", "speed against 1 thread:1"))],
+         [Target(r"read, 2", "speed against 1 thread:1", ">=", 1.5, cores=2)], script=True, wants_cores=2),
+    Part("others", "Other programs on the same files",
+         """31,752 particles at 1e3 lengths from the origin. Errors are distances from what the words in the file say. ASE and
+         MDAnalysis keep positions only. LAMMPS: the processor time of the whole program.""",
+         [others_table], [Target(r"^vtk-granular", "error, largest:ulp", "<=", 0)], script=True),
+)

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What exactness of sums costs, and how wrong others are: one sum of many terms, by += on floats and doubles, pairwise,
+// compensated, and as averages make it. The exact sum is made of integers: each term is a multiple of 2^-bottom.
+//
+// Numbers beside: words read by the loop that many programs have, digits times a power of ten, against the nearest
+// double.
+#include "bench.h"
+
+#include "granular/geometry/compensated.h"
+#include "granular/geometry/reproducible_sum.h"
+#include "granular/numbers/number.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bench
+{
+namespace
+{
+/// 113 bits.
+__extension__ typedef __float128 Quad;
+
+/// Terms, their exact sum, and the sum of their magnitudes.
+struct Terms
+{
+  std::vector<double> values;
+  Quad exact = 0;
+  Quad magnitudes = 0;
+  granular::SumScale::Range range;
+};
+
+/// All partial sums of multiples of 2^bottom below 2^(bottom + 113) are exact in 113 bits.
+Terms make_terms(const std::vector<double>& values, int top, int bottom)
+{
+  Terms terms;
+  terms.range = { top, bottom };
+  for (const double value : values)
+  {
+    const double rounded = std::ldexp(std::nearbyint(std::ldexp(value, -bottom)), bottom);
+    terms.values.push_back(rounded);
+    terms.exact += rounded;
+    terms.magnitudes += rounded < 0 ? -rounded : rounded;
+  }
+  return terms;
+}
+
+Terms make_terms(std::string_view kind, std::size_t count)
+{
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double x = unit(random);
+    if (kind == "alike")
+    {
+      values[i] = 0.5 + x;
+    }
+    else if (kind == "masses 1e12 apart")
+    {
+      values[i] = i % 2 == 0 ? 1e6 * (1 + x) : 1e-6 * (1 + x);
+    }
+    else
+    { // velocities to and fro, and what is left of them: 1e-12 of the largest
+      values[i] = i % 2 == 0 ? 1 + x : -values[i - 1];
+    }
+  }
+  if (kind == "cancelling to 1e-12")
+  {
+    values.push_back(1e-12);
+    std::ranges::shuffle(values, random);
+  }
+  return make_terms(values, 22, kind == "masses 1e12 apart" ? -72 : -60);
+}
+
+template <class T>
+T add_pairs(const double* values, std::size_t count)
+{
+  if (count <= 32)
+  {
+    T sum = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      sum += static_cast<T>(values[i]);
+    }
+    return sum;
+  }
+  return add_pairs<T>(values, count / 2) + add_pairs<T>(values + count / 2, count - count / 2);
+}
+
+template <class T>
+T add_plainly(const std::vector<double>& values)
+{
+  T sum = 0;
+  for (const double value : values)
+  {
+    sum += static_cast<T>(value);
+  }
+  return sum;
+}
+
+double add_compensated(const std::vector<double>& values)
+{
+  granular::CompensatedSum sum;
+  for (const double value : values)
+  {
+    sum.add(value);
+  }
+  return sum.hi + sum.lo;
+}
+
+/// Eight sums at once, as averages make them: all are the same here, and the time counts for one.
+double add_exactly(const Terms& terms, std::vector<granular::SumScale::Terms>& lanes)
+{
+  std::array<granular::SumScale::Range, granular::SumScale::lanes> ranges;
+  ranges.fill(terms.range);
+  const granular::SumScale scale(ranges, static_cast<std::int64_t>(terms.values.size()));
+  std::vector<std::int64_t> sums(scale.size());
+  const std::vector<std::int64_t> cells(lanes.size());
+  scale.add(lanes, cells.data(), sums.data());
+  return scale.values(sums.data())[0];
+}
+
+void sum_case(benchmark::State& state, const std::string& kind, std::size_t count)
+{
+  const Terms terms = make_terms(kind, count);
+  count = terms.values.size();
+  std::vector<granular::SumScale::Terms> lanes(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    lanes[i].fill(terms.values[i]);
+  }
+  Rounds rounds;
+  std::array<double, 6> sums = {};
+  const std::array<const char*, 6> names = { "+= float", "+= double", "pairwise float",
+    "pairwise double", "compensated", "exact" };
+  rounds.add(names[0],
+    [&]
+    {
+      sums[0] = add_plainly<float>(terms.values);
+      return true;
+    });
+  rounds.add(names[1],
+    [&]
+    {
+      sums[1] = add_plainly<double>(terms.values);
+      return true;
+    });
+  rounds.add(names[2],
+    [&]
+    {
+      sums[2] = add_pairs<float>(terms.values.data(), count);
+      return true;
+    });
+  rounds.add(names[3],
+    [&]
+    {
+      sums[3] = add_pairs<double>(terms.values.data(), count);
+      return true;
+    });
+  rounds.add(names[4],
+    [&]
+    {
+      sums[4] = add_compensated(terms.values);
+      return true;
+    });
+  // correctly rounded, or wrong
+  rounds.add(names[5],
+    [&]
+    {
+      sums[5] = add_exactly(terms, lanes);
+      return sums[5] == static_cast<double>(terms.exact);
+    });
+  if (!rounds.run_all(state, "a sum is not correctly rounded", static_cast<double>(count)))
+  {
+    return;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const std::string name = names[i];
+    const double lanes_at_once = name == "exact" ? granular::SumScale::lanes : 1;
+    const Quad error = sums[i] - terms.exact;
+    tell(state, name, 1e9 * median(rounds.of(name)) / lanes_at_once, "ns/term");
+    tell(state, name + ", time against += double",
+      median_ratio(rounds.of(name), rounds.of("+= double")) / lanes_at_once, "1");
+    tell(state, name + ", relative error", std::abs(static_cast<double>(error / terms.exact)), "1");
+    tell(state, name + ", error of the magnitudes",
+      std::abs(static_cast<double>(error / terms.magnitudes)), "1");
+  }
+}
+
+/// What many programs have: digits into a double, times or by a power of ten.
+double parse_plainly(std::string_view word)
+{
+  double digits = 0;
+  int power = 0;
+  bool behind_point = false;
+  std::size_t i = word.front() == '-' ? 1 : 0;
+  for (; i < word.size() && word[i] != 'e'; ++i)
+  {
+    if (word[i] == '.')
+    {
+      behind_point = true;
+      continue;
+    }
+    digits = 10 * digits + (word[i] - '0');
+    power -= behind_point ? 1 : 0;
+  }
+  if (i < word.size())
+  {
+    power += std::stoi(std::string(word.substr(i + 1)));
+  }
+  const double value = digits * std::pow(10.0, power);
+  return word.front() == '-' ? -value : value;
+}
+
+void number_case(benchmark::State& state, int digits, std::size_t count)
+{
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<std::string> words(count);
+  std::vector<double> true_values(count);
+  std::array<char, 40> buffer = {};
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, unit(random));
+    words[i] = buffer.data();
+    true_values[i] = std::strtod(words[i].c_str(), nullptr); // glibc rounds correctly
+  }
+  std::int64_t wrong_plain = 0;
+  Rounds rounds;
+  rounds.add("digits times a power",
+    [&]
+    {
+      wrong_plain = 0;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        wrong_plain += parse_plainly(words[i]) != true_values[i] ? 1 : 0;
+      }
+      return true;
+    });
+  rounds.add("parse_double",
+    [&]
+    {
+      bool right = true;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        double value = 0;
+        granular::parse_double(words[i].data(), words[i].data() + words[i].size(), value);
+        right = right && value == true_values[i];
+      }
+      return right;
+    });
+  rounds.add("std::from_chars",
+    [&]
+    {
+      bool right = true;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        double value = 0;
+        std::from_chars(words[i].data(), words[i].data() + words[i].size(), value);
+        right = right && value == true_values[i];
+      }
+      return right;
+    });
+  if (!rounds.run_all(state, "a number is not the nearest double", static_cast<double>(count)))
+  {
+    return;
+  }
+  for (const char* const name : { "digits times a power", "parse_double", "std::from_chars" })
+  {
+    const double wrong =
+      std::string_view(name) == "digits times a power" ? static_cast<double>(wrong_plain) : 0;
+    tell(state, name, 1e9 * median(rounds.of(name)), "ns/word");
+    tell(state, std::string(name) + ", wrong words of 10^9",
+      1e9 * wrong / static_cast<double>(count), "1");
+  }
+}
+}
+
+void add_benchmarks(const Size& size)
+{
+  for (const char* const kind : { "alike", "masses 1e12 apart", "cancelling to 1e-12" })
+  {
+    add(std::string("sums/") + kind, size.pick(7, 1),
+      [kind, size](benchmark::State& state)
+      { sum_case(state, kind, static_cast<std::size_t>(size.pick(1'000'000, 10'000))); });
+  }
+  for (const int digits : { 6, 9, 17 })
+  {
+    add("sums/words of " + std::to_string(digits) + " digits", size.pick(5, 1),
+      [digits, size](benchmark::State& state)
+      { number_case(state, digits, static_cast<std::size_t>(size.pick(1'000'000, 10'000))); });
+  }
+}
+}
