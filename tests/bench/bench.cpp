@@ -19,6 +19,7 @@ namespace bench
 namespace
 {
 bool failed = false;
+bool all_rounds = false; ///< in a large run
 
 double read_clock(clockid_t clock)
 {
@@ -54,7 +55,9 @@ double quantile(Samples samples, double fraction)
 
 void add(const std::string& name, std::int64_t rounds, std::function<void(benchmark::State&)> run)
 {
-  benchmark::RegisterBenchmark(name.c_str(), std::move(run))->Iterations(rounds)->UseManualTime();
+  const std::int64_t fewer =
+    all_rounds ? rounds : std::min(rounds, std::max<std::int64_t>(3, rounds * 2 / 5));
+  benchmark::RegisterBenchmark(name.c_str(), std::move(run))->Iterations(fewer)->UseManualTime();
 }
 
 void fail(benchmark::State& state, const std::string& what)
@@ -207,6 +210,7 @@ try
 #endif
   benchmark::AddCustomContext("instruction set", to_string(granular::best_simd()));
   benchmark::AddCustomContext("cores", std::to_string(granular::available_cores()));
+  bench::all_rounds = size.large;
   bench::add_benchmarks(size);
   benchmark::RunSpecifiedBenchmarks();
   return bench::failed ? 1 : 0;

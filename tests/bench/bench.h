@@ -31,12 +31,19 @@ struct Size
   {
     return full ? for_full : for_quick;
   }
+
+  /// The number for a large run, a full one, or a quick one.
+  std::int64_t pick(std::int64_t for_large, std::int64_t for_full, std::int64_t for_quick) const
+  {
+    return large ? for_large : this->pick(for_full, for_quick);
+  }
 };
 
 /// What a part defines: registers its benchmarks. Their names are part/case.
 void add_benchmarks(const Size& size);
 
-/// A benchmark of a fixed number of rounds; its state is to be used in manual time.
+/// A benchmark of a fixed number of rounds, of which only a large run does all and a full one two fifths, at least three; its
+/// state is to be used in manual time.
 void add(const std::string& name, std::int64_t rounds, std::function<void(benchmark::State&)> run);
 
 /// Something is wrong with the results: the benchmark is given up, the program will fail.

@@ -639,7 +639,7 @@ void two_threads(benchmark::State& state, const CellSize& size, std::int64_t mos
 
 void add_benchmarks(const Size& size)
 {
-  const std::int64_t most = size.pick(10'000'000, 3'000);
+  const std::int64_t most = size.pick(10'000'000, 1'000'000, 3'000);
   // 10^6 grains are in 200 x 200 x 200 radii; where cells are small, there are fewer grains, and many cells
   const auto pick = [&](std::int64_t full, std::int64_t quick)
   { return size.full && size.large ? 200 : size.pick(full, quick); };
@@ -674,8 +674,13 @@ void add_benchmarks(const Size& size)
       size.pick(15, 1),
       [each, most](benchmark::State& state) { against_plain(state, each, most); });
   }
-  std::vector<std::int64_t> counts = { 10'000, 100'000, 1'000'000, 10'000'000 };
-  std::vector<std::int64_t> per_axis = { 11, 24, 51, 110 };
+  std::vector<std::int64_t> counts = { 10'000, 100'000, 1'000'000 };
+  std::vector<std::int64_t> per_axis = { 11, 24, 51 };
+  if (size.large)
+  {
+    counts.push_back(10'000'000);
+    per_axis.push_back(110);
+  }
   if (!size.full)
   {
     counts = { 1'000, 10'000 };

@@ -214,7 +214,7 @@ void add_benchmarks(const Size& size)
 {
   add_reading(size);
   const std::int64_t particles = size.pick(1'000'000, 1'000);
-  const std::int64_t lines = size.pick(10'000'000, 10'000);
+  const std::int64_t lines = size.pick(10'000'000, 3'000'000, 10'000);
   const JoinCase cases[] = {
     { "ids from 1", particles, lines, true, false, false },
     { "ids from 1, in order", particles, lines, true, true, false },
@@ -228,9 +228,15 @@ void add_benchmarks(const Size& size)
     add("local/join, " + each.name, size.pick(5, 1),
       [each](benchmark::State& state) { measure_join(state, each); });
   }
-  const std::vector<std::int64_t> counts = size.full
-    ? std::vector<std::int64_t>{ 10'000, 100'000, 1'000'000, 10'000'000 }
-    : std::vector<std::int64_t>{ 1'000, 10'000 };
+  std::vector<std::int64_t> counts = { 1'000, 10'000 };
+  if (size.full)
+  {
+    counts = { 10'000, 100'000, 1'000'000 };
+  }
+  if (size.large)
+  {
+    counts.push_back(10'000'000);
+  }
   for (const bool in_order : { true, false })
   {
     add(std::string("local/more lines and particles") + (in_order ? ", in order" : ""),

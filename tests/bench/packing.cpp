@@ -137,7 +137,7 @@ void add_benchmarks(const Size& size)
 {
   using Kind = granular::RadiusChoice::Kind;
   const std::int64_t million = size.pick(1'000'000, 3'000);
-  const std::int64_t most = size.pick(10'000'000, 5'000);
+  const std::int64_t most = size.pick(10'000'000, 3'000'000, 5'000);
   const Case cases[] = {
     { "simple cubic", Arrangement::SimpleCubic, Kind::One, 0.2, million },
     { "face-centred cubic", Arrangement::FaceCentredCubic, Kind::One, 0.2, million },
@@ -146,7 +146,7 @@ void add_benchmarks(const Size& size)
     { "random, 0.2", Arrangement::Random, Kind::One, 0.2, million },
     { "random, 0.2, two radii", Arrangement::Random, Kind::Two, 0.2, million },
     { "random, 0.3", Arrangement::Random, Kind::One, 0.3, million },
-    { "random, 0.2, ten times as many", Arrangement::Random, Kind::One, 0.2, most },
+    { "random, 0.2, more", Arrangement::Random, Kind::One, 0.2, most },
   };
   for (const Case& each : cases)
   {

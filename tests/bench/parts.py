@@ -332,7 +332,7 @@ PARTS = (
          [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
           Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)]),
     Part("count", "Count: particles of the subdomains of processes",
-         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (10^7 where it says so) everywhere alike in
+         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (more: 3 x 10^6, with --large 10^7) everywhere alike in
          the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that
          trusts the index it computes, (x - lo) p / (hi - lo) cut off to an integer and clamped: it needs an even
          grid, and at faces it is wrong by rounding. With std::floor it takes longer. even and
@@ -351,7 +351,7 @@ PARTS = (
     Part("local", "Local: contacts read, and lines joined with particles",
          """read: a text of 10^6 contacts with 12 columns in the page cache, memory of a frame before: as a dump of particles with
          the same rows (read_dump), as a table of local data, as lines (read_local), and as lines that are split at the
-         faces. The others: join_lines, one thread, 10^7 lines between 10^6 particles, ten lines a particle everywhere. gather copies the
+         faces. The others: join_lines, one thread, 3 x 10^6 lines between 10^6 particles, with --large ten lines a particle. gather copies the
          positions of both ends, 3 doubles each, by rows that are known, and nothing else; join finds the rows by id, sets up
          what it needs for that, and copies as much. Both take memory from a pool. ids from 1: in
          no order, without gaps; any ids: anywhere in 64 bits. The ends of a line are any particles; in order: neighbours, one line

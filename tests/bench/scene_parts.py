@@ -332,7 +332,7 @@ SCENE_PARTS = (
     Part("sums", "Sums and numbers",
          """10^6 terms into one sum. Alike: 0.5 to 1.5. Masses 1e12 apart: halves of 1e6 and 1e-6. Cancelling: pairs to and fro in any
          order, and 1e-12 that remains. exact makes eight sums at once, and its time is that of one of them. The exact sum is
-         made of integers. Words: 10^6 decimals from -1 to 1; digits times a power is the loop that many programs have.""",
+         made of integers. Words: 10^6 decimals from -1 to 1, the hardest: those in the middle between two doubles, or just above; digits times a power is the loop that many programs have.""",
          [sums_table], [], plot_sums),
     Part("lines", "Lines between particles in tilted boxes",
          """1000 pairs in boxes of length 1, up to 0.09 apart, ends wrapped into the box. Coordinates are multiples of 2^-40, and the

@@ -222,17 +222,41 @@ double parse_plainly(std::string_view word)
   return word.front() == '-' ? -value : value;
 }
 
-void number_case(benchmark::State& state, int digits, std::size_t count)
+/// Words of so many digits; of 0: the hardest, exactly in the middle between two doubles, or a digit of the last place beside.
+std::vector<std::string> make_words(int digits, std::size_t count)
 {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<std::string> words(count);
+  std::array<char, 100> buffer = {};
+  for (std::string& word : words)
+  {
+    const double value = unit(random);
+    if (digits > 0)
+    {
+      std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
+    }
+    else
+    {
+      const long double middle =
+        (static_cast<long double>(1 + value / 2) + std::nextafter(1 + value / 2, 2)) / 2;
+      std::snprintf(buffer.data(), buffer.size(), "%.*Lf", 56, middle);
+    }
+    word = buffer.data();
+    if (digits == 0 && random() % 2 == 0)
+    {
+      word.back() = '1';
+    }
+  }
+  return words;
+}
+
+void number_case(benchmark::State& state, int digits, std::size_t count)
+{
+  const std::vector<std::string> words = make_words(digits, count);
   std::vector<double> true_values(count);
-  std::array<char, 40> buffer = {};
   for (std::size_t i = 0; i < count; ++i)
   {
-    std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, unit(random));
-    words[i] = buffer.data();
     true_values[i] = std::strtod(words[i].c_str(), nullptr); // glibc rounds correctly
   }
   std::int64_t wrong_plain = 0;
@@ -294,9 +318,11 @@ void add_benchmarks(const Size& size)
       [kind, size](benchmark::State& state)
       { sum_case(state, kind, static_cast<std::size_t>(size.pick(1'000'000, 10'000))); });
   }
-  for (const int digits : { 6, 9, 17 })
+  for (const int digits : { 6, 9, 17, 0 })
   {
-    add("sums/words of " + std::to_string(digits) + " digits", size.pick(5, 1),
+    add(digits > 0 ? "sums/words of " + std::to_string(digits) + " digits"
+                   : "sums/words, the hardest",
+      size.pick(5, 1),
       [digits, size](benchmark::State& state)
       { number_case(state, digits, static_cast<std::size_t>(size.pick(1'000'000, 10'000))); });
   }
