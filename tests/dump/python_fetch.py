@@ -70,4 +70,23 @@ whole = cells["volumefraction"].reshape(5, 4, 3)
 assert len(places) > 20 and whole.max() > 0.1
 for (x, y, z), value in zip(places, centres["volumefraction"]):
     assert whole[z, y, x] == value
+
+# without a time: the last update's or, for what was never updated, the animation's, for all inputs alike
+beads = granular.reader(os.path.join(samples, "bonds", "chain.dump"))
+bonds = granular.reader(os.path.join(samples, "bonds", "chain_bonds.dump"), Preset="BondTypeIdsForce")
+lines = GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1))
+times = list(beads.TimestepValues)
+scene = GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()
+scene.AnimationTime = times[-1]
+granular.update(bonds, times[0])
+assert granular.fetch(bonds, port="Rows")["timestep"] == times[0]
+assert granular.fetch(lines)["timestep"] == times[-1]
+granular.update(lines, times[1])
+assert granular.fetch(lines)["timestep"] == times[1]
+scene.AnimationTime = times[0]
+assert granular.fetch(lines)["timestep"] == times[1]
+granular.save(GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1)), "joined.bonds")
+with open("joined.bonds") as file:
+    assert int(file.read().split()[2]) == times[0]
 print("fetched")

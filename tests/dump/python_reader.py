@@ -84,6 +84,9 @@ assert reader.GetPropertyValue("ErrorMessage") == ""
 average = GranularEulerAverage(Input=reader, CellsBy="CellSizeRelative")
 refused(lambda: granular.update(average), RuntimeError, "expected points as output for CellSizeRelative")
 
+# a second argument that is no time of a step
+refused(lambda: granular.reader(good("grains.dump"), "Contacts"), TypeError, "dt", "'Contacts'")
+
 # times
 series = granular.reader(good("grains.dump"))
 granular.update(series, 2000)

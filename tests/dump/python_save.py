@@ -65,6 +65,13 @@ granular.save(cells, "a.vti")
 begins("a.vti", b"<")
 granular.save(Tube(Input=contacts), "a_tubes.vtp")
 
+# all frames by ParaView's writers, which call WriteTimeSteps by several names and number the files themselves
+for ending in ("vtp", "csv"):
+    granular.save(particles, f"all.{ending}", WriteTimeSteps=1)
+    written = [name for name in os.listdir() if name.startswith("all") and name.endswith(ending)]
+    assert len(written) == len(particles.TimestepValues) or ending == "csv", written
+refused(particles, "all_*.vtp", "WriteTimeSteps", "got 'all_*.vtp'")
+
 # what no writer has for such data
 refused(particles, "b.xyz", "particles", ".dump", ".vtp", "got 'b.xyz'")
 refused(particles, "b.vti", "particles", ".lammpsbin")

@@ -2,6 +2,8 @@
 """granular.show: the spheres in the picture have the radii of the file, to the pixel."""
 import math
 import os
+import subprocess
+import sys
 
 import granular
 import numpy
@@ -14,6 +16,10 @@ HEADER = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff
 PIXELS = 50  # a unit of length
 
 view = CreateRenderView()
+if sys.argv[1:] == ["without a display"]:
+    granular.show(Sphere(), view)
+    Render(view)
+    sys.exit()
 view.ViewSize = [800, 800]
 view.UseColorPaletteForBackground = 0
 view.Background = [0, 0, 0]
@@ -182,3 +188,16 @@ for wanted in ("box", "bonds"):
         raise AssertionError(f"a sphere has {wanted}")
     except ValueError as error:
         assert wanted.capitalize() in str(error), error
+
+# a legend, and none unless wanted
+typed = granular.reader("typed.dump")
+for wanted in (False, True):
+    display = granular.show(typed, view, color="type", legend=wanted)
+    assert bool(display.IsScalarBarVisible(view)) == wanted
+
+# without a display a message instead of a crash, or a picture where ParaView can do without
+environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+done = subprocess.run([sys.executable if "pvpython" in sys.executable else "pvpython", "--dr", __file__, "without a display"],
+                      env=environment, capture_output=True, text=True)
+assert done.returncode == 0 or "expected a display to draw on, got none" in done.stderr, done.stderr
+assert "SIGSEGV" not in done.stderr, done.stderr

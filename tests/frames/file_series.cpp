@@ -21,13 +21,14 @@ namespace
 namespace fs = std::filesystem;
 using granular::RepeatedSteps;
 
-/// What is said where no frame of a file is shown, nor of others.
-std::string hidden(const std::string& first_file, int others = 0)
+/// What is said where no frame of a file is shown, nor of others: a later one is shown instead.
+std::string hidden(const std::string& first_file, const std::string& shown, int others = 0)
 {
   return first_file + ": no frame of this file" +
     (others > 0 ? ", and of " + std::to_string(others) + " more," : "") +
-    " is shown: later files have the same timesteps; if they are pieces of one run, set "
-    "RepeatedSteps to Merge\n";
+    " is shown: later files have the same timesteps, such as " + shown +
+    "; leave out files of other runs, or, if these are pieces of one run, set RepeatedSteps to "
+    "Merge\n";
 }
 
 /// What is said of a frame that lacks pieces; none is " (none for 1 2)" or nothing.
@@ -200,7 +201,7 @@ TEST(FileSeries, TheSameFilePlainAndCompressedCountsOnce)
   run.update({ plain, packed, other });
   EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
   EXPECT_EQ(run.ids(0), (Ids{ 1, 2 }));
-  EXPECT_EQ(run.said, hidden(plain));
+  EXPECT_EQ(run.said, hidden(plain, packed));
   // and of pieces
   Files files = write_pieces(folder, "p.", { 0, 100 }, 2);
   files.push_back(folder.write("p.0.0.dump.gz", packing::gzip(grains(0, { 0, 1 }))));
@@ -297,7 +298,7 @@ TEST(FileSeries, ARestartRepeatsTheStepItStartsFrom)
     EXPECT_EQ(run.steps(), (Steps{ 0, 500, 1000, 1500, 2000 }));
     EXPECT_EQ(run.names(2), second + "1000");
     EXPECT_EQ(run.ids(2), Ids{ 2 });
-    EXPECT_EQ(run.said, hidden(folder.path(first + "1000")));
+    EXPECT_EQ(run.said, hidden(folder.path(first + "1000"), folder.path(second + "1000")));
     // as a shell lists them
     std::ranges::sort(files);
     run.update(files);
@@ -382,7 +383,7 @@ TEST(FileSeries, ARunThatBeganAgain)
   {
     EXPECT_EQ(run.ids(i), Ids{ 2 });
   }
-  EXPECT_EQ(run.said, hidden(folder.path("run.1.dump")));
+  EXPECT_EQ(run.said, hidden(folder.path("run.1.dump"), folder.path("run.2.dump")));
 }
 
 TEST(FileSeries, NumbersThatDifferInTheirZerosAloneAreTheSame)
@@ -394,7 +395,7 @@ TEST(FileSeries, NumbersThatDifferInTheirZerosAloneAreTheSame)
   run.update({ padded, plain });
   EXPECT_EQ(run.steps(), Steps{ 10 });
   EXPECT_EQ(run.ids(0), Ids{ 1 });
-  EXPECT_EQ(run.said, hidden(padded));
+  EXPECT_EQ(run.said, hidden(padded, plain));
   run.update({ plain, padded });
   EXPECT_EQ(run.ids(0), Ids{ 2 });
 }
@@ -410,7 +411,7 @@ TEST(FileSeries, RunsInFoldersOfTheirOwnAreNoPieces)
   run.update({ first, second });
   EXPECT_EQ(run.steps(), Steps{ 0 });
   EXPECT_EQ(run.ids(0), Ids{ 2 });
-  EXPECT_EQ(run.said, hidden(first));
+  EXPECT_EQ(run.said, hidden(first, second));
   // but they are pieces if somebody says so
   run.options.repeated_steps = RepeatedSteps::Merge;
   run.update({ first, second });
@@ -670,7 +671,7 @@ TEST(Pieces, ARunThatWasDoneAgainIsNone)
     run.update(files);
     EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
     EXPECT_EQ(run.ids(1), (Ids{ 5, 1, first + 1, 9 }));
-    EXPECT_EQ(run.said, hidden(files[0]));
+    EXPECT_EQ(run.said, hidden(files[0], files[1]));
   }
 }
 
@@ -687,7 +688,7 @@ TEST(Pieces, TheFirstIsNumberedZero)
   Series run;
   run.update(files);
   EXPECT_EQ(run.ids(0), (Ids{ 30, 31 }));
-  EXPECT_EQ(run.said, hidden(files[0], 1));
+  EXPECT_EQ(run.said, hidden(files[0], files.back(), 1));
   run.options.repeated_steps = RepeatedSteps::Merge;
   run.update(files);
   EXPECT_EQ(run.ids(0), (Ids{ 10, 11, 20, 21, 30, 31 }));
@@ -972,7 +973,7 @@ TEST(Pieces, LastForcesTheLastFile)
   EXPECT_EQ(run.steps(), (Steps{ 0, 10 }));
   EXPECT_EQ(run.names(0), "d.0.1.dump");
   EXPECT_EQ(run.ids(1), (Ids{ 10, 11 }));
-  EXPECT_EQ(run.said, hidden(files[0], 1));
+  EXPECT_EQ(run.said, hidden(files[0], folder.path("d.0.1.dump"), 1));
   // and back
   run.options.repeated_steps = RepeatedSteps::Auto;
   run.update(files);

@@ -537,9 +537,10 @@ TEST(RunIndex, AFileOfWhichNothingIsShownIsSaid)
   EXPECT_EQ(run.steps(), (Steps{ 10 }));
   EXPECT_EQ(run.said,
     folder.path("p.0.dump") +
-      ": no frame of this file is shown: later files have the same timesteps; if they are pieces "
-      "of "
-      "one run, set RepeatedSteps to Merge\n");
+      ": no frame of this file is shown: later files have the same timesteps, such as " +
+      folder.path("p.1.dump") +
+      "; leave out files of other runs, or, if these are pieces of one run, set RepeatedSteps to "
+      "Merge\n");
   // an ordinary restart repeats the step that it starts from
   run.update({ folder.write("a.dump", frame(0) + frame(10)),
     folder.write("b.dump", frame(10) + frame(20)) });

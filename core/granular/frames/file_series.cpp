@@ -268,11 +268,16 @@ void Collector::note_hidden_files()
   if (!hidden.empty())
   {
     const std::size_t others = hidden.size() - 1;
+    const std::int64_t first = hidden.front()->frames.front().timestep;
+    const auto instead = std::ranges::find_if(
+      series_.places, [&](const Place& place) { return this->step(place) == first; });
     notices_.push_back({ { hidden.front()->path },
       "no frame of this file" +
         (others > 0 ? ", and of " + std::to_string(others) + " more," : std::string()) +
-        " is shown: later files have the same timesteps; if they are pieces of one run, set "
-        "RepeatedSteps to Merge" });
+        " is shown: later files have the same timesteps" +
+        (instead == series_.places.end() ? "" : ", such as " + files_[instead->file].path) +
+        "; leave out files of other runs, or, if these are pieces of one run, set RepeatedSteps to "
+        "Merge" });
   }
 }
 }

@@ -25,10 +25,10 @@ The same in all versions of ParaView:
     granular.process_ids(filter)              a filter that gives each point its rank
     granular.set_properties(proxy, ...)       several properties at once
 
-The VTK classes, such as granular.vtkGranularDumpReader, work in pvpython and in plain python3. Importing this package does
-not import paraview; functions that need ParaView import it when they are called.
+help(granular.fetch) describes one function. The VTK classes, such as granular.vtkGranularDumpReader, work in pvpython and in
+plain python3; help(granular.vtkGranularDumpReader) describes one with all that it inherits. Importing this package does not
+import paraview; functions that need ParaView import it when they are called.
 """
-from . import vtkGranular as _compiled
 from ._errors import update
 from ._fetch import fetch
 from ._files import files
@@ -44,6 +44,6 @@ from ._state import load_state
 from ._versions import label_format, preset, process_ids, set_properties
 from .vtkGranular import *  # noqa: F401,F403 (the compiled classes)
 
+# Not the compiled classes: help() would print all that they inherit from VTK, and nobody would find the functions.
 __all__ = ["__version__", "fetch", "files", "label_format", "load_plugin", "load_state", "pool_limit", "preset", "process_ids", "pvbatch",
            "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write_series"]
-__all__ += [name for name in dir(_compiled) if name.startswith("vtkGranular")]

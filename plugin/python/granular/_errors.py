@@ -56,17 +56,29 @@ def raised(sources: list[Any]) -> Iterator[None]:
             raise RuntimeError(message)
 
 
+def default_time(proxy: Any) -> float | None:
+    """Returns the animation's time for an output that was never updated, and None, the time of the last update, for others."""
+    from paraview import simple
+
+    if proxy.SMProxy.GetDataInformation(proxy.Port).GetHasTime():
+        return None
+    return simple.GetTimeKeeper().Time
+
+
 def update(proxy: Any, time: float | None = None) -> None:
     """Updates a source or filter, and raises an error of the update as an exception.
 
     proxy  a source or filter of paraview.simple, or one of its output ports
-    time   the time to update to. None: the time of the last update, or the first one.
+    time   the time to update to; a reader shows the last frame at or before it. None: the time of the last update or, if there
+           was none, the time that the animation shows.
 
     ParaView's UpdatePipeline prints errors and goes on. Raises RuntimeError with the message, which names path, line or byte,
     and column, if the source, or a reader, filter or source of this plugin before it, failed. Errors of ParaView's own
     filters are printed.
     """
     with raised(upstream(proxy)):
+        if time is None:
+            time = default_time(proxy)
         if time is None:
             proxy.UpdatePipeline()
         else:

@@ -90,7 +90,7 @@ def fetch(proxy: Any, port: int | str | None = None, time: float | None = None) 
 
     proxy  a source or filter of paraview.simple, or one of its output ports
     port   the output, by number or name: "Box", "Bonds". None: the first, or the port that proxy is.
-    time   the time to update to. None: the time of the last update, or the first one.
+    time   the time to update to, as for granular.update
 
     The keys, in this order; where two have the same name the first one counts:
     "points"                  the points, shape (n, 3); for lines, both ends of each line

@@ -2,6 +2,7 @@
 """Readers by what is in a file."""
 from __future__ import annotations
 
+import numbers
 import os
 from typing import Any, Iterable
 
@@ -68,7 +69,10 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
         bases = [name for name in names if "base" in os.path.basename(name)]
         names = bases or names  # the files of the other ranks are found beside them
     if dt is not None:
-        properties["TimestepSize"] = dt
+        if not isinstance(dt, numbers.Real):
+            raise TypeError(f"expected a number for dt, the time of one timestep, got {dt!r}: other settings have names, as in "
+                            "Preset=\"Contacts\"")
+        properties["TimestepSize"] = float(dt)
     # What paraview.simple does, but registered only once it is known to be of use.
     controller = servermanager.ParaViewPipelineController()
     made = getattr(servermanager.sources, kind)(no_update=True)

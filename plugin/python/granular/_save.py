@@ -77,7 +77,6 @@ def _choose(output: Any, path: str) -> str | None:
     ending = _ending(path)
     if ending in _ALONE:
         return _ALONE[ending]
-    update(output)  # what the data are is known then
     kind = _kind(output)
     writer, ours = _WRITERS[kind]
     if ending in ours:
@@ -94,6 +93,16 @@ def _choose(output: Any, path: str) -> str | None:
 
 def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> None:
     from paraview import servermanager, simple
+
+    if "*" in path:
+        raise ValueError(f"expected a name without *, got '{path}': ParaView's writers number the files of WriteTimeSteps themselves")
+    if "WriteTimeSteps" in properties:  # which ParaView's writers call by several names
+        known = simple.CreateWriter(path, output).ListProperties()
+        names = [name for name in known if re.fullmatch("Write(all)?timestepsasfileseries|WriteTimeSteps",
+                                                        name, re.IGNORECASE)]
+        if not names:
+            raise AttributeError(f"{path}: ParaView's writer of this format has no WriteTimeSteps")
+        properties = {names[0] if name == "WriteTimeSteps" else name: value for name, value in properties.items()}
 
     def written() -> dict[str, int]:
         stem, ending = os.path.splitext(path)
@@ -118,8 +127,7 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .csv, .stl and .ply, go to
                 ParaView's writers. Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*`
                 stands for the timestep, and in those of dumps `%` for the rank.
-    time        the time to write. None: the one that proxy was last updated or shown with, or, if it
-                never was, its first; the animation's time counts for what is shown only.
+    time        the time to write, as for granular.update
     writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter, which take
                 files of any name. None: see path.
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Label, Columns, NumberFormat, ...
@@ -131,8 +139,7 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
     from paraview import servermanager
 
     path = os.fspath(path)
-    if time is not None:
-        update(proxy, time)
+    update(proxy, time)
     writer = writer or _choose(proxy, path)
     if writer is None:
         _save_by_paraview(proxy, path, properties)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any
 
 from ._errors import output_names, upstream
@@ -68,6 +69,14 @@ def _colour_by_type(display: Any, source: Any, view: Any) -> None:
     display.LookupTable = table
 
 
+def _expect_display(view: Any) -> None:
+    """Raises RuntimeError where ParaView would crash when it draws."""
+    window = view.SMProxy.GetRenderWindow()
+    if window.IsA("vtkXOpenGLRenderWindow") and not os.environ.get("DISPLAY"):
+        raise RuntimeError("expected a display to draw on, got none: DISPLAY is not set. Start the script by "
+                           "`xvfb-run -a pvpython script.py` (Debian packages xvfb and xauth)")
+
+
 def _show_output(source: Any, name: str, view: Any, **properties: Any) -> None:
     """Shows an output of the reader or source that the data come from."""
     from paraview import simple
@@ -77,11 +86,12 @@ def _show_output(source: Any, name: str, view: Any, **properties: Any) -> None:
         if name in outputs:
             simple.Show(simple.OutputPort(each, outputs.index(name)), view, **properties)
             return
-    raise ValueError(f"expected a source with an output {name}, got none before this one")
+    raise ValueError(f"expected a source with an output {name}, got none before this one" +
+                     (": GranularLocalJoin draws the bonds of another file" if name == "Bonds" else ""))
 
 
 def show(reader: Any, view: Any = None, radius: str | float = "radius", color: str | None = None, box: bool = False,
-         bonds: bool = False) -> Any:
+         bonds: bool = False, legend: bool = False) -> Any:
     """Shows particles as spheres and returns their display.
 
     reader  a GranularDumpReader, or any source or filter whose first output has points.
@@ -93,17 +103,19 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
             name of its own.
     box     True: shows the simulation box, the output Box of the reader or source, as well.
     bonds   True: shows the bonds, its output Bonds, as lines.
+    legend  True: shows the colour bar of `color`, or the names of the types.
 
-    The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the
-    same on any number of ranks. They are flat discs with the shading of spheres: where they overlap
-    they do not cut into each other.
+    The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the same on any number of
+    ranks. They are discs with the shading of spheres: where two overlap, one covers the other, and no line shows where they
+    meet. Colours of numbers span the values of the frame shown now or, if that has no particles, of the last frame.
 
-    Raises RuntimeError if the plugin was not loaded before, and ValueError if there is no array `color`, or no output for box or
-    bonds.
+    Raises RuntimeError if the plugin was not loaded before, or if there is no display to draw on; ValueError if there is no
+    array `color`, or no output for box or bonds.
     """
     from paraview import simple
 
     view = view or simple.GetActiveViewOrCreate("RenderView")
+    _expect_display(view)
     display = simple.Show(reader, view)
     expect_plugin("Grains" in display.GetProperty("Representation").Available)
     display.SetRepresentationType("Grains")
@@ -133,4 +145,6 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     elif color is not None:
         _range_of(reader, color, view)
         simple.ColorBy(display, ("POINTS", color))
+    if legend and color is not None:
+        display.SetScalarBarVisibility(view, True)
     return display
