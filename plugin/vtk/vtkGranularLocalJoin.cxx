@@ -407,7 +407,7 @@ private:
   {
     fields->PassData(this->Inputs[0]->GetFieldData());
     fields->RemoveArray("Columns"); // of particles
-    std::vector<const char*> ofLines = { "Columns" };
+    std::vector<const char*> ofLines = { "Columns", "RowLabel" };
     if (this->BoxIsOfLines)
     {
       ofLines.insert(ofLines.end(), { "BoxOrigin", "BoxVectors", "BoxBounds", "Boundary" });
@@ -441,6 +441,9 @@ private:
       this->Self->Told |= is ? kind : 0;
       kind <<= 1;
     };
+    tell(this->All.Rows == 0 && this->Rows->LackPlaces(),
+      "the input Lines has no lines, as its file does not say where these are: take the rows, the "
+      "second output of the reader");
     const std::string ofRows = " of " + std::to_string(this->All.Rows) + " lines ";
     tell(this->Joined.missing > 0,
       std::to_string(this->Joined.missing) + ofRows +

@@ -21,7 +21,7 @@
  * points they go to the nearest image of the other end; lengths are never scaled. The box is that of the particles' field data, or of
  * the rows' if the particles have none. The field data are those of the particles, with the Columns of the rows.
  *
- * Warnings also tell how many lines differ from their array `dist`, and that the timesteps of both inputs differ, if the rows have
+ * Warnings also tell that the lines have no places (the rows are another output of the reader), how many lines differ from their array `dist`, and that the timesteps of both inputs differ, if the rows have
  * several times. A warning is repeated only after inputs or properties have changed, or when it came back.
  */
 

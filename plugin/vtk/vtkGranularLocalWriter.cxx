@@ -44,7 +44,7 @@ private:
 //------------------------------------------------------------------------------
 vtkGranularLocalWriter::vtkGranularLocalWriter()
 {
-  this->SetLabel("ENTRIES");
+  this->SetLabel("Automatic");
   this->SetNumberFormat("Automatic");
 }
 
@@ -78,7 +78,8 @@ std::unique_ptr<FrameWriter> vtkGranularLocalWriter::OpenFile(Internals& interna
   granular::DumpFormat format =
     MakeFormat(this->FileName, DialectOf(this->Dialect), this->Columns, this->NumberFormat);
   format.style = granular::DumpStyle::Local;
-  format.counted = TextOf(this->Label);
+  const std::string label = TextOf(this->Label);
+  format.counted = label == "Automatic" ? std::string() : label;
   return std::make_unique<File>(
     this->FileName, format, internals.MakeOptions(this), internals.GetRanks());
 }

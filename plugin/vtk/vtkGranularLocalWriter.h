@@ -49,7 +49,8 @@ public:
   ///@{
   /**
    * Sets the word for a row, as `dump_modify label` does: one word that names no other section of the file, such as BONDS
-   * or CONTACTS. "ENTRIES" by default.
+   * or CONTACTS. "Automatic", the default, or empty: the word of the file that the input was read from (field data
+   * `RowLabel`), otherwise ENTRIES.
    */
   vtkSetStringMacro(Label);
   vtkGetStringMacro(Label);

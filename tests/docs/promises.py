@@ -94,7 +94,7 @@ def made():
 
 
 # What readers pass on in words: forms and names, no quantities.
-WORDS = {"Boundary", "ColumnDigits", "Columns", "Coordinates", "Dialect", "Groups", "units", "ParticlesLeftOut"}
+WORDS = {"Boundary", "ColumnDigits", "Columns", "Coordinates", "Dialect", "Groups", "units", "ParticlesLeftOut", "RowLabel"}
 EVERYONE = "all readers and sources"
 
 

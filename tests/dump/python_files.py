@@ -18,11 +18,11 @@ assert granular.files("run_2.*", "run_2.0.*", "other.dump") == [
     os.path.join(here, name) for name in ("other.dump", "run_2.0.dump", "run_2.1.dump.gz")]
 assert granular.files("run_*.*") == granular.files("run_*.%.dump")
 # numbers for '*' before anything else, in the last part of the path alone
-os.makedirs("case_b/post")
-for name in ("run_first.dump", "run_0.5.dump", "case_b/post/1.dump", "case_b/post/1.dump.gz", "case_b/post/last.dump"):
+os.makedirs("case_b/post", exist_ok=True)
+for name in ("step_first.dump", "step_0.5.dump", "step_70.dump.gz", "case_b/post/1.dump", "case_b/post/1.dump.gz", "case_b/post/last.dump"):
     open(name, "w").close()
-assert granular.files("run_*.dump") == [os.path.join(here, name) for name in ("run_0.5.dump", *expected)], granular.files("run_*.dump")
-assert granular.files("run_f*.dump") == [os.path.join(here, "run_first.dump")]
+assert granular.files("step_*.dump") == [os.path.join(here, name) for name in ("step_0.5.dump", "step_70.dump.gz")]
+assert granular.files("step_f*.dump") == [os.path.join(here, "step_first.dump")]
 assert granular.files("case_*/post/*.dump") == [os.path.join(here, "case_b/post", name) for name in ("1.dump", "1.dump.gz")]
 assert granular.files("case_[!a]/post/[l-z]*.dump") == [os.path.join(here, "case_b/post/last.dump")]
 

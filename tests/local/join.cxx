@@ -706,6 +706,30 @@ TEST(LocalJoinFilter, NothingOnEitherSide)
     EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 0);
     EXPECT_EQ(filter.Cells("v_difference")->GetNumberOfComponents(), 3);
   }
+  {
+    // the lines of a reader whose file has ids alone: there are none, and the rows are its second output
+    for (const char* column : { "dist", "x1" })
+    {
+      vtkNew<vtkPolyData> noLines;
+      vtkNew<vtkStringArray> columns;
+      columns->SetName("Columns");
+      for (const char* name : { "id1", "id2", column })
+      {
+        columns->InsertNextValue(name);
+      }
+      noLines->GetFieldData()->AddArray(columns);
+      if (column == std::string("x1"))
+      {
+        noLines->GetCellData()->AddArray(MakeArray("id1", {}));
+        noLines->GetCellData()->AddArray(MakeArray("id2", {}));
+      }
+      Filter filter(MakeParticles(), noLines);
+      filter->Update();
+      filter.ExpectSaid(
+        column == std::string("x1") ? "" : "take the rows, the second output of the reader");
+      EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 0);
+    }
+  }
   Filter filter(nobody, noRows);
   filter->Update();
   filter.ExpectSaid("");

@@ -391,7 +391,7 @@ TEST(WriteLocal, ManyRows)
 TEST(WriteLocal, WhatRowsAreCalled)
 {
   const Made made;
-  for (const char* word : { "", "MY BONDS", "BONDS ", "B\nC", "B\x7f", "ATOMS", "TIMESTEP", "BOX" })
+  for (const char* word : { "MY BONDS", "BONDS ", "B\nC", "B\x7f", "ATOMS", "TIMESTEP", "BOX" })
   {
     const Written written = write(made.view(), local(Dialect::Lammps, word));
     EXPECT_EQ(written.error,
@@ -401,8 +401,17 @@ TEST(WriteLocal, WhatRowsAreCalled)
         std::string(word) + "'");
     EXPECT_EQ(written.bytes, "");
   }
-  // it is nothing to dumps of particles, whose rows are atoms
+  // unless one is given: the word of the file that they are from
   FrameView view = made.view();
+  for (const char* of_file : { "ATOMS", "BONDS", "BOND ENTRIES" })
+  {
+    view.header.counted = of_file;
+    const std::string expected = of_file == std::string("ATOMS") ? "ENTRIES" : of_file;
+    EXPECT_NE(
+      write(view, local(Dialect::Lammps, "")).bytes.find("ITEM: NUMBER OF " + expected + "\n3\n"),
+      std::string::npos);
+  }
+  // it is nothing to dumps of particles, whose rows are atoms
   view.points = view_rows("points", ValueType::Float64, made.force.data(), 3);
   DumpFormat custom = local(Dialect::Lammps, "");
   custom.style = DumpStyle::Custom;

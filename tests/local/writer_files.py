@@ -89,17 +89,19 @@ path = good("local/chain_bonds.dump")
 bonds = GranularLocalReader(FileNames=[path], Preset="BondTypeIdsForce")
 original = renamed(path, "BONDS", BONDS)
 for columns in (BONDS, ""):
-    granular.save(OutputPort(bonds, 1), "chain.bonds", Columns=columns, Label="BONDS", WriteTimeSteps=1)
+    granular.save(OutputPort(bonds, 1), "chain.bonds", Columns=columns, WriteTimeSteps=1)
     assert content("chain.bonds") == original
-SaveData("data.bonds", OutputPort(bonds, 1), Label="BONDS", WriteTimeSteps=1)
+SaveData("data.bonds", OutputPort(bonds, 1), WriteTimeSteps=1)
 assert content("data.bonds") == original
+granular.save(OutputPort(bonds, 1), "chain.bonds", Label="ENTRIES", WriteTimeSteps=1)
+assert content("chain.bonds") == original.replace(b"BONDS", b"ENTRIES")
 
 # as lines between the particles, with what these give to them; and read again
 grains = GranularDumpReader(FileNames=[good("local/chain.dump")])
 for way in ("MinimumImage", "Split"):
     joined = GranularLocalJoin(Input=grains, Lines=OutputPort(bonds, 1), PeriodicLines=way, Averages="v",
                                EquilibriumLength=1.05)
-    granular.save(joined, "joined.bonds", Label="BONDS", NumberFormat="shortest", WriteTimeSteps=1)
+    granular.save(joined, "joined.bonds", NumberFormat="shortest", WriteTimeSteps=1)
     written = plain_local.read("joined.bonds")
     assert [frame.timestep for frame in written] == [0, 500, 1000]
     expected = BONDS + " elongation strain v_mean[1] v_mean[2] v_mean[3] x1 y1 z1 x2 y2 z2"
@@ -129,7 +131,7 @@ assert written.names == "id1 id2 btype equilibrium_length x1 y1 z1 x2 y2 z2".spl
 length = numpy.sqrt(((written.stack(["x2", "y2", "z2"]) - written.stack(["x1", "y1", "z1"])) ** 2).sum(axis=1))
 assert numpy.allclose(length, written.column("equilibrium_length"), rtol=1e-12)
 
-check_properties("GranularLocalWriter", contacts, Dialect="Automatic", Label="ENTRIES", Columns="", NumberFormat="Automatic",
+check_properties("GranularLocalWriter", contacts, Dialect="Automatic", Label="Automatic", Columns="", NumberFormat="Automatic",
                  WriteTimeSteps=0, ParallelMode="Gather", Threads=0)
 check_nothing_left()
 print("written")

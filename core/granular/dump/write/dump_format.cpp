@@ -60,7 +60,7 @@ void check_format(const DumpFormat& format, const std::string& path)
   constexpr std::string_view sections[] = { "ATOMS", "BOX", "LABEL", "NUMBER", "TIME", "TIMESTEP",
     "UNITS" };
   const std::string& word = format.counted;
-  const bool is_word = !word.empty() &&
+  const bool is_word =
     std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c <= '~'; });
   if (!is_word || std::find(std::begin(sections), std::end(sections), word) != std::end(sections))
   {

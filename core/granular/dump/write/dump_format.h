@@ -34,10 +34,10 @@ struct DumpFormat
   AtomForm atom;                               ///< of DumpStyle::Atom
   std::vector<std::string>
     columns; ///< not of DumpStyle::Atom; empty: see default_columns, or default_table_columns
-  std::string counted = "ENTRIES"; ///< name of rows; for DumpStyle::Local
-  NumberFormat numbers;            ///< of real numbers in text
-  bool units = false;              ///< ITEM: UNITS in the first frame of the file; Lammps only
-  bool time = false;               ///< ITEM: TIME; Lammps only
+  std::string counted;  ///< name of rows; empty: that of the file, or ENTRIES; for DumpStyle::Local
+  NumberFormat numbers; ///< of real numbers in text
+  bool units = false;   ///< ITEM: UNITS in the first frame of the file; Lammps only
+  bool time = false;    ///< ITEM: TIME; Lammps only
   bool sort_by_id = false;
 
   /// Values per chunk of a binary file, which counts them with 32 bits: less than 2^31 - 1.

@@ -74,6 +74,20 @@ bool is_table(const DumpFormat& format) noexcept
   return format.style == DumpStyle::Local;
 }
 
+/// The word for rows: the one that is asked for, that of the file that a table comes from, or ENTRIES.
+std::string name_of_rows(const DumpFormat& format, const FrameHeader& header)
+{
+  if (!is_table(format))
+  {
+    return "ATOMS";
+  }
+  if (!format.counted.empty())
+  {
+    return format.counted;
+  }
+  return header.counted.empty() || header.counted == "ATOMS" ? "ENTRIES" : header.counted;
+}
+
 /// Whether the numbers of particles may be others when they are read again.
 bool may_lose_digits(const FrameView& frame, const DumpFormat& format) noexcept
 {
@@ -303,7 +317,7 @@ FramePlan plan_frame(
   ArchiveReader unpacker(told);
   pass(unpacker, lead);
   plan.header = lead.header;
-  plan.header.counted = is_table(format) ? format.counted : "ATOMS";
+  plan.header.counted = name_of_rows(format, lead.header);
   plan.header.rows =
     std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
   plan.header.box.boundary =

@@ -174,6 +174,10 @@ void RowsInput::ReadFieldData(vtkFieldData* data)
   this->View.has_box = box.has_value();
   header.box = box.value_or(granular::Box{});
   header.label = FindText(data, "label");
+  if (std::string rows = FindText(data, "RowLabel"); !rows.empty())
+  {
+    header.counted = std::move(rows);
+  }
   header.units = FindText(data, "units");
   this->View.columns = FindTexts(data, "Columns");
   if (const auto digits =

@@ -143,6 +143,10 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   {
     data->AddArray(MakeStrings("label", { header.label }));
   }
+  if (!header.counted.empty() && header.counted != "ATOMS")
+  {
+    data->AddArray(MakeStrings("RowLabel", { header.counted }));
+  }
   if (!header.units.empty())
   {
     data->AddArray(MakeStrings("units", { header.units }));

@@ -109,8 +109,7 @@ void LocalInput::SeeLines(
 {
   if (this->View.rows == 0 && this->View.arrays.empty()) // nothing is known of them
   {
-    const std::vector<std::string>& columns = this->View.columns;
-    if (!columns.empty() && std::ranges::find(columns, "x1") == columns.end())
+    if (rows.LackPlaces())
     {
       notices.push_back({ {},
         "the input has no lines, as its file does not say where these are: rows are on the second "

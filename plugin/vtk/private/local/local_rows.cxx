@@ -18,6 +18,7 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -77,6 +78,13 @@ void LocalRows::FindTuples()
       this->Tuples.push_back(tuple);
     }
   }
+}
+
+bool LocalRows::LackPlaces() const
+{
+  auto* columns = vtkStringArray::SafeDownCast(this->Field->GetAbstractArray("Columns"));
+  return this->AllTuples == 0 && this->Data->GetNumberOfArrays() == 0 && columns &&
+    columns->GetNumberOfValues() > 0 && columns->LookupValue("x1") < 0;
 }
 
 std::vector<vtkIdType> LocalRows::FindBegins() const

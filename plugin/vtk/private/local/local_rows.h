@@ -61,6 +61,11 @@ public:
   bool HasParts() const;
 
   /**
+   * Returns true for lines of a reader whose file names the ends by id alone: there are none, and the rows are elsewhere.
+   */
+  bool LackPlaces() const;
+
+  /**
    * Returns the ids of the listed rows, or of the first rows if no list is given. Throws Error if the array is missing
    * or holds other numbers; granular::Cancelled.
    */
