@@ -93,9 +93,10 @@ if(GRANULAR_BUILD_PYTHON)
 endif()
 
 # For whoever starts Python or ParaView on the build tree by hand or from a script: to be sourced by a shell.
-set(granular_environment "export PYTHONPATH='${CMAKE_BINARY_DIR}/${granular_python_folder}'\n")
+set(granular_environment
+  "export PYTHONPATH='${CMAKE_BINARY_DIR}/${granular_python_folder}'\"\${PYTHONPATH:+:\$PYTHONPATH}\"\n")
 if(GRANULAR_PARAVIEW)
   string(APPEND granular_environment
-    "export PV_PLUGIN_PATH='${CMAKE_BINARY_DIR}/${granular_plugin_folder}'\n")
+    "export PV_PLUGIN_PATH='${CMAKE_BINARY_DIR}/${granular_plugin_folder}'\"\${PV_PLUGIN_PATH:+:\$PV_PLUGIN_PATH}\"\n")
 endif()
 file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/environment" CONTENT "${granular_environment}")

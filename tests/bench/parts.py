@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The parts for developers: what the code costs against the best that is known for it, with targets."""
+import re
+
 from tables import (Column, Part, Target, cases_by_metrics, columns, contenders_by_metrics, growth_table)
 
 
@@ -77,10 +79,9 @@ def plot_euler(pyplot, figures):
 EULER = Part("euler", "Cells: averages of particles",
      """average_in_cells, one thread unless said, spheres of equal radius in no order in a cube that they would
      fill by half if they did not overlap; none reaches beyond its walls. 10^6 particles; fewer where that would take
-     long. There are 8.4 / s^3 cells of s radii for each particle, and its time contains theirs. Error is that of volumefraction: of Centre against Overlap, all cells; of
-     Overlap against sums of volumes with 113 bits, in cells at random (exact cells). cells touched
-     is how many cells a particle touches on average, by geometry. plain is a loop of += on doubles that
-     trusts a computed index: count, mass, momentum, radius, volume and, in a second pass, the six
+     long. There are 8.4 / s^3 cells of s radii for each particle, and its time contains theirs. Error is that of volumefraction,
+     against sums of volumes with 113 bits, in cells at random (exact cells). cells touched is how many cells a
+     particle touches on average, by geometry. plain is a loop of += on doubles that trusts a computed index: count, mass, momentum, radius, volume and, in a second pass, the six
      stresses. In order: the particles of a cell follow one another. More particles in more cells: 7.5
      particles in each, edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two threads:
      time on the wall; cores: processor time of 2 threads by their time on the wall, which is how many the
@@ -100,8 +101,6 @@ EULER = Part("euler", "Cells: averages of particles",
                        Column("without short cuts, largest error",
                               "without short cuts, error, largest:1", ".1e"),
                        Column("rms", "without short cuts, error, rms:1", ".1e"),
-                       Column("largest difference from Overlap",
-                              "without short cuts, largest difference from Overlap:1", ".1e"),
                        *columns(".0f", "exact cells:1")),
       cases_by_metrics(r"^plain",
                        *columns(".1f", "plain:ns/particle", "Centre:ns/particle"),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The parts that a user asks for: what each choice costs, and what it loses. docs/speed_and_error.md is made of them."""
 import math
+import re
 
 from parts import EULER
 from tables import Column, Part, Target, cases_by_metrics, columns, markdown, scientific, verdict
@@ -211,72 +212,181 @@ def plot_choose(pyplot, figures):
 
 
 # ---- cells ---------------------------------------------------------------------------------------
+AVERAGED = (("volume fraction, rms error:1", "error of the volume fraction (expected 0.3)"),
+            ("velocity, rms error:of shear", "error of the velocity (shear 0 to 2, fluctuations 0.5)"))
+MOTIONS = ("moving", "at rest")
+
+
+def averaged(figures, motion, weights, cells):
+    """Cases of one cell size, in the order of frames."""
+    return figures.all(f"^{motion}, {weights}, {cells}\\^3 cells")
+
+
 def plot_average(pyplot, figures):
-    figure, panels = pyplot.subplots(1, 2, figsize=(11, 4.4), layout="constrained")
-    for axes, metric, label in zip(panels, ("volume fraction, rms error:1", "velocity, rms error:of shear"),
-                                   ("volume fraction (expected 0.3)", "velocity (shear 0 to 2, fluctuations 0.5)")):
-        for motion, style in (("moving", "-"), ("at rest", "--")):
-            for weights, color in (("Centre", "C1"), ("Overlap", "C0")):
-                cases = figures.all(f"^{motion}, {weights}")
-                axes.plot([figures.get(case, "time:ns/particle") for case in cases],
-                          [figures.get(case, metric) for case in cases], "o" + style, color=color, label=f"{weights}, {motion}")
-                for case in cases:
-                    axes.annotate(case.split(", ")[2].split()[0], (figures.get(case, "time:ns/particle"), figures.get(case, metric)),
-                                  textcoords="offset points", xytext=(4, 4), fontsize=7)
-        axes.set_xscale("log")
+    """Error against time: a line is one cell size, a point one number of frames."""
+    figure, panels = pyplot.subplots(2, 2, figsize=(11, 8), sharex=True, sharey="row", layout="constrained")
+    sizes = sorted({int(re.search(r"(\d+)\^3", case).group(1)) for case in figures.all(r"frames$")})
+    for row, (metric, label) in zip(panels, AVERAGED):
+        row[0].set_ylabel(label + ", rms")
+        for axes, motion in zip(row, MOTIONS):
+            for color, cells in zip(("C0", "C1", "C2"), sizes):
+                for weights, style in (("Overlap", "o-"), ("Centre", "s--")):
+                    cases = averaged(figures, motion, weights, cells)
+                    times, errors = ([figures.get(case, name) for case in cases] for name in ("time:ns/particle", metric))
+                    size = figures.get(cases[0], "cell size:radius")
+                    axes.plot(times, errors, style, color=color, markersize=4, markerfacecolor=color if style == "o-" else "w",
+                              label=f"cells of {size:.0f} radii, {weights}")
+                    for case, *place in zip(cases, times, errors):
+                        if weights == "Overlap" and cells == sizes[0]:
+                            axes.annotate(f"{figures.get(case, 'frames:1'):.0f}", place, textcoords="offset points",
+                                          xytext=(3, -11), fontsize=7)
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            axes.grid(color="0.93")
+    for axes, motion in zip(panels[0], MOTIONS):
+        axes.set_title(f"particles {motion}; numbers: frames")
+    for axes in panels[1]:
+        axes.set_xlabel("time of the whole average, reading included [ns/particle]")
+    panels[0][1].legend(fontsize=8)
+    return figure
+
+
+def plot_frames(pyplot, figures):
+    figure, panels = pyplot.subplots(1, 2, figsize=(11, 4), layout="constrained")
+    for axes, (metric, label) in zip(panels, AVERAGED):
+        for motion, color in zip(MOTIONS, ("C0", "C3")):
+            for weights, style in (("Overlap", "o-"), ("Centre", "s--")):
+                cases = averaged(figures, motion, weights, 8)
+                axes.plot([figures.get(case, "frames:1") for case in cases], [figures.get(case, metric) for case in cases], style,
+                          color=color, markerfacecolor=color if style == "o-" else "w", label=f"{motion}, {weights}")
+        axes.set_xscale("log", base=2)
         axes.set_yscale("log")
-        axes.set_xlabel("time, reading included [ns/particle of a frame]")
-        axes.set_ylabel("rms error")
-        axes.set_title(label + "; numbers: frames", fontsize=9)
+        axes.xaxis.set_major_formatter("{x:.0f}")
+        axes.set_xlabel("frames")
+        axes.set_ylabel("rms")
+        axes.set_title(label, fontsize=10)
         axes.grid(color="0.93")
-        axes.legend(fontsize=8)
+    panels[0].legend(fontsize=8)
     return figure
 
 
 SUMS = ("+= float", "pairwise float", "+= double", "pairwise double", "compensated", "exact")
+SUM_KINDS = r"^(alike|masses|cancelling)"
 
 
 def sums_table(part, figures, quick):
-    kinds = figures.all(r"^(alike|masses|cancelling)")
-    rows = [[f"`{name}`", *(cell for kind in kinds for cell in (
-        f"{figures.get(kind, name + ':ns/term'):.2f}", scientific(figures.get(kind, name + ', relative error:1'))))]
-        for name in SUMS]
-    head = ["sum", *(cell for kind in kinds for cell in (f"{kind}, ns/term", "relative error"))]
-    words = figures.all("^words")
-    names = ("digits times a power", "std::from_chars", "parse_double")
-    numbers = [[f"`{name}`", *(cell for case in words for cell in (
-        f"{figures.get(case, name + ':ns/word'):.1f}", f"{figures.get(case, name + ', wrong words of 10^9:1'):.0f}"))] for name in names]
-    return markdown(head, rows) + ["Words of text into doubles:", ""] + markdown(
-        ["way", *(cell for case in words for cell in (f"{case}, ns/word", "wrong of 10^9"))], numbers)
+    kinds = figures.all(SUM_KINDS)
+    rows = [[f"`{name}`", *(f"{figures.get(kinds[0], name + metric):.2f}" for metric in (":ns/term", ", time against += double:1")),
+             *(scientific(figures.get(kind, f"{name}, relative error, {which}:1"))
+               for kind in kinds for which in ("median", "largest"))] for name in SUMS]
+    return markdown(["sum", "ns/term", "against += double", *(f"{kind}, {which}" for kind in kinds
+                                                              for which in ("median error", "largest"))], rows)
+
+
+def whiskers(least, middle, largest):
+    """For errorbar on a logarithmic axis; errors of 0 are drawn at EXACT."""
+    least, middle, largest = (max(value, EXACT) for value in (least, middle, largest))
+    return middle, [[middle - least], [largest - middle]]
 
 
 def plot_sums(pyplot, figures):
-    figure, axes = pyplot.subplots(figsize=(8, 4.4), layout="constrained")
-    for kind, mark in zip(figures.all(r"^(alike|masses|cancelling)"), "os^"):
+    """Errors against time; bars reach from the least to the largest of all orders."""
+    kinds = figures.all(SUM_KINDS)
+    figure, panels = pyplot.subplots(1, len(kinds), figsize=(12, 4.2), sharey=True, layout="constrained")
+    for axes, kind in zip(panels, kinds):
         for i, name in enumerate(SUMS):
-            axes.plot(figures.get(kind, name + ":ns/term"), max(figures.get(kind, name + ", relative error:1"), EXACT), mark,
-                      color=f"C{i}", label=name if mark == "o" else None)
-        axes.plot([], [], mark, color="k", markerfacecolor="none", label=kind)
-    axes.set_yscale("log")
-    axes.set_xlim(left=0)
-    axes.axhline(2.0 ** -53, color="0.5", linewidth=0.8, linestyle=":")
-    axes.text(0.02, 1.4 * 2.0 ** -53, "half an ulp", fontsize=8, color="0.4")
-    axes.set_xlabel("time [ns/term]")
-    axes.set_ylabel("relative error of the sum")
-    axes.grid(color="0.93")
-    axes.legend(fontsize=8, ncol=2)
+            middle, bars = whiskers(*(figures.get(kind, f"{name}, relative error, {which}:1") for which in
+                                      ("least", "median", "largest")))
+            axes.errorbar(figures.get(kind, name + ":ns/term"), middle, yerr=bars, fmt="o", color=f"C{i}", capsize=4, label=name)
+        axes.set_yscale("log")
+        axes.set_xlim(left=0)
+        axes.axhline(2.0 ** -53, color="0.5", linewidth=0.8, linestyle=":")
+        axes.axhline(1, color="0.5", linewidth=0.8)
+        axes.set_title(kind)
+        axes.set_xlabel("time [ns/term]")
+        axes.grid(color="0.93")
+    panels[0].text(0.02, 1.4 * 2.0 ** -53, "half an ulp", fontsize=8, color="0.4")
+    panels[0].text(0.02, 1.5, "nothing is right", fontsize=8, color="0.4")
+    panels[0].set_ylabel("relative error of the sum")
+    panels[0].legend(fontsize=8, loc="center right")
+    return figure
+
+
+def plot_volumes(pyplot, figures):
+    figure, (size, time) = pyplot.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
+    cases = figures.all("^h/r")
+    edges = [float(case.split("=")[1]) for case in cases]
+    for metric, style, color, label in (("promised", "-", "0.5", "bound that is promised"), ("error, largest", "o-", "C0", "largest error"),
+                                        ("error, rms", "o--", "C0", "rms error")):
+        size.plot(edges, [max(figures.get(case, f"{metric}:of the smaller"), EXACT) for case in cases], style, color=color, label=label,
+                  markerfacecolor="w" if "rms" in metric else color)
+    size.set_xlabel("edge of the cube / radius")
+    size.set_ylabel("error / the smaller of sphere and cube")
+    (case,) = figures.all("^one")
+    told = figures.cases[case]
+    for name in [metric[:-len(":ns/volume")] for metric in told if metric.endswith(":ns/volume")]:
+        error = max(told[f"{name}, error, rms:of the smaller"], EXACT)
+        time.plot(told[f"{name}:ns/volume"], error, "o", color="C0" if name == "exact" else "0.6")
+        time.annotate(name, (told[f"{name}:ns/volume"], error), textcoords="offset points", xytext=(6, 4), fontsize=8)
+    time.set_xlabel("time of one volume, edge = radius [ns]")
+    time.set_ylabel("rms error / the smaller of sphere and cube")
+    for axes in (size, time):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.grid(color="0.93")
+    time.set_xlim(right=5 * time.get_xlim()[1])
+    size.legend(fontsize=8)
+    return figure
+
+
+NUMBERS = ("digits times a power", "std::from_chars", "parse_double")
+
+
+def numbers_table(part, figures, quick):
+    words = figures.all("^words")
+    rows = [[f"`{name}`", *(cell for case in words for cell in (
+        f"{figures.get(case, name + ':ns/word'):.1f}", f"{figures.get(case, name + ', wrong words of 10^9:1'):.0f}"))]
+        for name in NUMBERS]
+    return ["Words of text into doubles:", ""] + markdown(
+        ["way", *(cell for case in words for cell in (f"{case}: ns/word", "wrong of 10^9"))], rows)
+
+
+def plot_numbers(pyplot, figures):
+    words = figures.all("^words")
+    figure, (wrong, time) = pyplot.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
+    for i, name in enumerate(NUMBERS):
+        places = [row + 0.27 * (i - 1) for row in range(len(words))]
+        values = [figures.get(case, name + ", wrong words of 10^9:1") for case in words]
+        wrong.bar(places, [max(value, 1) for value in values], 0.25, bottom=1, color=("C3", "0.7", "C0")[i], label=name)
+        for place, value in zip(places, values):
+            wrong.text(place, max(value, 1) * 1.5, f"{value:.2g}", ha="center", fontsize=8)
+        time.bar(places, [figures.get(case, name + ":ns/word") for case in words], 0.25, color=("C3", "0.7", "C0")[i], label=name)
+    wrong.set_yscale("log")
+    wrong.set_ylim(1, 1e10)
+    wrong.set_ylabel("wrong words of 10^9")
+    time.set_ylabel("time [ns/word]")
+    for axes in (wrong, time):
+        axes.set_xticks(range(len(words)), [case.removeprefix("words").lstrip(", of") for case in words])
+        axes.grid(color="0.93", axis="y")
+        axes.set_axisbelow(True)
+    time.legend(fontsize=8)
     return figure
 
 
 # ---- lines, cores, others --------------------------------------------------------------------------
 def lines_table(part, figures, quick):
     rows = []
-    for case in figures.cases:
+    for case in figures.all(" (image|written)$"):
         rows.append([f"`{case}`", error(figures, case, "length", "ulp", "both"), f"{figures.get(case, 'wrong image:1'):.1%}",
                      f"{figures.get(case, 'longest against true:1'):.3g}",
                      verdict(part, figures, case, "length, largest:ulp", quick)])
+    told = figures.cases["on faces"]
     return markdown(["box; lines", "error of length, largest (rms) [ulp]", "lines to a wrong image", "longest against true",
-                     "target"], rows)
+                     "target"], rows) + [
+        f"Counts: of {told['particles:1']:.0f} particles on and beside the faces of grids, `GranularDecomposition` puts "
+        f"{told['wrong subdomain:1']:.0f} into a wrong subdomain. The usual formula `int((x - lo) / (hi - lo) * n)` does so with "
+        f"{told['wrong subdomain by the formula:1']:.1%} of them. The imbalance is wrong by at most "
+        f"{told['imbalance, largest error:ulp']:.2f} ulp.", ""]
 
 
 def others_table(part, figures, quick):
@@ -294,6 +404,8 @@ def others_table(part, figures, quick):
     return markdown(["program; text", "read ns/particle", "against ours", "wrong values", "largest error [ulp]", "target"],
                     rows) + words
 
+
+VOLUMES = ("exact", "19 points", "136 points", "912 points", "7208 points")
 
 SCENE = """A packing of 111,132 particles of radius 5.6e-3 in a box of length 1, stretched by 5 %; 12 columns: id type x y z vx vy
 vz fx fy fz radius. One thread, processor time, files in the page cache. """
@@ -321,19 +433,29 @@ SCENE_PARTS = (
          [Target(r"^1 frame", "read against all:1", "<=", 0.06)], plot_choose, script=True),
     EULER,
     Part("average", "Averages over frames",
-         """20,000 equal spheres at random, which may overlap, in 8 x 8 x 8 cells: 39 in each. The expected volume fraction is 0.3 and
-         the expected velocity 2 z, with fluctuations of 0.5. Time is that of reading and averaging all frames, for a particle of
-         one of them. Files of cells: what is read back against what was written.""",
-         [cases_by_metrics(r"frames$", *columns(".0f", "time:ns/particle"), Column("against 1 frame", "time against 1 frame:1", ".2f"),
+         """20,000 equal spheres at random that do not overlap, in a periodic box; 5 to 312 in each cell. Moving: in each frame at other places. At rest: at
+         the same places in all frames. The expected volume fraction is 0.3 and the expected velocity 2 z, with fluctuations of 0.5
+         that are new in each frame. Time is that of reading and averaging all frames. Files of cells: what is read back against what
+         was written.""",
+         [cases_by_metrics(r"8\^3 cells, (1|32) frames$", *columns(".1f", "cell size:radius"), *columns(".0f", "time:ns/particle"),
+                           Column("against 1 frame", "time against 1 frame:1", ".2f"),
                            *columns(".1e", "volume fraction, rms error:1", "velocity, rms error:of shear")),
           cases_by_metrics(r"^(six|Wide)", *columns(".0f", "size:B/cell"),
-                           *columns(".1e", "volumefraction, largest error:rms", "v_avg, largest error:rms", "pressure, largest error:rms"))],
-         [Target(r"^Wide", "v_avg, largest error:rms", "<=", 0)], plot_average, script=True),
+                           *columns(".1e", "volumefraction, largest error:rms", "v_avg, largest error:rms",
+                                    "radius, largest error:rms", "pressure, largest error:rms"))],
+         [Target(r"^Wide", "v_avg, largest error:rms", "<=", 0)], {"average": plot_average, "frames": plot_frames}, script=True),
+    Part("volumes", "Volumes of spheres in cells",
+         """Unit spheres, and 2000 cubes of each edge whose faces or inside hold a point of the surface. Errors are against 113 bits. Points:
+         those of a regular grid in the sphere, as far as they lie in the cube, as many programs count them.""",
+         [cases_by_metrics(r"^one", *columns(".0f", *(f"{name}:ns/volume" for name in VOLUMES)),
+                           *columns(".1e", *(f"{name}, error, rms:of the smaller" for name in VOLUMES)))],
+         [Target(r"^h/r", "error, largest:of the smaller", "<=", 1e-11)], plot_volumes),
     Part("sums", "Sums and numbers",
-         """10^6 terms into one sum. Alike: 0.5 to 1.5. Masses 1e12 apart: halves of 1e6 and 1e-6. Cancelling: pairs to and fro in any
-         order, and 1e-12 that remains. exact makes eight sums at once, and its time is that of one of them. The exact sum is
-         made of integers. Words: 10^6 decimals from -1 to 1, the hardest: those in the middle between two doubles, or just above; digits times a power is the loop that many programs have.""",
-         [sums_table], [], plot_sums),
+         """10^6 terms into one sum, in 50 random orders. Alike: 0.5 to 1.5. Masses 1e12 apart: halves of 1e6 and 1e-6. Cancelling: pairs
+         to and fro, and 1e-12 that remains. exact makes eight sums at once, and its time is that of one of them. The true sum is made
+         of integers. Words: 10^6 decimals from -1 to 1, the hardest: those in the middle between two doubles, or just above. digits
+         times a power is the loop that many programs have.""",
+         [sums_table, numbers_table], [], {"sums": plot_sums, "numbers": plot_numbers}),
     Part("lines", "Lines between particles in tilted boxes",
          """1000 pairs in boxes of length 1, up to 0.09 apart, ends wrapped into the box. Coordinates are multiples of 2^-40, and the
          true length is the least over images, by integers.""",

@@ -28,12 +28,11 @@ namespace
 /// 113 bits.
 __extension__ typedef __float128 Quad;
 
-/// Terms, their exact sum, and the sum of their magnitudes.
+/// Terms, and their exact sum.
 struct Terms
 {
   std::vector<double> values;
   Quad exact = 0;
-  Quad magnitudes = 0;
   granular::SumScale::Range range;
 };
 
@@ -47,7 +46,6 @@ Terms make_terms(const std::vector<double>& values, int top, int bottom)
     const double rounded = std::ldexp(std::nearbyint(std::ldexp(value, -bottom)), bottom);
     terms.values.push_back(rounded);
     terms.exact += rounded;
-    terms.magnitudes += rounded < 0 ? -rounded : rounded;
   }
   return terms;
 }
@@ -117,83 +115,126 @@ double add_compensated(const std::vector<double>& values)
   return sum.hi + sum.lo;
 }
 
-/// Eight sums at once, as averages make them: all are the same here, and the time counts for one.
-double add_exactly(const Terms& terms, std::vector<granular::SumScale::Terms>& lanes)
+/// Terms as averages add them: eight sums at once, which are all the same here. The time counts for one.
+class ExactSum
 {
-  std::array<granular::SumScale::Range, granular::SumScale::lanes> ranges;
-  ranges.fill(terms.range);
-  const granular::SumScale scale(ranges, static_cast<std::int64_t>(terms.values.size()));
-  std::vector<std::int64_t> sums(scale.size());
-  const std::vector<std::int64_t> cells(lanes.size());
-  scale.add(lanes, cells.data(), sums.data());
-  return scale.values(sums.data())[0];
+public:
+  explicit ExactSum(const Terms& terms)
+    : terms_(terms.values.size())
+    , cells_(terms.values.size())
+    , scale_(ranges(terms), static_cast<std::int64_t>(terms.values.size()))
+    , sums_(scale_.size())
+  {
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+    {
+      terms_[i].fill(terms.values[i]);
+    }
+  }
+
+  double add()
+  {
+    std::ranges::fill(sums_, 0);
+    scale_.add(terms_, cells_.data(), sums_.data());
+    return scale_.values(sums_.data())[0];
+  }
+
+private:
+  static std::array<granular::SumScale::Range, granular::SumScale::lanes> ranges(const Terms& terms)
+  {
+    std::array<granular::SumScale::Range, granular::SumScale::lanes> found;
+    found.fill(terms.range);
+    return found;
+  }
+
+  std::vector<granular::SumScale::Terms> terms_;
+  std::vector<std::int64_t> cells_;
+  granular::SumScale scale_;
+  std::vector<std::int64_t> sums_;
+};
+
+/// A way to add; exact is the one of the same terms.
+struct SumWay
+{
+  const char* name;
+  double (*add)(const std::vector<double>& values, ExactSum& exact);
+};
+
+constexpr std::array<SumWay, 6> sum_ways = { {
+  { "+= float",
+    [](const std::vector<double>& values, ExactSum&) -> double
+    { return add_plainly<float>(values); } },
+  { "+= double",
+    [](const std::vector<double>& values, ExactSum&) { return add_plainly<double>(values); } },
+  { "pairwise float",
+    [](const std::vector<double>& values, ExactSum&) -> double
+    { return add_pairs<float>(values.data(), values.size()); } },
+  { "pairwise double",
+    [](const std::vector<double>& values, ExactSum&)
+    { return add_pairs<double>(values.data(), values.size()); } },
+  { "compensated",
+    [](const std::vector<double>& values, ExactSum&) { return add_compensated(values); } },
+  { "exact", [](const std::vector<double>&, ExactSum& exact) { return exact.add(); } },
+} };
+
+/// Relative errors of all ways, for terms in random orders. Returns nothing if the exact sum is not correctly rounded.
+std::array<Samples, sum_ways.size()> errors_of_orders(Terms terms, std::int64_t orders)
+{
+  std::array<Samples, sum_ways.size()> errors;
+  std::mt19937_64 random(5);
+  for (std::int64_t order = 0; order < orders; ++order)
+  {
+    std::ranges::shuffle(terms.values, random);
+    ExactSum exact(terms);
+    for (std::size_t i = 0; i < sum_ways.size(); ++i)
+    {
+      const double sum = sum_ways[i].add(terms.values, exact);
+      if (sum_ways[i].name == std::string_view("exact") && sum != static_cast<double>(terms.exact))
+      {
+        return {};
+      }
+      errors[i].push_back(std::abs(static_cast<double>((sum - terms.exact) / terms.exact)));
+    }
+  }
+  return errors;
 }
 
-void sum_case(benchmark::State& state, const std::string& kind, std::size_t count)
+void sum_case(
+  benchmark::State& state, const std::string& kind, std::size_t count, std::int64_t orders)
 {
   const Terms terms = make_terms(kind, count);
-  count = terms.values.size();
-  std::vector<granular::SumScale::Terms> lanes(count);
-  for (std::size_t i = 0; i < count; ++i)
+  const auto errors = errors_of_orders(terms, orders);
+  if (errors[0].empty())
   {
-    lanes[i].fill(terms.values[i]);
+    fail(state, "a sum is not correctly rounded");
+    return;
   }
+  ExactSum exact(terms);
   Rounds rounds;
-  std::array<double, 6> sums = {};
-  const std::array<const char*, 6> names = { "+= float", "+= double", "pairwise float",
-    "pairwise double", "compensated", "exact" };
-  rounds.add(names[0],
-    [&]
-    {
-      sums[0] = add_plainly<float>(terms.values);
-      return true;
-    });
-  rounds.add(names[1],
-    [&]
-    {
-      sums[1] = add_plainly<double>(terms.values);
-      return true;
-    });
-  rounds.add(names[2],
-    [&]
-    {
-      sums[2] = add_pairs<float>(terms.values.data(), count);
-      return true;
-    });
-  rounds.add(names[3],
-    [&]
-    {
-      sums[3] = add_pairs<double>(terms.values.data(), count);
-      return true;
-    });
-  rounds.add(names[4],
-    [&]
-    {
-      sums[4] = add_compensated(terms.values);
-      return true;
-    });
-  // correctly rounded, or wrong
-  rounds.add(names[5],
-    [&]
-    {
-      sums[5] = add_exactly(terms, lanes);
-      return sums[5] == static_cast<double>(terms.exact);
-    });
-  if (!rounds.run_all(state, "a sum is not correctly rounded", static_cast<double>(count)))
+  for (const SumWay& way : sum_ways)
+  {
+    rounds.add(way.name,
+      [&way, &terms, &exact]
+      {
+        benchmark::DoNotOptimize(way.add(terms.values, exact));
+        return true;
+      });
+  }
+  if (!rounds.run_all(
+        state, "a sum is not correctly rounded", static_cast<double>(terms.values.size())))
   {
     return;
   }
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (std::size_t i = 0; i < sum_ways.size(); ++i)
   {
-    const std::string name = names[i];
-    const double lanes_at_once = name == "exact" ? granular::SumScale::lanes : 1;
-    const Quad error = sums[i] - terms.exact;
-    tell(state, name, 1e9 * median(rounds.of(name)) / lanes_at_once, "ns/term");
+    const std::string name = sum_ways[i].name;
+    const double at_once = name == "exact" ? granular::SumScale::lanes : 1;
+    tell(state, name, 1e9 * median(rounds.of(name)) / at_once, "ns/term");
     tell(state, name + ", time against += double",
-      median_ratio(rounds.of(name), rounds.of("+= double")) / lanes_at_once, "1");
-    tell(state, name + ", relative error", std::abs(static_cast<double>(error / terms.exact)), "1");
-    tell(state, name + ", error of the magnitudes",
-      std::abs(static_cast<double>(error / terms.magnitudes)), "1");
+      median_ratio(rounds.of(name), rounds.of("+= double")) / at_once, "1");
+    const auto [least, largest] = std::ranges::minmax_element(errors[i]);
+    tell(state, name + ", relative error, least", *least, "1");
+    tell(state, name + ", relative error, median", median(errors[i]), "1");
+    tell(state, name + ", relative error, largest", *largest, "1");
   }
 }
 
@@ -316,7 +357,10 @@ void add_benchmarks(const Size& size)
   {
     add(std::string("sums/") + kind, size.pick(7, 1),
       [kind, size](benchmark::State& state)
-      { sum_case(state, kind, static_cast<std::size_t>(size.pick(1'000'000, 10'000))); });
+      {
+        sum_case(
+          state, kind, static_cast<std::size_t>(size.pick(1'000'000, 10'000)), size.pick(50, 3));
+      });
   }
   for (const int digits : { 6, 9, 17, 0 })
   {

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lines between particles in tilted periodic boxes: as written, and by the minimum image; lengths against exact ones."""
+"""Lines between particles in tilted periodic boxes, as written and by the minimum image; and counts of particles on faces."""
 from decimal import Decimal, getcontext
+from fractions import Fraction
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkTable
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 
 import granular
 from scene import main, open_dump, tell_error
@@ -22,7 +24,7 @@ def exact_nearest(difference, edges, reach):
     return min((moved ** 2).sum(1))
 
 
-def study_of(study):
+def lines_study(study):
     random = numpy.random.default_rng(5)
     rows = study.pick(1000, 100)
     unit = 2 ** 40
@@ -69,6 +71,56 @@ def study_of(study):
             study.tell(case, "longest against true", float((found / lengths).max()), "1")
             if setting == 0:
                 study.check(max(ulps) <= 2, f"{case}: {max(ulps)} ulp")
+
+
+def counts_study(study):
+    """Particles on the faces of grids, and one step of a double beside: the counts against comparisons with the faces, and what
+    the usual formula, the integer part of (x - lo) / (hi - lo) * n, makes of them."""
+    random = numpy.random.default_rng(6)
+    grids = study.pick(200, 20)
+    misplaced, wrong, placed, ulps = 0, 0, 0, 0.0
+    for _ in range(grids):
+        n = int(random.integers(2, 40))
+        lo = float(random.uniform(-10, 10))
+        hi = lo + float(random.uniform(0.1, 10))
+        source = granular.vtkGranularDecompositionSource()
+        source.SetBounds(lo, hi, 0, 1, 0, 1)
+        source.SetProcessorGrid(n, 1, 1)
+        source.Update()
+        corners = vtk_to_numpy(source.GetOutput().GetPoints().GetData())[:, 0]
+        faces = numpy.unique(corners)
+        study.check(len(faces) == n + 1, "faces of a grid")
+        inner = faces[1:-1]
+        x = numpy.concatenate((inner, numpy.nextafter(inner, -numpy.inf), numpy.nextafter(inner, numpy.inf)))
+        points = numpy.column_stack((x, numpy.full((len(x), 2), 0.5)))
+        data = vtkPolyData()
+        data.SetPoints(vtkPoints())
+        data.GetPoints().SetData(numpy_to_vtk(points, deep=True))
+        count = granular.vtkGranularDecomposition()
+        count.SetInputData(data)
+        count.SetBounds(lo, hi, 0, 1, 0, 1)
+        count.SetProcessorGrid(n, 1, 1)
+        count.Update()
+        output = count.GetOutput()
+        owners = numpy.searchsorted(faces, x, side="right") - 1  # by comparison
+        true = numpy.bincount(owners, minlength=n)
+        misplaced += int(abs(vtk_to_numpy(output.GetCellData().GetArray("nlocal")) - true).sum())
+        formula = ((x - lo) / (hi - lo) * n).astype(int).clip(0, n - 1)
+        wrong += int((formula != owners).sum())
+        placed += len(x)
+        imbalance = Fraction(int(true.max()) * n, len(x))
+        found = output.GetFieldData().GetArray("imbalance").GetValue(0)
+        ulps = max(ulps, float(abs(Fraction(found) - imbalance) / Fraction(float(numpy.spacing(found)))))
+    study.tell("on faces", "particles", placed, "1")
+    study.check(misplaced == 0, "counts on faces")
+    study.tell("on faces", "wrong subdomain", misplaced, "1")
+    study.tell("on faces", "wrong subdomain by the formula", wrong / placed, "1")
+    study.tell("on faces", "imbalance, largest error", ulps, "ulp")
+
+
+def study_of(study):
+    lines_study(study)
+    counts_study(study)
 
 
 main(study_of)
