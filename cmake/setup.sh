@@ -8,8 +8,8 @@ granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd
 # Debian's names: what the core needs, the plugin and the samples on top of it, a VTK of its own, and the tests.
 granular_core_packages=(cmake g++ libzstd-dev ninja-build python3 zlib1g-dev)
 granular_plugin_packages=(
-  libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xvfb)
-granular_vtk_packages=(libopenmpi-dev libvtk9-dev openmpi-bin python3-dev python3-vtk9 xvfb)
+  libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xauth xvfb)
+granular_vtk_packages=(libopenmpi-dev libvtk9-dev openmpi-bin python3-dev python3-vtk9 xauth xvfb)
 granular_test_packages=(binutils libbenchmark-dev libgtest-dev locales)
 
 granular_say()

@@ -56,7 +56,7 @@ double quantile(Samples samples, double fraction)
 void add(const std::string& name, std::int64_t rounds, std::function<void(benchmark::State&)> run)
 {
   const std::int64_t fewer =
-    all_rounds ? rounds : std::min(rounds, std::max<std::int64_t>(3, rounds * 2 / 5));
+    all_rounds ? rounds : std::min(rounds, std::max<std::int64_t>(3, rounds / 5));
   benchmark::RegisterBenchmark(name.c_str(), std::move(run))->Iterations(fewer)->UseManualTime();
 }
 

@@ -42,7 +42,7 @@ struct Size
 /// What a part defines: registers its benchmarks. Their names are part/case.
 void add_benchmarks(const Size& size);
 
-/// A benchmark of a fixed number of rounds, of which only a large run does all and a full one two fifths, at least three; its
+/// A benchmark of a fixed number of rounds, of which only a large run does all and a full one a fifth, at least three; its
 /// state is to be used in manual time.
 void add(const std::string& name, std::int64_t rounds, std::function<void(benchmark::State&)> run);
 

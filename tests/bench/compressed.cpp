@@ -554,8 +554,8 @@ void add_benchmarks(const Size& size)
     std::int64_t rounds;
   };
   const Case cases[] = {
-    { "gzip", files->gzip, opener<ZlibStream>(files->gzip), size.pick(39, 1) },
-    { "zstd", files->zstd, opener<ZstdStream>(files->zstd), size.pick(39, 1) },
+    { "gzip", files->gzip, opener<ZlibStream>(files->gzip), size.pick(20, 1) },
+    { "zstd", files->zstd, opener<ZstdStream>(files->zstd), size.pick(20, 1) },
   };
   const std::int64_t round_bytes = size.full ? std::int64_t{ 1 } << 24 : files->text.bytes;
   for (const Case& each : cases)

@@ -199,7 +199,7 @@ void measure(benchmark::State& state, const Case& each)
 void add_benchmarks(const Size& size)
 {
   const std::int64_t million = size.pick(1'000'000, 3'000);
-  const std::int64_t most = size.pick(10'000'000, 3'000'000, 5'000);
+  const std::int64_t most = size.pick(10'000'000, 2'000'000, 5'000);
   const int hundred = static_cast<int>(size.pick(100, 7));
   const Case cases[] = {
     { "2 x 2 x 2", 2, million, false },

@@ -640,14 +640,14 @@ void add_benchmarks(const Size& size)
   const auto pick = [&](std::int64_t full, std::int64_t quick)
   { return size.full && size.large ? 200 : size.pick(full, quick); };
   const CellSize sizes[] = {
-    { "0.1", 0.1, pick(100, 40), 3 },
-    { "0.2", 0.2, pick(100, 20), 3 },
+    { "0.1", 0.1, pick(60, 40), 3 },
+    { "0.2", 0.2, pick(60, 20), 3 },
     { "0.5", 0.5, pick(60, 10), 3 },
     { "1", 1, pick(60, 8), 3 },
-    { "2", 2, size.pick(100, 6), 3 },
-    { "4", 4, size.pick(50, 4), 5 },
-    { "10", 10, size.pick(20, 3), 7 },
-    { "20", 20, size.pick(10, 2), 11 },
+    { "2", 2, size.pick(100, 68, 6), 3 },
+    { "4", 4, size.pick(50, 34, 4), 5 },
+    { "10", 10, size.pick(20, 13, 3), 7 },
+    { "20", 20, size.pick(10, 7, 2), 11 },
     { "50", 50, size.pick(4, 2), 11 },
     { "100", 100, 2, 11 },
   };
@@ -657,10 +657,10 @@ void add_benchmarks(const Size& size)
       [each, most](benchmark::State& state) { speed_and_error(state, each, most); });
   }
   const PlainCase plain[] = {
-    { 4, size.pick(50, 4), false, false },
-    { 4, size.pick(50, 4), false, true },
-    { 20, size.pick(10, 2), false, false },
-    { 20, size.pick(10, 2), true, false },
+    { 4, size.pick(50, 34, 4), false, false },
+    { 4, size.pick(50, 34, 4), false, true },
+    { 20, size.pick(10, 7, 2), false, false },
+    { 20, size.pick(10, 7, 2), true, false },
     { 100, 2, false, false },
   };
   for (const PlainCase& each : plain)

@@ -15,6 +15,7 @@ def blocks(results, machine):
     for part, figures in results:
         if part.name == "store":
             yield "decide", summary.decide_table(figures)
+            yield "example", summary.example(figures)
         lines = [part.about, ""]
         for table in part.tables:
             lines += table(part, figures, False)

@@ -77,15 +77,15 @@ def plot_euler(pyplot, figures):
 
 # ---- cells, for users and developers ----------------------------------------------------------------
 EULER = Part("euler", "Cells: averages of particles",
-     """average_in_cells, one thread unless said, spheres of equal radius in no order in a cube that they would
-     fill by half if they did not overlap; none reaches beyond its walls. 10^6 particles; fewer where that would take
-     long. There are 8.4 / s^3 cells of s radii for each particle, and its time contains theirs. Error is that of volumefraction,
-     against sums of volumes with 113 bits, in cells at random (exact cells). cells touched is how many cells a
-     particle touches on average, by geometry. plain is a loop of += on doubles that trusts a computed index: count, mass, momentum, radius, volume and, in a second pass, the six
-     stresses. In order: the particles of a cell follow one another. More particles in more cells: 7.5
-     particles in each, edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two threads:
-     time on the wall; cores: processor time of 2 threads by their time on the wall, which is how many the
-     machine let them have: near 1 there is nothing to gain. processor time: that of 2 threads against 1.""",
+     """average_in_cells, one thread unless said, spheres of equal radius in no order in a cube that they would fill by half
+     if they did not overlap; none reaches beyond its walls. Up to 955,000 particles, and fewer where that would take long. There are 8.4 /
+     s^3 cells of s radii for each particle, and its time contains theirs. Error is that of volumefraction, against sums of
+     volumes with 113 bits, in cells at random (exact cells). cells touched is how many cells a particle touches on
+     average, by geometry. plain is a loop of += on doubles that trusts a computed index: count, mass, momentum, radius,
+     volume and, in a second pass, the six stresses. In order: the particles of a cell follow one another. More particles
+     in more cells: 7.5 particles in each, edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two
+     threads: time on the wall; cores: processor time of 2 threads by their time on the wall, which is how many the machine
+     let them have: near 1 there is nothing to gain. processor time: that of 2 threads against 1.""",
      [cases_by_metrics(r"^cells of",
                        *columns(".0f", "particles:1"),
                        *columns(".2f", "cells touched:1"),
@@ -279,25 +279,6 @@ PARTS = (
                            Column("fresh", "fresh, page faults a frame:1", ".0f"),
                            Column("malloc", "malloc, page faults a frame:1", ".0f"))],
          [Target(r"", "pool against touched:1", "<=", 1.2)]),
-    Part("packing", "Packing: particles without a file",
-         """make_packing, 10^6 particles with velocities and ranges, into new memory, periodic boxes, time on the
-         wall; speed of 2 threads is against 1, as the median of rounds. Numbers behind random
-         are solid fractions.""",
-         [cases_by_metrics(r"",
-                           *columns(".0f", "1 thread:ns/particle", "2 threads:ns/particle"),
-                           *columns(".2f", "speed of 2 threads:1"),
-                           *columns(".0%", "spread:1"))]),
-    Part("bonds", "Bonded particles into buffers",
-         """pack and unpack of rows one after the other, against memcpy of as many bytes from buffer to buffer in turns;
-         numbers behind the routines are particles. border_new adds rows, which have more fields than are sent;
-         exchange has two bonds of twelve history values. --large goes to 10^7.""",
-         [cases_by_metrics(r"",
-                           *columns(".2f", "pack:ns/particle"),
-                           Column("against memcpy", "speed of pack against memcpy:1", ".2f"),
-                           Column("spread", "spread of pack:1", ".0%"),
-                           *columns(".2f", "unpack:ns/particle"),
-                           Column("against memcpy", "speed of unpack against memcpy:1", ".2f"),
-                           Column("spread", "spread of unpack:1", ".0%"))]),
     Part("restart", "Restart files",
          """read_restart against reading the bytes of the file, into memory that holds all of it and into a MiB that is used
          again and again; time on the wall, files in the page cache, outputs in memory of a frame before. find is read_layout, which looks
@@ -313,7 +294,7 @@ PARTS = (
                            Column("against that", "read against reused:1", ".2f"))],
          [Target(r"", "read against whole:1", ">=", 0.3), Target(r"", "find:s", "<=", 2)]),
     Part("voxels", "Voxels: subdomains as cells",
-         """make_voxels, 10^6 subdomains: of a grid, and as a random recursive bisection makes them; time on the
+         """make_voxels, 343,000 subdomains, with --large 10^6: of a grid, and as a random recursive bisection makes them; time on the
          wall, against filling arrays of the same size with one value, in new memory and in that of a frame
          before. Shared corners are found by hashing eight corners a subdomain, on one thread: arrays
          become small, the search does not. check holds them against all checks, text is encode_voxels.""",
@@ -331,7 +312,7 @@ PARTS = (
          [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
           Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)]),
     Part("count", "Count: particles of the subdomains of processes",
-         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (more: 3 x 10^6, with --large 10^7) everywhere alike in
+         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (more: 2 x 10^6, with --large 10^7) everywhere alike in
          the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that
          trusts the index it computes, (x - lo) p / (hi - lo) cut off to an integer and clamped: it needs an even
          grid, and at faces it is wrong by rounding. With std::floor it takes longer. even and
@@ -373,7 +354,7 @@ PARTS = (
           Target(r"^join", "join, time against gather:1", "<=", 15),
           Target(r"^more.*in order", "join, slowest against fastest:1", "<=", 1.5)]),
     Part("threads", "Threads: one frame, read by several",
-         """read_dump of 12 columns (%g where they are text), 10^6 rows and three times as many, file in
+         """read_dump of 12 columns (%g where they are text), 10^6 rows, with --large also three times as many, file in
          the page cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread. speed
          against from_chars: the plain
          loop of the part decode, one thread, on the same text in memory, not compressed. decode alone is
@@ -400,7 +381,7 @@ PARTS = (
               *columns(".0%", ", spread:1"))],
          [Target(r"order", "2 ranks, speed against 1 rank:1", ">=", 1.6, cores=2)], needs="MPI"),
     Part("pipeline", "Pipeline: stepping through a run in ParaView",
-         """UpdatePipeline(time) in pvpython, frame after frame of a text of 10 frames of 10^6 rows and 12
+         """UpdatePipeline(time) in pvpython, frame after frame of a text of 10 frames of 300,000 rows (with --large 10^6) and 12
          columns, in the page cache; time on the wall, and of the processor where one thread works.
          decode alone is decode_rows of the same text in memory, into memory that was touched before. no
          pool: GRANULAR_POOL_MIB is 0. The filter is a Threshold that keeps half of the particles: with

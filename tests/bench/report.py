@@ -97,6 +97,7 @@ def run_parts(parts, programs, how_much, folder, tell):
             figures.given = min(given, cores_given() if part.wants_cores > 1 and how_much else 2)
             if figures.given < 1.6:
                 figures.cores = 1
+            tell(f"   {time.monotonic() - begun - spent:.0f} s")
         except KeyboardInterrupt:
             tell(f"-- stopped; not measured: {' '.join(each.name for each in parts[i:])}")
             return

@@ -189,7 +189,7 @@ void measure(benchmark::State& state, const Case& each)
 void add_benchmarks(const Size& size)
 {
   const std::int64_t most = size.pick(1'000'000, 1'000);
-  const Case cases[] = {
+  std::vector<Case> cases = {
     { "grains, 10^4", size.pick(10'000, 100), false, 1, 0 },
     { "grains", most, false, 1, 0 },
     { "grains, 2 threads", most, false, 2, 0 },
@@ -198,8 +198,11 @@ void add_benchmarks(const Size& size)
     { "fibres, 2 threads", most / 2, true, 2, 0 },
     { "fibres behind 200 MB", most / 2, true, 1,
       static_cast<std::size_t>(size.pick(200'000'000, 20'000)) },
-    { "grains, 1 GiB", size.pick(4'330'000, 2'000), false, 2, 0 },
   };
+  if (size.large || !size.full)
+  {
+    cases.push_back({ "grains, 1 GiB", size.pick(4'330'000, 2'000), false, 2, 0 });
+  }
   for (const Case& each : cases)
   {
     add(std::string("restart/") + each.name, size.pick(9, 1),

@@ -401,9 +401,9 @@ void add_benchmarks(const Size& size)
   }
   const Case threaded[] = {
     { "frames of 10^6 rows", Files::One, {}, size.pick(3, 2), size.pick(1'000'000, 100'000), 1,
-      size.pick(31, 1) },
-    { "frames of 1000 rows", Files::One, {}, size.pick(3'000, 20), 1'000, 1, size.pick(31, 1) },
-    { "10^4 files", Files::OneAFrame, {}, size.pick(10'000, 50), 100, 1, size.pick(21, 1) },
+      size.pick(15, 1) },
+    { "frames of 1000 rows", Files::One, {}, size.pick(3'000, 20), 1'000, 1, size.pick(15, 1) },
+    { "10^4 files", Files::OneAFrame, {}, size.pick(10'000, 50), 100, 1, size.pick(15, 1) },
   };
   for (const Case& each : threaded)
   {

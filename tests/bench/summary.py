@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a user reads first: ten lines of the report, and the table Decide of docs/speed_and_error.md. Both are made of figures."""
-from scene_parts import error, position_error
+from scene_parts import DEFAULT, costs, error, position_error
 from tables import markdown, scientific
 
 
@@ -49,34 +49,56 @@ def lines_of(results):
             yield f"The fastest other reader of the same text, {best.split(';')[0]}, takes {ratios[best]:.1f} times as long"
 
 
-# need: (way to store, the box it was measured at, properties besides, error shown, what goes wrong with the default)
+def ratio(store, index, way, other):
+    """How many times the bytes (0), the time to write (1) or to read (2) of another way."""
+    return costs(store, way)[index] / costs(store, other)[index]
+
+
+# (need, way to store, place of the box, settings besides, error shown, what goes wrong with the default)
 DECIDE = (
-    ("a picture, box near the origin", "custom %g", "0", "default of most runs; `PointPrecision=\"Single\"` halves the points",
+    ("a picture, box near the origin", "custom %g", "0", "the default of most runs; `PointPrecision=\"Single\"` saves memory",
      "position", "nothing"),
-    ("a picture, box far away", "scaled %g", "1e3", "`dump atom` or `xs ys zs`; `PointPrecision=\"Single\"` only with `PointOrigin`",
-     "position", "x y z of six digits: particles jump by a radius"),
-    ("a picture of many particles", "binary, LAMMPS", "1e3", "`CellArrays` off but the ones shown; `Vertices=\"None\"`", "position",
-     "text: five times the time"),
-    ("statistics of velocities to 1e-4", "scaled %g", "1e3", "six digits suffice for velocities anywhere", "velocity", "nothing"),
-    ("averages in cells", "scaled %.9g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii", "position",
-     "Centre: see Cells; files of six decimals"),
-    ("strain to 1e-4, box near the origin", "custom %.9g", "0", "", "strain", "%g: strain wrong by more than 1e-5 per cent of a radius"),
-    ("strain to 1e-4, box far away", "scaled %.9g", "1e3", "", "strain", "%g: strain wrong by 100 %"),
-    ("forces for a network", "scaled %g", "1e3", "", "force", "nothing"),
-    ("to go on with a run", "binary, LAMMPS", "1e3", "or a restart file", "position", "six digits: particles overlap by 1e-4 radii"),
-    ("exchange with LIGGGHTS", "custom shortest", "1e3", "`Dialect=\"LIGGGHTS\"`", "position", "nothing: Automatic keeps all digits"),
-    ("exchange with other programs", "custom shortest", "1e3", "", "position", "VTK's legacy text: 11 digits"),
-    ("an archive", "scaled %.9g, zstd", "1e3", "`.zst` in the name", "position", "gzip: three times the time to write"),
+    ("a picture, box far away", "scaled %g", "1e3",
+     "`dump atom`, or `xs ys zs` in `dump custom`; `PointPrecision=\"Single\"` only with `PointOrigin`", "position",
+     "particles jump by a radius"),
+    ("a picture of many particles", "binary, LAMMPS", "1e3", "`PointArrayStatus` of what is shown, `Vertices=\"None\"`", "position",
+     lambda store: f"text takes {ratio(store, 2, DEFAULT, 'binary, LAMMPS'):.0f} times as long to read"),
+    ("velocities to 1e-4, box anywhere", "scaled %g", "1e3", "", "velocity", "nothing: six digits do"),
+    ("averages in cells", "scaled %g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii", "position",
+     "particles are in wrong cells; for weights see [Cells](#cells)"),
+    ("strain to 1e-4, box near the origin", "custom %.9g", "0", "", "strain", "the error is as large as the strain"),
+    ("strain to 1e-4, box far away", "scaled %.9g", "1e3", "", "strain", "nothing is right"),
+    ("forces for a network", "scaled %g", "1e3", "", "force", "nothing: six digits do"),
+    ("to go on with a run", "binary, LAMMPS", "1e3", "or a restart file", "position", "particles overlap"),
+    ("exchange with LIGGGHTS", "custom shortest", "1e3", "`Dialect=\"LIGGGHTS\"`", "position",
+     "digits are lost; `NumberFormat=\"Automatic\"` keeps them"),
+    ("exchange with other programs", "custom shortest", "1e3", "", "position",
+     lambda store: f"digits are lost; VTK's text is wrong by {error(store, 'VTK legacy, text; box at 1e3', 'position', 'radius')} radii"),
+    ("an archive", "scaled %.9g, zstd", "1e3", "`.zst` in the name", "position",
+     lambda store: f"digits are lost; gzip takes {ratio(store, 1, 'scaled %.9g, gzip', 'scaled %.9g, zstd'):.0f} times as long to write "
+     f"for {1 - ratio(store, 0, 'scaled %.9g, gzip', 'scaled %.9g, zstd'):.0%} fewer bytes"),
 )
+UNITS = {"position": ("radius", "radii"), "velocity": ("rms", "of the rms velocity"), "force": ("1", "of a force"),
+         "strain": ("1", "strain")}
 
 
 def decide_table(store):
     rows = []
     for need, way, place, besides, metric, wrong in DECIDE:
-        case = f"{way}; box at {place}"
-        unit = {"position": "radius", "velocity": "rms", "force": "1", "strain": "1"}[metric]
-        words = {"position": "radii", "velocity": "of the rms velocity", "force": "relative", "strain": "strain"}[metric]
-        rows.append([need, f"`{way}`" + (f"; {besides}" if besides else ""), f"{store.get(case, 'size:B/particle'):.0f}",
-                     f"{store.get(way, 'write:ns/particle'):.0f}", f"{store.get(way, 'read:ns/particle'):.0f}",
-                     f"{error(store, case, metric, unit)} {words}", wrong])
-    return markdown(["need", "settings", "B/particle", "write ns", "read ns", "largest error", "what goes wrong otherwise"], rows)
+        unit, words = UNITS[metric]
+        size, write, read = costs(store, way)
+        errors = [f"{error(store, f'{each}; box at {place}', metric, unit)} {words}" for each in (way, DEFAULT)]
+        rows.append([need, f"`{way}`", besides, f"{size:.0f}", f"{write:.0f}", f"{read:.0f}", *errors,
+                     wrong(store) if callable(wrong) else wrong])
+    return markdown(["need", "store as", "settings besides", "B/particle", "write ns/particle", "read ns/particle", "largest error",
+                     f"error of the default, `{DEFAULT}`", "what goes wrong with the default"], rows)
+
+
+def example(store):
+    """The costs of the example below the table."""
+    way = "scaled %g"
+    size, write, read = costs(store, way)
+    return [f"Costs for 10^6 particles: {size:.0f} MB, {write / 1000:.2f} s to write, {read / 1000:.2f} s to read. Errors: velocities "
+            f"{error(store, f'{way}; box at 1e3', 'velocity', 'rms')} of their rms value, positions "
+            f"{error(store, f'{way}; box at 1e3', 'position', 'radius')} radii. With the default, `{DEFAULT}`, positions would be wrong by "
+            f"{error(store, f'{DEFAULT}; box at 1e3', 'position', 'radius')} radii.", ""]

@@ -125,9 +125,15 @@ public:
     , scale_(ranges(terms), static_cast<std::int64_t>(terms.values.size()))
     , sums_(scale_.size())
   {
+    this->set(terms.values);
+  }
+
+  /// Takes the same terms in another order.
+  void set(const std::vector<double>& values)
+  {
     for (std::size_t i = 0; i < terms_.size(); ++i)
     {
-      terms_[i].fill(terms.values[i]);
+      terms_[i].fill(values[i]);
     }
   }
 
@@ -181,10 +187,11 @@ std::array<Samples, sum_ways.size()> errors_of_orders(Terms terms, std::int64_t 
 {
   std::array<Samples, sum_ways.size()> errors;
   std::mt19937_64 random(5);
+  ExactSum exact(terms);
   for (std::int64_t order = 0; order < orders; ++order)
   {
     std::ranges::shuffle(terms.values, random);
-    ExactSum exact(terms);
+    exact.set(terms.values);
     for (std::size_t i = 0; i < sum_ways.size(); ++i)
     {
       const double sum = sum_ways[i].add(terms.values, exact);

@@ -30,13 +30,17 @@ class Figures:
         return [case for case in self.cases if re.search(pattern, case)]
 
 
+# What parts take on two cores, for the estimate of the end.
+SECONDS = {"store": 36, "look": 12, "choose": 8, "euler": 43, "average": 25, "volumes": 4, "sums": 20, "lines": 3, "cores": 6, "others": 12, "decode": 16, "print": 1, "write": 24, "index": 3, "read": 24, "binary": 4, "compressed": 18, "series": 26, "pool": 11, "restart": 13, "voxels": 9, "count": 20, "local": 18, "threads": 30, "ranks": 13, "pipeline": 22, "vtp": 17}
+
+
 class Part:
-    def __init__(self, name, title, about, tables, targets=(), plot=None, needs=None, script=False, wants_cores=1, seconds=15):
+    def __init__(self, name, title, about, tables, targets=(), plot=None, needs=None, script=False, wants_cores=1):
         self.name, self.title, self.about = name, title, " ".join(about.split())
         self.tables, self.targets, self.plot = tables, targets, plot
         self.needs = needs  # without which a build does not have this part
         self.script = script  # scenes/NAME.py, not the program bench_NAME
-        self.seconds = seconds  # that it takes on two cores, for the estimate of the end
+        self.seconds = SECONDS.get(name, 15)
         self.wants_cores = wants_cores  # fewer make no measurement of it
 
 

@@ -228,22 +228,26 @@ void packed(
 void add_benchmarks(const Size& size)
 {
   const std::int64_t rows = size.pick(1'000'000, 10'000);
-  const std::int64_t rounds = size.pick(21, 1);
-  const struct
+  const std::int64_t rounds = size.pick(15, 1);
+  struct Case
   {
     const char* name;
     std::function<void(benchmark::State&)> run;
     std::int64_t rounds;
-  } cases[] = {
+  };
+  std::vector<Case> cases = {
     { "text", [rows](benchmark::State& state) { text(state, rows); }, rounds },
-    { "text, 3 times as long", [rows](benchmark::State& state) { text(state, 3 * rows); },
-      size.pick(9, 1) },
     { "binary, 16 chunks", [rows](benchmark::State& state) { binary(state, rows); },
-      size.pick(31, 1) },
+      size.pick(15, 1) },
     { "gzip", [rows](benchmark::State& state) { packed(state, rows, gzip); }, rounds },
     { "Zstandard", [rows](benchmark::State& state) { packed(state, rows, zstd); }, rounds },
   };
-  for (const auto& each : cases)
+  if (size.large)
+  {
+    cases.push_back(
+      { "text, 3 times as long", [rows](benchmark::State& state) { text(state, 3 * rows); }, 9 });
+  }
+  for (const Case& each : cases)
   {
     add(std::string("threads/") + each.name, each.rounds, each.run);
   }

@@ -141,7 +141,7 @@ void measure_checks(benchmark::State& state, const Subdomains& subdomains)
 
 void add_benchmarks(const Size& size)
 {
-  const int edge = static_cast<int>(size.pick(100, 10));
+  const int edge = static_cast<int>(size.pick(100, 70, 10));
   static const Subdomains grid = made_grid({ edge, edge, edge });
   static const Subdomains divided = made_bisection(edge * edge * edge, 5);
   for (const Case& each : { Case{ "grid", grid, false }, Case{ "grid, shared corners", grid, true },

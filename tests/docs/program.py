@@ -8,7 +8,8 @@ with open("grains.dump") as file:
     frames = file.read().split("ITEM: TIMESTEP\n")[1:]
 assert [int(frame.split()[0]) for frame in frames] == [0, 50, 100], frames
 for number, frame in enumerate(frames):
-    rows = [line.split() for line in frame.split("ITEM: ATOMS id type xs ys zs\n")[1].splitlines()]
-    assert [row[:2] for row in rows] == [["1", "1"], ["2", "2"], ["3", "1"], ["4", "2"]], rows
-    assert [float(word) for word in rows[2][2:]] == [(1 + 0.25 * number) / 10, 0.2, 0.3], rows
-    assert [float(word) for word in rows[1][2:]] == [0.4, 0.5, 0.6], rows
+    header, *rows = frame.split("ITEM: ATOMS ")[1].splitlines()
+    assert header.split() == "id type x y z vx vy vz radius".split(), header
+    rows = [[float(word) for word in row.split()] for row in rows]
+    assert rows == [[1, 1, 1 + 0.25 * number, 1, 3, 0, 0, 0.1, 0.5], [2, 2, 4, 1, 6, 0, 0, -0.1, 0.25],
+                    [3, 1, 1 + 0.25 * number, 2, 3, 0, 0, 0.1, 0.5], [4, 2, 4, 2, 6, 0, 0, -0.1, 0.25]], rows

@@ -26,7 +26,7 @@ def found(check, **files):
 def complaints(check, files):
     with tempfile.TemporaryDirectory() as root:
         for name, text in files.items():
-            path = os.path.join(root, *name.replace("_dot_", ".").split("__"))
+            path = os.path.join(root, *([name] if "/" in name else name.replace("_dot_", ".").split("__")))
             os.makedirs(os.path.dirname(path), exist_ok=True)
             with open(path, "w", encoding="utf-8", newline="") as stream:
                 stream.write(text)
@@ -77,6 +77,23 @@ class Reference(unittest.TestCase):
         self.assertEqual(self.pages(), ["docs/reference/GranularX.md:1"])
         self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page, docs__reference__GranularY_dot_md="old\n"),
                          ["docs/reference/GranularY.md:1"])
+
+
+    def test_functions_of_the_package(self):
+        package = {"plugin/python/granular/__init__.py": '__all__ = ["__version__", "b", "a"]\n',
+                   "plugin/python/granular/_ab.py":
+                   'def a(*x: int, y: int, z: int = 3) -> None:\n    """Does a.\n\n    x  numbers\n    """\n\n\n'
+                   'def b(x: int, y: str = "c", **more: int) -> None:\n    """Does b."""\n\n\ndef _c() -> None:\n    """Hidden."""\n'}
+        page = ("<!-- SPDX-License-Identifier: BSD-3-Clause; made by tests/lint/reference.py -->\n# The Python package granular\n\n"
+                "The functions that scripts use. In Python, `help(granular.reader)` shows the same text.\n\n## a\n\n```python\n"
+                "granular.a(*x, y, z=3)\n```\n\n```text\nDoes a.\n\nx  numbers\n```\n\n## b\n\n```python\n"
+                "granular.b(x, y='c', **more)\n```\n\n```text\nDoes b.\n```\n")
+        pages = {"docs__reference__granular_dot_md": page, "docs__reference__GranularX_dot_md": self.page}
+        self.assertEqual(self.pages(**package, **pages), [])
+        package["plugin/python/granular/_ab.py"] += "\n"
+        self.assertEqual(self.pages(**package, **pages), [])
+        package["plugin/python/granular/_ab.py"] = package["plugin/python/granular/_ab.py"].replace("numbers", "words")
+        self.assertEqual(self.pages(**package, **pages), ["docs/reference/granular.md:1"])
 
 
 class HardCases(unittest.TestCase):

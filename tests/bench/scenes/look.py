@@ -21,7 +21,7 @@ ULP = 2.0 ** -52
 def distances(study):
     for power in POWERS:
         lo = 10.0 ** power if power else 0.0
-        packing = Packing(lo, layers=study.pick(7, 1), lattice=study.pick(63, 8))
+        packing = Packing(lo, layers=study.pick(4, 1), lattice=study.pick(63, 8))
         path = packing.write(study.folder / f"at_1e{power}.dump")
         centre = (lo + 0.5,) * 3
         times = Rounds()

@@ -13,6 +13,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from scene import Packing, Rounds, array_of, main, open_dump, points_of, read_again
 
 OURS = "vtk-granular, 1 thread"
+PLACE = 1e3  # of the box
 
 
 def read_ours(path):
@@ -49,7 +50,8 @@ def read_ase(path):
 
 def read_mdanalysis(path):
     import MDAnalysis
-    return MDAnalysis.Universe(path, format="LAMMPSDUMP", topology_format="LAMMPSDUMP").atoms.positions
+    atoms = MDAnalysis.Universe(path, format="LAMMPSDUMP", topology_format="LAMMPSDUMP").atoms
+    return atoms.positions + PLACE  # it moves the corner of the box to the origin
 
 
 def read_vtk(path):
@@ -94,7 +96,7 @@ read_dump {path} 0 x y z vx vy vz fx fy fz box yes add yes replace no purge yes
 
 
 def study_of(study):
-    packing = Packing(1e3, layers=study.pick(2, 1), lattice=study.pick(63, 8))
+    packing = Packing(PLACE, layers=study.pick(1, 1), lattice=study.pick(63, 8))
     truth = numpy.column_stack((packing.points, packing.v, packing.f))
     paths = {text: str(packing.write(study.folder / f"{text[1:]}.dump", text)) for text in ("%g", "%.17g")}
     told = {text: numpy.array([[float(text % value) for value in row] for row in truth.tolist()]) for text in paths}

@@ -122,12 +122,12 @@ def tell_errors(study, way, place, packing, data):
 
 def study_of(study):
     for place, lo in PLACES.items():
-        packing = Packing(lo, layers=study.pick(7, 1), lattice=study.pick(63, 8))
+        timed = place == "1e3"
+        packing = Packing(lo, layers=study.pick(4 if timed else 1, 1), lattice=study.pick(63, 8))
         true = open_dump(packing.write(study.folder / f"true_{place}.dump"))
         true.Update()
         data = true.GetOutput()
         study.check((points_of(data) == packing.points).all(), "reading %.17g")
-        timed = place == "1e3"
         writing, reading, readers = Rounds(), Rounds(), {}
         for way in ways_of(study, data, place):
             way.write(*way.prepare())
@@ -145,7 +145,7 @@ def study_of(study):
             study.tell(f"{way.name}; box at {place}", "size", os.path.getsize(way.path) / packing.rows, "B/particle")
             writing.add(way.name, way.write, way.prepare)
             reading.add(way.name, lambda reader=reader: read_again(reader))
-        rounds = study.pick(5, 1) if timed else 0
+        rounds = study.pick(3, 1) if timed else 0
         writing.run(rounds)
         reading.run(rounds)
         for name in readers if timed else ():
