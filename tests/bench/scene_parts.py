@@ -158,7 +158,7 @@ def look_table(part, figures, quick):
 
 
 def plot_look(pyplot, figures):
-    figure, axes = pyplot.subplots(figsize=(8, 4.6), layout="constrained")
+    figure, axes = pyplot.subplots(figsize=(10, 4.6), layout="constrained")
     for way, style in zip(LOOKS, ("o-", "s--", "v-", "^--")):
         values = [figures.get(f"{way}; box at {place_name(power)}", "position, largest:radius") for power in range(13)]
         axes.plot([10.0 ** power for power in range(13)], [max(value, EXACT) for value in values], style, label=way)
@@ -172,7 +172,7 @@ def plot_look(pyplot, figures):
     axes.set_xlabel("distance of the box from the origin [box lengths]")
     axes.set_ylabel("largest error of positions [smallest radii]")
     axes.grid(color="0.93")
-    axes.legend(fontsize=8, loc="center right")
+    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1, 0.5))
     return figure
 
 

@@ -100,5 +100,5 @@ def example(store):
     size, write, read = costs(store, way)
     return [f"Costs for 10^6 particles: {size:.0f} MB, {write / 1000:.2f} s to write, {read / 1000:.2f} s to read. Errors: velocities "
             f"{error(store, f'{way}; box at 1e3', 'velocity', 'rms')} of their rms value, positions "
-            f"{error(store, f'{way}; box at 1e3', 'position', 'radius')} radii. With the default, `{DEFAULT}`, positions would be wrong by "
+            f"{error(store, f'{way}; box at 1e3', 'position', 'radius')} radii. With the default, `{DEFAULT}`, positions at 1e3 box lengths are wrong by "
             f"{error(store, f'{DEFAULT}; box at 1e3', 'position', 'radius')} radii.", ""]
