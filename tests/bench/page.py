@@ -5,6 +5,7 @@ import re
 import shutil
 
 import summary
+from tables import cores_missing
 
 PAGE = "speed_and_error.md"
 PICTURES = "speed_and_error"
@@ -16,7 +17,7 @@ def blocks(results, machine):
         if part.name == "store":
             yield "decide", summary.decide_table(figures)
             yield "example", summary.example(figures)
-        lines = [part.about, ""]
+        lines = [part.about, "", *cores_missing(part, figures)]
         for table in part.tables:
             lines += table(part, figures, False)
         yield part.name, lines

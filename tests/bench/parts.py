@@ -126,7 +126,7 @@ EULER = Part("euler", "Cells: averages of particles",
       Target(r"^more", "Overlap, slowest against fastest:1", "<=", 1.5),
       Target(r"^two threads", "Centre, speed of 2 threads:1", ">=", 1.5, cores=2),
       Target(r"^two threads", "Overlap, speed of 2 threads:1", ">=", 1.5, cores=2)],
-     plot_euler)
+     plot_euler, wants_cores=2)
 
 
 # ---- the parts -----------------------------------------------------------------------------------
@@ -172,7 +172,7 @@ PARTS = (
                            *columns(".0%", "spread:1"))],
          [Target(r"^text", "speed against other:1", ">=", 5),
           Target(r"^binary", "speed against other:1", ">=", 0.7),
-          Target(r"", "speed of 2 threads:1", ">=", 1.4)]),
+          Target(r"", "speed of 2 threads:1", ">=", 1.4, cores=2)], wants_cores=2),
     Part("index", "Index: where the frames of a file are",
          """file: RunIndex::update, against reading the file (in the page cache) the same way and
          counting line feeds with memchr. memory: scan_lines against memchr in a window of 256 KiB
@@ -262,7 +262,7 @@ PARTS = (
                                   "bytes read against the frame's:1", ".2f"))],
          [Target(r"^1000 frames$", "ratio:1", "<=", 2),
           Target(r"^10\^4 files$", "ratio:1", "<=", 3),
-          Target(r"^10\^6 frames", "memory:B/frame", "<=", 100)]),
+          Target(r"^10\^6 frames", "memory:B/frame", "<=", 100)], wants_cores=2),
     Part("pool", "Pool: memory of the frame before",
          """The arrays of 12 columns (92 bytes a row) are made and filled, frame after frame, each as long
          as the next one takes. touched: memory that is never freed, and so the time of filling alone;
@@ -292,7 +292,7 @@ PARTS = (
                            Column("against that", "read against whole:1", ".2f"),
                            Column("reused MiB GB/s", "reused:GB/s", ".2f"),
                            Column("against that", "read against reused:1", ".2f"))],
-         [Target(r"", "read against whole:1", ">=", 0.3), Target(r"", "find:s", "<=", 2)]),
+         [Target(r"", "read against whole:1", ">=", 0.3), Target(r"", "find:s", "<=", 2)], wants_cores=2),
     Part("voxels", "Voxels: subdomains as cells",
          """make_voxels, 343,000 subdomains, with --large 10^6: of a grid, and as a random recursive bisection makes them; time on the
          wall, against filling arrays of the same size with one value, in new memory and in that of a frame
@@ -310,7 +310,7 @@ PARTS = (
           cases_by_metrics(r"checks and text$",
                            *columns(".0f", "check:ns/subdomain", "text:ns/subdomain"))],
          [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
-          Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)]),
+          Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)], wants_cores=2),
     Part("count", "Count: particles of the subdomains of processes",
          """count_in_grid and count_in_subdomains, one thread, 10^6 particles (more: 2 x 10^6, with --large 10^7) everywhere alike in
          the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that
@@ -370,7 +370,7 @@ PARTS = (
               *columns(".2f", ", time against decode alone:1"))],
          [Target(r"^text", "1 thread, time against decode alone:1", "<=", 1.3),
           Target(r"^text", "2 threads, speed against 1 thread:1", ">=", 1.5, cores=2),
-          Target(r"^text", "16 threads, speed against 1 thread:1", ">=", 8, cores=16)]),
+          Target(r"^text", "16 threads, speed against 1 thread:1", ">=", 8, cores=16)], wants_cores=2),
     Part("ranks", "Ranks: one frame, read by several processes together",
          """read_dump by the ranks of MPI, each its part of a text of 10^6 rows and 12 columns, with one
          thread and the memory of a frame before; time on the wall from one barrier to the next. Sorted by
@@ -379,7 +379,7 @@ PARTS = (
               *columns(".1f", ":ns/row"),
               *columns(".2f", ", speed against 1 rank:1"),
               *columns(".0%", ", spread:1"))],
-         [Target(r"order", "2 ranks, speed against 1 rank:1", ">=", 1.6, cores=2)], needs="MPI"),
+         [Target(r"order", "2 ranks, speed against 1 rank:1", ">=", 1.6, cores=2)], needs="MPI", wants_cores=2),
     Part("pipeline", "Pipeline: stepping through a run in ParaView",
          """UpdatePipeline(time) in pvpython, frame after frame of a text of 10 frames of 300,000 rows (with --large 10^6) and 12
          columns, in the page cache; time on the wall, and of the processor where one thread works.
@@ -392,7 +392,7 @@ PARTS = (
               Column("time against decode alone", ", time against decode:1", ".2f"),
               *columns(".0%", ", spread:1"),
               Column("processor time", ", processor time against decode:1", ".2f"))],
-         [Target(r"", "1 thread, time against decode:1", "<=", 1.3)], needs="ParaView"),
+         [Target(r"", "1 thread, time against decode:1", "<=", 1.3)], needs="ParaView", wants_cores=2),
     Part("vtp", "VTP: opening a file in ParaView",
          """From OpenDataFile to the data of a frame in pvpython, 10^6 rows of 12 columns, file in the page
          cache, time on the wall: a text dump, against the same data as ParaView saves it in a .vtp of

@@ -20,7 +20,7 @@ import page
 import summary
 from parts import PARTS
 from scene_parts import SCENE_PARTS
-from tables import Figures, is_met
+from tables import Figures, cores_missing, is_met
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ALL_PARTS = SCENE_PARTS + PARTS
@@ -89,7 +89,7 @@ def run_parts(parts, programs, how_much, folder, tell):
     for i, part in enumerate(parts):
         spent, behind = time.monotonic() - begun, sum(each.seconds for each in parts[:i])
         left = (expected - behind) * (spent / behind if behind and "--full" in how_much else 1)
-        if "--full" in how_much or "--large" in how_much:
+        if how_much:
             tell(f"-- {part.name} ({i + 1} of {len(parts)}; about {left / 60:.0f} min left)")
         try:
             given = cores_given() if part.wants_cores > 1 and how_much else 2
@@ -97,7 +97,8 @@ def run_parts(parts, programs, how_much, folder, tell):
             figures.given = min(given, cores_given() if part.wants_cores > 1 and how_much else 2)
             if figures.given < 1.6:
                 figures.cores = 1
-            tell(f"   {time.monotonic() - begun - spent:.0f} s")
+            if how_much:
+                tell(f"   {time.monotonic() - begun - spent:.0f} s")
         except KeyboardInterrupt:
             tell(f"-- stopped; not measured: {' '.join(each.name for each in parts[i:])}")
             return
@@ -181,8 +182,7 @@ def write_markdown(path, results, context, drawn, left_out, quick):
               "timed. `report.csv` has every figure.", ""]
     for part, figures in results:
         lines += [f"## {part.title}", "", part.about, ""]
-        if part.wants_cores > figures.cores and not quick:
-            lines += [f"**Times of several threads are no measurement here: the machine gave {figures.given:.1f} cores of 2.**", ""]
+        lines += [] if quick else cores_missing(part, figures)
         for table in part.tables:
             lines += table(part, figures, quick)
         for name in part.plot if isinstance(part.plot, dict) else [part.name]:

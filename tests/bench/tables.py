@@ -44,6 +44,13 @@ class Part:
         self.wants_cores = wants_cores  # fewer make no measurement of it
 
 
+def cores_missing(part, figures):
+    """Lines that refuse times of several threads where the machine did not give as many cores."""
+    if part.wants_cores <= figures.cores:
+        return []
+    return [f"**Times of several threads are no measurement here: the machine gave {figures.given:.1f} cores of {part.wants_cores}.**", ""]
+
+
 # ---- targets and tables --------------------------------------------------------------------------
 def is_met(target, value):
     return value <= target.limit if target.how == "<=" else value >= target.limit
