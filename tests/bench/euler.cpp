@@ -682,10 +682,10 @@ void add_benchmarks(const Size& size)
     counts = { 1'000, 10'000 };
     per_axis = { 5, 11 };
   }
-  add("euler/more grains in more cells", size.pick(3, 1),
+  add("euler/more particles in more cells", size.pick(3, 1),
     [counts, per_axis](benchmark::State& state) { growth(state, counts, per_axis, 4); });
   const std::vector<std::int64_t> same(counts.size(), size.pick(10, 4));
-  add("euler/more grains in the same cells", size.pick(5, 1),
+  add("euler/more particles in the same cells", size.pick(5, 1),
     [counts, same](benchmark::State& state) { growth(state, counts, same, 20); });
   for (const CellSize& each : { sizes[5], sizes[7] })
   {

@@ -16,10 +16,13 @@ def blocks(results, machine):
     for part, figures in results:
         if part.name == "store":
             yield "decide", summary.decide_table(figures)
-            yield "example", summary.example(figures)
+            opening = next((each.get("opening: index of 20 frames", "read:ns/particle") for other, each in results
+                            if other.name == "choose"), None)
+            yield "example", summary.example(figures, opening)
         lines = [part.about, "", *cores_missing(part, figures)]
-        for table in part.tables:
+        for table in part.page_tables:
             lines += table(part, figures, False)
+        lines += part.words(figures) if part.words else []
         yield part.name, lines
 
 

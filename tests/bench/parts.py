@@ -2,7 +2,7 @@
 """The parts for developers: what the code costs against the best that is known for it, with targets."""
 import re
 
-from tables import (Column, Part, Target, cases_by_metrics, columns, contenders_by_metrics, growth_table)
+from tables import (Column, Part, Target, cases_by_metrics, columns, contenders_by_metrics, growth_table, note, scientific, span)
 
 
 # ---- plots ---------------------------------------------------------------------------------------
@@ -57,6 +57,8 @@ def plot_euler(pyplot, figures):
         both.plot(times, rms, **look, label=name)
         beside = ((12, -4), (12, -4)) if name == "Centre" else ((0, 7), (0, -14))
         for i, (case, x, y) in enumerate(zip(cases, times, rms)):
+            if case.split()[2] in ("50", "20", "0.2"):
+                continue
             both.annotate(case.split()[2], (x, y), textcoords="offset points", xytext=beside[i % 2],
                           ha="center", fontsize=8)
     for axes in (time, error, both):
@@ -76,32 +78,48 @@ def plot_euler(pyplot, figures):
 
 
 # ---- cells, for users and developers ----------------------------------------------------------------
+CELL_TABLES = [
+    cases_by_metrics(r"^cells of",
+                     *columns(".0f", "particles:1"),
+                     *columns(".2f", "cells touched:1"),
+                     *columns(".0f", "Centre:ns/particle", "Overlap:ns/particle", "without short cuts:ns/particle"),
+                     Column("against Overlap", "without short cuts, time against Overlap:1", ".2f"),
+                     Column("Overlap against Centre", "Overlap, time against Centre:1", ".2f"),
+                     *columns(".0%", "spread:1")),
+    cases_by_metrics(r"^cells of",
+                     Column("Centre, largest error", "Centre, error, largest:1", ".1e"),
+                     Column("rms", "Centre, error, rms:1", ".1e"),
+                     Column("Overlap, largest error", "Overlap, error, largest:1", ".1e"),
+                     Column("rms", "Overlap, error, rms:1", ".1e"),
+                     Column("without short cuts, largest error", "without short cuts, error, largest:1", ".1e"),
+                     Column("rms", "without short cuts, error, rms:1", ".1e"),
+                     *columns(".0f", "exact cells:1"))]
+
+
+def euler_words(figures):
+    def ratio(case):
+        return figures.get(case, "Overlap, time against Centre:1")
+    large = [case for case in figures.all(r"^cells of") if float(case.split()[2]) >= 4]
+    small = [case for case in figures.all(r"^cells of") if float(case.split()[2]) < 4]
+    errors = [f"{scientific(figures.get(f'cells of {size} radii', 'Centre, error, rms:1'))} in cells of {size} radii" for size in (4, 20)]
+    plain = [figures.get(case, "time against plain:1") for case in figures.all(r"^plain")]
+    return [f"Centre: rms error of the volume fraction {' and '.join(errors)}. Overlap against Centre: {span([ratio(case) for case in large])} "
+            f"times the time in cells of 4 radii and more, {span([ratio(case) for case in small])} times in smaller ones. Centre takes "
+            f"{span(plain)} times as long as a plain loop of `+=` that trusts a computed index: that is the price of sums that do not "
+            "depend on order, and of exact faces.", ""]
+
+
 EULER = Part("euler", "Cells: averages of particles",
-     """average_in_cells, one thread unless said, spheres of equal radius in no order in a cube that they would fill by half
-     if they did not overlap; none reaches beyond its walls. Up to 955,000 particles, and fewer where that would take long. There are 8.4 /
-     s^3 cells of s radii for each particle, and its time contains theirs. Error is that of volumefraction, against sums of
-     volumes with 113 bits, in cells at random (exact cells). cells touched is how many cells a particle touches on
-     average, by geometry. plain is a loop of += on doubles that trusts a computed index: count, mass, momentum, radius,
-     volume and, in a second pass, the six stresses. In order: the particles of a cell follow one another. More particles
-     in more cells: 7.5 particles in each, edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two
-     threads: time on the wall; cores: processor time of 2 threads by their time on the wall, which is how many the machine
-     let them have: near 1 there is nothing to gain. processor time: that of 2 threads against 1.""",
-     [cases_by_metrics(r"^cells of",
-                       *columns(".0f", "particles:1"),
-                       *columns(".2f", "cells touched:1"),
-                       *columns(".0f", "Centre:ns/particle", "Overlap:ns/particle", "without short cuts:ns/particle"),
-                       Column("against Overlap", "without short cuts, time against Overlap:1", ".2f"),
-                       Column("Overlap against Centre", "Overlap, time against Centre:1", ".2f"),
-                       *columns(".0%", "spread:1")),
-      cases_by_metrics(r"^cells of",
-                       Column("Centre, largest error", "Centre, error, largest:1", ".1e"),
-                       Column("rms", "Centre, error, rms:1", ".1e"),
-                       Column("Overlap, largest error", "Overlap, error, largest:1", ".1e"),
-                       Column("rms", "Overlap, error, rms:1", ".1e"),
-                       Column("without short cuts, largest error",
-                              "without short cuts, error, largest:1", ".1e"),
-                       Column("rms", "without short cuts, error, rms:1", ".1e"),
-                       *columns(".0f", "exact cells:1")),
+     """Spheres of equal radius at random in a cube, inside its walls. They would fill it by half if they did not overlap. Up to
+     955,000 particles; fewer in the smallest cells. With cells of s radii there are 8.4 / s^3 cells for each particle, and
+     the time of a particle includes these. Errors are against sums of volumes with 113 bits, in cells at random (exact
+     cells). Cells touched: by a particle, on average. Without short cuts: each volume by the general formula. One thread.""",
+     [*CELL_TABLES,
+      note("""plain is a loop of += on doubles that trusts a computed index: count, mass, momentum, radius, volume and, in a second pass,
+           the six stresses. In order: the particles of a cell follow one another. More particles in more cells: 7.5 particles in each,
+           edges of 4 radii; in the same cells: 1000 of them, edges of 20 radii. Two threads: time on the wall; cores: processor time of 2
+           threads by their time on the wall, which is how many the machine let them have: near 1 there is nothing to gain. processor
+           time: that of 2 threads against 1."""),
       cases_by_metrics(r"^plain",
                        *columns(".1f", "plain:ns/particle", "Centre:ns/particle"),
                        Column("Centre against plain", "time against plain:1", ".2f"),
@@ -126,7 +144,7 @@ EULER = Part("euler", "Cells: averages of particles",
       Target(r"^more", "Overlap, slowest against fastest:1", "<=", 1.5),
       Target(r"^two threads", "Centre, speed of 2 threads:1", ">=", 1.5, cores=2),
       Target(r"^two threads", "Overlap, speed of 2 threads:1", ">=", 1.5, cores=2)],
-     plot_euler, wants_cores=2)
+     plot_euler, wants_cores=2, words=euler_words, page_tables=CELL_TABLES)
 
 
 # ---- the parts -----------------------------------------------------------------------------------
@@ -281,8 +299,9 @@ PARTS = (
          [Target(r"", "pool against touched:1", "<=", 1.2)]),
     Part("restart", "Restart files",
          """read_restart against reading the bytes of the file, into memory that holds all of it and into a MiB that is used
-         again and again; time on the wall, files in the page cache, outputs in memory of a frame before. find is read_layout, which looks
-         for the particles. Single ones have 31 doubles, those of fibres up to 75, with nine bonds of 14 history values to ten particles.""",
+         again and again; time on the wall, files in the page cache, outputs in memory of a frame before. find is read_layout,
+         which looks for the particles. Single ones have 31 doubles, those of fibres up to 75, with nine bonds of 14 history
+         values to ten particles.""",
          [cases_by_metrics(r"",
                            *columns(".0f", "file:MiB"),
                            *columns(".3f", "find:s"),
@@ -294,10 +313,10 @@ PARTS = (
                            Column("against that", "read against reused:1", ".2f"))],
          [Target(r"", "read against whole:1", ">=", 0.3), Target(r"", "find:s", "<=", 2)], wants_cores=2),
     Part("voxels", "Voxels: subdomains as cells",
-         """make_voxels, 343,000 subdomains, with --large 10^6: of a grid, and as a random recursive bisection makes them; time on the
-         wall, against filling arrays of the same size with one value, in new memory and in that of a frame
-         before. Shared corners are found by hashing eight corners a subdomain, on one thread: arrays
-         become small, the search does not. check holds them against all checks, text is encode_voxels.""",
+         """make_voxels, 343,000 subdomains, with --large 10^6: of a grid, and as a random recursive bisection makes them; time
+         on the wall, against filling arrays of the same size with one value, in new memory and in that of a frame before.
+         Shared corners are found by hashing eight corners a subdomain, on one thread: arrays become small, the search does
+         not. check holds them against all checks, text is encode_voxels.""",
          [cases_by_metrics(r"^(grid|bisection)(, shared corners)?$",
                            Column("new memory ns", "new memory:ns/subdomain", ".0f"),
                            Column("against writing", "new memory against writing:1", ".2f"),
@@ -312,13 +331,12 @@ PARTS = (
          [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
           Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)], wants_cores=2),
     Part("count", "Count: particles of the subdomains of processes",
-         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (more: 2 x 10^6, with --large 10^7) everywhere alike in
-         the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that
-         trusts the index it computes, (x - lo) p / (hi - lo) cut off to an integer and clamped: it needs an even
-         grid, and at faces it is wrong by rounding. With std::floor it takes longer. even and
-         uneven are grids with even cuts and with cuts at random; bisection: as many subdomains that form no grid,
-         from recursive bisection, in no order. All find their place by comparison with the faces, and set
-         up what they need for that each time.""",
+         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (more: 2 x 10^6, with --large 10^7) everywhere
+         alike in the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that trusts the
+         index it computes, (x - lo) p / (hi - lo) cut off to an integer and clamped: it needs an even grid, and at faces it
+         is wrong by rounding. With std::floor it takes longer. even and uneven are grids with even cuts and with cuts at
+         random; bisection: as many subdomains that form no grid, from recursive bisection, in no order. All find their place
+         by comparison with the faces, and set up what they need for that each time.""",
          [cases_by_metrics(r"",
                            *columns(".1f", "plain:ns/particle"),
                            Column("floor against plain", "plain, floor, time against plain:1", ".2f"),
@@ -329,13 +347,13 @@ PARTS = (
          [Target(r"", "even, time against plain:1", "<=", 2),
           Target(r"", "uneven, time against plain:1", "<=", 4)]),
     Part("local", "Local: contacts read, and lines joined with particles",
-         """read: a text of 10^6 contacts with 12 columns in the page cache, memory of a frame before: as a dump of particles with
-         the same rows (read_dump), as a table of local data, as lines (read_local), and as lines that are split at the
-         faces. The others: join_lines, one thread, 3 x 10^6 lines between 10^6 particles, with --large ten lines a particle. gather copies the
-         positions of both ends, 3 doubles each, by rows that are known, and nothing else; join finds the rows by id, sets up
-         what it needs for that, and copies as much. Both take memory from a pool. ids from 1: in
-         no order, without gaps; any ids: anywhere in 64 bits. The ends of a line are any particles; in order: neighbours, one line
-         after the other, as a dump has them. 7 values: also the mean of a scalar, and mean and difference of a vector.
+         """read: a text of 10^6 contacts with 12 columns in the page cache, memory of a frame before: as a dump of particles
+         with the same rows (read_dump), as a table of local data, as lines (read_local), and as lines that are split at the
+         faces. The others: join_lines, one thread, 3 x 10^6 lines between 10^6 particles, with --large ten lines a particle.
+         gather copies the positions of both ends, 3 doubles each, by rows that are known, and nothing else; join finds the
+         rows by id, sets up what it needs for that, and copies as much. Both take memory from a pool. ids from 1: in no
+         order, without gaps; any ids: anywhere in 64 bits. The ends of a line are any particles; in order: neighbours, one
+         line after the other, as a dump has them. 7 values: also the mean of a scalar, and mean and difference of a vector.
          Where many particles are in no order, memory is what both wait for.""",
          [cases_by_metrics(r"^read",
                            *columns(".1f", "dump:ns/row"),
@@ -354,13 +372,12 @@ PARTS = (
           Target(r"^join", "join, time against gather:1", "<=", 15),
           Target(r"^more.*in order", "join, slowest against fastest:1", "<=", 1.5)]),
     Part("threads", "Threads: one frame, read by several",
-         """read_dump of 12 columns (%g where they are text), 10^6 rows, with --large also three times as many, file in
-         the page cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread. speed
-         against from_chars: the plain
-         loop of the part decode, one thread, on the same text in memory, not compressed. decode alone is
-         decode_rows on one thread, on the same text in memory. Both write to memory that was touched
-         before. gzip (level 6) is one member and Zstandard (level 3) one frame, which can only be
-         decompressed in order: threads decode what has been decompressed.""",
+         """read_dump of 12 columns (%g where they are text), 10^6 rows, with --large also three times as many, file in the page
+         cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread.
+         speed against from_chars: the plain loop of the part decode, one thread, on the same text in memory, not compressed.
+         decode alone is decode_rows on one thread, on the same text in memory. Both write to memory that was touched before.
+         gzip (level 6) is one member and Zstandard (level 3) one frame, which can only be decompressed in order: threads
+         decode what has been decompressed.""",
          [contenders_by_metrics(
               *columns(".1f", ":ns/row"),
               *columns(".2f", ", speed against 1 thread:1"),

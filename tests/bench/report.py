@@ -185,6 +185,7 @@ def write_markdown(path, results, context, drawn, left_out, quick):
         lines += [] if quick else cores_missing(part, figures)
         for table in part.tables:
             lines += table(part, figures, quick)
+        lines += part.words(figures) if part.words else []
         for name in part.plot if isinstance(part.plot, dict) else [part.name]:
             lines += [f"![{part.title}]({name}.png)", ""] if name in drawn else []
     if not quick:

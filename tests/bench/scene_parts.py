@@ -4,10 +4,10 @@ import math
 import re
 
 from parts import EULER
-from tables import Column, Part, Target, cases_by_metrics, columns, markdown, scientific, verdict
+from tables import Column, Part, Target, cases_by_metrics, columns, markdown, scientific, span, verdict
 
 PLACES = ("0", "1e3", "1e6")
-RADIUS = 1 / (63 * 1.05 + 1) / 2 ** 1.5  # of the particles of scenes/scene.py, in box lengths
+SMALLEST = 0.9 / (63 * 1.05 + 1) / 2 ** 1.5  # radius of the particles of scenes/scene.py, in box lengths
 EXACT = 1e-17  # where errors of 0 are drawn
 
 
@@ -34,15 +34,26 @@ def costs(figures, way):
             figures.get(way, "read:ns/particle"))
 
 
-def is_dominated(figures, way, place):
-    """Returns a way that is no worse in bytes, writing, reading and error of positions, and better in one; or None."""
+def is_text(way):
+    return way.startswith(("custom", "scaled", "VTK legacy"))
+
+
+def rival(figures, way, place):
+    """Returns a way of the same kind, text or binary, that is no worse in bytes, writing, reading and error of positions, and
+    better in one; or None."""
     def all_of(name):
         return (*costs(figures, name), position_error(figures, name, place))
     mine = all_of(way)
     for other in stored(figures):
-        if all(a <= b for a, b in zip(all_of(other), mine)) and all_of(other) != mine:
+        if is_text(other) == is_text(way) and all(a <= b for a, b in zip(all_of(other), mine)) and all_of(other) != mine:
             return other
     return None
+
+
+def rivals(figures, way):
+    """One for each place of the box, or nothing."""
+    found = [rival(figures, way, place) for place in PLACES]
+    return found if all(found) else []
 
 
 def store_table(part, figures, quick):
@@ -52,20 +63,36 @@ def store_table(part, figures, quick):
     rows = []
     for way in stored(figures):
         size, write, read = costs(figures, way)
-        dominated = all(is_dominated(figures, way, place) for place in PLACES)
         case = f"{way}; box at 1e3"
-        rows.append([f"_{way}_" if dominated else f"**{way}**", f"{size:.0f}", f"{write:.0f}",
+        rows.append([f"_{way}_" if rivals(figures, way) else f"**{way}**", f"{size:.0f}", f"{write:.0f}",
                      f"{figures.get(way, 'write against custom %g:1'):.2f}", f"{read:.0f}",
                      f"{figures.get(way, 'read against custom %g:1'):.2f}",
                      *(error(figures, f"{way}; box at {place}", "position", "radius", "both") for place in PLACES),
                      *(error(figures, f"{way}; box at {place}", "strain", "1") for place in PLACES),
                      error(figures, case, "velocity", "rms"), error(figures, case, "force", "1"),
                      verdict(part, figures, case, "position, largest:radius", quick)])
-    never = [way for way in stored(figures) if all(is_dominated(figures, way, place) for place in PLACES)]
-    words = [f"{way} (by {is_dominated(figures, way, '1e3')})" for way in never]
-    return markdown(head, rows) + [
-        "Never right, because another way is at least as good in bytes, writing, reading and error, wherever the box is: " +
-        (", ".join(words) if words else "none") + ".", ""]
+    return markdown(head, rows)
+
+
+def store_words(figures):
+    plain = [way for way in stored(figures) if f"{way}, zstd" in stored(figures)]
+
+    def against(packer, index, form, other=""):
+        return span([costs(figures, f"{way}, {packer}")[index] / costs(figures, way + other)[index] for way in plain], form)
+
+    never = [f"{way} ({', '.join(sorted(set(rivals(figures, way))))})" for way in stored(figures) if rivals(figures, way)]
+    binary = costs(figures, "binary, LAMMPS")
+    text = [costs(figures, way) for way in plain]
+    return [
+        f"Zstandard: {against('zstd', 0, '.0%')} of the bytes of plain text, {against('zstd', 1, '.1f')} times the time to write, "
+        f"{against('zstd', 2, '.1f')} times the time to read. gzip: {against('gzip', 0, '.0%')} of the bytes, "
+        f"{against('gzip', 1, '.0f')} and {against('gzip', 2, '.1f')} times the time.", "",
+        f"Binary against plain text: {span([binary[0] / each[0] for each in text], '.0%')} of the bytes, "
+        f"{span([binary[1] / each[1] for each in text], '.0%')} of the time to write, "
+        f"{span([binary[2] / each[2] for each in text], '.0%')} of the time to read, no error. Take text where people or other "
+        "programs read the file.", "",
+        "Never right, because another way of the same kind, text or binary, is as good or better in bytes, writing, reading and error "
+        f"wherever the box is: {'; '.join(never) if never else 'none'}.", ""]
 
 
 def front(points):
@@ -91,10 +118,13 @@ def scatter(axes, points, label):
         if name == DEFAULT:
             axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(5, -11), fontsize=7, color="C3")
     axes.step([x for x, _, _ in ahead], [max(y, EXACT) for _, y, _ in ahead], where="post", color="C0", linewidth=1)
+    for x, y, name in points:
+        if name not in names and name in ("binary, LAMMPS", "VTP, raw", "VTK legacy, text", "custom %.17g"):
+            axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(0, -11), fontsize=6, color="0.5", ha="center")
     for i, (x, y, name) in enumerate(ahead):
         axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(6, 5 + 9 * (i % 2)), fontsize=7)
     axes.set_yscale("log")
-    axes.set_ylim(EXACT / 5, 100)
+    axes.set_ylim(EXACT / 30, 1e4)
     axes.axhline(1e-2, color="0.6", linewidth=0.8, linestyle=":")
     axes.grid(color="0.93")
     axes.set_xlabel(label)
@@ -113,19 +143,21 @@ def plot_store(pyplot, figures):
         axes.set_title("box at 1e3; gzip left out")
     axes = panels[1][2]
     digits = [("%g", 6), ("%.9g", 9), ("%.12g", 12), ("%.17g", 17)]
-    for place, color in zip(PLACES, ("C0", "C1", "C3")):
-        for form, style in (("custom", "o-"), ("scaled", "s--")):
-            points = [(count, figures.get(f"{form} {text}; box at {place}", "strain, largest:1"))
-                      for text, count in digits if f"{form} {text}; box at {place}" in figures.cases]
-            axes.plot([x for x, _ in points], [max(y, EXACT) for _, y in points], style, color=color,
-                      label=f"{form}, box at {place}")
+    lines = [("custom", place, "o-", color, f"x y z, box at {place}") for place, color in zip(PLACES, ("C0", "C1", "C3"))]
+    lines.append(("scaled", "1e6", "s--", "k", "xs ys zs, box anywhere"))
+    for form, place, style, color, label in lines:
+        points = [(count, figures.get(f"{form} {text}; box at {place}", "strain, largest:1"))
+                  for text, count in digits if f"{form} {text}; box at {place}" in figures.cases]
+        axes.plot([x for x, _ in points], [max(y, EXACT) for _, y in points], style, color=color, label=label)
     axes.axhline(1e-4, color="0.4", linewidth=0.8)
-    axes.text(6, 1.5e-4, "a strain of 1e-4", fontsize=8, color="0.4")
+    axes.text(9, 1.5e-4, "a strain of 1e-4", fontsize=8, color="0.4")
     axes.set_yscale("log")
     axes.set_xlabel("digits of text")
-    axes.set_title("largest error of strain")
+    axes.set_ylabel("largest error of strain")
+    axes.yaxis.set_tick_params(labelleft=True)
+    axes.set_title("strains of pairs of neighbours")
     axes.grid(color="0.93")
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=8)
     for row in panels:
         row[0].set_ylabel("largest error of positions [smallest radii]")
     panels[0][0].text(2, 1.4e-2, "1 % of a radius", fontsize=8, color="0.4")
@@ -162,13 +194,14 @@ def plot_look(pyplot, figures):
     for way, style in zip(LOOKS, ("o-", "s--", "v-", "^--")):
         values = [figures.get(f"{way}; box at {place_name(power)}", "position, largest:radius") for power in range(13)]
         axes.plot([10.0 ** power for power in range(13)], [max(value, EXACT) for value in values], style, label=way)
-    axes.plot([10.0 ** power for power in range(13)], [2.0 ** -53 * 10 ** power / RADIUS for power in range(13)], ":", color="0.5",
+    axes.plot([10.0 ** power for power in range(13)], [2.0 ** -53 * 10 ** power / SMALLEST for power in range(13)], ":", color="0.5",
               label="half a step of the doubles themselves")
     axes.axhline(1, color="0.4", linewidth=0.8)
     axes.text(1.2, 1.4, "one radius", fontsize=8, color="0.4")
     axes.text(1.2, 1.5 * EXACT, "exact", fontsize=8, color="0.4")
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.set_xticks([1, *(10.0 ** power for power in range(1, 13))], ["0", *(f"$10^{{{power}}}$" for power in range(1, 13))])
     axes.set_xlabel("distance of the box from the origin [box lengths]")
     axes.set_ylabel("largest error of positions [smallest radii]")
     axes.grid(color="0.93")
@@ -199,9 +232,10 @@ def plot_choose(pyplot, figures):
     figure, panels = pyplot.subplots(1, 2, figsize=(12, 4.8), layout="constrained")
     groups = (("columns", "o", "C0"), ("Stride", "s", "C1"), ("RegionOfInterest", "^", "C2"), ("frame", "D", "C3"),
               ("points of", "*", "C4"))
+    labels = {"frame": "frames of a run, once it is open", "points of": "points of every 10th, single, no vertices"}
     for axes, metric, label in zip(panels, ("read", "memory"), ("time", "memory")):
         axes.plot([0.005, 1], [0.005, 1], color="0.6", linewidth=1)
-        axes.text(0.02, 0.012, "in proportion", fontsize=8, color="0.5", rotation=38)
+        axes.text(0.006, 0.0085, "in proportion", fontsize=8, color="0.5", rotation=38)
         for group, mark, color in groups:
             points = []
             for case in figures.cases:
@@ -209,7 +243,7 @@ def plot_choose(pyplot, figures):
                 if group in case and against and not case.startswith("opening"):
                     points.append((figures.get(case, "kept:1"), against[0]))
             if points:
-                axes.plot(*zip(*sorted(points)), mark, color=color, label=group if group != "frame" else "frames of a run",
+                axes.plot(*zip(*sorted(points)), mark, color=color, label=labels.get(group, group),
                           linestyle="-" if len(points) > 1 else "", linewidth=0.8)
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -301,7 +335,7 @@ def whiskers(least, middle, largest):
 def plot_sums(pyplot, figures):
     """Errors against time; bars reach from the least to the largest of all orders."""
     kinds = figures.all(SUM_KINDS)
-    figure, panels = pyplot.subplots(1, len(kinds), figsize=(12, 4.2), sharey=True, layout="constrained")
+    figure, panels = pyplot.subplots(1, len(kinds), figsize=(12, 4.2), sharex=True, sharey=True, layout="constrained")
     for axes, kind in zip(panels, kinds):
         for i, name in enumerate(SUMS):
             middle, bars = whiskers(*(figures.get(kind, f"{name}, relative error, {which}:1") for which in
@@ -316,6 +350,7 @@ def plot_sums(pyplot, figures):
         axes.grid(color="0.93")
     panels[0].text(0.02, 1.4 * 2.0 ** -53, "half an ulp", fontsize=8, color="0.4")
     panels[0].text(0.02, 1.5, "nothing is right", fontsize=8, color="0.4")
+    panels[0].text(0.02, 1.4 * EXACT, "exact", fontsize=8, color="0.4")
     panels[0].set_ylabel("relative error of the sum")
     panels[0].legend(fontsize=8, loc="center right")
     return figure
@@ -360,19 +395,42 @@ def numbers_table(part, figures, quick):
         ["way", *(cell for case in words for cell in (f"{case}: ns/word", "wrong of 10^9"))], rows)
 
 
+def sums_words(figures):
+    kinds = figures.all(SUM_KINDS)
+    exact = span([figures.get(kind, "exact, time against += double:1") for kind in kinds])
+    return [f"Exact sums take {exact} times as long as `+=` of doubles. Compensated sums are as good on these terms and faster, but they "
+            "depend on the order of the terms, and so on the number of threads and ranks, where terms cancel further.", ""]
+
+
+def numbers_words(figures):
+    words = figures.all("^words")
+    wrong = {case: figures.get(case, "digits times a power, wrong words of 10^9:1") / 1e9 for case in words}
+    usual = [value for case, value in wrong.items() if "hardest" not in case]
+    return [f"`digits times a power` misses {span(usual, '.0%')} of the usual words and {max(wrong.values()):.0%} of the hardest. "
+            "The others miss none of 10^6.", ""]
+
+
+def volumes_words(figures):
+    (case,) = figures.all("^one")
+    told = figures.cases[case]
+    exact, most = VOLUMES[0], VOLUMES[-1]
+    return [f"{most} take {told[most + ':ns/volume'] / told[exact + ':ns/volume']:.0f} times as long as the exact volume and are wrong by "
+            f"{told[most + ', error, rms:of the smaller']:.0%} of it (rms).", ""]
+
+
 def plot_numbers(pyplot, figures):
     words = figures.all("^words")
     figure, (wrong, time) = pyplot.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
     for i, name in enumerate(NUMBERS):
         places = [row + 0.27 * (i - 1) for row in range(len(words))]
-        values = [figures.get(case, name + ", wrong words of 10^9:1") for case in words]
-        wrong.bar(places, [max(value, 1) for value in values], 0.25, bottom=1, color=("C3", "0.7", "C0")[i], label=name)
+        values = [figures.get(case, name + ", wrong words of 10^9:1") / 1e9 for case in words]
+        wrong.bar(places, values, 0.25, color=("C3", "0.7", "C0")[i], label=name)
         for place, value in zip(places, values):
-            wrong.text(place, max(value, 1) * 1.5, f"{value:.2g}", ha="center", fontsize=8)
+            wrong.text(place, value + 0.01, f"{value:.0%}", ha="center", fontsize=8)
         time.bar(places, [figures.get(case, name + ":ns/word") for case in words], 0.25, color=("C3", "0.7", "C0")[i], label=name)
-    wrong.set_yscale("log")
-    wrong.set_ylim(1, 1e10)
-    wrong.set_ylabel("wrong words of 10^9")
+    wrong.set_ylim(0, 1)
+    wrong.yaxis.set_major_formatter(lambda value, _: f"{value:.0%}")
+    wrong.set_ylabel("words that become a wrong double")
     time.set_ylabel("time [ns/word]")
     for axes in (wrong, time):
         axes.set_xticks(range(len(words)), [case.removeprefix("words").lstrip(", of") for case in words])
@@ -416,17 +474,17 @@ def others_table(part, figures, quick):
 
 VOLUMES = ("exact", "19 points", "136 points", "912 points", "7208 points")
 
-SCENE = """A packing of 63,504 particles of radius 5.6e-3 in a box of length 1, stretched by 5 %; 12 columns: id type x y z vx vy
-vz fx fy fz radius. One thread, processor time, files in the page cache. """
+SCENE = """A packing of 63,504 particles with radii from 4.7e-3 to 5.3e-3 in a box of length 1, stretched by 5 %; 12 columns: id
+type x y z vx vy vz fx fy fz radius. One thread, processor time, files in the page cache. """
 
 SCENE_PARTS = (
     Part("store", "Storing a scene",
-         SCENE + """Time and bytes are those at 1e3. Errors: largest (rms). Bold: not beaten in everything by another way; italics:
-         beaten. Reading takes the file apart again, without looking for its frames.""",
+         SCENE + """Time and bytes are those at 1e3. Write: by the writers of this library and of VTK. Read: of an open file, again. Errors:
+         largest (rms). Italics: never right, see below.""",
          [store_table],
-         [Target(r"shortest|%\.17g|binary", "position, largest:radius", "<=", 0)], plot_store, script=True),
+         [Target(r"shortest|%\.17g|binary", "position, largest:radius", "<=", 0)], plot_store, script=True, words=store_words),
     Part("look", "Looking at a scene",
-         SCENE + """Errors are those of point + PointOrigin, largest (rms), in smallest radii.""",
+         SCENE + """Text of 17 digits. Errors are those of point + PointOrigin, largest (rms), in smallest radii.""",
          [look_table],
          [Target(r"^double; ", "position, largest:radius", "<=", 0),
           Target(r"^single, PointOrigin; ", "position, largest:radius", "<=", 1e-5),
@@ -442,10 +500,10 @@ SCENE_PARTS = (
          [Target(r"^1 frame", "read against all:1", "<=", 0.06)], plot_choose, script=True),
     EULER,
     Part("average", "Averages over frames",
-         """20,000 equal spheres at random that do not overlap, in a periodic box; 5 to 312 in each cell. Moving: in each frame at other places. At rest: at
-         the same places in all frames. The expected volume fraction is 0.3. The velocity is a wave, sin(2 pi z), and fluctuations
-         of half its amplitude that are new in each frame. Time is that of reading and averaging all frames. Files of cells: what is read back against what
-         was written.""",
+         """20,000 equal spheres at random that do not overlap, in a periodic box; 5 to 312 in each cell. Moving: in each frame
+         at other places. At rest: at the same places in all frames. The expected volume fraction is 0.3. The velocity is a
+         wave, sin(2 pi z), and fluctuations of half its amplitude that are new in each frame. Time is that of reading and
+         averaging all frames. Files of cells: what is read back against what was written.""",
          [cases_by_metrics(r"8\^3 cells, (1|16) frames$", *columns(".1f", "cell size:radius"), *columns(".0f", "time:ns/particle"),
                            Column("against 1 frame", "time against 1 frame:1", ".2f"),
                            *columns(".1e", "volume fraction, rms error:1", "velocity, rms error:of the speed")),
@@ -454,28 +512,31 @@ SCENE_PARTS = (
                                     "radius, largest error:rms", "pressure, largest error:rms"))],
          [Target(r"^Wide", "v_avg, largest error:rms", "<=", 0)], {"average": plot_average, "frames": plot_frames}, script=True),
     Part("volumes", "Volumes of spheres in cells",
-         """Unit spheres, and 2000 cubes of each edge whose faces or inside hold a point of the surface. Errors are against 113 bits. Points:
-         those of a regular grid in the sphere, as far as they lie in the cube, as many programs count them.""",
+         """Unit spheres, and 2000 cubes of each edge whose faces or inside hold a point of the surface. Errors are against 113
+         bits. Points: those of a regular grid in the sphere; the volume is the part of them that lies in the cube, as many
+         programs count it.""",
          [cases_by_metrics(r"^one", *columns(".0f", *(f"{name}:ns/volume" for name in VOLUMES)),
                            *columns(".1e", *(f"{name}, error, rms:of the smaller" for name in VOLUMES)))],
-         [], plot_volumes),
+         [], plot_volumes, words=volumes_words),
     Part("sums", "Sums and numbers",
-         """10^6 terms into one sum, in 50 random orders. Alike: 0.5 to 1.5. Masses 1e12 apart: halves of 1e6 and 1e-6. Cancelling: pairs
-         to and fro, and 1e-12 that remains. exact makes eight sums at once, and its time is that of one of them. The true sum is made
-         of integers. Words: 10^6 decimals from -1 to 1, the hardest: those in the middle between two doubles, or just above. digits
-         times a power is the loop that many programs have.""",
-         [sums_table, numbers_table], [], {"sums": plot_sums, "numbers": plot_numbers}),
+         """10^6 terms into one sum, in 50 random orders. Alike: 0.5 to 1.5. Masses 1e12 apart: halves of 1e6 and 1e-6.
+         Cancelling: pairs to and fro, and 1e-12 that remains. exact makes eight sums at once, and its time is that of one of
+         them. The true sum is made of integers. Words: 10^6 decimals from -1 to 1, the hardest: those in the middle between
+         two doubles, or just above. digits times a power is the loop that many programs have.""",
+         [sums_table, numbers_table], [], {"sums": plot_sums, "numbers": plot_numbers},
+         words=lambda figures: sums_words(figures) + numbers_words(figures)),
     Part("lines", "Lines between particles in tilted boxes",
-         """1000 pairs in boxes of length 1, up to 0.09 apart, ends wrapped into the box. Coordinates are multiples of 2^-40, and the
-         true length is the least over images, by integers.""",
+         """1000 pairs in boxes of length 1, up to 0.09 apart, ends wrapped into the box. Coordinates are multiples of 2^-40, and
+         the true length is the least over images, by integers.""",
          [lines_table], [Target(r"minimum image", "length, largest:ulp", "<=", 2)], script=True),
     Part("cores", "Cores",
-         """333,396 particles: a text of %g read, 20 x 20 x 20 Overlap cells averaged, a text of shortest numbers written. Time on the
-         wall. All thread counts give the same bits, or this fails.""",
+         """333,396 particles: a text of %g read, 20 x 20 x 20 Overlap cells averaged, a text of shortest numbers written. Time
+         on the wall. All thread counts give the same bits, or this fails.""",
          [cases_by_metrics(r"", *columns(".0f", "time:ns/particle"), *columns(".2f", "speed against 1 thread:1"))],
          [Target(r"read, 2", "speed against 1 thread:1", ">=", 1.5, cores=2)], script=True, wants_cores=2),
     Part("others", "Other programs on the same files",
          """15,876 particles at 1e3 lengths from the origin. Errors are distances from what the words in the file say. ASE and
-         MDAnalysis keep positions only; MDAnalysis moves the box to the origin, which is undone here. LAMMPS: the processor time of the whole program.""",
+         MDAnalysis keep positions only; MDAnalysis moves the box to the origin, which is undone here. Opening the file is
+         part of the time. LAMMPS: the processor time of the whole program.""",
          [others_table], [Target(r"^vtk-granular", "error, largest:ulp", "<=", 0)], script=True),
 )

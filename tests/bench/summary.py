@@ -54,7 +54,7 @@ def ratio(store, index, way, other):
     return costs(store, way)[index] / costs(store, other)[index]
 
 
-# (need, way to store, place of the box, settings besides, error shown, what goes wrong with the default)
+# (need, way to store, place of the box, settings besides, error that matters, what goes wrong with the default)
 DECIDE = (
     ("a picture, box near the origin", "custom %g", "0", "the default of most runs; `PointPrecision=\"Single\"` saves memory",
      "position", "nothing"),
@@ -63,13 +63,15 @@ DECIDE = (
      "particles jump by a radius"),
     ("a picture of many particles", "binary, LAMMPS", "1e3", "`PointArrayStatus` of what is shown, `Vertices=\"None\"`", "position",
      lambda store: f"text takes {ratio(store, 2, DEFAULT, 'binary, LAMMPS'):.0f} times as long to read"),
-    ("velocities to 1e-4, box anywhere", "scaled %g", "1e3", "", "velocity", "nothing: six digits do"),
-    ("averages in cells", "scaled %g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii", "position",
-     "particles are in wrong cells; for weights see [Cells](#cells)"),
+    ("velocities to 1e-4, box anywhere", "scaled %g", "1e3", "", "velocity", "velocities are right, positions are not"),
+    ("averages in cells", "scaled %g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii: see [Cells](#cells)", "position",
+     "particles are in wrong cells"),
     ("strain to 1e-4, box near the origin", "custom %.9g", "0", "", "strain", "the error is as large as the strain"),
     ("strain to 1e-4, box far away", "scaled %.9g", "1e3", "", "strain", "nothing is right"),
-    ("forces for a network", "scaled %g", "1e3", "", "force", "nothing: six digits do"),
-    ("to go on with a run", "binary, LAMMPS", "1e3", "or a restart file", "position", "particles overlap"),
+    ("forces of particles to 1e-4", "scaled %g", "1e3", "forces of contacts: `dump local`, six digits as well", "force",
+     "forces are right, positions are not"),
+    ("to go on with a run", "binary, LAMMPS", "1e3", "all columns of the atom style; contacts and bonds only in a restart file",
+     "position", "particles overlap"),
     ("exchange with LIGGGHTS", "custom shortest", "1e3", "`Dialect=\"LIGGGHTS\"`", "position",
      "digits are lost; `NumberFormat=\"Automatic\"` keeps them"),
     ("exchange with other programs", "custom shortest", "1e3", "", "position",
@@ -79,26 +81,30 @@ DECIDE = (
      f"for {1 - ratio(store, 0, 'scaled %.9g, gzip', 'scaled %.9g, zstd'):.0%} fewer bytes"),
 )
 UNITS = {"position": ("radius", "radii"), "velocity": ("rms", "of the rms velocity"), "force": ("1", "of a force"),
-         "strain": ("1", "strain")}
+         "strain": ("1", "")}
 
 
 def decide_table(store):
+    def told(way, place, metric):
+        unit, words = UNITS[metric]
+        return f"{error(store, f'{way}; box at {place}', metric, unit)} {words}".strip()
     rows = []
     for need, way, place, besides, metric, wrong in DECIDE:
-        unit, words = UNITS[metric]
         size, write, read = costs(store, way)
-        errors = [f"{error(store, f'{each}; box at {place}', metric, unit)} {words}" for each in (way, DEFAULT)]
-        rows.append([need, f"`{way}`", besides, f"{size:.0f}", f"{write:.0f}", f"{read:.0f}", *errors,
-                     wrong(store) if callable(wrong) else wrong])
-    return markdown(["need", "store as", "settings besides", "B/particle", "write ns/particle", "read ns/particle", "largest error",
-                     f"error of the default, `{DEFAULT}`", "what goes wrong with the default"], rows)
+        own = [told(each, place, metric) if metric != "position" else "" for each in (way, DEFAULT)]
+        positions = [told(each, place, "position") for each in (way, DEFAULT)]
+        rows.append([need, f"`{way}`", besides, f"{size:.0f}", f"{write:.0f}", f"{read:.0f}", own[0] or positions[0], positions[0],
+                     own[1] or positions[1], positions[1], wrong(store) if callable(wrong) else wrong])
+    return markdown(["need", "store as", "settings besides", "B/particle", "write ns/particle", "read ns/particle",
+                     "largest error of what is needed", "of positions", f"the same with the default, `{DEFAULT}`", "of positions",
+                     "what goes wrong with the default"], rows)
 
 
-def example(store):
-    """The costs of the example below the table."""
-    way = "scaled %g"
-    size, write, read = costs(store, way)
-    return [f"Costs for 10^6 particles: {size:.0f} MB, {write / 1000:.2f} s to write, {read / 1000:.2f} s to read. Errors: velocities "
-            f"{error(store, f'{way}; box at 1e3', 'velocity', 'rms')} of their rms value, positions "
-            f"{error(store, f'{way}; box at 1e3', 'position', 'radius')} radii. With the default, `{DEFAULT}`, positions at 1e3 box lengths are wrong by "
-            f"{error(store, f'{DEFAULT}; box at 1e3', 'position', 'radius')} radii.", ""]
+def example(store, opening):
+    """The costs of the example below the table, and its errors by arithmetic: half a unit of the last digit."""
+    size, write, read = costs(store, "scaled %g")
+    look = f", {opening / 1000:.2f} s to find the frame when the file is opened" if opening else ""
+    return [f"Costs for 10^6 particles with the 12 columns of the table, by this library and one core: {size:.0f} MB, {write / 1000:.2f} s to "
+            f"write, {read / 1000:.2f} s to read{look}. The error of velocities is {error(store, 'scaled %g; box at 1e3', 'velocity', 'rms')} "
+            "of their rms value. Text loses half a unit of the last digit. With `xs` below 1, that is 5e-7 box lengths: 1e-4 radii in a box of "
+            "0.2 m. With `x` of 1000 m, it is half a centimetre: 5 radii.", ""]

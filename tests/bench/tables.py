@@ -31,15 +31,21 @@ class Figures:
 
 
 # What parts take on two cores, for the estimate of the end.
-SECONDS = {"store": 36, "look": 12, "choose": 8, "euler": 43, "average": 25, "volumes": 4, "sums": 20, "lines": 3, "cores": 6, "others": 12, "decode": 16, "print": 1, "write": 24, "index": 3, "read": 24, "binary": 4, "compressed": 18, "series": 26, "pool": 11, "restart": 13, "voxels": 9, "count": 20, "local": 18, "threads": 30, "ranks": 13, "pipeline": 22, "vtp": 17}
+SECONDS = {
+    "store": 36, "look": 12, "choose": 8, "euler": 43, "average": 25, "volumes": 4, "sums": 20, "lines": 3, "cores": 6,
+    "others": 12, "decode": 16, "print": 1, "write": 24, "index": 3, "read": 24, "binary": 4, "compressed": 18, "series": 26,
+    "pool": 11, "restart": 13, "voxels": 9, "count": 20, "local": 18, "threads": 30, "ranks": 13, "pipeline": 22, "vtp": 17}
 
 
 class Part:
-    def __init__(self, name, title, about, tables, targets=(), plot=None, needs=None, script=False, wants_cores=1):
+    def __init__(self, name, title, about, tables, targets=(), plot=None, needs=None, script=False, wants_cores=1, words=None,
+                 page_tables=None):
         self.name, self.title, self.about = name, title, " ".join(about.split())
         self.tables, self.targets, self.plot = tables, targets, plot
         self.needs = needs  # without which a build does not have this part
         self.script = script  # scenes/NAME.py, not the program bench_NAME
+        self.words = words  # lines that say what the figures mean, with the figures in them
+        self.page_tables = page_tables or tables  # those that users want to see
         self.seconds = SECONDS.get(name, 15)
         self.wants_cores = wants_cores  # fewer make no measurement of it
 
@@ -88,6 +94,11 @@ def cases_by_metrics(cases, *columns):
     return make
 
 
+def note(text):
+    """A paragraph in the place of a table."""
+    return lambda part, figures, quick: [" ".join(text.split()), ""]
+
+
 def by_numbers(name):
     """A key to sort names by in which 2 comes before 16."""
     return [int(word) if word.isdigit() else word for word in re.split(r"(\d+)", name)]
@@ -129,6 +140,12 @@ def growth_table(part, figures, quick):
                  verdict(part, figures, case, metric, quick)])
     return markdown(["12 columns", "ns/row", "against the fastest", "page faults/1000 rows",
                      "target"], rows)
+
+
+def span(values, form=".1f"):
+    """'2.0 to 3.5', or one number if both ends look alike."""
+    least, largest = (format(value, form) for value in (min(values), max(values)))
+    return least if least == largest else f"{least} to {largest}"
 
 
 def scientific(value):

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy
 
-from scene import (RADIUS, SPACING, Packing, Rounds, difference, main, open_dump, points_of, read_again, tell_error)
+from scene import (SMALLEST, SPACING, Packing, Rounds, difference, main, open_dump, points_of, read_again, tell_error)
 
 POWERS = range(13)
 TIMED = 3  # the power of ten at which times are taken
@@ -31,7 +31,7 @@ def distances(study):
             points = points_of(read_again(reader))
             error = difference(points, packing.points, properties.get("PointOrigin", (0, 0, 0)))
             case = f"{name}; box at 1e{power}" if power else f"{name}; box at 0"
-            tell_error(study, case, "position", error, RADIUS, "radius")
+            tell_error(study, case, "position", error, SMALLEST, "radius")
             # Half a step of the double, and of the float, that the point is rounded to.
             steps = numpy.spacing(numpy.abs(points)).astype(float) / 2
             study.check((numpy.abs(error) <= steps * (1 + 1e-9) + 1e-300).all(), case)

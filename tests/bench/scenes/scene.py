@@ -2,7 +2,7 @@
 """What the studies of scenes share: a packing whose true values are known, times in turns, and figures.
 
 The packing is a block of an FCC lattice that is stretched by 5 % along x, in a box of length 1: the part of a box of 10^6
-particles that is 4 lattice cells high, and so 63,504 particles of radius 5.6e-3. Each particle is displaced by up to 1e-3
+particles that is 4 lattice cells high, and so 63,504 particles with radii from 4.7e-3 to 5.3e-3. Each particle is displaced by up to 1e-3
 lattice constants, so that no coordinate is a short decimal. Its doubles are the truth. Errors are differences of two
 doubles near each other, which a subtraction gives exactly (Sterbenz); where an origin was subtracted from points, the
 subtraction is compensated."""
@@ -25,7 +25,8 @@ LATTICE = 63  # cells of the lattice along the box
 STRAIN = 0.05
 SPACING = 1 / (LATTICE * (1 + STRAIN) + 1)
 NEAREST = SPACING / 2 ** 0.5
-RADIUS = NEAREST / 2
+RADIUS = NEAREST / 2     # of the largest particles
+SMALLEST = 0.9 * RADIUS  # errors of positions are told in units of it
 COLUMNS = ("id", "type", "x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz", "radius")
 
 

@@ -7,7 +7,7 @@ from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 import granular
-from scene import (COLUMNS, RADIUS, Packing, Rounds, array_of, main, open_dump, points_of, read_again, tell_error)
+from scene import (COLUMNS, SMALLEST, Packing, Rounds, array_of, main, open_dump, points_of, read_again, tell_error)
 
 SCALED = "id type xs ys zs " + " ".join(COLUMNS[5:])
 PLACES = {"0": 0.0, "1e3": 1e3, "1e6": 1e6}
@@ -111,7 +111,7 @@ def ways_of(study, data, place):
 
 def tell_errors(study, way, place, packing, data):
     points, case = points_of(data), f"{way.name}; box at {place}"
-    tell_error(study, case, "position", points - packing.points, RADIUS, "radius")
+    tell_error(study, case, "position", points - packing.points, SMALLEST, "radius")
     tell_error(study, case, "velocity", array_of(data, "v") - packing.v, numpy.sqrt((packing.v ** 2).mean()), "rms")
     tell_error(study, case, "force", (array_of(data, "f") - packing.f) / packing.f, 1, "1")
     tell_error(study, case, "strain", packing.strain_of(points) - packing.strain, 1, "1")
