@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,42 +25,6 @@
 using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularDecompositionReader);
-
-namespace
-{
-granular::Decomposition ReadPiece(
-  const granular::FramePiece& piece, granular::Notices& notices, granular::Progress& progress)
-{
-  const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(piece.file);
-  return granular::read_decomposition(*source, piece.entry, notices, progress);
-}
-
-/**
- * All pieces of a frame. Files of single processes are in the order of these.
- */
-granular::Decomposition ReadPieces(const std::vector<granular::FramePiece>& pieces,
-  granular::Notices& notices, granular::Progress& progress)
-{
-  granular::Decomposition all = ReadPiece(pieces.front(), notices, progress);
-  const bool numbered = pieces.size() > 1 && !all.has_ranks && all.subdomains.size() == 1;
-  for (std::size_t i = 1; i < pieces.size(); ++i)
-  {
-    const granular::Decomposition next = ReadPiece(pieces[i], notices, progress);
-    all.has_particles = all.has_particles && next.has_particles;
-    all.has_ranks = all.has_ranks && next.has_ranks;
-    all.subdomains.insert(all.subdomains.end(), next.subdomains.begin(), next.subdomains.end());
-  }
-  if (numbered && all.subdomains.size() == pieces.size())
-  {
-    all.has_ranks = true;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-    {
-      all.subdomains[i].rank = static_cast<int>(i);
-    }
-  }
-  return all;
-}
-}
 
 //------------------------------------------------------------------------------
 vtkGranularDecompositionReader::vtkGranularDecompositionReader()
@@ -101,7 +64,8 @@ int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
     [&](Internals::Shown& shown)
     {
       shown.Progress.set_part(0, 0.4);
-      granular::Decomposition all = ReadPieces(shown.Pieces, shown.Notices, shown.Progress);
+      granular::Decomposition all =
+        granular::read_decomposition(shown.Pieces, shown.Notices, shown.Progress);
       const granular::SubdomainChecks checks = { static_cast<granular::Answer>(this->CheckBounds),
         static_cast<granular::Answer>(this->CheckOverlap),
         static_cast<granular::Answer>(this->CheckGaps), this->Tolerance };

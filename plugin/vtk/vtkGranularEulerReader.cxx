@@ -32,7 +32,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -69,76 +68,13 @@ void pass(Archive& archive, typename Archive::template Passed<Form>& form)
 }
 
 /**
- * Adds the cells of one frame to another, with the arrays that both have. Others are left out, and their names noted.
- */
-void Append(
-  granular::EulerFrame& all, const granular::EulerFrame& more, std::set<std::string>& lost)
-{
-  const auto append = [](std::vector<double>& to, const std::vector<double>& from)
-  { to.insert(to.end(), from.begin(), from.end()); };
-  const auto find = [](const granular::EulerFrame& frame, const granular::EulerValues& array)
-  {
-    return std::find_if(frame.arrays.begin(), frame.arrays.end(),
-      [&](const granular::EulerValues& other)
-      { return other.name == array.name && other.components == array.components; });
-  };
-  for (const granular::EulerValues& array : more.arrays)
-  {
-    if (find(all, array) == all.arrays.end())
-    {
-      lost.insert(array.name);
-    }
-  }
-  std::erase_if(all.arrays,
-    [&](granular::EulerValues& array)
-    {
-      const auto same = find(more, array);
-      if (same == more.arrays.end())
-      {
-        lost.insert(array.name);
-        return true;
-      }
-      append(array.values, same->values);
-      return false;
-    });
-  append(all.centres, more.centres);
-  all.cells += more.cells;
-  for (std::vector<double>& faces : all.faces)
-  {
-    faces.clear();
-  }
-}
-
-/**
  * Reads cells, of which there may be several files, and finds the grids that they form, if wanted. Errors name the file.
  */
 granular::EulerFrame ReadCells(const std::vector<granular::FramePiece>& pieces,
   const std::function<bool(std::string_view)>& wanted, std::vector<granular::RegularGrid>* grids,
   granular::Notices& notices, granular::Progress& progress)
 {
-  granular::EulerFrame all;
-  std::set<std::string> lost;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-  {
-    const std::unique_ptr<granular::ByteSource> source = granular::open_indexed(pieces[i].file);
-    granular::EulerFrame frame =
-      granular::read_euler(*source, pieces[i].entry, wanted, notices, progress);
-    if (all.cells == 0)
-    {
-      all = std::move(frame);
-    }
-    else if (frame.cells > 0) // else it may have no arrays
-    {
-      Append(all, frame, lost);
-    }
-  }
-  for (const std::string& name : lost)
-  {
-    granular::Notice notice;
-    notice.where = granular::where_of(pieces.front().file.path, pieces.front().entry);
-    notice.text = "the array '" + name + "' is not in all files of the timestep, and left out";
-    notices.push_back(notice);
-  }
+  granular::EulerFrame all = granular::read_euler(pieces, wanted, notices, progress);
   if (grids)
   {
     NameFile(granular::where_of(pieces.front().file.path, pieces.front().entry),

@@ -4,6 +4,7 @@
     core/granular/ROOM     its own folder, the rooms that ROOMS says, the C++ standard library; the
                            system only where SYSTEM_HEADERS says so; no more files than MOST_FILES
     core/granular/mpi      the same, and mpi.h; no other room may include it
+    core/c                 its own folder, granular/ but for mpi, the C++ standard library; granular.h: C's alone
     core/granular/granular.h  any header of any room but mpi
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/,
@@ -13,6 +14,7 @@
     samples                paraview.simple, granular, numpy and Python's own modules
 """
 import ast
+import os
 import re
 import sys
 
@@ -34,6 +36,7 @@ STANDARD = set("""
 _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
     (_OPERATING_SYSTEM, r"core/granular/bytes/byte_(source(_\w+)?|sink)\.cpp"),
+    (r"glob\.h", r"core/granular/bytes/find_files\.cpp"),
     (r"(zlib|zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source(_\w+)?|compression)\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
     (r"sys/mman\.h", r"core/granular/memory/mapping\.cpp"),
@@ -141,6 +144,16 @@ def check_core(root, path):
             yield path, line, text
 
 
+def check_c(root, path):
+    """The C interface stands on the core."""
+    for line, bracket, name, _ in includes(tree.read(root, path)):
+        allowed = {"stddef.h", "stdint.h"} if path == "core/c/granular.h" else STANDARD
+        own = bracket == '"' and os.path.exists(os.path.join(root, "core/c", name))
+        if not (own or (bracket == "<" and name in allowed) or
+                (name.startswith("granular/") and not name.startswith("granular/mpi/"))):
+            yield path, line, f"{name}: core/c stands on its own folder, granular/ and the standard library"
+
+
 def check_vtk_header(root, path):
     text = tree.read(root, path)
     code = tree.strip(text)
@@ -219,6 +232,8 @@ def check(root):
     for path in tree.files(root):
         if re.match(r"core/(granular|mpi)/.*\.(h|cpp|inc)$", path):
             yield from check_core(root, path)
+        elif re.match(r"core/c/.*\.(h|cpp)$", path):
+            yield from check_c(root, path)
         elif re.match(r"plugin/vtk/[^/]+\.h$", path):
             yield from check_vtk_header(root, path)
         elif re.match(r"plugin/vtk/.*\.(h|cxx|txx)$", path):

@@ -8,9 +8,11 @@
 #include "granular/decomposition/subdomains.h"
 #include "granular/frames/file_format.h"
 #include "granular/frames/frame.h"
+#include "granular/frames/run_index.h"
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace granular
 {
@@ -41,6 +43,10 @@ bool is_vtu(std::string_view first_bytes) noexcept;
 /// path and line or byte; Cancelled.
 Decomposition read_decomposition(
   const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress);
+
+/// Decodes all pieces of a frame. Files of single ranks without their numbers are those of ranks 0, 1, ...
+Decomposition read_decomposition(
+  const std::vector<FramePiece>& pieces, Notices& notices, Progress& progress);
 
 /// Adds one notice that cells were corrected.
 Notice note_reflected(const Where& where, std::int64_t cells);

@@ -120,6 +120,36 @@ Decomposition read_decomposition(
   return decomposition;
 }
 
+Decomposition read_decomposition(
+  const std::vector<FramePiece>& pieces, Notices& notices, Progress& progress)
+{
+  std::vector<Decomposition> parts;
+  for (const FramePiece& piece : pieces)
+  {
+    parts.push_back(
+      read_decomposition(*open_indexed(piece.file), piece.entry, notices, progress));
+  }
+  const bool numbered =
+    parts.size() > 1 && !parts.front().has_ranks && parts.front().subdomains.size() == 1;
+  Decomposition all = std::move(parts.front());
+  for (std::size_t i = 1; i < parts.size(); ++i)
+  {
+    all.has_particles = all.has_particles && parts[i].has_particles;
+    all.has_ranks = all.has_ranks && parts[i].has_ranks;
+    all.subdomains.insert(
+      all.subdomains.end(), parts[i].subdomains.begin(), parts[i].subdomains.end());
+  }
+  if (numbered && all.subdomains.size() == pieces.size())
+  {
+    all.has_ranks = true;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      all.subdomains[i].rank = static_cast<int>(i);
+    }
+  }
+  return all;
+}
+
 Notice note_reflected(const Where& where, std::int64_t cells)
 {
   return { where,

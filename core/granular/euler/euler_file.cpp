@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace granular
@@ -148,6 +149,71 @@ EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,
         " of text, which are left out: the first is '" + dataset.texts.front() + "'" });
   }
   return std::move(dataset.frame);
+}
+
+namespace
+{
+/// Adds the cells of one frame to another, with the arrays that both have. Others are left out, and their names noted.
+void append(EulerFrame& all, const EulerFrame& more, std::set<std::string>& lost)
+{
+  const auto find = [](const EulerFrame& frame, const EulerValues& array)
+  {
+    return std::ranges::find_if(frame.arrays,
+      [&](const EulerValues& other)
+      { return other.name == array.name && other.components == array.components; });
+  };
+  for (const EulerValues& array : more.arrays)
+  {
+    if (find(all, array) == all.arrays.end())
+    {
+      lost.insert(array.name);
+    }
+  }
+  std::erase_if(all.arrays,
+    [&](EulerValues& array)
+    {
+      const auto same = find(more, array);
+      if (same == more.arrays.end())
+      {
+        lost.insert(array.name);
+        return true;
+      }
+      array.values.insert(array.values.end(), same->values.begin(), same->values.end());
+      return false;
+    });
+  all.centres.insert(all.centres.end(), more.centres.begin(), more.centres.end());
+  all.cells += more.cells;
+  for (std::vector<double>& faces : all.faces)
+  {
+    faces.clear();
+  }
+}
+}
+
+EulerFrame read_euler(const std::vector<FramePiece>& pieces,
+  const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress)
+{
+  EulerFrame all;
+  std::set<std::string> lost;
+  for (const FramePiece& piece : pieces)
+  {
+    EulerFrame frame =
+      read_euler(*open_indexed(piece.file), piece.entry, wanted, notices, progress);
+    if (all.cells == 0)
+    {
+      all = std::move(frame);
+    }
+    else if (frame.cells > 0) // else it may have no arrays
+    {
+      append(all, frame, lost);
+    }
+  }
+  for (const std::string& name : lost)
+  {
+    notices.push_back({ where_of(pieces.front().file.path, pieces.front().entry),
+      "the array '" + name + "' is not in all files of the timestep, and left out" });
+  }
+  return all;
 }
 
 std::vector<std::string> euler_array_names(

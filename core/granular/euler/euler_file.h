@@ -7,6 +7,7 @@
 #include "granular/common/progress.h"
 #include "granular/frames/file_format.h"
 #include "granular/frames/frame.h"
+#include "granular/frames/run_index.h"
 
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,11 @@ struct EulerFrame
 /// Decodes a frame, with the arrays that `wanted` accepts by name; arrays of text are left out with a notice. Throws Error
 /// with path and line or byte; Cancelled.
 EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,
+  const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress);
+
+/// Decodes all pieces of a frame as one, with the arrays that all pieces with cells have; a notice names each of the others. There
+/// are no faces if several pieces have cells.
+EulerFrame read_euler(const std::vector<FramePiece>& pieces,
   const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress);
 
 /// Returns the names of the arrays of a frame, without reading their values.

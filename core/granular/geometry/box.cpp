@@ -70,6 +70,14 @@ Box Box::from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vecto
   return box;
 }
 
+Box Box::from_edges(const Vector3& origin, const std::array<Vector3, 3>& edges)
+{
+  Box box = from_vectors(origin, edges);
+  box.general = edges[0][1] != 0 || edges[0][2] != 0 || edges[1][2] != 0;
+  box.tilted = box.general || edges[1][0] != 0 || edges[2][0] != 0 || edges[2][1] != 0;
+  return box;
+}
+
 BoxBounds Box::bounds() const
 {
   const auto& [a, b, c] = vectors;

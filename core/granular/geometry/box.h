@@ -60,6 +60,10 @@ struct Box
   /// Returns the box with this corner and these edges (LAMMPS' general triclinic boxes).
   static Box from_vectors(const Vector3& origin, const std::array<Vector3, 3>& vectors);
 
+  /// Returns the box with this corner and these edges, as simple as they are: general only if a is not along x or b not in the
+  /// xy plane.
+  static Box from_edges(const Vector3& origin, const std::array<Vector3, 3>& edges);
+
   /// Returns the bounds of a box that is not general triclinic, each rounded once: the numbers that the box was made
   /// from come back unchanged.
   BoxBounds bounds() const;

@@ -89,10 +89,7 @@ granular::Box MakeBox(const double origin[3], const double vectors[9])
   {
     edges[i] = { vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2] };
   }
-  granular::Box box = granular::Box::from_vectors({ origin[0], origin[1], origin[2] }, edges);
-  box.general = edges[0][1] != 0 || edges[0][2] != 0 || edges[1][2] != 0;
-  box.tilted = box.general || edges[1][0] != 0 || edges[2][0] != 0 || edges[2][1] != 0;
-  return box;
+  return granular::Box::from_edges({ origin[0], origin[1], origin[2] }, edges);
 }
 
 std::optional<granular::Box> FindBox(vtkFieldData* data)

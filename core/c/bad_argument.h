@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_c_bad_argument_h
+#define granular_c_bad_argument_h
+
+#include "granular/common/error.h"
+
+namespace granular_c
+{
+/// What the caller gave cannot be used.
+class BadArgument : public granular::Error
+{
+  using Error::Error;
+};
+}
+#endif

@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame.h"
+
+#include "bad_argument.h"
+
+#include "granular/local/local_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+const granular_c::FrameArray* granular_frame::find(std::string_view name) const noexcept
+{
+  const auto found = std::ranges::find(arrays, name, &granular_c::FrameArray::name);
+  return found == arrays.end() ? nullptr : &*found;
+}
+
+namespace granular_c
+{
+using namespace granular;
+
+namespace
+{
+Box box_of(const granular_box& box)
+{
+  std::array<Vector3, 3> edges;
+  for (std::size_t i = 0; i < 9; ++i)
+  {
+    edges[i / 3][i % 3] = box.vectors[i];
+  }
+  const double* const b = box.bounds;
+  const Vector3 lo = { b[0], b[2], b[4] };
+  const Vector3 hi = { b[1], b[3], b[5] };
+  const bool tilted = b[6] != 0 || b[7] != 0 || b[8] != 0;
+  Box made = box.has_bounds == 0
+    ? Box::from_edges({ box.origin[0], box.origin[1], box.origin[2] }, edges)
+    : tilted ? Box::from_tilted_bounds(lo, hi, b[6], b[7], b[8])
+             : Box::from_bounds(lo, hi);
+  made.boundary = box.boundary == nullptr ? "" : box.boundary;
+  return made;
+}
+
+void check_array(const granular_array& array, std::int64_t rows)
+{
+  const std::string name = array.name == nullptr ? "" : array.name;
+  const auto expect = [&](bool is, const std::string& what)
+  {
+    if (!is)
+    {
+      throw BadArgument("array '" + name + "': expected " + what);
+    }
+  };
+  expect(!name.empty(), "a name");
+  expect(array.type >= GRANULAR_INT8 && array.type <= GRANULAR_TEXT, "a type of granular_type");
+  expect(array.components >= 1, "at least one component");
+  expect(array.data != nullptr || rows == 0, "data, got null");
+  expect(
+    array.type != GRANULAR_TEXT || (array.words != nullptr && array.components == 1) || rows == 0,
+    "words and one component for text");
+  expect(name != points_name || array.components == 3, "three components");
+  expect(name != ends_name || (array.components == 6 && array.type == GRANULAR_FLOAT64),
+    "six components of doubles");
+}
+
+/// The ends of lines as arrays position1 and position2, which local data are written from.
+void add_ends(FrameView& view, const ArrayView& ends)
+{
+  for (std::size_t end = 0; end < 2; ++end)
+  {
+    const char* const name = end == 0 ? "position1" : "position2";
+    if (view.find(name) != nullptr) // as the file has them
+    {
+      continue;
+    }
+    ArrayView one{ name, ends.type,
+      { ends.components.begin() + static_cast<std::ptrdiff_t>(3 * end),
+        ends.components.begin() + static_cast<std::ptrdiff_t>(3 * end + 3) },
+      ends.step };
+    view.arrays.push_back(std::move(one));
+  }
+}
+
+template <class Values>
+void add_values(granular_frame& frame, std::string name, ValueType type, int components,
+  Values&& values, const KnownColumn* known)
+{
+  auto memory = std::make_shared<std::remove_cvref_t<Values>>(std::forward<Values>(values));
+  const void* const data = memory->data();
+  frame.arrays.push_back(
+    { std::move(name), type, components, data, std::move(memory), {}, {}, known });
+}
+
+void take_header(granular_frame& frame, DumpFrame& rows)
+{
+  frame.header = std::move(rows.header);
+  frame.coordinates = rows.coordinates;
+  frame.rows = rows.rows;
+  frame.columns.clear();
+  for (const ColumnInfo& column : rows.schema.columns())
+  {
+    frame.columns.push_back(column.name);
+  }
+  frame.column_text = rows.schema.text();
+}
+}
+
+void add_array(granular_frame& frame, std::string name, ValueType type, int components,
+  Block&& block, const KnownColumn* known)
+{
+  add_values(frame, std::move(name), type, components, std::move(block), known);
+}
+
+void add_array(granular_frame& frame, std::string name, int components,
+  std::vector<double>&& values, const KnownColumn* known)
+{
+  add_values(frame, std::move(name), ValueType::Float64, components, std::move(values), known);
+}
+
+void add_array(granular_frame& frame, std::string name, std::vector<std::int64_t>&& values,
+  const KnownColumn* known)
+{
+  add_values(frame, std::move(name), ValueType::Int64, 1, std::move(values), known);
+}
+
+const KnownColumn* find_known(std::string_view array, std::span<const KnownColumn> table) noexcept
+{
+  const auto part = std::ranges::find(table, array, &KnownColumn::array);
+  return part == table.end() ? find_known_column(array, table) : &*part;
+}
+
+void take_rows(granular_frame& frame, DumpFrame&& rows, std::span<const KnownColumn> table)
+{
+  take_header(frame, rows);
+  if (rows.points.data() != nullptr)
+  {
+    const std::size_t values = 3 * static_cast<std::size_t>(rows.rows);
+    const bool single = values > 0 && rows.points.bytes() == values * sizeof(float);
+    add_array(frame, points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
+      std::move(rows.points), find_known("x", table));
+  }
+  for (DumpArray& array : rows.arrays)
+  {
+    add_array(frame, array.info.name, array.info.type, array.info.components(),
+      std::move(array.block), find_known(array.info.name, table));
+    frame.arrays.back().words = std::move(array.words);
+  }
+  for (FrameArray& array : frame.arrays)
+  {
+    for (const std::string& word : array.words)
+    {
+      array.word_list.push_back(word.c_str());
+    }
+  }
+}
+
+void take_lines(granular_frame& frame, LocalFrame&& local)
+{
+  frame.kind = RowKind::Lines;
+  if (local.has_lines && local.lines.rows.empty())
+  {
+    add_array(frame, ends_name, ValueType::Float64, 6, std::move(local.lines.points),
+      find_known("x1", local_known_columns()));
+    add_array(frame, "length", ValueType::Float64, 1, std::move(local.lines.lengths),
+      find_known("x1", local_known_columns()));
+  }
+  take_rows(frame, std::move(local.table), local_known_columns());
+}
+
+const FrameArray& find_array(const granular_frame& frame, const std::string& name)
+{
+  const FrameArray* const found = frame.find(name);
+  if (found != nullptr)
+  {
+    return *found;
+  }
+  std::string list;
+  for (const FrameArray& array : frame.arrays)
+  {
+    list += (list.empty() ? "" : ", ") + array.name;
+  }
+  throw BadArgument("expected an array of " + list + ", got '" + name + "'");
+}
+
+namespace
+{
+/// Calls with a null pointer to the C++ type of a type of numbers.
+template <class Use>
+void with_type(ValueType type, Use&& use)
+{
+  switch (type)
+  {
+    case ValueType::Int8:
+      return use(static_cast<std::int8_t*>(nullptr));
+    case ValueType::UInt8:
+      return use(static_cast<std::uint8_t*>(nullptr));
+    case ValueType::Int16:
+      return use(static_cast<std::int16_t*>(nullptr));
+    case ValueType::UInt16:
+      return use(static_cast<std::uint16_t*>(nullptr));
+    case ValueType::Int32:
+    case ValueType::Text:
+      return use(static_cast<std::int32_t*>(nullptr));
+    case ValueType::UInt32:
+      return use(static_cast<std::uint32_t*>(nullptr));
+    case ValueType::Int64:
+      return use(static_cast<std::int64_t*>(nullptr));
+    case ValueType::UInt64:
+      return use(static_cast<std::uint64_t*>(nullptr));
+    case ValueType::Float32:
+      return use(static_cast<float*>(nullptr));
+    case ValueType::Float64:
+      return use(static_cast<double*>(nullptr));
+    default:
+      throw BadArgument("expected a type of granular_type");
+  }
+}
+
+/// Whether a number is the same in another type; floats may be rounded to floats.
+template <class To, class From>
+bool fits(From value, To converted) noexcept
+{
+  if constexpr (std::is_floating_point_v<To>)
+  {
+    return std::is_floating_point_v<From> ||
+      static_cast<long double>(converted) == static_cast<long double>(value);
+  }
+  else if constexpr (std::is_floating_point_v<From>)
+  {
+    constexpr auto most = static_cast<From>(std::numeric_limits<To>::max());
+    return value >= static_cast<From>(std::numeric_limits<To>::min()) && value <= most &&
+      static_cast<From>(converted) == value && (most != value || sizeof(To) < sizeof(From));
+  }
+  else
+  {
+    return std::in_range<To>(value);
+  }
+}
+
+template <class To, class From>
+To convert(From value) noexcept
+{
+  if constexpr (std::is_integral_v<To> && std::is_floating_point_v<From>)
+  {
+    // undefined for numbers beyond the type, which do not fit
+    constexpr auto least = static_cast<From>(std::numeric_limits<To>::min());
+    constexpr auto most = static_cast<From>(std::numeric_limits<To>::max());
+    return value >= least && value < most ? static_cast<To>(value) : To{};
+  }
+  else
+  {
+    return static_cast<To>(value);
+  }
+}
+}
+
+void copy_array(const granular_frame& frame, const granular_destination& to)
+{
+  const FrameArray& array = find_array(frame, to.array);
+  const auto values =
+    static_cast<std::size_t>(frame.rows) * static_cast<std::size_t>(array.components);
+  if (to.values < values || (to.data == nullptr && values > 0))
+  {
+    throw BadArgument("array '" + array.name + "': expected room for " + std::to_string(values) +
+      " values, got " + std::to_string(to.data == nullptr ? 0 : to.values));
+  }
+  if (array.type == ValueType::Text && to.type != GRANULAR_TEXT)
+  {
+    throw BadArgument("array '" + array.name + "': expected the type GRANULAR_TEXT for words");
+  }
+  with_type(static_cast<ValueType>(to.type),
+    [&](auto* target_type)
+    {
+      with_type(array.type,
+        [&](auto* source_type)
+        {
+          using To = std::remove_pointer_t<decltype(target_type)>;
+          using From = std::remove_pointer_t<decltype(source_type)>;
+          const auto* const from = static_cast<const From*>(array.data);
+          auto* const target = static_cast<To*>(to.data);
+          for (std::size_t i = 0; i < values; ++i)
+          {
+            target[i] = convert<To>(from[i]);
+            if (!fits<To>(from[i], target[i]))
+            {
+              throw BadArgument("array '" + array.name + "', value " + std::to_string(i) +
+                ": expected a number of the wanted type, got " + std::to_string(from[i]));
+            }
+          }
+        });
+    });
+}
+
+granular_box box_of(const FrameHeader& header)
+{
+  granular_box made = {};
+  const Vector3 origin = values_of(header.box.origin);
+  std::ranges::copy(origin, made.origin);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    std::ranges::copy(values_of(header.box.vectors[i]), made.vectors + 3 * i);
+  }
+  if (!header.box.general)
+  {
+    const BoxBounds bounds = header.box.bounds();
+    const double numbers[] = { bounds.lo[0], bounds.hi[0], bounds.lo[1], bounds.hi[1], bounds.lo[2],
+      bounds.hi[2], bounds.xy, bounds.xz, bounds.yz };
+    std::ranges::copy(numbers, made.bounds);
+    made.has_bounds = 1;
+  }
+  made.boundary = header.box.boundary.c_str();
+  return made;
+}
+
+void read_numbers(
+  const ArrayView& array, int component, std::int64_t rows, double* to, std::int64_t step)
+{
+  with_type(array.type,
+    [&](auto* type)
+    {
+      using From = std::remove_pointer_t<decltype(type)>;
+      const auto* const from =
+        static_cast<const From*>(array.components[static_cast<std::size_t>(component)]);
+      for (std::int64_t row = 0; row < rows; ++row)
+      {
+        to[row * step] = static_cast<double>(from[row * array.step]);
+      }
+    });
+}
+
+WriteView::WriteView(const granular_frame& frame)
+{
+  view.header = frame.header;
+  view.has_box = frame.header.has_box;
+  view.rows = frame.rows;
+  view.coordinates = frame.coordinates;
+  view.point_origin = frame.origin;
+  view.columns = frame.columns;
+  for (const FrameArray& array : frame.arrays)
+  {
+    this->add(array.name, array.type, array.components, array.data, array.word_list);
+  }
+  this->finish(frame.kind);
+}
+
+WriteView::WriteView(const granular_content& content, RowKind kind)
+{
+  view.header.timestep = content.timestep;
+  if (content.has_time != 0)
+  {
+    view.header.time = content.time;
+  }
+  view.header.units = content.units == nullptr ? "" : content.units;
+  view.has_box = content.box != nullptr;
+  if (content.box != nullptr)
+  {
+    view.header.box = box_of(*content.box);
+  }
+  view.rows = content.rows;
+  for (std::size_t i = 0; i < content.array_count; ++i)
+  {
+    const granular_array& array = content.arrays[i];
+    check_array(array, content.rows);
+    this->add(array.name, static_cast<ValueType>(array.type), array.components, array.data,
+      { array.words, array.word_count });
+  }
+  if (kind == RowKind::Particles && content.rows > 0 && !view.points)
+  {
+    throw BadArgument("expected an array 'points' with the positions of the particles, got none");
+  }
+  this->finish(kind);
+}
+
+/// Names the columns of local data, whose ends are arrays like others.
+void WriteView::finish(RowKind kind)
+{
+  if (kind != RowKind::Lines)
+  {
+    return;
+  }
+  if (ends_)
+  {
+    add_ends(view, *ends_);
+  }
+  std::erase_if(view.arrays,
+    [&](const ArrayView& array)
+    { return array.name == "length" && std::ranges::count(view.columns, array.name) == 0; });
+  for (ArrayView& array : view.arrays)
+  {
+    array.columns = local_component_names(array.name, array.size());
+    array.places = is_end_array(array.name) && array.size() == 3;
+  }
+}
+
+void WriteView::add(std::string name, ValueType type, int components, const void* data,
+  std::span<const char* const> words)
+{
+  ArrayView array{ std::move(name), type, {}, components };
+  const auto* bytes = static_cast<const char*>(data);
+  std::size_t value = size_of(type);
+  if (type == ValueType::Text)
+  {
+    const auto* const indices = static_cast<const std::int32_t*>(data);
+    auto texts = std::make_unique<std::vector<std::string>>();
+    for (std::int64_t row = 0; row < view.rows; ++row)
+    {
+      const std::int32_t word = indices[row];
+      if (word < 0 || static_cast<std::size_t>(word) >= words.size())
+      {
+        throw BadArgument("array '" + array.name + "': expected indices of " +
+          std::to_string(words.size()) + " words, got " + std::to_string(word));
+      }
+      texts->emplace_back(words[static_cast<std::size_t>(word)]);
+    }
+    bytes = reinterpret_cast<const char*>(texts->data());
+    value = sizeof(std::string);
+    texts_.push_back(std::move(texts));
+  }
+  for (int i = 0; i < components; ++i)
+  {
+    array.components.push_back(
+      bytes == nullptr ? nullptr : bytes + static_cast<std::size_t>(i) * value);
+  }
+  if (array.name == points_name)
+  {
+    view.points = std::move(array);
+  }
+  else if (array.name == ends_name)
+  {
+    ends_ = std::move(array);
+  }
+  else
+  {
+    view.arrays.push_back(std::move(array));
+  }
+}
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the handles of granular.h hold. No exception leaves the functions of granular.h; here they are thrown.
+#ifndef granular_c_frame_h
+#define granular_c_frame_h
+
+#include "granular.h"
+
+#include "granular/local/local_reader.h"
+#include "granular/particles/dump_frame.h"
+#include "granular/particles/frame_view.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace granular_c
+{
+/// An array of a frame that was read.
+struct FrameArray
+{
+  std::string name;
+  granular::ValueType type = granular::ValueType::Float64;
+  int components = 1;
+  const void* data = nullptr;
+  std::shared_ptr<const void> memory;           ///< of data
+  std::vector<std::string> words;               ///< of a Text
+  std::vector<const char*> word_list;           ///< the same
+  const granular::KnownColumn* known = nullptr; ///< its unit and meaning; null: not known
+};
+
+/// The kind of rows that a frame has, which decides how it is written.
+enum class RowKind : std::uint8_t
+{
+  Particles,
+  Lines, ///< contacts and bonds
+  Cells,
+  Subdomains
+};
+}
+
+/// A frame that was read. Arrays do not move: strings and pointers to them are given away.
+struct granular_frame
+{
+  granular_c::RowKind kind = granular_c::RowKind::Particles;
+  granular::FrameHeader header;
+  granular::Coordinates coordinates = granular::Coordinates::Absolute;
+  granular::Vector3 origin = {};
+  double time = 0; ///< of the run
+  std::int64_t rows = 0;
+  std::vector<std::string> columns; ///< of the file
+  std::string column_text;          ///< the same, separated by blanks
+  std::vector<granular_c::FrameArray> arrays;
+
+  const granular_c::FrameArray* find(std::string_view name) const noexcept;
+};
+
+namespace granular_c
+{
+/// The names of the arrays that are made from coordinates.
+inline constexpr const char* points_name = "points";
+inline constexpr const char* ends_name = "ends";
+
+/// Adds an array whose memory it takes.
+void add_array(granular_frame& frame, std::string name, granular::ValueType type, int components,
+  granular::Block&& block, const granular::KnownColumn* known = nullptr);
+void add_array(granular_frame& frame, std::string name, int components,
+  std::vector<double>&& values, const granular::KnownColumn* known = nullptr);
+void add_array(granular_frame& frame, std::string name, std::vector<std::int64_t>&& values,
+  const granular::KnownColumn* known = nullptr);
+
+/// Takes the rows of a dump, or of a table of local data with its ends; `table` knows their units.
+void take_rows(
+  granular_frame& frame, granular::DumpFrame&& rows, std::span<const granular::KnownColumn> table);
+
+/// Takes lines and their rows.
+void take_lines(granular_frame& frame, granular::LocalFrame&& local);
+
+/// Returns the row of a table that knows an array by its name or by that of a column in it, or null.
+const granular::KnownColumn* find_known(
+  std::string_view array, std::span<const granular::KnownColumn> table) noexcept;
+
+/// Returns an array by its name. Throws BadArgument that lists those there are.
+const FrameArray& find_array(const granular_frame& frame, const std::string& name);
+
+/// Copies an array into memory of the caller. Throws BadArgument if there is too little room, or a number does not fit the
+/// type.
+void copy_array(const granular_frame& frame, const granular_destination& to);
+
+/// Returns the box of a frame; its boundary belongs to the header.
+granular_box box_of(const granular::FrameHeader& header);
+
+/// Reads one component of an array as doubles, each `step` after the one before.
+void read_numbers(const granular::ArrayView& array, int component, std::int64_t rows, double* to,
+  std::int64_t step);
+
+/// A frame as writers take it; the frame must outlive it.
+struct WriteView
+{
+  explicit WriteView(const granular_frame& frame);
+  WriteView(const granular_content& content, RowKind kind);
+
+  granular::FrameView view;
+
+private:
+  void finish(RowKind kind);
+  void add(std::string name, granular::ValueType type, int components, const void* data,
+    std::span<const char* const> words);
+
+  std::optional<granular::ArrayView> ends_;
+  std::vector<std::unique_ptr<std::vector<std::string>>> texts_; ///< words row by row
+};
+}
+#endif

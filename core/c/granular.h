@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/*
+ * The C interface of vtk-granular: files of discrete-element simulations as arrays, and arrays as files.
+ *
+ *     granular_run* run = NULL;
+ *     const char* pattern = "post/run_*.dump";
+ *     if (granular_open(&pattern, 1, NULL, &run) != GRANULAR_OK)
+ *       puts(granular_last_error()->message);
+ *
+ * A run is one or more files that are shown as one series of frames. A frame that was read holds arrays: positions,
+ * velocities, ids. All functions return GRANULAR_OK or the kind of error; granular_last_error() then has the message of the
+ * calling thread. No function throws or prints.
+ *
+ * Null is an error where a pointer is needed, not a crash. Undefined: handles that were closed, released or never returned
+ * by this library, pointers to less memory than the function needs, and strings that do not end.
+ *
+ * Threads: a run may be used by several threads at once; a frame and a writer by one at a time. Strings and arrays belong to
+ * the library, and stay until the run or frame they come from is closed or released.
+ */
+/* clang-format off */
+#ifndef GRANULAR_H
+#define GRANULAR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifndef GRANULAR_API
+#define GRANULAR_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+#define GRANULAR_VERSION_MAJOR 0
+#define GRANULAR_VERSION_MINOR 1
+#define GRANULAR_VERSION_PATCH 0
+
+/* ---- errors ---------------------------------------------------------------------------------- */
+
+/* The result of a function. */
+typedef enum granular_status
+{
+  GRANULAR_OK = 0,
+  GRANULAR_IO_ERROR = 1,     /* the system refused an operation, or a file changed meanwhile */
+  GRANULAR_FORMAT_ERROR = 2, /* the bytes contradict the format */
+  GRANULAR_LIMIT_ERROR = 3,  /* larger than a documented limit */
+  GRANULAR_UNSUPPORTED = 4,  /* legal, but not supported */
+  GRANULAR_BAD_ARGUMENT = 5, /* what the caller gave cannot be used: null, no such frame or array */
+  GRANULAR_CANCELLED = 6,    /* the progress function asked to stop */
+  GRANULAR_NO_MEMORY = 7,
+  GRANULAR_OTHER_ERROR = 8   /* an error of this library */
+} granular_status;
+
+/* The last error of the calling thread. Strings are never null. */
+typedef struct granular_error
+{
+  granular_status status;
+  const char* message; /* "path:line: column 'name': expected ..., got ..." */
+  const char* text;    /* the message without the position */
+  const char* path;    /* empty if there is none */
+  int64_t line;        /* of a text file, from 1; 0: not known */
+  int64_t byte;        /* of a binary file, from 0; -1: not known */
+  const char* column;  /* as the file spells it; empty if there is none */
+} granular_error;
+
+/* Returns the error of the last function that failed on this thread; never null. Valid until the next failure. */
+GRANULAR_API const granular_error* granular_last_error(void);
+
+/* Returns "0.1.0", the version of the library that runs. */
+GRANULAR_API const char* granular_version(void);
+
+/* Called during long work with a fraction from 0 to 1, on the thread of the caller. Returns 0 to go on; any other value
+ * stops the work with GRANULAR_CANCELLED. */
+typedef int (*granular_progress)(double fraction, void* user);
+
+/* Called with each remark of a function that is not an error, such as a frame that was left out: "path:line: text". */
+typedef void (*granular_notice)(const char* text, void* user);
+
+/* ---- runs ------------------------------------------------------------------------------------ */
+
+typedef struct granular_run granular_run;
+
+/* The kind of the files of a run. */
+typedef enum granular_kind
+{
+  GRANULAR_KIND_AUTOMATIC = -1,
+  GRANULAR_KIND_DUMP = 0,         /* dump atom, dump custom: particles */
+  GRANULAR_KIND_LOCAL = 1,        /* dump local: contacts and bonds */
+  GRANULAR_KIND_RESTART = 2,      /* restart files of LIGGGHTS: particles, and bonds in table 1 */
+  GRANULAR_KIND_DATA_FILE = 3,    /* data files: particles, and bonds in table 1 */
+  GRANULAR_KIND_EULER = 4,        /* averaged cells */
+  GRANULAR_KIND_DECOMPOSITION = 5 /* subdomains of ranks */
+} granular_kind;
+
+/* Options of granular_open. granular_open_options_init sets the defaults; null strings are empty. */
+typedef struct granular_open_options
+{
+  size_t size;              /* of this struct, for later versions */
+  granular_kind kind;       /* GRANULAR_KIND_AUTOMATIC (default): told apart by the contents of the first file */
+  double timestep_size;     /* time of one timestep, greater than 0; 1 (default): times are timesteps */
+  const char* column_names; /* of binary dumps that do not name their columns: "id type x y z" */
+  const char* preset;       /* order of the columns of local data, by the name of a preset */
+  const char* column_map;   /* names of the columns of local data */
+  const char* atom_style; /* of data files; empty: found by the file */
+  int repeated_steps;     /* 0 automatic (default), 1 merge pieces, 2 the last one counts */
+  int keep_index;         /* 0 never (default), 1 in the user's cache, 2 beside the first file */
+  int threads;            /* 0 (default): one per core */
+  granular_progress progress; /* may be null */
+  granular_notice notice;     /* may be null */
+  void* user;                 /* for both */
+} granular_open_options;
+
+GRANULAR_API void granular_open_options_init(granular_open_options* options);
+
+/* Opens a run and finds its frames, without reading them. paths: names or patterns of files, at least one. In patterns `*`
+ * stands for the timestep and `%` for the rank, as in the dump command. options may be null. Sets *run. */
+GRANULAR_API granular_status granular_open(const char* const* paths, size_t count,
+  const granular_open_options* options, granular_run** run);
+
+/* Closes a run. Null does nothing. Frames that were read stay. */
+GRANULAR_API void granular_close(granular_run* run);
+
+/* Looks for frames that were added, and for files that changed. What functions returned of this run before, counts and
+ * strings, is no longer valid. */
+GRANULAR_API granular_status granular_refresh(granular_run* run);
+
+/* Facts of a run. */
+typedef struct granular_run_facts
+{
+  granular_kind kind;
+  int64_t frames;
+  int64_t files;
+  int tables; /* 1, or 2 where there may be bonds */
+} granular_run_facts;
+
+GRANULAR_API granular_status granular_run_info(granular_run* run, granular_run_facts* facts);
+
+/* Facts of a frame that need no rows. */
+typedef struct granular_frame_facts
+{
+  int64_t timestep;
+  double time;      /* ITEM: TIME, or timestep x timestep_size */
+  int64_t rows;     /* of the file; -1: not known before it is read */
+  const char* path; /* of the file, or of its first piece */
+} granular_frame_facts;
+
+/* frame: from 0, or from the end: -1 is the last one. */
+GRANULAR_API granular_status granular_frame_info(
+  granular_run* run, int64_t frame, granular_frame_facts* facts);
+
+/* Returns in *frame the last frame at or before a time, or 0. */
+GRANULAR_API granular_status granular_find_frame(granular_run* run, double time, int64_t* frame);
+
+/* Types of values. */
+typedef enum granular_type
+{
+  GRANULAR_INT8 = 0,
+  GRANULAR_UINT8 = 1,
+  GRANULAR_INT16 = 2,
+  GRANULAR_UINT16 = 3,
+  GRANULAR_INT32 = 4,
+  GRANULAR_UINT32 = 5,
+  GRANULAR_INT64 = 6,
+  GRANULAR_UINT64 = 7,
+  GRANULAR_FLOAT32 = 8,
+  GRANULAR_FLOAT64 = 9,
+  GRANULAR_TEXT = 10 /* int32 indices into a list of words */
+} granular_type;
+
+/* An array that a frame has in its file. */
+typedef struct granular_array_facts
+{
+  const char* name;
+  granular_type type; /* as far as known before the rows are read */
+  int components;
+  int is_usual; /* 0: read only if asked for by name, such as coordinates that make the points */
+  const char* unit; /* SI unit under `units si`; "-" none; empty: not known */
+  const char* meaning;
+} granular_array_facts;
+
+/* Returns in *count the number of arrays of a frame, and fills the first `most` of them; arrays may be null if most is 0.
+ * table: 0, or 1 for bonds. The points are not among them. */
+GRANULAR_API granular_status granular_arrays(granular_run* run, int64_t frame, int table,
+  granular_array_facts* arrays, size_t most, size_t* count);
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+typedef struct granular_frame granular_frame;
+
+/* The coordinates of points. */
+typedef enum granular_coordinates
+{
+  GRANULAR_ABSOLUTE = 0,
+  GRANULAR_UNWRAPPED = 1, /* moved by whole boxes, by the image counts */
+  GRANULAR_SCALED = 2     /* in units of the box vectors */
+} granular_coordinates;
+
+/* The wanted part of a frame. granular_request_init sets the defaults: all of it. */
+typedef struct granular_request
+{
+  size_t size;               /* of this struct */
+  int table;                 /* 0 (default), or 1 for bonds */
+  const char* const* arrays; /* names; null (default): all usual ones */
+  size_t array_count;
+  int points;                       /* 1 (default); 0: no points, and coordinates are arrays like others */
+  granular_coordinates coordinates; /* of dumps and data files */
+  int single_precision;             /* 1: points as floats; of dumps */
+  double origin[3];                 /* subtracted from the points in double precision */
+  int sort_by_id;                   /* 1: rows in the order of their ids; of dumps and data files */
+  int64_t stride;                   /* n keeps ids that are multiples of n, or each n-th row without ids; the same */
+  double region[6];                 /* xlo xhi ylo yhi zlo zhi, closed; an axis with lo > hi (default) is not restricted; the same */
+  int threads;                      /* 0 (default): one per core */
+  granular_progress progress;       /* may be null */
+  granular_notice notice;           /* may be null */
+  void* user;                       /* for both */
+} granular_request;
+
+GRANULAR_API void granular_request_init(granular_request* request);
+
+/* Reads a frame into memory of the library. request may be null. Sets *out; release it. */
+GRANULAR_API granular_status granular_read(
+  granular_run* run, int64_t frame, const granular_request* request, granular_frame** out);
+
+/* Memory of the caller for one array. */
+typedef struct granular_destination
+{
+  const char* array;  /* its name, or "points" */
+  granular_type type; /* numbers are converted to it; a number that does not fit is an error */
+  void* data;
+  size_t values; /* for so many values there is room */
+} granular_destination;
+
+/* Reads a frame into memory of the caller: the arrays that the destinations name, and no others; request->arrays does not
+ * count. Sets *rows, if not null. Too little room is GRANULAR_BAD_ARGUMENT, and *rows says how many rows there are. */
+GRANULAR_API granular_status granular_read_into(granular_run* run, int64_t frame,
+  const granular_request* request, const granular_destination* destinations, size_t count,
+  int64_t* rows);
+
+/* Frees a frame and its arrays. Null does nothing. */
+GRANULAR_API void granular_release(granular_frame* frame);
+
+/* A simulation box: a corner, and the edges a, b, c one after the other; and the numbers of a dump's header, xlo xhi ylo yhi zlo
+ * zhi xy xz yz, from which corner and edges of all but general triclinic boxes follow. */
+typedef struct granular_box
+{
+  double bounds[9];
+  int has_bounds; /* 1: bounds count, and nothing is rounded twice; 0: origin and vectors count */
+  double origin[3];
+  double vectors[9];
+  const char* boundary; /* "pp pp ff"; empty: not known */
+} granular_box;
+
+/* The header of a frame. */
+typedef struct granular_frame_header
+{
+  int64_t timestep;
+  double time;
+  int has_time; /* 1: ITEM: TIME; 0: time is timestep x timestep_size */
+  int64_t rows;
+  int has_box;
+  granular_box box;
+  granular_coordinates coordinates; /* of the points */
+  double origin[3];                 /* subtracted from the points */
+  const char* label;                /* ITEM: LABEL */
+  const char* units;                /* ITEM: UNITS */
+  const char* columns;              /* of the file, in its order and spelling */
+const char* dialect;              /* "LIGGGHTS" or "LAMMPS"; empty: not known */
+  size_t arrays;                    /* number of them */
+} granular_frame_header;
+
+GRANULAR_API granular_status granular_header(
+  const granular_frame* frame, granular_frame_header* header);
+
+/* An array: rows x components values, row by row. */
+typedef struct granular_array
+{
+  const char* name; /* "points": coordinates of particles and cells; "ends": x1 y1 z1 x2 y2 z2 of lines */
+  granular_type type;
+  int components;
+  int64_t rows;
+  const void* data;
+  const char* const* words; /* of GRANULAR_TEXT; null for numbers */
+  size_t word_count;
+  const char* unit;
+  const char* meaning;
+} granular_array;
+
+/* Returns an array by its number, from 0. */
+GRANULAR_API granular_status granular_array_at(
+  const granular_frame* frame, size_t number, granular_array* array);
+
+/* Returns an array by its name. */
+GRANULAR_API granular_status granular_array_named(
+  const granular_frame* frame, const char* name, granular_array* array);
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+typedef struct granular_writer granular_writer;
+
+/* The format of a file to write. granular_format_init sets the defaults; null strings are empty. */
+typedef struct granular_format
+{
+  size_t size; /* of this struct */
+  /* "atom", "custom", "local", "euler", "decomposition"; empty (default): by the ending of the name, .bonds, .euler and
+     .decomposition, else custom */
+  const char* style;
+  /* "LIGGGHTS" or "LAMMPS"; of decompositions "PUBLIC" or "INL"; of cells "LIGGGHTS" or "Wide"; empty (default) or "Automatic":
+     that of the file that the frame comes from, else LAMMPS, INL, Wide */
+  const char* dialect;
+  const char* columns; /* names of columns or arrays, separated by blanks; empty (default): all */
+  const char* numbers; /* "Automatic" (default), "%g", "%.1g" to "%.17g", "shortest" */
+  const char* label;   /* word for rows of local data; empty: that of the file, else ENTRIES */
+  int scaled;          /* style atom: 1 (default) xs ys zs, 0 x y z */
+  int image;           /* style atom: 1 also ix iy iz */
+  int sort_by_id;
+  int write_units;            /* 1: ITEM: UNITS; LAMMPS only */
+  int write_time;             /* 1: ITEM: TIME; LAMMPS only */
+  int threads;                /* 0 (default): one per core */
+  granular_progress progress; /* may be null */
+  granular_notice notice;     /* may be null */
+  void* user;                 /* for both */
+} granular_format;
+
+GRANULAR_API void granular_format_init(granular_format* format);
+
+/* Begins a file under a temporary name. A name with `*` makes a file for each frame. Text is compressed if the name ends in
+ * .gz or .zst; .bin and .lammpsbin are binary. format may be null. Sets *writer. */
+GRANULAR_API granular_status granular_create(
+  const char* path, const granular_format* format, granular_writer** writer);
+
+/* A frame to write. granular_content_init sets the defaults. */
+typedef struct granular_content
+{
+  size_t size; /* of this struct */
+  int64_t timestep;
+  double time;
+  int has_time;
+  const char* units;
+  const granular_box* box; /* null: made from the bounds of the particles */
+  int64_t rows;
+  /* name, type, components, data and words count. "points" has the positions of particles and cells, "ends" those of lines;
+     subdomains have "lo", "hi" and, if known, "nlocal" and "proc" */
+  const granular_array* arrays;
+  size_t array_count;
+} granular_content;
+
+GRANULAR_API void granular_content_init(granular_content* content);
+
+/* Adds a frame from arrays of the caller, which are read where they are. */
+GRANULAR_API granular_status granular_write(
+  granular_writer* writer, const granular_content* content);
+
+/* Adds a frame that was read, with the digits, columns and dialect of its file. */
+GRANULAR_API granular_status granular_write_frame(
+  granular_writer* writer, const granular_frame* frame);
+
+/* Gives the file its name and ends the writer. After an error, the old file is untouched; the writer is gone in any case. */
+GRANULAR_API granular_status granular_finish(granular_writer* writer);
+
+/* Ends the writer without the file; the old one is untouched. Null does nothing. */
+GRANULAR_API void granular_abandon(granular_writer* writer);
+
+/* ---- files ----------------------------------------------------------------------------------- */
+
+typedef struct granular_names granular_names;
+
+/* Finds the files of a run by patterns, in the order of their numbers: see granular_open. Sets *names; free them. */
+GRANULAR_API granular_status granular_find_files(
+  const char* const* patterns, size_t count, granular_names** names);
+GRANULAR_API size_t granular_name_count(const granular_names* names);
+GRANULAR_API const char* granular_name_at(const granular_names* names, size_t number);
+GRANULAR_API void granular_free_names(granular_names* names);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run.h"
+
+#include "bad_argument.h"
+
+#include "granular/bytes/find_files.h"
+#include "granular/common/words.h"
+#include "granular/parallel/executor.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+namespace granular_c
+{
+using namespace granular;
+
+namespace
+{
+std::string text_of(const char* text)
+{
+  return text == nullptr ? std::string() : std::string(text);
+}
+
+const Kind& find_kind(granular_kind wanted, const std::string& path)
+{
+  for (const Kind& kind : kinds())
+  {
+    if (wanted == GRANULAR_KIND_AUTOMATIC ? kind.is_file(path) : kind.kind == wanted)
+    {
+      return kind;
+    }
+  }
+  if (wanted != GRANULAR_KIND_AUTOMATIC)
+  {
+    throw BadArgument("expected a kind of granular_kind, got " + std::to_string(wanted));
+  }
+  return kinds().front(); // which says what it expected
+}
+
+IndexOptions index_options(const granular_open_options& options, const Kind& kind)
+{
+  IndexOptions made;
+  made.format = &kind.format();
+  if (options.repeated_steps < 0 || options.repeated_steps > 2)
+  {
+    throw BadArgument(
+      "expected repeated_steps from 0 to 2, got " + std::to_string(options.repeated_steps));
+  }
+  if (options.keep_index < 0 || options.keep_index > 2)
+  {
+    throw BadArgument("expected keep_index from 0 to 2, got " + std::to_string(options.keep_index));
+  }
+  made.repeated_steps = kind.has_pieces ? static_cast<RepeatedSteps>(options.repeated_steps)
+                                        : RepeatedSteps::Last; // no file is a piece of another
+  constexpr KeepIndex keep[] = { KeepIndex::Never, KeepIndex::Cache, KeepIndex::Beside };
+  made.keep_index = keep[options.keep_index];
+  std::string names = text_of(options.column_names);
+  std::ranges::replace(names, ',', ' ');
+  for (const std::string_view name : split_words(names))
+  {
+    made.column_names.emplace_back(name);
+  }
+  made.threads = options.threads > 0 ? options.threads : available_cores();
+  return made;
+}
+}
+
+void Caller::tell(const Notices& notices) const
+{
+  for (const Notice& notice : notices)
+  {
+    if (notice_ != nullptr)
+    {
+      notice_(to_string(notice).c_str(), user_);
+    }
+  }
+}
+
+Wanted::Wanted(const granular_request& given)
+  : request(given)
+{
+  if (request.stride < 1)
+  {
+    throw BadArgument("expected a stride of at least 1, got " + std::to_string(request.stride));
+  }
+  if (request.coordinates < GRANULAR_ABSOLUTE || request.coordinates > GRANULAR_SCALED)
+  {
+    throw BadArgument(
+      "expected coordinates from 0 to 2, got " + std::to_string(request.coordinates));
+  }
+  if (request.arrays == nullptr && request.array_count > 0)
+  {
+    throw BadArgument("expected names of arrays, got null");
+  }
+  all = request.arrays == nullptr;
+  for (std::size_t i = 0; i < request.array_count; ++i)
+  {
+    if (request.arrays[i] == nullptr)
+    {
+      throw BadArgument("expected names of arrays, got null");
+    }
+    names.emplace_back(request.arrays[i]);
+  }
+  threads = request.threads > 0 ? request.threads : available_cores();
+}
+
+bool Wanted::is_wanted(std::string_view name, bool is_usual) const
+{
+  return all ? is_usual : std::ranges::find(names, name) != names.end();
+}
+}
+
+using namespace granular;
+using namespace granular_c;
+
+granular_run::granular_run(std::vector<std::string> patterns, const granular_open_options& options)
+  : timestep_size(options.timestep_size)
+  , preset(text_of(options.preset))
+  , column_map(text_of(options.column_map))
+  , atom_style(text_of(options.atom_style))
+  , patterns_(std::move(patterns))
+{
+  if (!(timestep_size > 0))
+  {
+    throw BadArgument("expected a timestep_size greater than 0");
+  }
+  kind_ = &find_kind(options.kind, find_files(patterns_).front());
+  options_ = index_options(options, *kind_);
+  Caller caller(options.progress, options.notice, options.user);
+  this->refresh(caller);
+}
+
+void granular_run::refresh(Caller& caller)
+{
+  const std::unique_lock lock(mutex);
+  Notices notices;
+  index.update(find_files(patterns_), options_, notices, caller);
+  times = index.times(timestep_size, notices);
+  {
+    const std::lock_guard guard(offers_mutex_);
+    offers_.clear();
+  }
+  caller.tell(notices);
+}
+
+std::size_t granular_run::number_of(std::int64_t frame) const
+{
+  const auto count = static_cast<std::int64_t>(index.size());
+  const std::int64_t number = frame < 0 ? frame + count : frame;
+  if (number < 0 || number >= count)
+  {
+    throw BadArgument("expected a frame from " + std::to_string(-count) + " to " +
+      std::to_string(count - 1) + ", got " + std::to_string(frame));
+  }
+  return static_cast<std::size_t>(number);
+}
+
+const std::vector<OfferedArray>& granular_run::arrays(std::size_t frame, int table)
+{
+  if (table < 0 || table > (kind_->has_bonds ? 1 : 0))
+  {
+    throw BadArgument(std::string("expected table 0") + (kind_->has_bonds ? " or 1" : "") +
+      ", got " + std::to_string(table));
+  }
+  const FramePiece piece = index.first_piece(frame);
+  // frames of one kind have the same columns; other files are looked into one by one
+  const bool is_shared = kind_->kind == GRANULAR_KIND_DUMP || kind_->kind == GRANULAR_KIND_LOCAL;
+  const std::string key =
+    is_shared && piece.entry.kind ? piece.entry.kind->schema.text() : "#" + std::to_string(frame);
+  const std::lock_guard guard(offers_mutex_);
+  const auto known = offers_.find({ key, table });
+  if (known != offers_.end())
+  {
+    return known->second;
+  }
+  return offers_[{ key, table }] = kind_->arrays(*this, frame, table);
+}
+
+std::unique_ptr<granular_frame> granular_run::read(
+  std::size_t frame, const Wanted& wanted, Caller& caller)
+{
+  const std::vector<OfferedArray>& there = this->arrays(frame, wanted.request.table);
+  for (const std::string& name : wanted.names)
+  {
+    if (name != points_name && name != ends_name && name != "length" &&
+      std::ranges::find(there, name, &OfferedArray::name) == there.end())
+    {
+      std::string list;
+      for (const OfferedArray& array : there)
+      {
+        list += (list.empty() ? "" : ", ") + array.name;
+      }
+      throw BadArgument("expected an array of " + list + ", got '" + name + "'",
+        where_of(index.first_piece(frame)));
+    }
+  }
+  auto made = std::make_unique<granular_frame>();
+  Notices notices;
+  kind_->read(*this, frame, wanted, notices, caller, *made);
+  made->time = times[frame];
+  caller.tell(notices);
+  return made;
+}

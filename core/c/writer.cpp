@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "writer.h"
+
+#include "bad_argument.h"
+
+#include "granular/bytes/byte_sink.h"
+#include "granular/bytes/compression.h"
+#include "granular/common/words.h"
+#include "granular/decomposition/decomposition_text.h"
+#include "granular/dump/write/dump_writer.h"
+#include "granular/euler/euler_text.h"
+#include "granular/numbers/number_print.h"
+#include "granular/parallel/executor.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace granular_c
+{
+using namespace granular;
+
+namespace
+{
+std::string text_of(const char* text)
+{
+  return text == nullptr ? std::string() : std::string(text);
+}
+
+/// A choice of words; an empty one and "Automatic" are none.
+template <class Value, std::size_t N>
+std::optional<Value> choose(
+  const char* what, const char* given, const std::array<std::pair<const char*, Value>, N>& choices)
+{
+  const std::string word = text_of(given);
+  if (word.empty() || word == "Automatic")
+  {
+    return std::nullopt;
+  }
+  std::string list = "Automatic";
+  for (const auto& [name, value] : choices)
+  {
+    if (word == name)
+    {
+      return value;
+    }
+    list += std::string(", ") + name;
+  }
+  throw BadArgument(std::string("expected a ") + what + " of " + list + ", got '" + word + "'");
+}
+
+// ---- rows: particles, contacts and bonds -------------------------------------------------------
+class RowsWriter final : public granular_writer
+{
+public:
+  RowsWriter(RowKind kind, std::string path, DumpFormat form, const granular_format& format)
+    : granular_writer(kind, format)
+    , writer_(std::move(path), std::move(form),
+        { .threads = format.threads > 0 ? format.threads : available_cores() }, alone_)
+  {
+  }
+
+  void write(const FrameView& frame, Notices& notices, Progress& progress) override
+  {
+    writer_.write(frame, notices, progress);
+  }
+
+  void finish() override { writer_.finish(); }
+
+private:
+  SerialCommunicator alone_;
+  DumpWriter writer_;
+};
+
+// ---- cells and subdomains: a text that is made at once -----------------------------------------
+/// The values of an array as doubles, so many in each row.
+std::vector<double> doubles_of(const FrameView& frame, std::string_view name, int components)
+{
+  const ArrayView* const array =
+    name == points_name ? (frame.points ? &*frame.points : nullptr) : frame.find(name);
+  if (array == nullptr || array->size() != components || !is_number(array->type))
+  {
+    throw BadArgument("expected an array '" + std::string(name) + "' of numbers with " +
+      std::to_string(components) + (components == 1 ? " component" : " components") + ", got " +
+      (array == nullptr ? std::string("none") : std::to_string(array->size())));
+  }
+  std::vector<double> values(static_cast<std::size_t>(frame.rows * components));
+  for (int i = 0; i < components; ++i)
+  {
+    read_numbers(*array, i, frame.rows, values.data() + i, components);
+  }
+  return values;
+}
+
+/// Text files that hold one frame each, or several one after the other.
+class WholeWriter : public granular_writer
+{
+public:
+  WholeWriter(RowKind kind, std::string path, bool holds_many, const granular_format& format)
+    : granular_writer(kind, format)
+    , path_(std::move(path))
+    , holds_many_(holds_many)
+  {
+  }
+
+  void write(const FrameView& frame, Notices& notices, Progress& progress) override
+  {
+    Notices own;
+    std::string text = this->encode(frame, own, progress);
+    for (Notice& notice : own)
+    {
+      notice.where.path = path_;
+      notices.push_back(std::move(notice));
+    }
+    if (is_name_of_steps(path_))
+    {
+      this->save(name_of_step(path_, frame.header.timestep), text);
+      return;
+    }
+    if (frames_ > 0 && !holds_many_)
+    {
+      throw UnsupportedError(
+        "expected a '*' in the name, which gives each time step its file: this file holds one",
+        { path_ });
+    }
+    text_ += text;
+    ++frames_;
+  }
+
+  void finish() override
+  {
+    if (!is_name_of_steps(path_))
+    {
+      this->save(path_, text_);
+    }
+  }
+
+protected:
+  virtual std::string encode(const FrameView& frame, Notices& notices, Progress& progress) = 0;
+
+private:
+  void save(const std::string& path, const std::string& text) const
+  {
+    const Compression how = compression_of_name(path);
+    write_file(path, how == Compression::None ? text : compress(text, how));
+  }
+
+  std::string path_;
+  bool holds_many_;
+  std::string text_;
+  std::int64_t frames_ = 0;
+};
+
+class CellsWriter final : public WholeWriter
+{
+public:
+  CellsWriter(std::string path, EulerDialect dialect, const granular_format& format)
+    : WholeWriter(RowKind::Cells, std::move(path), false, format)
+    , dialect_(dialect)
+  {
+  }
+
+private:
+  std::string encode(const FrameView& frame, Notices& notices, Progress& progress) override
+  {
+    EulerCells cells;
+    cells.centres = doubles_of(frame, points_name, 3);
+    for (std::size_t i = 0; i < cells.centres.size(); ++i)
+    {
+      cells.centres[i] += frame.point_origin[i % 3];
+    }
+    for (const EulerArray& array : euler_arrays())
+    {
+      if (!array.optional || frame.find(array.name) != nullptr)
+      {
+        cells.*array.values = doubles_of(frame, array.name, array.components);
+      }
+    }
+    return encode_euler(cells, dialect_, notices, progress);
+  }
+
+  EulerDialect dialect_;
+};
+
+enum class VoxelDialect : std::uint8_t
+{
+  Inl,
+  Public
+};
+
+class SubdomainsWriter final : public WholeWriter
+{
+public:
+  SubdomainsWriter(std::string path, VoxelDialect dialect, const granular_format& format)
+    : WholeWriter(RowKind::Subdomains, std::move(path), dialect == VoxelDialect::Public, format)
+    , dialect_(dialect)
+  {
+  }
+
+private:
+  std::string encode(const FrameView& frame, Notices& notices, Progress& progress) override
+  {
+    const std::vector<double> lo = doubles_of(frame, "lo", 3);
+    const std::vector<double> hi = doubles_of(frame, "hi", 3);
+    Decomposition all;
+    all.has_particles = frame.find("nlocal") != nullptr;
+    all.has_ranks = frame.find("proc") != nullptr;
+    const auto optional = [&](bool there, const char* name)
+    {
+      return there ? doubles_of(frame, name, 1)
+                   : std::vector<double>(static_cast<std::size_t>(frame.rows));
+    };
+    const std::vector<double> particles = optional(all.has_particles, "nlocal");
+    const std::vector<double> ranks = optional(all.has_ranks, "proc");
+    for (std::size_t i = 0; i < particles.size(); ++i)
+    {
+      Subdomain one;
+      std::copy_n(lo.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.lo.begin());
+      std::copy_n(hi.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.hi.begin());
+      one.particles = static_cast<std::int64_t>(particles[i]);
+      one.rank = static_cast<int>(ranks[i]);
+      all.subdomains.push_back(one);
+    }
+    return dialect_ == VoxelDialect::Inl ? encode_voxels(all, progress) : encode_grid(all, notices);
+  }
+
+  VoxelDialect dialect_;
+};
+
+// ---- the styles --------------------------------------------------------------------------------
+using Create = std::unique_ptr<granular_writer> (*)(
+  const std::string& path, const granular_format& format);
+
+DumpFormat rows_format(const std::string& path, DumpStyle style, const granular_format& given)
+{
+  constexpr std::array<std::pair<const char*, Dialect>, 2> dialects = {
+    { { "LIGGGHTS", Dialect::Liggghts }, { "LAMMPS", Dialect::Lammps } }
+  };
+  DumpFormat format;
+  format.style = style;
+  format.dialect = choose("dialect", given.dialect, dialects);
+  format.binary = is_binary_name(path);
+  format.compression = compression_of_name(path);
+  format.atom = { given.scaled != 0, given.image != 0 };
+  const std::string columns = text_of(given.columns);
+  for (const std::string_view name : split_words(columns))
+  {
+    format.columns.emplace_back(name);
+  }
+  const std::string label = text_of(given.label);
+  format.counted = label == "Automatic" ? "" : label;
+  const std::string numbers = text_of(given.numbers);
+  format.numbers = parse_number_format(numbers.empty() ? "Automatic" : numbers);
+  format.units = given.write_units != 0;
+  format.time = given.write_time != 0;
+  format.sort_by_id = given.sort_by_id != 0;
+  return format;
+}
+
+template <DumpStyle style>
+std::unique_ptr<granular_writer> create_rows(const std::string& path, const granular_format& format)
+{
+  return std::make_unique<RowsWriter>(
+    style == DumpStyle::Local ? RowKind::Lines : RowKind::Particles, path,
+    rows_format(path, style, format), format);
+}
+
+std::unique_ptr<granular_writer> create_cells(
+  const std::string& path, const granular_format& format)
+{
+  constexpr std::array<std::pair<const char*, EulerDialect>, 2> dialects = {
+    { { "LIGGGHTS", EulerDialect::Liggghts }, { "Wide", EulerDialect::Wide } }
+  };
+  return std::make_unique<CellsWriter>(
+    path, choose("dialect", format.dialect, dialects).value_or(EulerDialect::Automatic), format);
+}
+
+std::unique_ptr<granular_writer> create_subdomains(
+  const std::string& path, const granular_format& format)
+{
+  constexpr std::array<std::pair<const char*, VoxelDialect>, 2> dialects = {
+    { { "INL", VoxelDialect::Inl }, { "PUBLIC", VoxelDialect::Public } }
+  };
+  return std::make_unique<SubdomainsWriter>(
+    path, choose("dialect", format.dialect, dialects).value_or(VoxelDialect::Inl), format);
+}
+
+struct Style
+{
+  std::string_view name;
+  std::string_view ending; ///< of files that have this style unless another is given
+  Create create;
+};
+
+constexpr Style styles[] = {
+  { "custom", "", create_rows<DumpStyle::Custom> },
+  { "atom", "", create_rows<DumpStyle::Atom> },
+  { "local", ".bonds", create_rows<DumpStyle::Local> },
+  { "euler", ".euler", create_cells },
+  { "decomposition", ".decomposition", create_subdomains },
+};
+
+const Style& find_style(const std::string& path, const std::string& name)
+{
+  if (name.empty())
+  {
+    std::string_view plain = path;
+    for (const std::string_view packed : { ".gz", ".zst" })
+    {
+      plain.remove_suffix(plain.ends_with(packed) ? packed.size() : 0);
+    }
+    const auto found = std::ranges::find_if(styles,
+      [&](const Style& style) { return !style.ending.empty() && plain.ends_with(style.ending); });
+    return found == std::end(styles) ? styles[0] : *found;
+  }
+  const auto found = std::ranges::find(styles, name, &Style::name);
+  if (found == std::end(styles))
+  {
+    throw BadArgument(
+      "expected a style of custom, atom, local, euler, decomposition, got '" + name + "'");
+  }
+  return *found;
+}
+}
+
+std::unique_ptr<granular_writer> create_writer(
+  const std::string& path, const granular_format& format)
+{
+  return find_style(path, text_of(format.style)).create(path, format);
+}
+}

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/bytes/find_files.h"
+
+#include "granular/common/error.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <glob.h>
+
+namespace granular
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+bool is_digit(char c) noexcept
+{
+  return c >= '0' && c <= '9';
+}
+
+std::size_t skip_digits(std::string_view text, std::size_t at) noexcept
+{
+  while (at < text.size() && is_digit(text[at]))
+  {
+    ++at;
+  }
+  return at;
+}
+
+/// Compares numbers by value, and words as they are; a word comes before a number.
+bool is_before(std::string_view a, std::string_view b) noexcept
+{
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size())
+  {
+    if (is_digit(a[i]) != is_digit(b[j]))
+    {
+      return is_digit(b[j]);
+    }
+    if (!is_digit(a[i]))
+    {
+      if (a[i] != b[j])
+      {
+        return a[i] < b[j];
+      }
+      ++i;
+      ++j;
+      continue;
+    }
+    const std::size_t end_a = skip_digits(a, i);
+    const std::size_t end_b = skip_digits(b, j);
+    std::string_view first = a.substr(i, end_a - i);
+    std::string_view second = b.substr(j, end_b - j);
+    first.remove_prefix(std::min(first.find_first_not_of('0'), first.size()));
+    second.remove_prefix(std::min(second.find_first_not_of('0'), second.size()));
+    if (first != second)
+    {
+      return first.size() != second.size() ? first.size() < second.size() : first < second;
+    }
+    i = end_a;
+    j = end_b;
+  }
+  return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
+}
+
+/// The length of the set `[...]` at the start of a pattern; 0 if it is none.
+std::size_t set_length(std::string_view pattern) noexcept
+{
+  if (pattern.empty() || pattern[0] != '[')
+  {
+    return 0;
+  }
+  const std::size_t negation = pattern.size() > 1 && pattern[1] == '!' ? 1 : 0;
+  // a bracket that comes first is a member of the set
+  const std::size_t end = pattern.find(']', 2 + negation);
+  return end == std::string_view::npos ? 0 : end + 1;
+}
+
+bool is_in_set(std::string_view set, char c) noexcept
+{
+  set = set.substr(1, set.size() - 2);
+  const bool negated = set[0] == '!';
+  set.remove_prefix(negated ? 1 : 0);
+  bool found = false;
+  for (std::size_t i = 0; i < set.size(); ++i)
+  {
+    const bool range = i + 2 < set.size() && set[i + 1] == '-';
+    found = found || (range ? set[i] <= c && c <= set[i + 2] : set[i] == c);
+    i += range ? 2 : 0;
+  }
+  return found != negated;
+}
+
+bool is_file(const std::string& path)
+{
+  std::error_code none;
+  return fs::is_regular_file(path, none);
+}
+
+/// Other files that lie beside those of a run.
+bool is_beside(std::string_view name) noexcept
+{
+  return name.find("boundingBox") != std::string_view::npos || name.ends_with(".granular.idx");
+}
+
+std::string last_part(const std::string& path)
+{
+  return path.substr(path.rfind('/') + 1);
+}
+
+/// Appends the files that a pattern of the shell fits.
+void add_files(const std::string& pattern, std::vector<std::string>& names)
+{
+  glob_t found = {};
+  if (::glob(pattern.c_str(), GLOB_NOESCAPE | GLOB_NOSORT, nullptr, &found) == 0)
+  {
+    for (std::size_t i = 0; i < found.gl_pathc; ++i)
+    {
+      const std::string name = found.gl_pathv[i];
+      if (!is_beside(last_part(name)) && is_file(name))
+      {
+        names.push_back(name);
+      }
+    }
+  }
+  ::globfree(&found);
+}
+}
+
+bool has_numbers(std::string_view name, std::string_view pattern)
+{
+  if (pattern.empty())
+  {
+    return name.empty();
+  }
+  const char sign = pattern[0];
+  if (sign == '*')
+  {
+    // all ends of a number that begins here
+    const std::size_t whole = skip_digits(name, 0);
+    const bool has_decimals =
+      whole > 0 && whole + 1 < name.size() && name[whole] == '.' && is_digit(name[whole + 1]);
+    const std::size_t most = has_decimals ? skip_digits(name, whole + 1) : whole;
+    for (std::size_t end = most; end >= 1; --end)
+    {
+      if (is_digit(name[end - 1]) && has_numbers(name.substr(end), pattern.substr(1)))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+  if (sign == '%')
+  {
+    for (std::size_t end = 0; end <= name.size(); ++end)
+    {
+      if (has_numbers(name.substr(end), pattern.substr(1)))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+  if (name.empty())
+  {
+    return false;
+  }
+  const std::size_t set = set_length(pattern);
+  const bool fits =
+    set > 0 ? is_in_set(pattern.substr(0, set), name[0]) : sign == '?' || sign == name[0];
+  return fits && has_numbers(name.substr(1), pattern.substr(std::max<std::size_t>(set, 1)));
+}
+
+std::vector<std::string> find_files(const std::vector<std::string>& patterns)
+{
+  std::set<std::string> all;
+  for (const std::string& pattern : patterns)
+  {
+    std::vector<std::string> fitting;
+    std::vector<std::string> numbered;
+    for (const char* ending : { "", ".gz", ".zst" })
+    {
+      std::string shell = pattern + ending;
+      std::ranges::replace(shell, '%', '*');
+      std::vector<std::string> names;
+      if (is_file(pattern + ending)) // a name that happens to hold such signs
+      {
+        names.push_back(pattern + ending);
+      }
+      add_files(shell, names);
+      for (const std::string& name : names)
+      {
+        fitting.push_back(name);
+        if (has_numbers(last_part(name), last_part(pattern + ending)))
+        {
+          numbered.push_back(name);
+        }
+      }
+    }
+    if (fitting.empty())
+    {
+      throw IoError("no file fits the pattern", { pattern }, std::errc::no_such_file_or_directory);
+    }
+    for (const std::string& name : numbered.empty() ? fitting : numbered)
+    {
+      all.insert(fs::absolute(name).lexically_normal().string());
+    }
+  }
+  std::vector<std::string> sorted(all.begin(), all.end());
+  std::ranges::sort(sorted, is_before);
+  return sorted;
+}
+}

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What cannot be: null where a pointer is needed, structs of other sizes, choices that there are not. Nothing crashes, and the
+// message says what was expected.
+#include "handles.h"
+
+#include <cstring>
+
+namespace
+{
+void expect_null_error(granular_status status, const std::string& name)
+{
+  EXPECT_EQ(status, GRANULAR_BAD_ARGUMENT) << name;
+  EXPECT_EQ(message(), "expected " + name + ", got null");
+}
+}
+
+TEST(CMisuse, NullsAreErrors)
+{
+  const RunHandle run = open_run(good("grains.dump"));
+  const FrameHandle frame = read_frame(run, -1);
+  granular_run* new_run = nullptr;
+  granular_frame* new_frame = nullptr;
+  granular_writer* writer = nullptr;
+  granular_names* names = nullptr;
+  const char* const path = "a.dump";
+  const char* const nothing[] = { nullptr };
+  std::int64_t number = 0;
+  std::size_t count = 0;
+  granular_array array;
+
+  expect_null_error(granular_open(&path, 1, nullptr, nullptr), "run");
+  expect_null_error(granular_open(nullptr, 1, nullptr, &new_run), "names");
+  expect_null_error(granular_open(nothing, 1, nullptr, &new_run), "a name");
+  EXPECT_EQ(granular_open(&path, 0, nullptr, &new_run), GRANULAR_BAD_ARGUMENT);
+  EXPECT_EQ(message(), "expected at least one name, got none");
+  expect_null_error(granular_refresh(nullptr), "run");
+  expect_null_error(granular_run_info(nullptr, nullptr), "run");
+  expect_null_error(granular_run_info(run.get(), nullptr), "facts");
+  expect_null_error(granular_frame_info(nullptr, 0, nullptr), "run");
+  expect_null_error(granular_frame_info(run.get(), 0, nullptr), "facts");
+  expect_null_error(granular_find_frame(nullptr, 0, &number), "run");
+  expect_null_error(granular_find_frame(run.get(), 0, nullptr), "frame");
+  expect_null_error(granular_arrays(nullptr, 0, 0, nullptr, 0, &count), "run");
+  expect_null_error(granular_arrays(run.get(), 0, 0, nullptr, 0, nullptr), "count");
+  expect_null_error(granular_arrays(run.get(), 0, 0, nullptr, 1, &count), "arrays");
+  expect_null_error(granular_read(nullptr, 0, nullptr, &new_frame), "run");
+  expect_null_error(granular_read(run.get(), 0, nullptr, nullptr), "out");
+  expect_null_error(granular_read_into(run.get(), 0, nullptr, nullptr, 1, nullptr), "destinations");
+  const granular_destination nameless = {};
+  expect_null_error(granular_read_into(run.get(), 0, nullptr, &nameless, 1, nullptr), "an array");
+  expect_null_error(granular_header(nullptr, nullptr), "frame");
+  expect_null_error(granular_header(frame.get(), nullptr), "header");
+  expect_null_error(granular_array_at(nullptr, 0, &array), "frame");
+  expect_null_error(granular_array_at(frame.get(), 0, nullptr), "array");
+  expect_null_error(granular_array_named(frame.get(), nullptr, &array), "a name");
+  expect_null_error(granular_array_named(nullptr, "id", &array), "frame");
+  expect_null_error(granular_array_named(frame.get(), "id", nullptr), "array");
+  expect_null_error(granular_create(nullptr, nullptr, &writer), "a path");
+  expect_null_error(granular_create("a.dump", nullptr, nullptr), "writer");
+  expect_null_error(granular_write(nullptr, nullptr), "content");
+  expect_null_error(granular_write_frame(nullptr, nullptr), "frame");
+  expect_null_error(granular_write_frame(nullptr, frame.get()), "writer");
+  expect_null_error(granular_finish(nullptr), "writer");
+  expect_null_error(granular_find_files(nullptr, 1, &names), "names");
+  expect_null_error(granular_find_files(&path, 1, nullptr), "names");
+  EXPECT_EQ(granular_name_count(nullptr), 0u);
+  EXPECT_EQ(granular_name_at(nullptr, 0), nullptr);
+
+  // these do nothing
+  granular_close(nullptr);
+  granular_release(nullptr);
+  granular_abandon(nullptr);
+  granular_free_names(nullptr);
+  granular_open_options_init(nullptr);
+  granular_request_init(nullptr);
+  granular_format_init(nullptr);
+  granular_content_init(nullptr);
+}
+
+TEST(CMisuse, StructsOfOtherSizes)
+{
+  const RunHandle run = open_run(good("grains.dump"));
+  granular_frame* frame = nullptr;
+  granular_request request;
+  std::memset(&request, 0, sizeof(request)); // nobody called the init function
+  EXPECT_EQ(granular_read(run.get(), 0, &request, &frame), GRANULAR_BAD_ARGUMENT);
+  EXPECT_NE(message().find("got size 0"), std::string::npos) << message();
+  granular_request_init(&request);
+  request.size = sizeof(request) + 8; // of a later version
+  EXPECT_EQ(granular_read(run.get(), 0, &request, &frame), GRANULAR_BAD_ARGUMENT);
+  // an earlier version without the last members: these have their defaults
+  granular_request_init(&request);
+  request.size = offsetof(granular_request, threads);
+  request.threads = -77;
+  request.notice = nullptr;
+  EXPECT_EQ(granular_read(run.get(), 0, &request, &frame), GRANULAR_OK) << message();
+  granular_release(frame);
+}
+
+TEST(CMisuse, ChoicesThatThereAreNot)
+{
+  const RunHandle run = open_run(good("grains.dump"));
+  const std::string file = good("grains.dump");
+  const char* const path = file.c_str();
+  const auto refused = [&](auto change, const std::string& words)
+  {
+    granular_open_options options;
+    granular_open_options_init(&options);
+    change(options);
+    granular_run* none = nullptr;
+    EXPECT_EQ(granular_open(&path, 1, &options, &none), GRANULAR_BAD_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+    EXPECT_NE(message().find(words), std::string::npos) << message();
+  };
+  refused(
+    [](auto& options) { options.kind = static_cast<granular_kind>(6); }, "granular_kind, got 6");
+  refused([](auto& options) { options.timestep_size = 0; }, "timestep_size greater than 0");
+  refused([](auto& options) { options.repeated_steps = 3; }, "repeated_steps from 0 to 2, got 3");
+  refused([](auto& options) { options.keep_index = -1; }, "keep_index from 0 to 2, got -1");
+
+  const auto refused_request = [&](auto change, const std::string& words)
+  {
+    granular_request request;
+    granular_request_init(&request);
+    change(request);
+    granular_frame* frame = nullptr;
+    EXPECT_EQ(granular_read(run.get(), 0, &request, &frame), GRANULAR_BAD_ARGUMENT);
+    EXPECT_EQ(frame, nullptr);
+    EXPECT_NE(message().find(words), std::string::npos) << message();
+  };
+  refused_request([](auto& request) { request.stride = 0; }, "stride of at least 1, got 0");
+  refused_request([](auto& request) { request.table = 1; }, "expected table 0, got 1");
+  refused_request([](auto& request) { request.coordinates = static_cast<granular_coordinates>(3); },
+    "coordinates from 0 to 2, got 3");
+  refused_request([](auto& request) { request.array_count = 1; }, "names of arrays, got null");
+
+  const auto refused_format = [&](auto change, const std::string& words)
+  {
+    granular_format format;
+    granular_format_init(&format);
+    change(format);
+    granular_writer* writer = nullptr;
+    const std::string to = std::string(GRANULAR_OUTPUT) + "/refused.dump";
+    EXPECT_NE(granular_create(to.c_str(), &format, &writer), GRANULAR_OK);
+    EXPECT_EQ(writer, nullptr);
+    EXPECT_NE(message().find(words), std::string::npos) << message();
+  };
+  refused_format([](auto& format) { format.style = "xyz"; }, "got 'xyz'");
+  refused_format([](auto& format) { format.dialect = "lammps"; },
+    "expected a dialect of Automatic, LIGGGHTS, LAMMPS, got 'lammps'");
+  refused_format([](auto& format) { format.numbers = "%d"; }, "got '%d'");
+}
+
+TEST(CMisuse, ArraysThatCannotBeWritten)
+{
+  const double x[] = { 1, 2, 3 };
+  const std::int32_t word = 3;
+  const char* const words[] = { "H" };
+  const granular_array good_points = { "points", GRANULAR_FLOAT64, 3, 1, x, nullptr, 0, "", "" };
+  const auto refused = [&](const granular_array& array, const std::string& expected)
+  {
+    const std::string path = std::string(GRANULAR_OUTPUT) + "/arrays.dump";
+    granular_writer* writer = nullptr;
+    ASSERT_EQ(granular_create(path.c_str(), nullptr, &writer), GRANULAR_OK) << message();
+    const granular_array arrays[] = { good_points, array };
+    granular_content content;
+    granular_content_init(&content);
+    content.rows = 1;
+    content.arrays = arrays;
+    content.array_count = 2;
+    EXPECT_EQ(granular_write(writer, &content), GRANULAR_BAD_ARGUMENT);
+    EXPECT_NE(message().find(expected), std::string::npos) << message();
+    granular_abandon(writer);
+    EXPECT_FALSE(std::ifstream(path).good());
+  };
+  refused({ nullptr, GRANULAR_FLOAT64, 1, 1, x, nullptr, 0, "", "" }, "expected a name");
+  refused({ "a", static_cast<granular_type>(11), 1, 1, x, nullptr, 0, "", "" }, "expected a type");
+  refused({ "a", GRANULAR_FLOAT64, 0, 1, x, nullptr, 0, "", "" }, "at least one component");
+  refused({ "a", GRANULAR_FLOAT64, 1, 1, nullptr, nullptr, 0, "", "" }, "data, got null");
+  refused({ "a", GRANULAR_TEXT, 1, 1, &word, nullptr, 0, "", "" }, "words");
+  refused({ "a", GRANULAR_TEXT, 1, 1, &word, words, 1, "", "" }, "indices of 1 words, got 3");
+  refused({ "points", GRANULAR_FLOAT64, 2, 1, x, nullptr, 0, "", "" }, "three components");
+
+  granular_content nowhere;
+  granular_content_init(&nowhere);
+  nowhere.rows = 1;
+  granular_writer* writer = nullptr;
+  const std::string path = std::string(GRANULAR_OUTPUT) + "/nowhere.dump";
+  ASSERT_EQ(granular_create(path.c_str(), nullptr, &writer), GRANULAR_OK);
+  EXPECT_EQ(granular_write(writer, &nowhere), GRANULAR_BAD_ARGUMENT);
+  EXPECT_NE(message().find("'points'"), std::string::npos) << message();
+  granular_abandon(writer);
+}
