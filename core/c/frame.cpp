@@ -183,115 +183,6 @@ const FrameArray& find_array(const granular_frame& frame, const std::string& nam
   throw BadArgument("expected an array of " + list + ", got '" + name + "'");
 }
 
-namespace
-{
-/// Calls with a null pointer to the C++ type of a type of numbers.
-template <class Use>
-void with_type(ValueType type, Use&& use)
-{
-  switch (type)
-  {
-    case ValueType::Int8:
-      return use(static_cast<std::int8_t*>(nullptr));
-    case ValueType::UInt8:
-      return use(static_cast<std::uint8_t*>(nullptr));
-    case ValueType::Int16:
-      return use(static_cast<std::int16_t*>(nullptr));
-    case ValueType::UInt16:
-      return use(static_cast<std::uint16_t*>(nullptr));
-    case ValueType::Int32:
-    case ValueType::Text:
-      return use(static_cast<std::int32_t*>(nullptr));
-    case ValueType::UInt32:
-      return use(static_cast<std::uint32_t*>(nullptr));
-    case ValueType::Int64:
-      return use(static_cast<std::int64_t*>(nullptr));
-    case ValueType::UInt64:
-      return use(static_cast<std::uint64_t*>(nullptr));
-    case ValueType::Float32:
-      return use(static_cast<float*>(nullptr));
-    case ValueType::Float64:
-      return use(static_cast<double*>(nullptr));
-    default:
-      throw BadArgument("expected a type of granular_type");
-  }
-}
-
-/// Whether a number is the same in another type; floats may be rounded to floats.
-template <class To, class From>
-bool fits(From value, To converted) noexcept
-{
-  if constexpr (std::is_floating_point_v<To>)
-  {
-    return std::is_floating_point_v<From> ||
-      static_cast<long double>(converted) == static_cast<long double>(value);
-  }
-  else if constexpr (std::is_floating_point_v<From>)
-  {
-    constexpr auto most = static_cast<From>(std::numeric_limits<To>::max());
-    return value >= static_cast<From>(std::numeric_limits<To>::min()) && value <= most &&
-      static_cast<From>(converted) == value && (most != value || sizeof(To) < sizeof(From));
-  }
-  else
-  {
-    return std::in_range<To>(value);
-  }
-}
-
-template <class To, class From>
-To convert(From value) noexcept
-{
-  if constexpr (std::is_integral_v<To> && std::is_floating_point_v<From>)
-  {
-    // undefined for numbers beyond the type, which do not fit
-    constexpr auto least = static_cast<From>(std::numeric_limits<To>::min());
-    constexpr auto most = static_cast<From>(std::numeric_limits<To>::max());
-    return value >= least && value < most ? static_cast<To>(value) : To{};
-  }
-  else
-  {
-    return static_cast<To>(value);
-  }
-}
-}
-
-void copy_array(const granular_frame& frame, const granular_destination& to)
-{
-  const FrameArray& array = find_array(frame, to.array);
-  const auto values =
-    static_cast<std::size_t>(frame.rows) * static_cast<std::size_t>(array.components);
-  if (to.values < values || (to.data == nullptr && values > 0))
-  {
-    throw BadArgument("array '" + array.name + "': expected room for " + std::to_string(values) +
-      " values, got " + std::to_string(to.data == nullptr ? 0 : to.values));
-  }
-  if (array.type == ValueType::Text && to.type != GRANULAR_TEXT)
-  {
-    throw BadArgument("array '" + array.name + "': expected the type GRANULAR_TEXT for words");
-  }
-  with_type(static_cast<ValueType>(to.type),
-    [&](auto* target_type)
-    {
-      with_type(array.type,
-        [&](auto* source_type)
-        {
-          using To = std::remove_pointer_t<decltype(target_type)>;
-          using From = std::remove_pointer_t<decltype(source_type)>;
-          const auto* const from = static_cast<const From*>(array.data);
-          auto* const target = static_cast<To*>(to.data);
-          for (std::size_t i = 0; i < values; ++i)
-          {
-            target[i] = convert<To>(from[i]);
-            if (!fits<To>(from[i], target[i]))
-            {
-              throw BadArgument("array '" + array.name + "', value " + std::to_string(i) +
-                ": expected a number of the wanted type, got " + std::to_string(from[i]));
-            }
-          }
-        });
-    });
-}
-
 granular_box box_of(const FrameHeader& header)
 {
   granular_box made = {};
@@ -311,22 +202,6 @@ granular_box box_of(const FrameHeader& header)
   }
   made.boundary = header.box.boundary.c_str();
   return made;
-}
-
-void read_numbers(
-  const ArrayView& array, int component, std::int64_t rows, double* to, std::int64_t step)
-{
-  with_type(array.type,
-    [&](auto* type)
-    {
-      using From = std::remove_pointer_t<decltype(type)>;
-      const auto* const from =
-        static_cast<const From*>(array.components[static_cast<std::size_t>(component)]);
-      for (std::int64_t row = 0; row < rows; ++row)
-      {
-        to[row * step] = static_cast<double>(from[row * array.step]);
-      }
-    });
 }
 
 WriteView::WriteView(const granular_frame& frame)

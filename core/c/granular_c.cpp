@@ -1,151 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The functions of granular.h. Each runs in a guard that turns exceptions into a status and the last error of the thread.
-#include "bad_argument.h"
-#include "granular.h"
+// The functions of granular.h for runs and frames.
+#include "guard.h"
 #include "run.h"
-#include "writer.h"
 
-#include "granular/bytes/find_files.h"
-
-#include <cstring>
-#include <exception>
-#include <new>
-#include <string>
-#include <type_traits>
-#include <vector>
+#include <algorithm>
 
 using namespace granular_c;
 
-struct granular_names
-{
-  std::vector<std::string> all;
-};
-
 namespace
 {
-/// The last error of a thread, which its strings are pointers into.
-struct LastError
-{
-  std::string message, text, path, column;
-  granular_error error = { GRANULAR_OK, "", "", "", 0, -1, "" };
-
-  granular_status set(granular_status status, std::string whole, const std::string& words,
-    const granular::Where& where) noexcept
-  try
-  {
-    message = std::move(whole);
-    text = words;
-    path = where.path;
-    column = where.column;
-    error = { status, message.c_str(), text.c_str(), path.c_str(), where.line, where.byte,
-      column.c_str() };
-    return status;
-  }
-  catch (const std::exception&)
-  {
-    error = { status, "out of memory", "out of memory", "", 0, -1, "" };
-    return status;
-  }
-};
-
-thread_local LastError last_error;
-
-granular_status status_of(const granular::Error& error) noexcept
-{
-  if (dynamic_cast<const BadArgument*>(&error) != nullptr)
-  {
-    return GRANULAR_BAD_ARGUMENT;
-  }
-  if (dynamic_cast<const granular::IoError*>(&error) != nullptr)
-  {
-    return GRANULAR_IO_ERROR;
-  }
-  if (dynamic_cast<const granular::FormatError*>(&error) != nullptr)
-  {
-    return GRANULAR_FORMAT_ERROR;
-  }
-  if (dynamic_cast<const granular::LimitError*>(&error) != nullptr)
-  {
-    return GRANULAR_LIMIT_ERROR;
-  }
-  return dynamic_cast<const granular::UnsupportedError*>(&error) != nullptr
-    ? GRANULAR_UNSUPPORTED
-    : GRANULAR_BAD_ARGUMENT; // of a format, a column or a frame that cannot be
-}
-
-/// Runs the body of a function.
-template <class Body>
-granular_status guarded(Body&& body) noexcept
-{
-  try
-  {
-    body();
-    return GRANULAR_OK;
-  }
-  catch (const granular::Error& error)
-  {
-    return last_error.set(status_of(error), error.what(), error.text(), error.where());
-  }
-  catch (const granular::Cancelled&)
-  {
-    return last_error.set(GRANULAR_CANCELLED, "cancelled", "cancelled", {});
-  }
-  catch (const std::bad_alloc&)
-  {
-    return last_error.set(GRANULAR_NO_MEMORY, "out of memory", "out of memory", {});
-  }
-  catch (const std::exception& error)
-  {
-    return last_error.set(GRANULAR_OTHER_ERROR, error.what(), error.what(), {});
-  }
-  catch (...)
-  {
-    return last_error.set(GRANULAR_OTHER_ERROR, "unknown error", "unknown error", {});
-  }
-}
-
-template <class Pointer>
-Pointer& needed(Pointer* pointer, const char* name)
-{
-  if (pointer == nullptr)
-  {
-    throw BadArgument(std::string("expected ") + name + ", got null");
-  }
-  return *pointer;
-}
-
-/// The caller's struct, which may be of an earlier version and shorter, over the defaults.
-template <class Struct>
-Struct taken(const Struct* given, void (*init)(Struct*))
-{
-  Struct made;
-  init(&made);
-  if (given != nullptr)
-  {
-    if (given->size < sizeof(std::size_t) || given->size > sizeof(Struct))
-    {
-      throw BadArgument("expected a struct of up to " + std::to_string(sizeof(Struct)) +
-        " bytes that its init function has filled, got size " + std::to_string(given->size));
-    }
-    std::memcpy(&made, given, given->size);
-  }
-  return made;
-}
-
-std::vector<std::string> texts_of(const char* const* texts, std::size_t count)
-{
-  std::vector<std::string> made;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    made.emplace_back(&needed((&needed(texts, "names"))[i], "a name"));
-  }
-  if (made.empty())
-  {
-    throw BadArgument("expected at least one name, got none");
-  }
-  return made;
-}
-
 granular_array array_of(const granular_frame& frame, const FrameArray& array)
 {
   return { array.name.c_str(), static_cast<granular_type>(array.type), array.components, frame.rows,
@@ -157,16 +20,6 @@ granular_array array_of(const granular_frame& frame, const FrameArray& array)
 
 extern "C"
 {
-  const granular_error* granular_last_error(void)
-  {
-    return &last_error.error;
-  }
-
-  const char* granular_version(void)
-  {
-    return GRANULAR_VERSION;
-  }
-
   // ---- runs --------------------------------------------------------------------------------------
   void granular_open_options_init(granular_open_options* options)
   {
@@ -376,111 +229,9 @@ extern "C"
     return guarded(
       [&]
       {
-        needed(array, "array") =
-          array_of(needed(frame, "frame"), find_array(*frame, &needed(name, "a name")));
+        const granular_frame& from = needed(frame, "frame");
+        const FrameArray& found = find_array(from, &needed(name, "a name"));
+        needed(array, "array") = array_of(from, found);
       });
-  }
-
-  // ---- writing -----------------------------------------------------------------------------------
-  void granular_format_init(granular_format* format)
-  {
-    if (format != nullptr)
-    {
-      *format = {};
-      format->size = sizeof(*format);
-      format->style = format->dialect = format->columns = format->numbers = format->label = "";
-      format->scaled = 1;
-    }
-  }
-
-  granular_status granular_create(
-    const char* path, const granular_format* format, granular_writer** writer)
-  {
-    return guarded(
-      [&]
-      {
-        needed(writer, "writer") = nullptr;
-        *writer =
-          create_writer(&needed(path, "a path"), taken(format, granular_format_init)).release();
-      });
-  }
-
-  void granular_content_init(granular_content* content)
-  {
-    if (content != nullptr)
-    {
-      *content = {};
-      content->size = sizeof(*content);
-      content->units = "";
-    }
-  }
-
-  granular_status granular_write(granular_writer* writer, const granular_content* content)
-  {
-    return guarded(
-      [&]
-      {
-        const granular_content given = taken(&needed(content, "content"), granular_content_init);
-        const WriteView frame(given, needed(writer, "writer").kind);
-        granular::Notices notices;
-        writer->caller.begin();
-      writer->write(frame.view, notices, writer->caller);
-        writer->caller.tell(notices);
-      });
-  }
-
-  granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame)
-  {
-    return guarded(
-      [&]
-      {
-        const WriteView view(needed(frame, "frame"));
-        granular::Notices notices;
-        needed(writer, "writer").caller.begin();
-      writer->write(view.view, notices, writer->caller);
-        writer->caller.tell(notices);
-      });
-  }
-
-  granular_status granular_finish(granular_writer* writer)
-  {
-    return guarded(
-      [&]
-      {
-        const std::unique_ptr<granular_writer> own(&needed(writer, "writer"));
-        own->finish();
-      });
-  }
-
-  void granular_abandon(granular_writer* writer)
-  {
-    delete writer;
-  }
-
-  // ---- files -------------------------------------------------------------------------------------
-  granular_status granular_find_files(
-    const char* const* patterns, size_t count, granular_names** names)
-  {
-    return guarded(
-      [&]
-      {
-        needed(names, "names") = nullptr;
-        *names = new granular_names{ granular::find_files(texts_of(patterns, count)) };
-      });
-  }
-
-  size_t granular_name_count(const granular_names* names)
-  {
-    return names == nullptr ? 0 : names->all.size();
-  }
-
-  const char* granular_name_at(const granular_names* names, size_t number)
-  {
-    return names == nullptr || number >= names->all.size() ? nullptr : names->all[number].c_str();
-  }
-
-  void granular_free_names(granular_names* names)
-  {
-    delete names;
   }
 }

@@ -377,10 +377,12 @@ const std::vector<Kind>& kinds()
 {
   static const std::vector<Kind> all = {
     { GRANULAR_KIND_DUMP, is_dump_file, dump_format, false, true, dump_arrays, read_dump_frame },
-    { GRANULAR_KIND_LOCAL, is_local_file, local_format, false, true, local_arrays, read_local_frame },
+    { GRANULAR_KIND_LOCAL, is_local_file, local_format, false, true, local_arrays,
+      read_local_frame },
     { GRANULAR_KIND_RESTART, is_restart_file, restart_format, true, false, restart_arrays,
       read_restart_frame },
-    { GRANULAR_KIND_DATA_FILE, is_data_file, data_file_format, true, false, data_arrays, read_data_frame },
+    { GRANULAR_KIND_DATA_FILE, is_data_file, data_file_format, true, false, data_arrays,
+      read_data_frame },
     { GRANULAR_KIND_DECOMPOSITION, is_decomposition_file, decomposition_format, false, true,
       subdomain_arrays, read_decomposition_frame },
     { GRANULAR_KIND_EULER, is_euler_file, euler_format, false, true, euler_frame_arrays,

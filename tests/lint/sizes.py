@@ -7,6 +7,7 @@ import tree
 
 # files, lines of a function, lines of a file
 BUDGETS = (
+    (r"core/c/granular\.h", 80, 500),  # the whole interface, for programs that include one file
     (r"core/.*\.h", 80, 200),
     (r"core/.*\.(cpp|inc)", 80, 400),
     (r"plugin/(vtk|servermanager|views)/.*\.h", 100, 200),

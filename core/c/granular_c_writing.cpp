@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The functions of granular.h for writing, and for the names of files.
+#include "guard.h"
+#include "writer.h"
+
+#include "granular/bytes/find_files.h"
+
+using namespace granular_c;
+
+struct granular_names
+{
+  std::vector<std::string> all;
+};
+
+extern "C"
+{
+  // ---- writing -----------------------------------------------------------------------------------
+  void granular_format_init(granular_format* format)
+  {
+    if (format != nullptr)
+    {
+      *format = {};
+      format->size = sizeof(*format);
+      format->style = format->dialect = format->columns = format->numbers = format->label = "";
+      format->scaled = 1;
+    }
+  }
+
+  granular_status granular_create(
+    const char* path, const granular_format* format, granular_writer** writer)
+  {
+    return guarded(
+      [&]
+      {
+        needed(writer, "writer") = nullptr;
+        *writer =
+          create_writer(&needed(path, "a path"), taken(format, granular_format_init)).release();
+      });
+  }
+
+  void granular_content_init(granular_content* content)
+  {
+    if (content != nullptr)
+    {
+      *content = {};
+      content->size = sizeof(*content);
+      content->units = "";
+    }
+  }
+
+  granular_status granular_write(granular_writer* writer, const granular_content* content)
+  {
+    return guarded(
+      [&]
+      {
+        const granular_content given = taken(&needed(content, "content"), granular_content_init);
+        const WriteView frame(given, needed(writer, "writer").kind);
+        granular::Notices notices;
+        writer->caller.begin();
+        writer->write(frame.view, notices, writer->caller);
+        writer->caller.tell(notices);
+      });
+  }
+
+  granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame)
+  {
+    return guarded(
+      [&]
+      {
+        const WriteView view(needed(frame, "frame"));
+        granular::Notices notices;
+        needed(writer, "writer").caller.begin();
+        writer->write(view.view, notices, writer->caller);
+        writer->caller.tell(notices);
+      });
+  }
+
+  granular_status granular_finish(granular_writer* writer)
+  {
+    return guarded(
+      [&]
+      {
+        const std::unique_ptr<granular_writer> own(&needed(writer, "writer"));
+        own->finish();
+      });
+  }
+
+  void granular_abandon(granular_writer* writer)
+  {
+    delete writer;
+  }
+
+  // ---- files -------------------------------------------------------------------------------------
+  granular_status granular_find_files(
+    const char* const* patterns, size_t count, granular_names** names)
+  {
+    return guarded(
+      [&]
+      {
+        needed(names, "names") = nullptr;
+        *names = new granular_names{ granular::find_files(texts_of(patterns, count)) };
+      });
+  }
+
+  size_t granular_name_count(const granular_names* names)
+  {
+    return names == nullptr ? 0 : names->all.size();
+  }
+
+  const char* granular_name_at(const granular_names* names, size_t number)
+  {
+    return names == nullptr || number >= names->all.size() ? nullptr : names->all[number].c_str();
+  }
+
+  void granular_free_names(granular_names* names)
+  {
+    delete names;
+  }
+}
