@@ -281,7 +281,8 @@ FrameHeader header_of(const FramePiece& piece, const Vector3& lo, const Vector3&
 void read_euler_frame(granular_run& run, std::size_t frame, const Wanted& wanted, Notices& notices,
   Progress& progress, granular_frame& to)
 {
-  EulerFrame cells = read_euler(run.index.pieces(frame), wanted_names(wanted), notices, progress);
+  EulerFrame cells =
+    read_euler_pieces(run.index.pieces(frame), wanted_names(wanted), notices, progress);
   Vector3 lo = {};
   Vector3 hi = {};
   for (std::size_t i = 0; i < cells.centres.size(); ++i)
@@ -328,7 +329,7 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
   Notices& notices, Progress& progress, granular_frame& to)
 {
   const std::vector<FramePiece> pieces = run.index.pieces(frame);
-  const Decomposition all = read_decomposition(pieces, notices, progress);
+  const Decomposition all = read_decomposition_pieces(pieces, notices, progress);
   const Subdomain bounds = bounds_of(all.subdomains);
   to.kind = RowKind::Subdomains;
   to.header = header_of(pieces.front(), bounds.lo, bounds.hi);

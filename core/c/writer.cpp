@@ -54,8 +54,8 @@ std::optional<Value> choose(
 class RowsWriter final : public granular_writer
 {
 public:
-  RowsWriter(RowKind kind, std::string path, DumpFormat form, const granular_format& format)
-    : granular_writer(kind, format)
+  RowsWriter(RowKind of, std::string path, DumpFormat form, const granular_format& format)
+    : granular_writer(of, format)
     , writer_(std::move(path), std::move(form),
         { .threads = format.threads > 0 ? format.threads : available_cores() }, alone_)
   {
@@ -97,8 +97,8 @@ std::vector<double> doubles_of(const FrameView& frame, std::string_view name, in
 class WholeWriter : public granular_writer
 {
 public:
-  WholeWriter(RowKind kind, std::string path, bool holds_many, const granular_format& format)
-    : granular_writer(kind, format)
+  WholeWriter(RowKind of, std::string path, bool holds_many, const granular_format& format)
+    : granular_writer(of, format)
     , path_(std::move(path))
     , holds_many_(holds_many)
   {

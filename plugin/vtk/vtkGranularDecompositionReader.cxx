@@ -65,7 +65,7 @@ int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
     {
       shown.Progress.set_part(0, 0.4);
       granular::Decomposition all =
-        granular::read_decomposition(shown.Pieces, shown.Notices, shown.Progress);
+        granular::read_decomposition_pieces(shown.Pieces, shown.Notices, shown.Progress);
       const granular::SubdomainChecks checks = { static_cast<granular::Answer>(this->CheckBounds),
         static_cast<granular::Answer>(this->CheckOverlap),
         static_cast<granular::Answer>(this->CheckGaps), this->Tolerance };

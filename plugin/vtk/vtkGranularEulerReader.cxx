@@ -74,7 +74,7 @@ granular::EulerFrame ReadCells(const std::vector<granular::FramePiece>& pieces,
   const std::function<bool(std::string_view)>& wanted, std::vector<granular::RegularGrid>* grids,
   granular::Notices& notices, granular::Progress& progress)
 {
-  granular::EulerFrame all = granular::read_euler(pieces, wanted, notices, progress);
+  granular::EulerFrame all = granular::read_euler_pieces(pieces, wanted, notices, progress);
   if (grids)
   {
     NameFile(granular::where_of(pieces.front().file.path, pieces.front().entry),

@@ -45,7 +45,7 @@ Decomposition read_decomposition(
   const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress);
 
 /// Decodes all pieces of a frame. Files of single ranks without their numbers are those of ranks 0, 1, ...
-Decomposition read_decomposition(
+Decomposition read_decomposition_pieces(
   const std::vector<FramePiece>& pieces, Notices& notices, Progress& progress);
 
 /// Adds one notice that cells were corrected.

@@ -120,14 +120,13 @@ Decomposition read_decomposition(
   return decomposition;
 }
 
-Decomposition read_decomposition(
+Decomposition read_decomposition_pieces(
   const std::vector<FramePiece>& pieces, Notices& notices, Progress& progress)
 {
   std::vector<Decomposition> parts;
   for (const FramePiece& piece : pieces)
   {
-    parts.push_back(
-      read_decomposition(*open_indexed(piece.file), piece.entry, notices, progress));
+    parts.push_back(read_decomposition(*open_indexed(piece.file), piece.entry, notices, progress));
   }
   const bool numbered =
     parts.size() > 1 && !parts.front().has_ranks && parts.front().subdomains.size() == 1;

@@ -190,7 +190,7 @@ void append(EulerFrame& all, const EulerFrame& more, std::set<std::string>& lost
 }
 }
 
-EulerFrame read_euler(const std::vector<FramePiece>& pieces,
+EulerFrame read_euler_pieces(const std::vector<FramePiece>& pieces,
   const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress)
 {
   EulerFrame all;

@@ -55,7 +55,7 @@ EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,
 
 /// Decodes all pieces of a frame as one, with the arrays that all pieces with cells have; a notice names each of the others. There
 /// are no faces if several pieces have cells.
-EulerFrame read_euler(const std::vector<FramePiece>& pieces,
+EulerFrame read_euler_pieces(const std::vector<FramePiece>& pieces,
   const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress);
 
 /// Returns the names of the arrays of a frame, without reading their values.
