@@ -354,11 +354,11 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
     }
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, std::vector<double>>)
     {
-      add_array(to, std::string(known.name), 3, std::move(values), &known);
+      add_array(to, std::string(known.name), 3, std::forward<decltype(values)>(values), &known);
     }
     else
     {
-      add_array(to, std::string(known.name), std::move(values), &known);
+      add_array(to, std::string(known.name), std::forward<decltype(values)>(values), &known);
     }
   };
   add(0, std::move(lo));
