@@ -83,20 +83,12 @@ if(GRANULAR_PARAVIEW)
   include(cmake/paraview_plugin.cmake)
 endif()
 
-# ---- the Python package ------------------------------------------------------------------------
-# PYTHONPATH of the build tree, and below the prefix when installed.
-set(GRANULAR_PYTHON_FOLDER "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages" CACHE STRING
-  "Folder of the Python package, below the prefix")
-set(granular_python_folder "${GRANULAR_PYTHON_FOLDER}")
+# ---- the compiled classes in the Python package ------------------------------------------------
 if(GRANULAR_BUILD_PYTHON)
   add_subdirectory(plugin/python)
 endif()
 
-# For whoever starts Python or ParaView on the build tree by hand or from a script: to be sourced by a shell.
-set(granular_environment
-  "export PYTHONPATH='${CMAKE_BINARY_DIR}/${granular_python_folder}'\"\${PYTHONPATH:+:\$PYTHONPATH}\"\n")
 if(GRANULAR_PARAVIEW)
-  string(APPEND granular_environment
+  set(granular_environment
     "export PV_PLUGIN_PATH='${CMAKE_BINARY_DIR}/${granular_plugin_folder}'\"\${PV_PLUGIN_PATH:+:\$PV_PLUGIN_PATH}\"\n")
 endif()
-file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/environment" CONTENT "${granular_environment}")

@@ -59,7 +59,8 @@ void check_array(const granular_array& array, std::int64_t rows)
   expect(
     array.type != GRANULAR_TEXT || (array.words != nullptr && array.components == 1) || rows == 0,
     "words and one component for text");
-  expect(name != points_name || array.components == 3, "three components");
+  expect(name != points_name || array.components == 3,
+    "three components, got " + std::to_string(array.components));
   expect(name != ends_name || (array.components == 6 && array.type == GRANULAR_FLOAT64),
     "six components of doubles");
 }

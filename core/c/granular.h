@@ -150,6 +150,20 @@ typedef struct granular_frame_facts
 GRANULAR_API granular_status granular_frame_info(
   granular_run* run, int64_t frame, granular_frame_facts* facts);
 
+/* Facts of a file of a run. */
+typedef struct granular_file_facts
+{
+  const char* path;
+  int64_t bytes;      /* on the disk */
+  int64_t frames;     /* that are complete */
+  int64_t repeated;   /* of these, whose timestep is that of an earlier one in this file */
+  const char* defect; /* why the first frame that is not among them was left out, such as one that ends early; empty: none is known */
+} granular_file_facts;
+
+/* file: from 0, in the order of granular_find_files. */
+GRANULAR_API granular_status granular_file_info(
+  granular_run* run, int64_t file, granular_file_facts* facts);
+
 /* Returns in *frame the last frame at or before a time, or 0. */
 GRANULAR_API granular_status granular_find_frame(granular_run* run, double time, int64_t* frame);
 

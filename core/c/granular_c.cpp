@@ -4,6 +4,7 @@
 #include "run.h"
 
 #include <algorithm>
+#include <set>
 
 using namespace granular_c;
 
@@ -83,6 +84,31 @@ extern "C"
         const granular::FramePiece first = run->index.first_piece(number);
         needed(facts, "facts") = { first.entry.timestep, run->times[number], rows,
           first.file.path.c_str() };
+      });
+  }
+
+  granular_status granular_file_info(granular_run* run, int64_t file, granular_file_facts* facts)
+  {
+    return guarded(
+      [&]
+      {
+        const std::shared_lock lock(needed(run, "run").mutex);
+        const auto& files = run->index.files();
+        if (file < 0 || file >= static_cast<std::int64_t>(files.size()))
+        {
+          throw BadArgument("expected a file from 0 to " + std::to_string(files.size()) +
+            " - 1, got " + std::to_string(file));
+        }
+        const auto number = static_cast<std::size_t>(file);
+        const granular::FileIndex& index = files[number];
+        std::set<std::int64_t> steps;
+        for (const granular::FrameEntry& frame : index.frames)
+        {
+          steps.insert(frame.timestep);
+        }
+        const auto frames = static_cast<std::int64_t>(index.frames.size());
+        needed(facts, "facts") = { index.path.c_str(), index.stamp.size, frames,
+          frames - static_cast<std::int64_t>(steps.size()), run->defects[number].c_str() };
       });
   }
 

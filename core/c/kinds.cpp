@@ -213,6 +213,7 @@ void read_data_frame(granular_run& run, std::size_t frame, const Wanted& wanted,
   DataRequest request;
   request.particles = dump_request(wanted);
   request.particles.single_precision = false;
+  const bool points = std::exchange(request.particles.points, true); // bonds end there
   request.atom_style = run.atom_style;
   if (wanted.request.table == 1)
   {
@@ -228,6 +229,10 @@ void read_data_frame(granular_run& run, std::size_t frame, const Wanted& wanted,
   }
   else
   {
+    if (!points)
+    {
+      read.particles.points = {};
+    }
     take_rows(to, std::move(read.particles), known_columns());
   }
   to.origin = request.particles.point_origin;
@@ -315,12 +320,19 @@ constexpr KnownColumn subdomain_columns[] = {
   { "proc", ValueType::Int64, ColumnRole::Other, "", 0, 1, "-", "rank that owns the subdomain" },
 };
 
-std::vector<OfferedArray> subdomain_arrays(granular_run&, std::size_t, int)
+/// A file says nowhere but in its data which of them it has.
+std::vector<OfferedArray> subdomain_arrays(granular_run& run, std::size_t frame, int)
 {
+  Notices notices;
+  Progress progress;
+  const Decomposition all = read_decomposition_pieces(run.index.pieces(frame), notices, progress);
   std::vector<OfferedArray> arrays;
   for (const KnownColumn& known : subdomain_columns)
   {
-    arrays.push_back({ std::string(known.name), known.type, known.components, true, &known });
+    if ((known.name != "nlocal" || all.has_particles) && (known.name != "proc" || all.has_ranks))
+    {
+      arrays.push_back({ std::string(known.name), known.type, known.components, true, &known });
+    }
   }
   return arrays;
 }
@@ -345,31 +357,23 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
     particles.push_back(each.particles);
     ranks.push_back(each.rank);
   }
-  const auto add = [&](std::size_t which, auto&& values)
+  const auto is_wanted = [&](std::size_t which)
+  { return wanted.is_wanted(subdomain_columns[which].name, true); };
+  if (is_wanted(0))
   {
-    const KnownColumn& known = subdomain_columns[which];
-    if (!wanted.is_wanted(known.name, true))
-    {
-      return;
-    }
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, std::vector<double>>)
-    {
-      add_array(to, std::string(known.name), 3, std::forward<decltype(values)>(values), &known);
-    }
-    else
-    {
-      add_array(to, std::string(known.name), std::forward<decltype(values)>(values), &known);
-    }
-  };
-  add(0, std::move(lo));
-  add(1, std::move(hi));
-  if (all.has_particles)
-  {
-    add(2, std::move(particles));
+    add_array(to, "lo", 3, std::move(lo), &subdomain_columns[0]);
   }
-  if (all.has_ranks)
+  if (is_wanted(1))
   {
-    add(3, std::move(ranks));
+    add_array(to, "hi", 3, std::move(hi), &subdomain_columns[1]);
+  }
+  if (all.has_particles && is_wanted(2))
+  {
+    add_array(to, "nlocal", std::move(particles), &subdomain_columns[2]);
+  }
+  if (all.has_ranks && is_wanted(3))
+  {
+    add_array(to, "proc", std::move(ranks), &subdomain_columns[3]);
   }
 }
 }

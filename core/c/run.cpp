@@ -5,6 +5,7 @@
 
 #include "granular/bytes/find_files.h"
 #include "granular/common/words.h"
+#include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ granular_run::granular_run(std::vector<std::string> patterns, const granular_ope
 {
   if (!(timestep_size > 0))
   {
-    throw BadArgument("expected a timestep_size greater than 0");
+    throw BadArgument("expected a timestep_size greater than 0, got " + to_text(timestep_size));
   }
   kind_ = &find_kind(options.kind, find_files(patterns_).front());
   options_ = index_options(options, *kind_);
@@ -137,6 +138,11 @@ void granular_run::refresh(Caller& caller)
   Notices notices;
   index.update(find_files(patterns_), options_, notices, caller);
   times = index.times(timestep_size, notices);
+  defects.clear();
+  for (const FileIndex& file : index.files())
+  {
+    defects.push_back(file.defect ? to_string(*file.defect) : "");
+  }
   {
     const std::lock_guard guard(offers_mutex_);
     offers_.clear();

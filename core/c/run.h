@@ -92,6 +92,7 @@ struct granular_run
   std::shared_mutex mutex;
   granular::RunIndex index;
   std::vector<double> times;
+  std::vector<std::string> defects; ///< of each file; empty: none
 
   // as they were given
   double timestep_size = 1;

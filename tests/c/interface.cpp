@@ -495,3 +495,46 @@ TEST(CInterface, Version)
     std::to_string(GRANULAR_VERSION_MINOR) + "." + std::to_string(GRANULAR_VERSION_PATCH);
   EXPECT_EQ(granular_version(), version);
 }
+
+TEST(CInterface, EachArrayAloneIsThatOfTheWhole)
+{
+  for (const std::string name : { "grains.dump", "tri_scaled_image.dump", "euler_1000.vtk",
+         "decomposition_1000.vtk", "data_file/granular.data", "local/contacts.dump",
+         "restart/fibres.restart", "local/chain.data" })
+  {
+    const RunHandle run = open_run(good(name));
+    const std::int64_t last = facts_of(run).frames - 1;
+    for (int table = 0; table < facts_of(run).tables; ++table)
+    {
+      granular_request request;
+      granular_request_init(&request);
+      request.table = table;
+      const FrameHandle whole = read_frame(run, last, &request);
+      granular_frame_header header = {};
+      granular_header(whole.get(), &header);
+      const char* none = "";
+      request.arrays = &none;
+      const FrameHandle empty = read_frame(run, last, &request);
+      granular_frame_header bare = {};
+      granular_header(empty.get(), &bare);
+      EXPECT_EQ(bare.rows, header.rows) << name;
+      for (std::size_t i = 0; i < header.arrays; ++i)
+      {
+        granular_array array = {};
+        granular_array_at(whole.get(), i, &array);
+        SCOPED_TRACE(name + ": " + array.name);
+        request.arrays = &array.name;
+        request.array_count = 1;
+        const FrameHandle alone = read_frame(run, last, &request);
+        const granular_array one = array_of(alone, array.name);
+        ASSERT_EQ(one.rows, array.rows);
+        ASSERT_EQ(one.type, array.type);
+        const std::size_t size =
+          array.type == GRANULAR_TEXT || array.type == GRANULAR_INT32 ? 4 : 8;
+        EXPECT_EQ(0,
+          std::memcmp(
+            one.data, array.data, size * static_cast<std::size_t>(array.rows * array.components)));
+      }
+    }
+  }
+}

@@ -26,6 +26,7 @@ assert granular.files("step_f*.dump") == [os.path.join(here, "step_first.dump")]
 assert granular.files("case_*/post/*.dump") == [os.path.join(here, "case_b/post", name) for name in ("1.dump", "1.dump.gz")]
 assert granular.files("case_[!a]/post/[l-z]*.dump") == [os.path.join(here, "case_b/post/last.dump")]
 
+assert granular.files("case_b/post/1.dump") == [os.path.join(here, "case_b/post/1.dump")]  # not its compressed namesake
 for pattern in ("nothing_*", "run_boundingBox*"):
     try:
         granular.files(pattern)

@@ -15,7 +15,9 @@ FOLDER = "docs/reference/"
 GROUPS = {"sources": "source or reader", "filters": "filter", "writers": "writer", "representations": "representation"}
 HEADERS = ("plugin/vtk/", "plugin/views/")
 MADE = "<!-- SPDX-License-Identifier: BSD-3-Clause; made by tests/lint/reference.py -->"
-PACKAGE = "plugin/python/granular/"
+PACKAGE = ("core/python/granular/", "plugin/python/granular/")
+INIT = PACKAGE[0] + "__init__.py"
+MADE_BY_USERS = ("Box", "Writer")  # the other classes are what functions return
 
 
 def words(element):
@@ -67,34 +69,62 @@ def exposed_names(top):
             if prop.get("exposed_name")}
 
 
-def signature(node):
-    """The parameters of a function as a script's reader likes to see them, without hints."""
+def signature(node, skipped=0):
+    """The parameters of a function as a script's reader likes to see them, without hints and without self."""
     given = node.args
     ordinary = [None] * (len(given.args) - len(given.defaults)) + given.defaults
-    words = [arg.arg + (f"={ast.unparse(default)}" if default else "") for arg, default in zip(given.args, ordinary)]
+    words = [arg.arg + (f"={ast.unparse(default)}" if default else "") for arg, default in zip(given.args, ordinary)][skipped:]
     words += [f"*{given.vararg.arg}"] if given.vararg else ["*"] if given.kwonlyargs else []
     words += [arg.arg + (f"={ast.unparse(default)}" if default else "") for arg, default in zip(given.kwonlyargs, given.kw_defaults)]
     words += [f"**{given.kwarg.arg}"] if given.kwarg else []
     return ", ".join(words)
 
 
+def text_block(node):
+    return ["```text", *ast.get_docstring(node).split("\n"), "```", ""]
+
+
+def members(node, found):
+    """What users call of a class: its methods and properties with a docstring, and those of its private bases."""
+    bases = [base.id for base in node.bases if isinstance(base, ast.Name) and base.id.startswith("_")]
+    own = [each for each in node.body if isinstance(each, ast.FunctionDef)]
+    for each in [*own, *(each for base in bases for each in members(found[base], found))]:
+        if not each.name.startswith("_") and ast.get_docstring(each):
+            yield each
+
+
+def class_lines(node, found):
+    init = next((each for each in node.body if isinstance(each, ast.FunctionDef) and each.name == "__init__"), None)
+    lines = [f"## {node.name}", "", *text_block(node)]
+    if init and node.name in MADE_BY_USERS:
+        lines[2:2] = ["```python", f"granular.{node.name}({signature(init, 1)})", "```", ""]
+    for each in sorted(members(node, found), key=lambda member: member.name):
+        is_property = any(isinstance(each_decorator, ast.Name) and each_decorator.id == "property" for each_decorator in each.decorator_list)
+        call = each.name if is_property else f"{each.name}({signature(each, 1)})"
+        lines += [f"### {node.name}.{each.name}", "", "```python", f"{node.name.lower()}.{call}", "```", "", *text_block(each)]
+    return lines
+
+
 def functions_page(root, files):
-    """The page of the functions in __all__, in the order of their names."""
-    names, found = [], {}
+    """The page of the functions in __all__, and of the classes that __init__ imports, in the order of their names."""
+    names, classes, found = [], [], {}
     for path in files:
         if not path.startswith(PACKAGE) or not path.endswith(".py"):
             continue
         for node in ast.parse(tree.read(root, path)).body:
-            if isinstance(node, ast.FunctionDef):
-                found[node.name] = node
-            elif isinstance(node, ast.Assign) and path.endswith("__init__.py") and node.targets[0].id == "__all__":
+            if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+                found.setdefault(node.name, node)
+            elif path == INIT and isinstance(node, ast.Assign) and node.targets[0].id == "__all__":
                 names = [name for name in ast.literal_eval(node.value) if not name.startswith("__")]
+            elif path == INIT and isinstance(node, ast.ImportFrom) and node.level:
+                classes += [each.name for each in node.names if each.name[0].isupper()]
     lines = [MADE, "# The Python package granular", "",
-             "The functions that scripts use. In Python, `help(granular.reader)` shows the same text.", ""]
+             "The functions and classes that scripts use. In Python, `help(granular.reader)` shows the same text.", ""]
     for name in sorted(names):
         node = found[name]
-        lines += [f"## {name}", "", "```python", f"granular.{name}({signature(node)})", "```", "", "```text",
-                  *ast.get_docstring(node).split("\n"), "```", ""]
+        lines += [f"## {name}", "", "```python", f"granular.{name}({signature(node)})", "```", "", *text_block(node)]
+    for name in sorted(name for name in classes if isinstance(found.get(name), ast.ClassDef)):
+        lines += class_lines(found[name], found)
     return "\n".join(lines[:-1]) + "\n"
 
 
@@ -125,7 +155,7 @@ def page(group, proxy, header, exposed):
 def pages(root):
     """Path and text of each page."""
     files = tree.files(root)
-    if f"{PACKAGE}__init__.py" in files:
+    if INIT in files:
         yield f"{FOLDER}granular.md", functions_page(root, files)
     for path in files:
         if not re.match(r"xml/[^/]+\.xml$", path):

@@ -80,14 +80,18 @@ class Reference(unittest.TestCase):
 
 
     def test_functions_of_the_package(self):
-        package = {"plugin/python/granular/__init__.py": '__all__ = ["__version__", "b", "a"]\n',
+        package = {"core/python/granular/__init__.py": 'from ._c import C, x\n__all__ = ["__version__", "b", "a"]\n',
                    "plugin/python/granular/_ab.py":
                    'def a(*x: int, y: int, z: int = 3) -> None:\n    """Does a.\n\n    x  numbers\n    """\n\n\n'
-                   'def b(x: int, y: str = "c", **more: int) -> None:\n    """Does b."""\n\n\ndef _c() -> None:\n    """Hidden."""\n'}
+                   'def b(x: int, y: str = "c", **more: int) -> None:\n    """Does b."""\n\n\ndef _c() -> None:\n    """Hidden."""\n',
+                   "core/python/granular/_c.py":
+                   'class _B:\n    @property\n    def p(self) -> int:\n        """A number."""\n\n    def _q(self) -> None:\n        """Hidden."""\n\n\n'
+                   'class C(_B):\n    """A c."""\n\n    def m(self, x: int = 1) -> None:\n        """Does m."""\n'}
         page = ("<!-- SPDX-License-Identifier: BSD-3-Clause; made by tests/lint/reference.py -->\n# The Python package granular\n\n"
-                "The functions that scripts use. In Python, `help(granular.reader)` shows the same text.\n\n## a\n\n```python\n"
+                "The functions and classes that scripts use. In Python, `help(granular.reader)` shows the same text.\n\n## a\n\n```python\n"
                 "granular.a(*x, y, z=3)\n```\n\n```text\nDoes a.\n\nx  numbers\n```\n\n## b\n\n```python\n"
-                "granular.b(x, y='c', **more)\n```\n\n```text\nDoes b.\n```\n")
+                "granular.b(x, y='c', **more)\n```\n\n```text\nDoes b.\n```\n\n## C\n\n```text\nA c.\n```\n\n### C.m\n\n```python\n"
+                "c.m(x=1)\n```\n\n```text\nDoes m.\n```\n\n### C.p\n\n```python\nc.p\n```\n\n```text\nA number.\n```\n")
         pages = {"docs__reference__granular_dot_md": page, "docs__reference__GranularX_dot_md": self.page}
         self.assertEqual(self.pages(**package, **pages), [])
         package["plugin/python/granular/_ab.py"] += "\n"

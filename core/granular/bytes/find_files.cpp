@@ -179,6 +179,11 @@ std::vector<std::string> find_files(const std::vector<std::string>& patterns)
   std::set<std::string> all;
   for (const std::string& pattern : patterns)
   {
+    if (is_file(pattern)) // perhaps a name that happens to hold such signs
+    {
+      all.insert(fs::absolute(pattern).lexically_normal().string());
+      continue;
+    }
     std::vector<std::string> fitting;
     std::vector<std::string> numbered;
     for (const char* ending : { "", ".gz", ".zst" })
@@ -186,10 +191,6 @@ std::vector<std::string> find_files(const std::vector<std::string>& patterns)
       std::string shell = pattern + ending;
       std::ranges::replace(shell, '%', '*');
       std::vector<std::string> names;
-      if (is_file(pattern + ending)) // a name that happens to hold such signs
-      {
-        names.push_back(pattern + ending);
-      }
       add_files(shell, names);
       for (const std::string& name : names)
       {

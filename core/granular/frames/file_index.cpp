@@ -162,10 +162,13 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
     index.points.reset();
   }
   index.frames.shrink_to_fit();
-  set_defect(index,
-    { { index.path },
-      std::string("expected ") + index.format->name + ", got " +
-        (stamp.size == 0 ? "an empty file" : "no complete frame") });
+  if (index.frames.empty())
+  {
+    set_defect(index,
+      { { index.path },
+        std::string("expected ") + index.format->name + ", got " +
+          (stamp.size == 0 ? "an empty file" : "no complete frame") });
+  }
   return true;
 }
 }

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of discrete-element simulations as numpy arrays, and in VTK and ParaView.
+
+Arrays, with numpy alone:
+
+    run = granular.open("post/*.dump", dt=2e-5)   the frames of a run
+    run[-1]["v"]                              an array of the last frame
+    run.read(columns=["id", "v"], stride=10)  a part of a frame
+    granular.write("new.dump", {"points": x}) a file from arrays or frames
+    granular.Run, Frame, Box, Writer, Error   what these return, take and raise
+
+Open, show, fetch and save with paraview.simple:
+
+    granular.reader("post/*.dump", dt=2e-5)   the reader that fits the files
+    granular.show(reader, color="v", box=True)   particles as spheres, and the simulation box
+    granular.fetch(reader, time=0.02)         points and arrays as a dict of numpy arrays
+    granular.save(filter, "run.dump")         a file of the format that fits the data and the name
+    granular.update(filter, time=0.02)        an update that raises its errors
+
+Around them:
+
+    granular.load_plugin()                    loads the plugin into paraview.simple
+    granular.files("post/*.%.dump.gz")        the names of the files of a run
+    granular.load_state("run.pvsm")           a state file, also after its folder was moved
+    granular.write_series(files, dt)          a .series file: times for STL and VTK files
+    granular.pvbatch("script.py", ranks=4)    a script on several ranks
+    granular.set_pool_limit(mib)              memory that readers keep for the next frame
+
+The same in all versions of ParaView:
+
+    granular.preset("Plasma")                 the name of a colour preset
+    granular.label_format("%.1f")             properties for the numbers of a colour bar
+    granular.process_ids(filter)              a filter that gives each point its rank
+    granular.set_properties(proxy, ...)       several properties at once
+
+help(granular.open) describes one function. The VTK classes, such as granular.vtkGranularDumpReader, work in pvpython and in
+plain python3; help(granular.vtkGranularDumpReader) describes one with all that it inherits. Importing this package imports
+neither numpy nor VTK nor ParaView: what needs them imports them when it is called.
+"""
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from ._files import files
+from ._folders import VERSION as __version__
+from ._library import ArgumentError, Cancelled, ColumnError, Error
+from ._run import Box, Frame, Run, open  # noqa: A004 (granular.open, as there are gzip.open and wave.open)
+from ._write import Writer, write
+
+if TYPE_CHECKING:
+    from ._errors import update
+    from ._fetch import fetch
+    from ._plugin import load_plugin
+    from ._pool import pool_limit, set_pool_limit
+    from ._ranks import pvbatch
+    from ._reader import reader
+    from ._save import save
+    from ._series import write_series
+    from ._show import show
+    from ._state import load_state
+    from ._versions import label_format, preset, process_ids, set_properties
+
+# Functions of scripts of ParaView, and their modules, which are imported when the first of theirs is asked for.
+_LATER = {"fetch": "_fetch", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state", "pool_limit": "_pool",
+          "preset": "_versions", "process_ids": "_versions", "pvbatch": "_ranks", "reader": "_reader", "save": "_save",
+          "set_pool_limit": "_pool", "set_properties": "_versions", "show": "_show", "update": "_errors", "write_series": "_series"}
+
+# Not the classes: help() would print all that they inherit, and nobody would find the functions.
+__all__ = ["__version__", "fetch", "files", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset", "process_ids",
+           "pvbatch", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write", "write_series"]
+
+
+def __getattr__(name: str) -> Any:
+    """Returns a function, or a compiled class, which imports VTK."""
+    if name in _LATER:
+        value = getattr(importlib.import_module("." + _LATER[name], __name__), name)
+    elif name.startswith("vtkGranular"):
+        try:
+            classes = importlib.import_module(".vtkGranular", __name__)
+        except ImportError as error:
+            raise ImportError(f"granular.{name} needs VTK and the compiled classes of this package (Debian: "
+                              f"python3-granular-paraview): {error}") from error
+        value = classes if name == "vtkGranular" else getattr(classes, name)
+    else:
+        raise AttributeError(f"module 'granular' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_LATER})

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The C library behind runs and frames, by ctypes: the declarations of granular.h."""
+from __future__ import annotations
+
+import ctypes
+import functools
+import os
+from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
+from typing import Any, Callable
+
+from ._folders import LIBRARY, LIBRARY_FOLDER
+
+PROGRESS = CFUNCTYPE(c_int, c_double, c_void_p)
+NOTICE = CFUNCTYPE(None, c_char_p, c_void_p)
+
+KINDS = ("dump", "local", "restart", "data", "euler", "decomposition")
+# numpy's names of the types of granular_type; the last one are indices of words
+TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64", "int32")
+TEXT = 10
+
+
+class Error(RuntimeError):
+    """An error of a file, or of what was asked of it.
+
+    path    the file; empty if there is none
+    line    of a text file, from 1; 0 if it is not known
+    byte    of a binary file, from 0; -1 if it is not known
+    column  the column as the file spells it; empty if there is none
+    """
+
+    def __init__(self, message: str, path: str = "", line: int = 0, byte: int = -1, column: str = ""):
+        super().__init__(message)
+        self.path, self.line, self.byte, self.column = path, line, byte, column
+
+    def __reduce__(self) -> Any:
+        return type(self), (str(self), self.path, self.line, self.byte, self.column)
+
+
+class ArgumentError(Error, ValueError):
+    """What was asked for cannot be: a frame or column that there is not, arrays of a wrong shape or type."""
+
+
+class ColumnError(ArgumentError, KeyError):
+    """A column that a frame does not have. The message lists those there are."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class _CError(Structure):
+    _fields_ = [("status", c_int), ("message", c_char_p), ("text", c_char_p), ("path", c_char_p), ("line", c_int64),
+                ("byte", c_int64), ("column", c_char_p)]
+
+
+class OpenOptions(Structure):
+    _fields_ = [("size", c_size_t), ("kind", c_int), ("timestep_size", c_double), ("column_names", c_char_p), ("preset", c_char_p),
+                ("column_map", c_char_p), ("atom_style", c_char_p), ("repeated_steps", c_int), ("keep_index", c_int),
+                ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+
+
+class RunFacts(Structure):
+    _fields_ = [("kind", c_int), ("frames", c_int64), ("files", c_int64), ("tables", c_int)]
+
+
+class FrameFacts(Structure):
+    _fields_ = [("timestep", c_int64), ("time", c_double), ("rows", c_int64), ("path", c_char_p)]
+
+
+class FileFacts(Structure):
+    _fields_ = [("path", c_char_p), ("bytes", c_int64), ("frames", c_int64), ("repeated", c_int64), ("defect", c_char_p)]
+
+
+class ArrayFacts(Structure):
+    _fields_ = [("name", c_char_p), ("type", c_int), ("components", c_int), ("is_usual", c_int), ("unit", c_char_p),
+                ("meaning", c_char_p)]
+
+
+class Request(Structure):
+    _fields_ = [("size", c_size_t), ("table", c_int), ("arrays", POINTER(c_char_p)), ("array_count", c_size_t), ("points", c_int),
+                ("coordinates", c_int), ("single_precision", c_int), ("origin", c_double * 3), ("sort_by_id", c_int),
+                ("stride", c_int64), ("region", c_double * 6), ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE),
+                ("user", c_void_p)]
+
+
+class CBox(Structure):
+    _fields_ = [("bounds", c_double * 9), ("has_bounds", c_int), ("origin", c_double * 3), ("vectors", c_double * 9),
+                ("boundary", c_char_p)]
+
+
+class FrameHeader(Structure):
+    _fields_ = [("timestep", c_int64), ("time", c_double), ("has_time", c_int), ("rows", c_int64), ("has_box", c_int),
+                ("box", CBox), ("coordinates", c_int), ("origin", c_double * 3), ("label", c_char_p), ("units", c_char_p),
+                ("columns", c_char_p), ("dialect", c_char_p), ("arrays", c_size_t)]
+
+
+class CArray(Structure):
+    _fields_ = [("name", c_char_p), ("type", c_int), ("components", c_int), ("rows", c_int64), ("data", c_void_p),
+                ("words", POINTER(c_char_p)), ("word_count", c_size_t), ("unit", c_char_p), ("meaning", c_char_p)]
+
+
+class Format(Structure):
+    _fields_ = [("size", c_size_t), ("style", c_char_p), ("dialect", c_char_p), ("columns", c_char_p), ("numbers", c_char_p),
+                ("label", c_char_p), ("scaled", c_int), ("image", c_int), ("sort_by_id", c_int), ("write_units", c_int),
+                ("write_time", c_int), ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+
+
+class Content(Structure):
+    _fields_ = [("size", c_size_t), ("timestep", c_int64), ("time", c_double), ("has_time", c_int), ("units", c_char_p),
+                ("box", POINTER(CBox)), ("rows", c_int64), ("arrays", POINTER(CArray)), ("array_count", c_size_t)]
+
+
+_NAMES = POINTER(c_char_p)
+_FUNCTIONS = {
+    "granular_open": (_NAMES, c_size_t, POINTER(OpenOptions), POINTER(c_void_p)),
+    "granular_refresh": (c_void_p,),
+    "granular_run_info": (c_void_p, POINTER(RunFacts)),
+    "granular_frame_info": (c_void_p, c_int64, POINTER(FrameFacts)),
+    "granular_file_info": (c_void_p, c_int64, POINTER(FileFacts)),
+    "granular_find_frame": (c_void_p, c_double, POINTER(c_int64)),
+    "granular_arrays": (c_void_p, c_int64, c_int, POINTER(ArrayFacts), c_size_t, POINTER(c_size_t)),
+    "granular_read": (c_void_p, c_int64, POINTER(Request), POINTER(c_void_p)),
+    "granular_header": (c_void_p, POINTER(FrameHeader)),
+    "granular_array_at": (c_void_p, c_size_t, POINTER(CArray)),
+    "granular_create": (c_char_p, POINTER(Format), POINTER(c_void_p)),
+    "granular_write": (c_void_p, POINTER(Content)),
+    "granular_write_frame": (c_void_p, c_void_p),
+    "granular_finish": (c_void_p,),
+    "granular_find_files": (_NAMES, c_size_t, POINTER(c_void_p)),
+}
+_OTHERS = {  # without a status: result and arguments
+    "granular_open_options_init": (None, POINTER(OpenOptions)),
+    "granular_request_init": (None, POINTER(Request)),
+    "granular_format_init": (None, POINTER(Format)),
+    "granular_content_init": (None, POINTER(Content)),
+    "granular_close": (None, c_void_p),
+    "granular_release": (None, c_void_p),
+    "granular_abandon": (None, c_void_p),
+    "granular_name_count": (c_size_t, c_void_p),
+    "granular_name_at": (c_char_p, c_void_p, c_size_t),
+    "granular_free_names": (None, c_void_p),
+    "granular_version": (c_char_p,),
+}
+_IO_ERROR, _BAD_ARGUMENT, _CANCELLED, _NO_MEMORY = 1, 5, 6, 7
+
+
+def text(value: bytes | None) -> str:
+    """Returns a string of the library; names of files may be any bytes."""
+    return os.fsdecode(value or b"")
+
+
+def _raise(error: _CError) -> None:
+    message, path = text(error.message), text(error.path)
+    where = (path, error.line, error.byte, text(error.column))
+    if error.status == _CANCELLED:
+        raise Cancelled
+    if error.status == _NO_MEMORY:
+        raise MemoryError(message)
+    if error.status == _IO_ERROR and path and not os.path.exists(path):
+        raise FileNotFoundError(message)
+    raise (ArgumentError if error.status == _BAD_ARGUMENT else Error)(message, *where)
+
+
+class Cancelled(Exception):
+    """The progress function stopped the work."""
+
+
+@functools.lru_cache(maxsize=None)
+def library() -> Any:
+    """Returns the library, loaded once. Functions with a status raise its error instead of returning it."""
+    # inside a wheel, where it was built or installed together with this package, or where the system finds it
+    folders = [os.path.dirname(__file__), LIBRARY_FOLDER]
+    path = next((path for path in (os.path.join(folder, LIBRARY) for folder in folders) if os.path.exists(path)), LIBRARY)
+    try:
+        loaded = ctypes.CDLL(path)
+    except OSError as error:
+        raise ImportError(f"expected the library {LIBRARY} in {' or '.join(folders)}: {error}") from None
+    loaded.granular_last_error.restype = POINTER(_CError)
+
+    def check(status: int, function: Any, arguments: Any) -> int:
+        if status:
+            _raise(loaded.granular_last_error().contents)
+        return status
+
+    for name, arguments in _FUNCTIONS.items():
+        function = getattr(loaded, name)
+        function.argtypes, function.restype, function.errcheck = arguments, c_int, check
+    for name, (result, *arguments) in _OTHERS.items():
+        function = getattr(loaded, name)
+        function.argtypes, function.restype = arguments, result
+    return loaded
+
+
+def texts(values: list[str]) -> Any:
+    """Returns an array of strings for the library."""
+    return (c_char_p * len(values))(*map(os.fsencode, values))
+
+
+class Calls:
+    """The caller's functions for progress and notices. An exception in one of them stops the work and is raised again."""
+
+    def __init__(self, progress: Callable[[float], Any] | None, warn: Callable[[str], Any]):
+        self.raised: BaseException | None = None
+        self.notices: list[str] = []
+
+        def report(fraction: float, _: Any) -> int:
+            if progress is None or self.raised:
+                return 1 if self.raised else 0
+            try:
+                return 1 if progress(fraction) is False else 0
+            except BaseException as error:  # noqa: BLE001 (of the caller, who gets it)
+                self.raised = error
+                return 1
+
+        def tell(notice: bytes, _: Any) -> None:
+            self.notices.append(text(notice))
+
+        self.progress, self.notice, self._warn = PROGRESS(report), NOTICE(tell), warn
+
+    def __enter__(self) -> Calls:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        if self.raised:
+            raise self.raised
+        for notice in self.notices:
+            self._warn(notice)

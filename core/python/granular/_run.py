@@ -1,0 +1,729 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs and frames: files as numpy arrays, read when they are asked for."""
+from __future__ import annotations
+
+import math
+import os
+import sys
+import threading
+import warnings
+from collections import namedtuple
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Sequence
+
+from . import _library as c
+
+if TYPE_CHECKING:
+    import numpy
+    import pandas
+
+#: An array that a frame has in its file: name, numpy's name of its type ("str" for words), components, unit, meaning.
+Column = namedtuple("Column", "name type components unit meaning")
+
+_COORDINATES = ("absolute", "unwrapped", "scaled")
+_STEPS = ("auto", "merge", "last")
+_INDEX = ("never", "cache", "beside")
+
+
+def _choice(what: str, given: str, choices: Sequence[str]) -> int:
+    if given not in choices:
+        raise ValueError(f"expected {what} of {', '.join(choices)}, got {given!r}")
+    return choices.index(given)
+
+
+def _warn(text: str) -> None:
+    """Warns at the line of the caller of this package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and os.path.dirname(frame.f_code.co_filename) == os.path.dirname(__file__):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, stacklevel=level)
+
+
+class Box:
+    """A simulation box.
+
+    origin    its corner, shape (3,)
+    vectors   its edges a, b, c, shape (3, 3), one in each row
+    lo, hi    the bounds in a dump's header, shape (3,): of a tilted box, of the smallest box around it
+    tilts     xy, xz, yz, shape (3,)
+    boundary  "pp pp ff"; empty if it is not known
+    """
+
+    def __init__(self, lo: Any = None, hi: Any = None, tilts: Any = (0, 0, 0), boundary: str = "", origin: Any = None,
+                 vectors: Any = None):
+        import numpy
+
+        self.boundary = boundary
+        self.general = vectors is not None
+        if self.general:
+            self.origin = numpy.array((0, 0, 0) if origin is None else origin, dtype=float).reshape(3)
+            self.vectors = numpy.array(vectors, dtype=float).reshape(3, 3)
+            corners = numpy.array([self.origin + [i, j, k] @ self.vectors for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+            self.lo, self.hi, self.tilts = corners.min(axis=0), corners.max(axis=0), self.vectors[[1, 2, 2], [0, 0, 1]]
+            return
+        if lo is None or hi is None:
+            raise ValueError("expected bounds lo and hi, or vectors")
+        self.lo, self.hi, self.tilts = (numpy.array(each, dtype=float).reshape(3) for each in (lo, hi, tilts))
+        xy, xz, yz = self.tilts.tolist()
+        origin, lengths = [], []
+        for low, high, shifts in zip(self.lo.tolist(), self.hi.tolist(), (((), (xy,), (xz,), (xy, xz)), ((), (yz,)), ((),))):
+            least, most = min(shifts, key=math.fsum), max(shifts, key=math.fsum)
+            origin.append(math.fsum((low, *(-shift for shift in least))))  # rounded once, as all of these
+            lengths.append(math.fsum((high, -low, *least, *(-shift for shift in most))))
+        self.origin = numpy.array(origin)
+        self.vectors = numpy.array([[lengths[0], 0, 0], [xy, lengths[1], 0], [xz, yz, lengths[2]]])
+
+    @classmethod
+    def _of(cls, box: c.CBox) -> Box:
+        boundary = c.text(box.boundary)
+        if not box.has_bounds:
+            return cls(origin=box.origin[:], vectors=box.vectors[:], boundary=boundary)
+        return cls(box.bounds[0:6:2], box.bounds[1:6:2], box.bounds[6:9], boundary)
+
+    def _to_c(self) -> c.CBox:
+        box = c.CBox()
+        if not self.general:
+            box.has_bounds = 1
+            box.bounds[:] = [number for pair in zip(self.lo, self.hi) for number in pair] + list(self.tilts)
+        box.origin[:], box.vectors[:] = list(self.origin), list(self.vectors.ravel())
+        box.boundary = self.boundary.encode()
+        return box
+
+    def __eq__(self, other: Any) -> bool:
+        return isinstance(other, Box) and self.boundary == other.boundary and \
+            bool((self.origin == other.origin).all() and (self.vectors == other.vectors).all())
+
+    def __repr__(self) -> str:
+        if self.general:
+            return f"Box(origin={self.origin.tolist()}, vectors={self.vectors.tolist()}, boundary={self.boundary!r})"
+        return f"Box(lo={self.lo.tolist()}, hi={self.hi.tolist()}, tilts={self.tilts.tolist()}, boundary={self.boundary!r})"
+
+
+class _Handle:
+    """A run or a frame of the library, which is freed when nobody keeps it any longer: arrays keep their frame, and a thread that
+    reads keeps the run that another one closes."""
+
+    def __init__(self, pointer: Any, free: Any):
+        self._as_parameter_, self._free = pointer, free
+
+    def __del__(self) -> None:
+        self._free(self._as_parameter_)
+
+
+class _Memory:
+    """An array of the library as numpy asks for it."""
+
+    def __init__(self, handle: _Handle, array: c.CArray):
+        import numpy
+
+        self.handle = handle
+        shape = (array.rows, array.components) if array.components > 1 else (array.rows,)
+        self.__array_interface__ = {"shape": shape, "typestr": numpy.dtype(c.TYPES[array.type]).str, "version": 3,
+                                    "data": (array.data or 1, True)}
+
+
+def _to_numpy(handle: _Handle, array: c.CArray) -> numpy.ndarray:
+    import numpy
+
+    if array.rows == 0 or not array.data:
+        shape = (0, array.components) if array.components > 1 else (0,)
+        return numpy.empty(shape, dtype=object if array.type == c.TEXT else c.TYPES[array.type])
+    values = numpy.asarray(_Memory(handle, array))
+    if array.type != c.TEXT:
+        return values
+    words = numpy.array([c.text(array.words[i]) for i in range(array.word_count)], dtype=str)
+    return words[values]
+
+
+class Frame(Mapping[str, Any]):
+    """One frame of a run: a mapping of names to numpy arrays.
+
+    frame["v"]      a column, or columns that form a vector: shape (rows,) or (rows, components)
+    frame.points    positions of particles, centres of cells, or the ends of lines, which have shape (rows, 2, 3)
+    frame.step, frame.time, frame.box, frame.units, frame.label
+    frame.bonds     of restart and data files: the bonds as a frame of their own
+
+    Arrays are read-only views of the memory that the file was decoded into; they keep it, also after the run is closed. Copy an
+    array to change it. The file is read when the first array is asked for, and only this column is converted; a second
+    column reads all that are left.
+    """
+
+    def __init__(self, run: Run, number: int, request: dict[str, Any] | None = None, bonds: bool = False):
+        self._run, self._number, self._bonds = run, number, bonds
+        self._request = dict(request or {})
+        wanted = self._request.pop("columns", None)
+        self._wanted: list[str] | None = None if wanted is None else list(wanted)
+        self._arrays: dict[str, Any] = {}
+        self._header: Any = None
+        self._whole: _Handle | None = None
+        self._asked: list[str] = []
+        self._notices: list[str] = []
+        self._lock = threading.Lock()
+
+    # ---- reading ----
+    def _load(self, names: list[str] | None, progress: Any = None, warn: Any = _warn) -> _Handle:
+        """Reads arrays, or all usual ones and the points."""
+        handle = self._run._read(self._number, names, self._bonds, self._request, progress, warn)
+        library = c.library()
+        header = c.FrameHeader()
+        library.granular_header(handle, c.byref(header))
+        for i in range(header.arrays):
+            array = c.CArray()
+            library.granular_array_at(handle, i, c.byref(array))
+            self._arrays.setdefault(c.text(array.name), _to_numpy(handle, array))
+        self._header = {"step": header.timestep, "time": header.time, "rows": header.rows, "units": c.text(header.units),
+                        "label": c.text(header.label), "columns": c.text(header.columns).split(),
+                        "dialect": c.text(header.dialect), "box": Box._of(header.box) if header.has_box else None}
+        return handle
+
+    def _tell(self) -> None:
+        """What another thread was told when it read ahead."""
+        while self._notices:
+            _warn(self._notices.pop(0))
+
+    def _load_all(self, progress: Any = None) -> _Handle:
+        with self._lock:
+            self._tell()
+            if self._whole is None:
+                self._whole = self._load(self._names(), progress)
+            return self._whole
+
+    def _names(self) -> list[str] | None:
+        """What is read at most: None stands for all usual arrays."""
+        if self._wanted is None:
+            return None
+        return list(dict.fromkeys([self._points_name(), *self._wanted]))
+
+    def _points_name(self) -> str:
+        return "ends" if self._is_lines() else "points"
+
+    def _has_points(self) -> bool:
+        """True if a frame that was read has positions, or lines have ends."""
+        return self._points_name() in self._arrays
+
+    def _is_lines(self) -> bool:
+        return self._bonds or self._run.kind == "local"
+
+    def _get(self, name: str) -> Any:
+        if name not in self._arrays:
+            if name not in ("points", "ends", "length") and name not in self:
+                self._raise_no_column(name)
+            if self._whole is None and not self._asked:
+                with self._lock:
+                    self._load([name])
+            else:
+                self._load_all()
+            if name not in self._arrays:  # not a usual one
+                with self._lock:
+                    self._load([name])
+        if name not in self._arrays:
+            raise c.ColumnError(f"expected a file with positions, got one with {', '.join(self)}")
+        if name not in self._asked:
+            self._asked.append(name)
+        self._tell()
+        return self._arrays[name]
+
+    def _raise_no_column(self, name: str) -> None:
+        usual, others = self._run._columns(self._number, self._bonds)
+        raise c.ColumnError(f"expected a column of {', '.join(column.name for column in (*usual, *others))}, got {name!r}")
+
+    def _head(self, name: str) -> Any:
+        if self._header is None:
+            with self._lock:
+                self._load([] if not self._is_lines() else ["id1"] if "id1" in self else list(self)[:1])
+        return self._header[name]
+
+    def _to_write(self) -> _Handle:
+        """The frame as it is written: of contacts and bonds, the ends as the file has them."""
+        if not self._is_lines() or self._wanted is not None:
+            return self._load_all()
+        usual, others = self._run._columns(self._number, self._bonds)
+        names = [column.name for column in (*usual, *others)]
+        ends = [] if {"position1", "position2"} <= set(names) else ["ends"]
+        return self._run._read(self._number, [*names, *ends], self._bonds, self._request, None)
+
+    # ---- the mapping ----
+    def __getitem__(self, name: str) -> numpy.ndarray:
+        return self._get(name)
+
+    def __iter__(self) -> Iterator[str]:
+        known = [column.name for column in self._run._columns(self._number, self._bonds)[0]]
+        return iter(known if self._wanted is None else [name for name in known if name in self._wanted])
+
+    def __contains__(self, name: object) -> bool:
+        usual, others = self._run._columns(self._number, self._bonds)
+        return any(column.name == name for column in (*usual, *others))
+
+    def __len__(self) -> int:
+        """The number of columns; rows are frame.rows."""
+        return len(list(iter(self)))
+
+    # ---- facts ----
+    @property
+    def number(self) -> int:
+        """The number of the frame in its run, from 0."""
+        return self._number
+
+    @property
+    def step(self) -> int:
+        """The timestep."""
+        return self._run.steps[self._number].item()
+
+    @property
+    def time(self) -> float:
+        """ITEM: TIME of the file, or timestep x dt."""
+        return self._run.times[self._number].item()
+
+    @property
+    def rows(self) -> int:
+        """The number of particles, contacts, bonds, cells or subdomains that were read."""
+        return self._head("rows")
+
+    @property
+    def box(self) -> Box | None:
+        """The simulation box; None if the file has none."""
+        return self._head("box")
+
+    @property
+    def units(self) -> str:
+        """ITEM: UNITS of a dump."""
+        return self._head("units")
+
+    @property
+    def label(self) -> str:
+        """ITEM: LABEL of a dump."""
+        return self._head("label")
+
+    @property
+    def dialect(self) -> str:
+        """"LIGGGHTS" or "LAMMPS", by the form of a dump; empty if it is not known."""
+        return self._head("dialect")
+
+    @property
+    def columns(self) -> list[str]:
+        """The columns of the file, in its order and spelling."""
+        return self._head("columns")
+
+    @property
+    def points(self) -> numpy.ndarray:
+        """Positions, shape (rows, 3); of lines both ends, shape (rows, 2, 3)."""
+        if self._is_lines():
+            return self._get("ends").reshape(-1, 2, 3)
+        return self._get("points")
+
+    @property
+    def bonds(self) -> Frame:
+        """The bonds of a restart or data file. Raises ValueError for other files."""
+        if self._run.kind not in ("restart", "data"):
+            raise ValueError(f"expected a restart or data file, got a {self._run.kind} file: open the file of its bonds")
+        return Frame(self._run, self._number, {}, bonds=True)
+
+    def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
+        """Reads all that is wanted at once, and returns the frame itself."""
+        self._load_all(progress)
+        return self
+
+    # ---- other libraries ----
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the rows as a pandas.DataFrame, a column for each component: x y z, id, vx vy vz, c_stress[1], ..."""
+        import pandas
+
+        return pandas.DataFrame(component_columns(self))
+
+    def to_vtk(self) -> Any:
+        """Returns a vtkPolyData with the points or lines and all arrays. Needs VTK."""
+        from ._to_vtk import to_vtk
+
+        return to_vtk(self.read())
+
+    def __reduce__(self) -> Any:
+        request = dict(self._request) if self._wanted is None else {**self._request, "columns": self._wanted}
+        return Frame, (self._run, self._number, request, self._bonds)
+
+    def __repr__(self) -> str:
+        return f"<frame {self._number} of {self._run!r}: step {self.step}, columns {' '.join(self)}>"
+
+
+_COMPONENTS = {"points": "x y z", "ends": "x1 y1 z1 x2 y2 z2", "image": "ix iy iz"}
+
+
+def _component_names(name: str, count: int) -> list[str]:
+    """Names of the columns that make an array, as dumps spell them."""
+    if count == 1:
+        return [name]
+    if name in _COMPONENTS:
+        return _COMPONENTS[name].split()
+    if "_" not in name and count == 3:
+        return [name + axis for axis in "xyz"]
+    return [f"{name}{i}" if name == "quat" else f"{name}[{i}]" for i in range(1, count + 1)]
+
+
+def component_columns(frame: Frame) -> dict[str, Any]:
+    """Returns what a frame holds as arrays of shape (rows,): points as x y z, vectors by components, in the order of the frame."""
+    frame.read()
+    columns: dict[str, Any] = {}
+    for name in (frame._points_name(), *frame):
+        if name in frame._arrays or name in frame:
+            values = frame._get(name)
+            parts = [values] if values.ndim == 1 else values.T
+            for part, component in zip(_component_names(name, len(parts) if values.ndim > 1 else 1), parts):
+                columns.setdefault(part, component)
+    return columns
+
+
+def arrays_of(frame: Frame, words: list[str]) -> tuple[list[str], list[str]]:
+    """Returns the arrays that columns named by words are in, and the columns: "vx" is in "v", and "v" has vx vy vz."""
+    usual, others = frame._run._columns(frame._number, frame._bonds)
+    known: dict[str, tuple[str, list[str]]] = {}
+    for name, count in [(frame._points_name(), len(_COMPONENTS[frame._points_name()].split())),
+                        *((column.name, column.components) for column in (*usual, *others))]:
+        parts = _component_names(name, count)
+        known.setdefault(name, (name, parts))
+        for part in parts:
+            known.setdefault(part, (name, [part]))
+    arrays, columns = [], []
+    for word in words:
+        if word not in known:
+            frame._raise_no_column(word)
+        array, parts = known[word]
+        arrays.append(array)
+        columns += parts
+    return [name for name in dict.fromkeys(arrays) if name in frame], columns
+
+
+class _Frames(Sequence[Frame]):
+    """Frames in some order: a run or a slice of one."""
+
+    def _run_of(self) -> Run:
+        raise NotImplementedError
+
+    def _numbers(self) -> range:
+        raise NotImplementedError
+
+    def __len__(self) -> int:
+        return len(self._numbers())
+
+    @property
+    def steps(self) -> numpy.ndarray:
+        """The timesteps, shape (frames,), int64."""
+        return self._run_of()._facts()[0][self._as_slice()]
+
+    @property
+    def times(self) -> numpy.ndarray:
+        """The times, shape (frames,), float64: ITEM: TIME of the file, or timestep x dt."""
+        return self._run_of()._facts()[1][self._as_slice()]
+
+    @property
+    def rows(self) -> numpy.ndarray:
+        """The numbers of rows that the headers of the frames tell, shape (frames,), int64."""
+        return self._run_of()._facts()[2][self._as_slice()]
+
+    def _as_slice(self) -> Any:
+        numbers = self._numbers()
+        stop = numbers.stop if numbers.stop >= 0 else None
+        return slice(numbers.start, stop, numbers.step) if len(numbers) else slice(0, 0)
+
+    def __getitem__(self, number: Any) -> Any:
+        run = self._run_of()
+        if isinstance(number, slice):
+            return RunSlice(run, self._numbers()[number])
+        try:
+            return Frame(run, self._numbers()[number], run._request)
+        except IndexError:
+            raise IndexError(f"expected a frame from {-len(self)} to {len(self) - 1}, got {number}") from None
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Yields the frames. While one is used, another thread reads of the next one what was asked of the one before."""
+        frame: Frame | None = None
+        following: Frame | None = None
+        thread: threading.Thread | None = None
+        for i in range(len(self)):
+            names, whole = (frame._asked, frame._whole is not None) if frame else ([], False)
+            if thread:
+                thread.join()
+            frame, following, thread = following or self[i], None, None
+            if i + 1 < len(self) and (names or whole):
+                following = self[i + 1]
+                # Python waits for it at the end: it calls functions of ours
+                thread = threading.Thread(target=_read_ahead, args=(following, names, whole))
+                thread.start()
+            yield frame
+
+
+def _read_ahead(frame: Frame, names: list[str], whole: bool) -> None:
+    """Reads a part of a frame. An error is raised again, and a notice told, when the frame itself is asked."""
+    try:
+        with frame._lock:
+            handle = frame._load(frame._names() if whole else list(names), warn=frame._notices.append)
+            if whole:
+                frame._whole = handle
+    except Exception:  # noqa: BLE001
+        frame._arrays.clear()
+
+
+class RunSlice(_Frames):
+    """Some frames of a run: run[10:20:5]."""
+
+    def __init__(self, run: Run, numbers: range):
+        self._run, self._range = run, numbers
+
+    def _run_of(self) -> Run:
+        return self._run
+
+    def _numbers(self) -> range:
+        return self._range
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} frames of {self._run!r}>"
+
+
+class Run(_Frames):
+    """The frames of one or more files, from granular.open: a sequence of frames.
+
+    len(run), run[-1], run[10:20:5], for frame in run
+    run.steps, run.times   timesteps and times of all frames
+    run.columns            the columns of the first frame that has rows
+    run.kind               "dump", "local", "restart", "data", "euler" or "decomposition"
+
+    A run may be used by several threads, pickled, and sent to other processes, which open the files again.
+    """
+
+    def __init__(self, paths: list[str], options: dict[str, Any], progress: Callable[[float], Any] | None = None):
+        self._paths, self._options = paths, options
+        self._request: dict[str, Any] = {}
+        self._handle = None
+        self._known: dict[Any, Any] = {}
+        library = c.library()
+        given = c.OpenOptions()
+        library.granular_open_options_init(c.byref(given))
+        kind = options.get("kind")
+        given.kind = -1 if kind is None else _choice("a kind", kind, c.KINDS)
+        given.timestep_size = 1.0 if options.get("dt") is None else float(options["dt"])
+        for name in ("column_names", "preset", "column_map", "atom_style"):
+            setattr(given, name, str(options.get(name) or "").encode())
+        given.repeated_steps = _choice("repeated_steps", options.get("repeated_steps", "auto"), _STEPS)
+        given.keep_index = _choice("an index", options.get("index", "never"), _INDEX)
+        given.threads = int(options.get("threads", 0))
+        pointer = c.c_void_p()
+        with c.Calls(progress, _warn) as calls:
+            given.progress, given.notice = calls.progress, calls.notice
+            library.granular_open(c.texts(paths), len(paths), c.byref(given), c.byref(pointer))
+        self._handle: _Handle | None = _Handle(pointer, library.granular_close)
+
+    # ---- the library ----
+    def _open(self) -> _Handle:
+        handle = self._handle
+        if handle is None:
+            raise ValueError(f"expected an open run, got one that was closed: {', '.join(self._paths)}")
+        return handle
+
+    def _run_of(self) -> Run:
+        return self
+
+    def _numbers(self) -> range:
+        return range(self._info().frames)
+
+    def _info(self) -> c.RunFacts:
+        facts = c.RunFacts()
+        c.library().granular_run_info(self._open(), c.byref(facts))
+        return facts
+
+    def _facts(self) -> Any:
+        """Timesteps, times and rows of all frames."""
+        import numpy
+
+        run = self._open()
+        if "facts" not in self._known:
+            library, count = c.library(), len(self)
+            steps, times, rows = (numpy.empty(count, dtype) for dtype in (numpy.int64, float, numpy.int64))
+            facts = c.FrameFacts()
+            for i in range(count):
+                library.granular_frame_info(run, i, c.byref(facts))
+                steps[i], times[i], rows[i] = facts.timestep, facts.time, facts.rows
+            for each in (steps, times, rows):
+                each.flags.writeable = False
+            self._known["facts"] = steps, times, rows
+        return self._known["facts"]
+
+    def _file_facts(self) -> list[tuple[str, int, int, int, str]]:
+        """Path, bytes, frames, repeated frames and defect of each file."""
+        run, library, facts = self._open(), c.library(), c.FileFacts()
+        found = []
+        for i in range(self._info().files):
+            library.granular_file_info(run, i, c.byref(facts))
+            found.append((c.text(facts.path), facts.bytes, facts.frames, facts.repeated, c.text(facts.defect)))
+        return found
+
+    def _columns(self, number: int, bonds: bool = False) -> tuple[list[Column], list[Column]]:
+        """The usual columns of a frame, and the others."""
+        key = number, bonds
+        if key not in self._known:
+            library, pointer, count = c.library(), self._open(), c.c_size_t()
+            library.granular_arrays(pointer, number, int(bonds), None, 0, c.byref(count))
+            facts = (c.ArrayFacts * max(1, count.value))()
+            library.granular_arrays(pointer, number, int(bonds), facts, count.value, c.byref(count))
+            usual: list[Column] = []
+            others: list[Column] = []
+            for fact in facts[:count.value]:
+                column = Column(c.text(fact.name), "str" if fact.type == c.TEXT else c.TYPES[fact.type], fact.components,
+                                c.text(fact.unit), c.text(fact.meaning))
+                (usual if fact.is_usual else others).append(column)
+            self._known[key] = usual, others
+        return self._known[key]
+
+    def _read(self, number: int, names: list[str] | None, bonds: bool, request: dict[str, Any], progress: Any, warn: Any = _warn) -> _Handle:
+        library = c.library()
+        given = c.Request()
+        library.granular_request_init(c.byref(given))
+        given.table = int(bonds)
+        kept = None
+        if names is not None:
+            kept = c.texts(names or [""])
+            given.arrays, given.array_count = kept, len(names)
+        given.points = 1 if names is None or "points" in names else 0
+        given.coordinates = _choice("coordinates", request.get("coordinates", "absolute"), _COORDINATES)
+        given.single_precision = _choice("a precision", request.get("precision", "double"), ("double", "single"))
+        given.sort_by_id = int(bool(request.get("sort", False)))
+        given.stride = int(request.get("stride", 1))
+        given.threads = int(request.get("threads", 0))
+        if request.get("origin") is not None:
+            given.origin[:] = [float(x) for x in request["origin"]]
+        if request.get("region") is not None:
+            given.region[:] = _region(request["region"])
+        pointer = c.c_void_p()
+        with c.Calls(progress, warn) as calls:
+            given.progress, given.notice = calls.progress, calls.notice
+            library.granular_read(self._open(), number, c.byref(given), c.byref(pointer))
+        return _Handle(pointer, library.granular_release)
+
+    # ---- for users ----
+    @property
+    def kind(self) -> str:
+        """What the files are: "dump", "local", "restart", "data", "euler" or "decomposition"."""
+        return c.KINDS[self._info().kind]
+
+    @property
+    def paths(self) -> list[str]:
+        """The names and patterns that the run was opened with."""
+        return list(self._paths)
+
+    @property
+    def files(self) -> list[str]:
+        """The files of the run, absolute, in the order of the numbers in their names."""
+        return [path for path, *_ in self._file_facts()]
+
+    @property
+    def columns(self) -> list[Column]:
+        """The columns of the first frame that has rows, but for coordinates, which are frame.points."""
+        with_rows = self.rows.nonzero()[0]
+        return list(self._columns(int(with_rows[0]) if len(with_rows) else 0)[0]) if len(self) else []
+
+    def find(self, time: float) -> Frame:
+        """Returns the last frame at or before a time, or the first one."""
+        number = c.c_int64()
+        c.library().granular_find_frame(self._open(), float(time), c.byref(number))
+        return self[number.value]
+
+    def read(self, frame: int = -1, columns: Iterable[str] | None = None, region: Any = None, stride: int = 1,
+             coordinates: str = "absolute", precision: str = "double", origin: Any = None, sort: bool = False, threads: int = 0,
+             progress: Callable[[float], Any] | None = None) -> Frame:
+        """Reads a part of a frame, and returns it.
+
+        frame        its number, from 0, or from the end: -1 (default) is the last one
+        columns      names of columns; None: all. Others are not converted and take no memory.
+        region       bounds xlo, xhi, ylo, yhi, zlo, zhi, or three pairs; None for an axis that is not restricted. Absolute
+                     coordinates, closed.
+        stride       n keeps particles whose id is a multiple of n, or each n-th row without ids; at least 1
+        coordinates  "absolute" (default), "unwrapped" by the image counts, or "scaled", in units of the box
+        precision    "double" (default), or "single": points as 32-bit floats
+        origin       a point that is subtracted from the points before any rounding; shape (3,)
+        sort         True: rows in the order of their ids
+        threads      0 (default): one per core
+        progress     is called with fractions from 0 to 1; it returns False to stop
+
+        region, stride, coordinates and sort are for particles of dumps and data files. Raises granular.Error with path, line
+        and column; granular.ArgumentError for a column or a frame that there is not.
+        """
+        return self._part(self[frame].number, columns=columns, region=region, stride=stride, coordinates=coordinates,
+                          precision=precision, origin=origin, sort=sort, threads=threads).read(progress)
+
+    def _part(self, number: int, **request: Any) -> Frame:
+        """A part of a frame, which is read when it is asked for."""
+        made = Frame(self, number, request)
+        for name in made._wanted or ():
+            if name not in made:
+                made._raise_no_column(name)
+        return made
+
+    def refresh(self) -> Run:
+        """Looks for frames that were added and for files that changed, and returns the run itself."""
+        c.library().granular_refresh(self._open())
+        self._known.clear()
+        return self
+
+    def reader(self, **properties: Any) -> Any:
+        """Returns the ParaView reader of the same files: see granular.reader."""
+        from . import reader
+
+        return reader(self._paths, dt=self._options.get("dt"), **properties)
+
+    def close(self) -> None:
+        """Closes the run. Arrays that were read stay."""
+        self._handle = None
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __reduce__(self) -> Any:
+        return Run, (self._paths, self._options)
+
+    def __repr__(self) -> str:
+        names = ", ".join(map(os.path.basename, self._paths))
+        return f"<run {names}: {len(self)} frames>" if self._handle else f"<closed run {names}>"
+
+
+def _region(given: Any) -> list[float]:
+    """Six bounds; an axis without bounds has lo > hi."""
+    bounds = list(given)
+    if len(bounds) == 3:
+        bounds = [bound for pair in bounds for bound in (pair if pair is not None else (None, None))]
+    if len(bounds) != 6:
+        raise ValueError(f"expected a region of six bounds, or of three pairs, got {given!r}")
+    made: list[float] = []
+    for lo, hi in zip(bounds[::2], bounds[1::2]):
+        if lo is None and hi is None:
+            made += [1.0, -1.0]
+            continue
+        made += [-float("inf") if lo is None else float(lo), float("inf") if hi is None else float(hi)]
+    return made
+
+
+def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None, *, kind: str | None = None,
+         column_names: str = "", preset: str = "", column_map: str = "", atom_style: str = "", repeated_steps: str = "auto",
+         index: str = "never", threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
+    """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
+
+    paths           a file, a pattern such as "post/*.dump", or a list of these; see granular.files. Dumps in every form, contacts
+                    and bonds (dump local), restart files, data files, decompositions and Euler cells are told apart by their contents.
+    dt              the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps, unless the files
+                    hold times.
+    kind            "dump", "local", "restart", "data", "euler" or "decomposition"; None (default): as the contents say
+    column_names    of binary dumps that do not name their columns: "id type x y z vx vy vz"
+    preset          the order of the columns of contacts and bonds, by its name; column_map: their names
+    atom_style      of data files that do not name it
+    repeated_steps  the meaning of a timestep in several files: "auto", "merge" (pieces of a frame) or "last" (a restarted run)
+    index           keeps the positions of the frames for the next time: "never", "cache" or "beside" the first file
+    threads         0 (default): one per core
+    progress        is called with fractions from 0 to 1 while the frames are looked for; it returns False to stop
+
+    The frames are found now, and read when they are asked for. Raises FileNotFoundError if there is no such file, granular.Error
+    with path, line and column if the files cannot be read, ValueError for a choice that there is not. Remarks that are no errors
+    are warnings.
+    """
+    given = [paths] if isinstance(paths, (str, os.PathLike)) else list(paths)
+    options = {"dt": dt, "kind": kind, "column_names": column_names, "preset": preset, "column_map": column_map,
+               "atom_style": atom_style, "repeated_steps": repeated_steps, "index": index, "threads": threads}
+    absolute = [os.path.abspath(os.fspath(path)) for path in given]
+    return Run(absolute, {name: value for name, value in options.items() if value not in (None, "")}, progress)

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command granular: what files hold, whether they are sound, other forms of them, their statistics, a picture."""
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+import warnings
+from typing import Any, Iterator, Sequence
+
+# Each has a module of its name, with the functions `options(parser)` and `run(arguments)`.
+COMMANDS = {
+    "info": "says what files hold: frames, steps, times, columns, box",
+    "check": "reads everything, and says what is wrong",
+    "convert": "writes files in another form",
+    "stats": "prints statistics of each frame and column",
+    "show": "makes a picture",
+}
+WRONG, USAGE, INTERRUPTED = 1, 2, 130
+
+DESCRIPTION = """Reads and writes files of discrete-element simulations by LIGGGHTS and LAMMPS: dumps in every form, contacts and \
+bonds, restart and data files, decompositions, Euler cells. FILE is a name or a pattern in quotes, such as 'post/run_*.dump', where * \
+stands for the timestep and % for the rank; several files are one run."""
+
+STATUS = """exit status: 0 if all went well, 1 if something is wrong with the files or could not be done, 2 for a usage that cannot be, \
+130 after Ctrl-C."""
+
+
+def add_files(parser: argparse.ArgumentParser) -> None:
+    """Adds FILE... and what tells how to read them."""
+    parser.add_argument("files", metavar="FILE", nargs="+", help="name or pattern of the files of one run")
+    add_reading(parser)
+
+
+def add_reading(parser: argparse.ArgumentParser) -> None:
+    """Adds the options of granular.open."""
+    group = parser.add_argument_group("reading")
+    group.add_argument("--dt", type=float, metavar="T", help="time of one timestep, in the unit of the run (default: times are timesteps)")
+    group.add_argument("--kind", choices=("dump", "local", "restart", "data", "euler", "decomposition"),
+                       help="what the files are (default: as their contents say)")
+    group.add_argument("--column-names", metavar="NAMES", default="", help="columns of binary dumps that do not name them: 'id type x y z'")
+    group.add_argument("--preset", default="", help="order of the columns of contacts and bonds, by its name")
+    group.add_argument("--column-map", metavar="NAMES", default="", help="their names, one for each column")
+    group.add_argument("--atom-style", default="", help="atom style of data files that do not name it")
+    group.add_argument("--repeated-steps", choices=("auto", "merge", "last"), default="auto",
+                       help="a timestep in several files: pieces of a frame (merge), or a run that was restarted (last)")
+    group.add_argument("--threads", type=int, default=0, metavar="N", help="threads (default: one per core)")
+
+
+def add_frames(parser: argparse.ArgumentParser) -> None:
+    """Adds the choice of frames."""
+    parser.add_argument("--frames", metavar="A:B:N", help="frames as in Python: 5, -1, 10:20, ::5 (default: all)")
+
+
+def open_run(arguments: argparse.Namespace) -> Any:
+    """Returns the run of the files."""
+    import granular
+
+    return granular.open(arguments.files, dt=arguments.dt, kind=arguments.kind, column_names=arguments.column_names,
+                         preset=arguments.preset, column_map=arguments.column_map, atom_style=arguments.atom_style,
+                         repeated_steps=arguments.repeated_steps, threads=arguments.threads)
+
+
+@contextlib.contextmanager
+def notices() -> Iterator[list[str]]:
+    """Collects the different things that are said about files, instead of printing them."""
+    found: dict[str, None] = {}
+    said: list[str] = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        warnings.showwarning = lambda message, *_: found.setdefault(str(message))  # type: ignore[assignment]
+        yield said
+    said += found
+
+
+def chosen(run: Any, text: str | None) -> Any:
+    """Returns the frames that --frames names."""
+    if not text:
+        return run
+    parts = text.split(":")
+    try:
+        numbers = [int(part) if part else None for part in parts]
+        if len(numbers) == 1 and numbers[0] is not None:
+            at = range(len(run))[numbers[0]]
+            return run[at:at + 1]
+        return run[slice(*numbers)]
+    except IndexError:
+        raise ValueError(f"--frames {text}: expected a frame from {-len(run)} to {len(run) - 1}") from None
+    except (TypeError, ValueError):
+        raise ValueError(f"--frames: expected a number or A:B:N, got {text!r}") from None
+
+
+def say(text: str) -> None:
+    """Prints a remark where it does not mix with results."""
+    print(f"granular: {text}", file=sys.stderr)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Returns the parser of all commands."""
+    import importlib
+
+    from .._folders import VERSION
+
+    made = argparse.ArgumentParser("granular", description=DESCRIPTION, epilog=STATUS)
+    made.add_argument("--version", action="version", version=f"granular {VERSION}")
+    commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, text in COMMANDS.items():
+        module = importlib.import_module("." + name, __name__)
+        about = f"{module.__doc__.split(chr(10), 1)[0]} {getattr(module, 'MORE', '')}".strip()
+        command = commands.add_parser(name, help=text, description=about, epilog=STATUS)
+        module.options(command)
+        command.set_defaults(run=module.run)
+    return made
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command and returns its exit status."""
+    given = parser().parse_args(arguments)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("once")
+            warnings.showwarning = lambda message, *_: say(str(message))  # type: ignore[assignment]
+            return given.run(given) or 0
+    except KeyboardInterrupt:
+        say("interrupted; files that were there are as they were")
+        return INTERRUPTED
+    except BrokenPipeError:  # the reader of a pipe, such as head, has left
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except (ValueError, ImportError) as error:
+        from .. import Error
+
+        say(str(error))
+        return USAGE if not isinstance(error, Error) and isinstance(error, ValueError) else WRONG
+    except (RuntimeError, OSError, MemoryError) as error:
+        say(str(error))
+        return WRONG

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads everything, and says in words what is wrong.
+
+A fault makes the exit status 1; a remark does not."""
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from typing import Any
+
+from . import WRONG, add_files, add_frames, chosen, notices, open_run
+from .info import file_faults, oddities
+from .progress import Bar
+
+MORE = """Faults, which make the exit status 1: frames that end early or cannot be read, missing pieces, timesteps that repeat in a \
+file, ids that repeat in a frame, NaN and infinite numbers, radii that are not positive, particles outside a box at a fixed boundary. \
+Remarks: what the reader says, steps at odd distances, empty frames, ids that vanish or come, particles a little outside a periodic \
+box, positions with few digits."""
+
+FEW_DIGITS = 1e-2  # of the smallest radius
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options of check."""
+    add_files(parser)
+    add_frames(parser)
+    parser.add_argument("--json", action="store_true", help="prints JSON instead of words")
+    parser.add_argument("--quiet", "-q", action="store_true", help="prints nothing where nothing is wrong, and no bar")
+
+
+def some(values: Any, most: int = 5) -> str:
+    """Returns the first of many values."""
+    listed = ", ".join(str(value) for value in values[:most])
+    return listed + (", ..." if len(values) > most else "")
+
+
+class Checker:
+    """What one frame after another tells."""
+
+    def __init__(self) -> None:
+        self.faults: list[str] = []
+        self.remarks: list[str] = []
+        self._is_text = False
+        self._ids: Any = None
+        self._gone = self._new = 0
+        self._first_gone = ""
+        self._few: tuple[float, int, int] | None = None
+
+    def run(self, run: Any) -> None:
+        """Looks at files and timesteps."""
+        self._is_text = not any(name.endswith((".bin", ".lammpsbin", ".restart")) for name in run.files)
+        self.faults += file_faults(run)
+        self.remarks += oddities(run.steps, run.rows)
+
+    def frame(self, frame: Any) -> None:
+        """Looks at a frame."""
+        where = f"step {frame.step}"
+        self._numbers(frame, where)
+        if "id" in frame:
+            self._look_at_ids(frame["id"], where)
+        of_particles = frame._run.kind in ("dump", "data", "restart")
+        if "radius" in frame and of_particles:
+            wrong = int((frame["radius"] <= 0).sum())
+            if wrong:
+                self.faults.append(f"{where}: {wrong} radii are not positive")
+        if frame.rows and of_particles:
+            self._positions(frame, where)
+
+    def _numbers(self, frame: Any, where: str) -> None:
+        import numpy
+
+        arrays = {name: frame[name] for name in frame}
+        if frame.rows and frame._has_points():
+            arrays["points"] = frame.points
+        for name, values in arrays.items():
+            if values.dtype.kind == "f":
+                wrong = int(numpy.count_nonzero(~numpy.isfinite(values)))
+                if wrong:
+                    kind = "NaN" if numpy.isnan(values).sum() == wrong else "NaN or infinite"
+                    self.faults.append(f"{where}: {wrong} values of {name} are {kind}")
+
+    def _look_at_ids(self, ids: Any, where: str) -> None:
+        import numpy
+
+        unique, counts = numpy.unique(ids, return_counts=True)
+        if len(unique) < len(ids):
+            self.faults.append(f"{where}: {int((counts > 1).sum())} ids occur more than once: {some(unique[counts > 1].tolist())}")
+        if self._ids is not None and len(self._ids):
+            gone = numpy.setdiff1d(self._ids, unique, assume_unique=True)
+            self._gone += len(gone)
+            self._new += len(numpy.setdiff1d(unique, self._ids, assume_unique=True))
+            if len(gone) and not self._first_gone:
+                self._first_gone = f"{where}: {some(gone.tolist())}"
+        self._ids = unique
+
+    def _positions(self, frame: Any, where: str) -> None:
+        import numpy
+
+        points = frame.points
+        radius = float(frame["radius"].min()) if "radius" in frame else 0.0
+        box = frame.box
+        if box is not None and abs(numpy.linalg.det(box.vectors)) > 0:
+            parts = (points - box.origin) @ numpy.linalg.inv(box.vectors)
+            beyond = numpy.maximum(-parts, parts - 1)
+            kinds = (box.boundary.split() + ["", "", ""])[:3]
+            for axis, name in enumerate("abc" if any(box.tilts) else "xyz"):
+                outside = beyond[:, axis] > 1e-12
+                count = int(outside.sum())
+                if not count:
+                    continue
+                length = float(numpy.linalg.norm(box.vectors[axis]))
+                text = f"{where}: {count} particles are outside the box along {name}, by {float(beyond[outside, axis].max()) * length:g} at most"
+                fixed = "f" in kinds[axis]
+                (self.faults if fixed else self.remarks).append(text + (", where the box is fixed" if fixed else ""))
+        if self._is_text and radius > 0:
+            sample = points[:: max(1, len(points) // 1000)].ravel()
+            sample = sample[numpy.isfinite(sample)]
+            for digits in range(3, 10):
+                if all(float(f"{value:.{digits}g}") == value for value in sample.tolist()):
+                    largest = float(numpy.abs(points).max())
+                    step = 10.0 ** (numpy.floor(numpy.log10(largest)) - digits + 1) if largest > 0 else 0
+                    if step / 2 > FEW_DIGITS * radius and (self._few is None or step / 2 / radius > self._few[0]):
+                        self._few = step / 2 / radius, digits, frame.step
+                    break
+
+    def finish(self, said: list[str]) -> None:
+        """Adds what all frames together tell, and what was said while they were read."""
+        for text in said:
+            wrong = "expected" in text or "left out" in text
+            if not any(text.partition(": ")[2] in fault for fault in self.faults):
+                (self.faults if wrong else self.remarks).append(text)
+        if self._gone:
+            self.remarks.append(f"{self._gone} ids are not in the frame after; first at {self._first_gone}")
+        if self._new:
+            self.remarks.append(f"{self._new} ids come in a later frame")
+        if self._few:
+            part, digits, step = self._few
+            self.remarks.append(f"positions have {digits} digits: each is wrong by up to {100 * part:.2g} % of the smallest radius (step "
+                                f"{step}); `dump_modify ID format float %.12g` keeps more")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Checks the files, and returns the exit status."""
+    checker, count, rows = Checker(), 0, 0
+    with notices() as said:
+        try:
+            with open_run(arguments) as opened, Bar(sum(map(os.path.getsize, opened.files)), arguments.quiet) as bar:
+                frames = chosen(opened, arguments.frames)
+                count, rows = len(frames), int(frames.rows.clip(min=0).sum())
+                checker.run(opened)
+                for i in range(count):
+                    try:
+                        checker.frame(frames[i].read(bar.within(i, count)))
+                    except RuntimeError as error:
+                        checker.faults.append(str(error))
+        except RuntimeError as error:
+            checker.faults.append(str(error))
+    checker.finish(said)
+    status = WRONG if checker.faults else 0
+    if arguments.json:
+        print(json.dumps({"given": arguments.files, "frames": count, "rows": rows, "faults": checker.faults,
+                          "remarks": checker.remarks}, indent=2))
+        return status
+    for word, texts in (("fault: ", checker.faults), ("remark: ", checker.remarks)):
+        for text in texts:
+            if not arguments.quiet or status:
+                print(word + text)
+    if not arguments.quiet or status:
+        faults = {0: "nothing is wrong", 1: "1 fault"}.get(len(checker.faults), f"{len(checker.faults)} faults")
+        print(f"{' '.join(arguments.files)}: {count} frames, {rows} rows, {faults}")
+    return status

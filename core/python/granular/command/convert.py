@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes files in another form: other forms of dumps, arrays of numpy, tables, files of VTK."""
+from __future__ import annotations
+
+import argparse
+import os
+from typing import Any, Callable
+
+from . import add_frames, add_reading, chosen, open_run
+from .progress import Bar
+
+MORE = """The ending of OUT chooses: .npz (numpy), .csv, .vtp, .vtu and .vtkhdf (VTK) hold one frame a file; .bonds, .euler and \
+.decomposition are those of contacts, cells and subdomains; .bin is a binary dump; all others are text dumps, compressed where .gz or \
+.zst follows. `*` in OUT stands for the timestep and makes a file a frame. OUT appears when it is complete; until then, and after an \
+error, an old file is as it was."""
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options of convert."""
+    parser.add_argument("files", metavar="IN", nargs="+", help="name or pattern of the files of one run")
+    parser.add_argument("out", metavar="OUT", help="name of the new file")
+    add_frames(parser)
+    add_reading(parser)
+    part = parser.add_argument_group("the part to write")
+    part.add_argument("--columns", metavar="NAMES", default="", help="columns in their order: 'id type x y z vx vy vz' (default: all)")
+    part.add_argument("--stride", type=int, default=1, metavar="N", help="particles whose id is a multiple of N")
+    part.add_argument("--region", metavar="BOUNDS", help="'xlo xhi ylo yhi zlo zhi', with - where there is no bound")
+    part.add_argument("--coordinates", choices=("absolute", "unwrapped", "scaled"), help="of .npz, .csv and files of VTK")
+    part.add_argument("--sort", action="store_true", help="rows in the order of their ids")
+    form = parser.add_argument_group("the form of dumps")
+    form.add_argument("--style", choices=("atom", "custom", "local", "euler", "decomposition"), help="(default: by data and ending)")
+    form.add_argument("--dialect", default="", help="LIGGGHTS or LAMMPS; of subdomains PUBLIC or INL; of cells LIGGGHTS or Wide")
+    form.add_argument("--numbers", metavar="FORMAT", default="", help="%%g, %%.1g to %%.17g or shortest (default: the digits of the file)")
+    form.add_argument("--label", default="", help="word for rows of contacts and bonds")
+    form.add_argument("--unscaled", action="store_true", help="style atom: x y z instead of xs ys zs")
+    form.add_argument("--image", action="store_true", help="style atom: also ix iy iz")
+    parser.add_argument("--quiet", "-q", action="store_true", help="no bar")
+
+
+def _region(text: str | None) -> list[float | None] | None:
+    if text is None:
+        return None
+    words = text.replace(",", " ").split()
+    if len(words) != 6:
+        raise ValueError(f"--region: expected six bounds, xlo xhi ylo yhi zlo zhi, got {text!r}")
+    return [None if word == "-" else float(word) for word in words]
+
+
+def _write_npz(frame: Any, stream: Any, columns: list[str] | None) -> None:
+    import numpy
+
+    box = frame.box
+    facts = {"step": numpy.array(frame.step), "time": numpy.array(frame.time)}
+    if box is not None:
+        facts |= {"box_origin": box.origin, "box_vectors": box.vectors}
+    wanted = frame._has_points() and (columns is None or {"x", "y", "z", "x1"} & set(columns))
+    points = {"points": frame.points} if wanted else {}
+    numpy.savez(stream, **{**facts, **points, **dict(frame)})
+
+
+def _write_csv(frame: Any, stream: Any, columns: list[str] | None) -> None:
+    import csv
+    import io
+
+    from .._run import component_columns
+
+    table = component_columns(frame)
+    if columns is not None:
+        table = {name: table[name] for name in columns}
+    text = io.TextIOWrapper(stream, encoding="utf-8", newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(table)
+    writer.writerows(zip(*(values.tolist() for values in table.values())))  # the shortest digits that read back as the same number
+    text.detach()
+
+
+def _write_vtk(frame: Any, path: str, ending: str) -> None:
+    try:
+        from vtkmodules.vtkFiltersCore import vtkAppendFilter
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
+    except ImportError as error:
+        raise ImportError(f"{ending} needs VTK for Python (Debian: python3-vtk9; pip: vtk): {error}") from error
+    data = frame.to_vtk()
+    if ending == ".vtu":
+        append = vtkAppendFilter()
+        append.AddInputData(data)
+        append.Update()
+        data, writer = append.GetOutput(), vtkXMLUnstructuredGridWriter()
+    elif ending == ".vtp":
+        writer = vtkXMLPolyDataWriter()
+    else:
+        try:
+            from vtkmodules.vtkIOHDF import vtkHDFWriter
+        except ImportError as error:
+            raise ImportError(f".vtkhdf needs VTK 9.4 or later: {error}") from error
+        writer = vtkHDFWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(data)
+    if not writer.Write():
+        raise OSError(f"{path}: VTK could not write it")
+
+
+_FRAME_WRITERS: dict[str, Callable[[Any, str, Any], None]] = {
+    ".npz": lambda frame, path, columns: _to_stream(_write_npz, frame, path, columns),
+    ".csv": lambda frame, path, columns: _to_stream(_write_csv, frame, path, columns),
+    ".vtp": lambda frame, path, columns: _write_vtk(frame, path, ".vtp"),
+    ".vtu": lambda frame, path, columns: _write_vtk(frame, path, ".vtu"),
+    ".vtkhdf": lambda frame, path, columns: _write_vtk(frame, path, ".vtkhdf"),
+}
+
+
+def _to_stream(write: Callable[[Any, Any, Any], None], frame: Any, path: str, columns: list[str] | None) -> None:
+    with open(path, "wb") as stream:
+        write(frame, stream, columns)
+
+
+def _write_frames(frames: list[Any], columns: list[str] | None, out: str, ending: str, bar: Bar) -> None:
+    """Writes each frame to a file of its own, under a name that is replaced when the file is complete."""
+    if len(frames) != 1 and "*" not in os.path.basename(out):
+        raise ValueError(f"{out}: expected * for the timestep in the name, or one frame (--frames -1): {ending} holds one frame a file, and "
+                         f"there are {len(frames)}")
+    for i, frame in enumerate(frames):
+        frame.read(bar.within(i, len(frames)))
+        path = os.path.join(os.path.dirname(out), os.path.basename(out).replace("*", str(frame.step)))
+        temporary = f"{path}.{os.getpid()}.tmp{ending}"
+        try:
+            _FRAME_WRITERS[ending](frame, temporary, columns)
+            os.replace(temporary, path)
+        except BaseException:
+            if os.path.exists(temporary):
+                os.remove(temporary)
+            raise
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Converts the files."""
+    from .. import write
+    from .._run import arrays_of
+
+    ending = os.path.splitext(arguments.out)[1].lower()
+    with open_run(arguments) as opened, Bar(sum(map(os.path.getsize, opened.files)), arguments.quiet) as bar:
+        numbers = chosen(opened, arguments.frames)
+        asked = {"stride": arguments.stride, "region": _region(arguments.region), "sort": arguments.sort,
+                 "coordinates": arguments.coordinates or "absolute", "threads": arguments.threads}
+        words = arguments.columns.replace(",", " ").split()
+        if ending in _FRAME_WRITERS:
+            arrays, columns = arrays_of(numbers[0], words) if words and len(numbers) else (None, None)
+            frames = [opened._part(number, columns=arrays, **asked) for number in numbers._numbers()]
+            _write_frames(frames, columns, arguments.out, ending, bar)
+            return
+        if arguments.coordinates:
+            raise ValueError(f"{arguments.out}: --coordinates is for .npz, .csv and files of VTK; dumps say by --columns which they have: xs xu x")
+        part = numbers if asked["stride"] == 1 and not asked["region"] else \
+            [opened._part(number, **asked) for number in numbers._numbers()]
+        write(arguments.out, part, style=arguments.style or "", dialect=arguments.dialect, columns=" ".join(words), numbers=arguments.numbers,
+              label=arguments.label, scaled=not arguments.unscaled, image=arguments.image, sort=arguments.sort,
+              threads=arguments.threads, progress=bar.show)

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Says what files hold: frames, steps, times, columns with types, box, dialect, size, and what is odd about them.
+
+Only headers are read, so large files take no longer than the search for their frames."""
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from typing import Any
+
+from . import add_files, notices, open_run
+
+MORE = "Only headers are read: large files take no longer than the search for their frames."
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options of info."""
+    add_files(parser)
+    parser.add_argument("--json", action="store_true", help="prints JSON instead of words")
+
+
+def size_text(size: float) -> str:
+    """Returns a number of bytes as people write it."""
+    for unit in ("bytes", "kB", "MB", "GB"):
+        if size < 1000:
+            return f"{size:.3g} {unit}" if unit != "bytes" else f"{size:.0f} bytes"
+        size /= 1000
+    return f"{size:.4g} TB"
+
+
+def facts(run: Any) -> dict[str, Any]:
+    """Returns what is known of a run from the headers of its frames."""
+    steps, rows = run.steps, run.rows
+    last = len(run) - 1
+    while last > 0 and rows[last] == 0:
+        last -= 1
+    found: dict[str, Any] = {"kind": run.kind, "files": len(run.files), "bytes": sum(os.path.getsize(name) for name in run.files),
+                             "frames": len(run)}
+    if len(run):
+        frame = run[last]
+        box = frame.box
+        found |= {"steps": steps.tolist(), "times": run.times.tolist(), "rows": rows.tolist(), "dialect": frame.dialect,
+                  "units": frame.units, "label": frame.label,
+                  "box": box and {"lo": box.lo.tolist(), "hi": box.hi.tolist(), "tilts": box.tilts.tolist(),
+                                  "origin": box.origin.tolist(), "vectors": box.vectors.tolist(), "boundary": box.boundary},
+                  "columns": [column._asdict() for column in run.columns], "file_columns": frame.columns}
+    found["odd"] = file_faults(run) + oddities(steps, rows)
+    return found
+
+
+def file_faults(run: Any) -> list[str]:
+    """Returns what the files hold that is not shown: frames that end early, and timesteps that come again."""
+    found = []
+    for path, _, _, repeated, defect in run._file_facts():
+        if defect and "one of several processes" not in defect:  # of a restart file, which is known by its base
+            found.append(defect if defect.startswith(path) else f"{path}: {defect}")
+        if repeated:
+            found.append(f"{path}: {repeated} frames have the timestep of an earlier one in this file, and the last one counts")
+    return found
+
+
+def oddities(steps: Any, rows: Any) -> list[str]:
+    """Returns what one would not expect of the frames."""
+    found = []
+    if not len(steps):
+        return ["there are no frames"]
+    gaps = steps[1:] - steps[:-1]
+    if len(gaps) > 1 and (gaps != gaps[0]).any():
+        values, counts = unique(gaps.tolist())
+        usual = values[counts.index(max(counts))]
+        odd = [i for i, gap in enumerate(gaps) if gap != usual]
+        found.append(f"{len(odd)} of {len(gaps)} frames do not follow the one before after {usual} steps; the first: "
+                     f"{steps[odd[0]]} to {steps[odd[0] + 1]}")
+    empty = int((rows == 0).sum())
+    if empty:
+        found.append(f"{empty} of {len(rows)} frames are empty; the first: step {steps[(rows == 0).argmax()]}")
+    return found
+
+
+def unique(values: list[int]) -> tuple[list[int], list[int]]:
+    """Returns the different values and how often each occurs."""
+    from collections import Counter
+
+    counted = Counter(values)
+    return list(counted), list(counted.values())
+
+
+def span(values: list[Any], form: str = "") -> str:
+    """Returns 'first to last'."""
+    if not values:
+        return "none"
+    return f"{values[0]:{form}}" if values[0] == values[-1] else f"{values[0]:{form}} to {values[-1]:{form}}"
+
+
+def print_facts(found: dict[str, Any], name: str) -> None:
+    """Prints what was found in words."""
+    dialect = f", {found['dialect']}" if found.get("dialect") else ""
+    files = "1 file" if found["files"] == 1 else f"{found['files']} files"
+    lines = [("kind", found["kind"] + dialect), ("size", f"{files}, {size_text(found['bytes'])}"), ("frames", str(found["frames"]))]
+    if found["frames"]:
+        rows = sorted(found["rows"])
+        steps = found["steps"]
+        gaps = {b - a for a, b in zip(steps, steps[1:])}
+        lines.append(("steps", span(steps) + (f", every {gaps.pop()}" if len(gaps) == 1 else "")))
+        if found["times"] != steps:
+            lines.append(("times", span(found["times"], "g")))
+        lines.append(("rows", span(rows)))
+        lines += [(word, found[word]) for word in ("units", "label") if found[word]]
+        box = found["box"]
+        if box:
+            edges = [f"{lo:g} to {hi:g}" for lo, hi in zip(box["lo"], box["hi"])]
+            tilts = f", tilts {' '.join(f'{tilt:g}' for tilt in box['tilts'])}" if any(box["tilts"]) else ""
+            lines.append(("box", ", ".join(edges) + tilts + (f", {box['boundary']}" if box["boundary"] else "")))
+        names = [column["name"] for column in found["columns"]]
+        width = max(map(len, names), default=0)
+        is_si = found["units"] == "si" or (found["dialect"] != "LAMMPS" and not found["units"])
+        for i, column in enumerate(found["columns"]):
+            parts = f" x {column['components']}" if column["components"] > 1 else ""
+            unit = f" [{column['unit']}]" if is_si and column["unit"] not in ("", "-") else ""
+            lines.append(("columns" if i == 0 else "", f"{column['name']:{width}}  {column['type'] + parts:11}  "
+                          f"{column['meaning']}{unit}".rstrip()))
+    lines += [("odd" if i == 0 else "", text) for i, text in enumerate(found["odd"])]
+    print(name)
+    for word, text in lines:
+        print(f"  {word:9}{text}")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Prints what the files hold."""
+    with notices() as said, open_run(arguments) as opened:
+        found = facts(opened)
+    found["odd"] = said + found["odd"]
+    if arguments.json:
+        print(json.dumps({"given": arguments.files, **found}, indent=2))
+    else:
+        print_facts(found, " ".join(arguments.files))

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes a picture of a frame: particles as spheres in their box, contacts and bonds as lines."""
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+from . import add_files, chosen, open_run
+
+MORE = """It draws by the VTK of this Python or of ParaView. Without a display, it draws on a virtual one (Debian packages xvfb and \
+xauth)."""
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options of show."""
+    add_files(parser)
+    parser.add_argument("-o", "--output", metavar="PICTURE", help="name of the picture, which ends in .png (default: that of the first "
+                        "file with .png, in this folder)")
+    parser.add_argument("--frame", default="-1", metavar="N", help="number of the frame, from 0, or from the end (default: -1, the last one)")
+    parser.add_argument("--color", metavar="NAME", help="column to colour by")
+    parser.add_argument("--size", default="1200x900", metavar="WxH", help="pixels (default: 1200x900)")
+
+
+def _with_display(command: list[str]) -> list[str]:
+    """A command that may draw."""
+    if os.environ.get("DISPLAY"):
+        return command
+    if not shutil.which("xvfb-run"):
+        raise ImportError("expected a display to draw on, or xvfb-run, got neither (Debian: xvfb xauth)")
+    return ["xvfb-run", "-a", *command]
+
+
+def _interpreter() -> str | None:
+    """The Python that has VTK: this one, or that of ParaView."""
+    if importlib.util.find_spec("vtkmodules"):
+        return sys.executable
+    return shutil.which("pvpython")
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Makes the picture."""
+    parts = arguments.size.lower().split("x")
+    if len(parts) != 2 or not all(part.isdigit() and int(part) > 0 for part in parts):
+        raise ValueError(f"--size: expected WxH, as 1200x900, got {arguments.size!r}")
+    with open_run(arguments) as opened:
+        frames = chosen(opened, arguments.frame)
+        if len(frames) != 1:
+            raise ValueError(f"--frame: expected one number, got {arguments.frame!r}")
+        if arguments.color and arguments.color not in frames[0]:
+            frames[0]._raise_no_column(arguments.color)
+        files, options, number = opened.files, opened._options, frames._numbers()[0]
+    picture = arguments.output or os.path.splitext(os.path.basename(files[0]))[0] + ".png"
+    if not picture.endswith(".png"):
+        raise ValueError(f"--output: expected a name that ends in .png, got {picture!r}")
+    python = _interpreter()
+    if python is None:
+        raise ImportError("expected VTK or ParaView to draw with, got neither (Debian: python3-vtk9 or python3-paraview; pip: vtk)")
+    temporary = os.path.abspath(f"{picture}.{os.getpid()}.tmp.png")
+    given = {"files": files, "options": options, "frame": number, "color": arguments.color, "size": list(map(int, parts)),
+             "picture": temporary}
+    package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
+    try:
+        done = subprocess.run(_with_display([python, "-m", "granular.command.draw", json.dumps(given)]), capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": path})
+        if done.returncode or not os.path.exists(temporary):
+            raise RuntimeError(f"{picture}: {(done.stdout + done.stderr).strip()}")
+        os.replace(temporary, picture)
+    finally:
+        if os.path.exists(temporary):
+            os.remove(temporary)
+    print(picture)

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What cannot be is an error that says where, what was expected and what there is; nothing crashes and nothing is lost."""
+import os
+import pickle
+import shutil
+
+import numpy
+
+import granular
+
+DATA = os.environ["GRANULAR_DATA"]
+SOURCE = os.path.join(DATA, "good", "grains.dump")
+
+
+def raises(kind, call, *words):
+    try:
+        call()
+    except Exception as error:  # noqa: BLE001
+        assert type(error) is kind, (type(error), error)
+        assert all(word in str(error) for word in words), error
+        return error
+    raise AssertionError(f"expected {kind}")
+
+
+run = granular.open(SOURCE)
+last = len(run) - 1
+frame = run[-1]
+
+# columns and frames that there are not
+error = raises(granular.ColumnError, lambda: frame["velocity"], "radius", "'velocity'", "id")
+assert isinstance(error, KeyError) and isinstance(error, ValueError) and isinstance(error, granular.Error)
+assert frame.get("velocity") is None and "velocity" not in frame
+raises(granular.ColumnError, lambda: run.read(columns=["v", "velocity"]), "'velocity'")
+raises(IndexError, lambda: run[len(run)], f"from {-len(run)} to {last}", str(len(run)))
+raises(IndexError, lambda: run[-len(run) - 1])
+assert len(run[len(run):]) == 0 and list(run[2:2]) == []
+raises(ValueError, lambda: frame.bonds, "dump")
+
+# requests that cannot be
+raises(granular.ArgumentError, lambda: run.read(stride=0), "stride")
+raises(ValueError, lambda: run.read(region=[0, 1]), "six bounds")
+raises(ValueError, lambda: run.read(coordinates="polar"), "absolute", "'polar'")
+raises(ValueError, lambda: run.read(precision="half"), "single")
+raises(ValueError, lambda: granular.open(SOURCE, kind="picture"), "dump", "'picture'")
+raises(granular.ArgumentError, lambda: granular.open(SOURCE, dt=-1), "-1")
+
+# files that are not there, that are empty, that are damaged
+raises(FileNotFoundError, lambda: granular.open("nowhere.dump"), "nowhere.dump")
+raises(FileNotFoundError, lambda: granular.open("nowhere_*.dump"), "nowhere_*.dump")
+bad = os.path.join(DATA, "bad", "row_word.dump")
+error = raises(granular.Error, lambda: granular.open(bad)[0].read(), bad)
+assert error.path == bad and error.line > 9 and error.column, (error.line, error.column)
+again = pickle.loads(pickle.dumps(error))
+assert str(again) == str(error) and (again.path, again.line, again.column) == (error.path, error.line, error.column)
+for name in sorted(os.listdir(os.path.join(DATA, "bad"))):
+    path = os.path.join(DATA, "bad", name)
+    try:
+        for each in granular.open(path, kind="dump"):
+            each.read()
+    except granular.Error as error:
+        assert path in str(error), (name, error)
+    else:
+        raise AssertionError(f"{name} was read")
+
+# a file that is replaced or cut while the run is open
+shutil.copy(SOURCE, "changing.dump")
+changing = granular.open("changing.dump")
+kept = changing[1]["v"]
+before = kept.copy()
+with open(SOURCE, "rb") as stream:
+    half = stream.read()[:200000]
+with open("other.dump", "wb") as stream:
+    stream.write(half)
+os.replace("other.dump", "changing.dump")
+raises(granular.Error, lambda: changing[len(changing) - 1].read(), "changing.dump")
+assert numpy.array_equal(kept, before)
+changing.refresh()
+assert 0 < len(changing) < len(run)
+changing[0].read()
+os.remove("changing.dump")
+raises(FileNotFoundError, lambda: changing.refresh(), "changing.dump")
+
+# a run that is closed: arrays stay, the rest says so
+velocity, other = frame["v"], run[1]
+expected = velocity.copy()
+run.close()
+run.close()
+for call in (lambda: len(run), lambda: run.steps, lambda: run[0], lambda: other["v"], lambda: run.read(), lambda: run.refresh(),
+             lambda: list(run), lambda: run.columns):
+    raises(ValueError, call, "closed", "grains.dump")
+assert numpy.array_equal(velocity, expected) and "closed" in repr(run)
+with granular.open(SOURCE) as opened:
+    assert len(opened) == last + 1
+raises(ValueError, lambda: len(opened), "closed")
+
+# functions of the caller: False stops, an exception is raised again
+seen = []
+granular.open(SOURCE).read(progress=seen.append)
+assert seen and seen == sorted(seen) and 0 <= seen[0] and seen[-1] <= 1, seen
+raises(granular.Cancelled, lambda: granular.open(SOURCE).read(progress=lambda fraction: False))
+raises(ZeroDivisionError, lambda: granular.open(SOURCE).read(progress=lambda fraction: 1 / 0))
+print("what cannot be is said")

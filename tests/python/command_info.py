@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""granular info, the help, the manual page and the completion."""
+import json
+import os
+import subprocess
+import sys
+
+import plain_dump
+from command import GOOD, SAMPLES, content, granular
+
+# in words and as JSON, of real runs
+source = os.path.join(SAMPLES, "grains.dump")
+frames = plain_dump.read(source)
+said, _ = granular("info", source, "--dt", "2e-5")
+for line in ("kind     dump, LIGGGHTS", "frames   5", "steps    0 to 4000, every 1000", "times    0 to 0.08", "rows     0 to 1200",
+             "box      -0.05 to 0.05, -0.05 to 0.05, 0 to 0.15, pp pp ff", "v       float64 x 3  velocity [m/s]",
+             "odd      1 of 5 frames are empty; the first: step 0"):
+    assert line in said, (line, said)
+told = json.loads(granular("info", "--json", source)[0])
+assert told["steps"] == [frame.timestep for frame in frames] and told["rows"] == [frame.rows for frame in frames]
+assert told["bytes"] == os.path.getsize(source) and told["files"] == 1 and told["file_columns"] == list(frames[-1].columns)
+assert [column["name"] for column in told["columns"]] == ["id", "type", "image", "v", "f", "omega", "radius", "mass"]
+told = json.loads(granular("info", "--json", os.path.join(SAMPLES, "pieces", "pieces_*.%.dump"))[0])
+assert told["files"] == 20 and told["frames"] == 5 and told["rows"] == [frame.rows for frame in frames]
+for path, kind in ((os.path.join(SAMPLES, "euler_*.vtk"), "euler"), (os.path.join(SAMPLES, "restart", "fibres.20000.restart"), "restart"),
+                   (os.path.join(SAMPLES, "bonds", "chain_bonds.dump"), "local"), (os.path.join(SAMPLES, "bonds", "chain.data"), "data"),
+                   (os.path.join(GOOD, "decomposition_1000.vtk"), "decomposition")):
+    assert json.loads(granular("info", "--json", path)[0])["kind"] == kind, path
+said, _ = granular("info", os.path.join(GOOD, "tri_image.dump"))
+assert "tilts" in said and "[m/s]" not in said, said  # of LAMMPS without ITEM: UNITS nobody knows the unit
+
+# what is odd: a frame that ends early, timesteps at uneven distances, timesteps that come again
+text = content(source)
+with open("odd.dump", "wb") as out:
+    out.write(text[: text.index(b"ITEM: TIMESTEP\n3000")] + text[text.index(b"ITEM: TIMESTEP\n4000"):] + text[:-5])
+odd = "\n".join(json.loads(granular("info", "--json", "odd.dump")[0])["odd"])
+assert "expected 1200 rows, got 1199" in odd and "have the timestep of an earlier one" in odd, odd
+granular("info", "nowhere.dump", status=1)
+granular("info", status=2)
+granular("nonsense", status=2)
+assert "usage" in granular("--help")[0]
+for command in ("info", "check", "convert", "stats", "show"):
+    assert command in granular("--help")[0] and "exit status" in granular(command, "--help")[0]
+
+# head leaves before all is told
+shell = subprocess.run(f"{sys.executable} {os.environ['GRANULAR_COMMAND']} stats {source} | head -1", shell=True, capture_output=True, text=True)
+assert shell.returncode == 0 and not shell.stderr and shell.stdout.startswith("step 0"), shell
+
+# the manual page is made of the options, and troff understands it; bash completes commands, options and choices
+for kind in ("man", "bash"):
+    subprocess.run([sys.executable, "-m", "granular.command.manual", kind, kind], check=True)
+page = content("man").decode()
+assert page.startswith(".TH GRANULAR 1") and all(f".SH {name}" in page for name in ("NAME", "SYNOPSIS", "INFO", "CONVERT", "EXIT STATUS"))
+assert "\\-\\-frames" in page and "\\-\\-region" in page
+script = """source ./bash
+complete_words() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _granular; echo "${COMPREPLY[@]}"; }
+complete_words granular c
+complete_words granular info --js
+complete_words granular convert a.dump --style e
+touch some_file.dump; complete_words granular info some_f
+"""
+done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True)
+assert done.stdout.split("\n")[:4] == ["check convert", "--json", "euler", "some_file.dump"], (done.stdout, done.stderr)
+print("info")

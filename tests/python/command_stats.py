@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""granular stats, against fractions; granular show, where it can draw."""
+import csv
+import importlib.util
+import io
+import os
+import shutil
+from fractions import Fraction
+
+import plain_dump
+from command import SAMPLES, granular
+
+SOURCE = os.path.join(SAMPLES, "grains.dump")
+text = plain_dump.read(SOURCE)[-1]
+rows = list(csv.DictReader(io.StringIO(granular("stats", SOURCE, "--csv", "--frames", "-1", "--dt", "2e-5")[0])))
+told = {row["column"]: row for row in rows}
+for name in ("id", "x", "vx", "omegaz", "radius", "mass", "ix"):
+    exact = [Fraction(word) if name in ("id", "ix") else Fraction(float(word)) for word in text.columns[name]]
+    row = told[name]
+    assert (int(row["count"]), float(row["min"]), float(row["max"])) == (len(exact), float(min(exact)), float(max(exact))), row
+    assert float(row["sum"]) == float(sum(exact)) and float(row["mean"]) == float(sum(exact)) / len(exact), row
+    assert row["step"] == "4000" and row["time"] == "0.08"
+mass = [Fraction(float(word)) for word in text.columns["mass"]]
+velocity = [[Fraction(float(word)) for word in text.columns[name]] for name in ("vx", "vy", "vz")]
+energy = sum(m * (x * x + y * y + z * z) for m, x, y, z in zip(mass, *velocity)) / 2
+mean = [sum(m * v for m, v in zip(mass, axis)) / sum(mass) for axis in velocity]
+heat = sum(m * sum((v - u) ** 2 for v, u in zip(each, mean)) for m, *each in zip(mass, *velocity)) / (3 * sum(mass))
+height = sum(m * Fraction(float(word)) for m, word in zip(mass, text.columns["z"])) / sum(mass)
+for name, exact in (("kinetic energy", energy), ("granular temperature", heat), ("centre of mass z", height)):
+    assert abs(float(told[name]["mean"]) / float(exact) - 1) < 1e-14, (name, told[name], float(exact))
+some = granular("stats", SOURCE, "--columns", "v radius")[0]
+assert some.count("vx") == 5 and "mass" not in some and "kinetic" not in some
+assert "velocity" in granular("stats", SOURCE, "--columns", "velocity", status=1)[1]
+
+granular("show", SOURCE, "--size", "large", status=2)
+assert "radius" in granular("show", SOURCE, "--color", "velocity", status=1)[1]
+if importlib.util.find_spec("vtkmodules") and shutil.which("xvfb-run"):
+    assert granular("show", SOURCE, "-o", "shown.png", "--color", "v", "--size", "300x200")[0] == "shown.png\n"
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOImage import vtkPNGReader
+
+    reader = vtkPNGReader()
+    reader.SetFileName("shown.png")
+    reader.Update()
+    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
+    assert reader.GetOutput().GetDimensions()[:2] == (300, 200)
+    coloured = (pixels.max(axis=1) - pixels.min(axis=1) > 60).mean()
+    assert 0.05 < coloured < 0.5, coloured  # particles, and not the whole picture
+else:
+    print("nothing to draw with")
+print("stats")

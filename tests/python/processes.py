@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs and frames in threads and processes: pickled by their files, forked with the file open, iterated with reading ahead."""
+import multiprocessing
+import os
+import threading
+
+import numpy
+
+import granular
+
+SOURCE = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
+
+
+def total(frame):
+    return frame.step, frame["v"].sum()
+
+
+def main():
+    run = granular.open(SOURCE, dt=2e-5, threads=2)
+    expected = [(frame.step, frame["v"].sum()) for frame in (run[i] for i in range(len(run)))]
+
+    # reading ahead gives what reading one by one gives, whichever columns are asked for
+    assert [total(frame) for frame in run] == expected
+    assert [total(frame) for frame in run[::-1]] == expected[::-1]
+    for frame, alone in zip(run, (run[i] for i in range(len(run)))):
+        names = list(frame)[: 1 + frame.number % 3]
+        for name in names:
+            assert numpy.array_equal(frame[name], alone[name]), name
+        assert numpy.array_equal(frame.points, alone.points)
+    for frame in run:
+        frame["id"]
+        break  # what was read ahead is of no harm
+
+    for way in ("fork", "spawn"):
+        with multiprocessing.get_context(way).Pool(2) as pool:
+            assert pool.map(total, run) == expected, way
+            assert pool.map(total, run[1:3]) == expected[1:3], way
+
+    # a child of a process whose run is open, and has been read by several threads
+    run[-1].read()
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if total(run[-1]) == expected[-1] and total(run[1]) == expected[1] else 1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert total(run[-1]) == expected[-1]
+
+    # one run, one frame, several threads; closed while others read
+    found, frame = [], run[-1]
+    threads = [threading.Thread(target=lambda: found.append((total(frame), [total(each) for each in run]))) for _ in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [(expected[-1], expected)] * 6
+
+    results = []
+
+    def read_until_closed():
+        try:
+            for _ in range(1000):
+                results.append(total(run[-1]) == expected[-1])
+        except ValueError as error:
+            results.append("closed" in str(error))
+
+    threads = [threading.Thread(target=read_until_closed) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    while len(results) < 10:
+        pass
+    run.close()
+    for thread in threads:
+        thread.join()
+    assert all(results) and 10 <= len(results) < 3000
+
+
+if __name__ == "__main__":
+    main()
+    print("threads and processes agree")

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays and frames as files: the text that a simulation code would print, all digits, whole files or the old ones."""
+import gzip
+import os
+import warnings
+
+import numpy
+
+import granular
+import plain_dump
+
+GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
+
+
+def text_of(path):
+    with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="ascii") as stream:
+        return stream.read()
+
+
+def raises(kind, call, *words):
+    try:
+        call()
+    except kind as error:
+        assert all(word in str(error) for word in words), error
+        return
+    raise AssertionError(f"expected {kind}")
+
+
+# arrays: types, words, vectors, the order of the columns
+arrays = {"id": [7, 5], "element": ["Fe", "Cu"], "points": [[0.5, 1, 1.5], [2, 2.5, 0.1]], "v": [[1, 0, 0], [0, -1e-300, 3]],
+          "type": numpy.array([1, 2], dtype=numpy.uint8)}
+box = granular.Box(lo=(0, 0, 0), hi=(3, 4, 5), boundary="pp pp ff")
+granular.write("mine.dump", arrays, box=box, step=42, dialect="LIGGGHTS", columns="id element x y z v", sort=True)
+assert text_of("mine.dump") == (
+    "ITEM: TIMESTEP\n42\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n0 3\n0 4\n0 5\n"
+    "ITEM: ATOMS id element x y z vx vy vz \n5 Cu 2 2.5 0.1 0 -1e-300 3 \n7 Fe 0.5 1 1.5 1 0 0 \n")
+granular.write("mine.dump", arrays, box=box, step=1, time=0.25, units="si", dialect="LAMMPS",
+               columns=["id", "type", "x", "y", "z"])
+assert text_of("mine.dump").startswith("ITEM: UNITS\nsi\nITEM: TIME\n0.25\nITEM: TIMESTEP\n1\n"), text_of("mine.dump")
+for name in ("int8", "int16", "int32", "int64", "uint16", "uint32", "uint64", "float32", "float64", "bool"):
+    values = numpy.array([0, 1]).astype(name)
+    granular.write("types.dump", {"id": [1, 2], "type": [1, 1], "points": numpy.eye(3)[:2], "c_a": values}, box=box)
+    assert granular.open("types.dump")[0]["c_a"].tolist() == values.astype(float).tolist(), name
+big = numpy.array([2 ** 62 + 1, -2 ** 63])
+granular.write("types.dump", {"id": big, "type": [1, 1], "points": numpy.eye(3)[:2]}, box=box)
+assert granular.open("types.dump")[0]["id"].tolist() == big.tolist()
+
+# memory as numpy has it: not contiguous, of the other byte order, of Fortran's order
+spread = numpy.random.default_rng(1).random((20, 6))[::2, ::2]
+granular.write("memory.dump", {"id": numpy.arange(1, 11)[::-1], "type": [1] * 10, "points": numpy.asfortranarray(spread),
+                               "c_b": spread[:, 0].astype(">f8")}, box=box)
+frame = granular.open("memory.dump")[0]
+assert numpy.array_equal(frame.points, spread) and numpy.array_equal(frame["c_b"], spread[:, 0])
+
+# every digit comes back; tilted and general boxes too
+random = numpy.random.default_rng(2)
+hard = random.integers(0, 2 ** 64, 3000, dtype=numpy.uint64).view(float)
+hard = hard[numpy.isfinite(hard)][:2700].reshape(-1, 3)
+for path in ("hard.dump", "hard.dump.gz", "hard.dump.zst", "hard.lammpsbin"):
+    tilted = granular.Box(lo=(-1, -2, -3), hi=(1, 2, 3), tilts=(0.1, -0.2, 0.3), boundary="pp pp pp")
+    granular.write(path, {"id": numpy.arange(len(hard)), "type": numpy.ones(len(hard), int), "points": hard, "v": hard[::-1]}, box=tilted)
+    frame = granular.open(path)[0]
+    assert numpy.array_equal(frame.points, hard) and numpy.array_equal(frame["v"], hard[::-1]), path
+    assert frame.box == tilted and frame.box.tilts.tolist() == [0.1, -0.2, 0.3]
+general = granular.Box(origin=(0.5, 0, 0), vectors=[(2, 1, 0), (-1, 2, 0), (0, 0, 3)], boundary="pp pp pp")
+granular.write("general.dump", {"id": [1], "type": [1], "points": [[0.5, 0.5, 0.5]]}, box=general, dialect="LAMMPS")
+read = granular.open("general.dump")[0].box
+assert numpy.array_equal(read.vectors, general.vectors) and numpy.array_equal(read.origin, general.origin)
+
+# files of real runs get their bytes back, with any number of threads; parts of them are what a plain reading has
+for name in ("grains.dump", "ortho_scaled.dump", "tri_image.dump", "tri_plain.dump"):
+    for threads in (1, 2, 5):
+        granular.write("again.dump", granular.open(os.path.join(GOOD, name)), threads=threads)
+        assert text_of("again.dump") == text_of(os.path.join(GOOD, name)), name
+run = granular.open(os.path.join(GOOD, "grains.dump"))
+granular.write("step_*.dump.gz", run[1:])
+assert sorted(name for name in os.listdir() if name.startswith("step_")) == ["step_1000.dump.gz", "step_2000.dump.gz"]
+granular.write("some.dump", run, columns="id x y z")
+for some, all_ in zip(plain_dump.read("some.dump"), plain_dump.read(os.path.join(GOOD, "grains.dump"))):
+    assert list(some.columns) == ["id", "x", "y", "z"] and some.columns["y"] == all_.columns["y"]
+granular.write("kept.dump", (run.read(i, stride=3) for i in range(len(run))))
+assert [frame.rows for frame in plain_dump.read("kept.dump")] == [sum(int(word) % 3 == 0 for word in text.columns["id"])
+                                                                  for text in plain_dump.read(os.path.join(GOOD, "grains.dump"))]
+seen = []
+granular.write("progress.dump", run, progress=seen.append)
+assert seen == sorted(seen) and seen[-1] <= 1 and len(seen) > 2, seen
+
+# what cannot be, and the old file
+with open("old.dump", "w") as stream:
+    stream.write("old")
+point = [[0.0, 0, 0]]
+for data, kind, words in (
+        ({"id": [1, 2], "points": point}, granular.ArgumentError, ("'points'", "2 rows", "1")),
+        ({"points": numpy.zeros((1, 2, 2, 2))}, granular.ArgumentError, ("'points'", "shape")),
+        ({"points": point, "v": numpy.array([1j])}, granular.ArgumentError, ("'v'", "complex128")),
+        ({"points": [[0.0, 0]]}, granular.ArgumentError, ("'points'", "three", "got 2")),
+        ({"v": [[1.0, 2, 3]]}, granular.Error, ("points",))):
+    raises(kind, lambda: granular.write("old.dump", data, box=box), *words)  # noqa: B023
+    assert text_of("old.dump") == "old", data
+raises(granular.Error, lambda: granular.write("old.dump", {"id": [1], "type": [1], "points": point}, box=box, columns="id radius"), "radius")
+raises(granular.ArgumentError, lambda: granular.write("old.dump", {"points": point}, box=box, dialect="VASP"), "LIGGGHTS", "'VASP'")
+raises(granular.Error, lambda: granular.write("old.dump", {"points": point}, box=box, numbers="%d"), "%d")
+raises(OSError, lambda: granular.write("nowhere/new.dump", {"points": point}, box=box), "nowhere")
+raises(granular.Cancelled, lambda: granular.write("old.dump", run, progress=lambda fraction: False))
+raises(ZeroDivisionError, lambda: granular.write("old.dump", run, progress=lambda fraction: 1 / 0))
+try:
+    with granular.Writer("old.dump") as writer:
+        writer.write(run[1])
+        raise KeyboardInterrupt
+except KeyboardInterrupt:
+    pass
+assert text_of("old.dump") == "old"
+raises(ValueError, lambda: writer.write(run[1]), "finished")
+assert not [name for name in os.listdir() if "tmp" in name or ".granular" in name], os.listdir()
+
+# notices are warnings, at the line of who called
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter("always")
+    granular.write("bounds.dump", arrays, box=[(0, 3), (0, 4), (0, 5)])
+    assert "boundaries" in str(caught[-1].message) and granular.open("bounds.dump")[0].box.hi.tolist() == [3, 4, 5]
+    granular.write("no_box.dump", {"id": [1, 2], "type": [1, 1], "points": [[0.0, 0, 0], [1, 1, 1]]})
+assert caught and all(each.filename == __file__ for each in caught), [str(each) for each in caught]
+print("written")
