@@ -1,27 +1,41 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Builds the C library by CMake and puts it into the package. Nothing in it depends on the version of Python."""
+"""Builds the C library by CMake and puts it into the package. Nothing in it depends on the version of Python. GRANULAR_BUILD names a
+build folder that has the library already."""
+import glob
 import os
 import re
 import subprocess
+import tempfile
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
 from wheel.bdist_wheel import bdist_wheel
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-BUILD = os.path.join(HERE, "build", "wheel")
+
+
+def build_library():
+    """Returns the build folder."""
+    build = os.path.join(HERE, "build", "wheel")
+    subprocess.run(["cmake", "-S", HERE, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DGRANULAR_BUILD_PLUGIN=OFF", "-DBUILD_TESTING=OFF",
+                    "-DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON"], check=True)
+    subprocess.run(["cmake", "--build", build, "--target", "granular_c", "--parallel", str(os.cpu_count())], check=True)
+    return build
 
 
 class BuildPackage(build_py):
-    """The package as CMake makes it, and the library beside its modules."""
+    """The modules and the library, as CMake installs them, in one folder."""
 
     def run(self):
-        subprocess.run(["cmake", "-S", HERE, "-B", BUILD, "-DCMAKE_BUILD_TYPE=Release", "-DGRANULAR_BUILD_PLUGIN=OFF", "-DBUILD_TESTING=OFF",
-                        "-DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON", "-DCMAKE_INSTALL_LIBDIR=lib", "-DGRANULAR_PYTHON_FOLDER=."], check=True)
-        subprocess.run(["cmake", "--build", BUILD, "--target", "granular_c", "--parallel", str(os.cpu_count())], check=True)
-        subprocess.run(["cmake", "--install", BUILD, "--prefix", self.build_lib, "--component", "python", "--strip"], check=True)
-        library = "libgranular.so." + version().split(".")[0]
-        self.copy_file(os.path.realpath(os.path.join(BUILD, "lib", library)), os.path.join(self.build_lib, "granular", library))
+        build = os.environ.get("GRANULAR_BUILD") or build_library()
+        with tempfile.TemporaryDirectory() as prefix:
+            for component in ("python", "c"):
+                subprocess.run(["cmake", "--install", build, "--prefix", prefix, "--component", component, "--strip"], check=True)
+            (modules,) = glob.glob(os.path.join(prefix, "**", "granular", "__init__.py"), recursive=True)
+            (library,) = glob.glob(os.path.join(prefix, "**", "libgranular.so." + version().split(".")[0]), recursive=True)
+            package = os.path.join(self.build_lib, "granular")
+            self.copy_tree(os.path.dirname(modules), package)
+            self.copy_file(os.path.realpath(library), os.path.join(package, os.path.basename(library)))
 
 
 class AnyPython(bdist_wheel):

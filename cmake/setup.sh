@@ -10,7 +10,8 @@ granular_core_packages=(cmake g++ libzstd-dev ninja-build python3 zlib1g-dev)
 granular_plugin_packages=(
   libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xauth xvfb)
 granular_vtk_packages=(libopenmpi-dev libvtk9-dev openmpi-bin python3-dev python3-vtk9 xauth xvfb)
-granular_test_packages=(binutils gfortran libbenchmark-dev libgtest-dev locales)
+granular_test_packages=(binutils gfortran libbenchmark-dev libgtest-dev locales python3-numpy python3-setuptools python3-venv
+  python3-wheel)
 
 granular_say()
 {

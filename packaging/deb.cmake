@@ -2,9 +2,12 @@
 # Settings of `cpack -G DEB`, and files that only packages hold. Packages are for the Debian that runs this; each is a
 # component of the install rules:
 #
-#   plugin   granular          the ParaView plugin, loaded by ParaView's programs when they start
-#   python   python3-granular  the Python package
-#   dev      libgranular-dev   the core, for find_package(Granular)
+#   c                libgranular0               the C library
+#   python           python3-granular           the Python package, which needs numpy alone
+#   command          granular                   the command
+#   plugin           granular-paraview          the ParaView plugin, loaded by ParaView's programs when they start
+#   paraview_python  python3-granular-paraview  the compiled classes of the Python package
+#   dev              libgranular-dev            headers of C and C++, and the core, for find_package(Granular)
 if(NOT GRANULAR_PARAVIEW OR NOT GRANULAR_BUILD_PLUGIN OR NOT GRANULAR_BUILD_PYTHON)
   message(FATAL_ERROR "GRANULAR_DEB is for all of this project: GRANULAR_BUILD_PLUGIN, GRANULAR_PARAVIEW and "
     "GRANULAR_BUILD_PYTHON must be ON.")
@@ -68,8 +71,9 @@ execute_process(COMMAND gzip -9nc "${PROJECT_BINARY_DIR}/packaging/changelog"
   OUTPUT_FILE "${PROJECT_BINARY_DIR}/packaging/changelog.Debian.gz" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND gzip -9nc "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
   OUTPUT_FILE "${PROJECT_BINARY_DIR}/packaging/changelog.gz" COMMAND_ERROR_IS_FATAL ANY)
-set(granular_components plugin python dev)
-set(granular_packages granular python3-granular libgranular-dev)
+set(granular_components c python command plugin paraview_python dev)
+set(granular_packages
+  libgranular${PROJECT_VERSION_MAJOR} python3-granular granular granular-paraview python3-granular-paraview libgranular-dev)
 foreach(component package IN ZIP_LISTS granular_components granular_packages)
   install(FILES
     "${PROJECT_BINARY_DIR}/packaging/changelog.Debian.gz"
@@ -103,6 +107,33 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE "${granular_release}")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SOURCE granular)
 
+set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_C_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/packaging/triggers")
+file(WRITE "${PROJECT_BINARY_DIR}/packaging/triggers" "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_C_DESCRIPTION "files of discrete-element simulations as arrays (library)
+Reads and writes the files of LIGGGHTS and LAMMPS by functions for C,
+C++ and Fortran: dumps of particles, contacts, bonds, subdomains and Euler
+cells, restart and data files.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "libgranular${PROJECT_VERSION_MAJOR} (= ${granular_version})" "python3 (>= 3.9~)" "python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-granular-paraview")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  "${PROJECT_SOURCE_DIR}/packaging/python/postinst" "${PROJECT_SOURCE_DIR}/packaging/python/prerm")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "files of discrete-element simulations as arrays (Python 3)
+The package granular: runs and frames of LIGGGHTS and LAMMPS as numpy
+arrays, arrays as dumps, and functions for scripts of ParaView.")
+
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS "python3-granular (= ${granular_version})")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "granular-paraview")
+set(CPACK_DEBIAN_COMMAND_DESCRIPTION "looks into files of discrete-element simulations, and converts them
+The command granular says what dumps, restart and data files of LIGGGHTS
+and LAMMPS hold, whether they are sound, and converts them into other
+forms; it prints statistics and draws pictures.")
+
 # A plugin loads only in the series of ParaView that it was built for. dpkg-shlibdeps adds the libraries; Debian's ParaView
 # narrows its own version further.
 math(EXPR granular_next "${ParaView_VERSION_MINOR} + 1")
@@ -111,7 +142,7 @@ set(granular_after "${ParaView_VERSION_MAJOR}.${granular_next}~")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "paraview (>= ${granular_series}), paraview (<< ${granular_after})")
-set(CPACK_DEBIAN_PLUGIN_PACKAGE_SUGGESTS "python3-granular")
+set(CPACK_DEBIAN_PLUGIN_PACKAGE_SUGGESTS "python3-granular-paraview")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_ENHANCES "paraview")
 set(CPACK_DEBIAN_PLUGIN_DESCRIPTION "discrete-element data in ParaView
 Opens and writes the files of discrete-element simulations by LIGGGHTS and
@@ -121,28 +152,27 @@ restart and data files.
 ParaView ${granular_series} loads this plugin whenever it starts.")
 
 math(EXPR granular_next "${Python3_VERSION_MINOR} + 1")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PARAVIEW_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PARAVIEW_PYTHON_PACKAGE_SHLIBDEPS ON)
 # libvtkGranular.so is in another package.
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-  "granular (= ${granular_version})"
+set(CPACK_DEBIAN_PARAVIEW_PYTHON_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+string(JOIN ", " CPACK_DEBIAN_PARAVIEW_PYTHON_PACKAGE_DEPENDS
+  "granular-paraview (= ${granular_version})" "python3-granular (= ${granular_version})"
   "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}~)"
   "python3 (<< ${Python3_VERSION_MAJOR}.${granular_next})"
   "python3-paraview (>= ${granular_series})" "python3-paraview (<< ${granular_after})")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
-  "${PROJECT_SOURCE_DIR}/packaging/python/postinst" "${PROJECT_SOURCE_DIR}/packaging/python/prerm")
-set(CPACK_DEBIAN_PYTHON_DESCRIPTION "discrete-element data in VTK and ParaView (Python 3)
-The package granular: readers, writers and filters for the files of LIGGGHTS
-and LAMMPS as VTK classes, and functions for scripts of ParaView.")
+set(CPACK_DEBIAN_PARAVIEW_PYTHON_DESCRIPTION "discrete-element data in VTK and ParaView (Python 3)
+The compiled part of the package granular: readers, writers and filters for
+the files of LIGGGHTS and LAMMPS as VTK classes.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libzstd-dev, zlib1g-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgranular${PROJECT_VERSION_MAJOR} (= ${granular_version}), libzstd-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libopenmpi-dev")
-set(CPACK_DEBIAN_DEV_DESCRIPTION "discrete-element data for C++ programs (development files)
-The core of vtk-granular, a static library without VTK: reads and writes the
-files of LIGGGHTS and LAMMPS, on one process or, with MPI, on many.
+set(CPACK_DEBIAN_DEV_DESCRIPTION "discrete-element data for programs (development files)
+The headers of libgranular, for C, C++ and Fortran, and the core of
+vtk-granular, a static C++ library without VTK: reads and writes the files of
+LIGGGHTS and LAMMPS, on one process or, with MPI, on many.
 
-CMake's find_package(Granular) finds it.")
+CMake's find_package(Granular) finds both, pkg-config the first.")
 
 include(CPack)

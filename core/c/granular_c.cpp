@@ -96,8 +96,8 @@ extern "C"
         const auto& files = run->index.files();
         if (file < 0 || file >= static_cast<std::int64_t>(files.size()))
         {
-          throw BadArgument("expected a file from 0 to " + std::to_string(files.size()) +
-            " - 1, got " + std::to_string(file));
+          throw BadArgument("expected a file from 0 to " + std::to_string(files.size() - 1) +
+            ", got " + std::to_string(file));
         }
         const auto number = static_cast<std::size_t>(file);
         const granular::FileIndex& index = files[number];

@@ -539,4 +539,14 @@ SCENE_PARTS = (
          MDAnalysis keep positions only; MDAnalysis moves the box to the origin, which is undone here. Opening the file is
          part of the time. LAMMPS: the processor time of the whole program.""",
          [others_table], [Target(r"^vtk-granular", "error, largest:ulp", "<=", 0)], script=True),
+    Part("arrays", "Arrays and conversions without a viewer",
+         """10^6 particles with 12 columns of %g, and ten frames of 95,256 particles; time on the wall, all cores, files in the page
+         cache. granular.open and the other programs begin with the name of the file. A conversion reads the next frame while it
+         writes one.""",
+         [cases_by_metrics(r"", *columns(".0f", "time:ns/particle"), *columns(".2f", "against granular.open:1"),
+                           *columns(".2f", "against the C interface:1", "against reading and writing:1", "against writing:1"))],
+         [Target(r"^pandas", "against granular.open:1", ">=", 20), Target(r"^ASE", "against granular.open:1", ">=", 60),
+          Target(r"^array v", "against the C interface:1", "<=", 1.1),
+          Target(r"^convert: six", "against reading and writing:1", "<=", 1.67),
+          Target(r"^convert: Zst", "against writing:1", "<=", 1.1)], script=True, wants_cores=2),
 )

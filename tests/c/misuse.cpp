@@ -3,7 +3,11 @@
 // message says what was expected.
 #include "handles.h"
 
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <random>
 
 namespace
 {
@@ -38,6 +42,11 @@ TEST(CMisuse, NullsAreErrors)
   expect_null_error(granular_run_info(run.get(), nullptr), "facts");
   expect_null_error(granular_frame_info(nullptr, 0, nullptr), "run");
   expect_null_error(granular_frame_info(run.get(), 0, nullptr), "facts");
+  expect_null_error(granular_file_info(nullptr, 0, nullptr), "run");
+  expect_null_error(granular_file_info(run.get(), 0, nullptr), "facts");
+  granular_file_facts file = {};
+  EXPECT_EQ(granular_file_info(run.get(), 1, &file), GRANULAR_BAD_ARGUMENT);
+  EXPECT_EQ(message(), "expected a file from 0 to 0, got 1");
   expect_null_error(granular_find_frame(nullptr, 0, &number), "run");
   expect_null_error(granular_find_frame(run.get(), 0, nullptr), "frame");
   expect_null_error(granular_arrays(nullptr, 0, 0, nullptr, 0, &count), "run");
@@ -190,4 +199,62 @@ TEST(CMisuse, ArraysThatCannotBeWritten)
   EXPECT_EQ(granular_write(writer, &nowhere), GRANULAR_BAD_ARGUMENT);
   EXPECT_NE(message().find("'points'"), std::string::npos) << message();
   granular_abandon(writer);
+}
+
+// Numbers at random, of which most cannot be: nothing crashes, each error has a message, and the run stays as it was.
+TEST(CMisuse, AnyRequestsOfAnyFile)
+{
+  std::mt19937 random(1);
+  const auto one_of = [&](const auto& choices) { return choices[random() % std::size(choices)]; };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr std::array<double, 7> reals = { 0, -1, 1e300, infinity, -infinity, std::nan(""), 0.02 };
+  constexpr std::array<std::int64_t, 7> integers = { 0, 1, -1, 2, 7, INT64_MAX, INT64_MIN };
+  constexpr std::array<int, 6> few = { 0, 1, 2, 3, -1, INT32_MAX };
+  constexpr std::array<const char*, 8> names = { "id", "v", "points", "ends", "radius", "x", "",
+    "no such" };
+  for (const std::string name : { "grains.dump", "tri_scaled_image.dump", "grains.bin",
+         "euler_1000.vtk", "decomposition_1000.vtk", "data_file/sphere.data", "local/contacts.dump",
+         "restart/fibres.restart" })
+  {
+    granular_open_options options;
+    granular_open_options_init(&options);
+    options.column_names = "id type x y z ix iy iz vx vy vz radius";
+    const RunHandle run = open_run(good(name), &options);
+    int refused = 0;
+    for (int i = 0; i < 300; ++i)
+    {
+      granular_request request;
+      granular_request_init(&request);
+      std::array<const char*, 3> wanted = { one_of(names), one_of(names), one_of(names) };
+      request.arrays = random() % 2 ? wanted.data() : nullptr;
+      request.array_count = request.arrays ? random() % 4 : 0;
+      request.table = random() % 4 ? 0 : one_of(few);
+      request.points = one_of(few);
+      request.coordinates = static_cast<granular_coordinates>(random() % 2 ? 0
+          : random() % 2                                                   ? 2
+                                                                           : one_of(few));
+      request.single_precision = one_of(few);
+      request.sort_by_id = one_of(few);
+      request.stride = random() % 2 ? 1 : one_of(integers);
+      request.threads = static_cast<int>(random() % 4) - 1;
+      for (double& bound : request.region)
+      {
+        bound = random() % 2 ? bound : one_of(reals);
+      }
+      request.origin[random() % 3] = random() % 2 ? 0 : one_of(reals);
+      granular_frame* frame = nullptr;
+      const granular_status status =
+        granular_read(run.get(), random() % 2 ? -1 : one_of(integers), &request, &frame);
+      EXPECT_EQ(frame == nullptr, status != GRANULAR_OK);
+      refused += status == GRANULAR_OK ? 0 : 1;
+      EXPECT_FALSE(status != GRANULAR_OK && message().empty()) << name << " " << i;
+      granular_release(frame);
+    }
+    EXPECT_GT(refused, 50) << name;
+    EXPECT_LT(refused, 295) << name;
+    const FrameHandle whole = read_frame(run, -1);
+    granular_frame_header header = {};
+    EXPECT_EQ(granular_header(whole.get(), &header), GRANULAR_OK);
+    EXPECT_GT(header.rows, 0) << name;
+  }
 }

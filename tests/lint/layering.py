@@ -11,6 +11,7 @@
                            whose rooms include each other as PRIVATE_ROOMS says
     plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
     plugin/views           VTK, ParaView's views, but no core and no Qt
+    core/python            Python's own modules; numpy, pandas and VTK in functions, so that who imports it needs none of them
     samples                paraview.simple, granular, numpy and Python's own modules
 """
 import ast
@@ -87,6 +88,7 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
 )}
 
 SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")
+LATER_MODULES = ("granular", "numpy", "pandas", "vtkmodules")
 
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]([^\n]*)', re.MULTILINE)
 
@@ -227,6 +229,21 @@ def check_sample(root, path):
                                           "and Python's own modules only")
 
 
+def check_arrays(root, path):
+    """The part of the package that does without VTK."""
+    parsed = ast.parse(tree.read(root, path), path)
+    at_once = [node for node in parsed.body if isinstance(node, (ast.Import, ast.ImportFrom))]
+    for node in ast.walk(parsed):
+        for name in imported(node):
+            first = name.split(".")[0]
+            if first in ("", "__future__", *sys.stdlib_module_names):
+                continue
+            if first not in LATER_MODULES:
+                yield path, node.lineno, f"{name}: core/python imports {', '.join(LATER_MODULES)} and Python's own modules only"
+            elif node in at_once:
+                yield path, node.lineno, f"{name}: imported in the functions that need it, for those who do not have it"
+
+
 def check(root):
     yield from check_rooms(root)
     for path in tree.files(root):
@@ -240,6 +257,8 @@ def check(root):
             yield from check_vtk_source(root, path)
         elif re.match(r"plugin/(servermanager|views)/.*\.(h|cxx|txx)$", path):
             yield from check_paraview(root, path)
+        elif re.match(r"core/python/.*\.py$", path):
+            yield from check_arrays(root, path)
         elif re.match(r"samples/[^/]+\.py$", path):
             yield from check_sample(root, path)
 

@@ -196,6 +196,13 @@ class Layering(unittest.TestCase):
                 f"plugin/servermanager/vtkSMA.h:{line}" for line in (3, 5, 6, 7)] + [
                     "plugin/views/vtkGranularA.cxx:1"])
 
+    def test_arrays(self):
+        self.assertEqual(found(
+            layering.check,
+            core__python__granular___a_dot_py="import os\nimport numpy\nfrom . import b\n\ndef f():\n    import numpy\n"
+            "    from vtkmodules.x import y\n    from paraview import simple\n    import scipy\n"), [
+                f"core/python/granular/_a.py:{line}" for line in (2, 8, 9)])
+
     def test_sample(self):
         self.assertEqual(found(
             layering.check,

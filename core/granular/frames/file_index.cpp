@@ -162,7 +162,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
     index.points.reset();
   }
   index.frames.shrink_to_fit();
-  if (index.frames.empty())
+  if (index.frames.empty() || stamp.size == 0)
   {
     set_defect(index,
       { { index.path },

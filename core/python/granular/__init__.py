@@ -39,7 +39,9 @@ neither numpy nor VTK nor ParaView: what needs them imports them when it is call
 """
 from __future__ import annotations
 
+import contextlib
 import importlib
+import sys
 from typing import TYPE_CHECKING, Any
 
 from ._files import files
@@ -90,3 +92,10 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *_LATER})
+
+
+# VTK takes an object whose class Python does not know for one of a base class, and does so ever after. Where VTK is at work, it
+# learns the classes now.
+if "vtkmodules.vtkCommonCore" in sys.modules:
+    with contextlib.suppress(ImportError):
+        importlib.import_module(".vtkGranular", __name__)
