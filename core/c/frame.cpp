@@ -222,6 +222,12 @@ WriteView::WriteView(const granular_frame& frame)
 
 WriteView::WriteView(const granular_content& content, RowKind kind)
 {
+  if (content.rows < 0 || (content.arrays == nullptr && content.array_count > 0))
+  {
+    throw BadArgument(content.rows < 0
+        ? "expected at least 0 rows, got " + std::to_string(content.rows)
+        : "expected arrays, got null");
+  }
   view.header.timestep = content.timestep;
   if (content.has_time != 0)
   {

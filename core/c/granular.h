@@ -280,7 +280,7 @@ typedef struct granular_frame_header
   const char* label;                /* ITEM: LABEL */
   const char* units;                /* ITEM: UNITS */
   const char* columns;              /* of the file, in its order and spelling */
-const char* dialect;              /* "LIGGGHTS" or "LAMMPS"; empty: not known */
+  const char* dialect;              /* "LIGGGHTS" or "LAMMPS"; empty: not known */
   size_t arrays;                    /* number of them */
 } granular_frame_header;
 
@@ -370,7 +370,7 @@ GRANULAR_API granular_status granular_write(
 GRANULAR_API granular_status granular_write_frame(
   granular_writer* writer, const granular_frame* frame);
 
-/* Gives the file its name and ends the writer. After an error, the old file is untouched; the writer is gone in any case. */
+/* Gives the file its name and ends the writer; an error if a frame failed in its middle. After an error, the old file is untouched; the writer is gone in any case. */
 GRANULAR_API granular_status granular_finish(granular_writer* writer);
 
 /* Ends the writer without the file; the old one is untouched. Null does nothing. */

@@ -5,12 +5,38 @@
 
 #include "granular/bytes/find_files.h"
 
+#include <array>
+
 using namespace granular_c;
 
 struct granular_names
 {
   std::vector<std::string> all;
 };
+
+namespace
+{
+/// A file with a part of a frame must not get its name.
+void expect_whole(const granular_writer& writer)
+{
+  if (writer.has_failed)
+  {
+    throw BadArgument(
+      "expected a writer of whole frames, got one that failed in the middle of one: abandon it");
+  }
+}
+
+void write_frame(granular_writer& writer, const granular::FrameView& view)
+{
+  expect_whole(writer);
+  writer.has_failed = true;
+  granular::Notices notices;
+  writer.caller.begin();
+  writer.write(view, notices, writer.caller);
+  writer.has_failed = false;
+  writer.caller.tell(notices);
+}
+}
 
 extern "C"
 {
@@ -55,10 +81,7 @@ extern "C"
       {
         const granular_content given = taken(&needed(content, "content"), granular_content_init);
         const WriteView frame(given, needed(writer, "writer").kind);
-        granular::Notices notices;
-        writer->caller.begin();
-        writer->write(frame.view, notices, writer->caller);
-        writer->caller.tell(notices);
+        write_frame(*writer, frame.view);
       });
   }
 
@@ -68,10 +91,15 @@ extern "C"
       [&]
       {
         const WriteView view(needed(frame, "frame"));
-        granular::Notices notices;
-        needed(writer, "writer").caller.begin();
-        writer->write(view.view, notices, writer->caller);
-        writer->caller.tell(notices);
+        if (needed(writer, "writer").kind != frame->kind)
+        {
+          constexpr std::array<const char*, 4> names = { "particles", "lines", "cells",
+            "subdomains" };
+          throw BadArgument(std::string("expected a frame of ") +
+            names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
+            names[static_cast<std::size_t>(frame->kind)]);
+        }
+        write_frame(*writer, view.view);
       });
   }
 
@@ -81,6 +109,7 @@ extern "C"
       [&]
       {
         const std::unique_ptr<granular_writer> own(&needed(writer, "writer"));
+        expect_whole(*own);
         own->finish();
       });
   }

@@ -381,16 +381,17 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
 const std::vector<Kind>& kinds()
 {
   static const std::vector<Kind> all = {
-    { GRANULAR_KIND_DUMP, is_dump_file, dump_format, false, true, dump_arrays, read_dump_frame },
-    { GRANULAR_KIND_LOCAL, is_local_file, local_format, false, true, local_arrays,
+    { GRANULAR_KIND_DUMP, is_dump_file, dump_format, false, true, true, dump_arrays,
+      read_dump_frame },
+    { GRANULAR_KIND_LOCAL, is_local_file, local_format, false, true, false, local_arrays,
       read_local_frame },
-    { GRANULAR_KIND_RESTART, is_restart_file, restart_format, true, false, restart_arrays,
+    { GRANULAR_KIND_RESTART, is_restart_file, restart_format, true, false, false, restart_arrays,
       read_restart_frame },
-    { GRANULAR_KIND_DATA_FILE, is_data_file, data_file_format, true, false, data_arrays,
+    { GRANULAR_KIND_DATA_FILE, is_data_file, data_file_format, true, false, true, data_arrays,
       read_data_frame },
-    { GRANULAR_KIND_DECOMPOSITION, is_decomposition_file, decomposition_format, false, true,
+    { GRANULAR_KIND_DECOMPOSITION, is_decomposition_file, decomposition_format, false, true, false,
       subdomain_arrays, read_decomposition_frame },
-    { GRANULAR_KIND_EULER, is_euler_file, euler_format, false, true, euler_frame_arrays,
+    { GRANULAR_KIND_EULER, is_euler_file, euler_format, false, true, false, euler_frame_arrays,
       read_euler_frame },
   };
   return all;

@@ -9,6 +9,7 @@
 #include "granular/parallel/executor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
@@ -122,7 +123,7 @@ granular_run::granular_run(std::vector<std::string> patterns, const granular_ope
   , atom_style(text_of(options.atom_style))
   , patterns_(std::move(patterns))
 {
-  if (!(timestep_size > 0))
+  if (!(timestep_size > 0) || !std::isfinite(timestep_size))
   {
     throw BadArgument("expected a timestep_size greater than 0, got " + to_text(timestep_size));
   }
@@ -136,13 +137,17 @@ void granular_run::refresh(Caller& caller)
 {
   const std::unique_lock lock(mutex);
   Notices notices;
-  index.update(find_files(patterns_), options_, notices, caller);
-  times = index.times(timestep_size, notices);
-  defects.clear();
-  for (const FileIndex& file : index.files())
+  RunIndex updated = index; // after an error the run is as it was
+  updated.update(find_files(patterns_), options_, notices, caller);
+  std::vector<double> new_times = updated.times(timestep_size, notices);
+  std::vector<std::string> new_defects;
+  for (const FileIndex& file : updated.files())
   {
-    defects.push_back(file.defect ? to_string(*file.defect) : "");
+    new_defects.push_back(file.defect ? to_string(*file.defect) : "");
   }
+  index = std::move(updated);
+  times = std::move(new_times);
+  defects = std::move(new_defects);
   {
     const std::lock_guard guard(offers_mutex_);
     offers_.clear();
@@ -200,6 +205,18 @@ std::unique_ptr<granular_frame> granular_run::read(
       throw BadArgument("expected an array of " + list + ", got '" + name + "'",
         where_of(index.first_piece(frame)));
     }
+  }
+  const granular_request& given = wanted.request;
+  const auto is_bounded = [&](int axis)
+  { return given.region[2 * axis] <= given.region[2 * axis + 1]; };
+  if (!kind_->has_parts &&
+    (given.stride != 1 || given.coordinates != GRANULAR_ABSOLUTE || given.sort_by_id != 0 ||
+      is_bounded(0) || is_bounded(1) || is_bounded(2)))
+  {
+    throw BadArgument(
+      "expected a dump or a data file for stride, region, coordinates and sort_by_id, got "
+      "another kind of file",
+      where_of(index.first_piece(frame)));
   }
   auto made = std::make_unique<granular_frame>();
   Notices notices;

@@ -121,6 +121,7 @@ struct Kind
   const granular::FileFormat& (*format)() noexcept;
   bool has_bonds;  ///< in table 1
   bool has_pieces; ///< several files may hold one frame
+  bool has_parts;  ///< stride, region, coordinates and order can be chosen
   std::vector<OfferedArray> (*arrays)(granular_run& run, std::size_t frame, int table);
   void (*read)(granular_run& run, std::size_t frame, const Wanted& wanted,
     granular::Notices& notices, granular::Progress& progress, granular_frame& to);

@@ -496,6 +496,20 @@ TEST(CInterface, Version)
   EXPECT_EQ(granular_version(), version);
 }
 
+// A refresh that fails leaves the run as it was.
+TEST(CInterface, ARefreshThatFails)
+{
+  const std::string path = std::string(GRANULAR_OUTPUT) + "/vanishing.dump";
+  std::ofstream(path) << content(good("grains.dump"));
+  const RunHandle run = open_run(path);
+  std::remove(path.c_str());
+  EXPECT_EQ(granular_refresh(run.get()), GRANULAR_IO_ERROR);
+  granular_frame_facts facts = {};
+  EXPECT_EQ(granular_frame_info(run.get(), 2, &facts), GRANULAR_OK);
+  EXPECT_EQ(facts.timestep, 2000);
+  EXPECT_EQ(facts_of(run).frames, 3);
+}
+
 TEST(CInterface, EachArrayAloneIsThatOfTheWhole)
 {
   for (const std::string name : { "grains.dump", "tri_scaled_image.dump", "euler_1000.vtk",

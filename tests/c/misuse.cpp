@@ -67,6 +67,15 @@ TEST(CMisuse, NullsAreErrors)
   expect_null_error(granular_create(nullptr, nullptr, &writer), "a path");
   expect_null_error(granular_create("a.dump", nullptr, nullptr), "writer");
   expect_null_error(granular_write(nullptr, nullptr), "content");
+  granular_content content;
+  granular_content_init(&content);
+  content.array_count = 1;
+  ASSERT_EQ(granular_create((std::string(GRANULAR_OUTPUT) + "/a.dump").c_str(), nullptr, &writer),
+    GRANULAR_OK);
+  expect_null_error(granular_write(writer, &content), "arrays");
+  content.rows = -1;
+  EXPECT_EQ(granular_write(writer, &content), GRANULAR_BAD_ARGUMENT);
+  granular_abandon(writer);
   expect_null_error(granular_write_frame(nullptr, nullptr), "frame");
   expect_null_error(granular_write_frame(nullptr, frame.get()), "writer");
   expect_null_error(granular_finish(nullptr), "writer");

@@ -93,10 +93,23 @@ with granular.open(SOURCE) as opened:
     assert len(opened) == last + 1
 raises(ValueError, lambda: len(opened), "closed")
 
+# a frame that was read does not need its run
+with granular.open(SOURCE) as opened:
+    whole, expected = opened.read(), opened.read()["v"].copy()
+assert whole.step == 2000 and "v" in whole and list(whole)[0] == "id" and whole.points.shape == (whole.rows, 3)
+assert numpy.array_equal(whole["v"], expected) and whole == whole and whole in {whole}
+granular.write("closed.dump", whole)
+
+# parts of kinds that have none
+for path in (os.path.join(DATA, "good", "euler_1000.vtk"), os.path.join(DATA, "good", "local", "contacts.dump")):
+    raises(granular.ArgumentError, lambda: granular.open(path).read(stride=10), "stride")  # noqa: B023
+
 # functions of the caller: False stops, an exception is raised again
 seen = []
 granular.open(SOURCE).read(progress=seen.append)
 assert seen and seen == sorted(seen) and 0 <= seen[0] and seen[-1] <= 1, seen
 raises(granular.Cancelled, lambda: granular.open(SOURCE).read(progress=lambda fraction: False))
+curious = granular.open(SOURCE)[-1]
+curious.read(progress=lambda fraction: curious.step)
 raises(ZeroDivisionError, lambda: granular.open(SOURCE).read(progress=lambda fraction: 1 / 0))
 print("what cannot be is said")

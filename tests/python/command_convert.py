@@ -131,6 +131,8 @@ with subprocess.Popen([sys.executable, os.environ["GRANULAR_COMMAND"], "convert"
     said = running.communicate(timeout=60)[1]
 assert running.returncode == 130 and "interrupted" in said and "Traceback" not in said, (running.returncode, said)
 only_files("cut.dump", "large.dump", "old.csv", "old.dump")
+granular("convert", SOURCE, "unusual.csv", "--frames", "-1", "--columns", "id x")
+os.remove("unusual.csv")
 assert content("old.dump") == b"old"
 clean()
 print("convert")

@@ -113,6 +113,29 @@ assert text_of("old.dump") == "old"
 raises(ValueError, lambda: writer.write(run[1]), "finished")
 assert not [name for name in os.listdir() if "tmp" in name or ".granular" in name], os.listdir()
 
+# a frame that failed in the middle is not published; frames of contacts and of particles are not mixed up; nothing replaces no file
+damaged = text_of(os.path.join(GOOD, "grains.dump")).replace(" 0.0025 ", " zero ", 1)
+with open("damaged.dump", "w") as stream:
+    stream.write(damaged)
+raises(granular.Error, lambda: granular.write("old.dump", granular.open("damaged.dump")), "damaged.dump")
+contacts = granular.open(os.path.join(GOOD, "local", "contacts.dump"), preset="ContactsForce")
+raises(granular.ArgumentError, lambda: granular.write("old.bonds", run[1], style="local"), "lines", "particles")
+granular.write("contacts.dump", [contacts[-1]])
+assert "ITEM: ENTRIES" in text_of("contacts.dump") or "ITEM: NUMBER OF ATOMS" not in text_of("contacts.dump")
+raises(granular.ArgumentError, lambda: granular.write("old.dump", run[3:]), "at least one frame")
+raises(granular.ArgumentError, lambda: granular.write("old.dump", [{"points": point}]), "dict")
+assert text_of("old.dump") == "old"
+granular.write("none.bonds", {"id1": [], "id2": [], "points": numpy.zeros((0, 2, 3))})
+assert granular.open("none.bonds")[0].rows == 0
+granular.write("single.bonds", {"id1": [1], "id2": [2], "points": numpy.ones((1, 2, 3), numpy.float32)})
+granular.write("words.dump", {"id": [1], "type": [1], "element": numpy.array([b"Fe"]), "points": point}, box=box)
+assert granular.open("words.dump")[0]["element"].tolist() == ["Fe"]
+
+# time and units of a file are kept
+granular.write("units.dump", {"id": [1], "type": [1], "points": point}, box=box, units="si", time=0.25)
+granular.write("kept.dump", granular.open("units.dump"))
+assert text_of("kept.dump") == text_of("units.dump") and "ITEM: UNITS" in text_of("kept.dump") and "ITEM: TIME\n" in text_of("kept.dump")
+
 # notices are warnings, at the line of who called
 with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")

@@ -5,10 +5,12 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import signal
+import threading
 from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
 from typing import Any, Callable
 
-from ._folders import LIBRARY, LIBRARY_FOLDER
+from ._folders import LIBRARY, LIBRARY_FOLDER, VERSION
 
 PROGRESS = CFUNCTYPE(c_int, c_double, c_void_p)
 NOTICE = CFUNCTYPE(None, c_char_p, c_void_p)
@@ -174,6 +176,9 @@ def library() -> Any:
         loaded = ctypes.CDLL(path)
     except OSError as error:
         raise ImportError(f"expected the library {LIBRARY} in {' or '.join(folders)}: {error}") from None
+    loaded.granular_version.restype = c_char_p
+    if loaded.granular_version().decode() != VERSION:
+        raise ImportError(f"expected the library {LIBRARY} of version {VERSION}, got {loaded.granular_version().decode()}")
     loaded.granular_last_error.restype = POINTER(_CError)
 
     def check(status: int, function: Any, arguments: Any) -> int:
@@ -196,11 +201,12 @@ def texts(values: list[str]) -> Any:
 
 
 class Calls:
-    """The caller's functions for progress and notices. An exception in one of them stops the work and is raised again."""
+    """The caller's functions for progress and notices. An exception in one of them, and Ctrl-C, stop the work and are raised again."""
 
     def __init__(self, progress: Callable[[float], Any] | None, warn: Callable[[str], Any]):
         self.raised: BaseException | None = None
         self.notices: list[str] = []
+        self._old_handler: Any = None
 
         def report(fraction: float, _: Any) -> int:
             if progress is None or self.raised:
@@ -216,10 +222,21 @@ class Calls:
 
         self.progress, self.notice, self._warn = PROGRESS(report), NOTICE(tell), warn
 
+    def _interrupt(self, *_: Any) -> None:
+        """Takes Ctrl-C while the library works: an exception at any place of a callback would be lost in C."""
+        self.raised = KeyboardInterrupt()
+
     def __enter__(self) -> Calls:
+        self.raised = None
+        is_main = threading.current_thread() is threading.main_thread()
+        if is_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            self._old_handler = signal.signal(signal.SIGINT, self._interrupt)
         return self
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        if self._old_handler is not None:
+            signal.signal(signal.SIGINT, self._old_handler)
+            self._old_handler = None
         if self.raised:
             raise self.raised
         for notice in self.notices:

@@ -126,7 +126,7 @@ def _to_numpy(handle: _Handle, array: c.CArray) -> numpy.ndarray:
 
     if array.rows == 0 or not array.data:
         shape = (0, array.components) if array.components > 1 else (0,)
-        return numpy.empty(shape, dtype=object if array.type == c.TEXT else c.TYPES[array.type])
+        return numpy.empty(shape, dtype="<U1" if array.type == c.TEXT else c.TYPES[array.type])
     values = numpy.asarray(_Memory(handle, array))
     if array.type != c.TEXT:
         return values
@@ -148,7 +148,8 @@ class Frame(Mapping[str, Any]):
     """
 
     def __init__(self, run: Run, number: int, request: dict[str, Any] | None = None, bonds: bool = False):
-        self._run, self._number, self._bonds = run, number, bonds
+        self._run, self._number, self._bonds, self._kind = run, number, bonds, run.kind
+        self._offered: Any = None
         self._request = dict(request or {})
         wanted = self._request.pop("columns", None)
         self._wanted: list[str] | None = None if wanted is None else list(wanted)
@@ -157,7 +158,7 @@ class Frame(Mapping[str, Any]):
         self._whole: _Handle | None = None
         self._asked: list[str] = []
         self._notices: list[str] = []
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()  # a function for progress may ask the frame something
 
     # ---- reading ----
     def _load(self, names: list[str] | None, progress: Any = None, warn: Any = _warn) -> _Handle:
@@ -170,7 +171,8 @@ class Frame(Mapping[str, Any]):
             array = c.CArray()
             library.granular_array_at(handle, i, c.byref(array))
             self._arrays.setdefault(c.text(array.name), _to_numpy(handle, array))
-        self._header = {"step": header.timestep, "time": header.time, "rows": header.rows, "units": c.text(header.units),
+        self._columns()
+        self._header = {"step": header.timestep, "time": header.time, "has_time": bool(header.has_time), "rows": header.rows, "units": c.text(header.units),
                         "label": c.text(header.label), "columns": c.text(header.columns).split(),
                         "dialect": c.text(header.dialect), "box": Box._of(header.box) if header.has_box else None}
         return handle
@@ -201,7 +203,13 @@ class Frame(Mapping[str, Any]):
         return self._points_name() in self._arrays
 
     def _is_lines(self) -> bool:
-        return self._bonds or self._run.kind == "local"
+        return self._bonds or self._kind == "local"
+
+    def _columns(self) -> tuple[list[Column], list[Column]]:
+        """The usual columns and the others; they stay when the run is closed."""
+        if self._offered is None:
+            self._offered = self._run._columns(self._number, self._bonds)
+        return self._offered
 
     def _get(self, name: str) -> Any:
         if name not in self._arrays:
@@ -223,7 +231,7 @@ class Frame(Mapping[str, Any]):
         return self._arrays[name]
 
     def _raise_no_column(self, name: str) -> None:
-        usual, others = self._run._columns(self._number, self._bonds)
+        usual, others = self._columns()
         raise c.ColumnError(f"expected a column of {', '.join(column.name for column in (*usual, *others))}, got {name!r}")
 
     def _head(self, name: str) -> Any:
@@ -236,7 +244,7 @@ class Frame(Mapping[str, Any]):
         """The frame as it is written: of contacts and bonds, the ends as the file has them."""
         if not self._is_lines() or self._wanted is not None:
             return self._load_all()
-        usual, others = self._run._columns(self._number, self._bonds)
+        usual, others = self._columns()
         names = [column.name for column in (*usual, *others)]
         ends = [] if {"position1", "position2"} <= set(names) else ["ends"]
         return self._run._read(self._number, [*names, *ends], self._bonds, self._request, None)
@@ -246,11 +254,12 @@ class Frame(Mapping[str, Any]):
         return self._get(name)
 
     def __iter__(self) -> Iterator[str]:
-        known = [column.name for column in self._run._columns(self._number, self._bonds)[0]]
-        return iter(known if self._wanted is None else [name for name in known if name in self._wanted])
+        if self._wanted is None:
+            return iter([column.name for column in self._columns()[0]])
+        return iter([name for name in dict.fromkeys(self._wanted) if name in self])
 
     def __contains__(self, name: object) -> bool:
-        usual, others = self._run._columns(self._number, self._bonds)
+        usual, others = self._columns()
         return any(column.name == name for column in (*usual, *others))
 
     def __len__(self) -> int:
@@ -266,11 +275,15 @@ class Frame(Mapping[str, Any]):
     @property
     def step(self) -> int:
         """The timestep."""
+        if self._header is not None:
+            return self._header["step"]
         return self._run.steps[self._number].item()
 
     @property
     def time(self) -> float:
         """ITEM: TIME of the file, or timestep x dt."""
+        if self._header is not None:
+            return self._header["time"]
         return self._run.times[self._number].item()
 
     @property
@@ -313,8 +326,8 @@ class Frame(Mapping[str, Any]):
     @property
     def bonds(self) -> Frame:
         """The bonds of a restart or data file. Raises ValueError for other files."""
-        if self._run.kind not in ("restart", "data"):
-            raise ValueError(f"expected a restart or data file, got a {self._run.kind} file: open the file of its bonds")
+        if self._kind not in ("restart", "data"):
+            raise ValueError(f"expected a restart or data file, got a {self._kind} file: open the file of its bonds")
         return Frame(self._run, self._number, {}, bonds=True)
 
     def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
@@ -334,6 +347,11 @@ class Frame(Mapping[str, Any]):
         from ._to_vtk import to_vtk
 
         return to_vtk(self.read())
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    __hash__ = object.__hash__
 
     def __reduce__(self) -> Any:
         request = dict(self._request) if self._wanted is None else {**self._request, "columns": self._wanted}
@@ -372,7 +390,7 @@ def component_columns(frame: Frame) -> dict[str, Any]:
 
 def arrays_of(frame: Frame, words: list[str]) -> tuple[list[str], list[str]]:
     """Returns the arrays that columns named by words are in, and the columns: "vx" is in "v", and "v" has vx vy vz."""
-    usual, others = frame._run._columns(frame._number, frame._bonds)
+    usual, others = frame._columns()
     known: dict[str, tuple[str, list[str]]] = {}
     for name, count in [(frame._points_name(), len(_COMPONENTS[frame._points_name()].split())),
                         *((column.name, column.components) for column in (*usual, *others))]:
@@ -507,7 +525,7 @@ class Run(_Frames):
         with c.Calls(progress, _warn) as calls:
             given.progress, given.notice = calls.progress, calls.notice
             library.granular_open(c.texts(paths), len(paths), c.byref(given), c.byref(pointer))
-        self._handle: _Handle | None = _Handle(pointer, library.granular_close)
+            self._handle: _Handle | None = _Handle(pointer, library.granular_close)
 
     # ---- the library ----
     def _open(self) -> _Handle:
@@ -593,7 +611,8 @@ class Run(_Frames):
         with c.Calls(progress, warn) as calls:
             given.progress, given.notice = calls.progress, calls.notice
             library.granular_read(self._open(), number, c.byref(given), c.byref(pointer))
-        return _Handle(pointer, library.granular_release)
+            made = _Handle(pointer, library.granular_release)  # before notices, which may be raised
+        return made
 
     # ---- for users ----
     @property

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
+import math
 import os
 from typing import Any, Callable, Iterable, Mapping, Sized
 
@@ -28,11 +30,13 @@ def _c_arrays(arrays: Mapping[str, Any]) -> tuple[Any, int, list[Any]]:
     made, kept, rows = [], [], None
     for name, given in arrays.items():
         values = numpy.asarray(given)
-        if values.dtype.kind == "O":
+        if values.dtype.kind in "OS":
             values = values.astype(str)
-        if name == "ends" or (name == "points" and values.ndim == 3):
-            name, values = "ends", values.reshape(len(values), -1)
-        if name in ("points", "ends") and values.dtype.kind in "iub":
+        if name == "points" and values.ndim == 3:
+            name = "ends"
+        if name == "ends" and values.ndim > 1 and math.prod(values.shape[1:]) == 6:
+            values = values.astype(float).reshape(len(values), 6)
+        if name == "points" and values.dtype.kind in "iub":
             values = values.astype(float)
         if values.ndim not in (1, 2):
             raise c.ArgumentError(f"array {name!r}: expected a shape of (rows,) or (rows, components), got {values.shape}")
@@ -68,9 +72,9 @@ class Writer:
     def __init__(self, path: str | os.PathLike[str], style: str = "", dialect: str = "", columns: str | Iterable[str] = "",
                  numbers: str = "", label: str = "", scaled: bool = True, image: bool = False, sort: bool = False,
                  units: bool = False, times: bool = False, threads: int = 0, progress: Callable[[float], Any] | None = None):
+        self._pointer: Any = None
         self.path = os.fspath(path)
-        self._progress = progress
-        self._pointer: Any = c.c_void_p()
+        pointer = c.c_void_p()
         self._calls = c.Calls(progress, _warn)
         library, given = c.library(), c.Format()
         library.granular_format_init(c.byref(given))
@@ -80,7 +84,8 @@ class Writer:
         given.scaled, given.image, given.sort_by_id = int(scaled), int(image), int(sort)
         given.write_units, given.write_time, given.threads = int(units), int(times), int(threads)
         given.progress, given.notice = self._calls.progress, self._calls.notice
-        library.granular_create(os.fsencode(self.path), c.byref(given), c.byref(self._pointer))
+        library.granular_create(os.fsencode(self.path), c.byref(given), c.byref(pointer))
+        self._pointer = pointer
 
     def write(self, data: Frame | Mapping[str, Any], box: Box | Any = None, step: int = 0, time: float | None = None,
               units: str = "") -> None:
@@ -166,26 +171,33 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
     many = isinstance(data, _Frames) or not isinstance(data, Mapping)
     total = len(data) if many and isinstance(data, Sized) else 1
     done = 0
+    frames = iter((data,) if isinstance(data, Frame) else data) if many or isinstance(data, Frame) else iter(())
+    first = next(frames, None)
+    if many and first is None:
+        raise c.ArgumentError(f"{os.fspath(path)}: expected at least one frame, got none")
+    if first is not None and not isinstance(first, Frame):
+        raise c.ArgumentError(f"{os.fspath(path)}: expected frames, or one mapping of arrays, got {type(first).__name__} in a list")
+    lammps = first is not None and first._kind == "dump" and (dialect or first.dialect) == "LAMMPS"
 
     def within(start: float) -> Callable[[float], Any] | None:
         """The progress of a half of a frame: it is read, and written."""
         return progress and (lambda fraction: progress((done + start + fraction / 2) / max(total, done + 1)))  # type: ignore[misc]
 
-    with Writer(path, style or _style_of(path, data), dialect, columns, numbers, label, scaled, image, sort, bool(units),
-                time is not None, threads, within(0.5)) as writer:
-        if not many:
+    with Writer(path, style or _style_of(first), dialect, columns, numbers, label, scaled, image, sort,
+                bool(units) or bool(lammps and first.units), time is not None or bool(lammps and first._head("has_time")), threads,
+                within(0.5)) as writer:
+        if first is None:
             writer.write(data, box, step, time, units)  # type: ignore[arg-type]
             return
-        for frame in data:  # type: ignore[union-attr]
+        for frame in itertools.chain((first,), frames):
             if not frame._is_lines():
                 frame.read(within(0))
             writer.write(frame)
             done += 1
 
 
-def _style_of(path: str | os.PathLike[str], data: Any) -> str:
+def _style_of(frame: Frame | None) -> str:
     """Frames of contacts, cells and subdomains are written as such, whatever the name."""
-    kinds = {"local": "local", "euler": "euler", "decomposition": "decomposition"}
-    if isinstance(data, Frame):
-        return "local" if data._bonds else kinds.get(data._run.kind, "")
-    return kinds.get(data._run_of().kind, "") if isinstance(data, _Frames) else ""
+    if frame is None:
+        return ""
+    return "local" if frame._is_lines() else frame._kind if frame._kind in ("euler", "decomposition") else ""

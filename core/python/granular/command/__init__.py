@@ -116,13 +116,15 @@ def parser() -> argparse.ArgumentParser:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command and returns its exit status."""
+    from .. import Cancelled
+
     given = parser().parse_args(arguments)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("once")
             warnings.showwarning = lambda message, *_: say(str(message))  # type: ignore[assignment]
             return given.run(given) or 0
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, Cancelled):
         say("interrupted; files that were there are as they were")
         return INTERRUPTED
     except BrokenPipeError:  # the reader of a pipe, such as head, has left

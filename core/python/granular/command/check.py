@@ -59,7 +59,7 @@ class Checker:
         self._numbers(frame, where)
         if "id" in frame:
             self._look_at_ids(frame["id"], where)
-        of_particles = frame._run.kind in ("dump", "data", "restart")
+        of_particles = frame._kind in ("dump", "data", "restart")
         if "radius" in frame and of_particles:
             wrong = int((frame["radius"] <= 0).sum())
             if wrong:
@@ -127,7 +127,7 @@ class Checker:
     def finish(self, said: list[str]) -> None:
         """Adds what all frames together tell, and what was said while they were read."""
         for text in said:
-            wrong = "expected" in text or "left out" in text
+            wrong = (": expected " in text and ", got " in text) or "left out" in text
             if not any(text.partition(": ")[2] in fault for fault in self.faults):
                 (self.faults if wrong else self.remarks).append(text)
         if self._gone:

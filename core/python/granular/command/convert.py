@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import Any, Callable
+from typing import Any, Callable, Iterable
 
 from . import add_frames, add_reading, chosen, open_run
 from .progress import Bar
@@ -114,13 +114,13 @@ def _to_stream(write: Callable[[Any, Any, Any], None], frame: Any, path: str, co
         write(frame, stream, columns)
 
 
-def _write_frames(frames: list[Any], columns: list[str] | None, out: str, ending: str, bar: Bar) -> None:
+def _write_frames(frames: Iterable[Any], count: int, columns: list[str] | None, out: str, ending: str, bar: Bar) -> None:
     """Writes each frame to a file of its own, under a name that is replaced when the file is complete."""
-    if len(frames) != 1 and "*" not in os.path.basename(out):
+    if count != 1 and "*" not in os.path.basename(out):
         raise ValueError(f"{out}: expected * for the timestep in the name, or one frame (--frames -1): {ending} holds one frame a file, and "
-                         f"there are {len(frames)}")
+                         f"there are {count}")
     for i, frame in enumerate(frames):
-        frame.read(bar.within(i, len(frames)))
+        frame.read(bar.within(i, count))
         path = os.path.join(os.path.dirname(out), os.path.basename(out).replace("*", str(frame.step)))
         temporary = f"{path}.{os.getpid()}.tmp{ending}"
         try:
@@ -145,13 +145,13 @@ def run(arguments: argparse.Namespace) -> None:
         words = arguments.columns.replace(",", " ").split()
         if ending in _FRAME_WRITERS:
             arrays, columns = arrays_of(numbers[0], words) if words and len(numbers) else (None, None)
-            frames = [opened._part(number, columns=arrays, **asked) for number in numbers._numbers()]
-            _write_frames(frames, columns, arguments.out, ending, bar)
+            frames = (opened._part(number, columns=arrays, **asked) for number in numbers._numbers())
+            _write_frames(frames, len(numbers), columns, arguments.out, ending, bar)
             return
         if arguments.coordinates:
             raise ValueError(f"{arguments.out}: --coordinates is for .npz, .csv and files of VTK; dumps say by --columns which they have: xs xu x")
         part = numbers if asked["stride"] == 1 and not asked["region"] else \
-            [opened._part(number, **asked) for number in numbers._numbers()]
+            (opened._part(number, **asked) for number in numbers._numbers())
         write(arguments.out, part, style=arguments.style or "", dialect=arguments.dialect, columns=" ".join(words), numbers=arguments.numbers,
               label=arguments.label, scaled=not arguments.unscaled, image=arguments.image, sort=arguments.sort,
               threads=arguments.threads, progress=bar.show)

@@ -122,7 +122,7 @@ def _add_spheres(renderer: Any, frame: Any, data: Any, name: str | None) -> None
 
 
 def main() -> None:
-    """Draws what the argument asks for, in JSON: files, options, frame, color, size, picture."""
+    """Draws what the input asks for, in JSON: files, options, frame, color, size, picture."""
     import numpy
     import vtkmodules.vtkInteractionStyle
     import vtkmodules.vtkRenderingFreeType
@@ -133,7 +133,7 @@ def main() -> None:
 
     import granular
 
-    given = json.loads(sys.argv[1])
+    given = json.load(sys.stdin)
     frame = granular.open(given["files"], **given["options"])[given["frame"]].read()
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(1, 1, 1)

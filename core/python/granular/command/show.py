@@ -66,8 +66,8 @@ def run(arguments: argparse.Namespace) -> None:
     package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
     try:
-        done = subprocess.run(_with_display([python, "-m", "granular.command.draw", json.dumps(given)]), capture_output=True, text=True,
-                              env={**os.environ, "PYTHONPATH": path})
+        done = subprocess.run(_with_display([python, "-m", "granular.command.draw"]), input=json.dumps(given), capture_output=True,
+                              text=True, env={**os.environ, "PYTHONPATH": path})
         if done.returncode or not os.path.exists(temporary):
             raise RuntimeError(f"{picture}: {(done.stdout + done.stderr).strip()}")
         os.replace(temporary, picture)

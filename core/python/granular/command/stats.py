@@ -38,7 +38,10 @@ def column_row(values: Any) -> tuple[Any, ...]:
         values = values[numpy.isfinite(values)]
     if not len(values):
         return count, "", "", "", ""
-    total: Any = math.fsum(values) if values.dtype.kind == "f" else sum(values.tolist())
+    try:
+        total: Any = math.fsum(values) if values.dtype.kind == "f" else sum(values.tolist())
+    except OverflowError:
+        total = float(values.sum())
     return count, values.min().item(), values.max().item(), total / len(values), total
 
 
@@ -54,9 +57,14 @@ def masses_of(frame: Any) -> Any:
 
 
 def mechanics(frame: Any) -> Iterator[tuple[str, int, float]]:
-    """Yields name, count and value of energy, temperature and centre of mass."""
+    """Yields name, count and value of energy, temperature and centre of mass; nothing where a value is not finite."""
+    import numpy
+
     mass = masses_of(frame)
     if mass is None or not frame.rows or not frame._has_points() or frame._is_lines():
+        return
+    used = [mass, frame.points.ravel(), *([frame["v"].ravel()] if "v" in frame else [])]
+    if not all(numpy.isfinite(values).all() for values in used):
         return
     total = math.fsum(mass)
     if not total > 0:
