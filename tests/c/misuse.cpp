@@ -239,9 +239,7 @@ TEST(CMisuse, AnyRequestsOfAnyFile)
       request.array_count = request.arrays ? random() % 4 : 0;
       request.table = random() % 4 ? 0 : one_of(few);
       request.points = one_of(few);
-      request.coordinates = static_cast<granular_coordinates>(random() % 2 ? 0
-          : random() % 2                                                   ? 2
-                                                                           : one_of(few));
+      request.coordinates = static_cast<granular_coordinates>(random() % 4);
       request.single_precision = one_of(few);
       request.sort_by_id = one_of(few);
       request.stride = random() % 2 ? 1 : one_of(integers);
