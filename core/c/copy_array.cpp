@@ -3,6 +3,7 @@
 #include "bad_argument.h"
 #include "frame.h"
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -52,7 +53,8 @@ bool fits(From value, To converted) noexcept
 {
   if constexpr (std::is_floating_point_v<To>)
   {
-    return std::is_floating_point_v<From> ||
+    return (std::is_floating_point_v<From> &&
+             std::isfinite(static_cast<double>(value)) == std::isfinite(converted)) ||
       static_cast<long double>(converted) == static_cast<long double>(value);
   }
   else if constexpr (std::is_floating_point_v<From>)
@@ -75,7 +77,9 @@ To convert(From value) noexcept
     // undefined for numbers beyond the type, which do not fit
     constexpr auto least = static_cast<From>(std::numeric_limits<To>::min());
     constexpr auto most = static_cast<From>(std::numeric_limits<To>::max());
-    return value >= least && value < most ? static_cast<To>(value) : To{};
+    constexpr bool is_exact = sizeof(To) < sizeof(From); // or the largest number is rounded up
+    return value >= least && (value < most || (is_exact && value == most)) ? static_cast<To>(value)
+                                                                           : To{};
   }
   else
   {

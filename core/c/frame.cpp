@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -23,24 +25,6 @@ using namespace granular;
 
 namespace
 {
-Box box_of(const granular_box& box)
-{
-  std::array<Vector3, 3> edges;
-  for (std::size_t i = 0; i < 9; ++i)
-  {
-    edges[i / 3][i % 3] = box.vectors[i];
-  }
-  const double* const b = box.bounds;
-  const Vector3 lo = { b[0], b[2], b[4] };
-  const Vector3 hi = { b[1], b[3], b[5] };
-  const bool tilted = b[6] != 0 || b[7] != 0 || b[8] != 0;
-  Box made = box.has_bounds == 0
-    ? Box::from_edges({ box.origin[0], box.origin[1], box.origin[2] }, edges)
-    : tilted ? Box::from_tilted_bounds(lo, hi, b[6], b[7], b[8])
-             : Box::from_bounds(lo, hi);
-  made.boundary = box.boundary == nullptr ? "" : box.boundary;
-  return made;
-}
 
 void check_array(const granular_array& array, std::int64_t rows)
 {
@@ -99,9 +83,24 @@ void take_header(granular_frame& frame, DumpFrame& rows)
   frame.coordinates = rows.coordinates;
   frame.rows = rows.rows;
   frame.columns.clear();
-  for (const ColumnInfo& column : rows.schema.columns())
+  // those that were read: a writer would make up the others
+  std::set<int> read;
+  const auto add = [&](const ArrayInfo& array)
   {
-    frame.columns.push_back(column.name);
+    std::ranges::copy_if(
+      array.columns, std::inserter(read, read.end()), [](int column) { return column >= 0; });
+  };
+  std::ranges::for_each(rows.arrays, add, &DumpArray::info);
+  for (const ArrayInfo& array : rows.schema.arrays())
+  {
+    if (array.position_form && rows.points.data() != nullptr)
+    {
+      add(array);
+    }
+  }
+  for (const int column : read)
+  {
+    frame.columns.push_back(rows.schema.columns()[static_cast<std::size_t>(column)].name);
   }
   frame.column_text = rows.schema.text();
 }
@@ -164,7 +163,7 @@ void take_lines(granular_frame& frame, LocalFrame&& local)
     add_array(frame, ends_name, ValueType::Float64, 6, std::move(local.lines.points),
       find_known("x1", local_known_columns()));
     add_array(frame, "length", ValueType::Float64, 1, std::move(local.lines.lengths),
-      find_known("x1", local_known_columns()));
+      find_known("length", local_known_columns()));
   }
   take_rows(frame, std::move(local.table), local_known_columns());
 }
@@ -182,6 +181,25 @@ const FrameArray& find_array(const granular_frame& frame, const std::string& nam
     list += (list.empty() ? "" : ", ") + array.name;
   }
   throw BadArgument("expected an array of " + list + ", got '" + name + "'");
+}
+
+Box make_box(const granular_box& box)
+{
+  std::array<Vector3, 3> edges;
+  for (std::size_t i = 0; i < 9; ++i)
+  {
+    edges[i / 3][i % 3] = box.vectors[i];
+  }
+  const double* const b = box.bounds;
+  const Vector3 lo = { b[0], b[2], b[4] };
+  const Vector3 hi = { b[1], b[3], b[5] };
+  const bool tilted = b[6] != 0 || b[7] != 0 || b[8] != 0;
+  Box made = box.has_bounds == 0
+    ? Box::from_edges({ box.origin[0], box.origin[1], box.origin[2] }, edges)
+    : tilted ? Box::from_tilted_bounds(lo, hi, b[6], b[7], b[8])
+             : Box::from_bounds(lo, hi);
+  made.boundary = box.boundary == nullptr ? "" : box.boundary;
+  return made;
 }
 
 granular_box box_of(const FrameHeader& header)
@@ -237,7 +255,7 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
   view.has_box = content.box != nullptr;
   if (content.box != nullptr)
   {
-    view.header.box = box_of(*content.box);
+    view.header.box = make_box(*content.box);
   }
   view.rows = content.rows;
   for (std::size_t i = 0; i < content.array_count; ++i)

@@ -89,6 +89,9 @@ const FrameArray& find_array(const granular_frame& frame, const std::string& nam
 /// type.
 void copy_array(const granular_frame& frame, const granular_destination& to);
 
+/// Returns the box that the bounds of a box of the caller say, or its corner and edges.
+granular::Box make_box(const granular_box& box);
+
 /// Returns the box of a frame; its boundary belongs to the header.
 granular_box box_of(const granular::FrameHeader& header);
 

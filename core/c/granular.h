@@ -63,6 +63,7 @@ typedef struct granular_error
   int64_t line;        /* of a text file, from 1; 0: not known */
   int64_t byte;        /* of a binary file, from 0; -1: not known */
   const char* column;  /* as the file spells it; empty if there is none */
+  int system_error;    /* errno where the system refused an operation; 0: something else */
 } granular_error;
 
 /* Returns the error of the last function that failed on this thread; never null. Valid until the next failure. */
@@ -123,8 +124,9 @@ GRANULAR_API granular_status granular_open(const char* const* paths, size_t coun
 GRANULAR_API void granular_close(granular_run* run);
 
 /* Looks for frames that were added, and for files that changed. What functions returned of this run before, counts and
- * strings, is no longer valid. */
-GRANULAR_API granular_status granular_refresh(granular_run* run);
+ * strings, is no longer valid; after an error the run is as it was. The functions may be null. */
+GRANULAR_API granular_status granular_refresh(
+  granular_run* run, granular_progress progress, granular_notice notice, void* user);
 
 /* Facts of a run. */
 typedef struct granular_run_facts
@@ -224,7 +226,7 @@ typedef struct granular_request
   double origin[3];                 /* subtracted from the points in double precision */
   int sort_by_id;                   /* 1: rows in the order of their ids; of dumps and data files */
   int64_t stride;                   /* n keeps ids that are multiples of n, or each n-th row without ids; the same */
-  double region[6];                 /* xlo xhi ylo yhi zlo zhi, closed; an axis with lo > hi (default) is not restricted; the same */
+  double region[6];                 /* xlo xhi ylo yhi zlo zhi, closed, no NaN; an axis with lo > hi (default) is not restricted; the same */
   int threads;                      /* 0 (default): one per core */
   granular_progress progress;       /* may be null */
   granular_notice notice;           /* may be null */
@@ -266,6 +268,10 @@ typedef struct granular_box
   const char* boundary; /* "pp pp ff"; empty: not known */
 } granular_box;
 
+/* Sets corner and edges from the bounds, or the bounds from corner and edges if has_bounds is 0 and the edges allow it. Each
+ * number is rounded once. */
+GRANULAR_API granular_status granular_complete_box(granular_box* box);
+
 /* The header of a frame. */
 typedef struct granular_frame_header
 {
@@ -280,6 +286,8 @@ typedef struct granular_frame_header
   const char* label;                /* ITEM: LABEL */
   const char* units;                /* ITEM: UNITS */
   const char* columns;              /* of the file, in its order and spelling */
+  const int* digits;                /* the largest number of digits of each column in the first rows of a text; 0: none was seen */
+  size_t digit_count;               /* one for each column, or 0 */
   const char* dialect;              /* "LIGGGHTS" or "LAMMPS"; empty: not known */
   size_t arrays;                    /* number of them */
 } granular_frame_header;
@@ -370,7 +378,8 @@ GRANULAR_API granular_status granular_write(
 GRANULAR_API granular_status granular_write_frame(
   granular_writer* writer, const granular_frame* frame);
 
-/* Gives the file its name and ends the writer; an error if a frame failed in its middle. After an error, the old file is untouched; the writer is gone in any case. */
+/* Gives the file its name and ends the writer. An error if a frame failed. After an error, the old file is untouched; the
+ * writer is gone in any case. */
 GRANULAR_API granular_status granular_finish(granular_writer* writer);
 
 /* Ends the writer without the file; the old one is untouched. Null does nothing. */

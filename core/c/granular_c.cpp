@@ -4,7 +4,6 @@
 #include "run.h"
 
 #include <algorithm>
-#include <set>
 
 using namespace granular_c;
 
@@ -47,13 +46,14 @@ extern "C"
     delete run;
   }
 
-  granular_status granular_refresh(granular_run* run)
+  granular_status granular_refresh(
+    granular_run* run, granular_progress progress, granular_notice notice, void* user)
   {
     return guarded(
       [&]
       {
-        Caller nobody(nullptr, nullptr, nullptr);
-        needed(run, "run").refresh(nobody);
+        Caller caller(progress, notice, user);
+        needed(run, "run").refresh(caller);
       });
   }
 
@@ -101,14 +101,9 @@ extern "C"
         }
         const auto number = static_cast<std::size_t>(file);
         const granular::FileIndex& index = files[number];
-        std::set<std::int64_t> steps;
-        for (const granular::FrameEntry& frame : index.frames)
-        {
-          steps.insert(frame.timestep);
-        }
-        const auto frames = static_cast<std::int64_t>(index.frames.size());
-        needed(facts, "facts") = { index.path.c_str(), index.stamp.size, frames,
-          frames - static_cast<std::int64_t>(steps.size()), run->defects[number].c_str() };
+        const granular_run::Rest& rest = run->rests[number];
+        needed(facts, "facts") = { index.path.c_str(), index.stamp.size,
+          static_cast<std::int64_t>(index.frames.size()), rest.repeated, rest.defect.c_str() };
       });
   }
 
@@ -225,11 +220,28 @@ extern "C"
         made.label = from.label.c_str();
         made.units = from.units.c_str();
         made.columns = frame->column_text.c_str();
+        made.digits = from.digits.data();
+        made.digit_count = from.digits.size();
         made.dialect = !from.dialect                   ? ""
           : *from.dialect == granular::Dialect::Lammps ? "LAMMPS"
                                                        : "LIGGGHTS";
         made.arrays = frame->arrays.size();
         needed(header, "header") = made;
+      });
+  }
+
+  granular_status granular_complete_box(granular_box* box)
+  {
+    return guarded(
+      [&]
+      {
+        granular::FrameHeader header;
+        header.box = make_box(needed(box, "box"));
+        const granular_box made = box_of(header);
+        std::copy_n(made.origin, 3, box->origin);
+        std::copy_n(made.vectors, 9, box->vectors);
+        std::copy_n(made.bounds, 9, box->bounds);
+        box->has_bounds = made.has_bounds;
       });
   }
 

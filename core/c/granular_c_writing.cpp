@@ -16,24 +16,11 @@ struct granular_names
 
 namespace
 {
-/// A file with a part of a frame must not get its name.
-void expect_whole(const granular_writer& writer)
-{
-  if (writer.has_failed)
-  {
-    throw BadArgument(
-      "expected a writer of whole frames, got one that failed in the middle of one: abandon it");
-  }
-}
-
 void write_frame(granular_writer& writer, const granular::FrameView& view)
 {
-  expect_whole(writer);
-  writer.has_failed = true;
   granular::Notices notices;
   writer.caller.begin();
   writer.write(view, notices, writer.caller);
-  writer.has_failed = false;
   writer.caller.tell(notices);
 }
 }
@@ -109,7 +96,6 @@ extern "C"
       [&]
       {
         const std::unique_ptr<granular_writer> own(&needed(writer, "writer"));
-        expect_whole(*own);
         own->finish();
       });
   }

@@ -11,10 +11,10 @@ namespace
 struct LastError
 {
   std::string message, text, path, column;
-  granular_error error = { GRANULAR_OK, "", "", "", 0, -1, "" };
+  granular_error error = { GRANULAR_OK, "", "", "", 0, -1, "", 0 };
 
   granular_status set(granular_status status, std::string whole, const std::string& words,
-    const granular::Where& where) noexcept
+    const granular::Where& where, int system_error = 0) noexcept
   try
   {
     message = std::move(whole);
@@ -22,12 +22,12 @@ struct LastError
     path = where.path;
     column = where.column;
     error = { status, message.c_str(), text.c_str(), path.c_str(), where.line, where.byte,
-      column.c_str() };
+      column.c_str(), system_error };
     return status;
   }
   catch (const std::exception&)
   {
-    error = { status, "out of memory", "out of memory", "", 0, -1, "" };
+    error = { status, "out of memory", "out of memory", "", 0, -1, "", 0 };
     return status;
   }
 };
@@ -62,7 +62,9 @@ granular_status keep_error(const granular::Error& error) noexcept
 {
   try
   {
-    return last_error.set(status_of(error), error.what(), error.text(), error.where());
+    const auto* const refused = dynamic_cast<const granular::IoError*>(&error);
+    return last_error.set(status_of(error), error.what(), error.text(), error.where(),
+      refused == nullptr ? 0 : static_cast<int>(refused->code()));
   }
   catch (const std::bad_alloc&)
   {

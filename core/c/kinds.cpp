@@ -288,17 +288,13 @@ void read_euler_frame(granular_run& run, std::size_t frame, const Wanted& wanted
 {
   EulerFrame cells =
     read_euler_pieces(run.index.pieces(frame), wanted_names(wanted), notices, progress);
-  Vector3 lo = {};
-  Vector3 hi = {};
   for (std::size_t i = 0; i < cells.centres.size(); ++i)
   {
-    const std::size_t axis = i % 3;
-    lo[axis] = i < 3 ? cells.centres[i] : std::min(lo[axis], cells.centres[i]);
-    hi[axis] = i < 3 ? cells.centres[i] : std::max(hi[axis], cells.centres[i]);
-    cells.centres[i] -= wanted.request.origin[axis];
+    cells.centres[i] -= wanted.request.origin[i % 3];
   }
   to.kind = RowKind::Cells;
-  to.header = header_of(run.index.first_piece(frame), lo, hi);
+  to.header.timestep = run.index.first_piece(frame).entry.timestep;
+  to.header.has_box = false;
   to.rows = cells.cells;
   std::copy_n(wanted.request.origin, 3, to.origin.begin());
   if (wanted.request.points != 0 && (wanted.all || wanted.is_wanted(points_name, true)))

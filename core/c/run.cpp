@@ -116,6 +116,21 @@ bool Wanted::is_wanted(std::string_view name, bool is_usual) const
 using namespace granular;
 using namespace granular_c;
 
+namespace
+{
+/// Frames with the timestep of an earlier one in the same file.
+std::int64_t count_repeated(const FileIndex& file)
+{
+  std::vector<std::int64_t> steps;
+  for (const FrameEntry& frame : file.frames)
+  {
+    steps.push_back(frame.timestep);
+  }
+  std::ranges::sort(steps);
+  return static_cast<std::int64_t>(std::ranges::unique(steps).size());
+}
+}
+
 granular_run::granular_run(std::vector<std::string> patterns, const granular_open_options& options)
   : timestep_size(options.timestep_size)
   , preset(text_of(options.preset))
@@ -140,14 +155,14 @@ void granular_run::refresh(Caller& caller)
   RunIndex updated = index; // after an error the run is as it was
   updated.update(find_files(patterns_), options_, notices, caller);
   std::vector<double> new_times = updated.times(timestep_size, notices);
-  std::vector<std::string> new_defects;
+  std::vector<Rest> new_rests;
   for (const FileIndex& file : updated.files())
   {
-    new_defects.push_back(file.defect ? to_string(*file.defect) : "");
+    new_rests.push_back({ file.defect ? to_string(*file.defect) : "", count_repeated(file) });
   }
   index = std::move(updated);
   times = std::move(new_times);
-  defects = std::move(new_defects);
+  rests = std::move(new_rests);
   {
     const std::lock_guard guard(offers_mutex_);
     offers_.clear();
@@ -207,6 +222,10 @@ std::unique_ptr<granular_frame> granular_run::read(
     }
   }
   const granular_request& given = wanted.request;
+  if (std::ranges::any_of(given.region, [](double bound) { return std::isnan(bound); }))
+  {
+    throw BadArgument("expected bounds of a region that are numbers, got NaN");
+  }
   const auto is_bounded = [&](int axis)
   { return given.region[2 * axis] <= given.region[2 * axis + 1]; };
   if (!kind_->has_parts &&

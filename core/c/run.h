@@ -92,7 +92,14 @@ struct granular_run
   std::shared_mutex mutex;
   granular::RunIndex index;
   std::vector<double> times;
-  std::vector<std::string> defects; ///< of each file; empty: none
+
+  /// What a file has beside the frames that are shown.
+  struct Rest
+  {
+    std::string defect;        ///< of the first frame that was left out; empty: none
+    std::int64_t repeated = 0; ///< frames with a timestep of an earlier one in the file
+  };
+  std::vector<Rest> rests; ///< of each file
 
   // as they were given
   double timestep_size = 1;

@@ -215,6 +215,13 @@ private:
     const std::vector<double> ranks = optional(all.has_ranks, "proc");
     for (std::size_t i = 0; i < particles.size(); ++i)
     {
+      constexpr double most = 9007199254740992; // 2^53
+      if (!(particles[i] >= 0 && particles[i] <= most && ranks[i] >= 0 && ranks[i] <= INT32_MAX))
+      {
+        throw BadArgument("subdomain " + std::to_string(i) +
+          ": expected a number of particles and a rank of at least 0, got " +
+          to_text(particles[i]) + " and " + to_text(ranks[i]));
+      }
       Subdomain one;
       std::copy_n(lo.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.lo.begin());
       std::copy_n(hi.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.hi.begin());

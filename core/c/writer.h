@@ -23,7 +23,6 @@ struct granular_writer
 
   const granular_c::RowKind kind;
   granular_c::Caller caller;
-  bool has_failed = false; ///< in the middle of a frame: the file cannot be completed
 
 protected:
   granular_writer(granular_c::RowKind of, const granular_format& format)

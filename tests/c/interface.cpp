@@ -436,7 +436,7 @@ TEST(CInterface, ARunThatGrows)
   const RunHandle run = open_run(path);
   EXPECT_EQ(facts_of(run).frames, 2);
   std::ofstream(path, std::ios::app) << all.substr(third);
-  ASSERT_EQ(granular_refresh(run.get()), GRANULAR_OK) << message();
+  ASSERT_EQ(granular_refresh(run.get(), nullptr, nullptr, nullptr), GRANULAR_OK) << message();
   EXPECT_EQ(facts_of(run).frames, 3);
 }
 
@@ -496,6 +496,38 @@ TEST(CInterface, Version)
   EXPECT_EQ(granular_version(), version);
 }
 
+TEST(CInterface, TheLargestNumbersOfATypeFit)
+{
+  const std::string path = std::string(GRANULAR_OUTPUT) + "/limits.dump";
+  std::ofstream(path)
+    << "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+       "ITEM: ATOMS id x y z c_a c_b c_c\n1 0 0 0 127 2147483647 1e300\n";
+  const RunHandle run = open_run(path);
+  std::int8_t a = 0;
+  std::int32_t b = 0;
+  float c = 0;
+  const granular_destination fitting[] = { { "c_a", GRANULAR_INT8, &a, 1 },
+    { "c_b", GRANULAR_INT32, &b, 1 } };
+  EXPECT_EQ(granular_read_into(run.get(), 0, nullptr, fitting, 2, nullptr), GRANULAR_OK)
+    << message();
+  EXPECT_EQ(a, 127);
+  EXPECT_EQ(b, 2147483647);
+  const granular_destination large[] = { { "c_c", GRANULAR_FLOAT32, &c, 1 } };
+  EXPECT_EQ(granular_read_into(run.get(), 0, nullptr, large, 1, nullptr), GRANULAR_BAD_ARGUMENT);
+}
+
+TEST(CInterface, ABoxIsCompletedFromItsBounds)
+{
+  granular_box box = { { -1, 1, -2, 2, -3, 3, 0.1, -0.2, 0.3 }, 1, {}, {}, "pp pp pp" };
+  ASSERT_EQ(granular_complete_box(&box), GRANULAR_OK) << message();
+  const double edges[] = { 1.7, 0, 0, 0.1, 3.7, 0, -0.2, 0.3, 6 };
+  for (int i = 0; i < 9; ++i)
+  {
+    EXPECT_EQ(box.vectors[i], edges[i]) << i;
+  }
+  EXPECT_EQ(box.origin[0], -0.8);
+}
+
 // A refresh that fails leaves the run as it was.
 TEST(CInterface, ARefreshThatFails)
 {
@@ -503,7 +535,7 @@ TEST(CInterface, ARefreshThatFails)
   std::ofstream(path) << content(good("grains.dump"));
   const RunHandle run = open_run(path);
   std::remove(path.c_str());
-  EXPECT_EQ(granular_refresh(run.get()), GRANULAR_IO_ERROR);
+  EXPECT_EQ(granular_refresh(run.get(), nullptr, nullptr, nullptr), GRANULAR_IO_ERROR);
   granular_frame_facts facts = {};
   EXPECT_EQ(granular_frame_info(run.get(), 2, &facts), GRANULAR_OK);
   EXPECT_EQ(facts.timestep, 2000);

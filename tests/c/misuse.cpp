@@ -37,7 +37,8 @@ TEST(CMisuse, NullsAreErrors)
   expect_null_error(granular_open(nothing, 1, nullptr, &new_run), "a name");
   EXPECT_EQ(granular_open(&path, 0, nullptr, &new_run), GRANULAR_BAD_ARGUMENT);
   EXPECT_EQ(message(), "expected at least one name, got none");
-  expect_null_error(granular_refresh(nullptr), "run");
+  expect_null_error(granular_refresh(nullptr, nullptr, nullptr, nullptr), "run");
+  expect_null_error(granular_complete_box(nullptr), "box");
   expect_null_error(granular_run_info(nullptr, nullptr), "run");
   expect_null_error(granular_run_info(run.get(), nullptr), "facts");
   expect_null_error(granular_frame_info(nullptr, 0, nullptr), "run");

@@ -183,6 +183,36 @@ TEST(CWriting, BondsAndCellsAndSubdomainsOfAProgram)
   EXPECT_EQ(static_cast<const std::int64_t*>(array_of(read, "nlocal").data)[1], 20);
 }
 
+// A frame that fails in its middle would leave a part of it in the file.
+TEST(CWriting, NothingFollowsAFrameThatFailed)
+{
+  const std::string path = output("failed.dump");
+  std::ofstream(path) << "the old file";
+  const RunHandle run = open_run(good("grains.dump"));
+  const FrameHandle frame = read_frame(run, -1);
+  granular_format format;
+  granular_format_init(&format);
+  format.progress = [](double fraction, void*) { return fraction > 0.2 ? 1 : 0; };
+  granular_writer* writer = nullptr;
+  ASSERT_EQ(granular_create(path.c_str(), &format, &writer), GRANULAR_OK);
+  EXPECT_EQ(granular_write_frame(writer, frame.get()), GRANULAR_CANCELLED);
+  EXPECT_EQ(granular_write_frame(writer, frame.get()), GRANULAR_BAD_ARGUMENT);
+  EXPECT_NE(message().find("failed in a frame before"), std::string::npos) << message();
+  EXPECT_NE(granular_finish(writer), GRANULAR_OK);
+  EXPECT_EQ(content(path), "the old file");
+}
+
+TEST(CWriting, AFrameOfAnotherKind)
+{
+  const RunHandle run = open_run(good("grains.dump"));
+  const FrameHandle frame = read_frame(run, -1);
+  granular_writer* writer = nullptr;
+  ASSERT_EQ(granular_create(output("other.bonds").c_str(), nullptr, &writer), GRANULAR_OK);
+  EXPECT_EQ(granular_write_frame(writer, frame.get()), GRANULAR_BAD_ARGUMENT);
+  EXPECT_EQ(message(), "expected a frame of lines for this style, got one of particles");
+  granular_abandon(writer);
+}
+
 TEST(CWriting, AnErrorLeavesTheOldFile)
 {
   const std::string path = output("old.dump");

@@ -30,18 +30,23 @@ frame = run[-1]
 error = raises(granular.ColumnError, lambda: frame["velocity"], "radius", "'velocity'", "id")
 assert isinstance(error, KeyError) and isinstance(error, ValueError) and isinstance(error, granular.Error)
 assert frame.get("velocity") is None and "velocity" not in frame
+# columns by their own names, too, and in one text
+assert numpy.array_equal(frame["vx"], frame["v"][:, 0]) and "vx" in frame and numpy.array_equal(frame["y"], frame.points[:, 1])
+assert list(run.read(columns="id vx")) == list(run.read(columns=["id", "v"])) == ["id", "v"]
 raises(granular.ColumnError, lambda: run.read(columns=["v", "velocity"]), "'velocity'")
 raises(IndexError, lambda: run[len(run)], f"from {-len(run)} to {last}", str(len(run)))
 raises(IndexError, lambda: run[-len(run) - 1])
 assert len(run[len(run):]) == 0 and list(run[2:2]) == []
-raises(ValueError, lambda: frame.bonds, "dump")
+raises(granular.ArgumentError, lambda: frame.bonds, "dump")
 
 # requests that cannot be
 raises(granular.ArgumentError, lambda: run.read(stride=0), "stride")
-raises(ValueError, lambda: run.read(region=[0, 1]), "six bounds")
-raises(ValueError, lambda: run.read(coordinates="polar"), "absolute", "'polar'")
-raises(ValueError, lambda: run.read(precision="half"), "single")
-raises(ValueError, lambda: granular.open(SOURCE, kind="picture"), "dump", "'picture'")
+raises(granular.ArgumentError, lambda: run.read(region=[0, 1]), "six bounds")
+for bounds in ([(1, 0), None, None], [(0, float("nan")), None, None]):
+    raises(granular.ArgumentError, lambda: run.read(region=bounds), "bounds")  # noqa: B023
+raises(granular.ArgumentError, lambda: run.read(coordinates="polar"), "absolute", "'polar'")
+raises(granular.ArgumentError, lambda: run.read(precision="half"), "single")
+raises(granular.ArgumentError, lambda: granular.open(SOURCE, kind="picture"), "dump", "'picture'")
 raises(granular.ArgumentError, lambda: granular.open(SOURCE, dt=-1), "-1")
 
 # files that are not there, that are empty, that are damaged
@@ -87,11 +92,11 @@ run.close()
 run.close()
 for call in (lambda: len(run), lambda: run.steps, lambda: run[0], lambda: other["v"], lambda: run.read(), lambda: run.refresh(),
              lambda: list(run), lambda: run.columns):
-    raises(ValueError, call, "closed", "grains.dump")
+    raises(granular.ArgumentError, call, "closed", "grains.dump")
 assert numpy.array_equal(velocity, expected) and "closed" in repr(run)
 with granular.open(SOURCE) as opened:
     assert len(opened) == last + 1
-raises(ValueError, lambda: len(opened), "closed")
+raises(granular.ArgumentError, lambda: len(opened), "closed")
 
 # a frame that was read does not need its run
 with granular.open(SOURCE) as opened:

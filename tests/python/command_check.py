@@ -39,6 +39,7 @@ for what, frames, words in (
         ("not a number", [["1 1 0.512345678 nan 0.5 0.1"]], "1 values of points are NaN"),
         ("infinite", [["1 1 0.5 0.5 0.5 inf"]], "1 values of radius are NaN or infinite"),
         ("radius 0", [["1 1 0.5 0.5 0.5 0"]], "1 radii are not positive"),
+        ("far outside", [["1 1 0.5 1.75 0.5 0.1"]], "outside the box along y, by 0.75"),
         ("outside", [sound, ["1 1 0.5 1.25 0.5 0.1"]], "step 1: 1 particles are outside the box along y, by 0.25 at most"),
         ("a word", [["1 1 0.5 zero 0.5 0.1"]], "column 'y'")):
     faults = check(dump("damaged.dump", *frames), status=1)["faults"]

@@ -98,6 +98,14 @@ else:
         assert numpy.array_equal(vtk_to_numpy(data.GetPointData().GetArray("v")), text.stack(["vx", "vy", "vz"]))
         assert data.GetNumberOfCells() == len(text.numbers("id"))
 
+# a pattern that the shell resolved, without OUT; --frames with a number below 0
+clean()
+granular("convert", SOURCE, "step_*.dump", "--frames", "-2:")
+only_files("step_3000.dump", "step_4000.dump")
+kept = content("step_4000.dump")
+granular("convert", "step_3000.dump", "step_4000.dump", "step_4000.dump", status=2)
+assert content("step_4000.dump") == kept
+
 # what cannot be, and the old file
 clean()
 with open("old.dump", "w") as stream:

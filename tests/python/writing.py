@@ -131,6 +131,24 @@ granular.write("single.bonds", {"id1": [1], "id2": [2], "points": numpy.ones((1,
 granular.write("words.dump", {"id": [1], "type": [1], "element": numpy.array([b"Fe"]), "points": point}, box=box)
 assert granular.open("words.dump")[0]["element"].tolist() == ["Fe"]
 
+# a part of a frame is written as it is: nothing is made up
+granular.write("few.dump", run.read(1, columns="id radius"))
+few, all_ = plain_dump.read("few.dump")[0], plain_dump.read(os.path.join(GOOD, "grains.dump"))[1]
+assert list(few.columns) == ["id", "x", "y", "z", "radius"], few.columns.keys()
+assert all(few.columns[name] == all_.columns[name] for name in few.columns)
+
+# names that say nothing of the format, and the files that are read
+for name in ("a.csv", "a.npz", "a.xyz", "a.csv.gz"):
+    raises(granular.ArgumentError, lambda: granular.write(name, run[1]), "ends in one of", name)  # noqa: B023
+    assert not os.path.exists(name)
+granular.write("a.xyz", run[1], style="custom")
+for step in (0, 1):
+    granular.write(f"own_{step}.dump", arrays, box=box, step=step)
+before = [text_of(f"own_{step}.dump") for step in (0, 1)]
+raises(granular.ArgumentError, lambda: granular.write("own_*.dump", granular.open("own_*.dump")), "own_0.dump", "that is read")
+assert [text_of(f"own_{step}.dump") for step in (0, 1)] == before
+raises(PermissionError if os.getuid() else OSError, lambda: granular.write("/proc/new.dump", arrays, box=box), "/proc/new.dump")
+
 # time and units of a file are kept
 granular.write("units.dump", {"id": [1], "type": [1], "points": point}, box=box, units="si", time=0.25)
 granular.write("kept.dump", granular.open("units.dump"))

@@ -51,7 +51,7 @@ class ColumnError(ArgumentError, KeyError):
 
 class _CError(Structure):
     _fields_ = [("status", c_int), ("message", c_char_p), ("text", c_char_p), ("path", c_char_p), ("line", c_int64),
-                ("byte", c_int64), ("column", c_char_p)]
+                ("byte", c_int64), ("column", c_char_p), ("system_error", c_int)]
 
 
 class OpenOptions(Structure):
@@ -92,7 +92,7 @@ class CBox(Structure):
 class FrameHeader(Structure):
     _fields_ = [("timestep", c_int64), ("time", c_double), ("has_time", c_int), ("rows", c_int64), ("has_box", c_int),
                 ("box", CBox), ("coordinates", c_int), ("origin", c_double * 3), ("label", c_char_p), ("units", c_char_p),
-                ("columns", c_char_p), ("dialect", c_char_p), ("arrays", c_size_t)]
+                ("columns", c_char_p), ("digits", POINTER(c_int)), ("digit_count", c_size_t), ("dialect", c_char_p), ("arrays", c_size_t)]
 
 
 class CArray(Structure):
@@ -114,13 +114,14 @@ class Content(Structure):
 _NAMES = POINTER(c_char_p)
 _FUNCTIONS = {
     "granular_open": (_NAMES, c_size_t, POINTER(OpenOptions), POINTER(c_void_p)),
-    "granular_refresh": (c_void_p,),
+    "granular_refresh": (c_void_p, PROGRESS, NOTICE, c_void_p),
     "granular_run_info": (c_void_p, POINTER(RunFacts)),
     "granular_frame_info": (c_void_p, c_int64, POINTER(FrameFacts)),
     "granular_file_info": (c_void_p, c_int64, POINTER(FileFacts)),
     "granular_find_frame": (c_void_p, c_double, POINTER(c_int64)),
     "granular_arrays": (c_void_p, c_int64, c_int, POINTER(ArrayFacts), c_size_t, POINTER(c_size_t)),
     "granular_read": (c_void_p, c_int64, POINTER(Request), POINTER(c_void_p)),
+    "granular_complete_box": (POINTER(CBox),),
     "granular_header": (c_void_p, POINTER(FrameHeader)),
     "granular_array_at": (c_void_p, c_size_t, POINTER(CArray)),
     "granular_create": (c_char_p, POINTER(Format), POINTER(c_void_p)),
@@ -157,8 +158,8 @@ def _raise(error: _CError) -> None:
         raise Cancelled
     if error.status == _NO_MEMORY:
         raise MemoryError(message)
-    if error.status == _IO_ERROR and path and not os.path.exists(path):
-        raise FileNotFoundError(message)
+    if error.status == _IO_ERROR and error.system_error:
+        raise type(OSError(error.system_error, ""))(message)  # FileNotFoundError, PermissionError, ...
     raise (ArgumentError if error.status == _BAD_ARGUMENT else Error)(message, *where)
 
 
@@ -239,5 +240,6 @@ class Calls:
             self._old_handler = None
         if self.raised:
             raise self.raised
-        for notice in self.notices:
+        told, self.notices = self.notices, []
+        for notice in told:
             self._warn(notice)

@@ -2,13 +2,13 @@
 """Runs and frames: files as numpy arrays, read when they are asked for."""
 from __future__ import annotations
 
-import math
 import os
 import sys
 import threading
 import warnings
+import weakref
 from collections import namedtuple
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, NoReturn, Sequence
 
 from . import _library as c
 
@@ -16,18 +16,26 @@ if TYPE_CHECKING:
     import numpy
     import pandas
 
-#: An array that a frame has in its file: name, numpy's name of its type ("str" for words), components, unit, meaning.
+#: An array that a frame has in its file: name, numpy's name of its type ("str" for words), components, unit (of runs in SI units),
+#: meaning.
 Column = namedtuple("Column", "name type components unit meaning")
 
 _COORDINATES = ("absolute", "unwrapped", "scaled")
 _STEPS = ("auto", "merge", "last")
 _INDEX = ("never", "cache", "beside")
+# Options of granular.open, and the properties of readers of ParaView that mean the same.
+_PROPERTIES = {"column_names": "ColumnNames", "preset": "Preset", "column_map": "ColumnMap", "atom_style": "AtomStyle"}
 
 
 def _choice(what: str, given: str, choices: Sequence[str]) -> int:
     if given not in choices:
-        raise ValueError(f"expected {what} of {', '.join(choices)}, got {given!r}")
+        raise c.ArgumentError(f"expected {what} of {', '.join(choices)}, got {given!r}")
     return choices.index(given)
+
+
+def words_of(given: str | Iterable[str] | None) -> str:
+    """Names as one text, or as a list."""
+    return given if isinstance(given, str) else " ".join(given or ())
 
 
 def _warn(text: str) -> None:
@@ -59,18 +67,19 @@ class Box:
             self.vectors = numpy.array(vectors, dtype=float).reshape(3, 3)
             corners = numpy.array([self.origin + [i, j, k] @ self.vectors for i in (0, 1) for j in (0, 1) for k in (0, 1)])
             self.lo, self.hi, self.tilts = corners.min(axis=0), corners.max(axis=0), self.vectors[[1, 2, 2], [0, 0, 1]]
-            return
-        if lo is None or hi is None:
-            raise ValueError("expected bounds lo and hi, or vectors")
-        self.lo, self.hi, self.tilts = (numpy.array(each, dtype=float).reshape(3) for each in (lo, hi, tilts))
-        xy, xz, yz = self.tilts.tolist()
-        origin, lengths = [], []
-        for low, high, shifts in zip(self.lo.tolist(), self.hi.tolist(), (((), (xy,), (xz,), (xy, xz)), ((), (yz,)), ((),))):
-            least, most = min(shifts, key=math.fsum), max(shifts, key=math.fsum)
-            origin.append(math.fsum((low, *(-shift for shift in least))))  # rounded once, as all of these
-            lengths.append(math.fsum((high, -low, *least, *(-shift for shift in most))))
-        self.origin = numpy.array(origin)
-        self.vectors = numpy.array([[lengths[0], 0, 0], [xy, lengths[1], 0], [xz, yz, lengths[2]]])
+        elif lo is None or hi is None:
+            raise c.ArgumentError("expected bounds lo and hi, or vectors")
+        else:
+            self.lo, self.hi, self.tilts = (numpy.array(each, dtype=float).reshape(3) for each in (lo, hi, tilts))
+            box = c.CBox()
+            box.has_bounds, box.bounds[:] = 1, self._bounds()
+            c.library().granular_complete_box(c.byref(box))
+            self.origin, self.vectors = numpy.array(box.origin[:]), numpy.array(box.vectors[:]).reshape(3, 3)
+        for each in (self.lo, self.hi, self.tilts, self.origin, self.vectors):
+            each.flags.writeable = False  # they belong together
+
+    def _bounds(self) -> list[float]:
+        return [number for pair in zip(self.lo, self.hi) for number in pair] + list(self.tilts)
 
     @classmethod
     def _of(cls, box: c.CBox) -> Box:
@@ -82,8 +91,7 @@ class Box:
     def _to_c(self) -> c.CBox:
         box = c.CBox()
         if not self.general:
-            box.has_bounds = 1
-            box.bounds[:] = [number for pair in zip(self.lo, self.hi) for number in pair] + list(self.tilts)
+            box.has_bounds, box.bounds[:] = 1, self._bounds()
         box.origin[:], box.vectors[:] = list(self.origin), list(self.vectors.ravel())
         box.boundary = self.boundary.encode()
         return box
@@ -172,9 +180,11 @@ class Frame(Mapping[str, Any]):
             library.granular_array_at(handle, i, c.byref(array))
             self._arrays.setdefault(c.text(array.name), _to_numpy(handle, array))
         self._columns()
-        self._header = {"step": header.timestep, "time": header.time, "has_time": bool(header.has_time), "rows": header.rows, "units": c.text(header.units),
-                        "label": c.text(header.label), "columns": c.text(header.columns).split(),
-                        "dialect": c.text(header.dialect), "box": Box._of(header.box) if header.has_box else None}
+        columns = c.text(header.columns).split()
+        self._header = {"step": header.timestep, "time": header.time, "has_time": bool(header.has_time), "rows": header.rows,
+                        "units": c.text(header.units), "label": c.text(header.label), "columns": columns,
+                        "digits": dict(zip(columns, header.digits[:header.digit_count])), "dialect": c.text(header.dialect),
+                        "box": Box._of(header.box) if header.has_box else None}
         return handle
 
     def _tell(self) -> None:
@@ -213,8 +223,6 @@ class Frame(Mapping[str, Any]):
 
     def _get(self, name: str) -> Any:
         if name not in self._arrays:
-            if name not in ("points", "ends", "length") and name not in self:
-                self._raise_no_column(name)
             if self._whole is None and not self._asked:
                 with self._lock:
                     self._load([name])
@@ -230,7 +238,7 @@ class Frame(Mapping[str, Any]):
         self._tell()
         return self._arrays[name]
 
-    def _raise_no_column(self, name: str) -> None:
+    def _raise_no_column(self, name: str) -> NoReturn:
         usual, others = self._columns()
         raise c.ColumnError(f"expected a column of {', '.join(column.name for column in (*usual, *others))}, got {name!r}")
 
@@ -249,18 +257,40 @@ class Frame(Mapping[str, Any]):
         ends = [] if {"position1", "position2"} <= set(names) else ["ends"]
         return self._run._read(self._number, [*names, *ends], self._bonds, self._request, None)
 
+    def _is_array(self, name: object) -> bool:
+        usual, others = self._columns()
+        return any(column.name == name for column in (*usual, *others))
+
+    def _find(self, word: str) -> tuple[str, int | None]:
+        """The array that a column is in, and its place there, or None for a whole array: "vx" is the first of "v"."""
+        points = self._points_name()
+        if word in (parts := _COMPONENTS[points].split()):
+            return points, parts.index(word)
+        sizes = {column.name: column.components for kind in self._columns() for column in kind}
+        if word == points or word in sizes:
+            return word, None
+        for name, count in sizes.items():
+            if count > 1 and word in (parts := _component_names(name, count)):
+                return name, parts.index(word)
+        self._raise_no_column(word)
+
     # ---- the mapping ----
     def __getitem__(self, name: str) -> numpy.ndarray:
-        return self._get(name)
+        if self._is_array(name) or name in ("points", "ends", "length"):
+            return self._get(name)
+        array, place = self._find(name)
+        return self._get(array)[:, place]
 
     def __iter__(self) -> Iterator[str]:
         if self._wanted is None:
             return iter([column.name for column in self._columns()[0]])
-        return iter([name for name in dict.fromkeys(self._wanted) if name in self])
+        return iter([name for name in self._wanted if self._is_array(name)])
 
     def __contains__(self, name: object) -> bool:
-        usual, others = self._columns()
-        return any(column.name == name for column in (*usual, *others))
+        try:
+            return isinstance(name, str) and self._find(name) is not None
+        except c.ColumnError:
+            return False
 
     def __len__(self) -> int:
         """The number of columns; rows are frame.rows."""
@@ -317,6 +347,11 @@ class Frame(Mapping[str, Any]):
         return self._head("columns")
 
     @property
+    def digits(self) -> dict[str, int]:
+        """The largest number of digits of each column of a text, in its first rows; 0 for integers and words; empty of other files."""
+        return self._head("digits")
+
+    @property
     def points(self) -> numpy.ndarray:
         """Positions, shape (rows, 3); of lines both ends, shape (rows, 2, 3)."""
         if self._is_lines():
@@ -327,7 +362,7 @@ class Frame(Mapping[str, Any]):
     def bonds(self) -> Frame:
         """The bonds of a restart or data file. Raises ValueError for other files."""
         if self._kind not in ("restart", "data"):
-            raise ValueError(f"expected a restart or data file, got a {self._kind} file: open the file of its bonds")
+            raise c.ArgumentError(f"expected a restart or data file, got a {self._kind} file: open the file of its bonds")
         return Frame(self._run, self._number, {}, bonds=True)
 
     def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
@@ -390,22 +425,14 @@ def component_columns(frame: Frame) -> dict[str, Any]:
 
 def arrays_of(frame: Frame, words: list[str]) -> tuple[list[str], list[str]]:
     """Returns the arrays that columns named by words are in, and the columns: "vx" is in "v", and "v" has vx vy vz."""
-    usual, others = frame._columns()
-    known: dict[str, tuple[str, list[str]]] = {}
-    for name, count in [(frame._points_name(), len(_COMPONENTS[frame._points_name()].split())),
-                        *((column.name, column.components) for column in (*usual, *others))]:
-        parts = _component_names(name, count)
-        known.setdefault(name, (name, parts))
-        for part in parts:
-            known.setdefault(part, (name, [part]))
+    sizes = {column.name: column.components for kind in frame._columns() for column in kind}
     arrays, columns = [], []
     for word in words:
-        if word not in known:
-            frame._raise_no_column(word)
-        array, parts = known[word]
+        array, place = frame._find(word)
         arrays.append(array)
-        columns += parts
-    return [name for name in dict.fromkeys(arrays) if name in frame], columns
+        whole = _component_names(array, sizes.get(array, len(_COMPONENTS.get(array, "").split())))
+        columns += [word] if place is not None else whole
+    return list(dict.fromkeys(arrays)), columns
 
 
 class _Frames(Sequence[Frame]):
@@ -445,7 +472,7 @@ class _Frames(Sequence[Frame]):
         if isinstance(number, slice):
             return RunSlice(run, self._numbers()[number])
         try:
-            return Frame(run, self._numbers()[number], run._request)
+            return Frame(run, self._numbers()[number])
         except IndexError:
             raise IndexError(f"expected a frame from {-len(self)} to {len(self) - 1}, got {number}") from None
 
@@ -463,8 +490,14 @@ class _Frames(Sequence[Frame]):
                 following = self[i + 1]
                 # Python waits for it at the end: it calls functions of ours
                 thread = threading.Thread(target=_read_ahead, args=(following, names, whole))
+                _reading_ahead.add(thread)
                 thread.start()
             yield frame
+
+
+#: Threads that a fork waits for: a child has their locks, and not them.
+_reading_ahead: weakref.WeakSet[threading.Thread] = weakref.WeakSet()
+os.register_at_fork(before=lambda: [thread.join() for thread in list(_reading_ahead) if thread.is_alive()])
 
 
 def _read_ahead(frame: Frame, names: list[str], whole: bool) -> None:
@@ -507,17 +540,17 @@ class Run(_Frames):
 
     def __init__(self, paths: list[str], options: dict[str, Any], progress: Callable[[float], Any] | None = None):
         self._paths, self._options = paths, options
-        self._request: dict[str, Any] = {}
         self._handle = None
         self._known: dict[Any, Any] = {}
+        self._lock = threading.RLock()  # strings of the library stay until the run is refreshed
         library = c.library()
         given = c.OpenOptions()
         library.granular_open_options_init(c.byref(given))
         kind = options.get("kind")
         given.kind = -1 if kind is None else _choice("a kind", kind, c.KINDS)
         given.timestep_size = 1.0 if options.get("dt") is None else float(options["dt"])
-        for name in ("column_names", "preset", "column_map", "atom_style"):
-            setattr(given, name, str(options.get(name) or "").encode())
+        for name in _PROPERTIES:
+            setattr(given, name, words_of(options.get(name)).encode())
         given.repeated_steps = _choice("repeated_steps", options.get("repeated_steps", "auto"), _STEPS)
         given.keep_index = _choice("an index", options.get("index", "never"), _INDEX)
         given.threads = int(options.get("threads", 0))
@@ -531,7 +564,7 @@ class Run(_Frames):
     def _open(self) -> _Handle:
         handle = self._handle
         if handle is None:
-            raise ValueError(f"expected an open run, got one that was closed: {', '.join(self._paths)}")
+            raise c.ArgumentError(f"expected an open run, got one that was closed: {', '.join(self._paths)}")
         return handle
 
     def _run_of(self) -> Run:
@@ -549,44 +582,48 @@ class Run(_Frames):
         """Timesteps, times and rows of all frames."""
         import numpy
 
-        run = self._open()
-        if "facts" not in self._known:
-            library, count = c.library(), len(self)
-            steps, times, rows = (numpy.empty(count, dtype) for dtype in (numpy.int64, float, numpy.int64))
-            facts = c.FrameFacts()
-            for i in range(count):
-                library.granular_frame_info(run, i, c.byref(facts))
-                steps[i], times[i], rows[i] = facts.timestep, facts.time, facts.rows
-            for each in (steps, times, rows):
-                each.flags.writeable = False
-            self._known["facts"] = steps, times, rows
-        return self._known["facts"]
+        with self._lock:
+            run = self._open()
+            if "facts" not in self._known:
+                library, count = c.library(), len(self)
+                steps, times, rows = (numpy.empty(count, dtype) for dtype in (numpy.int64, float, numpy.int64))
+                facts = c.FrameFacts()
+                for i in range(count):
+                    library.granular_frame_info(run, i, c.byref(facts))
+                    steps[i], times[i], rows[i] = facts.timestep, facts.time, facts.rows
+                for each in (steps, times, rows):
+                    each.flags.writeable = False
+                self._known["facts"] = steps, times, rows
+            return self._known["facts"]
 
     def _file_facts(self) -> list[tuple[str, int, int, int, str]]:
         """Path, bytes, frames, repeated frames and defect of each file."""
-        run, library, facts = self._open(), c.library(), c.FileFacts()
-        found = []
-        for i in range(self._info().files):
-            library.granular_file_info(run, i, c.byref(facts))
-            found.append((c.text(facts.path), facts.bytes, facts.frames, facts.repeated, c.text(facts.defect)))
-        return found
+        with self._lock:
+            run = self._open()
+            if "files" not in self._known:
+                library, facts, found = c.library(), c.FileFacts(), []
+                for i in range(self._info().files):
+                    library.granular_file_info(run, i, c.byref(facts))
+                    found.append((c.text(facts.path), facts.bytes, facts.frames, facts.repeated, c.text(facts.defect)))
+                self._known["files"] = found
+            return self._known["files"]
 
     def _columns(self, number: int, bonds: bool = False) -> tuple[list[Column], list[Column]]:
         """The usual columns of a frame, and the others."""
         key = number, bonds
-        if key not in self._known:
-            library, pointer, count = c.library(), self._open(), c.c_size_t()
-            library.granular_arrays(pointer, number, int(bonds), None, 0, c.byref(count))
-            facts = (c.ArrayFacts * max(1, count.value))()
-            library.granular_arrays(pointer, number, int(bonds), facts, count.value, c.byref(count))
-            usual: list[Column] = []
-            others: list[Column] = []
-            for fact in facts[:count.value]:
-                column = Column(c.text(fact.name), "str" if fact.type == c.TEXT else c.TYPES[fact.type], fact.components,
-                                c.text(fact.unit), c.text(fact.meaning))
-                (usual if fact.is_usual else others).append(column)
-            self._known[key] = usual, others
-        return self._known[key]
+        with self._lock:
+            if key not in self._known:
+                library, pointer, count = c.library(), self._open(), c.c_size_t()
+                library.granular_arrays(pointer, number, int(bonds), None, 0, c.byref(count))
+                facts = (c.ArrayFacts * max(1, count.value))()
+                library.granular_arrays(pointer, number, int(bonds), facts, count.value, c.byref(count))
+                kinds: tuple[list[Column], list[Column]] = [], []
+                for fact in facts[:count.value]:
+                    kinds[0 if fact.is_usual else 1].append(
+                        Column(c.text(fact.name), "str" if fact.type == c.TEXT else c.TYPES[fact.type], fact.components,
+                               c.text(fact.unit), c.text(fact.meaning)))
+                self._known[key] = kinds
+            return self._known[key]
 
     def _read(self, number: int, names: list[str] | None, bonds: bool, request: dict[str, Any], progress: Any, warn: Any = _warn) -> _Handle:
         library = c.library()
@@ -648,9 +685,10 @@ class Run(_Frames):
         """Reads a part of a frame, and returns it.
 
         frame        its number, from 0, or from the end: -1 (default) is the last one
-        columns      names of columns; None: all. Others are not converted and take no memory.
-        region       bounds xlo, xhi, ylo, yhi, zlo, zhi, or three pairs; None for an axis that is not restricted. Absolute
-                     coordinates, closed.
+        columns      names of arrays or columns, as a list or one text: "id v", ["id", "vx"]; None: all. Others are not converted and
+                     take no memory; positions are always read.
+        region       bounds xlo, xhi, ylo, yhi, zlo, zhi, or three pairs; None where there is no bound. Absolute coordinates; the
+                     bounds belong to the region.
         stride       n keeps particles whose id is a multiple of n, or each n-th row without ids; at least 1
         coordinates  "absolute" (default), "unwrapped" by the image counts, or "scaled", in units of the box
         precision    "double" (default), or "single": points as 32-bit floats
@@ -660,30 +698,33 @@ class Run(_Frames):
         progress     is called with fractions from 0 to 1; it returns False to stop
 
         region, stride, coordinates and sort are for particles of dumps and data files. Raises granular.Error with path, line
-        and column; granular.ArgumentError for a column or a frame that there is not.
+        and column; granular.ArgumentError for what cannot be, among them a column that there is not; IndexError for a frame that
+        there is not.
         """
         return self._part(self[frame].number, columns=columns, region=region, stride=stride, coordinates=coordinates,
                           precision=precision, origin=origin, sort=sort, threads=threads).read(progress)
 
     def _part(self, number: int, **request: Any) -> Frame:
         """A part of a frame, which is read when it is asked for."""
+        columns = request.pop("columns", None)
         made = Frame(self, number, request)
-        for name in made._wanted or ():
-            if name not in made:
-                made._raise_no_column(name)
+        if columns is not None:
+            made._wanted = arrays_of(made, words_of(columns).split())[0]
         return made
 
-    def refresh(self) -> Run:
-        """Looks for frames that were added and for files that changed, and returns the run itself."""
-        c.library().granular_refresh(self._open())
-        self._known.clear()
+    def refresh(self, progress: Callable[[float], Any] | None = None) -> Run:
+        """Looks for frames that were added and for files that changed, and returns the run itself. After an error the run is as it was."""
+        with self._lock, c.Calls(progress, _warn) as calls:
+            c.library().granular_refresh(self._open(), calls.progress, calls.notice, None)
+            self._known.clear()
         return self
 
     def reader(self, **properties: Any) -> Any:
         """Returns the ParaView reader of the same files: see granular.reader."""
         from . import reader
 
-        return reader(self._paths, dt=self._options.get("dt"), **properties)
+        own = {name: words_of(self._options[option]) for option, name in _PROPERTIES.items() if option in self._options}
+        return reader(self._paths, dt=self._options.get("dt"), **{**own, **properties})
 
     def close(self) -> None:
         """Closes the run. Arrays that were read stay."""
@@ -699,7 +740,7 @@ class Run(_Frames):
         return Run, (self._paths, self._options)
 
     def __repr__(self) -> str:
-        names = ", ".join(map(os.path.basename, self._paths))
+        names = ", ".join(os.path.basename(os.fsdecode(path)) for path in self._paths)
         return f"<run {names}: {len(self)} frames>" if self._handle else f"<closed run {names}>"
 
 
@@ -709,19 +750,22 @@ def _region(given: Any) -> list[float]:
     if len(bounds) == 3:
         bounds = [bound for pair in bounds for bound in (pair if pair is not None else (None, None))]
     if len(bounds) != 6:
-        raise ValueError(f"expected a region of six bounds, or of three pairs, got {given!r}")
+        raise c.ArgumentError(f"expected a region of six bounds, or of three pairs, got {given!r}")
     made: list[float] = []
     for lo, hi in zip(bounds[::2], bounds[1::2]):
         if lo is None and hi is None:
             made += [1.0, -1.0]
             continue
-        made += [-float("inf") if lo is None else float(lo), float("inf") if hi is None else float(hi)]
+        least, most = -float("inf") if lo is None else float(lo), float("inf") if hi is None else float(hi)
+        if not least <= most:
+            raise c.ArgumentError(f"expected bounds of a region in their order, got {lo} and {hi}")
+        made += [least, most]
     return made
 
 
 def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None, *, kind: str | None = None,
-         column_names: str = "", preset: str = "", column_map: str = "", atom_style: str = "", repeated_steps: str = "auto",
-         index: str = "never", threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
+         column_names: str | Iterable[str] = "", preset: str = "", column_map: str | Iterable[str] = "", atom_style: str = "",
+         repeated_steps: str = "auto", index: str = "never", threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
     """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
 
     paths           a file, a pattern such as "post/*.dump", or a list of these; see granular.files. Dumps in every form, contacts
@@ -729,7 +773,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     dt              the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps, unless the files
                     hold times.
     kind            "dump", "local", "restart", "data", "euler" or "decomposition"; None (default): as the contents say
-    column_names    of binary dumps that do not name their columns: "id type x y z vx vy vz"
+    column_names    of binary dumps that do not name their columns: "id type x y z vx vy vz", or a list
     preset          the order of the columns of contacts and bonds, by its name; column_map: their names
     atom_style      of data files that do not name it
     repeated_steps  the meaning of a timestep in several files: "auto", "merge" (pieces of a frame) or "last" (a restarted run)
@@ -737,12 +781,13 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     threads         0 (default): one per core
     progress        is called with fractions from 0 to 1 while the frames are looked for; it returns False to stop
 
-    The frames are found now, and read when they are asked for. Raises FileNotFoundError if there is no such file, granular.Error
+    The frames are found now, and read when they are asked for. A last frame that ends early is left out, because a simulation may
+    be writing it: `granular check` reports it. Raises FileNotFoundError if there is no such file, granular.Error
     with path, line and column if the files cannot be read, ValueError for a choice that there is not. Remarks that are no errors
     are warnings.
     """
     given = [paths] if isinstance(paths, (str, os.PathLike)) else list(paths)
     options = {"dt": dt, "kind": kind, "column_names": column_names, "preset": preset, "column_map": column_map,
                "atom_style": atom_style, "repeated_steps": repeated_steps, "index": index, "threads": threads}
-    absolute = [os.path.abspath(os.fspath(path)) for path in given]
+    absolute = [os.path.abspath(os.fsdecode(path)) for path in given]
     return Run(absolute, {name: value for name, value in options.items() if value not in (None, "")}, progress)

@@ -10,6 +10,8 @@ import warnings
 from fractions import Fraction
 from typing import Iterable
 
+from ._whole_file import whole_file
+
 
 def _stem_and_suffix(name: str) -> tuple[str, str]:
     """'mesh_100.stl' -> ('mesh_100', '.stl'), but 'dump.100' -> ('dump.100', '')."""
@@ -56,19 +58,6 @@ def _times(steps: list[int], dt: float) -> list[float]:
     return times
 
 
-def _write_atomically(path: str, text: str) -> None:
-    """The old file or the new one, never half of one."""
-    temporary = f"{path}.{os.getpid()}.tmp"
-    try:
-        with open(temporary, "x", encoding="utf-8") as out:
-            out.write(text)
-        os.replace(temporary, path)
-    except BaseException:
-        if os.path.exists(temporary):
-            os.remove(temporary)
-        raise
-
-
 def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float,
                  path: str | os.PathLike[str] | None = None) -> str:
     """Writes a .series file, which gives ParaView the times of other files, and returns its path.
@@ -111,5 +100,6 @@ def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]
     entries = [{"name": os.path.relpath(by_step[step], folder), "time": time}
                for step, time in zip(steps, _times(steps, dt))]
     series = {"file-series-version": "1.0", "files": entries}
-    _write_atomically(path, json.dumps(series, indent=2) + "\n")
+    with whole_file(path) as temporary, open(temporary, "x", encoding="utf-8") as out:
+        out.write(json.dumps(series, indent=2) + "\n")
     return path

@@ -22,7 +22,6 @@ def to_vtk(frame: Any) -> Any:
                 made.InsertNextValue(str(value))
         else:
             made = numpy_to_vtk(values)
-            made.granular_memory = values  # VTK does not keep it
         made.SetName(name)
         return made
 

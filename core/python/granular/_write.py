@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ctypes
-import itertools
 import math
+import operator
 import os
+import re
 from typing import Any, Callable, Iterable, Mapping, Sized
 
 from . import _library as c
-from ._run import Box, Frame, Run, _Frames, _warn
+from ._run import Box, Frame, Run, _warn, words_of
 
 
 def _type_of(array: str, values: Any) -> int:
@@ -60,31 +61,59 @@ def _c_arrays(arrays: Mapping[str, Any]) -> tuple[Any, int, list[Any]]:
     return (c.CArray * max(1, len(made)))(*made), rows or 0, kept
 
 
+#: Endings of names that choose a style, and those of dumps; .gz and .zst may follow text.
+STYLES = {".bonds": "local", ".decomposition": "decomposition", ".euler": "euler"}
+DUMPS = (".dump", ".lammpstrj", ".liggghts", ".lammps", ".dmp")
+BINARIES = (".bin", ".lammpsbin")
+
+
+def ending_of(path: str) -> str:
+    """Returns the ending of a name, which chooses its format: run.dump.gz, dump.1000 and dump_%.gz are ".dump"."""
+    name = re.sub(r"\.(gz|zst)$", "", os.path.basename(path))
+    ending = os.path.splitext(name)[1].lower()
+    return ".dump" if name.startswith("dump") and ending not in (*BINARIES, ".vtk") else ending
+
+
 class Writer:
     """A file that is being written: see granular.write, which makes one.
 
-    It appears under its name when the block is left without an error; until then the old file is untouched.
+    The file appears under its name when the block is left without an error; until then the old file is untouched. With `*` in the
+    name, each frame has a file, which appears when it is complete.
 
         with granular.Writer("run.dump") as writer:
             writer.write({"points": x, "v": v}, box=box, step=100)
     """
 
     def __init__(self, path: str | os.PathLike[str], style: str = "", dialect: str = "", columns: str | Iterable[str] = "",
-                 numbers: str = "", label: str = "", scaled: bool = True, image: bool = False, sort: bool = False,
-                 units: bool = False, times: bool = False, threads: int = 0, progress: Callable[[float], Any] | None = None):
+                 numbers: str = "", label: str = "", scaled: bool = True, image: bool = False, sort: bool = False, threads: int = 0,
+                 progress: Callable[[float], Any] | None = None):
         self._pointer: Any = None
         self.path = os.fspath(path)
-        pointer = c.c_void_p()
+        self._finished = False
         self._calls = c.Calls(progress, _warn)
-        library, given = c.library(), c.Format()
-        library.granular_format_init(c.byref(given))
-        words = columns if isinstance(columns, str) else " ".join(columns)
-        for name, value in (("style", style), ("dialect", dialect), ("columns", words), ("numbers", numbers), ("label", label)):
+        self._format = given = c.Format()
+        c.library().granular_format_init(c.byref(given))
+        for name, value in (("style", style), ("dialect", dialect), ("columns", words_of(columns)), ("numbers", numbers), ("label", label)):
             setattr(given, name, (value or "").encode())
-        given.scaled, given.image, given.sort_by_id = int(scaled), int(image), int(sort)
-        given.write_units, given.write_time, given.threads = int(units), int(times), int(threads)
+        given.scaled, given.image, given.sort_by_id, given.threads = int(scaled), int(image), int(sort), int(threads)
         given.progress, given.notice = self._calls.progress, self._calls.notice
-        library.granular_create(os.fsencode(self.path), c.byref(given), c.byref(pointer))
+
+    def _create(self, frame: Frame | None, has_time: bool, units: str) -> None:
+        """Begins the file as the first frame asks for."""
+        given = self._format
+        kind = "" if frame is None else "local" if frame._is_lines() else frame._kind
+        known = (*DUMPS, *BINARIES, *STYLES, *((".vtk",) if kind in ("euler", "decomposition") else ()))
+        if not given.style and ending_of(self.path) not in known:
+            raise c.ArgumentError(f"expected a name that ends in one of {', '.join(known)} (text may be compressed: .gz, .zst), or a style, "
+                                  f"got {self.path!r}")
+        if frame is not None:
+            given.style = given.style or (kind if kind in STYLES.values() else "").encode()
+            # the dialect of LIGGGHTS has neither
+            lammps = kind == "dump" and (given.dialect or frame.dialect.encode()) == b"LAMMPS"
+            has_time, units = has_time or (lammps and frame._head("has_time")), units or (frame.units if lammps else "")
+        given.write_time, given.write_units = int(has_time), int(bool(units))
+        pointer = c.c_void_p()
+        c.library().granular_create(os.fsencode(self.path), c.byref(given), c.byref(pointer))
         self._pointer = pointer
 
     def write(self, data: Frame | Mapping[str, Any], box: Box | Any = None, step: int = 0, time: float | None = None,
@@ -92,40 +121,58 @@ class Writer:
         """Adds a frame: one that was read, with the digits and columns of its file, or arrays by their names.
 
         "points" has the positions of particles, shape (n, 3), or of cells; lines have "points" of shape (n, 2, 3), both ends, and
-        "id1", "id2"; subdomains have "lo", "hi" and, if known, "nlocal" and "proc".
+        "id1", "id2", and need the style "local" or the ending .bonds; subdomains have "lo", "hi" and, if known, "nlocal" and
+        "proc".
         box    a granular.Box, or three pairs of bounds; None: made from the bounds of the particles
-        step   the timestep; time, units: the time and ITEM: UNITS of the frame
+        step   the timestep; time, units: the time and ITEM: UNITS of the frame, which the first frame decides for all
         """
-        if not self._pointer:
-            raise ValueError(f"{self.path}: expected a file that is being written, got one that is finished")
+        if self._finished:
+            raise c.ArgumentError(f"{self.path}: expected a file that is being written, got one that is finished")
+        if not isinstance(data, (Frame, Mapping)):
+            raise c.ArgumentError(f"{self.path}: expected a frame, or arrays by their names, got {type(data).__name__}")
         library = c.library()
         with self._calls:
             if isinstance(data, Frame):
+                self._expect_no_input(data)
+                if not self._pointer:
+                    self._create(data, False, "")
                 library.granular_write_frame(self._pointer, data._to_write())
-            else:
-                content = c.Content()
-                library.granular_content_init(c.byref(content))
-                arrays, rows, kept = _c_arrays(data)
-                content.timestep, content.rows = int(step), rows
-                content.has_time, content.time = int(time is not None), float(time or 0)
-                content.units = units.encode()
-                content.arrays, content.array_count = arrays, len(data)
-                if box is not None:
-                    boxed = (box if isinstance(box, Box) else Box(*zip(*box)))._to_c()
-                    content.box = ctypes.pointer(boxed)
-                library.granular_write(self._pointer, c.byref(content))
-                del kept
-        self._calls.notices.clear()
+                return
+            content = c.Content()
+            library.granular_content_init(c.byref(content))
+            arrays, rows, kept = _c_arrays(data)
+            content.timestep, content.rows = _timestep(step), rows
+            content.has_time, content.time = int(time is not None), float(time or 0)
+            content.units = units.encode()
+            content.arrays, content.array_count = arrays, len(data)
+            if box is not None:
+                boxed = (box if isinstance(box, Box) else Box(*zip(*box)))._to_c()
+                content.box = ctypes.pointer(boxed)
+            if not self._pointer:
+                self._create(None, time is not None, units)
+            library.granular_write(self._pointer, c.byref(content))
+            del kept
+
+    def _expect_no_input(self, frame: Frame) -> None:
+        """A file for each frame replaces files before others are read."""
+        if "*" not in os.path.basename(self.path) or frame._run._handle is None:
+            return
+        path = os.path.abspath(self.path.replace("*", str(frame.step)))
+        if path in frame._run.files:
+            raise c.ArgumentError(f"{path}: expected the name of another file, got that of a file that is read")
 
     def finish(self) -> None:
-        """Gives the file its name."""
-        pointer, self._pointer = self._pointer, None
-        if pointer:
-            c.library().granular_finish(pointer)
+        """Gives the file its name. Raises ArgumentError if there is no frame."""
+        if self._finished:
+            return
+        self._finished, pointer, self._pointer = True, self._pointer, None
+        if not pointer:
+            raise c.ArgumentError(f"{self.path}: expected at least one frame, got none")
+        c.library().granular_finish(pointer)
 
     def abandon(self) -> None:
         """Ends without the file; the old one is untouched."""
-        pointer, self._pointer = self._pointer, None
+        self._finished, pointer, self._pointer = True, self._pointer, None
         if pointer:
             c.library().granular_abandon(pointer)
 
@@ -149,55 +196,50 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
     """Writes arrays, a frame, or the frames of a run. Needs neither VTK nor ParaView.
 
     path      the file. Its ending chooses the format: .bonds (contacts and bonds), .euler (cells), .decomposition (subdomains),
-              .bin and .lammpsbin (binary dumps); all others are text dumps, compressed if .gz or .zst follows. `*` in the name
-              stands for the timestep, and each frame gets a file.
+              .bin and .lammpsbin (binary dumps), .dump, .lammpstrj, .liggghts, .lammps, .dmp and names that begin with "dump" (text),
+              compressed if .gz or .zst follows. With `*` in the name, which stands for the timestep, each frame has a file.
     data      a Frame; a Run, a slice of one or an iterable of frames; or arrays by their names: "points", shape (n, 3), and any
               others with n rows. See granular.Writer for lines, cells and subdomains.
-    box       a granular.Box, or three pairs of bounds; None: made from the bounds of the particles. With step, time and units it
-              belongs to arrays; frames have their own.
-    style     "custom", "atom", "local", "euler", "decomposition"; empty: by the ending
+    box       a granular.Box, or three pairs of bounds; None: made from the bounds of the particles. Box, step, time and units
+              belong to arrays; frames have their own.
+    style     "custom", "atom", "local", "euler", "decomposition", with any name; empty: by the data and the ending
     dialect   "LIGGGHTS" or "LAMMPS"; of decompositions "PUBLIC" or "INL", of cells "LIGGGHTS" or "Wide"; empty: that of the file
               that a frame comes from, else LAMMPS, INL, Wide
-    columns   columns or arrays in their order, as one text or a list; empty: all
+    columns   columns or arrays in their order, as one text or a list; empty: all that the frame has
     numbers   "Automatic" (default): the digits of the file, and what changed exactly; "%g", "%.9g", ... "shortest"
     label     the word for rows of contacts and bonds
     scaled, image  of style "atom": xs ys zs (default) or x y z; also ix iy iz
     sort      True: rows in the order of their ids
     threads   0 (default): one per core; progress: as for granular.open
 
-    The file appears when it is complete; after an error the old one is untouched. Raises granular.Error with path and column,
-    granular.ArgumentError for arrays of a wrong shape or type.
+    A file appears when it is complete; after an error the old file is untouched. With `*`, that holds for each file: those of earlier
+    frames are there. Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, for a
+    name that says nothing of the format, and if there is no frame.
     """
-    many = isinstance(data, _Frames) or not isinstance(data, Mapping)
-    total = len(data) if many and isinstance(data, Sized) else 1
+    is_arrays = isinstance(data, Mapping) and not isinstance(data, Frame)
+    frames = [data] if is_arrays or isinstance(data, Frame) else data
+    total = len(frames) if isinstance(frames, Sized) else 1
     done = 0
-    frames = iter((data,) if isinstance(data, Frame) else data) if many or isinstance(data, Frame) else iter(())
-    first = next(frames, None)
-    if many and first is None:
-        raise c.ArgumentError(f"{os.fspath(path)}: expected at least one frame, got none")
-    if first is not None and not isinstance(first, Frame):
-        raise c.ArgumentError(f"{os.fspath(path)}: expected frames, or one mapping of arrays, got {type(first).__name__} in a list")
-    lammps = first is not None and first._kind == "dump" and (dialect or first.dialect) == "LAMMPS"
 
     def within(start: float) -> Callable[[float], Any] | None:
         """The progress of a half of a frame: it is read, and written."""
         return progress and (lambda fraction: progress((done + start + fraction / 2) / max(total, done + 1)))  # type: ignore[misc]
 
-    with Writer(path, style or _style_of(first), dialect, columns, numbers, label, scaled, image, sort,
-                bool(units) or bool(lammps and first.units), time is not None or bool(lammps and first._head("has_time")), threads,
-                within(0.5)) as writer:
-        if first is None:
-            writer.write(data, box, step, time, units)  # type: ignore[arg-type]
-            return
-        for frame in itertools.chain((first,), frames):
+    with Writer(path, style, dialect, columns, numbers, label, scaled, image, sort, threads, within(0.5)) as writer:
+        for frame in frames:
+            if is_arrays:
+                writer.write(frame, box, step, time, units)  # type: ignore[arg-type]
+                return
+            if not isinstance(frame, Frame):
+                raise c.ArgumentError(f"{writer.path}: expected frames, or arrays by their names, got {type(frame).__name__} in a list")
             if not frame._is_lines():
                 frame.read(within(0))
             writer.write(frame)
             done += 1
 
 
-def _style_of(frame: Frame | None) -> str:
-    """Frames of contacts, cells and subdomains are written as such, whatever the name."""
-    if frame is None:
-        return ""
-    return "local" if frame._is_lines() else frame._kind if frame._kind in ("euler", "decomposition") else ""
+def _timestep(step: Any) -> int:
+    number = operator.index(step)
+    if not -(1 << 63) <= number < 1 << 63:
+        raise c.ArgumentError(f"expected a timestep of at most 64 bits, got {number}")
+    return number

@@ -8,12 +8,12 @@ import re
 from typing import Any
 
 from ._errors import output_names, raised, update, upstream
+from ._write import BINARIES, DUMPS, ending_of
 
 # For each kind of data its writer, and the endings that are this writer's.
-_DUMPS = (".dump", ".lammpstrj", ".liggghts", ".lammps", ".dmp")
 _WRITERS = {
-    "particles": ("GranularDumpWriter", (*_DUMPS, ".bin", ".lammpsbin")),
-    "lines or rows": ("GranularLocalWriter", (".bonds", *_DUMPS)),
+    "particles": ("GranularDumpWriter", (*DUMPS, *BINARIES)),
+    "lines or rows": ("GranularLocalWriter", (".bonds", *DUMPS)),
     "subdomains": ("GranularDecompositionWriter", (".decomposition", ".vtk", ".vtu")),
     "cells": ("GranularEulerWriter", (".euler", ".vtk")),
 }
@@ -54,13 +54,6 @@ def _kind(output: Any) -> str:
     return "subdomains" if is_grid and (cells & {"proc", "nlocal"} or _kind_by_origin(output) == "subdomains") else "particles"
 
 
-def _ending(path: str) -> str:
-    """'run.dump.gz' -> '.dump', 'dump.1000' and 'dump_%.gz' -> '.dump'."""
-    name = re.sub(r"\.(gz|zst)$", "", os.path.basename(path))
-    ending = os.path.splitext(name)[1].lower()
-    return ".dump" if name.startswith("dump") and ending not in (".bin", ".lammpsbin", ".vtk") else ending
-
-
 def _paraview_endings(output: Any) -> list[str]:
     """The endings that ParaView's writers know for some data."""
     from paraview import servermanager
@@ -74,16 +67,16 @@ def _paraview_endings(output: Any) -> list[str]:
 
 def _choose(output: Any, path: str) -> str | None:
     """The name of a writer of this plugin, or None for ParaView's."""
-    ending = _ending(path)
+    ending = ending_of(path)
     if ending in _ALONE:
         return _ALONE[ending]
     kind = _kind(output)
     writer, ours = _WRITERS[kind]
     if ending in ours:
         return writer
-    if ending in _DUMPS:
+    if ending in DUMPS:
         return "GranularDumpWriter"  # all that has points can be a dump
-    theirs = [each for each in _paraview_endings(output) if each not in {*_ALONE, *_DUMPS, ".gz", ".zst"}]
+    theirs = [each for each in _paraview_endings(output) if each not in {*_ALONE, *DUMPS, ".gz", ".zst"}]
     if ending in theirs and not path.endswith((".gz", ".zst")):
         return None
     known = ", ".join([*ours, *(each for each in theirs if each not in ours)])

@@ -253,6 +253,8 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
   {
     throw std::logic_error("a dump is written to after it was finished");
   }
+  this->expect_whole();
+  failed_ = true;
   do_together(ranks_,
     [&]
     {
@@ -267,9 +269,19 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
       this->write_rows(frame, plan, notices, progress);
       if (is_name_of_steps(path_))
       {
-        this->finish();
+        this->close();
       }
     });
+  failed_ = false;
+}
+
+void DumpWriter::expect_whole() const
+{
+  if (failed_)
+  {
+    throw Error(
+      "expected a writer whose frames are whole, got one that failed in a frame before", { path_ });
+  }
 }
 
 void DumpWriter::check_step(std::int64_t timestep, Notices& notices)
@@ -341,6 +353,12 @@ void DumpWriter::write_rows(
 }
 
 void DumpWriter::finish()
+{
+  this->expect_whole();
+  this->close();
+}
+
+void DumpWriter::close()
 {
   if (file_ && file_->way == File::Way::Shared)
   {

@@ -36,8 +36,8 @@ struct WriteOptions
 /// of atoms. A name with '*' gives each frame a file with its timestep for the '*', which appears when write() is done. With
 /// '%', each file of local data has a header, which programs write only to the first one.
 ///
-/// All functions, also the destructor, are collective. An error on one rank is thrown on all (see agree); afterwards the
-/// writer is of no use. Memory beside the rows: about 64 MiB; sorting copies the rows.
+/// All functions, also the destructor, are collective. An error on one rank is thrown on all (see agree). After a frame that
+/// failed the others refuse to go on, so that no file with a part of a frame gets its name. Memory beside the rows: about 64 MiB; sorting copies the rows.
 class DumpWriter
 {
 public:
@@ -58,6 +58,8 @@ public:
 private:
   struct File;
 
+  void expect_whole() const;
+  void close();
   void check_step(std::int64_t timestep, Notices& notices);
   void write_rows(const FrameView& frame, FramePlan& plan, Notices& notices, Progress& progress);
 
@@ -68,6 +70,7 @@ private:
   std::unique_ptr<File> file_;
   std::set<std::int64_t> steps_; ///< that were written
   bool told_loss_ = false;
+  bool failed_ = false; ///< in a frame
 };
 }
 #endif

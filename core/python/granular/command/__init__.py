@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import re
 import sys
 import warnings
 from typing import Any, Iterator, Sequence
@@ -23,8 +24,8 @@ DESCRIPTION = """Reads and writes files of discrete-element simulations by LIGGG
 bonds, restart and data files, decompositions, Euler cells. FILE is a name or a pattern in quotes, such as 'post/run_*.dump', where * \
 stands for the timestep and % for the rank; several files are one run."""
 
-STATUS = """exit status: 0 if all went well, 1 if something is wrong with the files or could not be done, 2 for a usage that cannot be, \
-130 after Ctrl-C."""
+STATUS = """exit status: 0 if it was done, 1 if it could not be done or `check` found a fault, 2 for a usage that cannot be, 130 after \
+Ctrl-C."""
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
@@ -86,7 +87,7 @@ def chosen(run: Any, text: str | None) -> Any:
             return run[at:at + 1]
         return run[slice(*numbers)]
     except IndexError:
-        raise ValueError(f"--frames {text}: expected a frame from {-len(run)} to {len(run) - 1}") from None
+        raise ValueError(f"frame {text}: expected a frame from {-len(run)} to {len(run) - 1}") from None
     except (TypeError, ValueError):
         raise ValueError(f"--frames: expected a number or A:B:N, got {text!r}") from None
 
@@ -118,7 +119,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command and returns its exit status."""
     from .. import Cancelled
 
-    given = parser().parse_args(arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    for i in range(len(words) - 1, 0, -1):
+        if words[i - 1] in ("--frames", "--frame") and re.match(r"-\d", words[i]):  # argparse takes -2: for an option
+            words[i - 1:i + 1] = [f"{words[i - 1]}={words[i]}"]
+    given = parser().parse_args(words)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("once")

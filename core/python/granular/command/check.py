@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 from typing import Any
 
 from . import WRONG, add_files, add_frames, chosen, notices, open_run
@@ -14,7 +13,8 @@ from .info import file_faults, oddities
 from .progress import Bar
 
 MORE = """Faults, which make the exit status 1: frames that end early or cannot be read, missing pieces, timesteps that repeat in a \
-file, ids that repeat in a frame, NaN and infinite numbers, radii that are not positive, particles outside a box at a fixed boundary. \
+file, ids that repeat in a frame, NaN and infinite numbers, radii that are not positive, particles outside a box at a fixed boundary, or \
+half a box length outside at any. \
 Remarks: what the reader says, steps at odd distances, empty frames, ids that vanish or come, particles a little outside a periodic \
 box, positions with few digits."""
 
@@ -41,7 +41,6 @@ class Checker:
     def __init__(self) -> None:
         self.faults: list[str] = []
         self.remarks: list[str] = []
-        self._is_text = False
         self._ids: Any = None
         self._gone = self._new = 0
         self._first_gone = ""
@@ -49,7 +48,6 @@ class Checker:
 
     def run(self, run: Any) -> None:
         """Looks at files and timesteps."""
-        self._is_text = not any(name.endswith((".bin", ".lammpsbin", ".restart")) for name in run.files)
         self.faults += file_faults(run)
         self.remarks += oddities(run.steps, run.rows)
 
@@ -112,17 +110,26 @@ class Checker:
                 length = float(numpy.linalg.norm(box.vectors[axis]))
                 text = f"{where}: {count} particles are outside the box along {name}, by {float(beyond[outside, axis].max()) * length:g} at most"
                 fixed = "f" in kinds[axis]
-                (self.faults if fixed else self.remarks).append(text + (", where the box is fixed" if fixed else ""))
-        if self._is_text and radius > 0:
-            sample = points[:: max(1, len(points) // 1000)].ravel()
-            sample = sample[numpy.isfinite(sample)]
-            for digits in range(3, 10):
-                if all(float(f"{value:.{digits}g}") == value for value in sample.tolist()):
-                    largest = float(numpy.abs(points).max())
-                    step = 10.0 ** (numpy.floor(numpy.log10(largest)) - digits + 1) if largest > 0 else 0
-                    if step / 2 > FEW_DIGITS * radius and (self._few is None or step / 2 / radius > self._few[0]):
-                        self._few = step / 2 / radius, digits, frame.step
-                    break
+                far = float(beyond[outside, axis].max()) > 0.5  # more than a code lets them go before it puts them back
+                (self.faults if fixed or far else self.remarks).append(text + (", where the box is fixed" if fixed else ""))
+        if radius > 0:
+            self._digits(frame, radius)
+
+    def _digits(self, frame: Any, radius: float) -> None:
+        """How wrong the digits of the text leave the largest coordinate."""
+        import numpy
+
+        for form in ("x y z", "xu yu zu", "xs ys zs"):
+            names = [name for name in form.split() if frame.digits.get(name)]
+            digits = max((frame.digits[name] for name in names), default=0)  # round numbers have fewer
+            for name in names:
+                largest = float(numpy.nanmax(numpy.abs(frame[name])))
+                edge = numpy.linalg.norm(frame.box.vectors["xyz".index(name[0])]) if name[1:] == "s" and frame.box else 1.0
+                if not 0 < largest < numpy.inf:
+                    continue
+                wrong = 0.5 * float(edge) * 10.0 ** (numpy.floor(numpy.log10(largest)) - digits + 1) / radius
+                if wrong > FEW_DIGITS and (self._few is None or wrong > self._few[0]):
+                    self._few = wrong, digits, frame.step
 
     def finish(self, said: list[str]) -> None:
         """Adds what all frames together tell, and what was said while they were read."""
@@ -145,7 +152,7 @@ def run(arguments: argparse.Namespace) -> int:
     checker, count, rows = Checker(), 0, 0
     with notices() as said:
         try:
-            with open_run(arguments) as opened, Bar(sum(map(os.path.getsize, opened.files)), arguments.quiet) as bar:
+            with open_run(arguments) as opened, Bar(opened, arguments.quiet) as bar:
                 frames = chosen(opened, arguments.frames)
                 count, rows = len(frames), int(frames.rows.clip(min=0).sum())
                 checker.run(opened)

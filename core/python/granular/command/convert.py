@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from typing import Any, Callable, Iterable
 
+from .._whole_file import whole_file
 from . import add_frames, add_reading, chosen, open_run
 from .progress import Bar
+from .info import tell_faults
 
 MORE = """The ending of OUT chooses: .npz (numpy), .csv, .vtp, .vtu and .vtkhdf (VTK) hold one frame a file; .bonds, .euler and \
-.decomposition are those of contacts, cells and subdomains; .bin is a binary dump; all others are text dumps, compressed where .gz or \
-.zst follows. `*` in OUT stands for the timestep and makes a file a frame. OUT appears when it is complete; until then, and after an \
-error, an old file is as it was."""
+.decomposition are those of contacts, cells and subdomains; .bin is a binary dump; .dump, .lammpstrj and the like are text dumps, compressed where .gz or \
+.zst follows. `*` in OUT stands for the timestep and makes a file a frame. Each file appears when it is complete; until then, and after \
+an error, an old one is as it was."""
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -37,13 +40,25 @@ def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", "-q", action="store_true", help="no bar")
 
 
+def _expect_output(out: str, files: list[str]) -> None:
+    """Refuses a name like those of the inputs: the shell has made names of a pattern, and there is no OUT."""
+    def shape(path: str) -> str:
+        return re.sub(r"\d+", "#", os.path.abspath(path))
+
+    if os.path.exists(out) and len(files) > 1 and shape(out) in map(shape, files):
+        raise ValueError(f"{out}: expected the name of a new file after those to read, got one like theirs")
+
+
 def _region(text: str | None) -> list[float | None] | None:
     if text is None:
         return None
     words = text.replace(",", " ").split()
     if len(words) != 6:
         raise ValueError(f"--region: expected six bounds, xlo xhi ylo yhi zlo zhi, got {text!r}")
-    return [None if word == "-" else float(word) for word in words]
+    try:
+        return [None if word == "-" else float(word) for word in words]
+    except ValueError as error:
+        raise ValueError(f"--region: {error}") from None
 
 
 def _write_npz(frame: Any, stream: Any, columns: list[str] | None) -> None:
@@ -122,14 +137,8 @@ def _write_frames(frames: Iterable[Any], count: int, columns: list[str] | None, 
     for i, frame in enumerate(frames):
         frame.read(bar.within(i, count))
         path = os.path.join(os.path.dirname(out), os.path.basename(out).replace("*", str(frame.step)))
-        temporary = f"{path}.{os.getpid()}.tmp{ending}"
-        try:
+        with whole_file(path, ending) as temporary:
             _FRAME_WRITERS[ending](frame, temporary, columns)
-            os.replace(temporary, path)
-        except BaseException:
-            if os.path.exists(temporary):
-                os.remove(temporary)
-            raise
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -138,14 +147,16 @@ def run(arguments: argparse.Namespace) -> None:
     from .._run import arrays_of
 
     ending = os.path.splitext(arguments.out)[1].lower()
-    with open_run(arguments) as opened, Bar(sum(map(os.path.getsize, opened.files)), arguments.quiet) as bar:
+    with open_run(arguments) as opened, Bar(opened, arguments.quiet) as bar:
+        _expect_output(arguments.out, opened.files)
+        tell_faults(opened)
         numbers = chosen(opened, arguments.frames)
         asked = {"stride": arguments.stride, "region": _region(arguments.region), "sort": arguments.sort,
                  "coordinates": arguments.coordinates or "absolute", "threads": arguments.threads}
         words = arguments.columns.replace(",", " ").split()
         if ending in _FRAME_WRITERS:
-            arrays, columns = arrays_of(numbers[0], words) if words and len(numbers) else (None, None)
-            frames = (opened._part(number, columns=arrays, **asked) for number in numbers._numbers())
+            columns = arrays_of(numbers[0], words)[1] if words and len(numbers) else None
+            frames = (opened._part(number, columns=words or None, **asked) for number in numbers._numbers())
             _write_frames(frames, len(numbers), columns, arguments.out, ending, bar)
             return
         if arguments.coordinates:

@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 from typing import Any
 
-from . import add_files, notices, open_run
+from . import add_files, notices, open_run, say
 
 MORE = "Only headers are read: large files take no longer than the search for their frames."
 
@@ -35,8 +34,8 @@ def facts(run: Any) -> dict[str, Any]:
     last = len(run) - 1
     while last > 0 and rows[last] == 0:
         last -= 1
-    found: dict[str, Any] = {"kind": run.kind, "files": len(run.files), "bytes": sum(os.path.getsize(name) for name in run.files),
-                             "frames": len(run)}
+    files = run._file_facts()
+    found: dict[str, Any] = {"kind": run.kind, "files": len(files), "bytes": sum(size for _, size, *_ in files), "frames": len(run)}
     if len(run):
         frame = run[last]
         box = frame.box
@@ -60,6 +59,12 @@ def file_faults(run: Any) -> list[str]:
         if repeated:
             found.append(f"{path}: {repeated} frames have the timestep of an earlier one in this file, and the last one counts")
     return found
+
+
+def tell_faults(run: Any) -> None:
+    """Says what files hold that is not shown, for commands that go on."""
+    for text in file_faults(run):
+        say(text)
 
 
 def oddities(steps: Any, rows: Any) -> list[str]:

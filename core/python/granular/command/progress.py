@@ -10,13 +10,13 @@ from typing import Any
 class Bar:
     """Shows progress on stderr if that is a terminal, ten times a second at most.
 
-        with Bar(run, "frames") as bar:
+        with Bar(run) as bar:
             for i, frame in enumerate(frames):
                 frame.read(bar.within(i, len(frames)))
     """
 
-    def __init__(self, size: float, quiet: bool = False):
-        self._size = size  # in bytes
+    def __init__(self, run: Any, quiet: bool = False):
+        self._size = sum(size for _, size, *_ in run._file_facts())  # in bytes
         self._shown = not quiet and sys.stderr.isatty()
         self._start = time.monotonic()
         self._last = 0.0

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 
+from .._whole_file import whole_file
 from . import add_files, chosen, open_run
 
 MORE = """It draws by the VTK of this Python or of ParaView. Without a display, it draws on a virtual one (Debian packages xvfb and \
@@ -51,7 +52,7 @@ def run(arguments: argparse.Namespace) -> None:
         frames = chosen(opened, arguments.frame)
         if len(frames) != 1:
             raise ValueError(f"--frame: expected one number, got {arguments.frame!r}")
-        if arguments.color and arguments.color not in frames[0]:
+        if arguments.color and not frames[0]._is_array(arguments.color):
             frames[0]._raise_no_column(arguments.color)
         files, options, number = opened.files, opened._options, frames._numbers()[0]
     picture = arguments.output or os.path.splitext(os.path.basename(files[0]))[0] + ".png"
@@ -60,18 +61,13 @@ def run(arguments: argparse.Namespace) -> None:
     python = _interpreter()
     if python is None:
         raise ImportError("expected VTK or ParaView to draw with, got neither (Debian: python3-vtk9 or python3-paraview; pip: vtk)")
-    temporary = os.path.abspath(f"{picture}.{os.getpid()}.tmp.png")
-    given = {"files": files, "options": options, "frame": number, "color": arguments.color, "size": list(map(int, parts)),
-             "picture": temporary}
+    picture = os.path.abspath(picture)
+    given = {"files": files, "options": options, "frame": number, "color": arguments.color, "size": list(map(int, parts))}
     package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
-    try:
-        done = subprocess.run(_with_display([python, "-m", "granular.command.draw"]), input=json.dumps(given), capture_output=True,
-                              text=True, env={**os.environ, "PYTHONPATH": path})
+    with whole_file(picture, ".png") as temporary:
+        done = subprocess.run(_with_display([python, "-m", "granular.command.draw"]), input=json.dumps({**given, "picture": temporary}),
+                              capture_output=True, text=True, env={**os.environ, "PYTHONPATH": path})
         if done.returncode or not os.path.exists(temporary):
-            raise RuntimeError(f"{picture}: {(done.stdout + done.stderr).strip()}")
-        os.replace(temporary, picture)
-    finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
-    print(picture)
+            raise RuntimeError((done.stdout + done.stderr).strip() or f"{picture}: it was not drawn")
+    print(arguments.output or os.path.basename(picture))

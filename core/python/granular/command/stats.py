@@ -9,6 +9,7 @@ import sys
 from typing import Any, Iterator
 
 from . import add_files, add_frames, chosen, open_run
+from .info import tell_faults
 from .progress import Bar
 
 MORE = """Sums are exact: rounded once, after the last term. With velocities and masses (or radii and densities) there are also the \
@@ -99,15 +100,16 @@ def run(arguments: argparse.Namespace) -> None:
         frames = chosen(opened, arguments.frames)
         if wanted and len(frames):
             from .._run import arrays_of
-            columns, wanted = arrays_of(frames[0], wanted)
+            asked, wanted = wanted, arrays_of(frames[0], wanted)[1]
         else:
-            columns = None
+            asked = None
+        tell_faults(opened)
         table = csv.writer(sys.stdout, lineterminator="\n")
         if arguments.csv:
             table.writerow(HEADER)
-        with Bar(1, arguments.quiet or sys.stdout.isatty()) as bar:
+        with Bar(opened, arguments.quiet or sys.stdout.isatty()) as bar:
             for i, number in enumerate(frames._numbers()):
-                frame = opened._part(number, columns=columns, threads=arguments.threads).read(bar.within(i, len(frames)))
+                frame = opened._part(number, columns=asked, threads=arguments.threads).read(bar.within(i, len(frames)))
                 if not arguments.csv:
                     print(f"step {frame.step}, time {frame.time:g}, {frame.rows} rows")
                     print(f"  {'column':22}" + "".join(f"{word:>15}" for word in HEADER[3:]))
