@@ -44,6 +44,14 @@ def main():
     assert os.waitpid(child, 0)[1] == 0
     assert total(run[-1]) == expected[-1]
 
+    # a child of a process that reads ahead
+    for frame in run:
+        frame["v"]
+        child = os.fork()
+        if child == 0:
+            os._exit(0 if total(run[-1]) == expected[-1] and [total(each) for each in run] == expected else 1)
+        assert os.waitpid(child, 0)[1] == 0
+
     # one run, one frame, several threads; closed while others read
     found, frame = [], run[-1]
     threads = [threading.Thread(target=lambda: found.append((total(frame), [total(each) for each in run]))) for _ in range(6)]
@@ -52,6 +60,22 @@ def main():
     for thread in threads:
         thread.join()
     assert found == [(expected[-1], expected)] * 6
+
+    looked = []
+
+    def look_at_names():
+        for _ in range(200):
+            assert [column.name for column in run.columns][0] == "id" and run.files == [SOURCE] and len(run.steps) == len(expected)
+        looked.append(True)
+
+    threads = [threading.Thread(target=look_at_names) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for _ in range(50):
+        run.refresh()
+    for thread in threads:
+        thread.join()
+    assert len(looked) == 3
 
     results = []
 
