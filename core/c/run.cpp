@@ -127,7 +127,7 @@ std::int64_t count_repeated(const FileIndex& file)
     steps.push_back(frame.timestep);
   }
   std::ranges::sort(steps);
-  return static_cast<std::int64_t>(std::ranges::unique(steps).size());
+  return steps.end() - std::unique(steps.begin(), steps.end());
 }
 }
 
