@@ -49,6 +49,9 @@ raises(granular.ArgumentError, lambda: run.read(precision="half"), "single")
 raises(granular.ArgumentError, lambda: granular.open(SOURCE, kind="picture"), "dump", "'picture'")
 raises(granular.ArgumentError, lambda: granular.open(SOURCE, dt=-1), "-1")
 
+# messages name the settings that granular.open has
+raises(granular.Error, lambda: granular.open(os.path.join(DATA, "good", "grains.bin"), column_names="id x"), "column_names")
+
 # files that are not there, that are empty, that are damaged
 raises(FileNotFoundError, lambda: granular.open("nowhere.dump"), "nowhere.dump")
 raises(FileNotFoundError, lambda: granular.open("nowhere_*.dump"), "nowhere_*.dump")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import re
 import signal
 import threading
 from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
@@ -146,13 +147,23 @@ _OTHERS = {  # without a status: result and arguments
 _IO_ERROR, _BAD_ARGUMENT, _CANCELLED, _NO_MEMORY = 1, 5, 6, 7
 
 
+# The names of settings in messages, which readers share, and those of granular.open.
+_SETTINGS = {"AtomStyle": "atom_style", "ColumnMap": "column_map", "ColumnNames": "column_names", "Preset": "preset",
+             "RepeatedSteps to Merge": 'repeated_steps to "merge"', "TimestepSize": "dt"}
+
+
 def text(value: bytes | None) -> str:
     """Returns a string of the library; names of files may be any bytes."""
     return os.fsdecode(value or b"")
 
 
+def message_of(value: bytes | None) -> str:
+    """Returns a message of the library with the names of settings that Python has."""
+    return re.sub("|".join(rf"\b{name}\b" for name in _SETTINGS), lambda match: _SETTINGS[match.group()], text(value))
+
+
 def _raise(error: _CError) -> None:
-    message, path = text(error.message), text(error.path)
+    message, path = message_of(error.message), text(error.path)
     where = (path, error.line, error.byte, text(error.column))
     if error.status == _CANCELLED:
         raise Cancelled
@@ -219,7 +230,7 @@ class Calls:
                 return 1
 
         def tell(notice: bytes, _: Any) -> None:
-            self.notices.append(text(notice))
+            self.notices.append(message_of(notice))
 
         self.progress, self.notice, self._warn = PROGRESS(report), NOTICE(tell), warn
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Storing a scene: bytes a particle, time to write and read, and what is lost, for boxes near to and far from the origin."""
+import ctypes
+import gzip
 import os
 
 import numpy
@@ -35,6 +37,34 @@ def dump_writer(data, path, **properties):
     for name, value in {"Dialect": 1, "Columns": " ".join(COLUMNS), "Threads": 1, **properties}.items():
         getattr(writer, "Set" + name)(value)
     return writer
+
+
+def zstd(content, level):
+    """By the system's library: Python has none."""
+    library = ctypes.CDLL("libzstd.so.1")
+    library.ZSTD_compressBound.restype = library.ZSTD_compress.restype = ctypes.c_size_t
+    room = library.ZSTD_compressBound(ctypes.c_size_t(len(content)))
+    out = ctypes.create_string_buffer(room)
+    size = library.ZSTD_compress(out, ctypes.c_size_t(room), content, ctypes.c_size_t(len(content)), level)
+    return out.raw[:size]
+
+
+class PackedBinary:
+    """A binary dump that is compressed afterwards, as by the program gzip or zstd: no code writes such files."""
+
+    def __init__(self, writer, path):
+        self.writer, self.path = writer, path
+
+    def Write(self):
+        plain, ending = os.path.splitext(self.path)
+        self.writer.SetFileName(plain)
+        done = self.writer.Write()
+        with open(plain, "rb") as stream:
+            content = stream.read()
+        os.remove(plain)
+        with open(self.path, "wb") as out:
+            out.write(gzip.compress(content, 6) if ending == ".gz" else zstd(content, 3))
+        return done
 
 
 def vtk_ways():
@@ -101,9 +131,11 @@ class Way:
 
 def ways_of(study, data, place):
     for kind, (properties, ending) in KINDS.items():
-        for packer, more in PACKERS.items() if ending == ".dump" else (("", ""),):
+        for packer, more in PACKERS.items():
             path = str(study.folder / f"{kind}{packer}{place}".replace(" ", "_").replace("%", "")) + ending + more
-            yield Way(kind + packer, lambda p=path, q=properties: dump_writer(data, p, **q), None, path)
+            packed = ending == ".bin" and more
+            yield Way(kind + packer, lambda p=path, q=properties, packed=packed:
+                      PackedBinary(dump_writer(data, p, **q), p) if packed else dump_writer(data, p, **q), None, path)
     for kind, (make, reader, ending) in vtk_ways().items():
         path = str(study.folder / f"{kind}{place}".replace(" ", "_")) + ending
         yield Way(kind, lambda p=path, m=make: m(data, p), reader, path)
