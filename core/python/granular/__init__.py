@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from ._show import show
     from ._state import load_state
     from ._versions import label_format, preset, process_ids, set_properties
+    from .vtkGranular import *  # noqa: F403 (the compiled classes, which have stubs)
 
 # Functions of scripts of ParaView, and their modules, which are imported when the first of theirs is asked for.
 _LATER = {"fetch": "_fetch", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state", "pool_limit": "_pool",
