@@ -109,8 +109,10 @@ set(CPACK_DEBIAN_PACKAGE_SOURCE granular)
 
 set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_C_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/packaging/triggers")
-file(WRITE "${PROJECT_BINARY_DIR}/packaging/triggers" "activate-noawait ldconfig\n")
+# What programs that are linked to it depend on; ldconfig is called by what CPack adds.
+file(WRITE "${PROJECT_BINARY_DIR}/packaging/shlibs"
+  "libgranular ${PROJECT_VERSION_MAJOR} libgranular${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
+set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/packaging/shlibs")
 set(CPACK_DEBIAN_C_DESCRIPTION "files of discrete-element simulations as arrays (library)
 Reads and writes the files of LIGGGHTS and LAMMPS by functions for C,
 C++ and Fortran: dumps of particles, contacts, bonds, subdomains and Euler
@@ -127,8 +129,8 @@ The package granular: runs and frames of LIGGGHTS and LAMMPS as numpy
 arrays, arrays as dumps, and functions for scripts of ParaView.")
 
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS "python3-granular (= ${granular_version})")
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "granular-paraview")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS "python3, python3-granular (= ${granular_version})")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "python3-vtk9 | python3-paraview, xauth, xvfb")
 set(CPACK_DEBIAN_COMMAND_DESCRIPTION "looks into files of discrete-element simulations, and converts them
 The command granular says what dumps, restart and data files of LIGGGHTS
 and LAMMPS hold, whether they are sound, and converts them into other

@@ -121,8 +121,11 @@ def scatter(axes, points, label):
         if name == DEFAULT:
             axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(5, -11), fontsize=7, color="C3")
     axes.step([x for x, _, _ in ahead], [max(y, EXACT) for _, y, _ in ahead], where="post", color="C0", linewidth=1)
+    right, told = 1.35 * max(x for x, _, _ in points), [(x, y) for x, y, name in points if name in names]
     for x, y, name in points:
-        if name not in names and name in ("binary, LAMMPS", "VTP, raw", "VTK legacy, text", "custom %.17g"):
+        near = any(y == other and abs(x - place) < 0.2 * right for place, other in told)
+        if name not in names and name in ("binary, LAMMPS", "VTP, raw", "VTK legacy, text", "custom %.17g") and not near:
+            told.append((x, y))
             axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(0, -11), fontsize=6, color="0.5", ha="center")
     for i, (x, y, name) in enumerate(ahead):
         axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(6, 5 + 9 * (i % 2)), fontsize=7)
@@ -131,7 +134,7 @@ def scatter(axes, points, label):
     axes.axhline(1e-2, color="0.6", linewidth=0.8, linestyle=":")
     axes.grid(color="0.93")
     axes.set_xlabel(label)
-    axes.set_xlim(left=0, right=1.35 * max(x for x, _, _ in points))
+    axes.set_xlim(left=0, right=right)
 
 
 def plot_store(pyplot, figures):
