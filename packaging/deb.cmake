@@ -109,10 +109,12 @@ set(CPACK_DEBIAN_PACKAGE_SOURCE granular)
 
 set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_C_PACKAGE_SHLIBDEPS ON)
-# What programs that are linked to it depend on; ldconfig is called by what CPack adds.
+# What programs that are linked to it depend on, and when ldconfig runs.
 file(WRITE "${PROJECT_BINARY_DIR}/packaging/shlibs"
   "libgranular ${PROJECT_VERSION_MAJOR} libgranular${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
-set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA "${PROJECT_BINARY_DIR}/packaging/shlibs")
+file(WRITE "${PROJECT_BINARY_DIR}/packaging/triggers" "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA
+  "${PROJECT_BINARY_DIR}/packaging/shlibs" "${PROJECT_BINARY_DIR}/packaging/triggers")
 set(CPACK_DEBIAN_C_DESCRIPTION "files of discrete-element simulations as arrays (library)
 Reads and writes the files of LIGGGHTS and LAMMPS by functions for C,
 C++ and Fortran: dumps of particles, contacts, bonds, subdomains and Euler
