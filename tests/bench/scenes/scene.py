@@ -147,6 +147,8 @@ def read_again(reader):
     """Reads the frame again: a property of the pipeline alone has changed."""
     reader.Modified()
     reader.Update()
+    if reader.GetErrorCode():
+        raise SystemExit("a file could not be read: nothing would be quicker")
     return reader.GetOutput()
 
 

@@ -63,7 +63,7 @@ class PackedBinary:
             content = stream.read()
         os.remove(plain)
         with open(self.path, "wb") as out:
-            out.write(gzip.compress(content, 6) if ending == ".gz" else zstd(content, 3))
+            out.write(gzip.compress(content, 6, mtime=0) if ending == ".gz" else zstd(content, 3))
         return done
 
 
