@@ -7,7 +7,8 @@ Arrays, with numpy alone:
     run[-1]["v"]                              an array of the last frame
     run.read(columns=["id", "v"], stride=10)  a part of a frame
     granular.write("new.dump", {"points": x}) a file from arrays or frames
-    granular.Run, Frame, Box, Writer, Error   what these return, take and raise
+    granular.read_log("log.liggghts")         the thermo output of a run: its columns as arrays
+    granular.Run, Frame, Box, Writer, Log, Error   what these return, take and raise
 
 Open, show, fetch and save with paraview.simple:
 
@@ -47,6 +48,7 @@ from typing import TYPE_CHECKING, Any
 from ._files import files
 from ._folders import VERSION as __version__
 from ._library import ArgumentError, Cancelled, ColumnError, Error
+from ._log import Log, LogTable, read_log
 from ._run import Box, Frame, Run, open  # noqa: A004 (granular.open, as there are gzip.open and wave.open)
 from ._write import Writer, write
 
@@ -71,7 +73,7 @@ _LATER = {"fetch": "_fetch", "label_format": "_versions", "load_plugin": "_plugi
 
 # Not the classes: help() would print all that they inherit, and nobody would find the functions.
 __all__ = ["__version__", "fetch", "files", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset", "process_ids",
-           "pvbatch", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write", "write_series"]
+           "pvbatch", "read_log", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write", "write_series"]
 
 
 def __getattr__(name: str) -> Any:
