@@ -5,6 +5,7 @@
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_output.h"
 #include "private/dump/frame_ahead.h"
+#include "private/dump/reader_frames.h"
 #include "private/request/guard.h"
 #include "private/request/piece_request.h"
 #include "private/request/series_reader.h"
@@ -51,6 +52,7 @@ struct vtkGranularDumpReader::Internals
   std::size_t LastFrame = 0;
 
   void UpdateSelection(const granular::RunIndex& index);
+  granular::DumpRequest MakeRequest(Self* self);
   granular::DumpRequest MakeRequest(Self* self, vtkInformation* output);
   void FillOutputs(Self* self, vtkInformationVector* outputs, const granular::DumpRequest& request,
     granular::DumpFrame& frame, Shown& shown);
@@ -80,8 +82,7 @@ void vtkGranularDumpReader::Internals::UpdateSelection(const granular::RunIndex&
 }
 
 //------------------------------------------------------------------------------
-granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
-  Self* self, vtkInformation* output)
+granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(Self* self)
 {
   granular::DumpRequest request;
   request.coordinates = static_cast<granular::Coordinates>(self->Coordinates);
@@ -98,12 +99,20 @@ granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
   // a copy: the frame may be decoded while the selection changes
   request.wanted = [names = this->Arrays.GetWanted()](const granular::ArrayInfo& array)
   { return names.count(array.name) != 0; };
+  request.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
+  request.pool = self->Series->Pool;
+  return request;
+}
+
+//------------------------------------------------------------------------------
+granular::DumpRequest vtkGranularDumpReader::Internals::MakeRequest(
+  Self* self, vtkInformation* output)
+{
+  granular::DumpRequest request = this->MakeRequest(self);
   const PieceRequest wanted = PieceRequest::Of(output);
   request.piece = wanted.Piece;
   request.pieces = wanted.Pieces;
   request.ranges = true; // whoever shows an array asks for it
-  request.threads = ChooseThreads(self->Threads, self->Series->GetRanks());
-  request.pool = self->Series->Pool;
   return request;
 }
 
@@ -177,6 +186,23 @@ void vtkGranularDumpReader::Internals::StartNext(
   catch (const std::exception&)
   {
   }
+}
+
+//------------------------------------------------------------------------------
+std::optional<ReaderFrames> ReaderFrames::Find(vtkAlgorithm* consumer)
+{
+  int port = 0;
+  vtkAlgorithm* algorithm = consumer->GetInputAlgorithm(0, 0, port);
+  while (algorithm && port == 0 && algorithm->IsA("vtkPVPostFilter"))
+  {
+    algorithm = algorithm->GetInputAlgorithm(0, 0, port);
+  }
+  auto* reader = vtkGranularDumpReader::SafeDownCast(algorithm);
+  if (!reader || port != 0 || !reader->Series->Valid || reader->Series->Index.size() == 0)
+  {
+    return {};
+  }
+  return ReaderFrames{ &reader->Series->Index, reader->Internal->MakeRequest(reader) };
 }
 
 //------------------------------------------------------------------------------

@@ -43,6 +43,11 @@
 class vtkDataArraySelection;
 class vtkPolyData;
 
+namespace vtkGranularPrivate
+{
+struct ReaderFrames;
+}
+
 class VTKGRANULAR_EXPORT vtkGranularDumpReader : public vtkGranularSeriesReader
 {
 public:
@@ -188,6 +193,7 @@ private:
   bool Prefetch = false;
   double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
 
+  friend struct vtkGranularPrivate::ReaderFrames;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

@@ -3,13 +3,13 @@
 
 #include "private/arrays/arrays.h"
 #include "private/dump/particles.h"
+#include "private/dump/shared_names.h"
 #include "private/local/lines.h"
 #include "private/local/local_rows.h"
 #include "private/request/piece_request.h"
 #include "private/request/processes.h"
 #include "private/request/text_of.h"
 
-#include "granular/common/words.h"
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
 #include "granular/numbers/number_print.h"
@@ -55,47 +55,6 @@ std::string TimestepOf(vtkFieldData* data)
   return timestep && timestep->GetNumberOfValues() == 1
     ? std::to_string(timestep->GetVariantValue(0).ToTypeInt64())
     : std::string();
-}
-
-/**
- * The names in a list; for "*" those of all arrays of numbers but id.
- */
-std::vector<std::string> NamesIn(std::string list, const granular::FrameView& particles)
-{
-  std::ranges::replace(list, ',', ' ');
-  std::vector<std::string> names;
-  for (const std::string_view word : granular::split_words(list))
-  {
-    if (word != "*")
-    {
-      names.emplace_back(word);
-      continue;
-    }
-    for (const granular::ArrayView& array : particles.arrays)
-    {
-      if (array.type != granular::ValueType::Text && array.name != "id")
-      {
-        names.push_back(array.name);
-      }
-    }
-  }
-  return names;
-}
-
-/**
- * The names that a process knows, which any others may be: with blanks, too.
- */
-struct KnownNames
-{
-  bool HasParticles = false;
-  std::vector<std::string> Names;
-};
-
-template <class Archive>
-void pass(Archive& archive, typename Archive::template Passed<KnownNames>& known)
-{
-  archive.number(known.HasParticles);
-  granular::pass(archive, known.Names);
 }
 
 vtkSmartPointer<vtkDoubleArray> MakeEmpty(const char* name)
@@ -213,11 +172,7 @@ private:
     const std::array<const char*, 2> given = { this->Self->Averages, this->Self->Differences };
     for (std::size_t i = 0; i < lists.size(); ++i)
     {
-      const granular::FrameView& view = this->Input->View();
-      const std::vector<KnownNames> all =
-        granular::gather(ranks, KnownNames{ view.rows > 0, NamesIn(TextOf(given[i]), view) });
-      const auto best = std::ranges::find_if(all, &KnownNames::HasParticles);
-      *lists[i] = best == all.end() ? all.back().Names : best->Names;
+      *lists[i] = vtkGranularPrivate::ShareNames(given[i], this->Input->View(), ranks);
     }
     std::int64_t with = this->RestKnown ? 1 : 0;
     ranks.sum({ &with, 1 });

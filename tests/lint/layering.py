@@ -72,6 +72,7 @@ ROOMS = {room: words.split() for room, words in (
     ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
     ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/read local"),
+    ("paths", "common columns numbers memory geometry parallel frames particles sorting dump/read local"),
     ("mpi", "common bytes parallel"),
 )}
 MOST_FILES = 40
@@ -85,6 +86,7 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("euler", "request arrays dump"),
     ("decomposition", "request arrays dump"),
     ("writing", "request dump"),
+    ("paths", "request arrays dump"),
 )}
 
 SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")

@@ -7,6 +7,7 @@
 #include "granular/local/join.h"
 #include "granular/local/local_columns.h"
 #include "granular/parallel/gather.h"
+#include "granular/particles/view_frame.h"
 #include "granular/sorting/sort_rows.h"
 
 #include <algorithm>
@@ -217,7 +218,7 @@ private:
     const bool scaled = frame.particles.coordinates == Coordinates::Scaled;
     table.coordinates = scaled ? Coordinates::Absolute : frame.particles.coordinates;
     progress_.set_part(0.8, 0.9);
-    const JoinedLines joined = join_lines(this->view_particles(frame.particles),
+    const JoinedLines joined = join_lines(view_frame(frame.particles, own_.point_origin),
       values_of<std::int64_t>(*find_array(table, "id1")),
       values_of<std::int64_t>(*find_array(table, "id2")), { {}, {}, own_.threads, own_.pool },
       ranks_, progress_);
@@ -231,26 +232,6 @@ private:
     std::erase_if(table.arrays,
       [&](const DumpArray& array)
       { return request_.wanted_bonds && !request_.wanted_bonds(array.info.name); });
-  }
-
-  FrameView view_particles(const DumpFrame& frame) const
-  {
-    FrameView view;
-    view.header = frame.header;
-    view.rows = frame.rows;
-    view.points =
-      view_rows("", ValueType::Float64, static_cast<const double*>(frame.points.data()), 3);
-    view.coordinates = frame.coordinates;
-    view.point_origin = own_.point_origin;
-    for (const DumpArray& array : frame.arrays)
-    {
-      if (array.info.name == "id")
-      {
-        view.arrays = { view_rows(
-          "id", ValueType::Int64, static_cast<const std::int64_t*>(array.block.data())) };
-      }
-    }
-    return view;
   }
 
   /// Whether particles are left out because the user wants few.

@@ -3,11 +3,11 @@
 
 #include "granular/common/shares.h"
 #include "granular/parallel/trade.h"
+#include "granular/sorting/find_ids_at.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -15,32 +15,6 @@ namespace granular
 {
 namespace
 {
-/// The ids that have these places among the sorted ids of all ranks: for each the smallest id with
-/// more ids up to it than the place has before it. Found by halving, for all places at once.
-std::vector<std::int64_t> find_ids_at(const std::vector<std::int64_t>& places,
-  std::span<const std::int64_t> sorted, Communicator& ranks)
-{
-  std::vector<std::int64_t> low(places.size(), std::numeric_limits<std::int64_t>::min());
-  std::vector<std::int64_t> high(places.size(), std::numeric_limits<std::int64_t>::max());
-  std::vector<std::int64_t> up_to(places.size());
-  while (low != high)
-  {
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      const auto end =
-        std::upper_bound(sorted.begin(), sorted.end(), std::midpoint(low[i], high[i]));
-      up_to[i] = end - sorted.begin();
-    }
-    ranks.sum(up_to);
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      const std::int64_t middle = std::midpoint(low[i], high[i]);
-      (up_to[i] > places[i] ? high[i] : low[i]) = up_to[i] > places[i] ? middle : middle + 1;
-    }
-  }
-  return low;
-}
-
 /// How many of the sorted ids of this rank go to each rank.
 std::vector<std::int64_t> count_parts(
   std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks)

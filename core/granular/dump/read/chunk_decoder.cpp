@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <type_traits>
 
 namespace granular
 {
@@ -65,7 +66,7 @@ ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
   {
     sinks_.push_back({ static_cast<std::uint32_t>(column), wire.type, nullptr, wire.first.stride });
   }
-  if (request.stride > 1 || layout.region)
+  if (request.stride > 1 || request.keep_id || layout.region)
   {
     keep_.resize(layout.batch);
   }
@@ -231,6 +232,10 @@ void ChunkDecoder::choose_rows(std::size_t count, std::int64_t number)
   {
     this->choose_by_number(count, number);
   }
+  if (request_.keep_id)
+  {
+    this->choose_by_id(count);
+  }
   if (layout_.region)
   {
     this->convert(*layout_.region, count);
@@ -243,32 +248,74 @@ void ChunkDecoder::choose_rows(std::size_t count, std::int64_t number)
   }
 }
 
-/// By the id, or by the number of the row where there are no ids.
-void ChunkDecoder::choose_by_number(std::size_t count, std::int64_t number)
+/// Keeps the rows whose ids pass, a double or an integer each. Returns false if there are no ids.
+template <class Passes>
+bool ChunkDecoder::keep_ids(std::size_t count, const Passes& passes)
 {
   const auto id = layout_.wires.find(layout_.id_column);
-  const bool by_row = id == layout_.wires.end();
-  const char* from = by_row ? nullptr : id->second.first.at(row_, scratch_.get());
-  for (std::size_t i = 0; i < count; ++i)
+  if (id == layout_.wires.end())
   {
-    if (by_row)
-    {
-      keep_[i] = (number + static_cast<std::int64_t>(i)) % request_.stride == 0;
-      continue;
-    }
+    return false;
+  }
+  const char* from = id->second.first.at(row_, scratch_.get());
+  for (std::size_t i = 0; i < count; ++i, from += id->second.first.stride)
+  {
     if (id->second.type == ValueType::Float64)
     {
       double value = 0;
       std::memcpy(&value, from, sizeof value);
-      keep_[i] = std::fmod(value, static_cast<double>(request_.stride)) == 0;
+      keep_[i] = keep_[i] && passes(value);
     }
     else
     {
       std::int64_t value = 0;
       std::memcpy(&value, from, sizeof value);
-      keep_[i] = value % request_.stride == 0;
+      keep_[i] = keep_[i] && passes(value);
     }
-    from += id->second.first.stride;
+  }
+  return true;
+}
+
+/// By the id, or by the number of the row where there are no ids.
+void ChunkDecoder::choose_by_number(std::size_t count, std::int64_t number)
+{
+  const std::int64_t stride = request_.stride;
+  const bool by_id = this->keep_ids(count,
+    [stride](auto id)
+    {
+      if constexpr (std::is_same_v<decltype(id), double>)
+      {
+        return std::fmod(id, static_cast<double>(stride)) == 0;
+      }
+      else
+      {
+        return id % stride == 0;
+      }
+    });
+  for (std::size_t i = 0; i < count && !by_id; ++i)
+  {
+    keep_[i] = (number + static_cast<std::int64_t>(i)) % stride == 0;
+  }
+}
+
+void ChunkDecoder::choose_by_id(std::size_t count)
+{
+  const bool by_id = this->keep_ids(count,
+    [this](auto id)
+    {
+      if constexpr (std::is_same_v<decltype(id), double>)
+      {
+        return std::trunc(id) == id && std::abs(id) < 0x1p63 &&
+          request_.keep_id(static_cast<std::int64_t>(id));
+      }
+      else
+      {
+        return request_.keep_id(id);
+      }
+    });
+  if (!by_id)
+  {
+    std::fill(keep_.begin(), keep_.end(), char{ 0 });
   }
 }
 

@@ -50,7 +50,10 @@ private:
   void measure_radii(std::size_t count, RoundingLoss& loss) const;
   void convert(const PointsWire& wire, std::size_t count);
   void choose_rows(std::size_t count, std::int64_t number);
+  template <class Passes>
+  bool keep_ids(std::size_t count, const Passes& passes);
   void choose_by_number(std::size_t count, std::int64_t number);
+  void choose_by_id(std::size_t count);
   void compact(Block& block, std::size_t width, std::size_t count) const;
 
   FrameLayout& layout_;

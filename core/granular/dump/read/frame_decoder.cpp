@@ -153,7 +153,7 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   decoded_.clear();
   next_row_ = next_number_ = 0;
   alone_ = executor_.workers(chunks_.size()) == 1;
-  filtered_ = request_.stride > 1 || layout_->region;
+  filtered_ = request_.stride > 1 || request_.keep_id || layout_->region;
   reads_.restart();
   places_.restart();
   kept_.restart();

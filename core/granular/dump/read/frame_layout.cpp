@@ -176,7 +176,8 @@ void FrameLayout::lay_filters(const Where& where, Notices& notices)
     region->xyz = this->scratch(3 * sizeof(double));
     this->lay(*region);
   }
-  if (id_column >= 0 && (request_.stride > 1 || request_.sort_by_id) && !wires.contains(id_column))
+  const bool needs_ids = request_.stride > 1 || request_.keep_id || request_.sort_by_id;
+  if (id_column >= 0 && needs_ids && !wires.contains(id_column))
   {
     // as an array of its own, so that filters treat it like all others
     ids = Block(sizeof(std::int64_t) * static_cast<std::size_t>(rows), request_.pool);

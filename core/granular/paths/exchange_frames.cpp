@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/paths/exchange_frames.h"
+
+#include "granular/common/pass.h"
+#include "granular/common/shares.h"
+#include "granular/frames/header_archive.h"
+#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
+#include "granular/sorting/find_ids_at.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+using Numbers = std::vector<std::int64_t>;
+
+/// What a rank knows of a frame.
+struct FrameKnown
+{
+  std::int64_t particles = 0;
+  bool loaded = false;
+  FrameHeader header = {};
+  Coordinates coordinates = Coordinates::Absolute;
+  bool images = false;
+  bool rows = false;
+};
+
+template <class Archive>
+void pass(Archive& archive, typename Archive::template Passed<FrameKnown>& known)
+{
+  archive.number(known.particles);
+  archive.number(known.loaded);
+  if (known.loaded)
+  {
+    pass(archive, known.header);
+    archive.number(known.coordinates);
+    archive.number(known.images);
+    archive.number(known.rows);
+  }
+}
+
+void share_headers(std::vector<PathFrame>& frames, Communicator& ranks)
+{
+  std::vector<FrameKnown> own;
+  for (const PathFrame& frame : frames)
+  {
+    own.push_back({ static_cast<std::int64_t>(frame.ids.size()), frame.loaded, frame.header,
+      frame.coordinates, frame.has_images, frame.has_rows });
+  }
+  const std::vector<std::vector<FrameKnown>> all = gather(ranks, own);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+  {
+    // who has particles knows what they have
+    const FrameKnown* best = nullptr;
+    for (const std::vector<FrameKnown>& known : all)
+    {
+      const bool better = !best || (best->particles == 0 && known[i].particles > 0);
+      best = known[i].loaded && better ? &known[i] : best;
+    }
+    if (best)
+    {
+      PathFrame& frame = frames[i];
+      frame.loaded = true;
+      frame.header = best->header;
+      frame.coordinates = best->coordinates;
+      frame.has_images = best->images;
+      frame.has_rows = best->rows;
+    }
+  }
+}
+
+/// What a rank knows of an array in all its frames.
+struct ArrayKnown
+{
+  int smallest = std::numeric_limits<int>::max();
+  int largest = 0;
+  bool integers = true;
+  bool particles = false; ///< there are some that could have it
+};
+
+std::vector<ArrayKnown> know_arrays(const std::vector<PathFrame>& frames)
+{
+  std::vector<ArrayKnown> known(frames.empty() ? 0 : frames.front().arrays.size());
+  for (const PathFrame& frame : frames)
+  {
+    for (std::size_t i = 0; i < known.size() && !frame.ids.empty(); ++i)
+    {
+      const PathArray& array = frame.arrays[i];
+      known[i].particles = true;
+      if (array.size > 0)
+      {
+        known[i].smallest = std::min(known[i].smallest, array.size);
+        known[i].largest = std::max(known[i].largest, array.size);
+        known[i].integers = known[i].integers && array.integers;
+      }
+    }
+  }
+  return known;
+}
+
+/// Fills an array that a frame lacks with nan, or 0 among integers; makes doubles of integers where other frames have
+/// doubles.
+void fit_array(PathArray& array, std::size_t particles, int size, bool integers)
+{
+  if (array.size == 0)
+  {
+    const std::int64_t nothing =
+      integers ? 0 : std::bit_cast<std::int64_t>(std::numeric_limits<double>::quiet_NaN());
+    array.words.assign(particles * static_cast<std::size_t>(size), nothing);
+  }
+  else if (array.integers && !integers)
+  {
+    std::ranges::transform(array.words, array.words.begin(), [](std::int64_t word)
+      { return std::bit_cast<std::int64_t>(static_cast<double>(word)); });
+  }
+  array.size = size;
+  array.integers = integers;
+}
+
+void share_arrays(std::vector<PathFrame>& frames, Communicator& ranks)
+{
+  const std::vector<std::vector<ArrayKnown>> all = gather(ranks, know_arrays(frames));
+  for (std::size_t i = 0; i < all.front().size(); ++i)
+  {
+    ArrayKnown whole;
+    for (const std::vector<ArrayKnown>& known : all)
+    {
+      whole.smallest = std::min(whole.smallest, known[i].smallest);
+      whole.largest = std::max(whole.largest, known[i].largest);
+      whole.integers = whole.integers && known[i].integers;
+      whole.particles = whole.particles || known[i].particles;
+    }
+    const std::string& name = frames.front().arrays[i].name;
+    if (whole.largest == 0 && whole.particles)
+    {
+      throw Error("expected an array '" + name + "' of the particles, got none in any frame");
+    }
+    if (whole.largest > 0 && whole.smallest != whole.largest)
+    {
+      throw Error("expected as many numbers a particle in array '" + name +
+        "' in all frames, got " + std::to_string(whole.smallest) + " and " +
+        std::to_string(whole.largest));
+    }
+    for (PathFrame& frame : frames)
+    {
+      fit_array(frame.arrays[i], frame.ids.size(), std::max(whole.largest, 1),
+        whole.integers && whole.largest > 0);
+    }
+  }
+}
+
+/// The words of a particle, one after the other.
+class RecordLayout
+{
+public:
+  explicit RecordLayout(const PathFrame& frame)
+    : images_(frame.has_images ? 3 : 0)
+    , rows_(frame.has_rows ? 1 : 0)
+  {
+    words_ = 1 + 3 + images_ + rows_;
+    for (const PathArray& array : frame.arrays)
+    {
+      words_ += static_cast<std::size_t>(array.size);
+    }
+  }
+
+  std::size_t words() const noexcept { return words_; }
+
+  void store(const PathFrame& frame, std::size_t i, Numbers& to) const
+  {
+    to.push_back(frame.ids[i]);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      to.push_back(std::bit_cast<std::int64_t>(frame.points[3 * i + k]));
+    }
+    append(frame.images, i, images_, to);
+    append(frame.rows, i, rows_, to);
+    for (const PathArray& array : frame.arrays)
+    {
+      append(array.words, i, static_cast<std::size_t>(array.size), to);
+    }
+  }
+
+  /// Returns the word after the record.
+  const std::int64_t* load(const std::int64_t* from, PathFrame& frame) const
+  {
+    frame.ids.push_back(*from++);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      frame.points.push_back(std::bit_cast<double>(*from++));
+    }
+    from = take(from, images_, frame.images);
+    from = take(from, rows_, frame.rows);
+    for (PathArray& array : frame.arrays)
+    {
+      from = take(from, static_cast<std::size_t>(array.size), array.words);
+    }
+    return from;
+  }
+
+private:
+  static void append(const Numbers& from, std::size_t i, std::size_t size, Numbers& to)
+  {
+    const auto* const first = from.data() + i * size;
+    to.insert(to.end(), first, first + size);
+  }
+
+  static const std::int64_t* take(const std::int64_t* from, std::size_t size, Numbers& to)
+  {
+    to.insert(to.end(), from, from + size);
+    return from + size;
+  }
+
+  std::size_t images_;
+  std::size_t rows_;
+  std::size_t words_ = 0;
+};
+}
+
+void share_kinds(std::vector<PathFrame>& frames, Communicator& ranks)
+{
+  if (ranks.size() > 1)
+  {
+    share_headers(frames, ranks);
+  }
+  share_arrays(frames, ranks);
+}
+
+std::vector<std::int64_t> share_out(const std::vector<PathFrame>& frames, Communicator& ranks)
+{
+  // the ids of one frame tell well enough
+  Numbers ids;
+  for (const PathFrame& frame : frames)
+  {
+    ids = frame.ids.size() > ids.size() ? frame.ids : ids;
+  }
+  std::sort(ids.begin(), ids.end());
+  Numbers count = { static_cast<std::int64_t>(ids.size()) };
+  ranks.sum(count);
+  Numbers places;
+  for (int rank = 1; rank < ranks.size(); ++rank)
+  {
+    places.push_back(begin_of_part(count.front(), rank, ranks.size()));
+  }
+  return find_ids_at(places, ids, ranks);
+}
+
+void exchange_frames(
+  std::vector<PathFrame>& frames, const std::vector<std::int64_t>& first_ids, Communicator& ranks)
+{
+  if (ranks.size() == 1)
+  {
+    return;
+  }
+  const auto owner_of = [&](std::int64_t id)
+  { return static_cast<std::size_t>(std::upper_bound(first_ids.begin(), first_ids.end(), id) - first_ids.begin()); };
+
+  // for each rank: of each frame how many, and their records
+  const auto size = static_cast<std::size_t>(ranks.size());
+  std::vector<Numbers> counts(size, Numbers(frames.size()));
+  std::vector<Numbers> records(size);
+  for (std::size_t f = 0; f < frames.size(); ++f)
+  {
+    PathFrame& frame = frames[f];
+    const RecordLayout layout(frame);
+    for (std::size_t i = 0; i < frame.ids.size(); ++i)
+    {
+      const std::size_t owner = owner_of(frame.ids[i]);
+      ++counts[owner][f];
+      layout.store(frame, i, records[owner]);
+    }
+    frame.ids = {};
+    frame.points = {};
+    frame.images = {};
+    frame.rows = {};
+    for (PathArray& array : frame.arrays)
+    {
+      array.words = {};
+    }
+  }
+  const auto swap = [&](std::vector<Numbers>& parts)
+  {
+    Numbers sizes;
+    Numbers whole;
+    for (Numbers& part : parts)
+    {
+      sizes.push_back(static_cast<std::int64_t>(part.size()));
+      whole.insert(whole.end(), part.begin(), part.end());
+      part = {};
+    }
+    const Numbers come = swap_numbers(sizes, ranks);
+    return trade(whole, sizes, come, ranks);
+  };
+  const Numbers came_counts = swap(counts);
+  const Numbers came = swap(records);
+  // the records of each rank begin where those of the one before end
+  std::vector<const std::int64_t*> next(size, came.data());
+  for (std::size_t rank = 0; rank < size; ++rank)
+  {
+    const std::int64_t* end = next[rank];
+    for (std::size_t f = 0; f < frames.size(); ++f)
+    {
+      const std::int64_t rows = came_counts[rank * frames.size() + f];
+      end += static_cast<std::size_t>(rows) * RecordLayout(frames[f]).words();
+    }
+    if (rank + 1 < size)
+    {
+      next[rank + 1] = end;
+    }
+  }
+  for (std::size_t f = 0; f < frames.size(); ++f)
+  {
+    const RecordLayout layout(frames[f]);
+    for (std::size_t rank = 0; rank < size; ++rank)
+    {
+      for (std::int64_t i = came_counts[rank * frames.size() + f]; i > 0; --i)
+      {
+        next[rank] = layout.load(next[rank], frames[f]);
+      }
+    }
+  }
+}
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/paths/id_selection.h"
+
+#include "granular/common/error.h"
+#include "granular/common/words.h"
+#include "granular/parallel/gather.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Ranges up to this length become single ids, which are found at once.
+constexpr std::int64_t short_range = 4096;
+
+/// Reads an integer at the beginning of a text, and removes it.
+bool take_integer(std::string_view& text, std::int64_t& number)
+{
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return error == std::errc();
+}
+
+bool take(std::string_view& text, char sign)
+{
+  const bool there = !text.empty() && text.front() == sign;
+  text.remove_prefix(there ? 1 : 0);
+  return there;
+}
+
+void make_distinct(std::vector<std::int64_t>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+}
+
+IdSelection::IdSelection(std::string_view text)
+{
+  std::string spaced(text);
+  std::replace(spaced.begin(), spaced.end(), ',', ' ');
+  for (const std::string_view word : split_words(spaced))
+  {
+    listed_ = true;
+    const Range range = read_range(word);
+    // differences of any two integers fit without a sign
+    const std::uint64_t length =
+      static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(range.first);
+    const std::uint64_t steps = length / static_cast<std::uint64_t>(range.step);
+    if (steps >= short_range)
+    {
+      ranges_.push_back(range);
+      continue;
+    }
+    for (std::int64_t i = 0; i <= static_cast<std::int64_t>(steps); ++i)
+    {
+      ids_.add(range.first + i * range.step, 0);
+    }
+  }
+}
+
+IdSelection::Range IdSelection::read_range(std::string_view word)
+{
+  Range range;
+  std::string_view rest = word;
+  bool good = take_integer(rest, range.first);
+  range.last = range.first;
+  if (good && take(rest, '-'))
+  {
+    good = take_integer(rest, range.last);
+    if (good && take(rest, ':'))
+    {
+      good = take_integer(rest, range.step);
+    }
+  }
+  if (!good || !rest.empty() || range.last < range.first || range.step < 1)
+  {
+    throw Error("expected ids like 5, ranges like 10-20 or 100-900:50, got '" + std::string(word) + "'");
+  }
+  return range;
+}
+
+void IdSelection::keep_only(std::span<const std::int64_t> ids)
+{
+  IdTable kept(ids.size());
+  for (const std::int64_t id : ids)
+  {
+    if (this->holds(id))
+    {
+      kept.add(id, 0);
+    }
+  }
+  narrow_ = std::move(kept);
+  narrowed_ = true;
+}
+
+bool IdSelection::is_listed(std::int64_t id) const noexcept
+{
+  const auto holds = [id](const Range& range)
+  {
+    return id >= range.first && id <= range.last &&
+      (static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(range.first)) %
+        static_cast<std::uint64_t>(range.step) ==
+      0;
+  };
+  return ids_.find(id) != IdTable::nowhere || std::any_of(ranges_.begin(), ranges_.end(), holds);
+}
+
+std::vector<std::int64_t> share_ids(std::span<const std::int64_t> ids, Communicator& ranks)
+{
+  std::vector<std::int64_t> all(ids.begin(), ids.end());
+  make_distinct(all);
+  if (ranks.size() > 1)
+  {
+    const std::vector<std::vector<std::int64_t>> lists = gather(ranks, all);
+    all.clear();
+    for (const std::vector<std::int64_t>& list : lists)
+    {
+      all.insert(all.end(), list.begin(), list.end());
+    }
+    make_distinct(all);
+  }
+  return all;
+}
+
+std::vector<std::int64_t> sample_ids(std::span<const std::int64_t> ids, std::size_t count,
+  std::int64_t seed, Communicator& ranks)
+{
+  const auto salt = static_cast<std::int64_t>(hash_of_id(seed));
+  const auto keep_smallest = [&](std::vector<std::int64_t> all)
+  {
+    if (all.size() > count)
+    {
+      // different ids have different hashes
+      const auto hash = [salt](std::int64_t id) { return hash_of_id(id ^ salt); };
+      std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
+        [&](std::int64_t a, std::int64_t b) { return hash(a) < hash(b); });
+      all.resize(count);
+    }
+    return all;
+  };
+  std::vector<std::int64_t> own(ids.begin(), ids.end());
+  make_distinct(own);
+  std::vector<std::int64_t> sample = keep_smallest(share_ids(keep_smallest(std::move(own)), ranks));
+  std::sort(sample.begin(), sample.end());
+  return sample;
+}
+}

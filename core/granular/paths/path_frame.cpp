@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/paths/path_frame.h"
+
+#include "granular/dump/read/dump_reader.h"
+#include "granular/local/ids.h"
+#include "granular/local/particle_values.h"
+#include "granular/particles/point_forms.h"
+#include "granular/particles/view_frame.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace granular
+{
+namespace
+{
+constexpr const char* image_array = "image";
+
+/// The rows of selected particles.
+std::vector<std::int64_t> choose_rows(
+  const FrameView& frame, std::span<const std::int64_t> ids, const IdSelection& selection)
+{
+  std::vector<std::int64_t> rows;
+  if (selection.is_all() && !frame.ghosts)
+  {
+    rows.resize(ids.size());
+    for (std::size_t row = 0; row < rows.size(); ++row)
+    {
+      rows[row] = static_cast<std::int64_t>(row);
+    }
+    return rows;
+  }
+  for (std::size_t row = 0; row < ids.size(); ++row)
+  {
+    const auto number = static_cast<std::int64_t>(row);
+    if (selection.holds(ids[row]) && !frame.is_duplicate(number))
+    {
+      rows.push_back(number);
+    }
+  }
+  return rows;
+}
+
+/// Loads the rows of one component, as numbers of a type, into every size-th word.
+template <class Number>
+void load_words(const ValueSource& source, std::span<const std::int64_t> rows, std::size_t size,
+  std::int64_t* words)
+{
+  std::vector<Number> numbers(rows.size());
+  load_numbers(source, rows, numbers.data());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    words[i * size] = std::bit_cast<std::int64_t>(numbers[i]);
+  }
+}
+
+PathArray pick_array(const ArrayView& view, std::span<const std::int64_t> rows)
+{
+  // integers above 2^63 have no place among std::int64_t
+  const bool integers = is_integer(view.type) && view.type != ValueType::UInt64;
+  PathArray array{ view.name, view.size(), integers, {} };
+  const auto size = static_cast<std::size_t>(array.size);
+  array.words.resize(rows.size() * size);
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const ValueSource source = component_of(view, static_cast<int>(i));
+    std::int64_t* const words = array.words.data() + i;
+    array.integers ? load_words<std::int64_t>(source, rows, size, words)
+                   : load_words<double>(source, rows, size, words);
+  }
+  return array;
+}
+
+/// The names that a frame has, of which only arrays of numbers are wanted.
+void check_numbers(const FrameView& frame, const std::vector<std::string>& names)
+{
+  for (const std::string& name : names)
+  {
+    const ArrayView* const array = frame.find(name);
+    if (array && array->type == ValueType::Text)
+    {
+      throw Error("expected numbers in array '" + name + "' of the particles, got texts");
+    }
+  }
+}
+
+void pick_points(const FrameView& frame, std::span<const std::int64_t> rows, PathFrame& picked,
+  const Executor& executor, Progress& progress)
+{
+  const ParticleValues values = view_particles(frame, {}, executor, progress);
+  picked.points.resize(3 * rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    std::copy_n(values.points + rows[i] * values.point_step, 3, picked.points.data() + 3 * i);
+  }
+  const ArrayView* const images = frame.find(image_array);
+  if (picked.coordinates == Coordinates::Absolute && images && images->size() == 3 &&
+    is_integer(images->type))
+  {
+    picked.has_images = true;
+    picked.images = pick_array(*images, rows).words;
+  }
+}
+}
+
+PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std::int64_t first_row,
+  const Executor& executor, Progress& progress)
+{
+  PathFrame picked;
+  picked.loaded = true;
+  picked.header = frame.header;
+  picked.header.has_box = frame.has_box;
+  picked.coordinates = frame.coordinates == Coordinates::Unwrapped ? Coordinates::Unwrapped
+                                                                   : Coordinates::Absolute;
+  for (const std::string& name : request.arrays)
+  {
+    picked.arrays.push_back({ name });
+  }
+  if (frame.rows == 0)
+  {
+    return picked;
+  }
+  const ArrayView* const id_array = frame.find("id");
+  if (!id_array)
+  {
+    throw Error("expected an array 'id' of the particles, got none: paths need ids");
+  }
+  check_numbers(frame, request.arrays);
+  const Ids ids(*id_array, frame.rows, executor, progress);
+  picked.has_rows = true;
+  picked.rows = choose_rows(frame, ids.values(), request.selection);
+  const std::span<const std::int64_t> rows = picked.rows;
+  picked.ids.reserve(rows.size());
+  std::ranges::transform(rows, std::back_inserter(picked.ids),
+    [&](std::int64_t row) { return ids.values()[static_cast<std::size_t>(row)]; });
+  for (PathArray& array : picked.arrays)
+  {
+    if (const ArrayView* const view = frame.find(array.name))
+    {
+      array = pick_array(*view, rows);
+    }
+  }
+  if (request.points)
+  {
+    pick_points(frame, rows, picked, executor, progress);
+  }
+  for (std::int64_t& row : picked.rows)
+  {
+    row += first_row;
+  }
+  return picked;
+}
+
+PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathRequest& request,
+  const DumpRequest& base, Notices& notices, Progress& progress)
+{
+  DumpRequest wanted = base;
+  wanted.points = request.points;
+  wanted.single_precision = false;
+  wanted.point_origin = {};
+  wanted.ranges = false;
+  wanted.sort_by_id = false;
+  const bool images = request.points && base.coordinates == Coordinates::Absolute;
+  wanted.wanted = [&names = request.arrays, images](const ArrayInfo& array)
+  {
+    return array.name == "id" || (images && array.name == image_array) ||
+      std::ranges::find(names, array.name) != names.end();
+  };
+  if (!request.selection.is_all())
+  {
+    wanted.keep_id = [&selection = request.selection](std::int64_t id)
+    { return selection.holds(id); };
+  }
+  const DumpFrame frame = read_dump(pieces, wanted, notices, progress);
+  if (frame.rows == 0 && frame.header.rows > 0 && frame.schema.find(ColumnRole::Id) < 0)
+  {
+    throw FormatError("expected a column id: paths need ids", where_of(pieces.front()));
+  }
+  PathFrame picked =
+    pick_particles(view_frame(frame), request, 0, Executor(wanted.threads), progress);
+  if (wanted.keep_id || base.pieces > 1 || base.stride > 1)
+  {
+    // those of the rows that were kept
+    picked.has_rows = false;
+    picked.rows.clear();
+  }
+  return picked;
+}
+
+std::vector<std::int64_t> ids_in_region(const PathFrame& frame, std::span<const double, 6> region)
+{
+  std::vector<std::int64_t> ids;
+  for (std::size_t i = 0; i < frame.ids.size(); ++i)
+  {
+    bool inside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double lo = region[2 * axis];
+      const double hi = region[2 * axis + 1];
+      const double x = frame.points[3 * i + axis];
+      inside = inside && (lo > hi || (x >= lo && x <= hi));
+    }
+    if (inside)
+    {
+      ids.push_back(frame.ids[i]);
+    }
+  }
+  return ids;
+}
+
+void throw_repeated(
+  std::int64_t id, std::int64_t timestep, std::int64_t first_row, std::int64_t second_row, const Where& where)
+{
+  throw Error("expected each id once in a frame, got id " + std::to_string(id) + " in rows " +
+    std::to_string(first_row) + " and " + std::to_string(second_row) + " of timestep " +
+    std::to_string(timestep) + " (rows are counted from 0)", where);
+}
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_paths_path_frame_h
+#define granular_paths_path_frame_h
+
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/common/value_type.h"
+#include "granular/dump/read/dump_request.h"
+#include "granular/frames/frame.h"
+#include "granular/frames/run_index.h"
+#include "granular/geometry/positions.h"
+#include "granular/parallel/executor.h"
+#include "granular/particles/frame_view.h"
+#include "granular/paths/id_selection.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// What is collected of each frame.
+struct PathRequest
+{
+  IdSelection selection;
+  std::vector<std::string> arrays = {}; ///< names of arrays of numbers; frames may lack them
+  bool points = true;                   ///< positions, too
+};
+
+/// An array of selected particles: 64-bit integers, or doubles by their bits.
+struct PathArray
+{
+  std::string name;
+  int size = 0; ///< numbers a particle; 0: the frame does not have the array
+  bool integers = true;
+  std::vector<std::int64_t> words = {}; ///< size numbers a particle
+};
+
+/// The selected particles of a frame, or those of them that a rank has, in any order.
+struct PathFrame
+{
+  bool loaded = false; ///< this rank knows the header
+  FrameHeader header = {};
+  Coordinates coordinates = Coordinates::Absolute; ///< of the points: Absolute or Unwrapped
+  std::vector<std::int64_t> ids = {};
+  bool has_rows = false;                 ///< the rows are known
+  std::vector<std::int64_t> rows = {};   ///< of each particle in its frame, from 0
+  std::vector<double> points = {};       ///< x y z a particle
+  bool has_images = false;               ///< the image counts of absolute points are known
+  std::vector<std::int64_t> images = {}; ///< three a particle
+  std::vector<PathArray> arrays = {};    ///< in the order of the request
+};
+
+/// Picks the selected particles of a frame in memory, with their rows counted from first_row. Ghost duplicates are left out.
+/// Throws Error if there are particles without an array `id`, with an id that is not an integer, or with texts in a wanted
+/// array; Cancelled.
+PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std::int64_t first_row,
+  const Executor& executor, Progress& progress);
+
+/// Reads the selected particles of a frame of a dump, or of part base.piece of base.pieces of it: only the columns that this
+/// takes. base also has the form of the points (Absolute or Unwrapped), region, stride, threads and memory pool. Throws what
+/// read_dump and pick_particles throw.
+PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathRequest& request,
+  const DumpRequest& base, Notices& notices, Progress& progress);
+
+/// Returns the ids of the particles whose points are in a region: xlo xhi ylo yhi zlo zhi, closed; an axis with lo > hi is not
+/// restricted.
+std::vector<std::int64_t> ids_in_region(const PathFrame& frame, std::span<const double, 6> region);
+
+/// Throws Error that names the id and its first two rows among the particles of a frame.
+[[noreturn]] void throw_repeated(
+  std::int64_t id, std::int64_t timestep, std::int64_t first_row, std::int64_t second_row, const Where& where = {});
+}
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_paths_paths_h
+#define granular_paths_paths_h
+
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/frames/frame.h"
+#include "granular/parallel/communicator.h"
+#include "granular/paths/path_frame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace granular
+{
+/// The paths of particles through frames: for each particle its places, one in each frame in which it is. On several ranks
+/// each has its own particles, and lower ranks have smaller ids.
+struct Paths
+{
+  std::vector<FrameHeader> headers;   ///< of all frames
+  std::vector<std::int64_t> ids;      ///< of the particles of this rank, ascending
+  std::vector<std::int64_t> begins;   ///< first place of each particle, and the end: ids + 1
+  std::vector<std::int32_t> frames;   ///< frame of each place
+  std::vector<double> points;         ///< x y z of each place: unwrapped, minus the origin
+  std::vector<PathArray> arrays;      ///< words of each place; integers only if all frames have integers
+  std::vector<double> shown;          ///< on request: x y z of each place as its frame has it
+  std::vector<std::int64_t> crossings; ///< on request: box vectors that bring each place, as shown, next to the one before
+
+  std::int64_t places() const noexcept { return static_cast<std::int64_t>(frames.size()); }
+};
+
+/// Options for joining frames.
+struct PathJoin
+{
+  Vector3 origin = {};     ///< subtracted from the points
+  bool crossings = false;  ///< fill Paths::shown and Paths::crossings
+  /// Called for an id that repeats in a frame, where its rows are not known; throws if it can name them. May be empty.
+  std::function<void(std::int64_t id, std::size_t frame)> name_rows = {};
+};
+
+/// Joins the frames that this rank has loaded: as many on all ranks, of which each has some particles; a frame that is whole
+/// on one rank is empty on the others. Frames are used up.
+///
+/// Paths are continuous: each begins where the frame has the particle, in the box or outside, and goes on by image counts
+/// where frames have them, otherwise to the nearest image of the place before. Displacements are those of places with all
+/// image counts, also where a box grows. Unwrapped points stay as they are. A point
+/// has its box vectors added exactly and is rounded once, minus the origin. A notice counts the steps without image counts
+/// that are longer than a quarter of a period, of which some may be wrong.
+///
+/// Throws Error on all ranks if an id repeats in a frame, with both rows; if no frame with particles has a wanted array, or
+/// if frames differ in its size; Cancelled. Collective.
+Paths join_frames(std::vector<PathFrame> frames, const PathJoin& join, Communicator& ranks,
+  Notices& notices, Progress& progress);
+
+/// Returns the notice that so many steps without image counts are longer than a quarter of a period.
+Notice note_long_steps(std::int64_t steps);
+
+/// Points along paths, drawn as polylines without gaps in time.
+struct PathLines
+{
+  std::vector<double> points;         ///< x y z
+  std::vector<std::int64_t> places;   ///< of each point: its place, or the one before it
+  std::vector<double> parts;          ///< of the way from that place to the next, 0 to 1; empty: all 0
+  std::vector<std::int64_t> begins;   ///< first point of each line, and the end: lines + 1
+  std::vector<std::int64_t> paths;    ///< of each line: the particle
+  std::vector<double> lengths;        ///< of each line: of the whole stretch without gaps that it is a part of
+};
+
+/// Makes lines of the paths: one for each stretch without gaps, of one point or more. With crossings in the paths they stay
+/// in the box, cut at the periodic faces, minus the origin.
+PathLines draw_paths(const Paths& paths, const Vector3& origin);
+
+/// Returns the speed at each place: the length of the steps from the place before and to the place after, divided by the
+/// time that they take; 0 for a stretch of one place. times: of all frames.
+std::vector<double> find_speeds(const Paths& paths, std::span<const double> times);
+}
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_paths_square_displacements_h
+#define granular_paths_square_displacements_h
+
+#include "granular/common/error.h"
+#include "granular/geometry/box.h"
+#include "granular/local/id_finder.h"
+#include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
+#include "granular/paths/path_frame.h"
+#include "granular/paths/unwrap.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace granular
+{
+/// The mean square displacement of particles from the first frame to each later one, in memory for two frames.
+class SquareDisplacements
+{
+public:
+  /// Means over the particles of all ranks that are in both frames; nan if there are none.
+  struct Means
+  {
+    std::int64_t count = 0;
+    Vector3 axes = {}; ///< of the squares of x, y, z
+    double total = 0;  ///< of the squares of the length
+  };
+
+  SquareDisplacements(Communicator& ranks, const Executor& executor)
+    : ranks_(ranks)
+    , executor_(executor)
+  {
+  }
+
+  /// Adds the next frame, of which each rank has some particles. Displacements are those of unwrapped places, as join_frames
+  /// has them, each rounded once; squares are rounded once and summed exactly. name_rows: see PathJoin. Throws Error on all
+  /// ranks if an id repeats; Cancelled. Collective.
+  Means add(PathFrame frame, const std::function<void(std::int64_t id)>& name_rows, Progress& progress);
+
+  /// Returns the number of steps that are longer than a quarter of a period, without image counts, on all ranks. Collective.
+  std::int64_t count_long_steps() const;
+
+private:
+  using NameRows = std::function<void(std::int64_t id)>;
+
+  std::vector<std::int64_t> find_places(
+    const PathFrame& frame, const NameRows& name_rows, Progress& progress);
+  std::vector<Vector3> find_displacements(
+    const PathFrame& frame, const std::vector<std::int64_t>& places, Progress& progress);
+
+  Communicator& ranks_;
+  const Executor& executor_;
+  std::vector<std::int64_t> first_ids_; ///< of ranks: see share_out
+  IdFinder finder_;                     ///< of the particles of the first frame
+  std::vector<Vector3> firsts_;         ///< their places there
+  std::vector<PathState> states_;
+  Unwrapper unwrapper_;
+  std::int64_t long_steps_ = 0;
+};
+}
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/paths/statistics.h"
+
+#include "granular/common/error.h"
+#include "granular/parallel/gather.h"
+#include "granular/sorting/find_ids_at.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace granular
+{
+namespace
+{
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The bounds of the magnitudes of terms that are not 0, and their number.
+struct Magnitudes
+{
+  std::array<double, SumScale::lanes> least;
+  std::array<double, SumScale::lanes> greatest;
+  std::int64_t terms = 0;
+
+  Magnitudes() noexcept
+  {
+    least.fill(std::numeric_limits<double>::infinity());
+    greatest.fill(0);
+  }
+
+  void include(const Magnitudes& other) noexcept
+  {
+    for (std::size_t i = 0; i < SumScale::lanes; ++i)
+    {
+      least[i] = std::min(least[i], other.least[i]);
+      greatest[i] = std::max(greatest[i], other.greatest[i]);
+    }
+    terms += other.terms;
+  }
+};
+
+Magnitudes measure(std::span<const SumScale::Terms> terms, std::size_t sums) noexcept
+{
+  Magnitudes lanes;
+  for (const SumScale::Terms& one : terms)
+  {
+    for (std::size_t i = 0; i < SumScale::lanes; ++i)
+    {
+      const double size = std::abs(one[i]);
+      lanes.greatest[i] = size > lanes.greatest[i] ? size : lanes.greatest[i];
+      const double least = size > 0 ? size : lanes.least[i];
+      lanes.least[i] = least < lanes.least[i] ? least : lanes.least[i];
+    }
+  }
+  Magnitudes all; // those of a sum
+  for (std::size_t i = 0; i < SumScale::lanes; ++i)
+  {
+    all.least[i % sums] = std::min(all.least[i % sums], lanes.least[i]);
+    all.greatest[i % sums] = std::max(all.greatest[i % sums], lanes.greatest[i]);
+  }
+  all.terms = static_cast<std::int64_t>(terms.size() * (SumScale::lanes / sums));
+  return all;
+}
+
+SumScale::Range range_of(double least, double greatest)
+{
+  if (greatest == 0)
+  {
+    return { 1, 0 };
+  }
+  if (!(greatest < 0x1p900))
+  {
+    throw LimitError("expected numbers below 2^900 for sums, got " + std::to_string(greatest));
+  }
+  // no double has bits below 2^-1074
+  return { std::ilogb(greatest) + 1, std::max(std::ilogb(least) - 52, -1074) };
+}
+
+/// Doubles in their order, as integers.
+std::int64_t key_of(double number) noexcept
+{
+  const auto bits = std::bit_cast<std::int64_t>(number + 0.0); // -0 is 0
+  return bits < 0 ? bits ^ std::numeric_limits<std::int64_t>::max() : bits;
+}
+
+double number_of(std::int64_t key) noexcept
+{
+  return std::bit_cast<double>(key < 0 ? key ^ std::numeric_limits<std::int64_t>::max() : key);
+}
+
+/// The place of a quantile among sorted numbers.
+std::int64_t place_of(double quantile, std::int64_t count) noexcept
+{
+  const auto all = static_cast<double>(count);
+  auto upto = static_cast<std::int64_t>(quantile * all);
+  upto += static_cast<double>(upto) / all < quantile ? 1 : 0;
+  return std::clamp<std::int64_t>(upto - 1, 0, count - 1);
+}
+
+/// The numbers that have these places, ascending, among those of all ranks.
+std::vector<double> select(
+  std::vector<double>& numbers, const std::vector<std::int64_t>& places, Communicator& ranks)
+{
+  std::vector<double> chosen;
+  if (ranks.size() == 1)
+  {
+    auto begin = numbers.begin();
+    for (const std::int64_t place : places)
+    {
+      const auto at = numbers.begin() + place;
+      std::nth_element(begin, at, numbers.end()); // what is before is smaller
+      chosen.push_back(*at);
+      begin = at;
+    }
+    return chosen;
+  }
+  std::vector<std::int64_t> keys(numbers.size());
+  std::ranges::transform(numbers, keys.begin(), key_of);
+  std::sort(keys.begin(), keys.end());
+  for (const std::int64_t key : find_ids_at(places, keys, ranks))
+  {
+    chosen.push_back(number_of(key));
+  }
+  return chosen;
+}
+}
+
+SumScale::Terms sum_exactly(
+  std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks)
+{
+  Magnitudes all;
+  for (const Magnitudes& own : gather(ranks, measure(terms, sums)))
+  {
+    all.include(own);
+  }
+  std::array<SumScale::Range, SumScale::lanes> ranges;
+  for (std::size_t i = 0; i < SumScale::lanes; ++i)
+  {
+    ranges[i] = range_of(all.least[i % sums], all.greatest[i % sums]);
+  }
+  const SumScale scale(ranges, all.terms);
+  std::vector<std::int64_t> parts(scale.size());
+  const std::vector<std::int64_t> cells(terms.size());
+  scale.add(terms, cells.data(), parts.data());
+  for (std::size_t level = 0; level < scale.size(); level += SumScale::lanes)
+  {
+    for (std::size_t i = sums; i < SumScale::lanes; ++i)
+    {
+      parts[level + i % sums] += parts[level + i];
+      parts[level + i] = 0;
+    }
+  }
+  ranks.sum(parts);
+  return scale.values(parts.data());
+}
+
+Statistics find_statistics(
+  std::vector<double> numbers, std::span<const double> quantiles, Communicator& ranks)
+{
+  std::erase_if(numbers, [](double number) { return !std::isfinite(number); });
+  Statistics found;
+  found.count = static_cast<std::int64_t>(numbers.size());
+  ranks.sum({ &found.count, 1 });
+  if (found.count == 0)
+  {
+    found.mean = found.least = found.greatest = nothing;
+    found.quantiles.assign(quantiles.size(), nothing);
+    return found;
+  }
+  std::vector<SumScale::Terms> terms((numbers.size() + SumScale::lanes - 1) / SumScale::lanes);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    terms[i / SumScale::lanes][i % SumScale::lanes] = numbers[i];
+  }
+  found.mean = sum_exactly(terms, 1, ranks)[0] / static_cast<double>(found.count);
+
+  std::vector<std::int64_t> places = { 0, found.count - 1 };
+  for (const double quantile : quantiles)
+  {
+    places.push_back(place_of(quantile, found.count));
+  }
+  std::vector<std::int64_t> ascending = places;
+  std::sort(ascending.begin(), ascending.end());
+  const std::vector<double> chosen = select(numbers, ascending, ranks);
+  const auto number_at = [&](std::int64_t place)
+  {
+    return chosen[static_cast<std::size_t>(
+      std::lower_bound(ascending.begin(), ascending.end(), place) - ascending.begin())];
+  };
+  found.least = number_at(places[0]);
+  found.greatest = number_at(places[1]);
+  for (std::size_t i = 2; i < places.size(); ++i)
+  {
+    found.quantiles.push_back(number_at(places[i]));
+  }
+  return found;
+}
+}

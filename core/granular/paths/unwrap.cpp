@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/paths/unwrap.h"
+
+#include "granular/local/box_vectors.h"
+#include "granular/particles/point_forms.h"
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace granular
+{
+namespace
+{
+bool is_same(const Box& a, const Box& b) noexcept
+{
+  const auto equal = [](const Twofold3& one, const Twofold3& other)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      if (one[k].hi != other[k].hi || one[k].lo != other[k].lo)
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  return a.boundary == b.boundary && equal(a.origin, b.origin) &&
+    equal(a.vectors[0], b.vectors[0]) && equal(a.vectors[1], b.vectors[1]) &&
+    equal(a.vectors[2], b.vectors[2]);
+}
+
+Vector3 add(const Vector3& a, double times, const Vector3& b) noexcept
+{
+  return { a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2] };
+}
+
+template <class Numbers>
+Numbers minus(const Numbers& a, const Numbers& b) noexcept
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+std::array<Vector3, 3> vectors_of(const Box& box) noexcept
+{
+  return { values_of(box.vectors[0]), values_of(box.vectors[1]), values_of(box.vectors[2]) };
+}
+
+/// What counts each vector in an offset; zero for a vector without length, and along axes that are not periodic.
+std::array<Vector3, 3> find_duals(const Box& box, const std::array<Vector3, 3>& vectors) noexcept
+{
+  std::array<Vector3, 3> duals = {};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (is_periodic(box, axis) && has_length(box.vectors[axis]))
+    {
+      const Vector3 own = own_part(vectors, axis);
+      const double square = dot(own, vectors[axis]);
+      duals[axis] = square > 0 ? add({}, 1 / square, own) : Vector3{};
+    }
+  }
+  return duals;
+}
+
+/// Takes away from a vector what it has of another one more than the vector it is to resemble. Returns how often.
+std::int64_t resemble(
+  Vector3& vector, const Vector3& wanted, const Vector3& other, std::size_t axis) noexcept
+{
+  const double times = std::round((vector[axis] - wanted[axis]) / other[axis]);
+  if (!(std::abs(times) < 0x1p52)) // also nan: the other one has no length
+  {
+    return 0;
+  }
+  vector = add(vector, -times, other);
+  return static_cast<std::int64_t>(times);
+}
+}
+
+BoxChange::BoxChange(const Box& from, const Box& to)
+  : equal_(is_same(from, to))
+{
+  if (equal_)
+  {
+    return;
+  }
+  std::array<Vector3, 3> before = vectors_of(from);
+  const std::array<Vector3, 3> after = vectors_of(to);
+  if (!from.general && !to.general)
+  {
+    flip_yz_ = is_periodic(from, 1) ? resemble(before[2], after[2], before[1], 1) : 0;
+    flip_xz_ = is_periodic(from, 0) ? resemble(before[2], after[2], before[0], 0) : 0;
+    flip_xy_ = is_periodic(from, 0) ? resemble(before[1], after[1], before[0], 0) : 0;
+  }
+  origin_ = values_of(from.origin);
+  const Vector3 moved = minus(values_of(to.origin), origin_);
+  const std::array<Vector3, 3> duals = find_duals(from, before);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    // along other axes bounds follow the particles, and carry nothing
+    if (duals[axis] != Vector3{})
+    {
+      axes_[axis] = { duals[axis], minus(after[axis], before[axis]) };
+      shift_ = add(shift_, dot(duals[axis], moved), before[axis]);
+    }
+  }
+}
+
+Vector3 BoxChange::carry(const Vector3& point) const noexcept
+{
+  if (equal_)
+  {
+    return point;
+  }
+  const Vector3 offset = minus(point, origin_);
+  Vector3 carried = add(point, 1, shift_);
+  for (const Axis& axis : axes_)
+  {
+    carried = add(carried, dot(axis.dual, offset), axis.growth);
+  }
+  return carried;
+}
+
+BoxCounts BoxChange::convert(const BoxCounts& counts) const noexcept
+{
+  // b = b' + xy a, c = c' + yz b + xz a with the old b: its a are converted along
+  const std::int64_t b = counts[1] + flip_yz_ * counts[2];
+  return { counts[0] + flip_xz_ * counts[2] + flip_xy_ * b, b, counts[2] };
+}
+
+Vector3 BoxChange::growth_of(const BoxCounts& counts) const noexcept
+{
+  Vector3 growth = {};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    growth = add(growth, static_cast<double>(counts[axis]), axes_[axis].growth);
+  }
+  return growth;
+}
+
+void Unwrapper::add_box(const Box& box)
+{
+  if (kinds_.empty() || !is_same(kinds_.back().box, box))
+  {
+    const BoxChange change = kinds_.empty() ? BoxChange() : BoxChange(kinds_.back().box, box);
+    kinds_.push_back({ box, MinimumImage(box), find_duals(box, vectors_of(box)), change });
+  }
+  kinds_of_frames_.push_back(kinds_.size() - 1);
+}
+
+const BoxChange& Unwrapper::change_since(std::size_t frame, BoxChange& made) const
+{
+  const std::size_t from = kinds_of_frames_[frame];
+  const std::size_t to = kinds_of_frames_.back();
+  if (from == to)
+  {
+    return made;
+  }
+  if (from + 1 == to)
+  {
+    return kinds_[to].change;
+  }
+  made = BoxChange(kinds_[from].box, kinds_[to].box);
+  return made;
+}
+
+Unwrapper::Step Unwrapper::find_step(
+  const Vector3& from, const Vector3& to, const BoxChange& change) const
+{
+  const Kind& kind = kinds_[kinds_of_frames_.back()];
+  const Vector3 straight = minus(to, change.carry(from));
+  Step step{ kind.images.find(straight) };
+  const Vector3 shortest = kind.images.moved(straight, step.counts, {});
+  for (const Vector3& dual : kind.duals)
+  {
+    step.is_long = step.is_long || std::abs(dot(dual, shortest)) > 0.25;
+  }
+  return step;
+}
+
+Unwrapper::Step Unwrapper::advance(PathState& state, const PathFrame& frame, std::size_t i) const
+{
+  const auto current = static_cast<std::int64_t>(kinds_of_frames_.size()) - 1;
+  const Vector3 point = { frame.points[3 * i], frame.points[3 * i + 1], frame.points[3 * i + 2] };
+  const bool first = state.frame < 0;
+  BoxChange made;
+  const BoxChange& change =
+    first ? made : this->change_since(static_cast<std::size_t>(state.frame), made);
+  const BoxCounts before = change.convert(state.counts);
+  state.base = change.convert(state.base);
+  state.drift = add(state.drift, 1, change.growth_of(state.base));
+  Step step;
+  if (frame.coordinates == Coordinates::Unwrapped)
+  {
+    state.counts = {};
+    state.drift = {};
+  }
+  else if (frame.has_images)
+  {
+    const BoxCounts images = { frame.images[3 * i], frame.images[3 * i + 1],
+      frame.images[3 * i + 2] };
+    state.base = first ? images : state.base;
+    state.counts = minus(images, state.base);
+  }
+  else if (!first)
+  {
+    step = this->find_step(state.point, point, change);
+    state.counts = { before[0] + step.counts[0], before[1] + step.counts[1],
+      before[2] + step.counts[2] };
+  }
+  step.counts = first ? BoxCounts{} : minus(state.counts, before);
+  state.point = point;
+  state.frame = current;
+  return step;
+}
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "private/paths/path_follower.h"
+
+#include "private/dump/particles.h"
+#include "private/dump/shared_names.h"
+#include "private/request/processes.h"
+#include "private/request/ranks.h"
+#include "private/request/text_of.h"
+
+#include "granular/paths/id_selection.h"
+
+#include "vtkDataObject.h"
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+
+#include <algorithm>
+#include <cstdint>
+
+using namespace vtkGranularPrivate;
+
+//------------------------------------------------------------------------------
+vtkGranularPathAlgorithm::Follower::Follower(
+  vtkGranularPathAlgorithm* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  : Self(self)
+  , Input(vtkDataObject::GetData(inputs[0]))
+  , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
+  , Ranks(self->Ranks->Get())
+  , Own(self)
+  , Shared(this->Own, this->Ranks)
+  , Progress(this->Shared)
+  , Together(AreTogether(this->Wanted, false, this->Ranks))
+  , Threads(ChooseThreads(self->vtkGranularAlgorithm::Threads, this->Ranks))
+  , Frames(self, this->Together, this->Ranks, this->Threads)
+{
+  this->Progress.step(0);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPathAlgorithm::Follower::Choose()
+{
+  this->ReadInput();
+  this->ChooseFrames();
+  this->ChooseParticles();
+}
+
+//------------------------------------------------------------------------------
+/**
+ * What the shown frame tells: the origin of the points, and the names that "*" stands for.
+ */
+void vtkGranularPathAlgorithm::Follower::ReadInput()
+{
+  const Particles particles(this->Input, this->Ranks);
+  const granular::FrameView& view = particles.View();
+  if (view.coordinates != granular::Coordinates::Scaled)
+  {
+    this->Origin = view.point_origin;
+  }
+  this->Request.arrays = ShareNames(this->Self->Arrays, view, this->Ranks);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPathAlgorithm::Follower::ChooseFrames()
+{
+  const std::vector<double>& times = this->Frames.GetTimes();
+  const auto [first, last] = this->Self->TimeRange;
+  std::size_t count = 0; // in the range
+  for (std::size_t i = 0; i < this->Frames.GetSize(); ++i)
+  {
+    if (first > last || (!times.empty() && times[i] >= first && times[i] <= last))
+    {
+      if (count++ % static_cast<std::size_t>(this->Self->FrameStride) == 0)
+      {
+        this->Numbers.push_back(i);
+      }
+    }
+  }
+  if (this->Numbers.empty())
+  {
+    throw granular::Error("expected a TimeRange with frames, got none from " +
+      std::to_string(first) + " to " + std::to_string(last));
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkGranularPathAlgorithm::Follower::HasRegion() const
+{
+  const double* region = this->Self->RegionOfInterest;
+  return region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5];
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPathAlgorithm::Follower::ChooseParticles()
+{
+  granular::IdSelection& selection = this->Request.selection;
+  selection = granular::IdSelection(TextOf(this->Self->Ids));
+  selection.keep_multiples(this->Self->EveryNth);
+  const auto samples = static_cast<std::size_t>(this->Self->NumberOfSamples);
+  if (!this->HasRegion() && samples == 0)
+  {
+    return;
+  }
+  const auto number = static_cast<std::size_t>(this->Self->SelectionFrame);
+  if (number >= this->Frames.GetSize())
+  {
+    throw granular::Error("expected a SelectionFrame below " +
+      std::to_string(this->Frames.GetSize()) + ", got " + std::to_string(number));
+  }
+  granular::PathRequest request;
+  request.selection = selection;
+  request.points = this->HasRegion();
+  const granular::PathFrame frame =
+    std::move(this->Frames.Load({ number }, request, true, this->Notices, this->Progress).front());
+  const std::vector<std::int64_t> ids = this->HasRegion()
+    ? granular::ids_in_region(frame, this->Self->RegionOfInterest)
+    : frame.ids;
+  granular::Communicator& ranks = this->Frames.GetRanks();
+  selection.keep_only(samples > 0 ? granular::sample_ids(ids, samples, this->Self->Seed, ranks)
+                                  : granular::share_ids(ids, ranks));
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> vtkGranularPathAlgorithm::Follower::GetTimes()
+{
+  const std::vector<double>& all = this->Frames.GetTimes();
+  std::vector<double> times;
+  for (const std::size_t number : this->Numbers)
+  {
+    times.push_back(all.empty() ? 0 : all[number]);
+  }
+  return times;
+}
+
+//------------------------------------------------------------------------------
+granular::Paths vtkGranularPathAlgorithm::Follower::Join(
+  std::vector<granular::PathFrame> frames, bool crossings)
+{
+  granular::PathJoin join;
+  join.origin = this->Origin;
+  join.crossings = crossings;
+  join.name_rows = [this](std::int64_t id, std::size_t frame)
+  { this->Frames.NameRows(id, this->Numbers[frame]); };
+  return granular::join_frames(
+    std::move(frames), join, this->Frames.GetRanks(), this->Notices, this->Progress);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPathAlgorithm::Follower::Tell()
+{
+  auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Self->GetExecutive());
+  const vtkMTimeType time = pipeline ? pipeline->GetPipelineMTime() : 0;
+  if (time != this->Self->ToldTime)
+  {
+    this->Self->Told.clear();
+    this->Self->ToldTime = time;
+  }
+  for (const granular::Notice& notice : this->Notices)
+  {
+    const std::string text = granular::to_string(notice);
+    const bool tells = this->Ranks.rank() == 0 || !this->Together || !notice.where.path.empty();
+    if (this->Self->Told.insert(text).second && tells)
+    {
+      vtkWarningWithObjectMacro(this->Self, << text);
+    }
+  }
+}

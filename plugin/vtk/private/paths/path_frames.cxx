@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "private/paths/path_frames.h"
+
+#include "private/dump/particles.h"
+
+#include "granular/memory/block_pool.h"
+#include "granular/parallel/executor.h"
+#include "granular/parallel/gather.h"
+
+#include "vtkAlgorithm.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace vtkGranularPrivate
+{
+namespace
+{
+/**
+ * The memory that frames are decoded in is used again for the next ones.
+ */
+constexpr std::size_t PoolBytes = std::size_t{ 1 } << 30;
+
+granular::Coordinates FormOf(const granular::DumpRequest& shown, bool absolute)
+{
+  return shown.coordinates == granular::Coordinates::Unwrapped && !absolute
+    ? granular::Coordinates::Unwrapped
+    : granular::Coordinates::Absolute;
+}
+}
+
+PathFrames::PathFrames(
+  vtkAlgorithm* consumer, bool together, granular::Communicator& ranks, int threads)
+  : Together(together)
+  , Ranks(ranks)
+  , Threads(threads)
+{
+  const InputFrames::Part part =
+    together ? InputFrames::Part{ ranks.rank(), ranks.size(), 0 } : InputFrames::Part{};
+  this->Input.emplace(consumer, part);
+  this->Times = this->Input->GetTimes();
+  CheckTimes(this->Times, ranks);
+  this->Reader = ReaderFrames::Find(consumer);
+  if (this->Reader && this->Reader->Index->size() != this->GetSize())
+  {
+    this->Reader.reset();
+  }
+  // all of them read the files, or none
+  std::int64_t readers = this->Reader ? 1 : 0;
+  ranks.sum({ &readers, 1 });
+  if (readers != ranks.size())
+  {
+    this->Reader.reset();
+  }
+  if (this->Reader)
+  {
+    this->Reader->Request.pool = std::make_shared<granular::BlockPool>(PoolBytes);
+  }
+}
+
+std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>& numbers,
+  const granular::PathRequest& request, bool absolute, granular::Notices& notices,
+  granular::PartialProgress& progress)
+{
+  std::vector<granular::PathFrame> frames(numbers.size());
+  if (!this->Reader)
+  {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+    {
+      progress.step(static_cast<double>(i) / static_cast<double>(numbers.size()));
+      granular::Progress quiet;
+      frames[i] = this->Request(numbers[i], request, quiet);
+    }
+    return frames;
+  }
+  for (granular::PathFrame& frame : frames)
+  {
+    for (const std::string& name : request.arrays)
+    {
+      frame.arrays.push_back({ name });
+    }
+  }
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    granular::Communicator& ranks = this->GetRanks();
+    if (static_cast<int>(i % static_cast<std::size_t>(ranks.size())) == ranks.rank())
+    {
+      own.push_back(i);
+    }
+  }
+  granular::DumpRequest base = this->Reader->Request;
+  base.coordinates = FormOf(base, absolute);
+  base.threads = std::max(1, this->Threads / std::max(1, static_cast<int>(own.size())));
+  std::vector<granular::Notices> said(own.size());
+  granular::do_together(this->Ranks,
+    [&]
+    {
+      granular::Executor(this->Threads)
+        .parallel_for(
+          own.size(),
+          [&](std::size_t i, std::size_t)
+          {
+            granular::Progress quiet; // that of the whole is reported between frames
+            frames[own[i]] = granular::read_particles(
+              this->Reader->Index->pieces(numbers[own[i]]), request, base, said[i], quiet);
+          },
+          progress);
+    });
+  for (const granular::Notices& some : said)
+  {
+    notices.insert(notices.end(), some.begin(), some.end());
+  }
+  return frames;
+}
+
+granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::PathRequest& request,
+  granular::Notices& notices, granular::PartialProgress& progress)
+{
+  if (!this->Reader)
+  {
+    return this->Request(number, request, progress);
+  }
+  granular::DumpRequest base = this->Reader->Request;
+  base.coordinates = FormOf(base, false);
+  base.threads = this->Threads;
+  base.piece = this->GetRanks().rank();
+  base.pieces = this->GetRanks().size();
+  return granular::do_together(this->Ranks,
+    [&]
+    {
+      return granular::read_particles(
+        this->Reader->Index->pieces(number), request, base, notices, progress);
+    });
+}
+
+granular::PathFrame PathFrames::Request(
+  std::size_t number, const granular::PathRequest& request, granular::Progress& progress)
+{
+  const bool made =
+    this->Times.empty() ? this->Input->Update() : this->Input->Update(this->Times[number]);
+  granular::do_together(this->Ranks,
+    [&]
+    {
+      if (!this->Input->Check(made))
+      {
+        throw granular::Error("the input could not be made: see the messages before");
+      }
+    });
+  return granular::do_together(this->Ranks,
+    [&]
+    {
+      granular::Communicator& ranks = this->GetRanks();
+      const Particles particles(this->Input->GetData(), ranks);
+      const granular::FrameView& view = particles.View();
+      const std::vector<std::int64_t> rows = granular::gather(ranks, view.rows);
+      const std::int64_t first =
+        std::accumulate(rows.begin(), rows.begin() + ranks.rank(), std::int64_t{ 0 });
+      return granular::pick_particles(
+        view, request, first, granular::Executor(this->Threads), progress);
+    });
+}
+
+void PathFrames::NameRows(std::int64_t id, std::size_t number) const
+{
+  if (!this->Reader)
+  {
+    return;
+  }
+  granular::PathRequest all;
+  all.points = false;
+  granular::DumpRequest base;
+  base.pool = this->Reader->Request.pool;
+  granular::Notices notices;
+  granular::Progress quiet;
+  const std::vector<granular::FramePiece> pieces = this->Reader->Index->pieces(number);
+  const granular::PathFrame frame = granular::read_particles(pieces, all, base, notices, quiet);
+  const auto first = std::ranges::find(frame.ids, id);
+  const auto second = first == frame.ids.end() ? first : std::find(first + 1, frame.ids.end(), id);
+  if (second != frame.ids.end())
+  {
+    granular::throw_repeated(id, frame.header.timestep, first - frame.ids.begin(),
+      second - frame.ids.begin(), granular::where_of(pieces.front()));
+  }
+}
+}

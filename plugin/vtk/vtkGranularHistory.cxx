@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularHistory.h"
+
+#include "private/paths/path_follower.h"
+#include "private/request/text_of.h"
+
+#include "granular/common/words.h"
+#include "granular/parallel/executor.h"
+#include "granular/parallel/gather.h"
+#include "granular/paths/exchange_frames.h"
+#include "granular/paths/square_displacements.h"
+#include "granular/paths/statistics.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+#include "vtkTypeInt64Array.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularHistory);
+
+namespace
+{
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+constexpr std::int64_t MostParticles = 1000;
+constexpr double Nothing = std::numeric_limits<double>::quiet_NaN();
+
+/**
+ * The quantiles in a list, and the words that give them.
+ */
+std::vector<std::pair<std::string, double>> QuantilesIn(std::string list)
+{
+  std::ranges::replace(list, ',', ' ');
+  std::vector<std::pair<std::string, double>> quantiles;
+  for (const std::string_view word : granular::split_words(list))
+  {
+    double value = -1;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || !(value >= 0 && value <= 1))
+    {
+      throw granular::Error(
+        "expected Quantiles of numbers from 0 to 1, got '" + std::string(word) + "'");
+    }
+    quantiles.emplace_back(word, value);
+  }
+  return quantiles;
+}
+
+/**
+ * The component of an array of a frame, as doubles.
+ */
+std::vector<double> NumbersOf(const granular::PathArray& array, int component)
+{
+  std::vector<double> numbers;
+  for (std::size_t i = static_cast<std::size_t>(component); i < array.words.size();
+       i += static_cast<std::size_t>(array.size))
+  {
+    numbers.push_back(array.integers ? static_cast<double>(array.words[i])
+                                     : std::bit_cast<double>(array.words[i]));
+  }
+  return numbers;
+}
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Does one request. Collective.
+ */
+class vtkGranularHistory::Maker : public vtkGranularPathAlgorithm::Follower
+{
+public:
+  Maker(vtkGranularHistory* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
+    : Follower(self, inputs, outputs)
+    , Filter(self)
+    , Output(vtkTable::GetData(outputs))
+  {
+  }
+
+  void Run()
+  {
+    this->Choose();
+    const bool msd = this->Filter->MeanSquareDisplacement;
+    const bool statistics = this->Filter->OutputType == STATISTICS;
+    std::vector<Column> columns;
+    if (!statistics)
+    {
+      this->Progress.set_part(0, msd ? 0.5 : 1);
+      columns = this->FollowParticles();
+    }
+    if (msd || statistics)
+    {
+      this->Progress.set_part(statistics ? 0 : 0.5, 1);
+      this->GoThrough(columns, msd, statistics);
+    }
+    this->Fill(columns);
+    this->Tell();
+  }
+
+private:
+  /**
+   * A column of the table: numbers of each frame.
+   */
+  struct Column
+  {
+    std::string Name;
+    int Size = 1;
+    std::vector<double> Values;
+  };
+
+  friend void pass(granular::ArchiveWriter& archive, const Column& column)
+  {
+    archive.text(column.Name);
+    archive.number(column.Size);
+    granular::pass(archive, column.Values);
+  }
+
+  friend void pass(granular::ArchiveReader& archive, Column& column)
+  {
+    archive.text(column.Name);
+    archive.number(column.Size);
+    granular::pass(archive, column.Values);
+  }
+
+  /**
+   * The columns of all particles: of this rank's, then those of the next ranks, which have larger ids.
+   */
+  std::vector<Column> FollowParticles()
+  {
+    const granular::Paths paths = this->Join(
+      this->Frames.Load(this->Numbers, this->Request, false, this->Notices, this->Progress), false);
+    this->TakeTimesteps(paths.headers);
+    granular::Communicator& ranks = this->Frames.GetRanks();
+    std::int64_t count = static_cast<std::int64_t>(paths.ids.size());
+    ranks.sum({ &count, 1 });
+    if (count > MostParticles)
+    {
+      throw granular::LimitError("expected at most " + std::to_string(MostParticles) +
+        " particles for columns of their own, got " + std::to_string(count) +
+        ": select fewer, or take STATISTICS");
+    }
+    std::vector<Column> columns;
+    for (std::size_t path = 0; path < paths.ids.size(); ++path)
+    {
+      const std::string of = " (id " + std::to_string(paths.ids[path]) + ")";
+      columns.push_back(this->MakeColumn(paths, path, "position" + of, 3,
+        [&](std::size_t word) { return paths.points[word]; }));
+      for (const granular::PathArray& array : paths.arrays)
+      {
+        columns.push_back(this->MakeColumn(paths, path, array.name + of, array.size,
+          [&](std::size_t word)
+          {
+            return array.integers ? static_cast<double>(array.words[word])
+                                  : std::bit_cast<double>(array.words[word]);
+          }));
+      }
+    }
+    std::vector<Column> all;
+    for (std::vector<Column>& some : granular::gather(ranks, columns))
+    {
+      std::ranges::move(some, std::back_inserter(all));
+    }
+    return all;
+  }
+
+  /**
+   * A column of a path; at() gives the numbers of its places one after the other.
+   */
+  template <typename At>
+  Column MakeColumn(const granular::Paths& paths, std::size_t path, const std::string& name,
+    int size, const At& at) const
+  {
+    const auto width = static_cast<std::size_t>(size);
+    Column column{ name, size, std::vector<double>(paths.headers.size() * width, Nothing) };
+    for (std::int64_t place = paths.begins[path]; place < paths.begins[path + 1]; ++place)
+    {
+      const auto from = static_cast<std::size_t>(place);
+      const auto frame = static_cast<std::size_t>(paths.frames[from]);
+      for (std::size_t i = 0; i < width; ++i)
+      {
+        column.Values[frame * width + i] = at(from * width + i);
+      }
+    }
+    return column;
+  }
+
+  void TakeTimesteps(const std::vector<granular::FrameHeader>& headers)
+  {
+    this->Timesteps.clear();
+    for (const granular::FrameHeader& header : headers)
+    {
+      this->Timesteps.push_back(header.timestep);
+    }
+  }
+
+  /**
+   * One frame after the other, of which no more than one is in memory.
+   */
+  void GoThrough(std::vector<Column>& columns, bool msd, bool statistics)
+  {
+    granular::PathRequest request = this->Request;
+    request.points = msd;
+    if (!statistics)
+    {
+      request.arrays.clear();
+    }
+    const granular::Executor executor(this->Threads);
+    granular::SquareDisplacements squares(this->Frames.GetRanks(), executor);
+    std::vector<granular::FrameHeader> headers;
+    const std::size_t before = columns.size();
+    for (std::size_t i = 0; i < this->Numbers.size(); ++i)
+    {
+      this->Part.set_part(static_cast<double>(i) / static_cast<double>(this->Numbers.size()),
+        static_cast<double>(i + 1) / static_cast<double>(this->Numbers.size()));
+      granular::PathFrame frame =
+        this->Frames.LoadPart(this->Numbers[i], request, this->Notices, this->Part);
+      std::size_t at = before;
+      const auto add = [&](const std::string& name, const std::vector<double>& values)
+      {
+        if (i == 0)
+        {
+          columns.push_back({ name, static_cast<int>(values.size()), {} });
+        }
+        Column& column = columns[at++];
+        column.Values.insert(column.Values.end(), values.begin(), values.end());
+      };
+      headers.push_back(frame.header);
+      if (statistics)
+      {
+        this->AddStatistics(frame, add);
+      }
+      if (msd)
+      {
+        const auto nameRows = [&](std::int64_t id) { this->Frames.NameRows(id, this->Numbers[i]); };
+        const auto means = squares.add(std::move(frame), nameRows, this->Part);
+        add("msd", { means.total });
+        add("msd_xyz", { means.axes[0], means.axes[1], means.axes[2] });
+        add("msd_particles", { static_cast<double>(means.count) });
+      }
+    }
+    this->TakeTimesteps(headers);
+    const std::int64_t longSteps = squares.count_long_steps();
+    if (longSteps > 0)
+    {
+      this->Notices.push_back(granular::note_long_steps(longSteps));
+    }
+  }
+
+  template <typename Add>
+  void AddStatistics(granular::PathFrame& frame, const Add& add)
+  {
+    granular::Communicator& ranks = this->Frames.GetRanks();
+    std::vector<granular::PathFrame> frames(1);
+    std::swap(frames[0], frame);
+    granular::share_kinds(frames, ranks);
+    std::swap(frames[0], frame);
+    std::int64_t count = static_cast<std::int64_t>(frame.ids.size());
+    ranks.sum({ &count, 1 });
+    add("particles", { static_cast<double>(count) });
+    const auto quantiles = QuantilesIn(TextOf(this->Filter->Quantiles));
+    std::vector<double> parts;
+    for (const auto& [word, value] : quantiles)
+    {
+      parts.push_back(value);
+    }
+    for (const granular::PathArray& array : frame.arrays)
+    {
+      std::vector<std::vector<double>> values(3 + quantiles.size());
+      for (int component = 0; component < array.size; ++component)
+      {
+        const granular::Statistics found =
+          granular::find_statistics(NumbersOf(array, component), parts, ranks);
+        values[0].push_back(found.mean);
+        values[1].push_back(found.least);
+        values[2].push_back(found.greatest);
+        for (std::size_t i = 0; i < quantiles.size(); ++i)
+        {
+          values[3 + i].push_back(found.quantiles[i]);
+        }
+      }
+      add(array.name + "_mean", values[0]);
+      add(array.name + "_min", values[1]);
+      add(array.name + "_max", values[2]);
+      for (std::size_t i = 0; i < quantiles.size(); ++i)
+      {
+        add(array.name + "_" + quantiles[i].first, values[3 + i]);
+      }
+    }
+  }
+
+  void Fill(const std::vector<Column>& columns)
+  {
+    // one table: that of the first rank or piece
+    if (this->Wanted.Piece != 0)
+    {
+      return;
+    }
+    vtkNew<vtkDoubleArray> times;
+    vtkNew<vtkTypeInt64Array> timesteps;
+    times->SetName("time");
+    timesteps->SetName("timestep");
+    for (const double time : this->GetTimes())
+    {
+      times->InsertNextValue(time);
+    }
+    for (const std::int64_t timestep : this->Timesteps)
+    {
+      timesteps->InsertNextValue(timestep);
+    }
+    this->Output->AddColumn(times);
+    this->Output->AddColumn(timesteps);
+    for (const Column& column : columns)
+    {
+      vtkNew<vtkDoubleArray> array;
+      array->SetName(column.Name.c_str());
+      array->SetNumberOfComponents(column.Size);
+      array->SetNumberOfTuples(static_cast<vtkIdType>(column.Values.size()) / column.Size);
+      std::ranges::copy(column.Values, array->GetPointer(0));
+      this->Output->AddColumn(array);
+    }
+  }
+
+  vtkGranularHistory* Filter;
+  vtkTable* Output;
+  granular::PartialProgress Part{ this->Progress }; ///< of a frame
+  std::vector<std::int64_t> Timesteps;
+};
+
+//------------------------------------------------------------------------------
+vtkGranularHistory::vtkGranularHistory()
+{
+  this->SetQuantiles("0.5");
+}
+
+//------------------------------------------------------------------------------
+vtkGranularHistory::~vtkGranularHistory()
+{
+  this->SetQuantiles(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkTable* vtkGranularHistory::GetOutput()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularHistory::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// The table is the same at any time.
+int vtkGranularHistory::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  info->Remove(Pipeline::TIME_STEPS());
+  info->Remove(Pipeline::TIME_RANGE());
+  return this->Superclass::RequestInformation(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularHistory::Execute(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  Maker(this, inputVector, outputVector).Run();
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularHistory::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "OutputType: " << this->OutputType << "\n";
+  os << indent << "Quantiles: " << TextOf(this->Quantiles) << "\n";
+  os << indent << "MeanSquareDisplacement: " << (this->MeanSquareDisplacement ? "On" : "Off") << "\n";
+}

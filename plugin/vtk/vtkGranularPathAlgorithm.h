@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularPathAlgorithm
+ * @brief   Base class of filters that follow particles through all times of their input.
+ *
+ * The input has particles, a vtkPointSet with the point array `id`, at several times. If it is the output of vtkGranularDumpReader,
+ * the filter reads the frames from the files: only the columns that it needs, several frames at a time. From any other input it
+ * requests one time after the other. Ghost duplicates are left out. An id that repeats in a frame is an error.
+ *
+ * Selected are the particles that fulfil all of SetIds, SetEveryNth, SetRegionOfInterest and SetNumberOfSamples. Frames are those in
+ * the TimeRange, of which FrameStride leaves every n-th.
+ *
+ * Places are unwrapped: each path begins where the input shows the particle, and goes on by the image counts `image` (ix iy iz) where
+ * the frames have them, otherwise to the nearest image of the place before; a warning counts steps longer than a quarter of a period.
+ * Unwrapped points stay as they are. A periodic box that changes its size or tilt carries particles along; one that LAMMPS has flipped
+ * is recognised.
+ */
+
+#ifndef vtkGranularPathAlgorithm_h
+#define vtkGranularPathAlgorithm_h
+
+#include "vtkGranularAlgorithm.h"
+#include "vtkGranularModule.h" // For export macro
+
+#include <set>    // for std::set
+#include <string> // for std::string
+
+class VTKGRANULAR_EXPORT vtkGranularPathAlgorithm : public vtkGranularAlgorithm
+{
+public:
+  vtkTypeMacro(vtkGranularPathAlgorithm, vtkGranularAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Sets the ids: ids and ranges, separated by blanks or commas. 10-20 is a range with both ends, 100-900:50 every fiftieth
+   * id from 100 on. Empty, the default: all ids.
+   */
+  vtkSetStringMacro(Ids);
+  vtkGetStringMacro(Ids);
+  ///@}
+
+  ///@{
+  /**
+   * Sets n of the particles whose id is a multiple of n, at least 1. 1 by default: all.
+   */
+  vtkSetClampMacro(EveryNth, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(EveryNth, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * Sets the number of particles to be chosen at random among those of the SelectionFrame, in which fewer may be. 0, the
+   * default: all. The choice depends on the ids and the Seed alone, not on the order of particles or the ranks.
+   */
+  vtkSetClampMacro(NumberOfSamples, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(NumberOfSamples, vtkTypeInt64);
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sets a region in the SelectionFrame, xmin xmax ymin ymax zmin zmax in absolute coordinates, faces included: particles
+   * whose centres are inside are selected. An axis with min > max is not restricted. (1, -1, 1, -1, 1, -1), all particles,
+   * by default.
+   */
+  vtkSetVector6Macro(RegionOfInterest, double);
+  vtkGetVector6Macro(RegionOfInterest, double);
+  ///@}
+
+  ///@{
+  /**
+   * Sets the frame in which RegionOfInterest and NumberOfSamples choose: its number, from 0, among all of the input. Numbers
+   * beyond the last are an error of the update. 0 by default.
+   */
+  vtkSetClampMacro(SelectionFrame, int, 0, VTK_INT_MAX);
+  vtkGetMacro(SelectionFrame, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sets the first and last time of the frames. (1, -1), the default, or any others with first > last: all.
+   */
+  vtkSetVector2Macro(TimeRange, double);
+  vtkGetVector2Macro(TimeRange, double);
+  ///@}
+
+  ///@{
+  /**
+   * Sets n of every n-th frame in the TimeRange, from its first on; at least 1. 1 by default: all.
+   */
+  vtkSetClampMacro(FrameStride, int, 1, VTK_INT_MAX);
+  vtkGetMacro(FrameStride, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sets the point arrays of the input that are followed: names separated by blanks or commas; "*" stands for all numeric
+   * arrays but id that the input has at the current time. None by default.
+   */
+  vtkSetStringMacro(Arrays);
+  vtkGetStringMacro(Arrays);
+  ///@}
+
+protected:
+  vtkGranularPathAlgorithm();
+  ~vtkGranularPathAlgorithm() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  char* Ids = nullptr;
+  vtkTypeInt64 EveryNth = 1;
+  vtkTypeInt64 NumberOfSamples = 0;
+  int Seed = 0;
+  double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
+  int SelectionFrame = 0;
+  double TimeRange[2] = { 1, -1 };
+  int FrameStride = 1;
+  char* Arrays = nullptr;
+
+  /**
+   * One request; filters have their own that derive from it.
+   */
+  class Follower;
+
+private:
+  vtkGranularPathAlgorithm(const vtkGranularPathAlgorithm&) = delete;
+  void operator=(const vtkGranularPathAlgorithm&) = delete;
+
+  std::set<std::string> Told; ///< warnings of the pipeline's state at ToldTime
+  vtkMTimeType ToldTime = 0;
+};
+
+#endif
