@@ -15,6 +15,7 @@ Open, show, fetch and save with paraview.simple:
     granular.reader("post/*.dump", dt=2e-5)   the reader that fits the files
     granular.show(reader, color="v", box=True)   particles as spheres, and the simulation box
     granular.fetch(reader, time=0.02)         points and arrays as a dict of numpy arrays
+    granular.history(reader, [1, 7], "v")     places and arrays of particles at all times
     granular.save(filter, "run.dump")         a file of the format that fits the data and the name
     granular.update(filter, time=0.02)        an update that raises its errors
 
@@ -55,6 +56,7 @@ from ._write import Writer, write
 if TYPE_CHECKING:
     from ._errors import update
     from ._fetch import fetch
+    from ._history import history
     from ._plugin import load_plugin
     from ._pool import pool_limit, set_pool_limit
     from ._ranks import pvbatch
@@ -67,13 +69,15 @@ if TYPE_CHECKING:
     from .vtkGranular import *  # noqa: F403 (the compiled classes, which have stubs)
 
 # Functions of scripts of ParaView, and their modules, which are imported when the first of theirs is asked for.
-_LATER = {"fetch": "_fetch", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state", "pool_limit": "_pool",
-          "preset": "_versions", "process_ids": "_versions", "pvbatch": "_ranks", "reader": "_reader", "save": "_save",
-          "set_pool_limit": "_pool", "set_properties": "_versions", "show": "_show", "update": "_errors", "write_series": "_series"}
+_LATER = {"fetch": "_fetch", "history": "_history", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state",
+          "pool_limit": "_pool", "preset": "_versions", "process_ids": "_versions", "pvbatch": "_ranks", "reader": "_reader",
+          "save": "_save", "set_pool_limit": "_pool", "set_properties": "_versions", "show": "_show", "update": "_errors",
+          "write_series": "_series"}
 
 # Not the classes: help() would print all that they inherit, and nobody would find the functions.
-__all__ = ["__version__", "fetch", "files", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset", "process_ids",
-           "pvbatch", "read_log", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write", "write_series"]
+__all__ = ["__version__", "fetch", "files", "history", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
+           "process_ids", "pvbatch", "read_log", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write",
+           "write_series"]
 
 
 def __getattr__(name: str) -> Any:
