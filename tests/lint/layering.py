@@ -72,6 +72,7 @@ ROOMS = {room: words.split() for room, words in (
     ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
     ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/read local"),
+    ("paths", "common columns geometry memory parallel frames particles sorting dump/read local"),
     ("mpi", "common bytes parallel"),
 )}
 MOST_FILES = 40
@@ -84,6 +85,7 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("local", "request arrays dump"),
     ("euler", "request arrays dump"),
     ("decomposition", "request arrays dump"),
+    ("paths", "request arrays dump local"),
     ("writing", "request dump"),
 )}
 
