@@ -4,6 +4,7 @@
 #include "private/arrays/arrays.h"
 #include "private/dump/particles.h"
 #include "private/local/local_rows.h"
+#include "private/paths/changed_lines.h"
 #include "private/paths/changed_rows.h"
 #include "private/paths/kept_frames.h"
 #include "private/paths/read_numbers.h"
@@ -20,7 +21,6 @@
 #include "granular/paths/compare_particles.h"
 #include "granular/paths/fragments.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -35,13 +35,13 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -129,24 +129,6 @@ std::vector<std::string> NamesIn(
 bool HasArray(vtkDataSetAttributes* data, const char* name)
 {
   return data && data->HasArray(name) != 0;
-}
-
-/**
- * Returns the changes of rows, then those of as many lost ones.
- */
-vtkSmartPointer<vtkAbstractArray> MakeChanges(
-  const std::vector<Change>& changes, const Rows& rows, std::size_t lost)
-{
-  auto array = vtkSmartPointer<vtkTypeInt32Array>::New();
-  array->SetName("change");
-  array->SetNumberOfValues(static_cast<vtkIdType>(rows.size() + lost));
-  vtkTypeInt32* to = array->GetPointer(0);
-  to = std::ranges::transform(rows, to,
-    [&](vtkIdType row) {
-      return static_cast<vtkTypeInt32>(changes[static_cast<std::size_t>(row)]);
-    }).out;
-  std::fill_n(to, lost, static_cast<vtkTypeInt32>(Change::Lost));
-  return array;
 }
 
 /**
@@ -356,69 +338,18 @@ private:
     const granular::LineChanges changes =
       granular::compare_lines({ this->Ends[0][0], this->Ends[0][1], kinds[0] },
         { this->Ends[1][0], this->Ends[1][1], kinds[1] }, ranks);
-    this->FillLines(inputs, { &*rows[0], &*rows[1] }, changes, this->Outputs[port], ranks);
-  }
-
-  /**
-   * The rows that are put out as cells: lines that were split have several.
-   */
-  struct Cells
-  {
-    Rows All;
-    Rows Lines; ///< the row of each
-  };
-
-  static Cells FindCells(const LocalRows& rows, const Rows& wanted)
-  {
-    Cells cells;
-    const std::vector<vtkIdType> begins = rows.FindBegins();
-    const std::vector<vtkIdType> ends = rows.FindEnds();
-    for (const vtkIdType row : wanted)
-    {
-      const auto at = static_cast<std::size_t>(row);
-      for (vtkIdType cell = begins[at]; cell <= ends[at]; ++cell)
-      {
-        cells.All.push_back(cell);
-        cells.Lines.push_back(row);
-      }
-    }
-    return cells;
-  }
-
-  void FillLines(const std::array<vtkPointSet*, 2>& inputs,
-    const std::array<const LocalRows*, 2>& rows, const granular::LineChanges& changes,
-    vtkPolyData* output, granular::Communicator& ranks) const
-  {
-    std::array<Rows, 2> wanted;
-    for (vtkIdType row = 0; row < rows[0]->Count(); ++row)
-    {
-      wanted[0].push_back(row);
-    }
+    Rows all(static_cast<std::size_t>(rows[0]->Count()));
+    std::iota(all.begin(), all.end(), vtkIdType{ 0 });
+    Rows lost;
     for (vtkIdType row = 0; row < rows[1]->Count(); ++row)
     {
       if (changes.reference[static_cast<std::size_t>(row)] == Change::Lost)
       {
-        wanted[1].push_back(row);
+        lost.push_back(row);
       }
     }
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    output->SetPoints(points);
-    output->SetLines(vtkNew<vtkCellArray>());
-    std::array<Cells, 2> cells;
-    for (std::size_t i = 0; i < 2; ++i)
-    {
-      cells[i] = FindCells(*rows[i], this->PartOf(wanted[i]));
-      AddLines(inputs[i], cells[i].All, output);
-    }
-    vtkCellData* now = inputs[0]->GetCellData();
-    vtkCellData* before = inputs[1]->GetCellData();
-    const ChangedRows both(cells[0].All, inputs[0]->GetNumberOfCells(), cells[1].All);
-    both.Pass(
-      ShareForms(now, inputs[0]->GetNumberOfCells(), before, inputs[1]->GetNumberOfCells(), ranks),
-      now, before, output->GetCellData());
-    output->GetCellData()->AddArray(
-      MakeChanges(changes.current, cells[0].Lines, cells[1].All.size()));
+    FillLines({ inputs[0], &*rows[0], this->PartOf(all) },
+      { inputs[1], &*rows[1], this->PartOf(lost) }, changes.current, ranks, this->Outputs[port]);
   }
 
   void FindFragments(granular::Communicator& ranks)

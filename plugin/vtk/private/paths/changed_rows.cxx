@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/paths/changed_rows.h"
 
-#include "granular/common/error.h"
 #include "granular/common/pass.h"
 #include "granular/parallel/gather.h"
 
 #include "vtkAbstractArray.h"
-#include "vtkCellArray.h"
-#include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
-#include "vtkPointSet.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
+#include "vtkTypeInt32Array.h"
 
 #include <algorithm>
 #include <cstring>
@@ -175,25 +170,17 @@ void ChangedRows::Pass(const std::vector<ArrayForm>& forms, vtkDataSetAttributes
   }
 }
 
-void AddLines(vtkPointSet* from, const std::vector<vtkIdType>& cells, vtkPolyData* output)
+vtkSmartPointer<vtkAbstractArray> MakeChanges(const std::vector<granular::Change>& changes,
+  const std::vector<vtkIdType>& rows, std::size_t lost)
 {
-  vtkPoints* const points = output->GetPoints();
-  vtkCellArray* const lines = output->GetLines();
-  vtkNew<vtkIdList> ends;
-  for (const vtkIdType cell : cells)
-  {
-    const int type = from->GetCellType(cell);
-    if (type != VTK_LINE && type != VTK_POLY_LINE)
-    {
-      throw granular::UnsupportedError("expected lines as cells, got a cell of the VTK type " +
-        std::to_string(type) + " in row " + std::to_string(cell) + " (the first is 0)");
-    }
-    from->GetCellPoints(cell, ends);
-    lines->InsertNextCell(ends->GetNumberOfIds());
-    for (vtkIdType i = 0; i < ends->GetNumberOfIds(); ++i)
-    {
-      lines->InsertCellPoint(points->InsertNextPoint(from->GetPoint(ends->GetId(i))));
-    }
-  }
+  auto array = vtkSmartPointer<vtkTypeInt32Array>::New();
+  array->SetName("change");
+  array->SetNumberOfValues(static_cast<vtkIdType>(rows.size() + lost));
+  vtkTypeInt32* const to = array->GetPointer(0);
+  std::ranges::transform(rows, to,
+    [&](vtkIdType row)
+    { return static_cast<vtkTypeInt32>(changes[static_cast<std::size_t>(row)]); });
+  std::fill_n(to + rows.size(), lost, static_cast<vtkTypeInt32>(granular::Change::Lost));
+  return array;
 }
 }

@@ -3,19 +3,19 @@
 #define vtkGranularChangedRows_h
 
 #include "granular/parallel/communicator.h"
+#include "granular/paths/change.h"
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 class vtkAbstractArray;
 class vtkDataSetAttributes;
 class vtkIdList;
-class vtkPointSet;
-class vtkPolyData;
 
 namespace vtkGranularPrivate
 {
@@ -70,9 +70,10 @@ private:
 };
 
 /**
- * Adds the lines that are the listed cells, each with points of its own. Throws UnsupportedError for other cells than lines.
+ * Returns the array `change` of rows, by those of all rows, and of as many lost ones behind them.
  */
-void AddLines(vtkPointSet* from, const std::vector<vtkIdType>& cells, vtkPolyData* output);
+vtkSmartPointer<vtkAbstractArray> MakeChanges(const std::vector<granular::Change>& changes,
+  const std::vector<vtkIdType>& rows, std::size_t lost);
 }
 
 #endif
