@@ -43,8 +43,9 @@ struct ComparedParticles
     0; ///< particles of all ranks whose shortest image is longer than a quarter of a period: it may be wrong
 };
 
-/// Compares the particles of two frames by their integer arrays `id`. Particles of both frames may be on any ranks; ranks
-/// without particles may lack all arrays, but have the headers of the others: see share_header. Duplicate ghosts get values, but are neither counted nor lost.
+/// Compares the particles of two frames by their integer arrays `id`. Particles of both frames may be on any ranks. Ranks
+/// without particles may lack all arrays, but have the headers of the other ranks: see share_header. Duplicate ghosts get
+/// values, but are neither counted nor lost.
 ///
 /// The displacement is that of unwrapped positions, each with the box of its own frame, if the points of each frame are
 /// unwrapped or have an integer array `image` of three counts and a box. It is rounded once: half an ulp, and 2^-100 of its
