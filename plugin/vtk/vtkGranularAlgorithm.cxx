@@ -81,12 +81,12 @@ int vtkGranularAlgorithm::RequestInformation(vtkInformation* vtkNotUsed(request)
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularAlgorithm::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkGranularAlgorithm::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   if (this->GetNumberOfInputPorts() > 0)
   {
-    const PieceRequest wanted = PieceRequest::Of(outputVector->GetInformationObject(0));
+    const PieceRequest wanted = PieceRequest::Of(request, outputVector);
     const bool own = IsOwn(wanted, this->Ranks->Get());
     this->AskFor(inputVector, own ? wanted.Piece : 0, own ? wanted.Pieces : 1);
   }

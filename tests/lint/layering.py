@@ -85,8 +85,8 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("local", "request arrays dump"),
     ("euler", "request arrays dump"),
     ("decomposition", "request arrays dump"),
+    ("paths", "request arrays dump local"),
     ("writing", "request dump"),
-    ("paths", "request arrays dump"),
 )}
 
 SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")

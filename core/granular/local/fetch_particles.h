@@ -2,6 +2,7 @@
 #ifndef granular_local_fetch_particles_h
 #define granular_local_fetch_particles_h
 
+#include "granular/local/id_directory.h"
 #include "granular/local/particle_values.h"
 #include "granular/parallel/communicator.h"
 
@@ -28,10 +29,13 @@ struct FetchedParticles
     0; ///< particles that this rank has seen whose id an earlier one has; see below
 };
 
-/// Finds the particles that the two ends of this rank's lines name, on whichever rank they are; missing ones are left
-/// out. Of particles with the same id, the first of the lowest rank counts. Each id is assigned to a rank by its hash;
-/// that rank learns who owns the particle, answers requests, and counts repeated ids. No rank needs memory for more
-/// than its own particles, its share of the ids, and its requests. Collective.
+/// Fetches the particles with the wanted ids, each once in the list, from whichever rank owns them; ids that no rank owns are
+/// left out. The directory is that of the particles of all ranks, in the rows of their values. Collective.
+FetchedParticles fetch_particles(const ParticleValues& own, const IdDirectory& directory,
+  const std::vector<std::int64_t>& wanted, Communicator& ranks);
+
+/// Fetches the particles that the two ends of this rank's lines name. Of particles with the same id, the first of the lowest
+/// rank counts. Collective.
 FetchedParticles fetch_particles(const OwnParticles& own, std::span<const std::int64_t> id1,
   std::span<const std::int64_t> id2, Communicator& ranks);
 }

@@ -133,4 +133,25 @@ void IdFinder::find(std::span<const std::int64_t> ids, std::int64_t* places) con
     places[i] = table_.find(ids[i]);
   }
 }
+
+std::vector<std::int64_t> distinct_ids(
+  std::span<const std::int64_t> first, std::span<const std::int64_t> second)
+{
+  std::vector<std::int64_t> distinct;
+  IdTable table;
+  for (std::size_t i = 0; i < first.size(); ++i)
+  {
+    const std::size_t soon = std::min(i + 8, first.size() - 1);
+    table.prefetch(first[soon]);
+    table.prefetch(second[soon]);
+    for (const std::int64_t id : { first[i], second[i] })
+    {
+      if (table.add(id, 0))
+      {
+        distinct.push_back(id);
+      }
+    }
+  }
+  return distinct;
+}
 }

@@ -95,5 +95,10 @@ private:
   IdTable table_;
   std::int64_t repeated_ = 0;
 };
+
+/// Returns the ids in two lists of the same size, each once, in the order in which they first occur: first[0], second[0],
+/// first[1] and so on. Throws std::bad_alloc.
+std::vector<std::int64_t> distinct_ids(
+  std::span<const std::int64_t> first, std::span<const std::int64_t> second);
 }
 #endif

@@ -20,10 +20,10 @@ namespace vtkGranularPrivate
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-InputFrames::InputFrames(vtkAlgorithm* consumer, const Part& part)
+InputFrames::InputFrames(vtkAlgorithm* consumer, const Part& part, int input)
   : Wanted(part)
 {
-  this->Source = consumer->GetInputAlgorithm(0, 0, this->Port);
+  this->Source = consumer->GetInputAlgorithm(input, 0, this->Port);
   this->Source->UpdateInformation();
   this->Info = this->Source->GetOutputInformation(this->Port);
 }
@@ -78,6 +78,11 @@ bool InputFrames::Update()
   request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Wanted.Pieces);
   request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), this->Wanted.GhostLevels);
   return this->Source->Update(this->Port, requests) != 0;
+}
+
+bool InputFrames::Restore()
+{
+  return !this->TimeBefore || this->Update(*this->TimeBefore);
 }
 
 bool InputFrames::Check(bool made) const

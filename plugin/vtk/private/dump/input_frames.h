@@ -14,7 +14,7 @@ class vtkInformation;
 namespace vtkGranularPrivate
 {
 /**
- * The first input of an algorithm, frame by frame. The algorithm requests frames itself, not through its own executive,
+ * An input of an algorithm, frame by frame. The algorithm requests frames itself, not through its own executive,
  * which would loop for ever if a frame fails, pass the blocks of a composite one by one, and restart the progress with
  * each frame.
  */
@@ -31,7 +31,10 @@ public:
     int GhostLevels = 0;
   };
 
-  InputFrames(vtkAlgorithm* consumer, const Part& part);
+  /**
+   * input: the input port, which must have a connection.
+   */
+  InputFrames(vtkAlgorithm* consumer, const Part& part, int input = 0);
   InputFrames(const InputFrames&) = delete;
   void operator=(const InputFrames&) = delete;
 
@@ -56,13 +59,22 @@ public:
   bool Update();
 
   /**
+   * Requests the shown time again if another one was requested: whoever shares the input finds its data as they were.
+   * Returns false if that fails on this rank.
+   */
+  bool Restore();
+
+  /**
    * Returns true if there are data after a successful Update(). Throws Cancelled.
    */
   bool Check(bool made) const;
 
-private:
+  /**
+   * Returns the time that is shown, if any was requested.
+   */
   std::optional<double> GetShownTime() const;
 
+private:
   vtkAlgorithm* Source = nullptr;
   int Port = 0;
   Part Wanted;

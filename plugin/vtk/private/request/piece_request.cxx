@@ -5,8 +5,10 @@
 #include "granular/common/shares.h"
 
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace vtkGranularPrivate
@@ -21,6 +23,14 @@ PieceRequest PieceRequest::Of(vtkInformation* output)
     request.Pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
   }
   return request;
+}
+
+PieceRequest PieceRequest::Of(vtkInformation* request, vtkInformationVector* outputs)
+{
+  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
+    ? std::max(request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()), 0)
+    : 0;
+  return PieceRequest::Of(outputs->GetInformationObject(port));
 }
 
 std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) const

@@ -13,6 +13,7 @@
 #include <utility>
 
 class vtkInformation;
+class vtkInformationVector;
 
 namespace vtkGranularPrivate
 {
@@ -25,6 +26,11 @@ struct PieceRequest
   int Pieces = 1;
 
   static PieceRequest Of(vtkInformation* output);
+
+  /**
+   * Returns the part that the output requests through which a request came.
+   */
+  static PieceRequest Of(vtkInformation* request, vtkInformationVector* outputs);
 
   /**
    * Returns the part [first, last) of `count` things that belongs to the piece.

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/paths/fragments.h"
+
+#include "granular/common/error.h"
+#include "granular/geometry/reproducible_sum.h"
+#include "granular/local/id_directory.h"
+#include "granular/local/id_finder.h"
+#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+using Numbers = std::vector<std::int64_t>;
+using Ids = std::span<const std::int64_t>;
+
+/// Two particles in the same fragment.
+using Edge = std::array<std::int64_t, 2>;
+
+/// Joins particles to fragments, each of which is a tree whose root has the smallest id.
+class Forest
+{
+public:
+  /// Joins the fragments of two particles. Returns false if they are the same.
+  bool join(const Edge& ends)
+  {
+    std::size_t low = this->root_of(this->place_of(ends[0]));
+    std::size_t high = this->root_of(this->place_of(ends[1]));
+    if (low == high)
+    {
+      return false;
+    }
+    if (ids_[low] > ids_[high])
+    {
+      std::swap(low, high);
+    }
+    parents_[high] = low;
+    return true;
+  }
+
+  std::size_t size() const noexcept { return ids_.size(); }
+  std::int64_t id(std::size_t place) const noexcept { return ids_[place]; }
+
+  std::size_t root_of(std::size_t place) noexcept
+  {
+    while (parents_[place] != place)
+    {
+      parents_[place] = parents_[parents_[place]]; // shortens the way for those that follow
+      place = parents_[place];
+    }
+    return place;
+  }
+
+private:
+  std::size_t place_of(std::int64_t id)
+  {
+    if (table_.add(id, static_cast<std::int64_t>(ids_.size())))
+    {
+      parents_.push_back(ids_.size());
+      ids_.push_back(id);
+    }
+    return static_cast<std::size_t>(table_.find(id));
+  }
+
+  IdTable table_;
+  Numbers ids_;
+  std::vector<std::size_t> parents_;
+};
+
+/// The fragments of all ranks that have lines, as the first rank tells them.
+struct Components
+{
+  Numbers ids;   ///< of all particles in them
+  Numbers which; ///< the number of the fragment of each
+  Numbers labels;
+  Numbers sizes; ///< of each fragment
+};
+
+/// Which lines of this rank count, by the ids that any rank has.
+std::vector<Edge> find_edges(
+  const IdDirectory& directory, Ids id1, Ids id2, Communicator& ranks, std::int64_t& missing)
+{
+  const Numbers ends = distinct_ids(id1, id2);
+  const std::vector<ParticleHome> homes = directory.find(ends, ranks);
+  IdTable known;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+  {
+    if (homes[i].rank >= 0)
+    {
+      known.add(ends[i], 0);
+    }
+  }
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < id1.size(); ++i)
+  {
+    if (known.find(id1[i]) == IdTable::nowhere || known.find(id2[i]) == IdTable::nowhere)
+    {
+      ++missing;
+    }
+    else if (id1[i] != id2[i])
+    {
+      edges.push_back({ id1[i], id2[i] });
+    }
+  }
+  return edges;
+}
+
+/// Keeps the edges that join fragments: a spanning forest, which has fewer edges than particles.
+void join_all(Forest& forest, const std::vector<Edge>& edges, std::vector<Edge>& spanning)
+{
+  std::ranges::copy_if(
+    edges, std::back_inserter(spanning), [&](const Edge& edge) { return forest.join(edge); });
+}
+
+/// Joins the edges of all ranks on the first one, pair by pair of ranks. Collective.
+Forest merge_forests(const std::vector<Edge>& own, Communicator& ranks)
+{
+  Forest forest;
+  std::vector<Edge> edges;
+  join_all(forest, own, edges);
+  const int size = ranks.size();
+  const int rank = ranks.rank();
+  for (int step = 1; step < size; step *= 2)
+  {
+    // messages by exchange, where a rank that fails leaves no other rank waiting
+    const bool gives = rank % (2 * step) == step;
+    const std::vector<Edge> given = gives ? std::exchange(edges, {}) : std::vector<Edge>();
+    Numbers out(static_cast<std::size_t>(size));
+    out[static_cast<std::size_t>(gives ? rank - step : rank)] =
+      static_cast<std::int64_t>(given.size());
+    const Numbers in = swap_numbers(out, ranks);
+    const std::vector<Edge> came = trade(given, out, in, ranks);
+    join_all(forest, came, edges);
+  }
+  return forest;
+}
+
+Components number_components(Forest& forest)
+{
+  Components all;
+  Numbers number(forest.size(), -1);
+  for (std::size_t place = 0; place < forest.size(); ++place)
+  {
+    const std::size_t root = forest.root_of(place);
+    if (number[root] < 0)
+    {
+      number[root] = static_cast<std::int64_t>(all.labels.size());
+      all.labels.push_back(forest.id(root));
+      all.sizes.push_back(0);
+    }
+    all.ids.push_back(forest.id(place));
+    all.which.push_back(number[root]);
+    ++all.sizes[static_cast<std::size_t>(number[root])];
+  }
+  return all;
+}
+
+/// Gives all ranks the numbers of the first one. Collective.
+void broadcast(Numbers& numbers, Communicator& ranks)
+{
+  std::string bytes(reinterpret_cast<const char*>(numbers.data()), numbers.size() * 8);
+  ranks.broadcast(bytes, 0);
+  numbers.resize(bytes.size() / 8);
+  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+}
+
+/// A particle without lines is no part of a numbered fragment.
+constexpr std::int64_t alone = -1;
+
+/// Adds up the masses of numbered fragments, eight of them in each cell of a SumScale.
+class MassSums
+{
+public:
+  /// which: the number of the fragment of each particle of this rank, or alone. Collective.
+  MassSums(std::span<const double> masses, const Numbers& which, std::size_t fragments,
+    Communicator& ranks)
+    : broken_(fragments)
+  {
+    const SumScale scale = make_scale(masses, ranks);
+    Numbers sums(scale.size() * ((fragments + SumScale::lanes - 1) / SumScale::lanes));
+    for (std::size_t i = 0; i < masses.size(); ++i)
+    {
+      if (which[i] == alone)
+      {
+        continue;
+      }
+      const auto fragment = static_cast<std::size_t>(which[i]);
+      if (!is_usable(masses[i]))
+      {
+        ++broken_[fragment];
+        continue;
+      }
+      SumScale::Terms terms = {};
+      terms[fragment % SumScale::lanes] = masses[i];
+      const auto cell = static_cast<std::int64_t>(fragment / SumScale::lanes);
+      scale.add({ &terms, 1 }, &cell, sums.data());
+    }
+    ranks.sum(sums);
+    ranks.sum(broken_);
+    for (std::size_t at = 0; at < sums.size(); at += scale.size())
+    {
+      const SumScale::Terms values = scale.values(sums.data() + at);
+      sums_.insert(sums_.end(), values.begin(), values.end());
+    }
+  }
+
+  /// Returns the mass of the fragment of a particle.
+  double mass_of(double own, std::int64_t which) const noexcept
+  {
+    const auto fragment = static_cast<std::size_t>(which);
+    const bool usable = which == alone ? is_usable(own) : broken_[fragment] == 0;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    return !usable ? none : which == alone ? own : sums_[fragment];
+  }
+
+private:
+  static bool is_usable(double mass) noexcept { return std::abs(mass) < 0x1p900; }
+
+  /// For the masses of all ranks.
+  static SumScale make_scale(std::span<const double> masses, Communicator& ranks)
+  {
+    struct Range
+    {
+      std::int64_t top = -1074;
+      std::int64_t bottom = 900;
+      std::int64_t terms = 0;
+    };
+    Range own;
+    own.terms = static_cast<std::int64_t>(masses.size());
+    for (const double mass : masses)
+    {
+      if (is_usable(mass) && mass != 0)
+      {
+        int exponent = 0;
+        std::frexp(mass, &exponent);
+        own.top = std::max<std::int64_t>(own.top, exponent);
+        own.bottom = std::min<std::int64_t>(own.bottom, exponent - 53);
+      }
+    }
+    Range all;
+    for (const Range& range : gather(ranks, own))
+    {
+      all = { std::max(all.top, range.top), std::min(all.bottom, range.bottom),
+        all.terms + range.terms };
+    }
+    std::array<SumScale::Range, SumScale::lanes> ranges;
+    ranges.fill({ static_cast<int>(all.top), static_cast<int>(std::min(all.bottom, all.top)) });
+    return { ranges, all.terms };
+  }
+
+  Numbers broken_; ///< masses of each fragment that cannot be added
+  std::vector<double> sums_;
+};
+}
+
+Fragments find_fragments(
+  Ids ids, std::optional<std::span<const double>> masses, Ids id1, Ids id2, Communicator& ranks)
+{
+  return do_together(ranks,
+    [&]
+    {
+      if (id1.size() != id2.size() || (masses && masses->size() != ids.size()))
+      {
+        throw Error("expected as many first as second ends, and as many masses as particles");
+      }
+      const IdDirectory directory(ids, nullptr, ranks);
+      directory.expect_distinct("particles", ranks);
+      Fragments found;
+      const std::vector<Edge> edges = find_edges(directory, id1, id2, ranks, found.missing);
+      ranks.sum({ &found.missing, 1 });
+      Forest forest = merge_forests(edges, ranks);
+      Components all = ranks.rank() == 0 ? number_components(forest) : Components{};
+      for (Numbers* const numbers : { &all.ids, &all.which, &all.labels, &all.sizes })
+      {
+        broadcast(*numbers, ranks);
+      }
+      const IdFinder finder(all.ids);
+      Numbers which(ids.size());
+      finder.find(ids, which.data());
+      found.labels.assign(ids.begin(), ids.end());
+      found.sizes.assign(ids.size(), 1);
+      for (std::size_t i = 0; i < ids.size(); ++i)
+      {
+        if (which[i] == IdFinder::nowhere)
+        {
+          which[i] = alone;
+          continue;
+        }
+        which[i] = all.which[static_cast<std::size_t>(which[i])];
+        found.labels[i] = all.labels[static_cast<std::size_t>(which[i])];
+        found.sizes[i] = all.sizes[static_cast<std::size_t>(which[i])];
+      }
+      if (masses)
+      {
+        const MassSums sums(*masses, which, all.labels.size(), ranks);
+        for (std::size_t i = 0; i < ids.size(); ++i)
+        {
+          found.masses.push_back(sums.mass_of((*masses)[i], which[i]));
+        }
+      }
+      return found;
+    });
+}
+}

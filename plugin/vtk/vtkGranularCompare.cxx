@@ -1,0 +1,545 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularCompare.h"
+
+#include "private/arrays/arrays.h"
+#include "private/dump/particles.h"
+#include "private/local/local_rows.h"
+#include "private/paths/changed_lines.h"
+#include "private/paths/changed_rows.h"
+#include "private/paths/kept_frames.h"
+#include "private/paths/read_numbers.h"
+#include "private/request/expect_data.h"
+#include "private/request/guard.h"
+#include "private/request/piece_request.h"
+#include "private/request/processes.h"
+#include "private/request/text_of.h"
+
+#include "granular/common/words.h"
+#include "granular/numbers/number_print.h"
+#include "granular/parallel/gather.h"
+#include "granular/paths/compare_lines.h"
+#include "granular/paths/compare_particles.h"
+#include "granular/paths/fragments.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkTypeInt64Array.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularCompare);
+
+namespace
+{
+using granular::Change;
+using Rows = std::vector<vtkIdType>;
+
+/**
+ * The numeric arrays of particles that a rank knows, but for ids.
+ */
+struct KnownArrays
+{
+  bool HasParticles = false;
+  std::vector<std::string> Names;
+  std::vector<int> Sizes;
+};
+
+template <class Archive>
+void pass(Archive& archive, typename Archive::template Passed<KnownArrays>& known)
+{
+  archive.number(known.HasParticles);
+  granular::pass(archive, known.Names);
+  granular::pass(archive, known.Sizes);
+}
+
+/**
+ * Returns what the ranks with particles know; if none has particles, what the last rank knows.
+ */
+KnownArrays ShareArrays(const granular::FrameView& view, granular::Communicator& ranks)
+{
+  KnownArrays own{ view.rows > 0, {}, {} };
+  for (const granular::ArrayView& array : view.arrays)
+  {
+    if (array.type != granular::ValueType::Text && array.name != "id")
+    {
+      own.Names.push_back(array.name);
+      own.Sizes.push_back(array.size());
+    }
+  }
+  const std::vector<KnownArrays> all = granular::gather(ranks, own);
+  const auto best = std::ranges::find_if(all, &KnownArrays::HasParticles);
+  return best == all.end() ? all.back() : *best;
+}
+
+/**
+ * Returns the names in a list; for "*" those of all arrays that both frames have.
+ */
+std::vector<std::string> NamesIn(
+  std::string list, const KnownArrays& current, const KnownArrays& reference)
+{
+  std::ranges::replace(list, ',', ' ');
+  std::vector<std::string> names;
+  for (const std::string_view word : granular::split_words(list))
+  {
+    if (word != "*")
+    {
+      names.emplace_back(word);
+      continue;
+    }
+    const KnownArrays& known = current.HasParticles ? current : reference;
+    for (std::size_t i = 0; i < known.Names.size(); ++i)
+    {
+      const auto other = std::ranges::find(reference.Names, known.Names[i]);
+      const bool both = other != reference.Names.end() &&
+        reference.Sizes[static_cast<std::size_t>(other - reference.Names.begin())] ==
+          known.Sizes[i];
+      if (both || !reference.HasParticles)
+      {
+        names.push_back(known.Names[i]);
+      }
+    }
+  }
+  return names;
+}
+
+bool HasArray(vtkDataSetAttributes* data, const char* name)
+{
+  return data && data->HasArray(name) != 0;
+}
+
+/**
+ * Returns an array with a value for each of the kept rows, and none for others.
+ */
+template <class Array, class Value>
+vtkSmartPointer<vtkAbstractArray> Spread(
+  const char* name, const std::vector<Value>& values, const Rows& kept, vtkIdType rows)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(rows);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    array->SetValue(kept[i], values[i]);
+  }
+  return array;
+}
+
+ArrayForm FormOf(vtkAbstractArray* array)
+{
+  return { array->GetName(), array->GetDataType(), array->GetNumberOfComponents() };
+}
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Does one request. Collective.
+ */
+class vtkGranularCompare::Comparer
+{
+public:
+  Comparer(vtkGranularCompare* self, vtkInformation* request, vtkInformationVector* outputs)
+    : Self(self)
+    , Outputs{ vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1) }
+    , Wanted(PieceRequest::Of(request, outputs))
+    , Ranks(self->Ranks->Get())
+    , Own(self)
+    , Shared(this->Own, this->Ranks)
+    , Progress(this->Shared)
+  {
+  }
+
+  void Run()
+  {
+    this->Progress.step(0);
+    this->Together = AreTogether(this->Wanted, false, this->Ranks);
+    this->ReadFrames();
+    granular::SerialCommunicator alone;
+    this->Compare(this->Together ? this->Ranks : alone);
+    for (vtkPolyData* output : this->Outputs)
+    {
+      output->GetFieldData()->PassData(this->Current[0]->GetFieldData());
+    }
+    this->Progress.set_part(1, 1);
+    this->Progress.step(1);
+    this->Tell();
+  }
+
+private:
+  /**
+   * What is counted, over all processes.
+   */
+  struct Counts
+  {
+    std::int64_t Far = 0;         ///< particles whose shortest image may be wrong
+    std::int64_t Kept = 0;        ///< particles
+    std::int64_t Lines = 0;       ///< of the current frame
+    std::int64_t Unconnected = 0; ///< of these, without a particle at an end
+  };
+
+  void ReadFrames()
+  {
+    KeptFrames& frames = *this->Self->Frames;
+    const bool own = IsOwn(this->Wanted, this->Ranks);
+    frames.Begin(
+      this->Self, { own ? this->Wanted.Piece : 0, own ? this->Wanted.Pieces : 1, 0 }, this->Ranks);
+    this->Current = frames.GetShown();
+    this->Reference = frames.Get(this->Self, this->FindReference(frames), this->Ranks);
+    frames.End(this->Self->Reference == PREVIOUS);
+  }
+
+  std::size_t FindReference(const KeptFrames& frames) const
+  {
+    const std::vector<double>& times = frames.GetTimes();
+    const std::size_t shown = frames.GetShownNumber();
+    const double time = this->Self->ReferenceTime;
+    if (this->Self->Reference == PREVIOUS)
+    {
+      return shown > 0 ? shown - 1 : 0;
+    }
+    if (this->Self->Reference == FIRST)
+    {
+      return 0;
+    }
+    if (!std::isfinite(time))
+    {
+      throw granular::Error("expected a finite ReferenceTime, got " + granular::to_text(time));
+    }
+    const auto after = std::ranges::upper_bound(times, time) - times.begin();
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0));
+  }
+
+  void Compare(granular::Communicator& ranks)
+  {
+    const bool hasLines = this->Current.size() > 1;
+    if (this->IsOfLines(ranks))
+    {
+      if (hasLines)
+      {
+        throw granular::Error(
+          "expected particles with the point array 'id' as Input of Lines, got lines");
+      }
+      this->CompareLines(0, ranks);
+      return;
+    }
+    this->CompareParticles(ranks);
+    if (hasLines)
+    {
+      this->CompareLines(1, ranks);
+      this->FindFragments(ranks);
+    }
+    this->FillParticles(ranks);
+    std::array<std::int64_t, 2> sums = { this->All.Kept, this->All.Lines };
+    ranks.sum(sums);
+    this->All.Kept = sums[0];
+    this->All.Lines = sums[1];
+  }
+
+  /**
+   * Returns true if some rank has lines at the first input, in either frame, and none has particles.
+   */
+  bool IsOfLines(granular::Communicator& ranks) const
+  {
+    std::array<std::int64_t, 2> counts = {};
+    for (vtkDataObject* data : { this->Current[0].Get(), this->Reference[0].Get() })
+    {
+      if (auto* set = vtkDataSet::SafeDownCast(data))
+      {
+        vtkCellData* cells = set->GetCellData();
+        counts[0] += HasArray(set->GetPointData(), "id") ? 1 : 0;
+        counts[1] += HasArray(cells, "id1") && HasArray(cells, "id2") ? 1 : 0;
+      }
+    }
+    ranks.sum(counts);
+    return counts[0] == 0 && counts[1] > 0;
+  }
+
+  /**
+   * The rows of a frame that this process puts out, of those that it has compared.
+   */
+  Rows PartOf(const Rows& rows) const
+  {
+    if (this->Together)
+    {
+      return rows;
+    }
+    const auto [first, last] = this->Wanted.RangeOf(static_cast<vtkTypeInt64>(rows.size()));
+    return Rows(rows.begin() + first, rows.begin() + last);
+  }
+
+  void CompareParticles(granular::Communicator& ranks)
+  {
+    this->Particles[0].emplace(this->Current[0], this->Ranks);
+    this->Particles[1].emplace(this->Reference[0], this->Ranks);
+    const granular::FrameView& view = this->Particles[0]->View();
+    const granular::FrameView& reference = this->Particles[1]->View();
+    granular::ParticleCompareRequest request;
+    request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
+    request.differences = NamesIn(
+      TextOf(this->Self->Differences), ShareArrays(view, ranks), ShareArrays(reference, ranks));
+    this->Progress.set_part(0.1, 0.6);
+    this->Compared = granular::compare_particles(view, reference, request, ranks, this->Progress);
+    this->All.Far = this->Compared.far;
+    for (vtkIdType row = 0; row < view.rows; ++row)
+    {
+      if (!view.is_duplicate(row))
+      {
+        this->ParticleRows.push_back(row);
+        this->All.Kept +=
+          this->Compared.changes[static_cast<std::size_t>(row)] == Change::Kept ? 1 : 0;
+      }
+    }
+  }
+
+  void CompareLines(std::size_t port, granular::Communicator& ranks)
+  {
+    this->Progress.set_part(0.6, 0.7);
+    std::array<vtkPointSet*, 2> inputs;
+    std::array<std::optional<LocalRows>, 2> rows;
+    std::array<std::vector<std::int64_t>, 2> kinds;
+    const std::string type = TextOf(this->Self->BondTypeArray);
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      const FrameData& frame = i == 0 ? this->Current : this->Reference;
+      inputs[i] = ExpectData<vtkPointSet>(frame[port], "lines with points");
+      rows[i].emplace(inputs[i]);
+      this->Ends[i] = { rows[i]->ReadIds("id1", this->Progress),
+        rows[i]->ReadIds("id2", this->Progress) };
+      if (!type.empty())
+      {
+        kinds[i] = rows[i]->ReadIds(type.c_str(), this->Progress);
+      }
+    }
+    this->LackPlaces = rows[0]->LackPlaces();
+    this->All.Lines = rows[0]->Count();
+    const granular::LineChanges changes =
+      granular::compare_lines({ this->Ends[0][0], this->Ends[0][1], kinds[0] },
+        { this->Ends[1][0], this->Ends[1][1], kinds[1] }, ranks);
+    Rows all(static_cast<std::size_t>(rows[0]->Count()));
+    std::iota(all.begin(), all.end(), vtkIdType{ 0 });
+    Rows lost;
+    for (vtkIdType row = 0; row < rows[1]->Count(); ++row)
+    {
+      if (changes.reference[static_cast<std::size_t>(row)] == Change::Lost)
+      {
+        lost.push_back(row);
+      }
+    }
+    FillLines({ inputs[0], &*rows[0], this->PartOf(all) },
+      { inputs[1], &*rows[1], this->PartOf(lost) }, changes.current, ranks, this->Outputs[port]);
+  }
+
+  void FindFragments(granular::Communicator& ranks)
+  {
+    const granular::FrameView& view = this->Particles[0]->View();
+    this->Progress.set_part(0.7, 0.8);
+    std::vector<std::int64_t> ids;
+    if (const granular::ArrayView* array = view.find("id"))
+    {
+      ids = ReadIds(*array, view.rows, this->ParticleRows, this->Progress);
+    }
+    const auto masses = ReadMasses(view, TextOf(this->Self->MassArray), this->ParticleRows, ranks);
+    this->Progress.set_part(0.8, 0.9);
+    this->Progress.step(0);
+    const granular::Fragments found = granular::find_fragments(ids,
+      masses ? std::optional(std::span<const double>(*masses)) : std::nullopt, this->Ends[0][0],
+      this->Ends[0][1], ranks);
+    this->All.Unconnected = found.missing;
+    const Rows& rows = this->ParticleRows;
+    this->Made.push_back(Spread<vtkTypeInt64Array>("fragment", found.labels, rows, view.rows));
+    this->Made.push_back(Spread<vtkTypeInt64Array>("fragment_size", found.sizes, rows, view.rows));
+    if (masses)
+    {
+      this->Made.push_back(Spread<vtkDoubleArray>("fragment_mass", found.masses, rows, view.rows));
+    }
+  }
+
+  void FillParticles(granular::Communicator& ranks)
+  {
+    auto* current = vtkPointSet::SafeDownCast(this->Current[0]);
+    auto* reference = vtkPointSet::SafeDownCast(this->Reference[0]);
+    const granular::FrameView& view = this->Particles[0]->View();
+    const Rows rows = this->PartOf(this->ParticleRows);
+    const Rows lost = this->PartOf(Rows(this->Compared.lost.begin(), this->Compared.lost.end()));
+    const ChangedRows both(rows, view.rows, lost);
+    vtkPolyData* output = this->Outputs[0];
+    vtkPointData* data = output->GetPointData();
+    both.Pass(ShareForms(current->GetPointData(), view.rows, reference->GetPointData(),
+                reference->GetNumberOfPoints(), ranks),
+      current->GetPointData(), reference->GetPointData(), data);
+    data->AddArray(MakeChanges(this->Compared.changes, rows, lost.size()));
+    std::vector<vtkSmartPointer<vtkAbstractArray>> made = { TakeDoubles(
+      "displacement", this->Compared.displacements, view.rows, 3) };
+    for (granular::DifferenceArray& array : this->Compared.differences)
+    {
+      made.push_back(TakeDoubles(array.name.c_str(), array.values, view.rows, array.size));
+    }
+    made.insert(made.end(), this->Made.begin(), this->Made.end());
+    for (const auto& array : made)
+    {
+      data->AddArray(both.Combine(FormOf(array), array, nullptr));
+    }
+    this->FillPoints(both, current->GetPoints(), reference->GetPoints());
+  }
+
+  void FillPoints(const ChangedRows& both, vtkPoints* current, vtkPoints* reference) const
+  {
+    vtkDataArray* now = current ? current->GetData() : nullptr;
+    vtkDataArray* before = reference ? reference->GetData() : nullptr;
+    const bool single = now && now->GetNumberOfTuples() > 0
+      ? now->GetDataType() == VTK_FLOAT
+      : before && before->GetDataType() == VTK_FLOAT;
+    vtkNew<vtkPoints> points;
+    points->SetData(vtkDataArray::SafeDownCast(
+      both.Combine({ "Points", single ? VTK_FLOAT : VTK_DOUBLE, 3 }, now, before)));
+    this->Outputs[0]->SetPoints(points);
+    this->Outputs[0]->SetVerts(MakeCells(both.Count(), 1));
+  }
+
+  /**
+   * Each thing that is not as it should be once, until it has gone away or another input or property may be why.
+   */
+  void Tell() const
+  {
+    auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Self->GetExecutive());
+    const vtkMTimeType now = pipeline->GetPipelineMTime();
+    const unsigned told = this->Self->ToldTime == now ? this->Self->Told : 0;
+    this->Self->ToldTime = now;
+    this->Self->Told = 0;
+    unsigned kind = 1;
+    const auto tell = [&](bool is, const std::string& text)
+    {
+      if (is && (told & kind) == 0 && (this->Ranks.rank() == 0 || !this->Together))
+      {
+        vtkWarningWithObjectMacro(this->Self, << text);
+      }
+      this->Self->Told |= is ? kind : 0;
+      kind <<= 1;
+    };
+    tell(this->All.Far > 0,
+      std::to_string(this->All.Far) +
+        " particles moved more than a quarter of a period of the box: their displacement may be "
+        "wrong by periods. Unwrapped points, or ix iy iz in the dump, make it exact");
+    const bool boxless = this->Particles[0] && !this->Compared.unwrapped &&
+      !this->Particles[0]->View().has_box && !this->Particles[1]->View().has_box;
+    tell(boxless && this->All.Kept > 0,
+      "neither frame has a box in its field data (BoxOrigin, BoxVectors): displacements across "
+      "periodic faces are those of the points");
+    tell(this->All.Unconnected > 0,
+      std::to_string(this->All.Unconnected) + " of " + std::to_string(this->All.Lines) +
+        " lines name a particle that is not there: they connect no fragments");
+    tell(this->LackPlaces,
+      "the input Lines has no lines, as its file does not say where these are: draw the rows, the "
+      "second output of the reader, with GranularLocalJoin");
+  }
+
+  vtkGranularCompare* Self;
+  std::array<vtkPolyData*, 2> Outputs;
+  PieceRequest Wanted;
+  granular::Communicator& Ranks;
+  AlgorithmProgress Own;
+  granular::SharedProgress Shared;
+  granular::PartialProgress Progress;
+  bool Together = false;
+  FrameData Current;
+  FrameData Reference;
+  std::array<std::optional<vtkGranularPrivate::Particles>, 2> Particles; ///< of both frames
+  Rows ParticleRows; ///< of the current frame, that are no duplicates
+  granular::ComparedParticles Compared;
+  std::array<std::array<std::vector<std::int64_t>, 2>, 2> Ends; ///< of the lines of both frames
+  std::vector<vtkSmartPointer<vtkAbstractArray>> Made;          ///< of fragments
+  bool LackPlaces = false;
+  Counts All;
+};
+
+//------------------------------------------------------------------------------
+vtkGranularCompare::vtkGranularCompare()
+  : Frames(std::make_unique<KeptFrames>())
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+  this->SetMassArray("mass");
+}
+
+//------------------------------------------------------------------------------
+vtkGranularCompare::~vtkGranularCompare()
+{
+  this->SetDifferences(nullptr);
+  this->SetBondTypeArray(nullptr);
+  this->SetMassArray(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularCompare::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularCompare::GetLinesOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularCompare::SetLinesConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+//------------------------------------------------------------------------------
+// All data come in, and are looked at by all processes together: see Particles and LocalRows.
+int vtkGranularCompare::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularCompare::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularCompare::Execute(vtkInformation* request,
+  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
+{
+  Comparer(this, request, outputVector).Run();
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularCompare::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Reference: " << this->Reference << "\n";
+  os << indent << "ReferenceTime: " << this->ReferenceTime << "\n";
+  os << indent << "Differences: " << TextOf(this->Differences) << "\n";
+  os << indent << "BondTypeArray: " << TextOf(this->BondTypeArray) << "\n";
+  os << indent << "MassArray: " << TextOf(this->MassArray) << "\n";
+}

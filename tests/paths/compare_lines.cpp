@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of two frames compared: as counting them in a std::map finds.
+#include "../support/thread_ranks.h"
+#include "compare_checks.h"
+
+using namespace granular;
+using namespace compare_checks;
+
+TEST(CompareLines, AnyLinesAnywhere)
+{
+  SerialCommunicator alone;
+  check_lines(alone);
+  for (const int ranks : { 1, 2, 3, 5 })
+  {
+    SCOPED_TRACE(ranks);
+    run_ranks(ranks, check_lines);
+  }
+}
+
+TEST(CompareLines, EndsMaySwapAndKindsCount)
+{
+  SerialCommunicator alone;
+  const Columns now({ { 1, 2, 7 }, { 4, 3, 1 }, { 5, 5, 1 } });
+  const Columns before({ { 3, 4, 1 }, { 2, 1, 8 }, { 6, 5, 1 } });
+  const LineChanges pairs = compare_lines(now.ends(false), before.ends(false), alone);
+  EXPECT_EQ(pairs.current, (std::vector{ Change::Kept, Change::Kept, Change::New }));
+  EXPECT_EQ(pairs.reference, (std::vector{ Change::Kept, Change::Kept, Change::Lost }));
+  const LineChanges kinds = compare_lines(now.ends(true), before.ends(true), alone);
+  EXPECT_EQ(kinds.current, (std::vector{ Change::New, Change::Kept, Change::New }));
+  EXPECT_EQ(kinds.reference, (std::vector{ Change::Kept, Change::Lost, Change::Lost }));
+}
+
+/// Of three bonds between the same two, one breaks: the last of them, by rank and row.
+TEST(CompareLines, OfSeveralTheLastOnesAreLost)
+{
+  for (const int size : { 1, 3 })
+  {
+    run_ranks(size,
+      [&](Communicator& ranks)
+      {
+        const bool last = ranks.rank() == size - 1;
+        const Columns now(
+          last ? std::vector<Line>{ { 8, 9, 0 }, { 9, 8, 0 } } : std::vector<Line>());
+        const Columns before(ranks.rank() == 0
+            ? std::vector<Line>{ { 8, 9, 0 }, { 1, 2, 0 }, { 8, 9, 0 }, { 9, 8, 0 } }
+            : std::vector<Line>());
+        const LineChanges found = compare_lines(now.ends(false), before.ends(false), ranks);
+        EXPECT_EQ(found.current, std::vector(last ? 2 : 0, Change::Kept));
+        if (ranks.rank() == 0)
+        {
+          EXPECT_EQ(found.reference,
+            (std::vector{ Change::Kept, Change::Lost, Change::Kept, Change::Lost }));
+        }
+      });
+  }
+}
+
+TEST(CompareLines, ListsOfOtherSizesAreRefused)
+{
+  run_ranks(2,
+    [](Communicator& ranks)
+    {
+      const Ids one = { 1 };
+      const Ids two = { 1, 2 };
+      const bool bad = ranks.rank() == 1;
+      EXPECT_THROW(
+        compare_lines({ one, bad ? std::span<const Id>(two) : one, {} }, { one, one, {} }, ranks),
+        Error);
+      EXPECT_THROW(
+        compare_lines({ one, one, {} }, { one, one, bad ? std::span<const Id>(two) : one }, ranks),
+        Error);
+    });
+}
