@@ -71,10 +71,11 @@ public:
 
   ///@{
   /**
-   * Sets the frame in which RegionOfInterest and NumberOfSamples choose: its number, from 0, among all of the input. Numbers
-   * beyond the last are an error of the update. 0 by default.
+   * Sets the frame in which RegionOfInterest and NumberOfSamples choose: its number, from 0, among all of the input; negative
+   * numbers count from the end. Numbers of no frame are an error of the update. -1, the last, by default: runs often begin
+   * without particles.
    */
-  vtkSetClampMacro(SelectionFrame, int, 0, VTK_INT_MAX);
+  vtkSetMacro(SelectionFrame, int);
   vtkGetMacro(SelectionFrame, int);
   ///@}
 
@@ -113,7 +114,7 @@ protected:
   vtkTypeInt64 NumberOfSamples = 0;
   int Seed = 0;
   double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
-  int SelectionFrame = 0;
+  int SelectionFrame = -1;
   double TimeRange[2] = { 1, -1 };
   int FrameStride = 1;
   char* Arrays = nullptr;

@@ -100,12 +100,14 @@ void vtkGranularPathAlgorithm::Follower::ChooseParticles()
   {
     return;
   }
-  const auto number = static_cast<std::size_t>(this->Self->SelectionFrame);
-  if (number >= this->Frames.GetSize())
+  const auto frames = static_cast<std::int64_t>(this->Frames.GetSize());
+  const std::int64_t wanted = this->Self->SelectionFrame;
+  if (wanted >= frames || wanted < -frames)
   {
-    throw granular::Error("expected a SelectionFrame below " +
-      std::to_string(this->Frames.GetSize()) + ", got " + std::to_string(number));
+    throw granular::Error("expected a SelectionFrame from " + std::to_string(-frames) + " to " +
+      std::to_string(frames - 1) + ", got " + std::to_string(wanted));
   }
+  const auto number = static_cast<std::size_t>(wanted < 0 ? wanted + frames : wanted);
   granular::PathRequest request;
   request.selection = selection;
   request.points = this->HasRegion();
