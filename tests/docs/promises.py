@@ -88,6 +88,15 @@ def made():
     lines = outputs(bonds)[1]
     join.SetPeriodicLines(join.SPLIT)
     yield "LocalJoin", (names_of(outputs(particles)[0]) | columns_of(lines)) - {"points"}, join
+    whole = granular.vtkGranularLocalJoin()
+    whole.SetInputConnection(0, particles.GetOutputPort())
+    whole.SetInputConnection(1, bonds.GetOutputPort(1))
+    compare = granular.vtkGranularCompare()
+    compare.SetInputConnection(0, particles.GetOutputPort())
+    compare.SetLinesConnection(whole.GetOutputPort())
+    compare.SetDifferences("*")
+    compare.SetMassArray("mol")
+    yield "Compare", names_of(outputs(particles)[0]) | names_of(outputs(whole)[0]), compare
     yield "RestartReader", set(), open_with("RestartReader", SAMPLES, "restart", "fibres.40000.restart")
     yield "DataFileReader", set(), open_with("DataFileReader", SAMPLES, "bonds", "chain.data")
     yield "EulerReader", set(), open_with("EulerReader", SAMPLES, "euler_4000.vtk")
