@@ -24,7 +24,6 @@
  * (3), `BoxVectors` (9: a, b, c), `BoxBounds` (the header's own numbers: xlo xhi ylo yhi zlo zhi, and xy xz yz of a tilted box),
  * `Boundary` (such as "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and, if the file has them,
  * `label`, `units` and `time`. `ParticlesLeftOut` names Stride or RegionOfInterest if they leave out particles.
- *
  * The reader reads only the current frame, the arrays that are on, and the rows of Stride and RegionOfInterest.
  *
  * A pipeline may ask for any piece of any number, such as one per rank. The pieces hold each particle once, in the order of the whole.

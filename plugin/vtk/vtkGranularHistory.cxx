@@ -222,22 +222,21 @@ private:
     const granular::Executor executor(this->Threads);
     granular::SquareDisplacements squares(this->Frames.GetRanks(), executor);
     std::vector<granular::FrameHeader> headers;
-    const std::size_t before = columns.size();
+    std::vector<Series> series;
     for (std::size_t i = 0; i < this->Numbers.size(); ++i)
     {
       this->Part.set_part(static_cast<double>(i) / static_cast<double>(this->Numbers.size()),
         static_cast<double>(i + 1) / static_cast<double>(this->Numbers.size()));
       granular::PathFrame frame =
         this->Frames.LoadPart(this->Numbers[i], request, this->Notices, this->Part);
-      std::size_t at = before;
+      std::size_t at = 0;
       const auto add = [&](const std::string& name, const std::vector<double>& values)
       {
         if (i == 0)
         {
-          columns.push_back({ name, static_cast<int>(values.size()), {} });
+          series.push_back({ name, {} });
         }
-        Column& column = columns[at++];
-        column.Values.insert(column.Values.end(), values.begin(), values.end());
+        series[at++].Frames.push_back(values);
       };
       headers.push_back(frame.header);
       if (statistics)
@@ -253,12 +252,41 @@ private:
         add("msd_particles", { static_cast<double>(means.count) });
       }
     }
+    std::ranges::transform(series, std::back_inserter(columns), &Maker::Flatten);
     this->TakeTimesteps(headers);
     const std::int64_t longSteps = squares.count_long_steps();
     if (longSteps > 0)
     {
       this->Notices.push_back(granular::note_long_steps(longSteps));
     }
+  }
+
+  /**
+   * The numbers of frames that become a column.
+   */
+  struct Series
+  {
+    std::string Name;
+    std::vector<std::vector<double>> Frames;
+  };
+
+  /**
+   * A frame without particles does not know how many numbers others have.
+   */
+  static Column Flatten(const Series& series)
+  {
+    std::size_t size = 1;
+    for (const std::vector<double>& values : series.Frames)
+    {
+      size = std::max(size, values.size());
+    }
+    Column column{ series.Name, static_cast<int>(size), {} };
+    for (std::vector<double> values : series.Frames)
+    {
+      values.resize(size, Nothing);
+      column.Values.insert(column.Values.end(), values.begin(), values.end());
+    }
+    return column;
   }
 
   template <typename Add>
