@@ -71,8 +71,8 @@ std::vector<double> NumbersOf(const granular::PathArray& array, int component)
   for (std::size_t i = static_cast<std::size_t>(component); i < array.words.size();
        i += static_cast<std::size_t>(array.size))
   {
-    numbers.push_back(array.integers ? static_cast<double>(array.words[i])
-                                     : std::bit_cast<double>(array.words[i]));
+    numbers.push_back(
+      array.integers ? static_cast<double>(array.words[i]) : std::bit_cast<double>(array.words[i]));
   }
   return numbers;
 }
@@ -158,8 +158,8 @@ private:
     for (std::size_t path = 0; path < paths.ids.size(); ++path)
     {
       const std::string of = " (id " + std::to_string(paths.ids[path]) + ")";
-      columns.push_back(this->MakeColumn(paths, path, "position" + of, 3,
-        [&](std::size_t word) { return paths.points[word]; }));
+      columns.push_back(this->MakeColumn(
+        paths, path, "position" + of, 3, [&](std::size_t word) { return paths.points[word]; }));
       for (const granular::PathArray& array : paths.arrays)
       {
         columns.push_back(this->MakeColumn(paths, path, array.name + of, array.size,
@@ -418,5 +418,6 @@ void vtkGranularHistory::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "OutputType: " << this->OutputType << "\n";
   os << indent << "Quantiles: " << TextOf(this->Quantiles) << "\n";
-  os << indent << "MeanSquareDisplacement: " << (this->MeanSquareDisplacement ? "On" : "Off") << "\n";
+  os << indent << "MeanSquareDisplacement: " << (this->MeanSquareDisplacement ? "On" : "Off")
+     << "\n";
 }

@@ -120,7 +120,8 @@ private:
     {
       kept.Frames[missing[i]] = std::move(loaded[i]);
     }
-    std::erase_if(kept.Frames, [&](const auto& frame)
+    std::erase_if(kept.Frames,
+      [&](const auto& frame)
       { return frame.first < this->Numbers.front() || frame.first > this->Numbers.back(); });
     std::vector<granular::PathFrame> frames;
     for (const auto& [number, frame] : kept.Frames)
@@ -181,8 +182,7 @@ private:
         {
           cells->InsertCellPoint(point - this->FirstPoint());
         }
-        ids->InsertNextValue(
-          this->Paths.ids[static_cast<std::size_t>(this->Lines.paths[line])]);
+        ids->InsertNextValue(this->Paths.ids[static_cast<std::size_t>(this->Lines.paths[line])]);
         lengths->InsertNextValue(this->Lines.lengths[line]);
       }
     }
@@ -206,12 +206,11 @@ private:
     const std::vector<double> speeds = granular::find_speeds(this->Paths, times);
     const auto frame_of = [&](std::int64_t place)
     { return static_cast<std::size_t>(this->Paths.frames[static_cast<std::size_t>(place)]); };
+    this->AddNumbers("time", 1, [&](std::int64_t place, int) { return times[frame_of(place)]; });
+    this->AddIntegers("timestep", 1,
+      [&](std::int64_t place, int) { return this->Paths.headers[frame_of(place)].timestep; });
     this->AddNumbers(
-      "time", 1, [&](std::int64_t place, int) { return times[frame_of(place)]; });
-    this->AddIntegers("timestep", 1, [&](std::int64_t place, int)
-      { return this->Paths.headers[frame_of(place)].timestep; });
-    this->AddNumbers("speed", 1,
-      [&](std::int64_t place, int) { return speeds[static_cast<std::size_t>(place)]; });
+      "speed", 1, [&](std::int64_t place, int) { return speeds[static_cast<std::size_t>(place)]; });
     const std::vector<std::int64_t> firsts = this->FindFirsts();
     this->AddNumbers("displacement", 3,
       [&](std::int64_t place, int axis)
@@ -221,7 +220,8 @@ private:
       });
     for (const granular::PathArray& array : this->Paths.arrays)
     {
-      const auto word = [&](std::int64_t place, int i) { return array.words[static_cast<std::size_t>(place * array.size + i)]; };
+      const auto word = [&](std::int64_t place, int i)
+      { return array.words[static_cast<std::size_t>(place * array.size + i)]; };
       if (array.integers)
       {
         this->AddIntegers(array.name.c_str(), array.size, word);
@@ -256,9 +256,7 @@ private:
   {
     this->AddArray<vtkDoubleArray>(name, size,
       [&](std::int64_t place, double part, int i)
-      {
-        return part == 0 ? at(place, i) : (1 - part) * at(place, i) + part * at(place + 1, i);
-      });
+      { return part == 0 ? at(place, i) : (1 - part) * at(place, i) + part * at(place + 1, i); });
   }
 
   template <typename At>

@@ -28,8 +28,7 @@ FrameView view_frame(const DumpFrame& frame, const Vector3& point_origin)
       ArrayView values{ array.info.name, array.info.type, {}, size };
       for (int i = 0; i < size; ++i)
       {
-        values.components.push_back(
-          bytes + static_cast<std::size_t>(i) * size_of(array.info.type));
+        values.components.push_back(bytes + static_cast<std::size_t>(i) * size_of(array.info.type));
       }
       view.arrays.push_back(std::move(values));
     }

@@ -56,8 +56,8 @@ std::vector<std::string> NamesIn(std::string list, const granular::FrameView& pa
 std::vector<std::string> ShareNames(
   const char* list, const granular::FrameView& particles, granular::Communicator& ranks)
 {
-  const std::vector<KnownNames> all = granular::gather(
-    ranks, KnownNames{ particles.rows > 0, NamesIn(TextOf(list), particles) });
+  const std::vector<KnownNames> all =
+    granular::gather(ranks, KnownNames{ particles.rows > 0, NamesIn(TextOf(list), particles) });
   const auto best = std::ranges::find_if(all, &KnownNames::HasParticles);
   return best == all.end() ? all.back().Names : best->Names;
 }

@@ -113,9 +113,8 @@ void vtkGranularPathAlgorithm::Follower::ChooseParticles()
   request.points = this->HasRegion();
   const granular::PathFrame frame =
     std::move(this->Frames.Load({ number }, request, true, this->Notices, this->Progress).front());
-  const std::vector<std::int64_t> ids = this->HasRegion()
-    ? granular::ids_in_region(frame, this->Self->RegionOfInterest)
-    : frame.ids;
+  const std::vector<std::int64_t> ids =
+    this->HasRegion() ? granular::ids_in_region(frame, this->Self->RegionOfInterest) : frame.ids;
   granular::Communicator& ranks = this->Frames.GetRanks();
   selection.keep_only(samples > 0 ? granular::sample_ids(ids, samples, this->Self->Seed, ranks)
                                   : granular::share_ids(ids, ranks));

@@ -65,8 +65,8 @@ public:
   void NameRows(std::int64_t id, std::size_t number) const;
 
 private:
-  granular::PathFrame Request(std::size_t number, const granular::PathRequest& request,
-    granular::Progress& progress);
+  granular::PathFrame Request(
+    std::size_t number, const granular::PathRequest& request, granular::Progress& progress);
 
   bool Together;
   granular::Communicator& Ranks;
