@@ -82,9 +82,9 @@ void IdDirectory::expect_distinct(const std::string& whose, Communicator& ranks)
   const Repeated& lowest = *std::ranges::min_element(all, {}, &Repeated::second);
   if (lowest.second != Repeated{}.second)
   {
-    throw Error("expected each id once among the " + whose + ", got id " + std::to_string(lowest.id) +
-      " in rows " + std::to_string(lowest.first) + " and " + std::to_string(lowest.second) +
-      " (the first is 0)");
+    throw Error("expected each id once among the " + whose + ", got id " +
+      std::to_string(lowest.id) + " in rows " + std::to_string(lowest.first) + " and " +
+      std::to_string(lowest.second) + " (the first is 0)");
   }
 }
 
