@@ -152,11 +152,12 @@ private:
     const auto first = std::ranges::find_if(frame.ids, is_same) - frame.ids.begin();
     const auto row_of = [&](std::size_t i) { return frame.has_rows ? frame.rows[i] : -1; };
     const std::int64_t id = paths_.ids[static_cast<std::size_t>(path)];
-    if (!frame.has_rows && join_.name_rows)
+    if (join_.name_rows)
     {
       join_.name_rows(id, f);
     }
-    throw_repeated(id, frame.header.timestep, row_of(static_cast<std::size_t>(first)), row_of(second));
+    throw_repeated(
+      id, frame.header.timestep, row_of(static_cast<std::size_t>(first)), row_of(second));
   }
 
   template <class Value>
@@ -165,7 +166,8 @@ private:
   {
     for (std::size_t i = 0; i < to.size(); ++i)
     {
-      std::copy_n(from.data() + i * size, size, all.data() + static_cast<std::size_t>(to[i]) * size);
+      std::copy_n(
+        from.data() + i * size, size, all.data() + static_cast<std::size_t>(to[i]) * size);
     }
   }
 

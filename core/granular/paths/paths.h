@@ -21,14 +21,15 @@ namespace granular
 /// each has its own particles, and lower ranks have smaller ids.
 struct Paths
 {
-  std::vector<FrameHeader> headers;   ///< of all frames
-  std::vector<std::int64_t> ids;      ///< of the particles of this rank, ascending
-  std::vector<std::int64_t> begins;   ///< first place of each particle, and the end: ids + 1
-  std::vector<std::int32_t> frames;   ///< frame of each place
-  std::vector<double> points;         ///< x y z of each place: unwrapped, minus the origin
-  std::vector<PathArray> arrays;      ///< words of each place; integers only if all frames have integers
-  std::vector<double> shown;          ///< on request: x y z of each place as its frame has it
-  std::vector<std::int64_t> crossings; ///< on request: box vectors that bring each place, as shown, next to the one before
+  std::vector<FrameHeader> headers; ///< of all frames
+  std::vector<std::int64_t> ids;    ///< of the particles of this rank, ascending
+  std::vector<std::int64_t> begins; ///< first place of each particle, and the end: ids + 1
+  std::vector<std::int32_t> frames; ///< frame of each place
+  std::vector<double> points;       ///< x y z of each place: unwrapped, minus the origin
+  std::vector<PathArray> arrays; ///< words of each place; integers only if all frames have integers
+  std::vector<double> shown;     ///< on request: x y z of each place as its frame has it
+  std::vector<std::int64_t>
+    crossings; ///< on request: box vectors that bring each place, as shown, next to the one before
 
   std::int64_t places() const noexcept { return static_cast<std::int64_t>(frames.size()); }
 };
@@ -36,9 +37,9 @@ struct Paths
 /// Options for joining frames.
 struct PathJoin
 {
-  Vector3 origin = {};     ///< subtracted from the points
-  bool crossings = false;  ///< fill Paths::shown and Paths::crossings
-  /// Called for an id that repeats in a frame, where its rows are not known; throws if it can name them. May be empty.
+  Vector3 origin = {};    ///< subtracted from the points
+  bool crossings = false; ///< fill Paths::shown and Paths::crossings
+  /// Called for an id that repeats in a frame; throws if it can name the file and the rows. May be empty.
   std::function<void(std::int64_t id, std::size_t frame)> name_rows = {};
 };
 
@@ -62,12 +63,13 @@ Notice note_long_steps(std::int64_t steps);
 /// Points along paths, drawn as polylines without gaps in time.
 struct PathLines
 {
-  std::vector<double> points;         ///< x y z
-  std::vector<std::int64_t> places;   ///< of each point: its place, or the one before it
-  std::vector<double> parts;          ///< of the way from that place to the next, 0 to 1; empty: all 0
-  std::vector<std::int64_t> begins;   ///< first point of each line, and the end: lines + 1
-  std::vector<std::int64_t> paths;    ///< of each line: the particle
-  std::vector<double> lengths;        ///< of each line: of the whole stretch without gaps that it is a part of
+  std::vector<double> points;       ///< x y z
+  std::vector<std::int64_t> places; ///< of each point: its place, or the one before it
+  std::vector<double> parts; ///< of the way from that place to the next, 0 to 1; empty: all 0
+  std::vector<std::int64_t> begins; ///< first point of each line, and the end: lines + 1
+  std::vector<std::int64_t> paths;  ///< of each line: the particle
+  std::vector<double>
+    lengths; ///< of each line: of the whole stretch without gaps that it is a part of
 };
 
 /// Makes lines of the paths: one for each stretch without gaps, of one point or more. With crossings in the paths they stay

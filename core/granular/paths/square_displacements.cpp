@@ -68,13 +68,13 @@ std::vector<std::int64_t> SquareDisplacements::find_places(
     std::int64_t& before = seen[static_cast<std::size_t>(places[i])];
     if (before >= 0)
     {
-      if (!frame.has_rows && name_rows)
+      if (name_rows)
       {
         name_rows(frame.ids[i]);
       }
       const auto row_of = [&](std::size_t at) { return frame.has_rows ? frame.rows[at] : -1; };
-      throw_repeated(frame.ids[i], frame.header.timestep, row_of(static_cast<std::size_t>(before)),
-        row_of(i));
+      throw_repeated(
+        frame.ids[i], frame.header.timestep, row_of(static_cast<std::size_t>(before)), row_of(i));
     }
     before = static_cast<std::int64_t>(i);
   }

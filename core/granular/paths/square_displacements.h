@@ -37,7 +37,8 @@ public:
   /// Adds the next frame, of which each rank has some particles. Displacements are those of unwrapped places, as join_frames
   /// has them, each rounded once; squares are rounded once and summed exactly. name_rows: see PathJoin. Throws Error on all
   /// ranks if an id repeats; Cancelled. Collective.
-  Means add(PathFrame frame, const std::function<void(std::int64_t id)>& name_rows, Progress& progress);
+  Means add(
+    PathFrame frame, const std::function<void(std::int64_t id)>& name_rows, Progress& progress);
 
   /// Returns the number of steps that are longer than a quarter of a period, without image counts, on all ranks. Collective.
   std::int64_t count_long_steps() const;

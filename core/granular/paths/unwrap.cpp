@@ -147,27 +147,24 @@ void Unwrapper::add_box(const Box& box)
   kinds_of_frames_.push_back(kinds_.size() - 1);
 }
 
-const BoxChange& Unwrapper::change_since(std::size_t frame, BoxChange& made) const
+/// Moves a particle as the boxes do since it was seen: also through frames in which it is not.
+void Unwrapper::carry(PathState& state) const
 {
-  const std::size_t from = kinds_of_frames_[frame];
-  const std::size_t to = kinds_of_frames_.back();
-  if (from == to)
+  for (std::size_t kind = kinds_of_frames_[static_cast<std::size_t>(state.frame)] + 1;
+       kind <= kinds_of_frames_.back(); ++kind)
   {
-    return made;
+    const BoxChange& change = kinds_[kind].change;
+    state.point = change.carry(state.point);
+    state.counts = change.convert(state.counts);
+    state.base = change.convert(state.base);
+    state.drift = add(state.drift, 1, change.growth_of(state.base));
   }
-  if (from + 1 == to)
-  {
-    return kinds_[to].change;
-  }
-  made = BoxChange(kinds_[from].box, kinds_[to].box);
-  return made;
 }
 
-Unwrapper::Step Unwrapper::find_step(
-  const Vector3& from, const Vector3& to, const BoxChange& change) const
+Unwrapper::Step Unwrapper::find_step(const Vector3& from, const Vector3& to) const
 {
   const Kind& kind = kinds_[kinds_of_frames_.back()];
-  const Vector3 straight = minus(to, change.carry(from));
+  const Vector3 straight = minus(to, from);
   Step step{ kind.images.find(straight) };
   const Vector3 shortest = kind.images.moved(straight, step.counts, {});
   for (const Vector3& dual : kind.duals)
@@ -179,37 +176,39 @@ Unwrapper::Step Unwrapper::find_step(
 
 Unwrapper::Step Unwrapper::advance(PathState& state, const PathFrame& frame, std::size_t i) const
 {
-  const auto current = static_cast<std::int64_t>(kinds_of_frames_.size()) - 1;
   const Vector3 point = { frame.points[3 * i], frame.points[3 * i + 1], frame.points[3 * i + 2] };
   const bool first = state.frame < 0;
-  BoxChange made;
-  const BoxChange& change =
-    first ? made : this->change_since(static_cast<std::size_t>(state.frame), made);
-  const BoxCounts before = change.convert(state.counts);
-  state.base = change.convert(state.base);
-  state.drift = add(state.drift, 1, change.growth_of(state.base));
+  if (!first)
+  {
+    this->carry(state);
+  }
+  const BoxCounts before = state.counts;
   Step step;
   if (frame.coordinates == Coordinates::Unwrapped)
   {
     state.counts = {};
     state.drift = {};
   }
-  else if (frame.has_images)
+  else
   {
-    const BoxCounts images = { frame.images[3 * i], frame.images[3 * i + 1],
-      frame.images[3 * i + 2] };
-    state.base = first ? images : state.base;
-    state.counts = minus(images, state.base);
-  }
-  else if (!first)
-  {
-    step = this->find_step(state.point, point, change);
-    state.counts = { before[0] + step.counts[0], before[1] + step.counts[1],
-      before[2] + step.counts[2] };
+    if (!first && !(frame.has_images && state.based))
+    {
+      step = this->find_step(state.point, point);
+      state.counts = { before[0] + step.counts[0], before[1] + step.counts[1],
+        before[2] + step.counts[2] };
+    }
+    if (frame.has_images)
+    {
+      const BoxCounts images = { frame.images[3 * i], frame.images[3 * i + 1],
+        frame.images[3 * i + 2] };
+      state.base = state.based ? state.base : minus(images, state.counts);
+      state.based = true;
+      state.counts = minus(images, state.base);
+    }
   }
   step.counts = first ? BoxCounts{} : minus(state.counts, before);
   state.point = point;
-  state.frame = current;
+  state.frame = static_cast<std::int64_t>(kinds_of_frames_.size()) - 1;
   return step;
 }
 }

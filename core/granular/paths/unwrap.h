@@ -54,11 +54,12 @@ private:
 /// Where a particle was last.
 struct PathState
 {
-  Vector3 point = {};       ///< as its frame had it
-  BoxCounts counts = {};    ///< box vectors that were added to it
-  BoxCounts base = {};      ///< image counts of its first place, which are added to none
-  Vector3 drift = {};       ///< how much the box vectors of the base have grown since then
-  std::int64_t frame = -1;  ///< -1: it was in none
+  Vector3 point = {};    ///< as its frame had it
+  BoxCounts counts = {}; ///< box vectors that were added to it
+  bool based = false;    ///< a frame had image counts
+  BoxCounts base = {}; ///< less these: those of the first place; box vectors that are added to none
+  Vector3 drift = {};  ///< how much the box vectors of the base have grown since then
+  std::int64_t frame = -1; ///< -1: it was in none
 };
 
 /// Follows particles through the images of the box, frame by frame.
@@ -69,13 +70,17 @@ public:
   void add_box(const Box& box);
 
   /// Returns the number of frames so far.
-  std::int64_t frames() const noexcept { return static_cast<std::int64_t>(kinds_of_frames_.size()); }
+  std::int64_t frames() const noexcept
+  {
+    return static_cast<std::int64_t>(kinds_of_frames_.size());
+  }
 
   /// The step of a particle to the frame that was added last.
   struct Step
   {
-    BoxCounts counts = {}; ///< box vectors that bring it, as the frame has it, next to its place before
-    bool is_long = false;  ///< found without image counts, and longer than a quarter of a period
+    BoxCounts
+      counts = {}; ///< box vectors that bring it, as the frame has it, next to its place before
+    bool is_long = false; ///< found without image counts, and longer than a quarter of a period
   };
 
   /// Advances a particle to the frame that was added last, in which it is the i-th: its unwrapped place is the point plus
@@ -92,8 +97,8 @@ private:
     BoxChange change;             ///< from the kind before
   };
 
-  const BoxChange& change_since(std::size_t frame, BoxChange& made) const;
-  Step find_step(const Vector3& from, const Vector3& to, const BoxChange& change) const;
+  void carry(PathState& state) const;
+  Step find_step(const Vector3& from, const Vector3& to) const;
 
   std::vector<std::size_t> kinds_of_frames_;
   std::vector<Kind> kinds_;
