@@ -178,7 +178,7 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
   }
   PathFrame picked =
     pick_particles(view_frame(frame), request, 0, Executor(wanted.threads), progress);
-  if (wanted.keep_id || base.pieces > 1 || base.stride > 1)
+  if (wanted.keep_id || base.pieces > 1 || frame.rows != frame.header.rows)
   {
     // those of the rows that were kept
     picked.has_rows = false;
