@@ -181,7 +181,8 @@ std::vector<double> find_speeds(const Paths& paths, std::span<const double> time
         const auto time_of = [&](std::int64_t at)
         { return times[static_cast<std::size_t>(paths.frames[static_cast<std::size_t>(at)])]; };
         const double time = time_of(to) - time_of(from);
-        speeds[static_cast<std::size_t>(place)] = time > 0 ? length_of(paths, from, to + 1) / time : 0;
+        speeds[static_cast<std::size_t>(place)] =
+          time > 0 ? length_of(paths, from, to + 1) / time : 0;
       }
     });
   return speeds;

@@ -118,8 +118,8 @@ void fit_array(PathArray& array, std::size_t particles, int size, bool integers)
   }
   else if (array.integers && !integers)
   {
-    std::ranges::transform(array.words, array.words.begin(), [](std::int64_t word)
-      { return std::bit_cast<std::int64_t>(static_cast<double>(word)); });
+    std::ranges::transform(array.words, array.words.begin(),
+      [](std::int64_t word) { return std::bit_cast<std::int64_t>(static_cast<double>(word)); });
   }
   array.size = size;
   array.integers = integers;
@@ -261,7 +261,10 @@ void exchange_frames(
     return;
   }
   const auto owner_of = [&](std::int64_t id)
-  { return static_cast<std::size_t>(std::upper_bound(first_ids.begin(), first_ids.end(), id) - first_ids.begin()); };
+  {
+    return static_cast<std::size_t>(
+      std::upper_bound(first_ids.begin(), first_ids.end(), id) - first_ids.begin());
+  };
 
   // for each rank: of each frame how many, and their records
   const auto size = static_cast<std::size_t>(ranks.size());

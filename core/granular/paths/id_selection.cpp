@@ -80,7 +80,8 @@ IdSelection::Range IdSelection::read_range(std::string_view word)
   }
   if (!good || !rest.empty() || range.last < range.first || range.step < 1)
   {
-    throw Error("expected ids like 5, ranges like 10-20 or 100-900:50, got '" + std::string(word) + "'");
+    throw Error(
+      "expected ids like 5, ranges like 10-20 or 100-900:50, got '" + std::string(word) + "'");
   }
   return range;
 }
@@ -128,8 +129,8 @@ std::vector<std::int64_t> share_ids(std::span<const std::int64_t> ids, Communica
   return all;
 }
 
-std::vector<std::int64_t> sample_ids(std::span<const std::int64_t> ids, std::size_t count,
-  std::int64_t seed, Communicator& ranks)
+std::vector<std::int64_t> sample_ids(
+  std::span<const std::int64_t> ids, std::size_t count, std::int64_t seed, Communicator& ranks)
 {
   const auto salt = static_cast<std::int64_t>(hash_of_id(seed));
   const auto keep_smallest = [&](std::vector<std::int64_t> all)

@@ -62,7 +62,7 @@ std::vector<std::int64_t> share_ids(std::span<const std::int64_t> ids, Communica
 
 /// Returns at most `count` of the different ids of all ranks, ascending: those with the smallest hashes, which depend on
 /// the seed. Hence the ranks on which particles are, and their order, do not matter. Collective.
-std::vector<std::int64_t> sample_ids(std::span<const std::int64_t> ids, std::size_t count,
-  std::int64_t seed, Communicator& ranks);
+std::vector<std::int64_t> sample_ids(
+  std::span<const std::int64_t> ids, std::size_t count, std::int64_t seed, Communicator& ranks);
 }
 #endif

@@ -110,8 +110,8 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   picked.loaded = true;
   picked.header = frame.header;
   picked.header.has_box = frame.has_box;
-  picked.coordinates = frame.coordinates == Coordinates::Unwrapped ? Coordinates::Unwrapped
-                                                                   : Coordinates::Absolute;
+  picked.coordinates =
+    frame.coordinates == Coordinates::Unwrapped ? Coordinates::Unwrapped : Coordinates::Absolute;
   for (const std::string& name : request.arrays)
   {
     picked.arrays.push_back({ name });
@@ -208,11 +208,12 @@ std::vector<std::int64_t> ids_in_region(const PathFrame& frame, std::span<const 
   return ids;
 }
 
-void throw_repeated(
-  std::int64_t id, std::int64_t timestep, std::int64_t first_row, std::int64_t second_row, const Where& where)
+void throw_repeated(std::int64_t id, std::int64_t timestep, std::int64_t first_row,
+  std::int64_t second_row, const Where& where)
 {
   throw Error("expected each id once in a frame, got id " + std::to_string(id) + " in rows " +
-    std::to_string(first_row) + " and " + std::to_string(second_row) + " of timestep " +
-    std::to_string(timestep) + " (rows are counted from 0)", where);
+      std::to_string(first_row) + " and " + std::to_string(second_row) + " of timestep " +
+      std::to_string(timestep) + " (rows are counted from 0)",
+    where);
 }
 }

@@ -70,7 +70,7 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
 std::vector<std::int64_t> ids_in_region(const PathFrame& frame, std::span<const double, 6> region);
 
 /// Throws Error that names the id and its first two rows among the particles of a frame.
-[[noreturn]] void throw_repeated(
-  std::int64_t id, std::int64_t timestep, std::int64_t first_row, std::int64_t second_row, const Where& where = {});
+[[noreturn]] void throw_repeated(std::int64_t id, std::int64_t timestep, std::int64_t first_row,
+  std::int64_t second_row, const Where& where = {});
 }
 #endif

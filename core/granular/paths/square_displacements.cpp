@@ -6,8 +6,10 @@
 #include "granular/paths/statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -23,8 +25,11 @@ std::size_t chunks_of(std::size_t rows) noexcept
   return (rows + particles_per_chunk - 1) / particles_per_chunk;
 }
 
+/// Of each sum, the terms that are not finite, which are left out of it.
+using Odd = std::array<std::int64_t, sums>;
+
 /// Terms for two particles side by side.
-std::vector<SumScale::Terms> square(const std::vector<Vector3>& displacements)
+std::vector<SumScale::Terms> square(const std::vector<Vector3>& displacements, Odd& odd)
 {
   std::vector<SumScale::Terms> terms((displacements.size() + 1) / 2);
   for (std::size_t i = 0; i < displacements.size(); ++i)
@@ -38,6 +43,11 @@ std::vector<SumScale::Terms> square(const std::vector<Vector3>& displacements)
       length.add_product(part, part);
     }
     to[3] = length.value();
+    for (std::size_t sum = 0; sum < sums; ++sum)
+    {
+      odd[sum] += std::isfinite(to[sum]) ? 0 : 1;
+      to[sum] = std::isfinite(to[sum]) ? to[sum] : 0;
+    }
   }
   return terms;
 }
@@ -59,13 +69,20 @@ std::vector<std::int64_t> SquareDisplacements::find_places(
     },
     progress);
   std::vector<std::int64_t> seen(states_.size(), -1);
+  IdTable others; // that the first frame does not have
   for (std::size_t i = 0; i < rows; ++i)
   {
-    if (places[i] == IdFinder::nowhere)
+    const auto row = static_cast<std::int64_t>(i);
+    const bool known = places[i] != IdFinder::nowhere;
+    std::int64_t before = -1;
+    if (known)
     {
-      continue;
+      before = std::exchange(seen[static_cast<std::size_t>(places[i])], row);
     }
-    std::int64_t& before = seen[static_cast<std::size_t>(places[i])];
+    else if (!others.add(frame.ids[i], row))
+    {
+      before = others.find(frame.ids[i]);
+    }
     if (before >= 0)
     {
       if (name_rows)
@@ -76,7 +93,6 @@ std::vector<std::int64_t> SquareDisplacements::find_places(
       throw_repeated(
         frame.ids[i], frame.header.timestep, row_of(static_cast<std::size_t>(before)), row_of(i));
     }
-    before = static_cast<std::int64_t>(i);
   }
   return places;
 }
@@ -155,11 +171,17 @@ SquareDisplacements::Means SquareDisplacements::add(
       means.count = std::ranges::count_if(
         places, [](std::int64_t place) { return place != IdFinder::nowhere; });
       ranks_.sum({ &means.count, 1 });
-      const SumScale::Terms squares =
-        sum_exactly(square(this->find_displacements(own, places, progress)), sums, ranks_);
-      const auto count = static_cast<double>(means.count); // 0: nan
-      means.axes = { squares[0] / count, squares[1] / count, squares[2] / count };
-      means.total = squares[3] / count;
+      Odd odd = {};
+      const auto terms = square(this->find_displacements(own, places, progress), odd);
+      ranks_.sum(odd);
+      const SumScale::Terms squares = sum_exactly(terms, sums, ranks_);
+      const auto mean_of = [&](std::size_t sum)
+      {
+        return odd[sum] > 0 ? std::numeric_limits<double>::quiet_NaN()
+                            : squares[sum] / static_cast<double>(means.count); // 0: nan
+      };
+      means.axes = { mean_of(0), mean_of(1), mean_of(2) };
+      means.total = mean_of(3);
       return means;
     });
 }

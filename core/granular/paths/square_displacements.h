@@ -20,7 +20,7 @@ namespace granular
 class SquareDisplacements
 {
 public:
-  /// Means over the particles of all ranks that are in both frames; nan if there are none.
+  /// Means over the particles of all ranks that are in both frames; nan if there are none, or a square is not finite.
   struct Means
   {
     std::int64_t count = 0;

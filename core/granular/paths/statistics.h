@@ -22,7 +22,8 @@ SumScale::Terms sum_exactly(
 struct Statistics
 {
   std::int64_t count = 0; ///< of finite numbers, which alone count
-  double mean = 0;        ///< their sum, correctly rounded, divided by the count; nan, like the others, if there are none
+  double mean =
+    0; ///< their sum, correctly rounded, divided by the count; nan, like the others, if there are none
   double least = 0;
   double greatest = 0;
   std::vector<double> quantiles; ///< as they were asked for
