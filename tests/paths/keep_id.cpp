@@ -72,7 +72,8 @@ void check(const Dump& dump, const Keep& keep, std::size_t frame = 0)
   request.keep_id = keep;
   for (const int threads : { 1, 2, 5 })
   {
-    for (const std::size_t chunk : { std::size_t{ 200 }, std::size_t{ 5000 }, std::size_t{ 1 } << 18 })
+    for (const std::size_t chunk :
+      { std::size_t{ 200 }, std::size_t{ 5000 }, std::size_t{ 1 } << 18 })
     {
       request.threads = threads;
       request.chunk_bytes = chunk;
@@ -110,10 +111,14 @@ void check(const Dump& dump, const Keep& keep, std::size_t frame = 0)
 
 void check_all(const Dump& dump, std::size_t frame = 0)
 {
-  check(dump, [](std::int64_t id) { return id % 5 == 2; }, frame);
-  check(dump, [](std::int64_t) { return true; }, frame);
-  check(dump, [](std::int64_t) { return false; }, frame);
-  check(dump, [](std::int64_t id) { return id == 17; }, frame);
+  check(
+    dump, [](std::int64_t id) { return id % 5 == 2; }, frame);
+  check(
+    dump, [](std::int64_t) { return true; }, frame);
+  check(
+    dump, [](std::int64_t) { return false; }, frame);
+  check(
+    dump, [](std::int64_t id) { return id == 17; }, frame);
 }
 
 /// Two thousand rows with words of this form as ids.
@@ -158,9 +163,9 @@ TEST(KeepId, BinariesOfAllForms)
 TEST(KeepId, LargeIds)
 {
   const std::int64_t highest = std::numeric_limits<std::int64_t>::max();
-  const Dump large(text_of([=](int i) { return std::to_string(i % 2 == 0 ? highest - i : -highest + i); }));
+  const Dump large(
+    text_of([=](int i) { return std::to_string(i % 2 == 0 ? highest - i : -highest + i); }));
   check(large, [=](std::int64_t id) { return id > highest - 100 || id == -highest + 1; });
-
 }
 
 /// A column of which one number is no integer holds no ids.
@@ -190,7 +195,8 @@ TEST(KeepId, WithoutIdsNoneIsKept)
 
 namespace
 {
-PathFrame particles_of(const std::string& file, const PathRequest& request, const DumpRequest& base = {})
+PathFrame particles_of(
+  const std::string& file, const PathRequest& request, const DumpRequest& base = {})
 {
   RunIndex index;
   IndexOptions options;
@@ -240,9 +246,11 @@ TEST(ReadParticles, OnlyWhatIsWanted)
         if (request.selection.holds(ids[row]))
         {
           expected.ids.push_back(ids[row]);
-          expected.points.insert(expected.points.end(), points.begin() + 3 * static_cast<std::ptrdiff_t>(row),
+          expected.points.insert(expected.points.end(),
+            points.begin() + 3 * static_cast<std::ptrdiff_t>(row),
             points.begin() + 3 * static_cast<std::ptrdiff_t>(row) + 3);
-          expected.images.insert(expected.images.end(), images.begin() + 3 * static_cast<std::ptrdiff_t>(row),
+          expected.images.insert(expected.images.end(),
+            images.begin() + 3 * static_cast<std::ptrdiff_t>(row),
             images.begin() + 3 * static_cast<std::ptrdiff_t>(row) + 3);
         }
       }
@@ -273,7 +281,8 @@ TEST(ReadParticles, RowsOfTheFile)
 TEST(ReadParticles, WithoutPoints)
 {
   PathRequest request{ {}, { "type" }, false };
-  const PathFrame frame = particles_of(std::string(GRANULAR_DATA) + "/good/ortho_image.dump", request);
+  const PathFrame frame =
+    particles_of(std::string(GRANULAR_DATA) + "/good/ortho_image.dump", request);
   EXPECT_EQ(frame.ids.size(), 500U);
   EXPECT_TRUE(frame.points.empty() && frame.images.empty() && !frame.has_images);
   EXPECT_EQ(frame.arrays[0].words.size(), 500U);

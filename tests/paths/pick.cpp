@@ -106,10 +106,13 @@ TEST(PickParticles, ArraysOfAllTypes)
   expect_picked<std::uint16_t>(ValueType::UInt16, { 65535, 1, 2, 3 }, true);
   expect_picked<std::int32_t>(ValueType::Int32, { -1, 1 << 30, 2, 3 }, true);
   expect_picked<std::uint32_t>(ValueType::UInt32, { ~0U, 1, 2, 3 }, true);
-  expect_picked<std::int64_t>(ValueType::Int64, { std::numeric_limits<std::int64_t>::min(), 1, (std::int64_t{ 1 } << 53) + 1, 3 }, true);
+  expect_picked<std::int64_t>(ValueType::Int64,
+    { std::numeric_limits<std::int64_t>::min(), 1, (std::int64_t{ 1 } << 53) + 1, 3 }, true);
   expect_picked<std::uint64_t>(ValueType::UInt64, { ~std::uint64_t{ 0 }, 1, 2, 3 }, false);
-  expect_picked<float>(ValueType::Float32, { 0.1F, -0.0F, std::numeric_limits<float>::infinity(), 3 }, false);
-  expect_picked<double>(ValueType::Float64, { 0.1, -0.0, 5e-324, std::numeric_limits<double>::quiet_NaN() }, false);
+  expect_picked<float>(
+    ValueType::Float32, { 0.1F, -0.0F, std::numeric_limits<float>::infinity(), 3 }, false);
+  expect_picked<double>(
+    ValueType::Float64, { 0.1, -0.0, 5e-324, std::numeric_limits<double>::quiet_NaN() }, false);
 }
 
 /// Points are absolute, whatever is shown; unwrapped ones stay as they are.
@@ -118,7 +121,8 @@ TEST(PickParticles, PointsOfAllForms)
   const IdSelection two("-3, 6");
   Four four;
   four.view.point_origin = { 1000, 0, -1 };
-  EXPECT_EQ(pick(four.view, { two, {} }).points, (std::vector<double>{ 1001, 10, 99, 1000.5, 0.25, -0.875 }));
+  EXPECT_EQ(pick(four.view, { two, {} }).points,
+    (std::vector<double>{ 1001, 10, 99, 1000.5, 0.25, -0.875 }));
   four.view.point_origin = {};
   four.view.coordinates = Coordinates::Scaled;
   PathFrame frame = pick(four.view, { two, {} });
@@ -173,9 +177,11 @@ TEST(PickParticles, Errors)
   EXPECT_EQ(refusal(four.view), "");
   const std::vector<double> halves = { 8, 2.5, 5, 6 };
   four.view.arrays[0] = view_rows("id", ValueType::Float64, halves.data());
-  EXPECT_EQ(refusal(four.view), "column 'id': expected a 64-bit integer as id, got 2.5 in row 1 (the first is 0)");
+  EXPECT_EQ(refusal(four.view),
+    "column 'id': expected a 64-bit integer as id, got 2.5 in row 1 (the first is 0)");
   four.view.arrays.clear();
-  EXPECT_EQ(refusal(four.view), "expected an array 'id' of the particles, got none: paths need ids");
+  EXPECT_EQ(
+    refusal(four.view), "expected an array 'id' of the particles, got none: paths need ids");
   Four bare;
   bare.view.points.reset();
   EXPECT_EQ(refusal(bare.view), "expected points of the particles, got none");
@@ -186,7 +192,8 @@ TEST(PickParticles, IdsInARegion)
 {
   Four four;
   const PathFrame frame = pick(four.view);
-  const auto ids = [&](const std::array<double, 6>& region) { return ids_in_region(frame, region); };
+  const auto ids = [&](const std::array<double, 6>& region)
+  { return ids_in_region(frame, region); };
   EXPECT_EQ(ids({ 1, -1, 1, -1, 1, -1 }), four.ids);
   EXPECT_EQ(ids({ 1, 2, 1, -1, 1, -1 }), (Numbers{ -3, 5 })); // faces included
   EXPECT_EQ(ids({ 0.5, 2, 0, 10, 0.125, 100 }), (Numbers{ -3, 6 }));

@@ -61,10 +61,13 @@ struct GridBox
   bool is_periodic(std::size_t axis) const { return boundary[3 * axis] == 'p'; }
 };
 
+__extension__ using Wide = __int128;
+
 /// Divides, rounding down.
-inline std::int64_t quotient(std::int64_t number, std::int64_t by)
+inline std::int64_t quotient(Wide number, Wide by)
 {
-  return number / by - (number % by != 0 && (number < 0) != (by < 0) ? 1 : 0);
+  return static_cast<std::int64_t>(
+    number / by - (number % by != 0 && (number < 0) != (by < 0) ? 1 : 0));
 }
 
 struct Wrapped
@@ -88,17 +91,21 @@ inline Place counts_in(const GridBox& box, Place sum_of_vectors)
 /// The place in the box, and how many vectors were taken away.
 inline Wrapped wrap(const GridBox& box, const Place& place)
 {
+  const auto& [a, b, c] = box.vectors;
   Wrapped wrapped{ place, {} };
-  for (const std::size_t axis : { 2U, 1U, 0U })
+  const auto rest = [&](std::size_t k)
+  { return static_cast<Wide>(wrapped.place[k] - box.origin[k]); };
+  const auto take = [&](std::size_t axis, Wide number, Wide by)
   {
-    if (box.is_periodic(axis))
-    {
-      const std::int64_t images =
-        quotient(wrapped.place[axis] - box.origin[axis], box.vectors[axis][axis]);
-      wrapped.images[axis] = images;
-      wrapped.place = sum(wrapped.place, -images, box.vectors[axis]);
-    }
-  }
+    const std::int64_t images = box.is_periodic(axis) ? quotient(number, by) : 0;
+    wrapped.images[axis] = images;
+    wrapped.place = sum(wrapped.place, -images, box.vectors[axis]);
+  };
+  // parts of the vectors, all times their extents
+  take(2, rest(2), c[2]);
+  take(1, rest(1) * c[2] - rest(2) * c[1], Wide{ b[1] } * c[2]);
+  const Wide part = rest(1) * c[2] - rest(2) * c[1];
+  take(0, rest(0) * b[1] * c[2] - part * b[0] - rest(2) * c[0] * b[1], Wide{ a[0] } * b[1] * c[2]);
   return wrapped;
 }
 

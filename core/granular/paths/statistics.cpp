@@ -78,10 +78,10 @@ SumScale::Range range_of(double least, double greatest)
   return { std::ilogb(greatest) + 1, std::max(std::ilogb(least) - 52, -1074) };
 }
 
-/// Doubles in their order, as integers.
+/// Doubles in their order, but -0, as integers.
 std::int64_t key_of(double number) noexcept
 {
-  const auto bits = std::bit_cast<std::int64_t>(number + 0.0); // -0 is 0
+  const auto bits = std::bit_cast<std::int64_t>(number);
   return bits < 0 ? bits ^ std::numeric_limits<std::int64_t>::max() : bits;
 }
 
@@ -160,6 +160,10 @@ Statistics find_statistics(
   std::vector<double> numbers, std::span<const double> quantiles, Communicator& ranks)
 {
   std::erase_if(numbers, [](double number) { return !std::isfinite(number); });
+  for (double& number : numbers)
+  {
+    number += 0.0; // of zeros of both signs any could be chosen
+  }
   Statistics found;
   found.count = static_cast<std::int64_t>(numbers.size());
   ranks.sum({ &found.count, 1 });
