@@ -38,11 +38,12 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 //------------------------------------------------------------------------------
 /**
- * The frames of the tail that was drawn last, by their numbers, and when the pipeline was changed last.
+ * The frames of the tail that was drawn last, by their numbers, their arrays, and when the pipeline was changed last.
  */
 struct vtkGranularTrajectories::KeptFrames
 {
   std::map<std::size_t, granular::PathFrame> Frames;
+  std::vector<std::string> Arrays; ///< "*" stands for others where the columns of a file change
   vtkMTimeType Time = 0;
 };
 
@@ -107,9 +108,9 @@ private:
     auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetExecutive());
     const vtkMTimeType time = pipeline ? pipeline->GetPipelineMTime() : 0;
     KeptFrames& kept = *this->Filter->Kept;
-    if (kept.Time != time)
+    if (kept.Time != time || kept.Arrays != this->Request.arrays)
     {
-      kept = { {}, time };
+      kept = { {}, this->Request.arrays, time };
     }
     std::vector<std::size_t> missing;
     std::ranges::copy_if(this->Numbers, std::back_inserter(missing),

@@ -71,6 +71,11 @@ PathArray pick_array(const ArrayView& view, std::span<const std::int64_t> rows)
   return array;
 }
 
+[[noreturn]] void refuse_texts(const std::string& name, const Where& where = {})
+{
+  throw Error("expected numbers in array '" + name + "' of the particles, got texts", where);
+}
+
 /// The names that a frame has, of which only arrays of numbers are wanted.
 void check_numbers(const FrameView& frame, const std::vector<std::string>& names)
 {
@@ -79,7 +84,7 @@ void check_numbers(const FrameView& frame, const std::vector<std::string>& names
     const ArrayView* const array = frame.find(name);
     if (array && array->type == ValueType::Text)
     {
-      throw Error("expected numbers in array '" + name + "' of the particles, got texts");
+      refuse_texts(name);
     }
   }
 }
@@ -175,6 +180,14 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
   if (frame.rows == 0 && frame.header.rows > 0 && frame.schema.find(ColumnRole::Id) < 0)
   {
     throw FormatError("expected a column id: paths need ids", where_of(pieces.front()));
+  }
+  for (const DumpArray& array : frame.arrays) // the view has none of them
+  {
+    if (array.info.type == ValueType::Text &&
+      std::ranges::find(request.arrays, array.info.name) != request.arrays.end())
+    {
+      refuse_texts(array.info.name, where_of(pieces.front()));
+    }
   }
   PathFrame picked =
     pick_particles(view_frame(frame), request, 0, Executor(wanted.threads), progress);
