@@ -109,6 +109,32 @@ TEST(DrawPaths, CutAtTheFaces)
   }
 }
 
+/// A step from a face or to one goes on at the opposite face.
+TEST(DrawPaths, PlacesInTheFaces)
+{
+  const PathLines from = draw_paths(line_along_x({ 0, 9, 8 }, { 0, 1, 2 }, true), {});
+  EXPECT_EQ(xs_of(from), (Doubles{ 0, 10, 9, 8 }));
+  EXPECT_EQ(from.begins, (Numbers{ 0, 1, 4 }));
+  EXPECT_EQ(from.places, (Numbers{ 0, 0, 1, 2 }));
+  EXPECT_EQ(from.parts, Doubles(4));
+  const PathLines to = draw_paths(line_along_x({ 8, 9, 0, 1 }, { 0, 1, 2, 3 }, true), {});
+  EXPECT_EQ(xs_of(to), (Doubles{ 8, 9, 10, 0, 1 }));
+  EXPECT_EQ(to.begins, (Numbers{ 0, 3, 5 }));
+  EXPECT_EQ(to.places, (Numbers{ 0, 1, 1, 2, 3 }));
+  EXPECT_EQ(to.parts, (Doubles{ 0, 0, 1, 0, 0 }));
+  // along the face, and from one to the other
+  Paths paths = line_along_x({ 0, 0, 2 }, { 0, 1, 2 }, true);
+  paths.crossings[3] = -1;
+  const PathLines over = draw_paths(paths, { 0.1, 0, 0 });
+  for (std::size_t i = 1; i < over.places.size(); ++i)
+  {
+    const bool starts =
+      std::ranges::find(over.begins, static_cast<std::int64_t>(i)) != over.begins.end();
+    EXPECT_TRUE(starts || std::abs(xs_of(over)[i] - xs_of(over)[i - 1]) <= 10) << i;
+  }
+  EXPECT_EQ(xs_of(over).back(), 1.9);
+}
+
 TEST(DrawPaths, NothingAtAll)
 {
   const PathLines lines = draw_paths({}, {});

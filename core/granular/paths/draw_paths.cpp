@@ -119,7 +119,8 @@ private:
     double way = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
-      if (i > 0)
+      // from a place in a face the only part may begin at the opposite face
+      if (i > 0 || parts[i].begin != this->shown(place - 1, origin_))
       {
         this->end_line();
         this->add_point(parts[i].begin, place - 1, way);
@@ -129,6 +130,12 @@ private:
       if (i + 1 < count)
       {
         this->add_point(parts[i].end, place - 1, way);
+      }
+      else if (parts[i].end !=
+        this->shown(place, origin_)) // the next place is in the opposite face
+      {
+        this->add_point(parts[i].end, place - 1, 1);
+        this->end_line();
       }
     }
   }
