@@ -223,6 +223,7 @@ private:
     granular::SquareDisplacements squares(this->Frames.GetRanks(), executor);
     std::vector<granular::FrameHeader> headers;
     std::vector<Series> series;
+    this->Lacking = request.arrays;
     for (std::size_t i = 0; i < this->Numbers.size(); ++i)
     {
       this->Part.set_part(static_cast<double>(i) / static_cast<double>(this->Numbers.size()),
@@ -245,12 +246,17 @@ private:
       }
       if (msd)
       {
+        frame.arrays.clear();
         const auto nameRows = [&](std::int64_t id) { this->Frames.NameRows(id, this->Numbers[i]); };
         const auto means = squares.add(std::move(frame), nameRows, this->Part);
         add("msd", { means.total });
         add("msd_xyz", { means.axes[0], means.axes[1], means.axes[2] });
         add("msd_particles", { static_cast<double>(means.count) });
       }
+    }
+    if (this->HadParticles)
+    {
+      granular::expect_none(this->Lacking);
     }
     std::ranges::transform(series, std::back_inserter(columns), &Maker::Flatten);
     this->TakeTimesteps(headers);
@@ -295,11 +301,12 @@ private:
     granular::Communicator& ranks = this->Frames.GetRanks();
     std::vector<granular::PathFrame> frames(1);
     std::swap(frames[0], frame);
-    granular::share_kinds(frames, ranks);
+    const std::vector<std::string> lacking = granular::share_kinds(frames, ranks);
     std::swap(frames[0], frame);
     std::int64_t count = static_cast<std::int64_t>(frame.ids.size());
     ranks.sum({ &count, 1 });
     add("particles", { static_cast<double>(count) });
+    this->NoteLacking(lacking, count);
     const auto quantiles = QuantilesIn(TextOf(this->Filter->Quantiles));
     std::vector<double> parts;
     for (const auto& [word, value] : quantiles)
@@ -328,6 +335,19 @@ private:
       {
         add(array.name + "_" + quantiles[i].first, values[3 + i]);
       }
+    }
+  }
+
+  /**
+   * Leaves the arrays that no frame with particles has, so far.
+   */
+  void NoteLacking(const std::vector<std::string>& lacking, std::int64_t particles)
+  {
+    if (particles > 0)
+    {
+      this->HadParticles = true;
+      std::erase_if(this->Lacking,
+        [&](const std::string& name) { return std::ranges::find(lacking, name) == lacking.end(); });
     }
   }
 
@@ -367,6 +387,8 @@ private:
   vtkTable* Output;
   granular::PartialProgress Part{ this->Progress }; ///< of a frame
   std::vector<std::int64_t> Timesteps;
+  bool HadParticles = false;
+  std::vector<std::string> Lacking; ///< arrays that no frame with particles has, so far
 };
 
 //------------------------------------------------------------------------------

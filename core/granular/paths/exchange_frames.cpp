@@ -125,8 +125,9 @@ void fit_array(PathArray& array, std::size_t particles, int size, bool integers)
   array.integers = integers;
 }
 
-void share_arrays(std::vector<PathFrame>& frames, Communicator& ranks)
+std::vector<std::string> share_arrays(std::vector<PathFrame>& frames, Communicator& ranks)
 {
+  std::vector<std::string> lacking;
   const std::vector<std::vector<ArrayKnown>> all = gather(ranks, know_arrays(frames));
   for (std::size_t i = 0; i < all.front().size(); ++i)
   {
@@ -141,7 +142,7 @@ void share_arrays(std::vector<PathFrame>& frames, Communicator& ranks)
     const std::string& name = frames.front().arrays[i].name;
     if (whole.largest == 0 && whole.particles)
     {
-      throw Error("expected an array '" + name + "' of the particles, got none in any frame");
+      lacking.push_back(name);
     }
     if (whole.largest > 0 && whole.smallest != whole.largest)
     {
@@ -155,6 +156,7 @@ void share_arrays(std::vector<PathFrame>& frames, Communicator& ranks)
         whole.integers && whole.largest > 0);
     }
   }
+  return lacking;
 }
 
 /// The words of a particle, one after the other.
@@ -225,13 +227,22 @@ private:
 };
 }
 
-void share_kinds(std::vector<PathFrame>& frames, Communicator& ranks)
+std::vector<std::string> share_kinds(std::vector<PathFrame>& frames, Communicator& ranks)
 {
   if (ranks.size() > 1)
   {
     share_headers(frames, ranks);
   }
-  share_arrays(frames, ranks);
+  return share_arrays(frames, ranks);
+}
+
+void expect_none(const std::vector<std::string>& lacking)
+{
+  if (!lacking.empty())
+  {
+    throw Error(
+      "expected an array '" + lacking.front() + "' of the particles, got none in any frame");
+  }
 }
 
 std::vector<std::int64_t> share_out(const std::vector<PathFrame>& frames, Communicator& ranks)

@@ -6,14 +6,18 @@
 #include "granular/paths/path_frame.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace granular
 {
 /// Gives all ranks the headers of all frames, and the same arrays in each: their sizes and kinds. Frames without particles
-/// take what others have. Throws Error on all ranks if no frame with particles has an array, or if frames differ in its size.
-/// Collective.
-void share_kinds(std::vector<PathFrame>& frames, Communicator& ranks);
+/// take what others have. Returns the names of the arrays that no frame with particles has; they are one nan a particle. Throws
+/// Error on all ranks if frames differ in the size of an array. Collective.
+std::vector<std::string> share_kinds(std::vector<PathFrame>& frames, Communicator& ranks);
+
+/// Throws Error with the first name, if there is any.
+void expect_none(const std::vector<std::string>& lacking);
 
 /// Returns the first ids of all ranks but the first, among which particles of such frames are shared evenly: lower ranks have
 /// smaller ids. The same on all ranks. Collective.

@@ -188,7 +188,7 @@ Paths join_frames(std::vector<PathFrame> frames, const PathJoin& join, Communica
   return do_together(ranks,
     [&]
     {
-      share_kinds(frames, ranks);
+      expect_none(share_kinds(frames, ranks));
       exchange_frames(frames, share_out(frames, ranks), ranks);
       Joiner joiner(frames, join, progress);
       Paths paths = joiner.run();

@@ -154,7 +154,7 @@ SquareDisplacements::Means SquareDisplacements::add(
     {
       std::vector<PathFrame> frames(1);
       frames[0] = std::move(frame);
-      share_kinds(frames, ranks_);
+      expect_none(share_kinds(frames, ranks_));
       const bool first = unwrapper_.frames() == 0;
       first_ids_ = first ? share_out(frames, ranks_) : std::move(first_ids_);
       exchange_frames(frames, first_ids_, ranks_);
