@@ -194,7 +194,9 @@ private:
     const Side& side, std::span<const std::int64_t> rows)
   {
     std::array<std::array<double, some>, 3> images = {};
-    for (int axis = 0; side.has_images && axis < 3; ++axis)
+    // a rank without particles may lack the array's components
+    const bool there = side.has_images && side.values.arrays.back().size() == 3;
+    for (int axis = 0; there && axis < 3; ++axis)
     {
       load_numbers(component_of(side.values.arrays.back(), axis), rows,
         images[static_cast<std::size_t>(axis)].data());

@@ -172,7 +172,10 @@ void broadcast(Numbers& numbers, Communicator& ranks)
   std::string bytes(reinterpret_cast<const char*>(numbers.data()), numbers.size() * 8);
   ranks.broadcast(bytes, 0);
   numbers.resize(bytes.size() / 8);
-  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  if (!bytes.empty())
+  {
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  }
 }
 
 /// A particle without lines is no part of a numbered fragment.

@@ -57,9 +57,12 @@ IdSelection::IdSelection(std::string_view text)
       ranges_.push_back(range);
       continue;
     }
-    for (std::int64_t i = 0; i <= static_cast<std::int64_t>(steps); ++i)
+    for (std::uint64_t i = 0; i <= steps; ++i)
     {
-      ids_.add(range.first + i * range.step, 0);
+      // without a sign: the way from the first to the last may be longer than the largest integer
+      ids_.add(static_cast<std::int64_t>(static_cast<std::uint64_t>(range.first) +
+                 i * static_cast<std::uint64_t>(range.step)),
+        0);
     }
   }
 }
