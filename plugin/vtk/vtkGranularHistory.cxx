@@ -385,7 +385,8 @@ private:
 
   vtkGranularHistory* Filter;
   vtkTable* Output;
-  granular::PartialProgress Part{ this->Progress }; ///< of a frame
+  granular::Progress& Whole = this->Progress;    ///< a PartialProgress would be copied
+  granular::PartialProgress Part{ this->Whole }; ///< of a frame
   std::vector<std::int64_t> Timesteps;
   bool HadParticles = false;
   std::vector<std::string> Lacking; ///< arrays that no frame with particles has, so far
