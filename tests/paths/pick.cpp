@@ -145,6 +145,26 @@ TEST(PickParticles, PointsOfAllForms)
   EXPECT_TRUE(pick(four.view, { two, {}, false }).points.empty());
 }
 
+/// Where points in the box are wanted, unwrapped ones lose their image counts, known or not.
+TEST(PickParticles, AbsolutePointsOfUnwrappedOnes)
+{
+  Four four;
+  four.points = { 11, 21, 31, 17, 20, 38.5, 9, 24, 30, 12.5, 19, 30 };
+  four.view.coordinates = Coordinates::Unwrapped;
+  PathRequest request{ IdSelection("-3 5"), {} };
+  request.absolute = true;
+  PathFrame frame = pick(four.view, request);
+  EXPECT_EQ(frame.coordinates, Coordinates::Absolute);
+  EXPECT_EQ(frame.points, (std::vector<double>{ 11, 20, 30.5, 11, 20, 30 }));
+  const std::vector<std::int32_t> images = { 0, 0, 0, 3, 0, 1, 0, 1, 0, 0, 0, 0 };
+  four.view.arrays.push_back(view_rows("image", ValueType::Int32, images.data(), 3));
+  frame = pick(four.view, request);
+  EXPECT_EQ(frame.points, (std::vector<double>{ 11, 20, 30.5, 9, 20, 30 }));
+  EXPECT_EQ(frame.images, (Numbers{ 3, 0, 1, 0, 1, 0 }));
+  four.view.coordinates = Coordinates::Absolute;
+  EXPECT_EQ(pick(four.view, request).points, (std::vector<double>{ 17, 20, 38.5, 9, 24, 30 }));
+}
+
 /// Counts of crossings are integers, three of them.
 TEST(PickParticles, ImagesThatAreNone)
 {

@@ -4,6 +4,7 @@
 #include "granular/dump/read/dump_reader.h"
 #include "granular/local/ids.h"
 #include "granular/local/particle_values.h"
+#include "granular/particles/absolute_positions.h"
 #include "granular/particles/point_forms.h"
 #include "granular/particles/view_frame.h"
 
@@ -89,14 +90,32 @@ void check_numbers(const FrameView& frame, const std::vector<std::string>& names
   }
 }
 
-void pick_points(const FrameView& frame, std::span<const std::int64_t> rows, PathFrame& picked,
-  const Executor& executor, Progress& progress)
+/// Unwrapped points, by their image counts, or wrapped.
+void pick_absolute(
+  const FrameView& frame, std::span<const std::int64_t> rows, std::vector<double>& points)
 {
+  const AbsolutePositions positions(frame, false);
+  for (std::size_t i = 0; i < rows.size(); i += AbsolutePositions::most_rows)
+  {
+    const std::size_t count = std::min(rows.size() - i, AbsolutePositions::most_rows);
+    positions.load(rows.subspan(i, count), points.data() + 3 * i);
+  }
+}
+
+void pick_points(const FrameView& frame, bool absolute, PathFrame& picked, const Executor& executor,
+  Progress& progress)
+{
+  const std::span<const std::int64_t> rows = picked.rows;
   const ParticleValues values = view_particles(frame, {}, executor, progress);
   picked.points.resize(3 * rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
     std::copy_n(values.points + rows[i] * values.point_step, 3, picked.points.data() + 3 * i);
+  }
+  if (absolute && picked.coordinates == Coordinates::Unwrapped)
+  {
+    pick_absolute(frame, rows, picked.points);
+    picked.coordinates = Coordinates::Absolute;
   }
   const ArrayView* const images = frame.find(image_array);
   if (picked.coordinates == Coordinates::Absolute && images && images->size() == 3 &&
@@ -147,7 +166,7 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   }
   if (request.points)
   {
-    pick_points(frame, rows, picked, executor, progress);
+    pick_points(frame, request.absolute, picked, executor, progress);
   }
   for (std::int64_t& row : picked.rows)
   {

@@ -27,6 +27,7 @@ struct PathRequest
   IdSelection selection;
   std::vector<std::string> arrays = {}; ///< names of arrays of numbers; frames may lack them
   bool points = true;                   ///< positions, too
+  bool absolute = false; ///< positions in the box also where a frame in memory has unwrapped ones
 };
 
 /// An array of selected particles: 64-bit integers, or doubles by their bits.

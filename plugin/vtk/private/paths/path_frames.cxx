@@ -67,11 +67,13 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
   std::vector<granular::PathFrame> frames(numbers.size());
   if (!this->Reader)
   {
+    granular::PathRequest wanted = request;
+    wanted.absolute = absolute;
     for (std::size_t i = 0; i < numbers.size(); ++i)
     {
       progress.step(static_cast<double>(i) / static_cast<double>(numbers.size()));
       granular::Progress quiet;
-      frames[i] = this->Request(numbers[i], request, quiet);
+      frames[i] = this->Request(numbers[i], wanted, quiet);
     }
     return frames;
   }
