@@ -196,7 +196,10 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
     { return selection.holds(id); };
   }
   const DumpFrame frame = read_dump(pieces, wanted, notices, progress);
-  if (frame.rows == 0 && frame.header.rows > 0 && frame.schema.find(ColumnRole::Id) < 0)
+  const bool lacks_ids = std::ranges::none_of(
+    frame.arrays, [](const DumpArray& array) { return array.info.name == "id"; });
+  if (frame.header.rows > 0 && frame.schema.find(ColumnRole::Id) < 0 &&
+    (lacks_ids || frame.rows == 0))
   {
     throw FormatError("expected a column id: paths need ids", where_of(pieces.front()));
   }
