@@ -10,6 +10,7 @@ from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkElevationFilter
 
+import plain_paths
 from said import said_by
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -291,6 +292,25 @@ for kind, properties in (("Trajectories", {"Arrays": "v"}), ("Trajectories", {"T
             works(filter_, 3)
             assert size_of(filter_) == whole
         filter_.RemoveAllObservers()
+
+# ---- pieces, without other processes: each has some of the paths, together all -------------------------------------
+
+for properties in ({}, {"PeriodicLines": 1}, {"Ids": "3 9"}, {"Ids": "99"}):
+    whole = filter_of("Trajectories", reader_of(walk))
+    set_all(whole, Arrays="v", **properties)
+    whole.Update()
+    expected = plain_paths.lines_of(whole.GetOutput())
+    found = {}
+    for piece in range(4):
+        part = filter_of("Trajectories", reader_of(walk))
+        set_all(part, Arrays="v", **properties)
+        part.UpdatePiece(piece, 4, 0)
+        assert part.said == []
+        lines = plain_paths.lines_of(part.GetOutput())
+        assert not lines or not found or min(lines) > max(found)
+        assert part.GetOutput().GetNumberOfPoints() == sum(len(line["time"]) for each in lines.values() for line in each)
+        found.update(lines)
+    assert plain_paths.same(dict(sorted(found.items())), dict(sorted(expected.items()))), properties
 
 # ---- properties are printed ----------------------------------------------------------------------------------------
 
