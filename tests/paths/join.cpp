@@ -308,6 +308,24 @@ TEST(PathsJoin, OnlyPeriodicAxesHaveImages)
   EXPECT_EQ(xs_of(join_alone(frames)), (std::vector<double>{ 9, 1 }));
 }
 
+/// A box that moves by more than half a period takes its particles along; along axes that are not periodic it does not.
+TEST(PathsJoin, BoxesThatMove)
+{
+  std::vector<PathFrame> frames = { simple_frame({ 3 }, { 1 }), simple_frame({ 3 }, { 7.5 }),
+    simple_frame({ 3 }, { 21 }) };
+  for (std::size_t f = 0; f < frames.size(); ++f)
+  {
+    const double x = 6 * static_cast<double>(f);
+    frames[f].header.box = Box::from_bounds({ x, x, 0 }, { x + 10, x + 10, 10 });
+    frames[f].header.box.boundary = "pp ff ff";
+  }
+  Notices notices;
+  const Paths paths = join_alone(frames, {}, &notices);
+  EXPECT_EQ(xs_of(paths), (std::vector<double>{ 1, 7.5, 11 }));
+  EXPECT_EQ(paths.points[7], 1);
+  EXPECT_TRUE(notices.empty());
+}
+
 TEST(PathsJoin, UnwrappedPointsStay)
 {
   std::vector<PathFrame> frames = { simple_frame({ 3 }, { 9 }), simple_frame({ 3 }, { 1 }),
