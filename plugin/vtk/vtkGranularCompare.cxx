@@ -3,6 +3,7 @@
 
 #include "private/arrays/arrays.h"
 #include "private/dump/particles.h"
+#include "private/dump/shared_names.h"
 #include "private/local/local_rows.h"
 #include "private/paths/changed_lines.h"
 #include "private/paths/changed_rows.h"
@@ -23,7 +24,6 @@
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -96,31 +96,20 @@ KnownArrays ShareArrays(const granular::FrameView& view, granular::Communicator&
 }
 
 /**
- * Returns the names in a list; for "*" those of all arrays that both frames have.
+ * Returns the names of the arrays that both frames have alike.
  */
-std::vector<std::string> NamesIn(
-  std::string list, const KnownArrays& current, const KnownArrays& reference)
+std::vector<std::string> NamesOfBoth(const KnownArrays& current, const KnownArrays& reference)
 {
-  std::ranges::replace(list, ',', ' ');
+  const KnownArrays& known = current.HasParticles ? current : reference;
   std::vector<std::string> names;
-  for (const std::string_view word : granular::split_words(list))
+  for (std::size_t i = 0; i < known.Names.size(); ++i)
   {
-    if (word != "*")
+    const auto other = std::ranges::find(reference.Names, known.Names[i]);
+    const bool both = other != reference.Names.end() &&
+      reference.Sizes[static_cast<std::size_t>(other - reference.Names.begin())] == known.Sizes[i];
+    if (both || !reference.HasParticles)
     {
-      names.emplace_back(word);
-      continue;
-    }
-    const KnownArrays& known = current.HasParticles ? current : reference;
-    for (std::size_t i = 0; i < known.Names.size(); ++i)
-    {
-      const auto other = std::ranges::find(reference.Names, known.Names[i]);
-      const bool both = other != reference.Names.end() &&
-        reference.Sizes[static_cast<std::size_t>(other - reference.Names.begin())] ==
-          known.Sizes[i];
-      if (both || !reference.HasParticles)
-      {
-        names.push_back(known.Names[i]);
-      }
+      names.push_back(known.Names[i]);
     }
   }
   return names;
@@ -298,8 +287,8 @@ private:
     const granular::FrameView& reference = this->Particles[1]->View();
     granular::ParticleCompareRequest request;
     request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
-    request.differences = NamesIn(
-      TextOf(this->Self->Differences), ShareArrays(view, ranks), ShareArrays(reference, ranks));
+    request.differences = NamesIn(TextOf(this->Self->Differences),
+      NamesOfBoth(ShareArrays(view, ranks), ShareArrays(reference, ranks)));
     this->Progress.set_part(0.1, 0.6);
     this->Compared = granular::compare_particles(view, reference, request, ranks, this->Progress);
     this->All.Far = this->Compared.far;
@@ -419,41 +408,32 @@ private:
     this->Outputs[0]->SetVerts(MakeCells(both.Count(), 1));
   }
 
-  /**
-   * Each thing that is not as it should be once, until it has gone away or another input or property may be why.
-   */
   void Tell() const
   {
-    auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Self->GetExecutive());
-    const vtkMTimeType now = pipeline->GetPipelineMTime();
-    const unsigned told = this->Self->ToldTime == now ? this->Self->Told : 0;
-    this->Self->ToldTime = now;
-    this->Self->Told = 0;
-    unsigned kind = 1;
-    const auto tell = [&](bool is, const std::string& text)
+    std::vector<Processes::Remark> remarks;
+    const auto tell = [&](bool is, const char* topic, const std::string& text)
     {
-      if (is && (told & kind) == 0 && (this->Ranks.rank() == 0 || !this->Together))
+      if (is && (this->Ranks.rank() == 0 || !this->Together))
       {
-        vtkWarningWithObjectMacro(this->Self, << text);
+        remarks.push_back({ topic, text });
       }
-      this->Self->Told |= is ? kind : 0;
-      kind <<= 1;
     };
-    tell(this->All.Far > 0,
+    tell(this->All.Far > 0, "far",
       std::to_string(this->All.Far) +
         " particles moved more than a quarter of a period of the box: their displacement may be "
         "wrong by periods. Unwrapped points, or ix iy iz in the dump, make it exact");
     const bool boxless = this->Particles[0] && !this->Compared.unwrapped &&
       !this->Particles[0]->View().has_box && !this->Particles[1]->View().has_box;
-    tell(boxless && this->All.Kept > 0,
+    tell(boxless && this->All.Kept > 0, "no box",
       "neither frame has a box in its field data (BoxOrigin, BoxVectors): displacements across "
       "periodic faces are those of the points");
-    tell(this->All.Unconnected > 0,
+    tell(this->All.Unconnected > 0, "unconnected",
       std::to_string(this->All.Unconnected) + " of " + std::to_string(this->All.Lines) +
         " lines name a particle that is not there: they connect no fragments");
-    tell(this->LackPlaces,
+    tell(this->LackPlaces, "no places",
       "the input Lines has no lines, as its file does not say where these are: draw the rows, the "
       "second output of the reader, with GranularLocalJoin");
+    this->Self->Ranks->Warn(this->Self, remarks);
   }
 
   vtkGranularCompare* Self;

@@ -148,8 +148,6 @@ private:
   char* BondTypeArray = nullptr;
   char* MassArray = nullptr;
   const std::unique_ptr<vtkGranularPrivate::KeptFrames> Frames;
-  vtkMTimeType ToldTime = 0; ///< of the pipeline when warnings were given
-  unsigned Told = 0;         ///< which
 };
 
 #endif

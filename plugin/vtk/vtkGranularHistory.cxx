@@ -143,7 +143,7 @@ private:
   std::vector<Column> FollowParticles()
   {
     const granular::Paths paths = this->Join(
-      this->Frames.Load(this->Numbers, this->Request, false, this->Notices, this->Progress), false);
+      this->Frames.Load(this->Numbers, this->Request, this->Notices, this->Progress), false);
     this->TakeTimesteps(paths.headers);
     granular::Communicator& ranks = this->Frames.GetRanks();
     std::int64_t count = static_cast<std::int64_t>(paths.ids.size());

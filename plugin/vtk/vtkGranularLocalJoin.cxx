@@ -376,47 +376,38 @@ private:
     }
   }
 
-  /**
-   * Each thing that is not as it should be once, until it has gone away or another input or property may be why.
-   */
   void Tell()
   {
-    auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Self->GetExecutive());
-    const vtkMTimeType now = pipeline->GetPipelineMTime();
-    const unsigned told = this->Self->ToldTime == now ? this->Self->Told : 0;
-    this->Self->ToldTime = now;
-    this->Self->Told = 0;
-    unsigned kind = 1;
-    const auto tell = [&](bool is, const std::string& text)
+    std::vector<Processes::Remark> remarks;
+    const auto tell = [&](bool is, const char* topic, const std::string& text)
     {
-      if (is && (told & kind) == 0 && (this->Ranks.rank() == 0 || !this->Together))
+      if (is && (this->Ranks.rank() == 0 || !this->Together))
       {
-        vtkWarningWithObjectMacro(this->Self, << text);
+        remarks.push_back({ topic, text });
       }
-      this->Self->Told |= is ? kind : 0;
-      kind <<= 1;
     };
-    tell(this->All.Rows == 0 && this->Rows->LackPlaces(),
+    tell(this->All.Rows == 0 && this->Rows->LackPlaces(), "no places",
       "the input Lines has no lines, as its file does not say where these are: take the rows, the "
       "second output of the reader");
     const std::string ofRows = " of " + std::to_string(this->All.Rows) + " lines ";
-    tell(this->Joined.missing > 0,
+    tell(this->Joined.missing > 0, "missing",
       std::to_string(this->Joined.missing) + ofRows +
         "are left out: no particle has the id of an end, as in " + this->Remarks[0]);
-    tell(this->Joined.repeated > 0,
+    tell(this->Joined.repeated > 0, "repeated",
       std::to_string(this->Joined.repeated) +
         " particles have the id of another one: lines go to the first");
-    tell(this->All.WithoutRest > 0,
+    tell(this->All.WithoutRest > 0, "no rest",
       std::to_string(this->All.WithoutRest) + ofRows +
         "have an equilibrium length of 0: their elongation and strain are nan");
-    tell(this->All.Misfits > 0,
+    tell(this->All.Misfits > 0, "misfits",
       std::to_string(this->All.Misfits) + ofRows +
         "are not as long as their array dist says: box or timestep are not those of the particles");
-    tell(!this->Remarks[1].empty(), this->Remarks[1]);
+    tell(!this->Remarks[1].empty(), "timesteps", this->Remarks[1]);
     const bool whole = this->Input->View().has_box || this->Self->PeriodicLines == AS_WRITTEN;
-    tell(!whole && this->All.Rows > this->Joined.missing,
+    tell(!whole && this->All.Rows > this->Joined.missing, "no box",
       "neither the particles nor the lines have a box in their field data (BoxOrigin, "
       "BoxVectors): lines are as written");
+    this->Self->Ranks->Warn(this->Self, remarks);
   }
 
   vtkGranularLocalJoin* Self;

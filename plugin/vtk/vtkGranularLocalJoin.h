@@ -110,8 +110,6 @@ private:
   char* Differences = nullptr;
   char* EquilibriumLengthArray = nullptr;
   double EquilibriumLength = 0;
-  vtkMTimeType ToldTime = 0; ///< of the pipeline when warnings were given
-  unsigned Told = 0;         ///< which
 };
 
 #endif

@@ -22,9 +22,6 @@
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
-#include <set>    // for std::set
-#include <string> // for std::string
-
 class VTKGRANULAR_EXPORT vtkGranularPathAlgorithm : public vtkGranularAlgorithm
 {
 public:
@@ -127,9 +124,6 @@ protected:
 private:
   vtkGranularPathAlgorithm(const vtkGranularPathAlgorithm&) = delete;
   void operator=(const vtkGranularPathAlgorithm&) = delete;
-
-  std::set<std::string> Told; ///< warnings of the pipeline's state at ToldTime
-  vtkMTimeType ToldTime = 0;
 };
 
 #endif

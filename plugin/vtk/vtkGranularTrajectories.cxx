@@ -40,7 +40,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 /**
  * The frames of the tail that was drawn last, by their numbers, their arrays, and when the pipeline was changed last.
  */
-struct vtkGranularTrajectories::KeptFrames
+struct vtkGranularTrajectories::TailFrames
 {
   std::map<std::size_t, granular::PathFrame> Frames;
   std::vector<std::string> Arrays; ///< "*" stands for others where the columns of a file change
@@ -73,7 +73,7 @@ public:
     this->Progress.set_part(0, 0.8);
     std::vector<granular::PathFrame> frames = this->Filter->Tail > 0
       ? this->LoadTail()
-      : this->Frames.Load(this->Numbers, this->Request, false, this->Notices, this->Progress);
+      : this->Frames.Load(this->Numbers, this->Request, this->Notices, this->Progress);
     this->Progress.set_part(0.8, 1);
     this->Paths = this->Join(std::move(frames), this->Filter->PeriodicLines == SPLIT);
     this->Lines = granular::draw_paths(this->Paths, this->Origin);
@@ -107,7 +107,7 @@ private:
   {
     auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetExecutive());
     const vtkMTimeType time = pipeline ? pipeline->GetPipelineMTime() : 0;
-    KeptFrames& kept = *this->Filter->Kept;
+    TailFrames& kept = *this->Filter->Kept;
     if (kept.Time != time || kept.Arrays != this->Request.arrays)
     {
       kept = { {}, this->Request.arrays, time };
@@ -116,7 +116,7 @@ private:
     std::ranges::copy_if(this->Numbers, std::back_inserter(missing),
       [&](std::size_t number) { return !kept.Frames.contains(number); });
     std::vector<granular::PathFrame> loaded =
-      this->Frames.Load(missing, this->Request, false, this->Notices, this->Progress);
+      this->Frames.Load(missing, this->Request, this->Notices, this->Progress);
     for (std::size_t i = 0; i < missing.size(); ++i)
     {
       kept.Frames[missing[i]] = std::move(loaded[i]);
@@ -311,7 +311,7 @@ private:
 
 //------------------------------------------------------------------------------
 vtkGranularTrajectories::vtkGranularTrajectories()
-  : Kept(std::make_unique<KeptFrames>())
+  : Kept(std::make_unique<TailFrames>())
 {
 }
 

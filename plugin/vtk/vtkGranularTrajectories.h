@@ -83,11 +83,11 @@ private:
   void operator=(const vtkGranularTrajectories&) = delete;
 
   class Drawer;
-  struct KeptFrames;
+  struct TailFrames;
 
   int PeriodicLines = UNWRAPPED;
   int Tail = 0;
-  std::unique_ptr<KeptFrames> Kept;
+  std::unique_ptr<TailFrames> Kept;
 };
 
 #endif

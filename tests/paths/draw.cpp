@@ -285,15 +285,38 @@ TEST(DrawPaths, HasAllPlaces)
   }
 }
 
-/// A step over several boxes leaves through one face, and comes from as many boxes away: it keeps its length.
+/// A step over several boxes goes through each of them, and keeps its length; one over very many is not drawn.
 TEST(DrawPaths, StepsOverSeveralBoxes)
 {
   Paths paths = line_along_x({ 9, 1 }, { 0, 1 }, true);
   paths.crossings = { 0, 0, 0, 3, 0, 0 };
   paths.points[3] = 31;
   const PathLines lines = draw_paths(paths, {});
-  EXPECT_EQ(xs_of(lines), (Doubles{ 9, 10, -20, 1 }));
-  EXPECT_EQ(lines.lengths, (Doubles{ 22, 22 }));
+  EXPECT_EQ(xs_of(lines), (Doubles{ 9, 10, 0, 4.5, 10, 0, 5.5, 10, 0, 1 }));
+  EXPECT_EQ(lines.lengths, (Doubles{ 22, 22, 22, 22 }));
+  EXPECT_TRUE(std::ranges::is_sorted(lines.parts.begin(), lines.parts.end() - 1));
+
+  paths.crossings[3] = -PathLines::most_periods;
+  paths.points[3] = 1 - 10. * static_cast<double>(PathLines::most_periods);
+  const PathLines many = draw_paths(paths, {});
+  double way = 0;
+  for (std::size_t line = 0; line < many.paths.size(); ++line)
+  {
+    for (std::int64_t i = many.begins[line]; i + 1 < many.begins[line + 1]; ++i)
+    {
+      way += std::abs(many.points[static_cast<std::size_t>(3 * i + 3)] -
+        many.points[static_cast<std::size_t>(3 * i)]);
+    }
+  }
+  EXPECT_NEAR(way, many.lengths[0], 1e-10);
+  for (const double x : xs_of(many))
+  {
+    EXPECT_GE(x, -1e-12);
+    EXPECT_LE(x, 10 + 1e-12);
+  }
+  --paths.crossings[3];
+  EXPECT_EQ(xs_of(draw_paths(paths, {})), (Doubles{ 9, 1 }));
+  EXPECT_EQ(draw_paths(paths, {}).begins, (std::vector<std::int64_t>{ 0, 1, 2 }));
 }
 
 // ---- speeds ------------------------------------------------------------------------------------

@@ -20,17 +20,6 @@ namespace
 {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-void on_ranks(const std::function<void(Communicator& ranks)>& check)
-{
-  SerialCommunicator alone;
-  check(alone);
-  for (const int ranks : { 1, 2, 3, 5 })
-  {
-    SCOPED_TRACE(ranks);
-    run_ranks(ranks, check);
-  }
-}
-
 template <class Call>
 std::string error_of(const Call& call)
 {
@@ -50,27 +39,6 @@ Paths join_alone(
 {
   SerialCommunicator alone;
   return join(frames, options, alone, notices);
-}
-
-/// A frame in the box from 0 to 10, periodic along x: ids with places on the x axis.
-PathFrame simple_frame(const std::vector<std::int64_t>& ids, const std::vector<double>& xs)
-{
-  PathFrame frame;
-  frame.loaded = true;
-  frame.header.timestep = 50;
-  frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 10, 10, 10 });
-  frame.header.box.boundary = "pp ff ff";
-  frame.ids = ids;
-  for (const double x : xs)
-  {
-    frame.points.insert(frame.points.end(), { x, 1, 2 });
-  }
-  frame.has_rows = true;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    frame.rows.push_back(10 * static_cast<std::int64_t>(i));
-  }
-  return frame;
 }
 
 std::vector<double> xs_of(const Paths& paths)

@@ -3,6 +3,7 @@
 #ifndef granular_tests_paths_path_checks_h
 #define granular_tests_paths_path_checks_h
 
+#include "../support/thread_ranks.h"
 #include "walks.h"
 
 #include "granular/parallel/gather.h"
@@ -33,6 +34,39 @@ inline std::vector<std::uint64_t> bits_of(std::span<const double> numbers)
     bits.push_back(std::bit_cast<std::uint64_t>(number));
   }
   return bits;
+}
+
+/// On one process, and on one to five.
+inline void on_ranks(const std::function<void(Communicator& ranks)>& check)
+{
+  granular::SerialCommunicator alone;
+  check(alone);
+  for (const int ranks : { 1, 2, 3, 5 })
+  {
+    SCOPED_TRACE(ranks);
+    run_ranks(ranks, check);
+  }
+}
+
+/// A frame in the box from 0 to 10, periodic along x: ids with places on the x axis.
+inline PathFrame simple_frame(const std::vector<std::int64_t>& ids, const std::vector<double>& xs)
+{
+  PathFrame frame;
+  frame.loaded = true;
+  frame.header.timestep = 50;
+  frame.header.box = granular::Box::from_bounds({ 0, 0, 0 }, { 10, 10, 10 });
+  frame.header.box.boundary = "pp ff ff";
+  frame.ids = ids;
+  for (const double x : xs)
+  {
+    frame.points.insert(frame.points.end(), { x, 1, 2 });
+  }
+  frame.has_rows = true;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    frame.rows.push_back(10 * static_cast<std::int64_t>(i));
+  }
+  return frame;
 }
 
 inline Paths join(std::vector<PathFrame> frames, const granular::PathJoin& options,

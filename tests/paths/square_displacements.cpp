@@ -24,17 +24,6 @@ namespace
 {
 using Means = SquareDisplacements::Means;
 
-void on_ranks(const std::function<void(Communicator& ranks)>& check)
-{
-  SerialCommunicator alone;
-  check(alone);
-  for (const int ranks : { 1, 2, 3, 5 })
-  {
-    SCOPED_TRACE(ranks);
-    run_ranks(ranks, check);
-  }
-}
-
 /// Of each frame, by numbers of 113 bits: the squares of displacements that are exact doubles.
 std::vector<Means> means_of(const walks::Run& run)
 {
@@ -121,16 +110,10 @@ void check(const walks::Run& run, const walks::Shown& shown)
 
 PathFrame frame_at(const std::vector<std::int64_t>& ids, const std::vector<double>& xs)
 {
-  PathFrame frame;
-  frame.loaded = true;
-  frame.header.timestep = 50;
-  frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 10, 10, 10 });
+  PathFrame frame = simple_frame(ids, xs);
   frame.header.box.boundary = "pp pp pp";
-  frame.ids = ids;
-  for (const double x : xs)
-  {
-    frame.points.insert(frame.points.end(), { x, 1, 2 });
-  }
+  frame.has_rows = false;
+  frame.rows.clear();
   return frame;
 }
 }

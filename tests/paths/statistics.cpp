@@ -22,6 +22,7 @@
 
 using namespace granular;
 using path_checks::bits_of;
+using path_checks::on_ranks;
 
 namespace
 {
@@ -29,18 +30,6 @@ using Doubles = std::vector<double>;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// On one process, and on one to five.
-void on_ranks(const std::function<void(Communicator& ranks)>& check)
-{
-  SerialCommunicator alone;
-  check(alone);
-  for (const int ranks : { 1, 2, 3, 5 })
-  {
-    SCOPED_TRACE(ranks);
-    run_ranks(ranks, check);
-  }
-}
 
 /// The part of this rank; the last has none of few.
 template <class Value>

@@ -4,6 +4,7 @@
 #include "granular/common/shares.h"
 #include "granular/data_file/section_rows.h"
 #include "granular/data_file/velocities.h"
+#include "granular/geometry/region.h"
 #include "granular/local/join.h"
 #include "granular/local/local_columns.h"
 #include "granular/parallel/gather.h"
@@ -235,12 +236,7 @@ private:
   }
 
   /// Whether particles are left out because the user wants few.
-  bool is_filtered() const
-  {
-    const auto& region = own_.region;
-    return own_.stride > 1 || region[0] <= region[1] || region[2] <= region[3] ||
-      region[4] <= region[5];
-  }
+  bool is_filtered() const { return own_.stride > 1 || restricts(own_.region); }
 
   void note_bonds(const JoinedLines& joined)
   {

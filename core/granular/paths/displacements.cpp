@@ -2,7 +2,6 @@
 #include "granular/paths/displacements.h"
 
 #include "granular/local/box_vectors.h"
-#include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,30 +14,6 @@ namespace
 Vector3 origin_of(const FrameView& frame)
 {
   return frame.coordinates == Coordinates::Scaled ? Vector3{} : frame.point_origin;
-}
-
-/// A vector for each periodic box vector; its product with any vector counts how many of the box vector are in it.
-std::vector<Vector3> find_periods(const Box& box)
-{
-  std::vector<Vector3> vectors;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    if (is_periodic(box, i) && has_length(box.vectors[i]))
-    {
-      vectors.push_back(values_of(box.vectors[i]));
-    }
-  }
-  std::vector<Vector3> periods;
-  for (std::size_t i = 0; i < vectors.size(); ++i)
-  {
-    const Vector3 own = own_part(vectors, i);
-    const double square = dot(own, own);
-    if (square > 0)
-    {
-      periods.push_back({ own[0] / square, own[1] / square, own[2] / square });
-    }
-  }
-  return periods;
 }
 }
 
@@ -56,7 +31,8 @@ Displacements::Displacements(const FrameView& current, const FrameView& referenc
                                     : Box{};
     images_.emplace(box);
     vectors_[0] = box.vectors; // of which the shortest image takes some
-    periods_ = find_periods(box);
+    duals_ = periodic_duals(
+      box, { values_of(box.vectors[0]), values_of(box.vectors[1]), values_of(box.vectors[2]) });
   }
 }
 
@@ -109,6 +85,6 @@ Vector3 Displacements::find(
 bool Displacements::is_far(const Vector3& displacement) const noexcept
 {
   return std::ranges::any_of(
-    periods_, [&](const Vector3& period) { return std::abs(dot(period, displacement)) > 0.25; });
+    duals_, [&](const Vector3& dual) { return std::abs(dot(dual, displacement)) > 0.25; });
 }
 }

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 namespace granular
 {
@@ -41,8 +40,8 @@ private:
   std::array<Vector3, 2> origins_ = {}; ///< added to the current points, and to those before
   std::array<std::array<Twofold3, 3>, 2> vectors_ = {}; ///< of the boxes
   std::optional<MinimumImage>
-    images_;                     ///< in which box the shortest is taken; of unwrapped points none
-  std::vector<Vector3> periods_; ///< count how many of each periodic box vector are in a vector
+    images_; ///< in which box the shortest is taken; of unwrapped points none
+  std::array<Vector3, 3> duals_ = {}; ///< of the periodic box vectors
 };
 }
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/geometry/box.h"
+#include "granular/local/box_vectors.h"
 #include "granular/local/minimum_image.h"
 #include "granular/local/split_line.h"
 #include "granular/paths/paths.h"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 namespace granular
@@ -49,6 +51,38 @@ double length_of(const Paths& paths, std::int64_t first, std::int64_t end)
   }
   return length;
 }
+
+/// A box, and its images.
+struct Lattice
+{
+  explicit Lattice(const Box& of)
+    : box(of)
+    , images(of)
+    , duals(periodic_duals(
+        of, { values_of(of.vectors[0]), values_of(of.vectors[1]), values_of(of.vectors[2]) }))
+  {
+  }
+
+  /// Moves a point into the box along periodic axes. Returns how many of each vector were taken away.
+  BoxCounts wrap(Vector3& point) const
+  {
+    const Vector3 origin = values_of(box.origin);
+    const Vector3 offset = { point[0] - origin[0], point[1] - origin[1], point[2] - origin[2] };
+    BoxCounts counts;
+    BoxCounts back;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      counts[axis] = static_cast<std::int64_t>(std::floor(dot(duals[axis], offset)));
+      back[axis] = -counts[axis];
+    }
+    point = images.moved(point, back, {});
+    return counts;
+  }
+
+  const Box& box;
+  MinimumImage images;
+  std::array<Vector3, 3> duals; ///< of the periodic vectors
+};
 
 class Drawer
 {
@@ -98,46 +132,104 @@ private:
     this->end_line();
   }
 
-  /// Ends the line at a face before a place, and begins the next one at another face.
+  /// Draws a step across faces, but for the place that it goes to. The parts of a step across several periods cross each face
+  /// once at most; a step across very many is left out.
   void cut(std::int64_t place, const BoxCounts& counts)
   {
     const auto frame = static_cast<std::size_t>(paths_.frames[static_cast<std::size_t>(place)]);
-    if (!images_ || frame_ != frame)
+    if (!lattice_ || frame_ != frame)
     {
-      images_.emplace(paths_.headers[frame].box);
+      lattice_.emplace(paths_.headers[frame].box);
       frame_ = frame;
     }
-    const LineSplitter splitter(paths_.headers[frame].box, *images_, origin_);
+    std::int64_t most = 0;
+    for (const std::int64_t count : counts)
+    {
+      most = std::max(most, std::abs(count));
+    }
+    if (most > PathLines::most_periods)
+    {
+      this->end_line();
+      return;
+    }
+    Step step{ this->shown(place - 1, {}), {}, {}, place - 1, 0, 0 };
+    const Vector3 to = this->shown(place, {});
+    const Vector3 way = lattice_->images.moved(to, counts, step.from);
+    const std::int64_t steps = most > 1 ? most + 1 : 1;
+    BoxCounts before = {};
+    for (std::int64_t i = 1; i <= steps; ++i)
+    {
+      step.end = static_cast<double>(i) / static_cast<double>(steps);
+      BoxCounts now = counts;
+      step.to = to;
+      if (i < steps)
+      {
+        const Vector3 start = this->shown(place - 1, {});
+        step.to = { start[0] + step.end * way[0], start[1] + step.end * way[1],
+          start[2] + step.end * way[2] };
+        now = lattice_->wrap(step.to);
+      }
+      step.counts = { now[0] - before[0], now[1] - before[1], now[2] - before[2] };
+      this->cut(step);
+      if (i < steps)
+      {
+        this->add_point(less_origin(step.to), place - 1, step.end);
+      }
+      before = now;
+      step.from = step.to;
+      step.begin = step.end;
+    }
+  }
+
+  /// A part of the way from a place to the next one.
+  struct Step
+  {
+    Vector3 from = {};
+    Vector3 to = {};
+    BoxCounts counts = {}; ///< that bring its end next to its beginning
+    std::int64_t place = 0;
+    double begin = 0; ///< where it is on the way
+    double end = 0;
+  };
+
+  /// Ends the line at a face, and begins the next one at another face.
+  void cut(const Step& step)
+  {
+    const LineSplitter splitter(lattice_->box, lattice_->images, origin_);
     std::array<LinePart, LineSplitter::most_parts> parts;
-    const std::size_t count =
-      splitter.split(this->shown(place - 1, {}), this->shown(place, {}), counts, parts);
+    const std::size_t count = splitter.split(step.from, step.to, step.counts, parts);
     double whole = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
       whole += distance(parts[i].begin.data(), parts[i].end.data());
     }
-    double way = 0;
+    double done = 0;
+    const auto part_now = [&]
+    { return step.begin + std::min(done, 1.0) * (step.end - step.begin); };
     for (std::size_t i = 0; i < count; ++i)
     {
       // from a place in a face the only part may begin at the opposite face
-      if (i > 0 || parts[i].begin != this->shown(place - 1, origin_))
+      if (i > 0 || parts[i].begin != this->less_origin(step.from))
       {
         this->end_line();
-        this->add_point(parts[i].begin, place - 1, way);
+        this->add_point(parts[i].begin, step.place, part_now());
       }
-      way += whole > 0 ? distance(parts[i].begin.data(), parts[i].end.data()) / whole : 0;
-      way = std::min(way, 1.0);
+      done += whole > 0 ? distance(parts[i].begin.data(), parts[i].end.data()) / whole : 0;
       if (i + 1 < count)
       {
-        this->add_point(parts[i].end, place - 1, way);
+        this->add_point(parts[i].end, step.place, part_now());
       }
-      else if (parts[i].end !=
-        this->shown(place, origin_)) // the next place is in the opposite face
+      else if (parts[i].end != this->less_origin(step.to)) // the end is in the opposite face
       {
-        this->add_point(parts[i].end, place - 1, 1);
+        this->add_point(parts[i].end, step.place, step.end);
         this->end_line();
       }
     }
+  }
+
+  Vector3 less_origin(const Vector3& point) const
+  {
+    return { point[0] - origin_[0], point[1] - origin_[1], point[2] - origin_[2] };
   }
 
   Vector3 shown(std::int64_t place, const Vector3& less) const
@@ -165,8 +257,8 @@ private:
   PathLines lines_;
   std::int64_t path_ = 0;
   double length_ = 0;
-  std::size_t frame_ = 0; ///< that images_ are of
-  std::optional<MinimumImage> images_;
+  std::size_t frame_ = 0; ///< that the lattice is of
+  std::optional<Lattice> lattice_;
 };
 }
 

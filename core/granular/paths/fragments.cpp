@@ -7,6 +7,7 @@
 #include "granular/local/id_finder.h"
 #include "granular/parallel/gather.h"
 #include "granular/parallel/trade.h"
+#include "granular/paths/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -190,7 +191,7 @@ public:
     Communicator& ranks)
     : broken_(fragments)
   {
-    const SumScale scale = make_scale(masses, ranks);
+    const SumScale scale = scale_of(masses, ranks);
     Numbers sums(scale.size() * ((fragments + SumScale::lanes - 1) / SumScale::lanes));
     for (std::size_t i = 0; i < masses.size(); ++i)
     {
@@ -230,36 +231,13 @@ public:
 private:
   static bool is_usable(double mass) noexcept { return std::abs(mass) < 0x1p900; }
 
-  /// For the masses of all ranks.
-  static SumScale make_scale(std::span<const double> masses, Communicator& ranks)
+  /// For the masses of all ranks that can be added.
+  static SumScale scale_of(std::span<const double> masses, Communicator& ranks)
   {
-    struct Range
-    {
-      std::int64_t top = -1074;
-      std::int64_t bottom = 900;
-      std::int64_t terms = 0;
-    };
-    Range own;
-    own.terms = static_cast<std::int64_t>(masses.size());
-    for (const double mass : masses)
-    {
-      if (is_usable(mass) && mass != 0)
-      {
-        int exponent = 0;
-        std::frexp(mass, &exponent);
-        own.top = std::max<std::int64_t>(own.top, exponent);
-        own.bottom = std::min<std::int64_t>(own.bottom, exponent - 53);
-      }
-    }
-    Range all;
-    for (const Range& range : gather(ranks, own))
-    {
-      all = { std::max(all.top, range.top), std::min(all.bottom, range.bottom),
-        all.terms + range.terms };
-    }
-    std::array<SumScale::Range, SumScale::lanes> ranges;
-    ranges.fill({ static_cast<int>(all.top), static_cast<int>(std::min(all.bottom, all.top)) });
-    return { ranges, all.terms };
+    std::vector<double> usable(masses.begin(), masses.end());
+    std::ranges::replace_if(
+      usable, [](double mass) { return !is_usable(mass); }, 0.0);
+    return make_scale(terms_of(usable), 1, ranks);
   }
 
   Numbers broken_; ///< masses of each fragment that cannot be added

@@ -3,7 +3,6 @@
 
 #include "granular/dump/read/dump_reader.h"
 #include "granular/local/ids.h"
-#include "granular/local/particle_values.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/point_forms.h"
 #include "granular/particles/view_frame.h"
@@ -90,39 +89,50 @@ void check_numbers(const FrameView& frame, const std::vector<std::string>& names
   }
 }
 
-/// Unwrapped points, by their image counts, or wrapped.
-void pick_absolute(
+/// Points of rows that follow each other are used in place where they need no conversion.
+void load_points(
   const FrameView& frame, std::span<const std::int64_t> rows, std::vector<double>& points)
 {
   const AbsolutePositions positions(frame, false);
+  const bool all = is_consecutive(rows);
+  points.resize(3 * rows.size());
   for (std::size_t i = 0; i < rows.size(); i += AbsolutePositions::most_rows)
   {
     const std::size_t count = std::min(rows.size() - i, AbsolutePositions::most_rows);
-    positions.load(rows.subspan(i, count), points.data() + 3 * i);
+    double* const to = points.data() + 3 * i;
+    if (!all)
+    {
+      positions.load(rows.subspan(i, count), to);
+      continue;
+    }
+    const double* const from = positions.load(rows[i], count, to);
+    if (from != to)
+    {
+      std::copy_n(from, 3 * count, to);
+    }
   }
 }
 
-void pick_points(const FrameView& frame, bool absolute, PathFrame& picked, const Executor& executor,
-  Progress& progress)
+void pick_points(const FrameView& frame, bool absolute, PathFrame& picked)
 {
-  const std::span<const std::int64_t> rows = picked.rows;
-  const ParticleValues values = view_particles(frame, {}, executor, progress);
-  picked.points.resize(3 * rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  if (!frame.points)
   {
-    std::copy_n(values.points + rows[i] * values.point_step, 3, picked.points.data() + 3 * i);
+    throw Error("expected points of the particles, got none");
   }
-  if (absolute && picked.coordinates == Coordinates::Unwrapped)
+  FrameView wanted = frame;
+  if (picked.coordinates == Coordinates::Unwrapped)
   {
-    pick_absolute(frame, rows, picked.points);
-    picked.coordinates = Coordinates::Absolute;
+    picked.coordinates = absolute ? Coordinates::Absolute : Coordinates::Unwrapped;
+    // taken for absolute ones, unwrapped points stay as they are
+    wanted.coordinates = absolute ? Coordinates::Unwrapped : Coordinates::Absolute;
   }
+  load_points(wanted, picked.rows, picked.points);
   const ArrayView* const images = frame.find(image_array);
   if (picked.coordinates == Coordinates::Absolute && images && images->size() == 3 &&
     is_integer(images->type))
   {
     picked.has_images = true;
-    picked.images = pick_array(*images, rows).words;
+    picked.images = pick_array(*images, picked.rows).words;
   }
 }
 }
@@ -166,7 +176,7 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   }
   if (request.points)
   {
-    pick_points(frame, request.absolute, picked, executor, progress);
+    pick_points(frame, request.absolute, picked);
   }
   for (std::int64_t& row : picked.rows)
   {
@@ -222,20 +232,12 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
   return picked;
 }
 
-std::vector<std::int64_t> ids_in_region(const PathFrame& frame, std::span<const double, 6> region)
+std::vector<std::int64_t> ids_in_region(const PathFrame& frame, Region region)
 {
   std::vector<std::int64_t> ids;
   for (std::size_t i = 0; i < frame.ids.size(); ++i)
   {
-    bool inside = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double lo = region[2 * axis];
-      const double hi = region[2 * axis + 1];
-      const double x = frame.points[3 * i + axis];
-      inside = inside && (lo > hi || (x >= lo && x <= hi));
-    }
-    if (inside)
+    if (contains(region, frame.points.data() + 3 * i))
     {
       ids.push_back(frame.ids[i]);
     }

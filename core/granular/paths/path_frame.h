@@ -9,13 +9,13 @@
 #include "granular/frames/frame.h"
 #include "granular/frames/run_index.h"
 #include "granular/geometry/positions.h"
+#include "granular/geometry/region.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"
 #include "granular/paths/id_selection.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -66,9 +66,8 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
 PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathRequest& request,
   const DumpRequest& base, Notices& notices, Progress& progress);
 
-/// Returns the ids of the particles whose points are in a region: xlo xhi ylo yhi zlo zhi, closed; an axis with lo > hi is not
-/// restricted.
-std::vector<std::int64_t> ids_in_region(const PathFrame& frame, std::span<const double, 6> region);
+/// Returns the ids of the particles whose points are in a region.
+std::vector<std::int64_t> ids_in_region(const PathFrame& frame, Region region);
 
 /// Throws Error that names the id and its first two rows among the particles of a frame.
 [[noreturn]] void throw_repeated(std::int64_t id, std::int64_t timestep, std::int64_t first_row,

@@ -205,6 +205,7 @@ Paths join_frames(std::vector<PathFrame> frames, const PathJoin& join, Communica
 Notice note_long_steps(std::int64_t steps)
 {
   Notice notice;
+  notice.topic = "long steps";
   notice.text = std::to_string(steps) +
     " steps from frame to frame are longer than a quarter of a period: without image counts ix iy "
     "iz some may go to a wrong image";

@@ -63,6 +63,8 @@ Notice note_long_steps(std::int64_t steps);
 /// Points along paths, drawn as polylines without gaps in time.
 struct PathLines
 {
+  static constexpr std::int64_t most_periods = 64; ///< of a step that is drawn where lines are cut
+
   std::vector<double> points;       ///< x y z
   std::vector<std::int64_t> places; ///< of each point: its place, or the one before it
   std::vector<double> parts; ///< of the way from that place to the next, 0 to 1; empty: all 0
@@ -73,7 +75,7 @@ struct PathLines
 };
 
 /// Makes lines of the paths: one for each stretch without gaps, of one point or more. With crossings in the paths they stay
-/// in the box, cut at the periodic faces, minus the origin.
+/// in the box, cut at the periodic faces, minus the origin. A step across more than most_periods is not drawn.
 PathLines draw_paths(const Paths& paths, const Vector3& origin);
 
 /// Returns the speed at each place: the length of the steps from the place before and to the place after, divided by the

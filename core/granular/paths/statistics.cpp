@@ -2,6 +2,7 @@
 #include "granular/paths/statistics.h"
 
 #include "granular/common/error.h"
+#include "granular/numbers/number_print.h"
 #include "granular/parallel/gather.h"
 #include "granular/sorting/find_ids_at.h"
 
@@ -72,7 +73,7 @@ SumScale::Range range_of(double least, double greatest)
   }
   if (!(greatest < 0x1p900))
   {
-    throw LimitError("expected numbers below 2^900 for sums, got " + std::to_string(greatest));
+    throw LimitError("expected numbers below 2^900 for sums, got " + to_text(greatest));
   }
   // no double has bits below 2^-1074
   return { std::ilogb(greatest) + 1, std::max(std::ilogb(least) - 52, -1074) };
@@ -127,8 +128,17 @@ std::vector<double> select(
 }
 }
 
-SumScale::Terms sum_exactly(
-  std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks)
+std::vector<SumScale::Terms> terms_of(std::span<const double> numbers)
+{
+  std::vector<SumScale::Terms> terms((numbers.size() + SumScale::lanes - 1) / SumScale::lanes);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    terms[i / SumScale::lanes][i % SumScale::lanes] = numbers[i];
+  }
+  return terms;
+}
+
+SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks)
 {
   Magnitudes all;
   for (const Magnitudes& own : gather(ranks, measure(terms, sums)))
@@ -140,7 +150,13 @@ SumScale::Terms sum_exactly(
   {
     ranges[i] = range_of(all.least[i % sums], all.greatest[i % sums]);
   }
-  const SumScale scale(ranges, all.terms);
+  return { ranges, all.terms };
+}
+
+SumScale::Terms sum_exactly(
+  std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks)
+{
+  const SumScale scale = make_scale(terms, sums, ranks);
   std::vector<std::int64_t> parts(scale.size());
   const std::vector<std::int64_t> cells(terms.size());
   scale.add(terms, cells.data(), parts.data());
@@ -173,12 +189,7 @@ Statistics find_statistics(
     found.quantiles.assign(quantiles.size(), nothing);
     return found;
   }
-  std::vector<SumScale::Terms> terms((numbers.size() + SumScale::lanes - 1) / SumScale::lanes);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    terms[i / SumScale::lanes][i % SumScale::lanes] = numbers[i];
-  }
-  found.mean = sum_exactly(terms, 1, ranks)[0] / static_cast<double>(found.count);
+  found.mean = sum_exactly(terms_of(numbers), 1, ranks)[0] / static_cast<double>(found.count);
 
   std::vector<std::int64_t> places = { 0, found.count - 1 };
   for (const double quantile : quantiles)

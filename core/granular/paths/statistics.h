@@ -12,6 +12,13 @@
 
 namespace granular
 {
+/// Returns numbers as terms, eight in each; 0 fills the last.
+std::vector<SumScale::Terms> terms_of(std::span<const double> numbers);
+
+/// Returns the scale for exact sums of the terms of all ranks; lanes with the same number modulo `sums`, which divides
+/// SumScale::lanes, have the same range. Throws LimitError for magnitudes from 2^900. Collective.
+SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks);
+
 /// Sums the terms of all ranks: lanes with the same number modulo `sums`, which divides SumScale::lanes, belong to one sum.
 /// Returns the sums in the first lanes, each correctly rounded, hence the same for any order of terms, and any ranks. Terms
 /// are finite. Throws LimitError for magnitudes from 2^900. Collective.

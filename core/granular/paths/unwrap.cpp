@@ -46,22 +46,6 @@ std::array<Vector3, 3> vectors_of(const Box& box) noexcept
   return { values_of(box.vectors[0]), values_of(box.vectors[1]), values_of(box.vectors[2]) };
 }
 
-/// What counts each vector in an offset; zero for a vector without length, and along axes that are not periodic.
-std::array<Vector3, 3> find_duals(const Box& box, const std::array<Vector3, 3>& vectors) noexcept
-{
-  std::array<Vector3, 3> duals = {};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    if (is_periodic(box, axis) && has_length(box.vectors[axis]))
-    {
-      const Vector3 own = own_part(vectors, axis);
-      const double square = dot(own, vectors[axis]);
-      duals[axis] = square > 0 ? add({}, 1 / square, own) : Vector3{};
-    }
-  }
-  return duals;
-}
-
 /// Takes away from a vector what it has of another one more than the vector it is to resemble. Returns how often.
 std::int64_t resemble(
   Vector3& vector, const Vector3& wanted, const Vector3& other, std::size_t axis) noexcept
@@ -93,7 +77,7 @@ BoxChange::BoxChange(const Box& from, const Box& to)
   }
   origin_ = values_of(from.origin);
   const Vector3 moved = minus(values_of(to.origin), origin_);
-  const std::array<Vector3, 3> duals = find_duals(from, before);
+  const std::array<Vector3, 3> duals = periodic_duals(from, before);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     // along other axes bounds follow the particles, and carry nothing
@@ -142,7 +126,7 @@ void Unwrapper::add_box(const Box& box)
   if (kinds_.empty() || !is_same(kinds_.back().box, box))
   {
     const BoxChange change = kinds_.empty() ? BoxChange() : BoxChange(kinds_.back().box, box);
-    kinds_.push_back({ box, MinimumImage(box), find_duals(box, vectors_of(box)), change });
+    kinds_.push_back({ box, MinimumImage(box), periodic_duals(box, vectors_of(box)), change });
   }
   kinds_of_frames_.push_back(kinds_.size() - 1);
 }

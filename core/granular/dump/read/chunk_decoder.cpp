@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/read/chunk_decoder.h"
 
+#include "granular/geometry/region.h"
 #include "granular/sorting/text_dictionary.h"
 
 #include <algorithm>
@@ -23,21 +24,6 @@ void copy_scaled(const char* from, std::ptrdiff_t from_stride, char* to, std::pt
     from += from_stride;
     to += to_stride;
   }
-}
-
-/// A coordinate that is no number is in no region.
-bool contains(const std::array<double, 6>& region, const double* point) noexcept
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double lo = region[2 * axis];
-    const double hi = region[2 * axis + 1];
-    if (lo <= hi && !(point[axis] >= lo && point[axis] <= hi))
-    {
-      return false;
-    }
-  }
-  return true;
 }
 }
 

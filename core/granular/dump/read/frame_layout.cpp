@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/read/frame_layout.h"
 
+#include "granular/geometry/region.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,11 +21,6 @@ std::size_t batch_for(const ColumnSchema& schema) noexcept
   const auto texts = static_cast<std::size_t>(
     std::ranges::count(schema.arrays(), ValueType::Text, &ArrayInfo::type));
   return std::clamp(most_texts / std::max<std::size_t>(texts, 1), std::size_t{ 1 }, most_rows);
-}
-
-bool restricts(const std::array<double, 6>& region) noexcept
-{
-  return region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5];
 }
 }
 

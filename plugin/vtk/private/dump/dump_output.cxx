@@ -3,6 +3,8 @@
 
 #include "private/arrays/arrays.h"
 
+#include "granular/geometry/region.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -169,8 +171,7 @@ void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request)
   {
     names.push_back("Stride " + std::to_string(request.stride));
   }
-  const auto& region = request.region;
-  if (region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5])
+  if (granular::restricts(request.region))
   {
     names.emplace_back("RegionOfInterest");
   }

@@ -30,34 +30,43 @@ void pass(Archive& archive, typename Archive::template Passed<KnownNames>& known
   granular::pass(archive, known.Names);
 }
 
-std::vector<std::string> NamesIn(std::string list, const granular::FrameView& particles)
+std::vector<std::string> NumericArrays(const granular::FrameView& particles)
 {
-  std::ranges::replace(list, ',', ' ');
   std::vector<std::string> names;
-  for (const std::string_view word : granular::split_words(list))
+  for (const granular::ArrayView& array : particles.arrays)
   {
-    if (word != "*")
+    if (array.type != granular::ValueType::Text && array.name != "id")
     {
-      names.emplace_back(word);
-      continue;
-    }
-    for (const granular::ArrayView& array : particles.arrays)
-    {
-      if (array.type != granular::ValueType::Text && array.name != "id")
-      {
-        names.push_back(array.name);
-      }
+      names.push_back(array.name);
     }
   }
   return names;
 }
 }
 
+std::vector<std::string> NamesIn(std::string list, const std::vector<std::string>& all)
+{
+  std::ranges::replace(list, ',', ' ');
+  std::vector<std::string> names;
+  for (const std::string_view word : granular::split_words(list))
+  {
+    if (word == "*")
+    {
+      names.insert(names.end(), all.begin(), all.end());
+    }
+    else
+    {
+      names.emplace_back(word);
+    }
+  }
+  return names;
+}
+
 std::vector<std::string> ShareNames(
   const char* list, const granular::FrameView& particles, granular::Communicator& ranks)
 {
-  const std::vector<KnownNames> all =
-    granular::gather(ranks, KnownNames{ particles.rows > 0, NamesIn(TextOf(list), particles) });
+  const std::vector<KnownNames> all = granular::gather(
+    ranks, KnownNames{ particles.rows > 0, NamesIn(TextOf(list), NumericArrays(particles)) });
   const auto best = std::ranges::find_if(all, &KnownNames::HasParticles);
   return best == all.end() ? all.back().Names : best->Names;
 }

@@ -11,6 +11,11 @@
 namespace vtkGranularPrivate
 {
 /**
+ * Returns the names in a list, separated by blanks or commas; "*" stands for all of some names.
+ */
+std::vector<std::string> NamesIn(std::string list, const std::vector<std::string>& all);
+
+/**
  * Returns the names in a list, separated by blanks or commas, the same on all ranks; "*" stands for all arrays of numbers but
  * id of the first rank that has particles. Collective.
  */

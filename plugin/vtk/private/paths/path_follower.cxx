@@ -7,10 +7,10 @@
 #include "private/request/ranks.h"
 #include "private/request/text_of.h"
 
+#include "granular/geometry/region.h"
 #include "granular/paths/id_selection.h"
 
 #include "vtkDataObject.h"
-#include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 
@@ -83,20 +83,14 @@ void vtkGranularPathAlgorithm::Follower::ChooseFrames()
 }
 
 //------------------------------------------------------------------------------
-bool vtkGranularPathAlgorithm::Follower::HasRegion() const
-{
-  const double* region = this->Self->RegionOfInterest;
-  return region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5];
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularPathAlgorithm::Follower::ChooseParticles()
 {
   granular::IdSelection& selection = this->Request.selection;
   selection = granular::IdSelection(TextOf(this->Self->Ids));
   selection.keep_multiples(this->Self->EveryNth);
   const auto samples = static_cast<std::size_t>(this->Self->NumberOfSamples);
-  if (!this->HasRegion() && samples == 0)
+  const bool hasRegion = granular::restricts(this->Self->RegionOfInterest);
+  if (!hasRegion && samples == 0)
   {
     return;
   }
@@ -110,11 +104,12 @@ void vtkGranularPathAlgorithm::Follower::ChooseParticles()
   const auto number = static_cast<std::size_t>(wanted < 0 ? wanted + frames : wanted);
   granular::PathRequest request;
   request.selection = selection;
-  request.points = this->HasRegion();
+  request.points = hasRegion;
+  request.absolute = true;
   const granular::PathFrame frame =
-    std::move(this->Frames.Load({ number }, request, true, this->Notices, this->Progress).front());
+    std::move(this->Frames.Load({ number }, request, this->Notices, this->Progress).front());
   const std::vector<std::int64_t> ids =
-    this->HasRegion() ? granular::ids_in_region(frame, this->Self->RegionOfInterest) : frame.ids;
+    hasRegion ? granular::ids_in_region(frame, this->Self->RegionOfInterest) : frame.ids;
   granular::Communicator& ranks = this->Frames.GetRanks();
   selection.keep_only(samples > 0 ? granular::sample_ids(ids, samples, this->Self->Seed, ranks)
                                   : granular::share_ids(ids, ranks));
@@ -148,20 +143,15 @@ granular::Paths vtkGranularPathAlgorithm::Follower::Join(
 //------------------------------------------------------------------------------
 void vtkGranularPathAlgorithm::Follower::Tell()
 {
-  auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Self->GetExecutive());
-  const vtkMTimeType time = pipeline ? pipeline->GetPipelineMTime() : 0;
-  if (time != this->Self->ToldTime)
-  {
-    this->Self->Told.clear();
-    this->Self->ToldTime = time;
-  }
+  std::vector<Processes::Remark> remarks;
   for (const granular::Notice& notice : this->Notices)
   {
-    const std::string text = granular::to_string(notice);
-    const bool tells = this->Ranks.rank() == 0 || !this->Together || !notice.where.path.empty();
-    if (this->Self->Told.insert(text).second && tells)
+    // what is said of a file is known to the rank that read it alone
+    if (this->Ranks.rank() == 0 || !this->Together || !notice.where.path.empty())
     {
-      vtkWarningWithObjectMacro(this->Self, << text);
+      const std::string text = granular::to_string(notice);
+      remarks.push_back({ notice.topic.empty() ? text : notice.topic, text });
     }
   }
+  this->Self->Ranks->Warn(this->Self, remarks);
 }

@@ -69,7 +69,6 @@ private:
   void ReadInput();
   void ChooseFrames();
   void ChooseParticles();
-  bool HasRegion() const;
 };
 
 #endif

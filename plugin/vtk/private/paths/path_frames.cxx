@@ -23,9 +23,10 @@ namespace
  */
 constexpr std::size_t PoolBytes = std::size_t{ 1 } << 30;
 
-granular::Coordinates FormOf(const granular::DumpRequest& shown, bool absolute)
+granular::Coordinates FormOf(
+  const granular::DumpRequest& shown, const granular::PathRequest& request)
 {
-  return shown.coordinates == granular::Coordinates::Unwrapped && !absolute
+  return shown.coordinates == granular::Coordinates::Unwrapped && !request.absolute
     ? granular::Coordinates::Unwrapped
     : granular::Coordinates::Absolute;
 }
@@ -61,19 +62,17 @@ PathFrames::PathFrames(
 }
 
 std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>& numbers,
-  const granular::PathRequest& request, bool absolute, granular::Notices& notices,
+  const granular::PathRequest& request, granular::Notices& notices,
   granular::PartialProgress& progress)
 {
   std::vector<granular::PathFrame> frames(numbers.size());
   if (!this->Reader)
   {
-    granular::PathRequest wanted = request;
-    wanted.absolute = absolute;
     for (std::size_t i = 0; i < numbers.size(); ++i)
     {
       progress.step(static_cast<double>(i) / static_cast<double>(numbers.size()));
       granular::Progress quiet;
-      frames[i] = this->Request(numbers[i], wanted, quiet);
+      frames[i] = this->Request(numbers[i], request, quiet);
     }
     return frames;
   }
@@ -84,17 +83,17 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
       frame.arrays.push_back({ name });
     }
   }
+  const granular::Communicator& ranks = this->GetRanks();
   std::vector<std::size_t> own;
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    granular::Communicator& ranks = this->GetRanks();
     if (static_cast<int>(i % static_cast<std::size_t>(ranks.size())) == ranks.rank())
     {
       own.push_back(i);
     }
   }
   granular::DumpRequest base = this->Reader->Request;
-  base.coordinates = FormOf(base, absolute);
+  base.coordinates = FormOf(base, request);
   base.threads = std::max(1, this->Threads / std::max(1, static_cast<int>(own.size())));
   std::vector<granular::Notices> said(own.size());
   granular::do_together(this->Ranks,
@@ -126,7 +125,7 @@ granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::Pat
     return this->Request(number, request, progress);
   }
   granular::DumpRequest base = this->Reader->Request;
-  base.coordinates = FormOf(base, false);
+  base.coordinates = FormOf(base, request);
   base.threads = this->Threads;
   base.piece = this->GetRanks().rank();
   base.pieces = this->GetRanks().size();

@@ -46,11 +46,11 @@ public:
 
   /**
    * Loads frames, several at a time if they are in files: each is whole on one rank, and empty on others. From a pipeline
-   * each rank has its piece. absolute: points in the box, whatever the input shows. Throws the core's errors; Cancelled.
+   * each rank has its piece. Throws the core's errors; Cancelled.
    * Collective.
    */
   std::vector<granular::PathFrame> Load(const std::vector<std::size_t>& numbers,
-    const granular::PathRequest& request, bool absolute, granular::Notices& notices,
+    const granular::PathRequest& request, granular::Notices& notices,
     granular::PartialProgress& progress);
 
   /**

@@ -4,12 +4,14 @@
 #include "private/request/abort.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkMultiProcessController.h"
 #include "vtkOutputWindow.h"
 
 #include <cstring>
+#include <utility>
 
 namespace vtkGranularPrivate
 {
@@ -127,5 +129,22 @@ int Processes::EndRequest(vtkAlgorithm* self, Outcome outcome)
     this->ToldTime = self->GetMTime(); // what was cleaned up after the failure is no change
   }
   return !failed;
+}
+
+void Processes::Warn(vtkAlgorithm* self, const std::vector<Remark>& remarks)
+{
+  auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(self->GetExecutive());
+  const vtkMTimeType time = pipeline ? pipeline->GetPipelineMTime() : 0;
+  const std::set<std::string> before =
+    time == this->WarnedTime ? std::exchange(this->Warned, {}) : std::set<std::string>();
+  this->Warned.clear();
+  this->WarnedTime = time;
+  for (const Remark& remark : remarks)
+  {
+    if (this->Warned.insert(remark.Topic).second && !before.contains(remark.Topic))
+    {
+      vtkWarningWithObjectMacro(self, << remark.Text);
+    }
+  }
 }
 }

@@ -12,7 +12,9 @@
 #include "vtkType.h"
 
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkExecutive;
@@ -75,6 +77,21 @@ public:
   Outcome Fail(vtkAlgorithm* self, const Failure& failure);
 
   /**
+   * What a user should know of the output.
+   */
+  struct Remark
+  {
+    std::string Topic; ///< the same for any numbers in the text
+    std::string Text;
+  };
+
+  /**
+   * Warns of all that is to be said after a request, of each topic once, until it is gone, or another input or property may
+   * be why.
+   */
+  void Warn(vtkAlgorithm* self, const std::vector<Remark>& remarks);
+
+  /**
    * Returns the error of the last request; empty if there was none.
    */
   const std::string& GetMessage() const { return this->Message; }
@@ -90,6 +107,8 @@ private:
   std::string Told;          ///< the last error that was told
   vtkMTimeType ToldTime = 0; ///< MTime of the algorithm then
   vtkSmartPointer<vtkCallbackCommand> Quieter;
+  std::set<std::string> Warned; ///< topics of the last request
+  vtkMTimeType WarnedTime = 0;  ///< of the pipeline then
 };
 }
 
