@@ -254,7 +254,8 @@ GRANULAR_API granular_status granular_read_into(granular_run* run, int64_t frame
   const granular_request* request, const granular_destination* destinations, size_t count,
   int64_t* rows);
 
-/* Frees a frame and its arrays. Null does nothing. */
+/* Frees a frame and its arrays. Null does nothing. An open run keeps the memory of frames of a dump for the next ones it reads, at
+ * most 256 MiB. */
 GRANULAR_API void granular_release(granular_frame* frame);
 
 /* A simulation box: a corner, and the edges a, b, c one after the other; and the numbers of a dump's header, xlo xhi ylo yhi zlo

@@ -81,7 +81,9 @@ std::vector<OfferedArray> dump_arrays(granular_run& run, std::size_t frame, int)
 void read_dump_frame(granular_run& run, std::size_t frame, const Wanted& wanted, Notices& notices,
   Progress& progress, granular_frame& to)
 {
-  const DumpRequest request = dump_request(wanted);
+  DumpRequest request = dump_request(wanted);
+  request.pool = run.pool;
+  run.pool->next_frame();
   take_rows(to, read_dump(run.index.pieces(frame), request, notices, progress), known_columns());
   to.origin = request.point_origin;
 }

@@ -6,6 +6,7 @@
 #include "granular.h"
 
 #include "granular/frames/run_index.h"
+#include "granular/memory/block_pool.h"
 
 #include <algorithm>
 #include <map>
@@ -91,6 +92,10 @@ struct granular_run
 
   std::shared_mutex mutex;
   granular::RunIndex index;
+
+  /// Memory of frames that were released, for the next ones: at most 256 MiB.
+  std::shared_ptr<granular::BlockPool> pool =
+    std::make_shared<granular::BlockPool>(std::size_t{ 1 } << 28);
   std::vector<double> times;
 
   /// What a file has beside the frames that are shown.
