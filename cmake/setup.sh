@@ -121,7 +121,7 @@ granular_make()
   ninja -C "$granular_build" -j "$(nproc)" "$@" >&2
 }
 
-# granular_set_up samples|tests|plugin|benchmarks|vtk-samples|vtk|core-only|asan|tsan: from a bare Debian to a finished
+# granular_set_up samples|tests|plugin|benchmarks|vtk-samples|vtk|core-only|asan|tsan|damaged: from a bare Debian to a finished
 # build. The first four share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
 # GRANULAR_STRICT=ON is in the environment: a compiler that is newer than ours may have new ones.
 granular_set_up()
@@ -159,6 +159,11 @@ granular_set_up()
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
       granular_configure "$1" "$strict"
       granular_make
+      ;;
+    damaged)
+      granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
+      granular_configure asan "$strict"
+      granular_make tests_fuzz
       ;;
   esac
 }
