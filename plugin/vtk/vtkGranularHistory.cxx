@@ -224,12 +224,13 @@ private:
     std::vector<granular::FrameHeader> headers;
     std::vector<Series> series;
     this->Lacking = request.arrays;
+    granular::PathFrame frame;
     for (std::size_t i = 0; i < this->Numbers.size(); ++i)
     {
       this->Part.set_part(static_cast<double>(i) / static_cast<double>(this->Numbers.size()),
         static_cast<double>(i + 1) / static_cast<double>(this->Numbers.size()));
-      granular::PathFrame frame =
-        this->Frames.LoadPart(this->Numbers[i], request, this->Notices, this->Part);
+      frame = this->Frames.LoadPart(
+        this->Numbers[i], request, this->Notices, this->Part, std::move(frame));
       std::size_t at = 0;
       const auto add = [&](const std::string& name, const std::vector<double>& values)
       {
@@ -248,7 +249,7 @@ private:
       {
         frame.arrays.clear();
         const auto nameRows = [&](std::int64_t id) { this->Frames.NameRows(id, this->Numbers[i]); };
-        const auto means = squares.add(std::move(frame), nameRows, this->Part);
+        const auto means = squares.add(frame, nameRows, this->Part);
         add("msd", { means.total });
         add("msd_xyz", { means.axes[0], means.axes[1], means.axes[2] });
         add("msd_particles", { static_cast<double>(means.count) });

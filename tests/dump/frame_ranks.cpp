@@ -177,7 +177,7 @@ TEST(FrameRanks, AnErrorOfOneIsThatOfAll)
 {
   const Folder folder;
   const std::string path =
-    folder.write("a.dump", rows_with({ { 45, "7 1 0 zero 0 1" }, { 85, "1.5 1 0 0 0 1" } }));
+    folder.write("a.dump", rows_with({ { 45, "420 1 0 zero 0 1" }, { 85, "1.5 1 0 0 0 1" } }));
   const Series series = index_of({ path });
   const std::string said = path + ":55: column 'y': expected a number, got 'zero'";
   for (const DumpRequest& request : { DumpRequest{}, all_requests()[3] })

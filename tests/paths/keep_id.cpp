@@ -191,12 +191,63 @@ TEST(KeepId, WithoutIdsNoneIsKept)
   EXPECT_EQ(dump.read(request).rows(), 0);
 }
 
+/// Of rows that stay away, only ids are looked at: their other words decide nothing. The number of words still counts.
+TEST(KeepId, WordsOfOthersNeedNotBeNumbers)
+{
+  const auto rows_with = [](const std::string& other)
+  {
+    std::string rows;
+    for (int i = 0; i < 900; ++i)
+    {
+      rows += std::to_string(i) + (i % 3 == 1 ? other : " 4 0.5 0.25 0.125") + "\n";
+    }
+    std::string text = one_frame("id type x y z", rows);
+    return text.replace(text.find("\n51 "), 1, "\n \t\n\n");
+  };
+  DumpRequest request;
+  request.keep_id = [](std::int64_t id) { return id % 3 == 0; };
+  const std::vector<std::string> expected =
+    rows_of(Dump(rows_with(" 4 0.5 0.25 0.125")).read(request));
+  ASSERT_EQ(expected.size(), 300U);
+  for (const std::string other : { " 4.5 0.5 0.25 0.125", " 4 0.5 word 0.125", " a b c d" })
+  {
+    const Dump dump(rows_with(other));
+    for (const int threads : { 1, 3 })
+    {
+      request.threads = threads;
+      request.chunk_bytes = 400;
+      const Decoded found = dump.read(request);
+      EXPECT_EQ(rows_of(found), expected) << other;
+      EXPECT_EQ(found.type("type"), ValueType::Int32) << other;
+      EXPECT_EQ(found.said(), "") << other;
+    }
+    DumpRequest others = request;
+    others.keep_id = [](std::int64_t id) { return id % 3 == 1; };
+    const std::string error = error_of([&] { dump.read(others); });
+    EXPECT_EQ(
+      error.find("memory:11: column 'y': expected a number, got 'word'") != std::string::npos,
+      other.find("word") != std::string::npos)
+      << error;
+  }
+  const std::string error = error_of([&] { Dump(rows_with(" 4 0.5 0.25")).read(request); });
+  EXPECT_NE(error.find("expected 5 words in a row, got 4"), std::string::npos) << error;
+}
+
+/// Rows that are chosen by a stride are chosen in the same way.
+TEST(KeepId, WordsOfRowsBetweenNeedNotBeNumbers)
+{
+  const Dump dump(one_frame("id x y z", "1 a 0 0\n2 0.5 0 0\n4 0.25 0 0\n3 b 0 0\n"));
+  DumpRequest request;
+  request.stride = 2;
+  EXPECT_EQ(dump.read(request).integers("id"), (std::vector<std::int64_t>{ 2, 4 }));
+}
+
 // ---- particles for paths -----------------------------------------------------------------------
 
 namespace
 {
-PathFrame particles_of(
-  const std::string& file, const PathRequest& request, const DumpRequest& base = {})
+PathFrame particles_of(const std::string& file, const PathRequest& request,
+  const DumpRequest& base = {}, PathFrame spent = {})
 {
   RunIndex index;
   IndexOptions options;
@@ -204,7 +255,8 @@ PathFrame particles_of(
   Progress progress;
   Notices notices;
   index.update({ file }, options, notices, progress);
-  return read_particles(index.pieces(index.size() - 1), request, base, notices, progress);
+  return read_particles(
+    index.pieces(index.size() - 1), request, base, notices, progress, std::move(spent));
 }
 }
 
@@ -276,6 +328,42 @@ TEST(ReadParticles, RowsOfTheFile)
   base = {};
   base.stride = 2;
   EXPECT_FALSE(particles_of(file, {}, base).has_rows);
+}
+
+/// What a frame before had leaves nothing behind.
+TEST(ReadParticles, MemoryOfSpentFrames)
+{
+  const std::string file = std::string(GRANULAR_DATA) + "/good/ortho_image.dump";
+  const std::vector<PathRequest> requests = { { {}, { "type", "image" } },
+    { IdSelection("7-90:3"), { "image" } }, { {}, { "mass", "type" }, false }, { {}, {} } };
+  DumpRequest unwrapped;
+  unwrapped.coordinates = Coordinates::Unwrapped;
+  PathFrame spent;
+  for (int round = 0; round < 2; ++round)
+  {
+    for (const PathRequest& request : requests)
+    {
+      for (const DumpRequest& base : { DumpRequest(), unwrapped })
+      {
+        const PathFrame fresh = particles_of(file, request, base);
+        spent = particles_of(file, request, base, std::move(spent));
+        EXPECT_EQ(spent.ids, fresh.ids);
+        EXPECT_EQ(spent.has_rows, fresh.has_rows);
+        EXPECT_EQ(spent.rows, fresh.rows);
+        EXPECT_EQ(spent.points, fresh.points);
+        EXPECT_EQ(spent.has_images, fresh.has_images);
+        EXPECT_EQ(spent.images, fresh.images);
+        ASSERT_EQ(spent.arrays.size(), fresh.arrays.size());
+        for (std::size_t i = 0; i < fresh.arrays.size(); ++i)
+        {
+          EXPECT_EQ(spent.arrays[i].name, fresh.arrays[i].name);
+          EXPECT_EQ(spent.arrays[i].size, fresh.arrays[i].size);
+          EXPECT_EQ(spent.arrays[i].integers, fresh.arrays[i].integers);
+          EXPECT_EQ(spent.arrays[i].words, fresh.arrays[i].words);
+        }
+      }
+    }
+  }
 }
 
 TEST(ReadParticles, WithoutPoints)

@@ -67,7 +67,7 @@ std::vector<Means> add_all(const std::vector<PathFrame>& frames, Communicator& r
   SquareDisplacements squares(ranks, executor);
   Progress progress;
   std::vector<Means> means;
-  for (const PathFrame& frame : frames)
+  for (PathFrame frame : frames)
   {
     means.push_back(squares.add(frame, {}, progress));
   }

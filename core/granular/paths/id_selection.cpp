@@ -40,8 +40,37 @@ void make_distinct(std::vector<std::int64_t>& ids)
 }
 }
 
+IdSet::IdSet(std::span<const std::int64_t> ids)
+{
+  constexpr std::uint64_t most_bits = std::uint64_t{ 1 } << 24; // 2 MiB
+  if (ids.empty())
+  {
+    return;
+  }
+  const auto [lowest, highest] = std::ranges::minmax(ids);
+  const std::uint64_t last =
+    static_cast<std::uint64_t>(highest) - static_cast<std::uint64_t>(lowest);
+  if (last < std::max<std::uint64_t>(most_bits, 64 * ids.size()))
+  {
+    lowest_ = lowest;
+    bits_.resize(last / 64 + 1);
+    for (const std::int64_t id : ids)
+    {
+      const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(lowest);
+      bits_[at / 64] |= std::uint64_t{ 1 } << at % 64;
+    }
+    return;
+  }
+  table_ = IdTable(ids.size());
+  for (const std::int64_t id : ids)
+  {
+    table_.add(id, 0);
+  }
+}
+
 IdSelection::IdSelection(std::string_view text)
 {
+  std::vector<std::int64_t> ids;
   std::string spaced(text);
   std::replace(spaced.begin(), spaced.end(), ',', ' ');
   for (const std::string_view word : split_words(spaced))
@@ -60,11 +89,11 @@ IdSelection::IdSelection(std::string_view text)
     for (std::uint64_t i = 0; i <= steps; ++i)
     {
       // without a sign: the way from the first to the last may be longer than the largest integer
-      ids_.add(static_cast<std::int64_t>(static_cast<std::uint64_t>(range.first) +
-                 i * static_cast<std::uint64_t>(range.step)),
-        0);
+      ids.push_back(static_cast<std::int64_t>(
+        static_cast<std::uint64_t>(range.first) + i * static_cast<std::uint64_t>(range.step)));
     }
   }
+  ids_ = IdSet(ids);
 }
 
 IdSelection::Range IdSelection::read_range(std::string_view word)
@@ -91,15 +120,10 @@ IdSelection::Range IdSelection::read_range(std::string_view word)
 
 void IdSelection::keep_only(std::span<const std::int64_t> ids)
 {
-  IdTable kept(ids.size());
-  for (const std::int64_t id : ids)
-  {
-    if (this->holds(id))
-    {
-      kept.add(id, 0);
-    }
-  }
-  narrow_ = std::move(kept);
+  std::vector<std::int64_t> kept;
+  std::ranges::copy_if(
+    ids, std::back_inserter(kept), [this](std::int64_t id) { return this->holds(id); });
+  narrow_ = IdSet(kept);
   narrowed_ = true;
 }
 
@@ -112,7 +136,7 @@ bool IdSelection::is_listed(std::int64_t id) const noexcept
         static_cast<std::uint64_t>(range.step) ==
       0;
   };
-  return ids_.find(id) != IdTable::nowhere || std::any_of(ranges_.begin(), ranges_.end(), holds);
+  return ids_.contains(id) || std::any_of(ranges_.begin(), ranges_.end(), holds);
 }
 
 std::vector<std::int64_t> share_ids(std::span<const std::int64_t> ids, Communicator& ranks)

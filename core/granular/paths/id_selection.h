@@ -13,7 +13,29 @@
 
 namespace granular
 {
-/// A set of ids.
+/// A list of ids, made for asking often: where they are near each other each has a bit, otherwise they are hashed.
+class IdSet
+{
+public:
+  IdSet() = default;
+
+  explicit IdSet(std::span<const std::int64_t> ids);
+
+  bool contains(std::int64_t id) const noexcept
+  {
+    // without a sign: below the lowest is more than there are
+    const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(lowest_);
+    return at < 64 * bits_.size() ? (bits_[at / 64] >> at % 64 & 1) != 0
+                                  : table_.find(id) != IdTable::nowhere;
+  }
+
+private:
+  std::int64_t lowest_ = 0;
+  std::vector<std::uint64_t> bits_;
+  IdTable table_;
+};
+
+/// A choice of ids.
 class IdSelection
 {
 public:
@@ -35,7 +57,7 @@ public:
   bool holds(std::int64_t id) const noexcept
   {
     return (multiple_ == 1 || id % multiple_ == 0) && (!listed_ || this->is_listed(id)) &&
-      (!narrowed_ || narrow_.find(id) != IdTable::nowhere);
+      (!narrowed_ || narrow_.contains(id));
   }
 
 private:
@@ -50,10 +72,10 @@ private:
   bool is_listed(std::int64_t id) const noexcept;
 
   bool listed_ = false;
-  IdTable ids_;               ///< of short ranges
+  IdSet ids_;                 ///< of short ranges
   std::vector<Range> ranges_; ///< the long ones
   bool narrowed_ = false;
-  IdTable narrow_;
+  IdSet narrow_;
   std::int64_t multiple_ = 1;
 };
 

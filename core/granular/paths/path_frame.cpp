@@ -8,7 +8,10 @@
 #include "granular/particles/view_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <numeric>
+#include <utility>
 
 namespace granular
 {
@@ -17,19 +20,16 @@ namespace
 constexpr const char* image_array = "image";
 
 /// The rows of selected particles.
-std::vector<std::int64_t> choose_rows(
-  const FrameView& frame, std::span<const std::int64_t> ids, const IdSelection& selection)
+void choose_rows(const FrameView& frame, std::span<const std::int64_t> ids,
+  const IdSelection& selection, std::vector<std::int64_t>& rows)
 {
-  std::vector<std::int64_t> rows;
   if (selection.is_all() && !frame.ghosts)
   {
     rows.resize(ids.size());
-    for (std::size_t row = 0; row < rows.size(); ++row)
-    {
-      rows[row] = static_cast<std::int64_t>(row);
-    }
-    return rows;
+    std::iota(rows.begin(), rows.end(), std::int64_t{ 0 });
+    return;
   }
+  rows.clear();
   for (std::size_t row = 0; row < ids.size(); ++row)
   {
     const auto number = static_cast<std::int64_t>(row);
@@ -38,7 +38,6 @@ std::vector<std::int64_t> choose_rows(
       rows.push_back(number);
     }
   }
-  return rows;
 }
 
 /// Loads the rows of one component, as numbers of a type, into every size-th word.
@@ -46,19 +45,24 @@ template <class Number>
 void load_words(const ValueSource& source, std::span<const std::int64_t> rows, std::size_t size,
   std::int64_t* words)
 {
-  std::vector<Number> numbers(rows.size());
-  load_numbers(source, rows, numbers.data());
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  std::array<Number, 2048> numbers;
+  for (std::size_t begin = 0; begin < rows.size(); begin += numbers.size())
   {
-    words[i * size] = std::bit_cast<std::int64_t>(numbers[i]);
+    const std::size_t count = std::min(numbers.size(), rows.size() - begin);
+    load_numbers(source, rows.subspan(begin, count), numbers.data());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      words[(begin + i) * size] = std::bit_cast<std::int64_t>(numbers[i]);
+    }
   }
 }
 
-PathArray pick_array(const ArrayView& view, std::span<const std::int64_t> rows)
+/// Fills the array, whose memory is used again.
+void pick_array(const ArrayView& view, std::span<const std::int64_t> rows, PathArray& array)
 {
   // integers above 2^63 have no place among std::int64_t
-  const bool integers = is_integer(view.type) && view.type != ValueType::UInt64;
-  PathArray array{ view.name, view.size(), integers, {} };
+  array.integers = is_integer(view.type) && view.type != ValueType::UInt64;
+  array.size = view.size();
   const auto size = static_cast<std::size_t>(array.size);
   array.words.resize(rows.size() * size);
   for (std::size_t i = 0; i < size; ++i)
@@ -68,7 +72,6 @@ PathArray pick_array(const ArrayView& view, std::span<const std::int64_t> rows)
     array.integers ? load_words<std::int64_t>(source, rows, size, words)
                    : load_words<double>(source, rows, size, words);
   }
-  return array;
 }
 
 [[noreturn]] void refuse_texts(const std::string& name, const Where& where = {})
@@ -132,13 +135,20 @@ void pick_points(const FrameView& frame, bool absolute, PathFrame& picked)
     is_integer(images->type))
   {
     picked.has_images = true;
-    picked.images = pick_array(*images, picked.rows).words;
+    PathArray counts;
+    counts.words = std::move(picked.images);
+    pick_array(*images, picked.rows, counts);
+    picked.images = std::move(counts.words);
+  }
+  else
+  {
+    picked.images.clear();
   }
 }
 }
 
 PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std::int64_t first_row,
-  const Executor& executor, Progress& progress)
+  const Executor& executor, Progress& progress, PathFrame spent)
 {
   PathFrame picked;
   picked.loaded = true;
@@ -146,6 +156,7 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   picked.header.has_box = frame.has_box;
   picked.coordinates =
     frame.coordinates == Coordinates::Unwrapped ? Coordinates::Unwrapped : Coordinates::Absolute;
+  spent.arrays.resize(request.arrays.size());
   for (const std::string& name : request.arrays)
   {
     picked.arrays.push_back({ name });
@@ -162,20 +173,25 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   check_numbers(frame, request.arrays);
   const Ids ids(*id_array, frame.rows, executor, progress);
   picked.has_rows = true;
-  picked.rows = choose_rows(frame, ids.values(), request.selection);
+  picked.rows = std::move(spent.rows);
+  choose_rows(frame, ids.values(), request.selection, picked.rows);
   const std::span<const std::int64_t> rows = picked.rows;
-  picked.ids.reserve(rows.size());
-  std::ranges::transform(rows, std::back_inserter(picked.ids),
+  picked.ids = std::move(spent.ids);
+  picked.ids.resize(rows.size());
+  std::ranges::transform(rows, picked.ids.begin(),
     [&](std::int64_t row) { return ids.values()[static_cast<std::size_t>(row)]; });
-  for (PathArray& array : picked.arrays)
+  for (std::size_t i = 0; i < picked.arrays.size(); ++i)
   {
-    if (const ArrayView* const view = frame.find(array.name))
+    if (const ArrayView* const view = frame.find(picked.arrays[i].name))
     {
-      array = pick_array(*view, rows);
+      picked.arrays[i].words = std::move(spent.arrays[i].words);
+      pick_array(*view, rows, picked.arrays[i]);
     }
   }
   if (request.points)
   {
+    picked.points = std::move(spent.points);
+    picked.images = std::move(spent.images);
     pick_points(frame, request.absolute, picked);
   }
   for (std::int64_t& row : picked.rows)
@@ -186,7 +202,7 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
 }
 
 PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathRequest& request,
-  const DumpRequest& base, Notices& notices, Progress& progress)
+  const DumpRequest& base, Notices& notices, Progress& progress, PathFrame spent)
 {
   DumpRequest wanted = base;
   wanted.points = request.points;
@@ -221,8 +237,8 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
       refuse_texts(array.info.name, where_of(pieces.front()));
     }
   }
-  PathFrame picked =
-    pick_particles(view_frame(frame), request, 0, Executor(wanted.threads), progress);
+  PathFrame picked = pick_particles(
+    view_frame(frame), request, 0, Executor(wanted.threads), progress, std::move(spent));
   if (wanted.keep_id || base.pieces > 1 || frame.rows != frame.header.rows)
   {
     // those of the rows that were kept

@@ -56,15 +56,15 @@ struct PathFrame
 
 /// Picks the selected particles of a frame in memory, with their rows counted from first_row. Ghost duplicates are left out.
 /// Throws Error if there are particles without an array `id`, with an id that is not an integer, or with texts in a wanted
-/// array; Cancelled.
+/// array; Cancelled. spent: a frame that is no longer needed, whose memory is used again.
 PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std::int64_t first_row,
-  const Executor& executor, Progress& progress);
+  const Executor& executor, Progress& progress, PathFrame spent = {});
 
 /// Reads the selected particles of a frame of a dump, or of part base.piece of base.pieces of it: only the columns that this
 /// takes. base also has the form of the points (Absolute or Unwrapped), region, stride, threads and memory pool. Throws what
 /// read_dump and pick_particles throw.
 PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathRequest& request,
-  const DumpRequest& base, Notices& notices, Progress& progress);
+  const DumpRequest& base, Notices& notices, Progress& progress, PathFrame spent = {});
 
 /// Returns the ids of the particles whose points are in a region.
 std::vector<std::int64_t> ids_in_region(const PathFrame& frame, Region region);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/paths/square_displacements.h"
 
+#include "granular/common/simd.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/exchange_frames.h"
 #include "granular/paths/statistics.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -17,67 +17,79 @@ namespace granular
 {
 namespace
 {
-constexpr std::size_t particles_per_chunk = std::size_t{ 1 } << 15;
-constexpr std::size_t sums = 4; ///< of squares of x, y, z and of the length
+constexpr std::size_t particles_per_chunk = std::size_t{ 1 } << 12; // even: see square_rows
+constexpr std::size_t ahead = 12; // particles that are being brought into the cache
 
 std::size_t chunks_of(std::size_t rows) noexcept
 {
   return (rows + particles_per_chunk - 1) / particles_per_chunk;
 }
 
-/// Of each sum, the terms that are not finite, which are left out of it.
-using Odd = std::array<std::int64_t, sums>;
-
 /// Terms for two particles side by side.
-std::vector<SumScale::Terms> square(const std::vector<Vector3>& displacements, Odd& odd)
+[[gnu::always_inline]] inline void square_rows(
+  std::span<const double> displacements, SumScale::Terms* terms) noexcept
 {
-  std::vector<SumScale::Terms> terms((displacements.size() + 1) / 2);
-  for (std::size_t i = 0; i < displacements.size(); ++i)
+  for (std::size_t i = 0; 3 * i < displacements.size(); ++i)
   {
-    double* const to = terms[i / 2].data() + sums * (i % 2);
+    double* const to = terms[i / 2].data() + 4 * (i % 2);
     CompensatedSum length;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double part = displacements[i][axis];
+      const double part = displacements[3 * i + axis];
       to[axis] = part * part;
       length.add_product(part, part);
     }
     to[3] = length.value();
-    for (std::size_t sum = 0; sum < sums; ++sum)
-    {
-      odd[sum] += std::isfinite(to[sum]) ? 0 : 1;
-      to[sum] = std::isfinite(to[sum]) ? to[sum] : 0;
-    }
   }
-  return terms;
+}
+
+#if GRANULAR_X86
+/// The same operations; std::fma is an instruction here and a function call there.
+__attribute__((target("fma"))) void square_fma(
+  std::span<const double> displacements, SumScale::Terms* terms) noexcept
+{
+  square_rows(displacements, terms);
+}
+#endif
+
+void square(std::span<const double> displacements, SumScale::Terms* terms) noexcept
+{
+#if GRANULAR_X86
+  static const bool has_fma = __builtin_cpu_supports("fma");
+  if (has_fma)
+  {
+    square_fma(displacements, terms);
+    return;
+  }
+#endif
+  square_rows(displacements, terms);
 }
 }
 
 /// Finds the particles among those of the first frame.
-std::vector<std::int64_t> SquareDisplacements::find_places(
+void SquareDisplacements::find_places(
   const PathFrame& frame, const NameRows& name_rows, Progress& progress)
 {
   const std::size_t rows = frame.ids.size();
-  std::vector<std::int64_t> places(rows);
+  places_.resize(rows);
   executor_.parallel_for(
     chunks_of(rows),
     [&](std::size_t chunk, std::size_t)
     {
       const std::size_t begin = chunk * particles_per_chunk;
       const std::size_t count = std::min(particles_per_chunk, rows - begin);
-      finder_.find(std::span(frame.ids).subspan(begin, count), places.data() + begin);
+      finder_.find(std::span(frame.ids).subspan(begin, count), places_.data() + begin);
     },
     progress);
-  std::vector<std::int64_t> seen(states_.size(), -1);
+  rows_.assign(particles_.size(), -1);
   IdTable others; // that the first frame does not have
   for (std::size_t i = 0; i < rows; ++i)
   {
     const auto row = static_cast<std::int64_t>(i);
-    const bool known = places[i] != IdFinder::nowhere;
     std::int64_t before = -1;
-    if (known)
+    if (places_[i] != IdFinder::nowhere)
     {
-      before = std::exchange(seen[static_cast<std::size_t>(places[i])], row);
+      before = std::exchange(rows_[static_cast<std::size_t>(places_[i])], row);
     }
     else if (!others.add(frame.ids[i], row))
     {
@@ -94,60 +106,93 @@ std::vector<std::int64_t> SquareDisplacements::find_places(
         frame.ids[i], frame.header.timestep, row_of(static_cast<std::size_t>(before)), row_of(i));
     }
   }
-  return places;
 }
 
-/// The displacements of all particles; zero of those that are not in the first frame.
-std::vector<Vector3> SquareDisplacements::find_displacements(
-  const PathFrame& frame, const std::vector<std::int64_t>& places, Progress& progress)
+/// Moves particles on to the frame, and finds their displacements: zero of those that are not in the first frame.
+void SquareDisplacements::move_chunk(
+  const PathFrame& frame, std::size_t begin, std::size_t count, Chunk& chunk)
 {
   const bool first = unwrapper_.frames() == 1;
-  const std::size_t rows = frame.ids.size();
-  std::vector<Vector3> found(rows);
   const PositionPlan plan = plan_form(Coordinates::Absolute, ColumnRole::UnwrappedPosition);
-  std::atomic<std::int64_t> long_steps = 0;
+  chunk.points.assign(3 * count, 0);
+  chunk.counts.assign(3 * count, 0);
+  const auto particle_at = [&](std::size_t i) -> Particle*
+  {
+    const std::int64_t place = places_[begin + i];
+    return place == IdFinder::nowhere ? nullptr : &particles_[static_cast<std::size_t>(place)];
+  };
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (const Particle* const soon = particle_at(std::min(i + ahead, count - 1)))
+    {
+      __builtin_prefetch(soon);
+      __builtin_prefetch(reinterpret_cast<const char*>(soon) + 64);
+      __builtin_prefetch(reinterpret_cast<const char*>(soon) + 128);
+    }
+    if (Particle* const particle = particle_at(i))
+    {
+      PathState& state = particle->state;
+      chunk.long_steps += unwrapper_.advance(state, frame, begin + i).is_long ? 1 : 0;
+      std::copy_n(state.point.begin(), 3, chunk.points.data() + 3 * i);
+      std::copy_n(state.counts.begin(), 3, chunk.counts.data() + 3 * i);
+    }
+  }
+  convert_positions(plan, frame.header.box, {}, chunk.counts, chunk.points);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    double* const point = chunk.points.data() + 3 * i;
+    Particle* const particle = particle_at(i);
+    for (std::size_t k = 0; particle && k < 3; ++k)
+    {
+      const double place = point[k] + particle->state.drift[k];
+      particle->start[k] = first ? place : particle->start[k];
+      point[k] = place - particle->start[k];
+    }
+  }
+}
+
+/// The squares of the displacements of all particles, as terms. Returns the sums over all chunks.
+SquareDisplacements::Chunk SquareDisplacements::find_squares(
+  const PathFrame& frame, Progress& progress)
+{
+  const std::size_t rows = frame.ids.size();
+  terms_.resize((rows + 1) / 2);
+  if (rows > 0)
+  {
+    terms_.back() = {};
+  }
+  std::vector<Chunk> workers(executor_.workers(chunks_of(rows)));
   executor_.parallel_for(
     chunks_of(rows),
-    [&](std::size_t chunk, std::size_t)
+    [&](std::size_t number, std::size_t worker)
     {
-      const std::size_t begin = chunk * particles_per_chunk;
+      const std::size_t begin = number * particles_per_chunk;
       const std::size_t count = std::min(particles_per_chunk, rows - begin);
-      const std::span<const std::int64_t> at(places.data() + begin, count);
-      std::vector<double> points(3 * count);
-      std::vector<double> counts(3 * count);
-      std::int64_t long_here = 0;
-      for (std::size_t i = 0; i < count; ++i)
+      Chunk& chunk = workers[worker];
+      this->move_chunk(frame, begin, count, chunk);
+      const std::span<SumScale::Terms> terms(terms_.data() + begin / 2, (count + 1) / 2);
+      square(chunk.points, terms.data());
+      for (SumScale::Terms& term : terms)
       {
-        if (at[i] != IdFinder::nowhere)
+        for (std::size_t lane = 0; lane < SumScale::lanes; ++lane)
         {
-          PathState& state = states_[static_cast<std::size_t>(at[i])];
-          long_here += unwrapper_.advance(state, frame, begin + i).is_long ? 1 : 0;
-          std::copy_n(state.point.begin(), 3, points.data() + 3 * i);
-          std::copy_n(state.counts.begin(), 3, counts.data() + 3 * i);
-        }
-      }
-      long_steps += long_here;
-      convert_positions(plan, frame.header.box, {}, counts, points);
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        if (at[i] != IdFinder::nowhere)
-        {
-          Vector3& start = firsts_[static_cast<std::size_t>(at[i])];
-          const Vector3& drift = states_[static_cast<std::size_t>(at[i])].drift;
-          const double* const point = points.data() + 3 * i;
-          const Vector3 place = { point[0] + drift[0], point[1] + drift[1], point[2] + drift[2] };
-          start = first ? place : start;
-          found[begin + i] = { place[0] - start[0], place[1] - start[1], place[2] - start[2] };
+          chunk.odd[lane % sums] += std::isfinite(term[lane]) ? 0 : 1;
+          term[lane] = std::isfinite(term[lane]) ? term[lane] : 0;
         }
       }
     },
     progress);
-  long_steps_ += long_steps;
-  return found;
+  Chunk all;
+  for (const Chunk& worker : workers)
+  {
+    all.long_steps += worker.long_steps;
+    std::ranges::transform(worker.odd, all.odd, all.odd.begin(), std::plus());
+  }
+  return all;
 }
 
 SquareDisplacements::Means SquareDisplacements::add(
-  PathFrame frame, const NameRows& name_rows, Progress& progress)
+  PathFrame& frame, const NameRows& name_rows, Progress& progress)
 {
   return do_together(ranks_,
     [&]
@@ -162,23 +207,23 @@ SquareDisplacements::Means SquareDisplacements::add(
       if (first)
       {
         finder_ = IdFinder(own.ids);
-        states_.resize(own.ids.size());
-        firsts_.resize(own.ids.size());
+        particles_.resize(own.ids.size());
       }
       unwrapper_.add_box(own.header.box);
-      const std::vector<std::int64_t> places = this->find_places(own, name_rows, progress);
+      this->find_places(own, name_rows, progress);
       Means means;
       means.count = std::ranges::count_if(
-        places, [](std::int64_t place) { return place != IdFinder::nowhere; });
+        places_, [](std::int64_t place) { return place != IdFinder::nowhere; });
       ranks_.sum({ &means.count, 1 });
-      Odd odd = {};
-      const auto terms = square(this->find_displacements(own, places, progress), odd);
-      ranks_.sum(odd);
-      const SumScale::Terms squares = sum_exactly(terms, sums, ranks_);
+      Chunk found = this->find_squares(own, progress);
+      long_steps_ += found.long_steps;
+      ranks_.sum(found.odd);
+      const SumScale::Terms squares = sum_exactly(terms_, sums, ranks_, executor_);
+      frame = std::move(frames[0]);
       const auto mean_of = [&](std::size_t sum)
       {
-        return odd[sum] > 0 ? std::numeric_limits<double>::quiet_NaN()
-                            : squares[sum] / static_cast<double>(means.count); // 0: nan
+        return found.odd[sum] > 0 ? std::numeric_limits<double>::quiet_NaN()
+                                  : squares[sum] / static_cast<double>(means.count); // 0: nan
       };
       means.axes = { mean_of(0), mean_of(1), mean_of(2) };
       means.total = mean_of(3);

@@ -10,7 +10,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
 
 namespace granular
 {
@@ -63,6 +65,21 @@ Magnitudes measure(std::span<const SumScale::Terms> terms, std::size_t sums) noe
   }
   all.terms = static_cast<std::int64_t>(terms.size() * (SumScale::lanes / sums));
   return all;
+}
+
+/// Calls task with stretches of the terms, on several threads.
+void for_each_stretch(std::span<const SumScale::Terms> terms, const Executor& executor,
+  const std::function<void(std::span<const SumScale::Terms>)>& task)
+{
+  constexpr std::size_t stretch = std::size_t{ 1 } << 13;
+  Progress quiet;
+  executor.parallel_for((terms.size() + stretch - 1) / stretch,
+    [&](std::size_t chunk, std::size_t)
+    {
+      const std::size_t begin = chunk * stretch;
+      task(terms.subspan(begin, std::min(stretch, terms.size() - begin)));
+    },
+    quiet);
 }
 
 SumScale::Range range_of(double least, double greatest)
@@ -138,12 +155,22 @@ std::vector<SumScale::Terms> terms_of(std::span<const double> numbers)
   return terms;
 }
 
-SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks)
+SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks,
+  const Executor& executor)
 {
+  std::mutex mutex;
+  Magnitudes own;
+  for_each_stretch(terms, executor,
+    [&](std::span<const SumScale::Terms> some)
+    {
+      const Magnitudes found = measure(some, sums);
+      const std::lock_guard lock(mutex);
+      own.include(found);
+    });
   Magnitudes all;
-  for (const Magnitudes& own : gather(ranks, measure(terms, sums)))
+  for (const Magnitudes& each : gather(ranks, own))
   {
-    all.include(own);
+    all.include(each);
   }
   std::array<SumScale::Range, SumScale::lanes> ranges;
   for (std::size_t i = 0; i < SumScale::lanes; ++i)
@@ -153,13 +180,21 @@ SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Co
   return { ranges, all.terms };
 }
 
-SumScale::Terms sum_exactly(
-  std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks)
+SumScale::Terms sum_exactly(std::span<const SumScale::Terms> terms, std::size_t sums,
+  Communicator& ranks, const Executor& executor)
 {
-  const SumScale scale = make_scale(terms, sums, ranks);
+  const SumScale scale = make_scale(terms, sums, ranks, executor);
+  std::mutex mutex;
   std::vector<std::int64_t> parts(scale.size());
-  const std::vector<std::int64_t> cells(terms.size());
-  scale.add(terms, cells.data(), parts.data());
+  for_each_stretch(terms, executor,
+    [&](std::span<const SumScale::Terms> some)
+    {
+      std::vector<std::int64_t> own(scale.size());
+      const std::vector<std::int64_t> cells(some.size()); // all are one
+      scale.add(some, cells.data(), own.data());
+      const std::lock_guard lock(mutex);
+      std::ranges::transform(own, parts, parts.begin(), std::plus());
+    });
   for (std::size_t level = 0; level < scale.size(); level += SumScale::lanes)
   {
     for (std::size_t i = sums; i < SumScale::lanes; ++i)

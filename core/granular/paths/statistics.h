@@ -4,6 +4,7 @@
 
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,13 +18,14 @@ std::vector<SumScale::Terms> terms_of(std::span<const double> numbers);
 
 /// Returns the scale for exact sums of the terms of all ranks; lanes with the same number modulo `sums`, which divides
 /// SumScale::lanes, have the same range. Throws LimitError for magnitudes from 2^900. Collective.
-SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks);
+SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks,
+  const Executor& executor = Executor());
 
 /// Sums the terms of all ranks: lanes with the same number modulo `sums`, which divides SumScale::lanes, belong to one sum.
 /// Returns the sums in the first lanes, each correctly rounded, hence the same for any order of terms, and any ranks. Terms
 /// are finite. Throws LimitError for magnitudes from 2^900. Collective.
-SumScale::Terms sum_exactly(
-  std::span<const SumScale::Terms> terms, std::size_t sums, Communicator& ranks);
+SumScale::Terms sum_exactly(std::span<const SumScale::Terms> terms, std::size_t sums,
+  Communicator& ranks, const Executor& executor = Executor());
 
 /// What the numbers of all ranks have in common.
 struct Statistics

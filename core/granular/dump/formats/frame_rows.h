@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -40,6 +41,20 @@ std::int64_t extent_of(const FrameEntry& entry) noexcept;
 /// Returns the extent of a chunk of about so many bytes, at least 1.
 std::int64_t chunk_extent(const FrameEntry& entry, std::size_t bytes) noexcept;
 
+/// The rows that are wanted: those whose integer in a column passes.
+struct RowChoice
+{
+  std::uint32_t column = 0;
+  std::function<bool(std::int64_t)> passes = {};
+};
+
+/// Rows that a RowReader has gone through, and how many of them it has decoded.
+struct RowCounts
+{
+  std::int64_t rows = 0;
+  std::int64_t decoded = 0;
+};
+
 /// Reads some rows of a frame at a time. One for each thread.
 class RowReader
 {
@@ -63,6 +78,15 @@ public:
   /// Decodes the next rows, at most max_rows, into the sinks and moves them on. Returns how many; 0 only
   /// if max_rows is 0 or there are no more. Throws Misfits. Texts stay valid until the next open.
   virtual std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) = 0;
+
+  /// Goes through the next rows, at most max_rows, and decodes at least those that are chosen. Of others, words other than
+  /// that of the choice need not be numbers. Throws Misfits.
+  virtual RowCounts decode_chosen(
+    std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& /*choice*/)
+  {
+    const std::int64_t rows = this->decode(sinks, max_rows);
+    return { rows, rows };
+  }
 };
 
 /// The rows of a frame, text or binary.

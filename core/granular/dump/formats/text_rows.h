@@ -38,37 +38,5 @@ private:
   std::int64_t rows_offset_ = 0;
   std::int64_t rows_line_ = 0;
 };
-
-/// Reads whole lines that are in memory. A row belongs to the chunk that holds its first byte.
-class TextReader final : public RowReader
-{
-public:
-  explicit TextReader(const TextRows& of)
-    : of_(of)
-  {
-  }
-
-  void open(std::int64_t first, std::int64_t last) override;
-  std::int64_t rows() const noexcept override;
-  bool more() const noexcept override;
-  bool surplus() const noexcept override { return surplus_; }
-  std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
-
-private:
-  void load(std::int64_t from, std::int64_t to);
-  std::size_t load_line(std::size_t at);
-  void check_length(std::size_t first, std::size_t end) const;
-  void find_misfits(const char* from, std::span<const ColumnSink> sinks, Misfits& misfits) const;
-  [[noreturn]] void fail(const RowResult& result, std::span<const ColumnSink> sinks) const;
-
-  const TextRows& of_;
-  PaddedBuffer buffer_;
-  std::int64_t offset_ = 0; ///< of buffer_ in the content
-  std::size_t filled_ = 0;  ///< bytes in buffer_
-  std::size_t first_ = 0;   ///< of the rows
-  std::size_t at_ = 0;      ///< next row
-  std::size_t end_ = 0;     ///< of the rows
-  bool surplus_ = false;
-};
 }
 #endif

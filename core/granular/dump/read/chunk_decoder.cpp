@@ -56,6 +56,18 @@ ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
   {
     keep_.resize(layout.batch);
   }
+  const auto id = layout.wires.find(layout.id_column);
+  if ((request.stride > 1 || request.keep_id) && id != layout.wires.end() &&
+    id->second.type == ValueType::Int64)
+  {
+    choice_.column = static_cast<std::uint32_t>(id->first);
+    choice_.passes = request.keep_id;
+    if (request.stride > 1)
+    {
+      choice_.passes = [&request](std::int64_t number)
+      { return number % request.stride == 0 && (!request.keep_id || request.keep_id(number)); };
+    }
+  }
 }
 
 void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t room,
@@ -68,12 +80,12 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
     this->aim();
     const std::int64_t wanted =
       std::min(static_cast<std::int64_t>(layout_.batch), room - chunk.rows);
-    const std::int64_t got = reader.decode(sinks_, wanted);
-    if (got == 0)
+    const RowCounts got = this->decode_batch(reader, wanted);
+    if (got.rows == 0)
     {
       break;
     }
-    const auto count = static_cast<std::size_t>(got);
+    const auto count = static_cast<std::size_t>(got.decoded);
     for (std::size_t i = 0; i < layout_.texts.size(); ++i)
     {
       const TextWire& wire = layout_.texts[i];
@@ -89,7 +101,7 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
       ranges.add(layout_.frame, row_, kept, request_.single_precision);
     }
     row_ += static_cast<std::int64_t>(kept);
-    chunk.rows += got;
+    chunk.rows += got.rows;
   }
   chunk.kept = row_ - chunk.row;
   chunk.surplus = reader.surplus();
@@ -97,6 +109,17 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
   {
     chunk.words.push_back(dictionary.take());
   }
+}
+
+/// Where ids tell which rows stay, others may have been passed over.
+RowCounts ChunkDecoder::decode_batch(RowReader& reader, std::int64_t wanted)
+{
+  if (choice_.passes)
+  {
+    return reader.decode_chosen(sinks_, wanted, choice_);
+  }
+  const std::int64_t rows = reader.decode(sinks_, wanted);
+  return { rows, rows };
 }
 
 /// Points the sinks at where the next row goes.

@@ -50,6 +50,7 @@ private:
   void measure_radii(std::size_t count, RoundingLoss& loss) const;
   void convert(const PointsWire& wire, std::size_t count);
   void choose_rows(std::size_t count, std::int64_t number);
+  RowCounts decode_batch(RowReader& reader, std::int64_t wanted);
   template <class Passes>
   bool keep_ids(std::size_t count, const Passes& passes);
   void choose_by_number(std::size_t count, std::int64_t number);
@@ -61,6 +62,7 @@ private:
   std::unique_ptr<char[]> scratch_;
   std::vector<ColumnSink> sinks_;
   std::vector<char> keep_; ///< of a batch; empty: all rows stay
+  RowChoice choice_;       ///< by integer ids, if `passes` is not empty
   std::int64_t row_ = 0;   ///< where the batch goes
 };
 }

@@ -118,7 +118,7 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
 }
 
 granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::PathRequest& request,
-  granular::Notices& notices, granular::PartialProgress& progress)
+  granular::Notices& notices, granular::PartialProgress& progress, granular::PathFrame spent)
 {
   if (!this->Reader)
   {
@@ -133,7 +133,7 @@ granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::Pat
     [&]
     {
       return granular::read_particles(
-        this->Reader->Index->pieces(number), request, base, notices, progress);
+        this->Reader->Index->pieces(number), request, base, notices, progress, std::move(spent));
     });
 }
 

@@ -54,10 +54,12 @@ public:
     granular::PartialProgress& progress);
 
   /**
-   * Loads this rank's part of one frame, with all threads. Collective.
+   * Loads this rank's part of one frame, with all threads. spent: a frame that is no longer needed, whose memory is used
+   * again. Collective.
    */
   granular::PathFrame LoadPart(std::size_t number, const granular::PathRequest& request,
-    granular::Notices& notices, granular::PartialProgress& progress);
+    granular::Notices& notices, granular::PartialProgress& progress,
+    granular::PathFrame spent = {});
 
   /**
    * Throws Error that names the first two rows with an id in a frame that was read from files. Not collective.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_dump_formats_text_reader_h
+#define granular_dump_formats_text_reader_h
+
+#include "granular/bytes/byte_source.h"
+#include "granular/dump/formats/text_rows.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace granular
+{
+/// Reads whole lines that are in memory. A row belongs to the chunk that holds its first byte.
+class TextReader final : public RowReader
+{
+public:
+  explicit TextReader(const TextRows& of)
+    : of_(of)
+  {
+  }
+
+  void open(std::int64_t first, std::int64_t last) override;
+  std::int64_t rows() const noexcept override;
+  bool more() const noexcept override;
+  bool surplus() const noexcept override { return surplus_; }
+  std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
+  RowCounts decode_chosen(
+    std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice) override;
+
+private:
+  void load(std::int64_t from, std::int64_t to);
+  std::size_t load_line(std::size_t at);
+  void check_length(std::size_t first, std::size_t end) const;
+  std::uint32_t columns() const noexcept;
+  void find_misfits(
+    const char* from, const char* last, std::span<const ColumnSink> sinks, Misfits& misfits) const;
+  void check(const RowResult& result, const char* last, std::span<const ColumnSink> sinks) const;
+
+  const TextRows& of_;
+  PaddedBuffer buffer_;
+  std::int64_t offset_ = 0; ///< of buffer_ in the content
+  std::size_t filled_ = 0;  ///< bytes in buffer_
+  std::size_t first_ = 0;   ///< of the rows
+  std::size_t at_ = 0;      ///< next row
+  std::size_t end_ = 0;     ///< of the rows
+  bool surplus_ = false;
+  std::vector<std::int64_t> chosen_by_; ///< the integers of a choice
+};
+}
+#endif

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Particles through time: paths of some, and mean square displacements of all, against decoding the same frames, and other programs.
+
+The particles walk at random in a periodic box, and their rows are in the order of cells of the box, as simulations have them: it
+changes a little from frame to frame. Ids have no order in space."""
+import importlib.util
+import time
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersGeneral import vtkTemporalPathLineFilter
+
+import granular
+from scene import Rounds, main, open_dump
+
+SELECTED = 1000
+STEP = 2e-3  # rms along each axis from frame to frame, in box lengths
+CELLS = 40   # along each axis
+
+
+class Walk:
+    """The unwrapped places at all frames, in the order of ids."""
+
+    def __init__(self, particles, frames):
+        random = numpy.random.default_rng(11)
+        self.ids = random.permutation(particles) + 1
+        places = [random.random((particles, 3))]
+        for _ in range(frames - 1):
+            places.append(places[-1] + STEP * random.standard_normal((particles, 3)))
+        self.places, self.random = places, random
+
+    def write(self, path):
+        with granular.Writer(str(path), numbers="%g") as writer:
+            for step, places in enumerate(self.places):
+                images = numpy.floor(places)
+                cells = ((places - images) * CELLS).astype(int) @ (1, CELLS, CELLS * CELLS)
+                rows = numpy.argsort(cells, kind="stable")
+                noise = self.random.standard_normal((len(rows), 6))
+                writer.write({"id": self.ids[rows], "type": numpy.ones(len(rows), int), "points": (places - images)[rows],
+                              "image": images[rows].astype(int), "v": noise[:, :3], "f": noise[:, 3:], "radius": abs(noise[:, 0])},
+                             box=granular.Box((0, 0, 0), (1, 1, 1), boundary="pp pp pp"), step=step)
+        return path
+
+
+def times_of(reader):
+    return reader.GetOutputInformation(0).Get(reader.GetExecutive().TIME_STEPS())
+
+
+def open_run(path, *arrays, threads=1, **properties):
+    """A reader that knows the frames, and has shown the last one: points and these arrays, or all columns."""
+    reader = open_dump(path, Threads=threads, **properties)
+    if arrays:
+        reader.GetPointDataArraySelection().DisableAllArrays()
+        for name in arrays:
+            reader.GetPointDataArraySelection().EnableArray(name)
+    reader.UpdateTimeStep(times_of(reader)[-1])
+    return reader
+
+
+def step_through(reader):
+    for moment in times_of(reader):
+        reader.UpdateTimeStep(moment)
+    return reader.GetOutput()
+
+
+def update(made):
+    made.Update()
+    return made.GetOutput()
+
+
+def filter_on(reader, kind, **properties):
+    made = kind()
+    made.SetInputConnection(reader.GetOutputPort())
+    for name, value in properties.items():
+        getattr(made, "Set" + name)(value)
+    return made
+
+
+def paths(path, threads=1):
+    return filter_on(open_run(path, "id", threads=threads), granular.vtkGranularTrajectories, Threads=threads, NumberOfSamples=SELECTED)
+
+
+def squares(path, threads=1):
+    return filter_on(open_run(path, "id", threads=threads), granular.vtkGranularHistory, Threads=threads,
+                     OutputType=granular.vtkGranularHistory.STATISTICS, MeanSquareDisplacement=True)
+
+
+def paths_of_vtk(path, particles):
+    reader = open_run(path, "id", Coordinates=granular.vtkGranularDumpReader.UNWRAPPED)
+    return filter_on(reader, vtkTemporalPathLineFilter, IdChannelArray="id", MaskPoints=particles // SELECTED, MaxTrackLength=1000)
+
+
+def step_filter(lines):
+    reader = lines.GetInputAlgorithm()
+    for moment in times_of(reader):
+        lines.UpdateTimeStep(moment)
+    return lines.GetOutput()
+
+
+def open_mdanalysis(path, ids):
+    import MDAnalysis
+    universe = MDAnalysis.Universe(str(path), format="LAMMPSDUMP", topology_format="LAMMPSDUMP")
+    return universe, universe.atoms[numpy.isin(universe.atoms.ids, ids)]
+
+
+def step_mdanalysis(universe, chosen):
+    return [chosen.positions for _ in universe.trajectory]
+
+
+def check_results(study, walk, path):
+    """The paths end where the walk does, and the squares are those of the walk, to the digits of the text."""
+    lines = update(paths(path))
+    ids = vtk_to_numpy(lines.GetCellData().GetArray("id"))
+    study.check(len(ids) == SELECTED, "number of paths")
+    cells, points = lines.GetLines(), vtk_to_numpy(lines.GetPoints().GetData())
+    ends = points[vtk_to_numpy(cells.GetOffsetsArray())[1:] - 1]
+    rows = numpy.argsort(walk.ids)[ids - 1]
+    moved = walk.places[-1] - walk.places[0]
+    starts = points[vtk_to_numpy(cells.GetOffsetsArray())[:-1]]
+    study.check(abs(ends - starts - moved[rows]).max() < 3e-6, "paths")
+    msd = vtk_to_numpy(update(squares(path)).GetColumnByName("msd"))[-1]
+    study.check(abs(msd / (moved ** 2).sum(1).mean() - 1) < 1e-4, "mean square displacement")
+    return ids
+
+
+def study_of(study):
+    particles, frames = study.pick(500_000, 5000), study.pick(6, 3)
+    walk = Walk(particles, frames)
+    path = walk.write(study.folder / "walk.dump")
+    ids = check_results(study, walk, path)
+    alone, both, others = Rounds(), Rounds(time.perf_counter), Rounds()
+    alone.add("all columns", step_through, lambda: (open_run(path),))
+    alone.add("ids and positions", step_through, lambda: (open_run(path, "id"),))
+    alone.add("paths of 1000", update, lambda: (paths(path),))
+    alone.add("mean square displacement of all", update, lambda: (squares(path),))
+    alone.add("vtkTemporalPathLineFilter, every n-th", step_filter, lambda: (paths_of_vtk(path, particles),))
+    for count in (1, 2):
+        both.add(f"paths, {count}", update, lambda count=count: (paths(path, count),))
+        both.add(f"squares, {count}", update, lambda count=count: (squares(path, count),))
+    alone.run(study.pick(5, 1))
+    both.run(study.pick(5, 1))
+    if importlib.util.find_spec("MDAnalysis"):
+        others.add("MDAnalysis, positions of 1000", step_mdanalysis, lambda: open_mdanalysis(path, ids))
+        others.run(1)
+    rows = particles * frames
+    for rounds in (alone, others):
+        for case in rounds.contenders:
+            study.tell(case, "time", 1e9 * rounds.time(case) / rows, "ns/row")
+            study.tell(case, "against all columns", rounds.time(case) / alone.time("all columns"), "1")
+            study.tell(case, "against ids and positions", rounds.time(case) / alone.time("ids and positions"), "1")
+    for case, what in (("paths of 1000", "paths"), ("mean square displacement of all", "squares")):
+        study.tell(case, "speed of 2 threads", both.ratio(f"{what}, 1", f"{what}, 2"), "1")
+
+
+main(study_of)
