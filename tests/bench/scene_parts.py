@@ -535,6 +535,16 @@ SCENE_PARTS = (
          """1000 pairs in boxes of length 1, up to 0.09 apart, ends wrapped into the box. Coordinates are multiples of 2^-40, and
          the true length is the least over images, by integers.""",
          [lines_table], [Target(r"minimum image", "length, largest:ulp", "<=", 2)], script=True),
+    Part("paths", "Particles through time",
+         """250,000 particles walk at random in a periodic box: 12 frames of 15 columns of %g, with image counts; rows in the order of
+         places. The run is open. all columns, ids and positions: all frames are read, one after the other. Paths: of 1000
+         particles, a random sample. ParaView's filter takes every 250th particle of unwrapped positions, MDAnalysis wrapped positions.
+         One thread, processor time; speed of 2 threads: time on the wall.""",
+         [cases_by_metrics(r"", *columns(".0f", "time:ns/particle"), *columns(".2f", "against all columns:1", "against ids and positions:1",
+                                                                            "speed of 2 threads:1"))],
+         [Target(r"^paths", "against all columns:1", "<=", 0.5), Target(r"^mean", "against ids and positions:1", "<=", 1.5),
+          Target(r"^paths", "speed of 2 threads:1", ">=", 1.5, cores=2), Target(r"^mean", "speed of 2 threads:1", ">=", 1.5, cores=2)],
+         script=True, wants_cores=2),
     Part("cores", "Cores",
          """333,396 particles: a text of %g read, 20 x 20 x 20 Overlap cells averaged, a text of shortest numbers written. Time
          on the wall. All thread counts give the same bits, or this fails.""",

@@ -664,6 +664,45 @@ TEST(DecodeRows, RandomTextsAreTheSameOnAllPaths)
   EXPECT_GT(faults, 100);
 }
 
+/// The first column of integers alone has a way of its own.
+TEST(DecodeRows, FirstColumnAloneIsTheSameOnAllPaths)
+{
+  RandomText random(1717);
+  std::int64_t rows = 0;
+  std::int64_t faults = 0;
+  for (int i = 0; i < 1500 && !HasFailure(); ++i)
+  {
+    const auto columns =
+      static_cast<std::uint32_t>(1 + random.below(random.below(10) == 0 ? 300 : 14));
+    const std::size_t bytes = random.below(10) == 0 ? 60'000 : random.below(3'000);
+    const std::string rest =
+      random.make(columns, bytes, random.below(4) == 0 ? 0 : 1 + random.below(200));
+    std::string text;
+    bool begins = true;
+    for (const char c : rest)
+    {
+      if (begins && c != '\n')
+      {
+        text += random.below(5) == 0 ? random.gap(true) : "";
+        text += random.below(400) == 0 ? random.word(true)
+          : random.below(9) == 0
+          ? std::to_string(static_cast<std::int64_t>(random.below(std::uint64_t{ 1 } << 63)))
+          : std::to_string(static_cast<int>(random.below(9'000'000)) - 100'000);
+        text += random.gap(random.below(5) == 0);
+      }
+      text += c;
+      begins = c == '\n';
+    }
+    const std::int64_t most =
+      random.below(3) == 0 ? static_cast<std::int64_t>(random.below(100)) : all_rows;
+    const Decoded got = decode_all(text, columns + 1, { { 0, ValueType::Int64 } }, most);
+    rows += got.rows;
+    faults += got.status == RowStatus::Done ? 0 : 1;
+  }
+  EXPECT_GT(rows, 20'000) << "the texts are not what they should be";
+  EXPECT_GT(faults, 100);
+}
+
 // Bytes without any shape.
 TEST(DecodeRows, GarbageIsTheSameOnAllPaths)
 {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -40,6 +41,21 @@ void choose_rows(const FrameView& frame, std::span<const std::int64_t> ids,
   }
 }
 
+constexpr std::size_t rows_per_chunk = std::size_t{ 1 } << 14;
+
+/// Calls task(first, count) with stretches of so many rows, on several threads.
+void for_each_stretch(std::size_t rows, const Executor& executor, Progress& progress,
+  const std::function<void(std::size_t first, std::size_t count)>& task)
+{
+  executor.parallel_for((rows + rows_per_chunk - 1) / rows_per_chunk,
+    [&](std::size_t chunk, std::size_t)
+    {
+      const std::size_t first = chunk * rows_per_chunk;
+      task(first, std::min(rows_per_chunk, rows - first));
+    },
+    progress);
+}
+
 /// Loads the rows of one component, as numbers of a type, into every size-th word.
 template <class Number>
 void load_words(const ValueSource& source, std::span<const std::int64_t> rows, std::size_t size,
@@ -58,20 +74,26 @@ void load_words(const ValueSource& source, std::span<const std::int64_t> rows, s
 }
 
 /// Fills the array, whose memory is used again.
-void pick_array(const ArrayView& view, std::span<const std::int64_t> rows, PathArray& array)
+void pick_array(const ArrayView& view, std::span<const std::int64_t> rows, PathArray& array,
+  const Executor& executor, Progress& progress)
 {
   // integers above 2^63 have no place among std::int64_t
   array.integers = is_integer(view.type) && view.type != ValueType::UInt64;
   array.size = view.size();
   const auto size = static_cast<std::size_t>(array.size);
   array.words.resize(rows.size() * size);
-  for (std::size_t i = 0; i < size; ++i)
-  {
-    const ValueSource source = component_of(view, static_cast<int>(i));
-    std::int64_t* const words = array.words.data() + i;
-    array.integers ? load_words<std::int64_t>(source, rows, size, words)
-                   : load_words<double>(source, rows, size, words);
-  }
+  for_each_stretch(rows.size(), executor, progress,
+    [&](std::size_t first, std::size_t count)
+    {
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        const ValueSource source = component_of(view, static_cast<int>(i));
+        std::int64_t* const words = array.words.data() + first * size + i;
+        const std::span<const std::int64_t> some = rows.subspan(first, count);
+        array.integers ? load_words<std::int64_t>(source, some, size, words)
+                       : load_words<double>(source, some, size, words);
+      }
+    });
 }
 
 [[noreturn]] void refuse_texts(const std::string& name, const Where& where = {})
@@ -93,30 +115,39 @@ void check_numbers(const FrameView& frame, const std::vector<std::string>& names
 }
 
 /// Points of rows that follow each other are used in place where they need no conversion.
-void load_points(
-  const FrameView& frame, std::span<const std::int64_t> rows, std::vector<double>& points)
+void load_points(const FrameView& frame, std::span<const std::int64_t> rows,
+  std::vector<double>& points, const Executor& executor, Progress& progress)
 {
   const AbsolutePositions positions(frame, false);
   const bool all = is_consecutive(rows);
   points.resize(3 * rows.size());
-  for (std::size_t i = 0; i < rows.size(); i += AbsolutePositions::most_rows)
-  {
-    const std::size_t count = std::min(rows.size() - i, AbsolutePositions::most_rows);
-    double* const to = points.data() + 3 * i;
-    if (!all)
+  for_each_stretch(rows.size(), executor, progress,
+    [&](std::size_t first, std::size_t rest)
     {
-      positions.load(rows.subspan(i, count), to);
-      continue;
-    }
-    const double* const from = positions.load(rows[i], count, to);
-    if (from != to)
-    {
-      std::copy_n(from, 3 * count, to);
-    }
-  }
+      for (const std::size_t end = first + rest; first < end;)
+      {
+        const std::size_t count = std::min(end - first, AbsolutePositions::most_rows);
+        double* const to = points.data() + 3 * first;
+        const double* from = to;
+        if (all)
+        {
+          from = positions.load(rows[first], count, to);
+        }
+        else
+        {
+          positions.load(rows.subspan(first, count), to);
+        }
+        if (from != to)
+        {
+          std::copy_n(from, 3 * count, to);
+        }
+        first += count;
+      }
+    });
 }
 
-void pick_points(const FrameView& frame, bool absolute, PathFrame& picked)
+void pick_points(const FrameView& frame, bool absolute, PathFrame& picked, const Executor& executor,
+  Progress& progress)
 {
   if (!frame.points)
   {
@@ -129,7 +160,7 @@ void pick_points(const FrameView& frame, bool absolute, PathFrame& picked)
     // taken for absolute ones, unwrapped points stay as they are
     wanted.coordinates = absolute ? Coordinates::Unwrapped : Coordinates::Absolute;
   }
-  load_points(wanted, picked.rows, picked.points);
+  load_points(wanted, picked.rows, picked.points, executor, progress);
   const ArrayView* const images = frame.find(image_array);
   if (picked.coordinates == Coordinates::Absolute && images && images->size() == 3 &&
     is_integer(images->type))
@@ -137,7 +168,7 @@ void pick_points(const FrameView& frame, bool absolute, PathFrame& picked)
     picked.has_images = true;
     PathArray counts;
     counts.words = std::move(picked.images);
-    pick_array(*images, picked.rows, counts);
+    pick_array(*images, picked.rows, counts, executor, progress);
     picked.images = std::move(counts.words);
   }
   else
@@ -185,14 +216,14 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
     if (const ArrayView* const view = frame.find(picked.arrays[i].name))
     {
       picked.arrays[i].words = std::move(spent.arrays[i].words);
-      pick_array(*view, rows, picked.arrays[i]);
+      pick_array(*view, rows, picked.arrays[i], executor, progress);
     }
   }
   if (request.points)
   {
     picked.points = std::move(spent.points);
     picked.images = std::move(spent.images);
-    pick_points(frame, request.absolute, picked);
+    pick_points(frame, request.absolute, picked, executor, progress);
   }
   for (std::int64_t& row : picked.rows)
   {

@@ -30,6 +30,14 @@ struct Edges
   alignas(64) std::uint16_t line_ends[batch_bytes + 128];
 };
 
+/// The lines of a batch: where each ends, and how many words it has.
+struct Lines
+{
+  std::uint32_t count;
+  std::uint16_t ends[batch_bytes];
+  std::uint16_t words[batch_bytes];
+};
+
 /// The rows of a batch, by the index of their first edge.
 struct Rows
 {

@@ -124,7 +124,7 @@ def check_results(study, walk, path):
 
 
 def study_of(study):
-    particles, frames = study.pick(500_000, 5000), study.pick(6, 3)
+    particles, frames = study.pick(250_000, 5000), study.pick(12, 3)
     walk = Walk(particles, frames)
     path = walk.write(study.folder / "walk.dump")
     ids = check_results(study, walk, path)
@@ -133,7 +133,7 @@ def study_of(study):
     alone.add("ids and positions", step_through, lambda: (open_run(path, "id"),))
     alone.add("paths of 1000", update, lambda: (paths(path),))
     alone.add("mean square displacement of all", update, lambda: (squares(path),))
-    alone.add("vtkTemporalPathLineFilter, every n-th", step_filter, lambda: (paths_of_vtk(path, particles),))
+    alone.add("ParaView, vtkTemporalPathLineFilter", step_filter, lambda: (paths_of_vtk(path, particles),))
     for count in (1, 2):
         both.add(f"paths, {count}", update, lambda count=count: (paths(path, count),))
         both.add(f"squares, {count}", update, lambda count=count: (squares(path, count),))
@@ -142,12 +142,12 @@ def study_of(study):
     if importlib.util.find_spec("MDAnalysis"):
         others.add("MDAnalysis, positions of 1000", step_mdanalysis, lambda: open_mdanalysis(path, ids))
         others.run(1)
-    rows = particles * frames
     for rounds in (alone, others):
         for case in rounds.contenders:
-            study.tell(case, "time", 1e9 * rounds.time(case) / rows, "ns/row")
-            study.tell(case, "against all columns", rounds.time(case) / alone.time("all columns"), "1")
-            study.tell(case, "against ids and positions", rounds.time(case) / alone.time("ids and positions"), "1")
+            study.tell(case, "time", 1e9 * rounds.time(case) / particles / frames, "ns/particle")
+            for baseline in ("all columns", "ids and positions"):
+                ratio = rounds.ratio(case, baseline) if rounds is alone else rounds.time(case) / alone.time(baseline)
+                study.tell(case, f"against {baseline}", ratio, "1")
     for case, what in (("paths of 1000", "paths"), ("mean square displacement of all", "squares")):
         study.tell(case, "speed of 2 threads", both.ratio(f"{what}, 1", f"{what}, 2"), "1")
 
