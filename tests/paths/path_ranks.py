@@ -6,6 +6,7 @@ import sys
 import numpy
 from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkElevationFilter
 
 import all_ranks
 import granular
@@ -90,6 +91,46 @@ if all_ranks.symmetric:
     ids = vtk_to_numpy(proxy.GetClientSideObject().GetOutput().GetCellData().GetArray("id")).tolist()
     rank, size = all_ranks.ranks.GetLocalProcessId(), all_ranks.ranks.GetNumberOfProcesses()
     assert ids == list(range(1 + 30 * rank // size, 1 + 30 * (rank + 1) // size)), ids
+
+# one rank that wants to stop stops all, at whatever moment, and the next update is good
+if all_ranks.symmetric:
+    def size_of(output):
+        return output.GetNumberOfColumns() if output.IsA("vtkTable") else output.GetNumberOfPoints()
+
+    reader = granular.vtkGranularDumpReader()
+    reader.AddFileName(os.path.join(data, "paths", "walk.dump.gz"))
+    through = vtkElevationFilter()
+    through.SetInputConnection(reader.GetOutputPort())
+    for kind, properties in (("Trajectories", {}), ("Trajectories", {"NumberOfSamples": 5}), ("History", {}),
+                             ("History", {"OutputType": 1, "MeanSquareDisplacement": True})):
+        for source in (reader, through):
+            filter_ = getattr(granular, f"vtkGranular{kind}")()
+            filter_.SetInputConnection(source.GetOutputPort())
+            for name, value in properties.items():
+                getattr(filter_, f"Set{name}")(value)
+            reports = []
+            mark = filter_.AddObserver("ProgressEvent", lambda *_: reports.append(1))
+            filter_.UpdatePiece(rank, size, 0)
+            filter_.RemoveObserver(mark)
+            whole = size_of(filter_.GetOutput())
+            assert (whole > 0) == (kind == "Trajectories" or rank == 0)
+            for stopper in range(size):
+                for stop in (1, 2, len(reports) // 2):
+                    left = [stop if rank == stopper else -1]
+
+                    def count(*_):
+                        left[0] -= 1
+                        if left[0] == 0:
+                            filter_.SetAbortExecute(1)
+
+                    mark = filter_.AddObserver("ProgressEvent", count)
+                    filter_.Modified()
+                    filter_.UpdatePiece(rank, size, 0)
+                    filter_.RemoveObserver(mark)
+                    assert size_of(filter_.GetOutput()) == 0, (kind, properties, stopper, stop)
+                    filter_.Modified()
+                    filter_.UpdatePiece(rank, size, 0)
+                    assert size_of(filter_.GetOutput()) == whole, (kind, properties, stopper, stop)
 
 # an id that repeats, on whatever rank: one error of all, empty outputs, and ParaView lives on
 HEAD = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n"
