@@ -70,7 +70,9 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
   {
     for (std::size_t i = 0; i < numbers.size(); ++i)
     {
-      progress.step(static_cast<double>(i) / static_cast<double>(numbers.size()));
+      // no rank may stop where others go on to ask the pipeline
+      granular::do_together(this->Ranks,
+        [&] { progress.step(static_cast<double>(i) / static_cast<double>(numbers.size())); });
       granular::Progress quiet;
       frames[i] = this->Request(numbers[i], request, quiet);
     }
@@ -122,6 +124,7 @@ granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::Pat
 {
   if (!this->Reader)
   {
+    granular::do_together(this->Ranks, [&] { progress.step(0); });
     return this->Request(number, request, progress);
   }
   granular::DumpRequest base = this->Reader->Request;
