@@ -241,6 +241,11 @@ private:
         series[at++].Frames.push_back(values);
       };
       headers.push_back(frame.header);
+      const auto nameRows = [&](std::int64_t id) { this->Frames.NameRows(id, this->Numbers[i]); };
+      if (!msd) // otherwise they are looked up anyway
+      {
+        granular::expect_distinct_ids(frame, nameRows, this->Frames.GetRanks());
+      }
       if (statistics)
       {
         this->AddStatistics(frame, add);
@@ -248,7 +253,6 @@ private:
       if (msd)
       {
         frame.arrays.clear();
-        const auto nameRows = [&](std::int64_t id) { this->Frames.NameRows(id, this->Numbers[i]); };
         const auto means = squares.add(frame, nameRows, this->Part);
         add("msd", { means.total });
         add("msd_xyz", { means.axes[0], means.axes[1], means.axes[2] });

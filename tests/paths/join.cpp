@@ -322,6 +322,29 @@ TEST(PathsJoin, ImageCountsInSomeFrames)
   EXPECT_EQ(xs_of(join_alone(frames)), (std::vector<double>{ 8, 9, 11, 12, 9 }));
 }
 
+/// Image counts, and rows, that only one rank has are those of none.
+TEST(PathsJoin, ImageCountsThatARankLacks)
+{
+  const walks::Run run =
+    walks::make_run({ walks::tilted_box() }, { .longest = walks::grid / 200 }, 77);
+  const Paths expected = walks::paths_of(run, {}, false);
+  for (const int lacks : { 0, 1 })
+  {
+    run_ranks(2,
+      [&](Communicator& ranks)
+      {
+        std::vector<PathFrame> frames = dealt(walks::frames_of(run, {}), by_rows, ranks);
+        for (PathFrame& frame : frames)
+        {
+          frame.has_images = frame.has_rows = ranks.rank() != lacks;
+          frame.images.assign(frame.has_images ? 3 * frame.ids.size() : 0, 5); // wrong ones
+          frame.rows.resize(frame.has_rows ? frame.ids.size() : 0);
+        }
+        expect_paths(join(std::move(frames), {}, ranks), expected, ranks);
+      });
+  }
+}
+
 TEST(PathsJoin, PlacesThatAreNoNumbers)
 {
   const std::vector<PathFrame> frames = { simple_frame({ 3 }, { 9 }),

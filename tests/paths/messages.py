@@ -120,7 +120,7 @@ with open("repeated.dump") as lines:
 MESSAGE = "expected each id once in a frame, got id {} in rows {} and {} of timestep 100 (rows are counted from 0)"
 for through in (False, True):
     for kind, properties in (("Trajectories", {}), ("Trajectories", {"Tail": 5}), ("History", {}),
-                             ("History", {"MeanSquareDisplacement": True}), ("History", {"MeanSquareDisplacement": True, "OutputType": 1})):
+                             ("History", {"MeanSquareDisplacement": True}), ("History", {"MeanSquareDisplacement": True, "OutputType": 1}), ("History", {"OutputType": 1})):
         reader = reader_of("repeated.dump")
         source = vtkElevationFilter() if through else reader
         if through:

@@ -147,7 +147,7 @@ for name, said in (("repeated.dump", "got id 17 in rows 16 and 200 of timestep 1
     through = Calculator(Input=reader, Function="1", ResultArrayName="one")
     for source in (reader, through):
         for kind, properties in ((GranularTrajectories, {}), (GranularHistory, {}), (GranularTrajectories, {"Ids": "10-20"}),
-                                 (GranularHistory, {"Output": 1, "MeanSquareDisplacement": 1})):
+                                 (GranularHistory, {"Output": 1, "MeanSquareDisplacement": 1}), (GranularHistory, {"Output": 1})):
             proxy = kind(Input=source, **properties)
             proxy.UpdatePipeline(0)
             assert said in proxy.GetClientSideObject().GetErrorMessage(), (name, proxy.GetClientSideObject().GetErrorMessage())

@@ -174,6 +174,9 @@ TEST(PickParticles, ImagesThatAreNone)
   EXPECT_FALSE(pick(four.view).has_images);
   four.view.arrays.back() = view_rows("image", ValueType::Int64, four.ids.data());
   EXPECT_FALSE(pick(four.view).has_images);
+  const std::vector<std::uint64_t> unsigned_counts(12);
+  four.view.arrays.back() = view_rows("image", ValueType::UInt64, unsigned_counts.data(), 3);
+  EXPECT_FALSE(pick(four.view).has_images);
 }
 
 TEST(PickParticles, NoRows)

@@ -23,14 +23,6 @@ std::size_t keeper_of(std::int64_t id, std::size_t ranks) noexcept
 {
   return (hash_of_id(id) >> 32) % ranks;
 }
-
-/// An id that repeats, and the rows of both particles. Rows that no rank has: none repeats.
-struct Repeated
-{
-  std::int64_t second = std::numeric_limits<std::int64_t>::max();
-  std::int64_t first = 0;
-  std::int64_t id = 0;
-};
 }
 
 IdDirectory::IdDirectory(
@@ -60,9 +52,10 @@ ParticleHome IdDirectory::home(std::int64_t place) const
     rows_[static_cast<std::size_t>(place)] };
 }
 
-void IdDirectory::expect_distinct(const std::string& whose, Communicator& ranks) const
+std::optional<RepeatedId> IdDirectory::find_repeated(Communicator& ranks) const
 {
-  Repeated own;
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  RepeatedId own{ .second_row = none };
   const auto row_of = [&](std::int64_t place)
   {
     const ParticleHome at = this->home(place);
@@ -73,18 +66,23 @@ void IdDirectory::expect_distinct(const std::string& whose, Communicator& ranks)
     std::int64_t first = IdFinder::nowhere;
     finder_.find({ &ids_[i], 1 }, &first);
     const auto place = static_cast<std::int64_t>(i);
-    if (first != place && row_of(place) < own.second)
+    if (first != place && row_of(place) < own.second_row)
     {
-      own = { row_of(place), row_of(first), ids_[i] };
+      own = { ids_[i], row_of(first), row_of(place) };
     }
   }
-  const std::vector<Repeated> all = gather(ranks, own);
-  const Repeated& lowest = *std::ranges::min_element(all, {}, &Repeated::second);
-  if (lowest.second != Repeated{}.second)
+  const std::vector<RepeatedId> all = gather(ranks, own);
+  const RepeatedId& lowest = *std::ranges::min_element(all, {}, &RepeatedId::second_row);
+  return lowest.second_row == none ? std::nullopt : std::optional(lowest);
+}
+
+void IdDirectory::expect_distinct(const std::string& whose, Communicator& ranks) const
+{
+  if (const std::optional<RepeatedId> found = this->find_repeated(ranks))
   {
     throw Error("expected each id once among the " + whose + ", got id " +
-      std::to_string(lowest.id) + " in rows " + std::to_string(lowest.first) + " and " +
-      std::to_string(lowest.second) + " (the first is 0)");
+      std::to_string(found->id) + " in rows " + std::to_string(found->first_row) + " and " +
+      std::to_string(found->second_row) + " (the first is 0)");
   }
 }
 

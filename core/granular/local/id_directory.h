@@ -6,6 +6,7 @@
 #include "granular/parallel/communicator.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,14 @@ struct ParticleHome
 {
   std::int64_t rank = -1;
   std::int64_t row = 0;
+};
+
+/// An id that repeats, and the rows of both particles, counted from 0 over all ranks in rank order.
+struct RepeatedId
+{
+  std::int64_t id = 0;
+  std::int64_t first_row = 0;
+  std::int64_t second_row = 0;
 };
 
 /// The homes of the particles of all ranks. Each id is assigned to a rank by its hash; that rank keeps the home. No rank needs
@@ -31,8 +40,10 @@ public:
   /// Returns the number of ids kept on this rank that repeat an earlier one.
   std::int64_t repeated() const noexcept { return finder_.repeated(); }
 
-  /// Throws Error on all ranks if an id repeats: names the id and both rows, counted from 0 over all ranks in rank order.
-  /// whose: "particles". Collective.
+  /// Returns, on all ranks, the id whose second row is the first that has an id again. Collective.
+  std::optional<RepeatedId> find_repeated(Communicator& ranks) const;
+
+  /// Throws Error on all ranks if an id repeats: names the id and both rows. whose: "particles". Collective.
   void expect_distinct(const std::string& whose, Communicator& ranks) const;
 
   /// Returns the home of each id. Collective.

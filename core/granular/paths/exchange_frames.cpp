@@ -60,8 +60,12 @@ void share_headers(std::vector<PathFrame>& frames, Communicator& ranks)
   {
     // who has particles knows what they have
     const FrameKnown* best = nullptr;
+    bool images = true; // of all particles
+    bool rows = true;
     for (const std::vector<FrameKnown>& known : all)
     {
+      images = images && (known[i].images || known[i].particles == 0);
+      rows = rows && (known[i].rows || known[i].particles == 0);
       const bool better = !best || (best->particles == 0 && known[i].particles > 0);
       best = known[i].loaded && better ? &known[i] : best;
     }
@@ -71,8 +75,10 @@ void share_headers(std::vector<PathFrame>& frames, Communicator& ranks)
       frame.loaded = true;
       frame.header = best->header;
       frame.coordinates = best->coordinates;
-      frame.has_images = best->images;
-      frame.has_rows = best->rows;
+      frame.has_images = best->images && images;
+      frame.has_rows = best->rows && rows;
+      frame.images.resize(frame.has_images ? frame.images.size() : 0);
+      frame.rows.resize(frame.has_rows ? frame.rows.size() : 0);
     }
   }
 }

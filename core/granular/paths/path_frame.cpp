@@ -2,7 +2,10 @@
 #include "granular/paths/path_frame.h"
 
 #include "granular/dump/read/dump_reader.h"
+#include "granular/local/id_directory.h"
+#include "granular/local/id_finder.h"
 #include "granular/local/ids.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/point_forms.h"
 #include "granular/particles/view_frame.h"
@@ -163,7 +166,7 @@ void pick_points(const FrameView& frame, bool absolute, PathFrame& picked, const
   load_points(wanted, picked.rows, picked.points, executor, progress);
   const ArrayView* const images = frame.find(image_array);
   if (picked.coordinates == Coordinates::Absolute && images && images->size() == 3 &&
-    is_integer(images->type))
+    is_integer(images->type) && images->type != ValueType::UInt64)
   {
     picked.has_images = true;
     PathArray counts;
@@ -290,6 +293,43 @@ std::vector<std::int64_t> ids_in_region(const PathFrame& frame, Region region)
     }
   }
   return ids;
+}
+
+void expect_distinct_ids(const PathFrame& frame,
+  const std::function<void(std::int64_t id)>& name_rows, Communicator& ranks)
+{
+  if (ranks.size() == 1 && IdFinder(frame.ids).repeated() == 0)
+  {
+    return;
+  }
+  const auto repeated = IdDirectory(frame.ids, nullptr, ranks).find_repeated(ranks);
+  if (!repeated)
+  {
+    return;
+  }
+  do_together(ranks,
+    [&]
+    {
+      if (name_rows && ranks.rank() == 0)
+      {
+        name_rows(repeated->id);
+      }
+    });
+  // those of the frame: other particles may have been left out
+  std::vector<std::int64_t> own;
+  for (std::size_t i = 0; i < frame.ids.size(); ++i)
+  {
+    if (frame.ids[i] == repeated->id)
+    {
+      own.push_back(frame.has_rows ? frame.rows[i] : -1);
+    }
+  }
+  std::vector<std::int64_t> rows;
+  for (const std::vector<std::int64_t>& some : gather(ranks, own))
+  {
+    rows.insert(rows.end(), some.begin(), some.end());
+  }
+  throw_repeated(repeated->id, frame.header.timestep, rows.at(0), rows.at(1));
 }
 
 void throw_repeated(std::int64_t id, std::int64_t timestep, std::int64_t first_row,

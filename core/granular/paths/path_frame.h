@@ -10,12 +10,14 @@
 #include "granular/frames/run_index.h"
 #include "granular/geometry/positions.h"
 #include "granular/geometry/region.h"
+#include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"
 #include "granular/paths/id_selection.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -68,6 +70,11 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
 
 /// Returns the ids of the particles whose points are in a region.
 std::vector<std::int64_t> ids_in_region(const PathFrame& frame, Region region);
+
+/// Throws Error on all ranks if an id repeats in a frame, of which each rank has some particles: with both rows. name_rows is
+/// called on one rank before, and throws if it can name the file; it may be empty. Collective.
+void expect_distinct_ids(const PathFrame& frame,
+  const std::function<void(std::int64_t id)>& name_rows, Communicator& ranks);
 
 /// Throws Error that names the id and its first two rows among the particles of a frame.
 [[noreturn]] void throw_repeated(std::int64_t id, std::int64_t timestep, std::int64_t first_row,
