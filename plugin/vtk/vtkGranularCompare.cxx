@@ -313,7 +313,8 @@ private:
     for (std::size_t i = 0; i < 2; ++i)
     {
       const FrameData& frame = i == 0 ? this->Current : this->Reference;
-      inputs[i] = ExpectData<vtkPointSet>(frame[port], "lines with points (GranularLocalJoin makes them of a table)");
+      inputs[i] = ExpectData<vtkPointSet>(
+        frame[port], "lines with points (GranularLocalJoin makes them of a table)");
       rows[i].emplace(inputs[i]);
       this->Ends[i] = { rows[i]->ReadIds("id1", this->Progress),
         rows[i]->ReadIds("id2", this->Progress) };
