@@ -155,15 +155,12 @@ granular_set_up()
       granular_configure vtk "$strict" -DBUILD_TESTING=ON
       granular_make
       ;;
-    core-only | asan | tsan)
+    core-only | asan | tsan | damaged)
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
-      granular_configure "$1" "$strict"
-      granular_make
-      ;;
-    damaged)
-      granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
-      granular_configure asan "$strict"
-      granular_make tests_fuzz
+      case "$1" in
+        damaged) granular_configure asan "$strict" && granular_make tests_fuzz ;;
+        *) granular_configure "$1" "$strict" && granular_make ;;
+      esac
       ;;
   esac
 }

@@ -98,15 +98,7 @@ private:
     const std::size_t count = std::max<std::size_t>(times.size(), 1);
     for (std::size_t frame = 0; frame < count; ++frame)
     {
-      const bool made = times.empty() ? frames.Update() : frames.Update(times[frame]);
-      granular::do_together(this->Ranks,
-        [&]
-        {
-          if (!frames.Check(made))
-          {
-            throw granular::Error("the input could not be made: see the messages before");
-          }
-        });
+      frames.Update(times.empty() ? std::nullopt : std::optional(times[frame]), this->Ranks);
       this->Progress.set_part(static_cast<double>(frame) / static_cast<double>(count),
         static_cast<double>(frame + 1) / static_cast<double>(count));
       const granular::EulerAverages averages = this->AverageFrame(frames.GetData());

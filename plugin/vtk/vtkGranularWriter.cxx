@@ -207,17 +207,8 @@ void vtkGranularWriter::WriteFrames()
   const std::size_t frames = std::max<std::size_t>(1, times.size());
   for (std::size_t frame = 0; frame < frames; ++frame)
   {
-    const bool made = times.empty() ? input.Update() : input.Update(times[frame]);
-    granular::do_together(ranks,
-      [&]
-      {
-        if (!input.Check(made))
-        {
-          throw granular::Error(
-            "the input could not be made, and nothing is written: see the messages before",
-            { this->FileName });
-        }
-      });
+    input.Update(times.empty() ? std::nullopt : std::optional(times[frame]), ranks,
+      ", and nothing is written", { this->FileName });
     const auto all = static_cast<double>(frames);
     const auto first = static_cast<double>(frame);
     part.set_part(first / all, (first + 1) / all);

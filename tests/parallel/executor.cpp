@@ -166,6 +166,32 @@ TEST(Executor, TheFirstExceptionByNumber)
   }
 }
 
+TEST(Executor, StretchesAreTheWhole)
+{
+  granular::Progress quiet;
+  for (const int threads : { 1, 3 })
+  {
+    for (const std::size_t things : { 0U, 1U, 9U, 10U, 11U, 1000U })
+    {
+      std::vector<std::atomic<int>> done(things);
+      Executor(threads).for_each_stretch(
+        things, 10,
+        [&](std::size_t first, std::size_t count, std::size_t worker)
+        {
+          EXPECT_EQ(count, std::min<std::size_t>(10, things - first));
+          EXPECT_LT(worker, static_cast<std::size_t>(threads));
+          for (std::size_t i = first; i < first + count; ++i)
+          {
+            ++done[i];
+          }
+        },
+        quiet);
+      EXPECT_TRUE(
+        std::ranges::all_of(done, [](const std::atomic<int>& times) { return times == 1; }));
+    }
+  }
+}
+
 TEST(Executor, CancelledAtEveryReport)
 {
   for (const int threads : { 1, 2, 4 })

@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vt
 from vtkmodules.vtkFiltersCore import vtkElevationFilter
 
 import plain_paths
+from stopping import stopped
 from said import said_by
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -120,7 +121,8 @@ with open("repeated.dump") as lines:
 MESSAGE = "expected each id once in a frame, got id {} in rows {} and {} of timestep 100 (rows are counted from 0)"
 for through in (False, True):
     for kind, properties in (("Trajectories", {}), ("Trajectories", {"Tail": 5}), ("History", {}),
-                             ("History", {"MeanSquareDisplacement": True}), ("History", {"MeanSquareDisplacement": True, "OutputType": 1}), ("History", {"OutputType": 1})):
+                             ("History", {"MeanSquareDisplacement": True}), ("History", {"MeanSquareDisplacement": True, "OutputType": 1}),
+                             ("History", {"OutputType": 1})):
         reader = reader_of("repeated.dump")
         source = vtkElevationFilter() if through else reader
         if through:
@@ -276,17 +278,9 @@ for kind, properties in (("Trajectories", {"Arrays": "v"}), ("Trajectories", {"T
         assert reported == sorted(reported) and 0 <= reported[0] and reported[-1] == 1 and len(reported) >= 4, reported
         whole = size_of(filter_)
         for stop in sorted({1, 2, len(reported) // 2, len(reported) - 2}):
-            left = [stop]
-
-            def count(*_):
-                left[0] -= 1
-                if left[0] == 0:
-                    filter_.SetAbortExecute(1)
-
-            mark = filter_.AddObserver("ProgressEvent", count)
-            filter_.Modified()
-            filter_.UpdateTimeStep(3)
-            filter_.RemoveObserver(mark)
+            with stopped(filter_, stop):
+                filter_.Modified()
+                filter_.UpdateTimeStep(3)
             assert filter_.said == [] and size_of(filter_) == 0, (kind, properties, stop, filter_.said)
             filter_.Modified()
             works(filter_, 3)

@@ -11,6 +11,7 @@ from vtkmodules.vtkFiltersCore import vtkElevationFilter
 import all_ranks
 import granular
 import plain_paths
+from stopping import stopped
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 RUNS = [(["grains.dump"], "v radius", {}), (["paths/walk.dump.gz"], "*", {}), (["local/chain.dump"], "mol v", {}),
@@ -116,17 +117,9 @@ if all_ranks.symmetric:
             assert (whole > 0) == (kind != "History" or rank == 0)
             for stopper in range(size):
                 for stop in (1, 2, len(reports) // 2):
-                    left = [stop if rank == stopper else -1]
-
-                    def count(*_):
-                        left[0] -= 1
-                        if left[0] == 0:
-                            filter_.SetAbortExecute(1)
-
-                    mark = filter_.AddObserver("ProgressEvent", count)
-                    filter_.Modified()
-                    filter_.UpdateTimeStep(600, rank, size)
-                    filter_.RemoveObserver(mark)
+                    with stopped(filter_, stop if rank == stopper else 0):
+                        filter_.Modified()
+                        filter_.UpdateTimeStep(600, rank, size)
                     assert size_of(filter_.GetOutput()) == 0, (kind, properties, stopper, stop)
                     filter_.Modified()
                     filter_.UpdateTimeStep(600, rank, size)

@@ -639,68 +639,65 @@ std::vector<Wanted> some_columns(RandomText& random, std::uint32_t columns)
   }
   return wanted;
 }
+
+/// The same with an integer before each line.
+std::string with_integers(RandomText& random, const std::string& text)
+{
+  std::string more;
+  bool begins = true;
+  for (const char c : text)
+  {
+    if (begins && c != '\n')
+    {
+      more += random.below(5) == 0 ? random.gap(true) : "";
+      more += random.below(400) == 0 ? random.word(true)
+        : random.below(9) == 0
+        ? std::to_string(static_cast<std::int64_t>(random.below(std::uint64_t{ 1 } << 63)))
+        : std::to_string(static_cast<int>(random.below(9'000'000)) - 100'000);
+      more += random.gap(random.below(5) == 0);
+    }
+    more += c;
+    begins = c == '\n';
+  }
+  return more;
 }
 
-TEST(DecodeRows, RandomTextsAreTheSameOnAllPaths)
+/// Decodes random texts on all paths: some columns, or a first one of integers alone.
+void decode_random(unsigned seed, bool first_only)
 {
-  RandomText random(4242);
+  RandomText random(seed);
   std::int64_t rows = 0;
   std::int64_t faults = 0;
-  for (int i = 0; i < 1500 && !HasFailure(); ++i)
+  for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i)
   {
     const auto columns =
       static_cast<std::uint32_t>(1 + random.below(random.below(10) == 0 ? 300 : 14));
     const std::size_t bytes = random.below(10) == 0 ? 60'000 : random.below(3'000);
     const std::string text =
       random.make(columns, bytes, random.below(4) == 0 ? 0 : 1 + random.below(200));
-    const std::vector<Wanted> wanted = some_columns(random, columns);
+    const std::vector<Wanted> wanted =
+      first_only ? std::vector<Wanted>{ { 0, ValueType::Int64 } } : some_columns(random, columns);
     const std::int64_t most =
       random.below(3) == 0 ? static_cast<std::int64_t>(random.below(100)) : all_rows;
-    const Decoded got = decode_all(text, columns, wanted, most);
+    const Decoded got = first_only
+      ? decode_all(with_integers(random, text), columns + 1, wanted, most)
+      : decode_all(text, columns, wanted, most);
     rows += got.rows;
     faults += got.status == RowStatus::Done ? 0 : 1;
   }
   EXPECT_GT(rows, 20'000) << "the texts are not what they should be";
   EXPECT_GT(faults, 100);
 }
+}
 
-/// The first column of integers alone has a way of its own.
+TEST(DecodeRows, RandomTextsAreTheSameOnAllPaths)
+{
+  decode_random(4242, false);
+}
+
 TEST(DecodeRows, FirstColumnAloneIsTheSameOnAllPaths)
 {
-  RandomText random(1717);
-  std::int64_t rows = 0;
-  std::int64_t faults = 0;
-  for (int i = 0; i < 1500 && !HasFailure(); ++i)
-  {
-    const auto columns =
-      static_cast<std::uint32_t>(1 + random.below(random.below(10) == 0 ? 300 : 14));
-    const std::size_t bytes = random.below(10) == 0 ? 60'000 : random.below(3'000);
-    const std::string rest =
-      random.make(columns, bytes, random.below(4) == 0 ? 0 : 1 + random.below(200));
-    std::string text;
-    bool begins = true;
-    for (const char c : rest)
-    {
-      if (begins && c != '\n')
-      {
-        text += random.below(5) == 0 ? random.gap(true) : "";
-        text += random.below(400) == 0 ? random.word(true)
-          : random.below(9) == 0
-          ? std::to_string(static_cast<std::int64_t>(random.below(std::uint64_t{ 1 } << 63)))
-          : std::to_string(static_cast<int>(random.below(9'000'000)) - 100'000);
-        text += random.gap(random.below(5) == 0);
-      }
-      text += c;
-      begins = c == '\n';
-    }
-    const std::int64_t most =
-      random.below(3) == 0 ? static_cast<std::int64_t>(random.below(100)) : all_rows;
-    const Decoded got = decode_all(text, columns + 1, { { 0, ValueType::Int64 } }, most);
-    rows += got.rows;
-    faults += got.status == RowStatus::Done ? 0 : 1;
-  }
-  EXPECT_GT(rows, 20'000) << "the texts are not what they should be";
-  EXPECT_GT(faults, 100);
+  decode_random(1717, true);
 }
 
 // Bytes without any shape.

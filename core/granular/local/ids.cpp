@@ -16,8 +16,8 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t rows_per_chunk = 65536;
-constexpr std::int64_t some = 1024; // rows at once
+constexpr std::size_t rows_per_chunk = 65536;
+constexpr std::size_t some = 1024; // rows at once
 
 [[noreturn]] void refuse(const std::string& value, std::int64_t row)
 {
@@ -71,17 +71,15 @@ try
   own_.resize(static_cast<std::size_t>(rows));
   values_ = own_;
   auto* const load = is_integer(source.type) ? load_integers : load_integral;
-  executor.parallel_for(
-    static_cast<std::size_t>((rows + rows_per_chunk - 1) / rows_per_chunk),
-    [&](std::size_t chunk, std::size_t)
+  executor.for_each_stretch(
+    own_.size(), rows_per_chunk,
+    [&](std::size_t row, std::size_t count, std::size_t)
     {
       std::array<std::int64_t, some> numbers;
-      std::int64_t row = static_cast<std::int64_t>(chunk) * rows_per_chunk;
-      for (const std::int64_t last = std::min(row + rows_per_chunk, rows); row < last; row += some)
+      for (const std::size_t last = row + count; row < last; row += some)
       {
-        const auto now =
-          std::span(numbers).first(static_cast<std::size_t>(std::min(some, last - row)));
-        std::iota(now.begin(), now.end(), row);
+        const auto now = std::span(numbers).first(std::min(some, last - row));
+        std::iota(now.begin(), now.end(), static_cast<std::int64_t>(row));
         load(source, now, own_.data() + row);
       }
     },

@@ -14,8 +14,7 @@ namespace granular
 {
 namespace
 {
-constexpr auto some = static_cast<std::int64_t>(AbsolutePositions::most_rows);
-constexpr std::int64_t rows_per_chunk = 64 * some;
+constexpr std::size_t rows_per_chunk = 64 * AbsolutePositions::most_rows;
 
 /// Where particles are shown counts, in how many periods they have been does not.
 FrameView as_shown(const FrameView& frame)
@@ -37,25 +36,13 @@ void compute_points(
   const FrameView& frame, ParticleValues& particles, const Executor& executor, Progress& progress)
 {
   const AbsolutePositions positions(frame, false);
-  const std::int64_t rows = frame.rows;
-  particles.own.resize(static_cast<std::size_t>(rows) * 3);
+  const auto rows = static_cast<std::size_t>(frame.rows);
+  particles.own.resize(3 * rows);
   double* const points = particles.own.data();
-  executor.parallel_for(
-    static_cast<std::size_t>((rows + rows_per_chunk - 1) / rows_per_chunk),
-    [&](std::size_t chunk, std::size_t)
-    {
-      std::int64_t row = static_cast<std::int64_t>(chunk) * rows_per_chunk;
-      for (const std::int64_t last = std::min(row + rows_per_chunk, rows); row < last; row += some)
-      {
-        const std::int64_t count = std::min(some, last - row);
-        double* const to = points + 3 * row;
-        const double* const from = positions.load(row, static_cast<std::size_t>(count), to);
-        if (from != to)
-        {
-          std::copy_n(from, 3 * count, to);
-        }
-      }
-    },
+  executor.for_each_stretch(
+    rows, rows_per_chunk,
+    [&](std::size_t first, std::size_t count, std::size_t)
+    { positions.store(static_cast<std::int64_t>(first), count, points + 3 * first); },
     progress);
   particles.points = points;
   particles.point_step = 3;

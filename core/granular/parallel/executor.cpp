@@ -135,6 +135,19 @@ void Executor::parallel_for(std::size_t chunks,
   }
 }
 
+void Executor::for_each_stretch(std::size_t things, std::size_t stretch,
+  const std::function<void(std::size_t first, std::size_t count, std::size_t worker)>& task,
+  Progress& progress) const
+{
+  this->parallel_for((things + stretch - 1) / stretch,
+    [&](std::size_t chunk, std::size_t worker)
+    {
+      const std::size_t first = chunk * stretch;
+      task(first, std::min(stretch, things - first), worker);
+    },
+    progress);
+}
+
 void Turns::wait(std::size_t chunk) const noexcept
 {
   for (std::size_t next = next_.load(); next != chunk; next = next_.load())

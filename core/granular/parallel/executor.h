@@ -36,6 +36,12 @@ public:
     const std::function<void(std::size_t chunk, std::size_t worker)>& task,
     Progress& progress) const;
 
+  /// Calls task(first, count, worker) for stretches of `stretch` of so many things, of which the last may be shorter.
+  /// Otherwise as parallel_for.
+  void for_each_stretch(std::size_t things, std::size_t stretch,
+    const std::function<void(std::size_t first, std::size_t count, std::size_t worker)>& task,
+    Progress& progress) const;
+
 private:
   int threads_;
 };

@@ -83,6 +83,28 @@ void AbsolutePositions::load(std::span<const std::int64_t> rows, double* buffer)
   }
 }
 
+void AbsolutePositions::store(std::int64_t first, std::size_t count, double* to) const
+{
+  for (std::size_t done = 0; done < count; done += most_rows)
+  {
+    const std::size_t now = std::min(most_rows, count - done);
+    double* const there = to + 3 * done;
+    const double* const from = this->load(first + static_cast<std::int64_t>(done), now, there);
+    if (from != there)
+    {
+      std::copy_n(from, 3 * now, there);
+    }
+  }
+}
+
+void AbsolutePositions::store(std::span<const std::int64_t> rows, double* to) const
+{
+  for (std::size_t done = 0; done < rows.size(); done += most_rows)
+  {
+    this->load(rows.subspan(done, std::min(most_rows, rows.size() - done)), to + 3 * done);
+  }
+}
+
 bool AbsolutePositions::is_wrapped(std::span<const double> points) const noexcept
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -36,6 +36,10 @@ public:
   /// thread.
   const double* load(std::int64_t first, std::size_t count, double* buffer) const;
 
+  /// Stores x y z of any number of rows: from the first on, or in any order.
+  void store(std::int64_t first, std::size_t count, double* to) const;
+  void store(std::span<const std::int64_t> rows, double* to) const;
+
   /// Returns the rows of an array that load found to need no conversion, without checking again.
   const double* loaded(std::int64_t first) const noexcept
   {

@@ -46,19 +46,6 @@ void choose_rows(const FrameView& frame, std::span<const std::int64_t> ids,
 
 constexpr std::size_t rows_per_chunk = std::size_t{ 1 } << 14;
 
-/// Calls task(first, count) with stretches of so many rows, on several threads.
-void for_each_stretch(std::size_t rows, const Executor& executor, Progress& progress,
-  const std::function<void(std::size_t first, std::size_t count)>& task)
-{
-  executor.parallel_for((rows + rows_per_chunk - 1) / rows_per_chunk,
-    [&](std::size_t chunk, std::size_t)
-    {
-      const std::size_t first = chunk * rows_per_chunk;
-      task(first, std::min(rows_per_chunk, rows - first));
-    },
-    progress);
-}
-
 /// Loads the rows of one component, as numbers of a type, into every size-th word.
 template <class Number>
 void load_words(const ValueSource& source, std::span<const std::int64_t> rows, std::size_t size,
@@ -85,8 +72,9 @@ void pick_array(const ArrayView& view, std::span<const std::int64_t> rows, PathA
   array.size = view.size();
   const auto size = static_cast<std::size_t>(array.size);
   array.words.resize(rows.size() * size);
-  for_each_stretch(rows.size(), executor, progress,
-    [&](std::size_t first, std::size_t count)
+  executor.for_each_stretch(
+    rows.size(), rows_per_chunk,
+    [&](std::size_t first, std::size_t count, std::size_t)
     {
       for (std::size_t i = 0; i < size; ++i)
       {
@@ -96,7 +84,8 @@ void pick_array(const ArrayView& view, std::span<const std::int64_t> rows, PathA
         array.integers ? load_words<std::int64_t>(source, some, size, words)
                        : load_words<double>(source, some, size, words);
       }
-    });
+    },
+    progress);
 }
 
 [[noreturn]] void refuse_texts(const std::string& name, const Where& where = {})
@@ -117,36 +106,21 @@ void check_numbers(const FrameView& frame, const std::vector<std::string>& names
   }
 }
 
-/// Points of rows that follow each other are used in place where they need no conversion.
 void load_points(const FrameView& frame, std::span<const std::int64_t> rows,
   std::vector<double>& points, const Executor& executor, Progress& progress)
 {
   const AbsolutePositions positions(frame, false);
-  const bool all = is_consecutive(rows);
+  const bool all = is_consecutive(rows); // then they may need no conversion
   points.resize(3 * rows.size());
-  for_each_stretch(rows.size(), executor, progress,
-    [&](std::size_t first, std::size_t rest)
+  executor.for_each_stretch(
+    rows.size(), rows_per_chunk,
+    [&](std::size_t first, std::size_t count, std::size_t)
     {
-      for (const std::size_t end = first + rest; first < end;)
-      {
-        const std::size_t count = std::min(end - first, AbsolutePositions::most_rows);
-        double* const to = points.data() + 3 * first;
-        const double* from = to;
-        if (all)
-        {
-          from = positions.load(rows[first], count, to);
-        }
-        else
-        {
-          positions.load(rows.subspan(first, count), to);
-        }
-        if (from != to)
-        {
-          std::copy_n(from, 3 * count, to);
-        }
-        first += count;
-      }
-    });
+      double* const to = points.data() + 3 * first;
+      all ? positions.store(rows[first], count, to)
+          : positions.store(rows.subspan(first, count), to);
+    },
+    progress);
 }
 
 void pick_points(const FrameView& frame, bool absolute, PathFrame& picked, const Executor& executor,

@@ -20,11 +20,6 @@ namespace
 constexpr std::size_t particles_per_chunk = std::size_t{ 1 } << 12; // even: see square_rows
 constexpr std::size_t ahead = 12; // particles that are being brought into the cache
 
-std::size_t chunks_of(std::size_t rows) noexcept
-{
-  return (rows + particles_per_chunk - 1) / particles_per_chunk;
-}
-
 /// Terms for two particles side by side.
 [[gnu::always_inline]] inline void square_rows(
   std::span<const double> displacements, SumScale::Terms* terms) noexcept
@@ -72,14 +67,10 @@ void SquareDisplacements::find_places(
 {
   const std::size_t rows = frame.ids.size();
   places_.resize(rows);
-  executor_.parallel_for(
-    chunks_of(rows),
-    [&](std::size_t chunk, std::size_t)
-    {
-      const std::size_t begin = chunk * particles_per_chunk;
-      const std::size_t count = std::min(particles_per_chunk, rows - begin);
-      finder_.find(std::span(frame.ids).subspan(begin, count), places_.data() + begin);
-    },
+  executor_.for_each_stretch(
+    rows, particles_per_chunk,
+    [&](std::size_t first, std::size_t count, std::size_t)
+    { finder_.find(std::span(frame.ids).subspan(first, count), places_.data() + first); },
     progress);
   rows_.assign(particles_.size(), -1);
   IdTable others; // that the first frame does not have
@@ -161,13 +152,11 @@ SquareDisplacements::Chunk SquareDisplacements::find_squares(
   {
     terms_.back() = {};
   }
-  std::vector<Chunk> workers(executor_.workers(chunks_of(rows)));
-  executor_.parallel_for(
-    chunks_of(rows),
-    [&](std::size_t number, std::size_t worker)
+  std::vector<Chunk> workers(static_cast<std::size_t>(executor_.threads()));
+  executor_.for_each_stretch(
+    rows, particles_per_chunk,
+    [&](std::size_t begin, std::size_t count, std::size_t worker)
     {
-      const std::size_t begin = number * particles_per_chunk;
-      const std::size_t count = std::min(particles_per_chunk, rows - begin);
       Chunk& chunk = workers[worker];
       this->move_chunk(frame, begin, count, chunk);
       const std::span<SumScale::Terms> terms(terms_.data() + begin / 2, (count + 1) / 2);

@@ -67,20 +67,7 @@ Magnitudes measure(std::span<const SumScale::Terms> terms, std::size_t sums) noe
   return all;
 }
 
-/// Calls task with stretches of the terms, on several threads.
-void for_each_stretch(std::span<const SumScale::Terms> terms, const Executor& executor,
-  const std::function<void(std::span<const SumScale::Terms>)>& task)
-{
-  constexpr std::size_t stretch = std::size_t{ 1 } << 13;
-  Progress quiet;
-  executor.parallel_for((terms.size() + stretch - 1) / stretch,
-    [&](std::size_t chunk, std::size_t)
-    {
-      const std::size_t begin = chunk * stretch;
-      task(terms.subspan(begin, std::min(stretch, terms.size() - begin)));
-    },
-    quiet);
-}
+constexpr std::size_t terms_per_stretch = std::size_t{ 1 } << 13;
 
 SumScale::Range range_of(double least, double greatest)
 {
@@ -160,13 +147,16 @@ SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Co
 {
   std::mutex mutex;
   Magnitudes own;
-  for_each_stretch(terms, executor,
-    [&](std::span<const SumScale::Terms> some)
+  Progress quiet; // a moment
+  executor.for_each_stretch(
+    terms.size(), terms_per_stretch,
+    [&](std::size_t first, std::size_t count, std::size_t)
     {
-      const Magnitudes found = measure(some, sums);
+      const Magnitudes found = measure(terms.subspan(first, count), sums);
       const std::lock_guard lock(mutex);
       own.include(found);
-    });
+    },
+    quiet);
   Magnitudes all;
   for (const Magnitudes& each : gather(ranks, own))
   {
@@ -186,15 +176,18 @@ SumScale::Terms sum_exactly(std::span<const SumScale::Terms> terms, std::size_t 
   const SumScale scale = make_scale(terms, sums, ranks, executor);
   std::mutex mutex;
   std::vector<std::int64_t> parts(scale.size());
-  for_each_stretch(terms, executor,
-    [&](std::span<const SumScale::Terms> some)
+  const std::vector<std::int64_t> cells(std::min(terms_per_stretch, terms.size())); // all are one
+  Progress quiet;
+  executor.for_each_stretch(
+    terms.size(), terms_per_stretch,
+    [&](std::size_t first, std::size_t count, std::size_t)
     {
       std::vector<std::int64_t> own(scale.size());
-      const std::vector<std::int64_t> cells(some.size()); // all are one
-      scale.add(some, cells.data(), own.data());
+      scale.add(terms.subspan(first, count), cells.data(), own.data());
       const std::lock_guard lock(mutex);
       std::ranges::transform(own, parts, parts.begin(), std::plus());
-    });
+    },
+    quiet);
   for (std::size_t level = 0; level < scale.size(); level += SumScale::lanes)
   {
     for (std::size_t i = sums; i < SumScale::lanes; ++i)

@@ -138,13 +138,10 @@ void RowOrder::apply(Block& block, std::size_t width, const Executor& executor) 
   const auto* const from = static_cast<const char*>(block.data());
   auto* const to = static_cast<char*>(sorted.data());
   Progress quiet; // a moment, next to what was read
-  executor.parallel_for((rows.size() + chunk_rows - 1) / chunk_rows,
-    [&](std::size_t chunk, std::size_t)
-    {
-      const std::size_t first = chunk * chunk_rows;
-      gather(from, rows.subspan(first, std::min(chunk_rows, rows.size() - first)), width,
-        to + first * width);
-    },
+  executor.for_each_stretch(
+    rows.size(), chunk_rows,
+    [&](std::size_t first, std::size_t count, std::size_t)
+    { gather(from, rows.subspan(first, count), width, to + first * width); },
     quiet);
   block = std::move(sorted);
 }

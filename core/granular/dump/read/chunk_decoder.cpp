@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <span>
-#include <type_traits>
 
 namespace granular
 {
@@ -237,13 +236,9 @@ void ChunkDecoder::convert(const PointsWire& wire, std::size_t count)
 void ChunkDecoder::choose_rows(std::size_t count, std::int64_t number)
 {
   std::fill(keep_.begin(), keep_.end(), char{ 1 });
-  if (request_.stride > 1)
+  if (request_.stride > 1 || request_.keep_id)
   {
-    this->choose_by_number(count, number);
-  }
-  if (request_.keep_id)
-  {
-    this->choose_by_id(count);
+    this->choose_by_id(count, number);
   }
   if (layout_.region)
   {
@@ -257,14 +252,18 @@ void ChunkDecoder::choose_rows(std::size_t count, std::int64_t number)
   }
 }
 
-/// Keeps the rows whose ids pass, a double or an integer each. Returns false if there are no ids.
-template <class Passes>
-bool ChunkDecoder::keep_ids(std::size_t count, const Passes& passes)
+/// Whether the id of a row passes: integers by the choice, doubles if they are whole. Without ids rows count, and no id passes.
+void ChunkDecoder::choose_by_id(std::size_t count, std::int64_t number)
 {
   const auto id = layout_.wires.find(layout_.id_column);
   if (id == layout_.wires.end())
   {
-    return false;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      keep_[i] =
+        !request_.keep_id && (number + static_cast<std::int64_t>(i)) % request_.stride == 0;
+    }
+    return;
   }
   const char* from = id->second.first.at(row_, scratch_.get());
   for (std::size_t i = 0; i < count; ++i, from += id->second.first.stride)
@@ -273,58 +272,16 @@ bool ChunkDecoder::keep_ids(std::size_t count, const Passes& passes)
     {
       double value = 0;
       std::memcpy(&value, from, sizeof value);
-      keep_[i] = keep_[i] && passes(value);
+      keep_[i] = std::fmod(value, static_cast<double>(request_.stride)) == 0 &&
+        (!request_.keep_id ||
+          (std::abs(value) < 0x1p63 && request_.keep_id(static_cast<std::int64_t>(value))));
     }
     else
     {
       std::int64_t value = 0;
       std::memcpy(&value, from, sizeof value);
-      keep_[i] = keep_[i] && passes(value);
+      keep_[i] = choice_.passes(value);
     }
-  }
-  return true;
-}
-
-/// By the id, or by the number of the row where there are no ids.
-void ChunkDecoder::choose_by_number(std::size_t count, std::int64_t number)
-{
-  const std::int64_t stride = request_.stride;
-  const bool by_id = this->keep_ids(count,
-    [stride](auto id)
-    {
-      if constexpr (std::is_same_v<decltype(id), double>)
-      {
-        return std::fmod(id, static_cast<double>(stride)) == 0;
-      }
-      else
-      {
-        return id % stride == 0;
-      }
-    });
-  for (std::size_t i = 0; i < count && !by_id; ++i)
-  {
-    keep_[i] = (number + static_cast<std::int64_t>(i)) % stride == 0;
-  }
-}
-
-void ChunkDecoder::choose_by_id(std::size_t count)
-{
-  const bool by_id = this->keep_ids(count,
-    [this](auto id)
-    {
-      if constexpr (std::is_same_v<decltype(id), double>)
-      {
-        return std::trunc(id) == id && std::abs(id) < 0x1p63 &&
-          request_.keep_id(static_cast<std::int64_t>(id));
-      }
-      else
-      {
-        return request_.keep_id(id);
-      }
-    });
-  if (!by_id)
-  {
-    std::fill(keep_.begin(), keep_.end(), char{ 0 });
   }
 }
 

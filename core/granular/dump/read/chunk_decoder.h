@@ -51,10 +51,7 @@ private:
   void convert(const PointsWire& wire, std::size_t count);
   void choose_rows(std::size_t count, std::int64_t number);
   RowCounts decode_batch(RowReader& reader, std::int64_t wanted);
-  template <class Passes>
-  bool keep_ids(std::size_t count, const Passes& passes);
-  void choose_by_number(std::size_t count, std::int64_t number);
-  void choose_by_id(std::size_t count);
+  void choose_by_id(std::size_t count, std::int64_t number);
   void compact(Block& block, std::size_t width, std::size_t count) const;
 
   FrameLayout& layout_;

@@ -59,18 +59,47 @@ std::optional<double> InputFrames::GetTime() const
     : std::nullopt;
 }
 
-bool InputFrames::Update(double time)
+void InputFrames::Update(std::optional<double> time, granular::Communicator& ranks,
+  const std::string& consequence, const granular::Where& where)
 {
-  if (!this->TimeBefore)
-  {
-    this->TimeBefore = this->GetShownTime().value_or(time);
-  }
-  this->Info->Set(Pipeline::UPDATE_TIME_STEP(), time);
-  return this->Update();
+  granular::agree(ranks, nullptr);
+  const bool made = this->UpdateHere(time);
+  granular::do_together(ranks,
+    [&]
+    {
+      if (IsMarkedStopped<vtkAlgorithm>(this->Info))
+      {
+        throw granular::Cancelled{};
+      }
+      if (!made || !this->GetData())
+      {
+        throw granular::Error(
+          "the input could not be made" + consequence + ": see the messages before", where);
+      }
+    });
 }
 
-bool InputFrames::Update()
+void InputFrames::Restore(granular::Communicator& ranks)
 {
+  if (this->TimeBefore)
+  {
+    this->Update(this->TimeBefore, ranks);
+  }
+}
+
+/**
+ * Returns false if that fails on this rank.
+ */
+bool InputFrames::UpdateHere(std::optional<double> time)
+{
+  if (time)
+  {
+    if (!this->TimeBefore)
+    {
+      this->TimeBefore = this->GetShownTime().value_or(*time);
+    }
+    this->Info->Set(Pipeline::UPDATE_TIME_STEP(), *time);
+  }
   vtkNew<vtkInformationVector> requests;
   requests->SetNumberOfInformationObjects(this->Port + 1);
   vtkInformation* request = requests->GetInformationObject(this->Port);
@@ -78,20 +107,6 @@ bool InputFrames::Update()
   request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Wanted.Pieces);
   request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), this->Wanted.GhostLevels);
   return this->Source->Update(this->Port, requests) != 0;
-}
-
-bool InputFrames::Restore()
-{
-  return !this->TimeBefore || this->Update(*this->TimeBefore);
-}
-
-bool InputFrames::Check(bool made) const
-{
-  if (IsMarkedStopped<vtkAlgorithm>(this->Info))
-  {
-    throw granular::Cancelled{};
-  }
-  return made && this->GetData();
 }
 
 /**

@@ -2,9 +2,11 @@
 #ifndef vtkGranularInputFrames_h
 #define vtkGranularInputFrames_h
 
+#include "granular/common/error.h"
 #include "granular/parallel/communicator.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 class vtkAlgorithm;
@@ -53,21 +55,18 @@ public:
   std::optional<double> GetTime() const;
 
   /**
-   * Requests the data of a time, or of the shown one. Returns false if that fails on this rank.
+   * Requests the data of a time, or of the shown one, on all ranks or on none: where one has failed or was stopped before,
+   * no other asks the pipeline and waits there. Throws Error that the input could not be made, with the consequence (", and
+   * nothing is written") and where; Cancelled. Collective.
    */
-  bool Update(double time);
-  bool Update();
+  void Update(std::optional<double> time, granular::Communicator& ranks,
+    const std::string& consequence = {}, const granular::Where& where = {});
 
   /**
    * Requests the shown time again if another one was requested: whoever shares the input finds its data as they were.
-   * Returns false if that fails on this rank.
+   * Collective.
    */
-  bool Restore();
-
-  /**
-   * Returns true if there are data after a successful Update(). Throws Cancelled.
-   */
-  bool Check(bool made) const;
+  void Restore(granular::Communicator& ranks);
 
   /**
    * Returns the time that is shown, if any was requested.
@@ -75,6 +74,8 @@ public:
   std::optional<double> GetShownTime() const;
 
 private:
+  bool UpdateHere(std::optional<double> time);
+
   vtkAlgorithm* Source = nullptr;
   int Port = 0;
   Part Wanted;

@@ -102,26 +102,15 @@ KeptFrames::Frame KeptFrames::Read(
 {
   Frame frame{ time, {} };
   std::list<InputFrames> inputs; // which make the shown time the current one again at the end
-  const auto check = [&](const InputFrames& input, bool made)
-  {
-    granular::do_together(ranks,
-      [&]
-      {
-        if (!input.Check(made))
-        {
-          throw granular::Error("the input could not be made: see the messages before");
-        }
-      });
-  };
   for (const int port : FindInputs(consumer))
   {
     InputFrames& input = inputs.emplace_back(consumer, this->Part, port);
-    check(input, input.Update(time));
+    input.Update(time, ranks);
     frame.Data.push_back(Copy(input.GetData()));
   }
   for (InputFrames& input : inputs)
   {
-    check(input, input.Restore());
+    input.Restore(ranks);
   }
   return frame;
 }

@@ -70,9 +70,7 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
   {
     for (std::size_t i = 0; i < numbers.size(); ++i)
     {
-      // no rank may stop where others go on to ask the pipeline
-      granular::do_together(this->Ranks,
-        [&] { progress.step(static_cast<double>(i) / static_cast<double>(numbers.size())); });
+      progress.step(static_cast<double>(i) / static_cast<double>(numbers.size()));
       granular::Progress quiet;
       frames[i] = this->Request(numbers[i], request, quiet);
     }
@@ -124,7 +122,6 @@ granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::Pat
 {
   if (!this->Reader)
   {
-    granular::do_together(this->Ranks, [&] { progress.step(0); });
     return this->Request(number, request, progress);
   }
   granular::DumpRequest base = this->Reader->Request;
@@ -143,16 +140,8 @@ granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::Pat
 granular::PathFrame PathFrames::Request(
   std::size_t number, const granular::PathRequest& request, granular::Progress& progress)
 {
-  const bool made =
-    this->Times.empty() ? this->Input->Update() : this->Input->Update(this->Times[number]);
-  granular::do_together(this->Ranks,
-    [&]
-    {
-      if (!this->Input->Check(made))
-      {
-        throw granular::Error("the input could not be made: see the messages before");
-      }
-    });
+  this->Input->Update(
+    this->Times.empty() ? std::nullopt : std::optional(this->Times[number]), this->Ranks);
   return granular::do_together(this->Ranks,
     [&]
     {
