@@ -49,14 +49,6 @@ namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-std::string TimestepOf(vtkFieldData* data)
-{
-  vtkDataArray* timestep = data->GetArray("timestep");
-  return timestep && timestep->GetNumberOfValues() == 1
-    ? std::to_string(timestep->GetVariantValue(0).ToTypeInt64())
-    : std::string();
-}
-
 vtkSmartPointer<vtkDoubleArray> MakeEmpty(const char* name)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -299,11 +291,9 @@ private:
 
   std::string CompareTimesteps() const
   {
-    const std::string particles = TimestepOf(this->Inputs[0]->GetFieldData());
-    const std::string lines = TimestepOf(this->Rows->GetFieldData());
-    return !this->LinesHaveTimes || particles.empty() || lines.empty() || particles == lines
-      ? std::string()
-      : "the particles are of timestep " + particles + ", the lines of " + lines;
+    return this->LinesHaveTimes ? vtkGranularPrivate::CompareTimesteps(
+                                    this->Inputs[0]->GetFieldData(), this->Rows->GetFieldData())
+                                : std::string();
   }
 
   /**

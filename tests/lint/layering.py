@@ -66,13 +66,14 @@ ROOMS = {room: words.split() for room, words in (
     ("packing", "common memory geometry parallel particles"),
     ("bonds", "common numbers geometry"),
     ("decomposition", "common numbers bytes memory geometry parallel vtk_files frames particles"),
-    ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles"),
+    ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles sorting"),
     ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
               "dump/read"),
     ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
     ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/read local"),
     ("paths", "common columns numbers memory geometry parallel frames particles sorting dump/read local"),
+    ("contacts", "common memory geometry parallel frames particles sorting local euler"),
     ("mpi", "common bytes parallel"),
 )}
 MOST_FILES = 40
@@ -86,6 +87,7 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("euler", "request arrays dump"),
     ("decomposition", "request arrays dump"),
     ("paths", "request arrays dump local"),
+    ("contacts", "request arrays dump local"),
     ("writing", "request dump"),
 )}
 

@@ -5,6 +5,7 @@
 #include "granular/euler/average.h"
 #include "granular/euler/sum_blocks.h"
 #include "granular/geometry/reproducible_sum.h"
+#include "granular/sorting/block_rows.h"
 
 #include <array>
 #include <cstdint>

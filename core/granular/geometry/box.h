@@ -5,6 +5,7 @@
 #include "granular/geometry/compensated.h"
 
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace granular
@@ -25,6 +26,12 @@ inline double dot(const Vector3& a, const Vector3& b) noexcept
 inline Vector3 cross(const Vector3& a, const Vector3& b) noexcept
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+inline double length_of(const Vector3& a) noexcept
+{
+  const double square = dot(a, a);
+  return square > 0x1p-900 ? std::sqrt(square) : std::hypot(a[0], a[1], a[2]);
 }
 
 /// The smallest axis-aligned box around a box, and the tilts: the numbers in the headers of dumps.

@@ -15,12 +15,14 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <array>
@@ -155,7 +157,7 @@ bool LocalRows::HasParts() const
   return type != VTK_FLOAT && type != VTK_DOUBLE;
 }
 
-granular::ArrayView LocalRows::See(const char* name)
+granular::ArrayView LocalRows::See(const char* name, int numbers)
 {
   vtkAbstractArray* array = this->Data->GetAbstractArray(name);
   if (!array)
@@ -163,15 +165,54 @@ granular::ArrayView LocalRows::See(const char* name)
     throw granular::Error("expected an array '" + std::string(name) + "' of the lines, got none");
   }
   const auto view = this->Arrays.See(array, name, this->AllTuples);
-  if (!view || view->type == granular::ValueType::Text || view->size() != 1)
+  if (!view || view->type == granular::ValueType::Text || view->size() != numbers)
   {
-    throw granular::Error("expected one number a row in the array '" + std::string(name) +
-      "' of the lines, got " +
+    throw granular::Error("expected " + std::string(numbers == 1 ? "one number" : "3 numbers") +
+      " a row in the array '" + std::string(name) + "' of the lines, got " +
       (view && view->type != granular::ValueType::Text
           ? std::to_string(view->size())
           : std::string("the type ") + array->GetDataTypeAsString()));
   }
   return *view;
+}
+
+std::span<const double> LocalRows::ReadTuples(
+  const char* name, int numbers, std::vector<double>& own)
+{
+  const auto rows = static_cast<std::size_t>(this->Count());
+  const auto width = static_cast<std::size_t>(numbers);
+  if (rows == 0)
+  {
+    return {};
+  }
+  const granular::ArrayView view = this->See(name, numbers);
+  const auto* const first = static_cast<const double*>(view.components[0]);
+  if (this->AreAll && view.type == granular::ValueType::Float64 && view.step == numbers &&
+    (numbers == 1 || view.are_triples()))
+  {
+    return { first, rows * width };
+  }
+  own.resize(rows * width);
+  std::array<std::int64_t, 1024> tuples; // at once, which stay in the cache
+  std::array<double, 1024> values;
+  for (std::size_t begin = 0; begin < rows; begin += tuples.size())
+  {
+    const std::size_t some = std::min(tuples.size(), rows - begin);
+    for (std::size_t i = 0; i < some; ++i)
+    {
+      tuples[i] = this->TupleOf(static_cast<std::int64_t>(begin + i));
+    }
+    for (std::size_t k = 0; k < width; ++k)
+    {
+      granular::load_numbers(
+        granular::component_of(view, static_cast<int>(k)), { tuples.data(), some }, values.data());
+      for (std::size_t i = 0; i < some; ++i)
+      {
+        own[(begin + i) * width + k] = values[i];
+      }
+    }
+  }
+  return own;
 }
 
 std::vector<std::int64_t> LocalRows::ReadIds(const char* name, granular::Progress& progress)
@@ -225,6 +266,22 @@ void LocalRows::Pass(
   {
     tuples->SetId(i, this->TupleOf(rows.empty() ? i : rows[static_cast<std::size_t>(i)]));
   }
+  this->PassTuples(same ? nullptr : tuples.Get(), to);
+}
+
+void LocalRows::PassCells(const std::vector<vtkIdType>& cells, vtkDataSetAttributes* to) const
+{
+  vtkNew<vtkIdList> tuples;
+  tuples->SetNumberOfIds(std::ssize(cells));
+  std::ranges::copy(cells, tuples->begin());
+  this->PassTuples(tuples, to);
+}
+
+/**
+ * Null: all.
+ */
+void LocalRows::PassTuples(vtkIdList* tuples, vtkDataSetAttributes* to) const
+{
   for (int i = 0; i < this->Data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* from = this->Data->GetAbstractArray(i);
@@ -234,7 +291,23 @@ void LocalRows::Pass(
       continue;
     }
     this->Arrays.CheckTuples(from, name, this->AllTuples);
-    to->AddArray(same ? from : TakeTuples(from, tuples).Get());
+    to->AddArray(tuples ? TakeTuples(from, tuples).Get() : from);
   }
+}
+
+std::string CompareTimesteps(vtkFieldData* particles, vtkFieldData* rows)
+{
+  const auto timestepOf = [](vtkFieldData* data)
+  {
+    vtkDataArray* timestep = data->GetArray("timestep");
+    return timestep && timestep->GetNumberOfValues() == 1
+      ? std::to_string(timestep->GetVariantValue(0).ToTypeInt64())
+      : std::string();
+  };
+  const std::string ofParticles = timestepOf(particles);
+  const std::string ofRows = timestepOf(rows);
+  return ofParticles.empty() || ofRows.empty() || ofParticles == ofRows
+    ? std::string()
+    : "the particles are of timestep " + ofParticles + ", the lines of " + ofRows;
 }
 }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@
 class vtkDataObject;
 class vtkDataSetAttributes;
 class vtkFieldData;
+class vtkIdList;
 
 namespace vtkGranularPrivate
 {
@@ -35,6 +37,11 @@ public:
   explicit LocalRows(vtkDataObject* input);
 
   vtkIdType Count() const { return this->AreAll ? this->AllTuples : std::ssize(this->Tuples); }
+
+  /**
+   * Returns true if each cell, or tuple of the table, is a row.
+   */
+  bool AreAllCells() const { return this->AreAll; }
 
   /**
    * Returns the cells, or tuples of the table, at which each row begins and ends. Throws Error if the parts of a line
@@ -74,15 +81,27 @@ public:
     const char* name, const std::vector<std::int64_t>& rows, vtkIdType count);
 
   /**
+   * Returns an array with so many numbers for each row: in place if they lie so in memory, otherwise in `own`. Throws
+   * Error if there are other numbers, or texts.
+   */
+  std::span<const double> ReadTuples(const char* name, int numbers, std::vector<double>& own);
+
+  /**
    * Returns all arrays, with the values of as many rows, in any order.
    */
   void Pass(const std::vector<std::int64_t>& rows, vtkIdType count, vtkDataSetAttributes* to) const;
 
+  /**
+   * Returns all arrays, with the values of some cells, or tuples of the table, in any order.
+   */
+  void PassCells(const std::vector<vtkIdType>& cells, vtkDataSetAttributes* to) const;
+
   vtkFieldData* GetFieldData() const { return this->Field; }
 
 private:
-  granular::ArrayView See(const char* name);
+  granular::ArrayView See(const char* name, int numbers = 1);
   void FindTuples();
+  void PassTuples(vtkIdList* tuples, vtkDataSetAttributes* to) const;
 
   vtkIdType TupleOf(std::int64_t row) const
   {
@@ -97,6 +116,11 @@ private:
   bool AreAll = true;            ///< each is a row
   std::vector<vtkIdType> Tuples; ///< of the rows, where not all are
 };
+
+/**
+ * Returns what to tell if the particles and the rows are of different timesteps; nothing if one of them does not say.
+ */
+std::string CompareTimesteps(vtkFieldData* particles, vtkFieldData* rows);
 }
 
 #endif

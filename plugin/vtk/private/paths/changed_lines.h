@@ -2,30 +2,17 @@
 #ifndef vtkGranularChangedLines_h
 #define vtkGranularChangedLines_h
 
+#include "private/local/chosen_lines.h"
+
 #include "granular/parallel/communicator.h"
 #include "granular/paths/change.h"
 
-#include "vtkType.h"
-
 #include <vector>
 
-class vtkPointSet;
 class vtkPolyData;
 
 namespace vtkGranularPrivate
 {
-class LocalRows;
-
-/**
- * Some lines of a frame.
- */
-struct ChosenLines
-{
-  vtkPointSet* Input;
-  const LocalRows* Rows;
-  std::vector<vtkIdType> Wanted; ///< rows
-};
-
 /**
  * Fills the output with lines of the current frame, and behind them the lost ones of the reference frame: each cell with
  * points of its own, the cell arrays, and `change`. changes: of all current rows. Throws UnsupportedError for other cells

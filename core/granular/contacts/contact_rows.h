@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_contacts_contact_rows_h
+#define granular_contacts_contact_rows_h
+
+#include "granular/parallel/communicator.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace granular
+{
+/// The contacts of this rank, one a row, in memory of others. An empty span: not known.
+struct ContactRows
+{
+  std::size_t count = 0;
+  std::span<const std::int64_t> id1; ///< particle at the first end; empty: a wall
+  std::span<const std::int64_t> id2; ///< particle at the second end
+  std::span<const double>
+    ends; ///< x y z of the first and the second end: centres of particles, or the point of a wall that is touched; the
+          ///< nearest images. Without them ends are at the particles
+  std::span<const double> force;         ///< three on the first particle, of walls on the particle
+  std::span<const double> tangential;    ///< three: the part of the force across the branch vector
+  std::span<const double> torque;        ///< three on the same particle
+  std::span<const double> contact_point; ///< x y z, of any image
+  std::span<const double> overlap;       ///< one a row
+};
+
+/// What all ranks know of the contacts of one input.
+struct ContactKinds
+{
+  bool walls = false;
+  bool ends = false;
+  bool force = false;
+  bool tangential = false;
+  bool torque = false;
+  bool contact_point = false;
+  bool overlap = false;
+};
+
+/// Returns what the ranks that have rows know. Throws Error if they differ, or if a span has another size than the rows need.
+/// Collective.
+ContactKinds share_kinds(const ContactRows& rows, Communicator& ranks);
+
+/// Returns true for a row that is left out: a number of it is not finite, or too large to multiply (2^290).
+bool is_broken(const ContactRows& rows, std::size_t row) noexcept;
+}
+#endif

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/contacts/find_ends.h"
+
+#include "granular/common/error.h"
+#include "granular/local/id_finder.h"
+#include "granular/local/ids.h"
+#include "granular/parallel/gather.h"
+#include "granular/particles/column_arrays.h"
+#include "granular/particles/point_forms.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <optional>
+
+namespace granular
+{
+namespace
+{
+constexpr std::size_t rows_of_stretch = 65536;
+
+/// What the contacts need to know of particles.
+struct Needs
+{
+  bool points = false;
+  bool radii = false;      ///< if they are known
+  bool must_radii = false; ///< or else nothing tells the overlap
+};
+
+Needs find_needs(std::span<const ContactKinds> kinds, std::span<const std::int64_t> counts,
+  const ContactOptions& options)
+{
+  Needs needs;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+  {
+    if (counts[i] == 0)
+    {
+      continue;
+    }
+    const ContactKinds& kind = kinds[i];
+    if (kind.walls && !kind.ends && !kind.contact_point)
+    {
+      throw Error("expected lines or an array 'contact_point' of contacts with walls, got neither");
+    }
+    needs.points = needs.points || !kind.ends;
+    needs.radii =
+      needs.radii || (!kind.walls && !kind.contact_point && options.arm == LeverArm::ContactPoint);
+    needs.must_radii = needs.must_radii || (options.least_overlap > 0 && !kind.overlap);
+  }
+  return needs;
+}
+
+/// Contacts of each input, of all ranks.
+std::vector<std::int64_t> count_all(std::span<const ContactRows> inputs, Communicator& ranks)
+{
+  std::vector<std::int64_t> counts;
+  for (const ContactRows& rows : inputs)
+  {
+    counts.push_back(static_cast<std::int64_t>(rows.count));
+  }
+  ranks.sum(counts);
+  return counts;
+}
+
+/// Forces of all contacts, or of none.
+bool check_forces(std::span<const ContactKinds> kinds, std::span<const std::int64_t> counts)
+{
+  std::optional<bool> forces;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+  {
+    if (counts[i] > 0)
+    {
+      if (forces.value_or(kinds[i].force) != kinds[i].force)
+      {
+        throw Error("expected forces of all contacts, with particles and with walls, got those of "
+                    "one kind alone");
+      }
+      forces = kinds[i].force;
+    }
+  }
+  return forces.value_or(true);
+}
+
+Ids find_ids(const FrameView& particles, const Executor& executor, Progress& progress)
+{
+  const ArrayView* const array = particles.find("id");
+  if (!array && particles.rows > 0)
+  {
+    throw Error("expected an array 'id' of the particles, got none");
+  }
+  return array ? Ids(*array, particles.rows, executor, progress) : Ids();
+}
+
+/// Each id of the rows once.
+std::vector<std::int64_t> list_ids(std::span<const ContactRows> inputs)
+{
+  std::vector<std::int64_t> all;
+  for (const ContactRows& rows : inputs)
+  {
+    all.insert(all.end(), rows.id1.begin(), rows.id1.end());
+    all.insert(all.end(), rows.id2.begin(), rows.id2.end());
+  }
+  return distinct_ids(all, all);
+}
+}
+
+std::vector<double> load_radii(const FrameView& particles, const std::string& name)
+{
+  std::vector<double> radii;
+  const std::optional<ValueSource> source = find_values(particles, name);
+  if (!source || particles.rows == 0)
+  {
+    return radii;
+  }
+  if (source->type == ValueType::Text)
+  {
+    throw Error("expected an array '" + name + "' of numbers, got texts");
+  }
+  std::vector<std::int64_t> rows(static_cast<std::size_t>(particles.rows));
+  std::iota(rows.begin(), rows.end(), std::int64_t{ 0 });
+  radii.resize(rows.size());
+  load_numbers(*source, rows, radii.data());
+  for (double& radius : radii)
+  {
+    radius *= source->factor;
+  }
+  return radii;
+}
+
+FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
+  const std::string& radius, const ContactOptions& options, Communicator& ranks,
+  const Executor& executor, PartialProgress& progress)
+  : images_(particles.has_box ? particles.header.box : Box{})
+{
+  std::vector<ContactKinds> kinds;
+  for (const ContactRows& rows : inputs)
+  {
+    kinds.push_back(share_kinds(rows, ranks));
+    rows_ += rows.count;
+  }
+  const std::vector<std::int64_t> counts = count_all(inputs, ranks);
+  forces_ = check_forces(kinds, counts);
+  const Needs needs = find_needs(kinds, counts, options);
+  const Ids ids = find_ids(particles, executor, progress);
+  if (needs.radii || needs.must_radii)
+  {
+    radii_ = load_radii(particles, radius);
+  }
+  std::array<std::int64_t, 2> known = { particles.rows > 0 ? 1 : 0, radii_.empty() ? 0 : 1 };
+  ranks.sum(known);
+  if (known[1] > 0 && known[1] < known[0])
+  {
+    throw Error("expected the same arrays on all processes, got some without an array '" + radius +
+      "' of radii");
+  }
+  if (needs.must_radii && known[0] > 0 && known[1] == 0)
+  {
+    throw Error("expected an array 'delta' of the contacts, or '" + radius +
+      "' of the particles, for MinimumOverlap, got neither");
+  }
+  const bool alone = ranks.size() == 1;
+  if (needs.points || !alone)
+  {
+    own_ = view_particles(particles, {}, executor, progress);
+  }
+  if (known[1] > 0)
+  {
+    own_.arrays.push_back(view_rows("radius", ValueType::Float64, radii_.data()));
+  }
+  if (alone)
+  {
+    own_rows_ = particles.rows;
+  }
+  else
+  {
+    const IdDirectory directory(ids.values(), particles.ghosts, ranks);
+    fetched_ = fetch_particles(own_, directory, list_ids(inputs), ranks);
+    homes_ = directory.find(fetched_.ids, ranks);
+  }
+  const IdFinder finder(alone ? ids.values() : fetched_.ids, alone ? particles.ghosts : nullptr);
+  repeated_ = alone ? finder.repeated() : fetched_.repeated;
+  const ParticleValues& here = alone ? own_ : fetched_.values;
+  ContactParticles ends = { here.points, here.point_step };
+  if (!here.arrays.empty())
+  {
+    ends.radii = static_cast<const double*>(here.arrays[0].components[0]);
+    ends.radius_step = here.arrays[0].step;
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    std::array<std::vector<std::int64_t>, 2> places;
+    this->find_places(finder, inputs[i], kinds[i], places, executor, progress);
+    inputs_.emplace_back(inputs[i], kinds[i], ends, std::move(places), images_, options);
+  }
+}
+
+/// Of each row; nowhere where it is left out.
+void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
+  const ContactKinds& kinds, std::array<std::vector<std::int64_t>, 2>& places,
+  const Executor& executor, Progress& progress)
+{
+  std::atomic<std::int64_t> missing = 0;
+  std::atomic<std::int64_t> broken = 0;
+  places[0].assign(rows.count, IdFinder::nowhere);
+  places[1].resize(rows.count);
+  executor.for_each_stretch(
+    rows.count, rows_of_stretch,
+    [&](std::size_t first, std::size_t count, std::size_t)
+    {
+      if (!kinds.walls)
+      {
+        finder.find(rows.id1.subspan(first, count), places[0].data() + first);
+      }
+      finder.find(rows.id2.subspan(first, count), places[1].data() + first);
+      std::int64_t lost = 0;
+      std::int64_t bad = 0;
+      for (std::size_t row = first; row < first + count; ++row)
+      {
+        const bool lacks = places[1][row] < 0 || (!kinds.walls && places[0][row] < 0);
+        const bool breaks = is_broken(rows, row);
+        lost += lacks ? 1 : 0;
+        bad += breaks ? 1 : 0;
+        if (breaks || (lacks && !kinds.ends)) // or else it is not known where the contact is
+        {
+          places[0][row] = IdFinder::nowhere;
+          places[1][row] = IdFinder::nowhere;
+        }
+      }
+      missing += lost;
+      broken += bad;
+    },
+    progress);
+  missing_ += missing;
+  broken_ += broken;
+}
+
+std::vector<ParticleHome> FoundEnds::homes() const
+{
+  if (!homes_.empty() || own_rows_ == 0)
+  {
+    return homes_;
+  }
+  std::vector<ParticleHome> own(static_cast<std::size_t>(own_rows_));
+  for (std::size_t row = 0; row < own.size(); ++row)
+  {
+    own[row] = { 0, static_cast<std::int64_t>(row) };
+  }
+  return own;
+}
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_contacts_find_ends_h
+#define granular_contacts_find_ends_h
+
+#include "granular/common/progress.h"
+#include "granular/contacts/contact_ends.h"
+#include "granular/contacts/contact_rows.h"
+#include "granular/local/fetch_particles.h"
+#include "granular/local/id_directory.h"
+#include "granular/local/id_finder.h"
+#include "granular/local/minimum_image.h"
+#include "granular/local/particle_values.h"
+#include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
+#include "granular/particles/frame_view.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+/// Returns the radii of all particles of this rank, from an array of radii or diameters; none where there is no such array.
+/// Throws Error for texts.
+std::vector<double> load_radii(const FrameView& particles, const std::string& name);
+
+/// The contacts of this rank with the particles at their ends, which may be those of other ranks. The particles and the rows
+/// must outlive this.
+class FoundEnds
+{
+public:
+  /// radius: the array of radii, which is needed if the contacts do not say where they touch. Throws Error: see sum_contacts.
+  /// Collective.
+  FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
+    const std::string& radius, const ContactOptions& options, Communicator& ranks,
+    const Executor& executor, PartialProgress& progress);
+  FoundEnds(const FoundEnds&) = delete;
+  void operator=(const FoundEnds&) = delete;
+
+  /// Returns the number of contacts of all inputs.
+  std::size_t rows() const noexcept { return rows_; }
+
+  /// Returns where a contact is, which is counted over all inputs.
+  std::pair<const ContactEnds&, std::size_t> at(std::int64_t contact) const noexcept
+  {
+    auto row = static_cast<std::size_t>(contact);
+    std::size_t i = 0;
+    while (row >= inputs_[i].ends.count())
+    {
+      row -= inputs_[i++].ends.count();
+    }
+    return { inputs_[i].ends, row };
+  }
+
+  /// Returns the homes of the particles that places are of; those of a single rank are its rows.
+  std::vector<ParticleHome> homes() const;
+
+  /// Returns true if contacts have forces, or if there are none.
+  bool have_forces() const noexcept { return forces_; }
+
+  std::int64_t missing() const noexcept { return missing_; }   ///< rows of this rank
+  std::int64_t broken() const noexcept { return broken_; }     ///< rows of this rank
+  std::int64_t repeated() const noexcept { return repeated_; } ///< particles known here
+
+private:
+  struct Input
+  {
+    Input(const ContactRows& rows, const ContactKinds& kinds, const ContactParticles& particles,
+      std::array<std::vector<std::int64_t>, 2> found, const MinimumImage& images,
+      const ContactOptions& options)
+      : places(std::move(found))
+      , ends(rows, kinds, particles, { places[0], places[1] }, images, options)
+    {
+    }
+
+    std::array<std::vector<std::int64_t>, 2> places;
+    ContactEnds ends;
+  };
+
+  void find_places(const IdFinder& finder, const ContactRows& rows, const ContactKinds& kinds,
+    std::array<std::vector<std::int64_t>, 2>& places, const Executor& executor, Progress& progress);
+
+  MinimumImage images_;
+  std::vector<double> radii_;       ///< of the particles of this rank
+  ParticleValues own_;              ///< of these
+  FetchedParticles fetched_;        ///< with several ranks
+  std::vector<ParticleHome> homes_; ///< of the fetched
+  std::int64_t own_rows_ = 0;       ///< with a single rank
+  std::deque<Input> inputs_;        ///< stay where they are
+  std::size_t rows_ = 0;
+  bool forces_ = true;
+  std::int64_t missing_ = 0;
+  std::int64_t broken_ = 0;
+  std::int64_t repeated_ = 0;
+};
+}
+#endif

@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularContactSums.h"
+
+#include "private/arrays/arrays.h"
+#include "private/contacts/contact_input.h"
+#include "private/dump/particles.h"
+#include "private/local/chosen_lines.h"
+#include "private/request/piece_request.h"
+#include "private/request/processes.h"
+#include "private/request/text_of.h"
+
+#include "granular/contacts/contact_sums.h"
+#include "granular/numbers/number_print.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDataArraySelection.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace vtkGranularPrivate;
+
+vtkStandardNewMacro(vtkGranularContactSums);
+
+namespace
+{
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+constexpr const char* FrictionArray = "mobilised_friction";
+
+struct ArrayDefault
+{
+  const char* Name;
+  bool On;
+};
+
+constexpr ArrayDefault Arrays[] = {
+  { "coordination", true },
+  { "contact_force", true },
+  { "contact_torque", true },
+  { "fabric", true },
+  { "contact_stress", true },
+  { "principal_stress", false },
+  { "von_mises", false },
+  { "rattler", false },
+  { "coordination_without_rattlers", false },
+  { FrictionArray, false },
+};
+
+/**
+ * An array that takes over the memory of integers, one a row.
+ */
+template <class Array>
+vtkSmartPointer<Array> TakeIntegers(const char* name, granular::Block& block, vtkIdType rows)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(rows);
+  const auto* const from = static_cast<const typename Array::ValueType*>(block.data());
+  std::copy_n(from, rows, array->GetPointer(0));
+  return array;
+}
+
+void ExpectNumber(const char* name, double value, bool zero)
+{
+  if (!(value >= 0 && (zero || value > 0) && value <= std::numeric_limits<double>::max()))
+  {
+    throw granular::Error("expected a " + std::string(name) +
+      (zero ? " of 0 or more" : " above 0") + ", got " + granular::to_text(value));
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Does one request. Collective.
+ */
+class vtkGranularContactSums::Summer
+{
+public:
+  Summer(vtkGranularContactSums* self, vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs)
+    : Self(self)
+    , Particles(vtkDataObject::GetData(inputs[0]))
+    , Outputs{ vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1) }
+    , Wanted(PieceRequest::Of(request, outputs))
+    , Ranks(self->Ranks->Get())
+    , Own(self)
+    , Shared(this->Own, this->Ranks)
+    , Progress(this->Shared)
+  {
+    for (std::size_t port = 0; port < 2; ++port)
+    {
+      vtkInformation* info = inputs[port + 1]->GetInformationObject(0);
+      this->Contacts[port] = info ? vtkDataObject::GetData(info) : nullptr;
+      this->HaveTimes[port] = info && info->Length(Pipeline::TIME_STEPS()) > 1;
+    }
+  }
+
+  void Run()
+  {
+    this->Progress.step(0);
+    this->Input.emplace(this->Particles, this->Ranks);
+    this->Together = AreTogether(this->Wanted, false, this->Ranks);
+    this->Read();
+    granular::SerialCommunicator alone;
+    this->Sum(this->Together ? this->Ranks : alone);
+    this->FillParticles();
+    this->FillLines();
+    this->Tell();
+    this->Progress.set_part(1, 1);
+    this->Progress.step(1);
+  }
+
+private:
+  bool IsOn(const char* name) const
+  {
+    return this->Self->ArraySelection->ArrayIsEnabled(name) != 0;
+  }
+
+  void Read()
+  {
+    if (!this->Contacts[0] && !this->Contacts[1])
+    {
+      throw granular::Error("expected contacts: the input Lines, Walls, or both, got none");
+    }
+    ExpectNumber("MinimumForce", this->Self->MinimumForce, true);
+    ExpectNumber("MinimumOverlap", this->Self->MinimumOverlap, true);
+    ExpectNumber("FrictionCoefficient", this->Self->FrictionCoefficient, false);
+    const bool arms = this->IsOn("contact_torque") || this->IsOn("contact_stress") ||
+      this->IsOn("principal_stress") || this->IsOn("von_mises");
+    ContactArrays wanted;
+    wanted.Force = arms || this->IsOn("contact_force") || this->IsOn(FrictionArray) ||
+      this->Self->MinimumForce > 0;
+    wanted.Tangential = this->IsOn(FrictionArray);
+    wanted.Torque = this->IsOn("contact_torque");
+    wanted.Point = arms && this->Self->LeverArm == CONTACT_POINT;
+    wanted.Overlap = this->Self->MinimumOverlap > 0;
+    constexpr Touched touched[] = { Touched::Particles, Touched::Walls };
+    for (std::size_t port = 0; port < 2; ++port)
+    {
+      if (this->Contacts[port])
+      {
+        // walls must say where they are
+        wanted.Point = wanted.Point || (port == 1 && !vtkPointSet::SafeDownCast(this->Contacts[1]));
+        this->Rows[port].emplace(this->Contacts[port], touched[port], wanted, this->Progress);
+        this->Inputs.push_back(this->Rows[port]->GetRows());
+        this->All[port] = static_cast<vtkTypeInt64>(this->Inputs.back().count);
+      }
+    }
+  }
+
+  void Sum(granular::Communicator& ranks)
+  {
+    granular::ContactSumsRequest request;
+    request.force = this->IsOn("contact_force");
+    request.torque = this->IsOn("contact_torque");
+    request.fabric = this->IsOn("fabric");
+    request.stress = this->IsOn("contact_stress");
+    request.principal_stress = this->IsOn("principal_stress");
+    request.von_mises = this->IsOn("von_mises");
+    request.friction = this->IsOn(FrictionArray);
+    const bool rattlers = this->IsOn("rattler") || this->IsOn("coordination_without_rattlers");
+    request.least_contacts = rattlers ? this->Self->RattlerContacts : 0;
+    request.options.arm = this->Self->LeverArm == HALF_BRANCH ? granular::LeverArm::Half
+                                                              : granular::LeverArm::ContactPoint;
+    request.options.least_force = this->Self->MinimumForce;
+    request.options.least_overlap = this->Self->MinimumOverlap;
+    request.radius = TextOf(this->Self->RadiusArray);
+    request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
+    this->Progress.set_part(0.1, 0.95);
+    this->Sums =
+      granular::sum_contacts(this->Input->View(), this->Inputs, request, ranks, this->Progress);
+    for (std::size_t port = 0; port < 2; ++port)
+    {
+      if (this->Rows[port] && this->HaveTimes[port])
+      {
+        const std::string remark = CompareTimesteps(
+          this->Particles->GetFieldData(), this->Rows[port]->GetLines().GetFieldData());
+        this->Remark = this->Remark.empty() ? remark : this->Remark;
+      }
+    }
+    ranks.sum(this->All);
+  }
+
+  /**
+   * Adds the arrays that were made, with a tuple for each particle.
+   */
+  void AddArrays(vtkPointData* data)
+  {
+    const vtkIdType rows = this->Input->View().rows;
+    granular::ContactSums& sums = this->Sums;
+    if (this->IsOn("coordination"))
+    {
+      data->AddArray(TakeIntegers<vtkTypeInt32Array>("coordination", sums.coordination, rows));
+    }
+    const auto add = [&](const char* name, granular::Block& block, int components)
+    {
+      if (block.data())
+      {
+        auto array = TakeDoubles(name, block, rows, components);
+        constexpr const char* parts[] = { "XX", "YY", "ZZ", "XY", "XZ", "YZ" };
+        for (int i = 0; components == 6 && i < 6; ++i)
+        {
+          array->SetComponentName(i, parts[i]);
+        }
+        data->AddArray(array);
+      }
+    };
+    add("contact_force", sums.force, 3);
+    add("contact_torque", sums.torque, 3);
+    add("fabric", sums.fabric, 6);
+    add("contact_stress", sums.stress, 6);
+    add("principal_stress", sums.principal_stress, 3);
+    add("von_mises", sums.von_mises, 1);
+    if (this->IsOn("rattler"))
+    {
+      data->AddArray(TakeIntegers<vtkUnsignedCharArray>("rattler", sums.rattlers, rows));
+    }
+    if (this->IsOn("coordination_without_rattlers"))
+    {
+      data->AddArray(
+        TakeIntegers<vtkTypeInt32Array>("coordination_without_rattlers", sums.backbone, rows));
+    }
+  }
+
+  void FillParticles()
+  {
+    auto* input = vtkPointSet::SafeDownCast(this->Particles);
+    vtkNew<vtkPolyData> all;
+    const vtkIdType rows = input->GetNumberOfPoints();
+    all->SetPoints(input->GetPoints());
+    all->GetPointData()->PassData(input->GetPointData());
+    this->AddArrays(all->GetPointData());
+    vtkPolyData* output = this->Outputs[0];
+    auto* cells = vtkPolyData::SafeDownCast(input);
+    if (this->Together && cells)
+    {
+      output->CopyStructure(cells);
+      output->GetCellData()->PassData(cells->GetCellData());
+      output->GetPointData()->PassData(all->GetPointData());
+    }
+    else if (this->Together)
+    {
+      output->SetPoints(input->GetPoints());
+      output->SetVerts(MakeCells(rows, 1));
+      output->GetPointData()->PassData(all->GetPointData());
+    }
+    else
+    {
+      this->FillPiece(all);
+    }
+    vtkFieldData* fields = output->GetFieldData();
+    fields->PassData(input->GetFieldData());
+    const auto mean = [&](const char* name, vtkTypeInt64 contacts, vtkTypeInt64 particles)
+    {
+      fields->AddArray(MakeDoubles(name,
+        { particles > 0 ? static_cast<double>(contacts) / static_cast<double>(particles) : 0.0 }));
+    };
+    mean("mean_coordination", this->Sums.contacts, this->Sums.particles);
+    if (this->Sums.rattlers.data() || this->Sums.backbone.data())
+    {
+      mean("mean_coordination_without_rattlers", this->Sums.bearing,
+        this->Sums.particles - this->Sums.rattling);
+    }
+  }
+
+  /**
+   * Of the whole, which each rank has made.
+   */
+  void FillPiece(vtkPolyData* all)
+  {
+    const auto [first, last] = this->Wanted.RangeOf(all->GetNumberOfPoints());
+    vtkNew<vtkIdList> tuples;
+    tuples->SetNumberOfIds(last - first);
+    std::iota(tuples->begin(), tuples->end(), first);
+    vtkPolyData* output = this->Outputs[0];
+    vtkNew<vtkPoints> points;
+    points->SetData(vtkDataArray::SafeDownCast(TakeTuples(all->GetPoints()->GetData(), tuples)));
+    output->SetPoints(points);
+    output->SetVerts(MakeCells(last - first, 1));
+    for (int i = 0; i < all->GetPointData()->GetNumberOfArrays(); ++i)
+    {
+      output->GetPointData()->AddArray(
+        TakeTuples(all->GetPointData()->GetAbstractArray(i), tuples));
+    }
+  }
+
+  /**
+   * Lines with their mobilised friction.
+   */
+  void FillLines()
+  {
+    vtkPolyData* output = this->Outputs[1];
+    auto* input = vtkPointSet::SafeDownCast(this->Contacts[0]);
+    if (this->Sums.friction.empty() || !this->Rows[0] || !input)
+    {
+      return;
+    }
+    const LocalRows& rows = this->Rows[0]->GetLines();
+    const auto [first, last] = this->Together ? std::pair(vtkTypeInt64{ 0 }, rows.Count())
+                                              : this->Wanted.RangeOf(rows.Count());
+    std::vector<vtkIdType> wanted(static_cast<std::size_t>(last - first));
+    std::iota(wanted.begin(), wanted.end(), first);
+    const ChosenCells cells = FindCells({ input, &rows, wanted });
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    output->SetPoints(points);
+    vtkNew<vtkCellArray> lines;
+    output->SetLines(lines);
+    AddLines(input, cells.All, output);
+    rows.PassCells(cells.All, output->GetCellData());
+    const auto* const friction = static_cast<const double*>(this->Sums.friction[0].data());
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(FrictionArray);
+    for (const vtkIdType row : cells.Rows)
+    {
+      array->InsertNextValue(friction[row] / this->Self->FrictionCoefficient);
+    }
+    output->GetCellData()->AddArray(array);
+    output->GetFieldData()->PassData(input->GetFieldData());
+  }
+
+  void Tell()
+  {
+    std::vector<Processes::Remark> remarks;
+    const auto tell = [&](bool is, const char* topic, const std::string& text)
+    {
+      if (is && (this->Ranks.rank() == 0 || !this->Together))
+      {
+        remarks.push_back({ topic, text });
+      }
+    };
+    const std::string ofAll = " of " + std::to_string(this->All[0] + this->All[1]) + " contacts ";
+    const bool lack = (this->Rows[0] && this->Rows[0]->GetLines().LackPlaces()) ||
+      (this->Rows[1] && this->Rows[1]->GetLines().LackPlaces());
+    tell(lack && this->All[0] + this->All[1] == 0, "no places",
+      "an input has no lines, as its file does not say where these are: take the rows, the second "
+      "output of the reader");
+    tell(this->Sums.missing > 0, "missing",
+      std::to_string(this->Sums.missing) + ofAll +
+        "name a particle that is not there: they count for the other one alone");
+    tell(this->Sums.broken > 0, "broken",
+      std::to_string(this->Sums.broken) + ofAll +
+        "are left out: a number of theirs is no number, infinite or too large");
+    tell(this->Sums.repeated > 0, "repeated",
+      std::to_string(this->Sums.repeated) +
+        " particles have the id of another one: contacts go to the first");
+    tell(!this->Remark.empty(), "timesteps", this->Remark);
+    this->Self->Ranks->Warn(this->Self, remarks);
+  }
+
+  vtkGranularContactSums* Self;
+  vtkDataObject* Particles;
+  std::array<vtkDataObject*, 2> Contacts = {}; ///< between particles, with walls
+  std::array<bool, 2> HaveTimes = {};          ///< or else they are those of all times
+  std::array<vtkPolyData*, 2> Outputs;
+  PieceRequest Wanted;
+  granular::Communicator& Ranks;
+  AlgorithmProgress Own;
+  granular::SharedProgress Shared;
+  granular::PartialProgress Progress;
+  bool Together = false;
+  std::optional<vtkGranularPrivate::Particles> Input;
+  std::array<std::optional<ContactInput>, 2> Rows;
+  std::vector<granular::ContactRows> Inputs;
+  granular::ContactSums Sums;
+  std::array<std::int64_t, 2> All = {}; ///< contacts of all processes
+  std::string Remark;
+};
+
+//------------------------------------------------------------------------------
+vtkGranularContactSums::vtkGranularContactSums()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(2);
+  this->SetRadiusArray("radius");
+  for (const ArrayDefault& array : Arrays)
+  {
+    this->ArraySelection->AddArray(array.Name, array.On);
+  }
+  this->ArraySelection->AddObserver(
+    vtkCommand::ModifiedEvent, this, &vtkGranularContactSums::Modified);
+}
+
+//------------------------------------------------------------------------------
+vtkGranularContactSums::~vtkGranularContactSums()
+{
+  this->SetRadiusArray(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularContactSums::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkGranularContactSums::GetLinesOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularContactSums::SetLinesConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularContactSums::SetWallsConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularContactSums::GetArraySelection()
+{
+  return this->ArraySelection;
+}
+
+//------------------------------------------------------------------------------
+// All data come in, and are looked at by all processes together: see Particles and LocalRows.
+int vtkGranularContactSums::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularContactSums::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularContactSums::Execute(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  Summer(this, request, inputVector, outputVector).Run();
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularContactSums::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LeverArm: " << this->LeverArm << "\n";
+  os << indent << "MinimumForce: " << this->MinimumForce << "\n";
+  os << indent << "MinimumOverlap: " << this->MinimumOverlap << "\n";
+  os << indent << "RattlerContacts: " << this->RattlerContacts << "\n";
+  os << indent << "FrictionCoefficient: " << this->FrictionCoefficient << "\n";
+  os << indent << "RadiusArray: " << TextOf(this->RadiusArray) << "\n";
+  os << indent << "ArraySelection:\n";
+  this->ArraySelection->PrintSelf(os, indent.GetNextIndent());
+}
