@@ -101,7 +101,8 @@ public:
   ///@{
   /**
    * Sets the number of contacts below which a particle is a rattler, which bears nothing. Contacts with rattlers do not count
-   * for others, until none is left: `coordination_without_rattlers`. At least 1; 4 by default, which frictionless spheres need.
+   * for others, until none is left: `coordination_without_rattlers`. At least 1; 2 by default: particles with one contact bear
+   * nothing (C. Thornton, Geotechnique 50, 2000); 4 for spheres without friction.
    */
   vtkSetClampMacro(RattlerContacts, int, 1, VTK_INT_MAX);
   vtkGetMacro(RattlerContacts, int);
@@ -141,7 +142,7 @@ private:
   int LeverArm = CONTACT_POINT;
   double MinimumForce = 0;
   double MinimumOverlap = 0;
-  int RattlerContacts = 4;
+  int RattlerContacts = 2;
   double FrictionCoefficient = 1;
   char* RadiusArray = nullptr;
   const vtkNew<vtkDataArraySelection> ArraySelection;
