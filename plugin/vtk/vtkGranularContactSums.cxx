@@ -392,6 +392,7 @@ private:
 
 //------------------------------------------------------------------------------
 vtkGranularContactSums::vtkGranularContactSums()
+  : ArraySelection(vtkDataArraySelection::New())
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
@@ -408,6 +409,7 @@ vtkGranularContactSums::vtkGranularContactSums()
 vtkGranularContactSums::~vtkGranularContactSums()
 {
   this->SetRadiusArray(nullptr);
+  this->ArraySelection->Delete();
 }
 
 //------------------------------------------------------------------------------

@@ -34,7 +34,6 @@
 
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
-#include "vtkNew.h"            // for vtkNew
 
 class vtkAlgorithmOutput;
 class vtkDataArraySelection;
@@ -145,7 +144,7 @@ private:
   int RattlerContacts = 2;
   double FrictionCoefficient = 1;
   char* RadiusArray = nullptr;
-  const vtkNew<vtkDataArraySelection> ArraySelection;
+  vtkDataArraySelection* const ArraySelection;
 };
 
 #endif

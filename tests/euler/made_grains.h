@@ -6,7 +6,7 @@
 #include "exact_sum.h"
 
 #include "granular/euler/average.h"
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 
 #include "exact_sphere_box.h"
 #include "sphere_box_volume.h"

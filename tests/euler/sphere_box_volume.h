@@ -2,7 +2,7 @@
 #ifndef granular_tests_euler_sphere_box_volume_h
 #define granular_tests_euler_sphere_box_volume_h
 
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 
 #include <cstddef>
 

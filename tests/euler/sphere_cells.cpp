@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/sphere_cells.h"
+#include "granular/grid/sphere_cells.h"
 
 #include "exact_sphere_box.h"
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 
 #include <cmath>
 #include <cstdint>

@@ -66,14 +66,16 @@ ROOMS = {room: words.split() for room, words in (
     ("packing", "common memory geometry parallel particles"),
     ("bonds", "common numbers geometry"),
     ("decomposition", "common numbers bytes memory geometry parallel vtk_files frames particles"),
-    ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles sorting"),
+    ("grid", "common numbers geometry particles"),
+    ("kernels", "common numbers geometry grid"),
+    ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles sorting grid kernels"),
     ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
               "dump/read"),
     ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
     ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/read local"),
     ("paths", "common columns numbers memory geometry parallel frames particles sorting dump/read local"),
-    ("contacts", "common memory geometry parallel frames particles sorting local euler"),
+    ("contacts", "common memory geometry parallel frames particles sorting grid kernels euler local"),
     ("mpi", "common bytes parallel"),
 )}
 MOST_FILES = 40

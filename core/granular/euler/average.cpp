@@ -84,7 +84,7 @@ void check_memory(const EulerAverageRequest& request)
   const double bytes = 8 *
       (static_cast<double>(request.wanted.count(request.grid)) * values + cells / 1024 +
         static_cast<double>(nx) + static_cast<double>(ny) + static_cast<double>(nz)) +
-    static_cast<double>(AveragePasses::bytes_of_group);
+    static_cast<double>(BlockSums::bytes_of_group);
   const auto available = static_cast<double>(available_memory());
   if (bytes > available)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/average_passes.h"
 
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 
 #include <algorithm>
 #include <functional>
@@ -14,12 +14,6 @@ namespace granular
 {
 namespace
 {
-/// Of the sums of a group, where there is one process.
-constexpr std::int64_t bytes_of_thread = std::int64_t{ 8 } << 20;
-
-/// Below it the parts of a block are not worth a sum of their own each.
-constexpr std::int64_t rows_of_part = 16384;
-
 /// Shares of a group that the first pass keeps for the second: 256 MiB.
 constexpr std::size_t most_kept = std::size_t{ 1 } << 24;
 
@@ -77,7 +71,7 @@ AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources
   , progress_(progress)
   , grains_(frame, sources)
   , cells_(request.grid, request.cells, frame.has_box ? &frame.header.box : nullptr)
-  , blocks_(request.grid.counts)
+  , blocks_(request.grid, ranks, executor, progress_)
   , stress_(!request.arrays.stress.empty())
 {
 }
@@ -89,28 +83,13 @@ EulerAverages AveragePasses::run()
   this->plan();
   progress_.set_part(0.2, 0.3);
   this->locate();
-  const std::int64_t block_bytes =
-    blocks_.largest() * 8 * static_cast<std::int64_t>(std::max(sums_.size(), stresses_.size()));
-  // one process alone does better with what fits into caches
-  const std::int64_t bytes = ranks_.size() > 1
-    ? bytes_of_group
-    : std::min<std::int64_t>(bytes_of_group, bytes_of_thread * executor_.threads());
-  const std::int64_t together = std::max<std::int64_t>(bytes / block_bytes, 1);
-  const std::int64_t blocks = blocks_.size();
-  for (std::int64_t first = 0; first < blocks; first += together)
+  const std::vector<Group> groups = blocks_.make_groups(std::max(sums_.size(), stresses_.size()));
+  const auto count = static_cast<double>(groups.size());
+  for (std::size_t i = 0; i < groups.size(); ++i)
   {
-    const std::int64_t last = std::min(first + together, blocks);
-    const std::int64_t rows =
-      std::accumulate(counts_.begin() + first, counts_.begin() + last, std::int64_t{ 0 });
-    if (rows > 0)
-    {
-      const auto threads = static_cast<std::int64_t>(executor_.threads());
-      const std::int64_t parts =
-        last - first >= 2 * threads ? 1 : std::clamp<std::int64_t>(rows / rows_of_part, 1, threads);
-      progress_.set_part(0.3 + 0.7 * static_cast<double>(first) / static_cast<double>(blocks),
-        0.3 + 0.7 * static_cast<double>(last) / static_cast<double>(blocks));
-      this->sum_group({ first, last, parts });
-    }
+    progress_.set_part(
+      0.3 + 0.7 * static_cast<double>(i) / count, 0.3 + 0.7 * static_cast<double>(i + 1) / count);
+    this->sum_group(groups[i]);
   }
   return std::move(result_);
 }
@@ -130,7 +109,7 @@ void AveragePasses::sum_group(const Group& group)
           grains.radius[i] * batch.share[n], batch.volume[n], 0 };
       }
     });
-  if (blocks_.size() == 1) // nobody looked where grains are
+  if (blocks_.blocks().size() == 1) // nobody looked where grains are
   {
     ranks_.sum({ &outside_, 1 });
     result_.outside = outside_;
@@ -188,7 +167,7 @@ template <class Take>
 void AveragePasses::each_batch(
   Pass pass, const Part& part, Batch& batch, KeptShares& kept, const Take& take)
 {
-  const CellRange range = blocks_.range(part.block);
+  const CellRange range = blocks_.blocks().range(part.block);
   const GrainBlock& grains = batch.grains;
   const auto add = [&](std::size_t grain, std::int64_t cell, double share, double volume)
   {
@@ -206,10 +185,10 @@ void AveragePasses::each_batch(
   for (std::int64_t first = part.first; first < part.last;)
   {
     const std::span<const std::int64_t> rows =
-      block_rows_.rows(part.block, first, part.last, batch.rows);
+      blocks_.rows().rows(part.block, first, part.last, batch.rows);
     grains_.load(rows, batch.grains);
     const auto before = static_cast<std::uint64_t>(first - part.first);
-    const std::int64_t place = block_rows_.start(part.block) + first;
+    const std::int64_t place = blocks_.rows().start(part.block) + first;
     first += static_cast<std::int64_t>(rows.size());
     if (!found_.empty() && !grains.usable && this->find_cells(place, range, pass, batch))
     {
@@ -252,86 +231,43 @@ void AveragePasses::each_batch(
 }
 
 /// Sums over the grains of all ranks in the cells of a group; make_terms fills the terms of a batch and knows the means
-/// of its block. The sums of all parts of all ranks come to be the first part.
+/// of its block.
 template <class MakeTerms>
 void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& make_terms)
 {
   const SumScale& scale = pass == Pass::Means ? sums_ : stresses_;
-  const std::int64_t cells = blocks_.largest();
-  const std::int64_t block_size = cells * static_cast<std::int64_t>(scale.size());
-  const std::int64_t part_size = group.blocks() * block_size;
-  const auto do_task = [&](std::size_t task, Batch& batch)
-  {
-    const std::int64_t at = static_cast<std::int64_t>(task) / group.parts;
-    const std::int64_t part = static_cast<std::int64_t>(task) % group.parts;
-    std::int64_t* const sums = integers_.data() + part * part_size + at * block_size;
-    std::fill_n(sums, block_size, 0);
-    const std::int64_t count = block_rows_.count(group.first + at);
-    this->each_batch(pass,
-      { group.first + at, count * part / group.parts, count * (part + 1) / group.parts }, batch,
-      kept_[task],
-      [&]
-      {
-        make_terms(batch, means_.data() + 3 * at * cells);
-        scale.add(std::span(batch.terms).first(batch.size), batch.cell.data(), sums);
-      });
-  };
-  integers_.resize(static_cast<std::size_t>(group.parts * part_size));
-  const auto tasks = static_cast<std::size_t>(group.blocks() * group.parts);
+  const std::int64_t cells = blocks_.blocks().largest();
   if (pass == Pass::Means)
   {
-    kept_.assign(tasks, { .most = most_kept / tasks });
+    kept_.assign(group.tasks(), { .most = most_kept / group.tasks() });
   }
-  std::vector<Batch> batches(executor_.workers(tasks));
-  executor_.parallel_for(
-    tasks, [&](std::size_t task, std::size_t worker) { do_task(task, batches[worker]); },
-    progress_);
+  std::vector<Batch> batches(executor_.workers(group.tasks()));
+  blocks_.add(group, scale, batches,
+    [&](const Part& part, std::size_t task, Batch& batch, std::int64_t* sums)
+    {
+      this->each_batch(pass, part, batch, kept_[task],
+        [&]
+        {
+          make_terms(batch, means_.data() + 3 * part.place * cells);
+          scale.add(std::span(batch.terms).first(batch.size), batch.cell.data(), sums);
+        });
+    });
   outside_ = 0;
   for (const Batch& batch : batches)
   {
     outside_ += batch.outside;
   }
-  for (std::int64_t part = 1; part < group.parts; ++part)
-  {
-    const auto from = integers_.begin() + part * part_size;
-    std::transform(from, from + part_size, integers_.begin(), integers_.begin(), std::plus<>());
-  }
-  ranks_.sum({ integers_.data(), static_cast<std::size_t>(part_size) });
-}
-
-/// Calls take(cell of the group, place among the wanted ones or -1, volume of the cell, its sums) for each cell that has a grain.
-template <class Take>
-void AveragePasses::each_cell(const Group& group, const SumScale& scale, const Take& take)
-{
-  const auto largest = static_cast<std::size_t>(blocks_.largest());
-  executor_.parallel_for(
-    static_cast<std::size_t>(group.blocks()),
-    [&](std::size_t at, std::size_t)
-    {
-      const std::int64_t block = group.first + static_cast<std::int64_t>(at);
-      if (counts_[static_cast<std::size_t>(block)] == 0)
-      {
-        return;
-      }
-      std::size_t cell = at * largest;
-      blocks_.range(block).each(
-        [&](const std::array<std::int64_t, 3>& x)
-        {
-          take(cell, request_.wanted.place(request_.grid, x), this->volume_of(x),
-            scale.values(integers_.data() + cell * scale.size()));
-          ++cell;
-        });
-    },
-    progress_);
 }
 
 void AveragePasses::finish_means(const Group& group)
 {
-  means_.resize(static_cast<std::size_t>(3 * group.blocks() * blocks_.largest()));
+  means_.resize(static_cast<std::size_t>(3 * group.blocks() * blocks_.blocks().largest()));
   EulerCells& cells = result_.cells;
-  this->each_cell(group, sums_,
-    [&](std::size_t cell, std::int64_t place, double volume, const SumScale::Terms& sums)
+  blocks_.each_cell(group, sums_,
+    [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume,
+      const SumScale::Terms& sums)
     {
+      const std::int64_t place = request_.wanted.place(request_.grid, x);
       double* const mean = means_.data() + 3 * cell;
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
@@ -357,9 +293,11 @@ void AveragePasses::finish_means(const Group& group)
 void AveragePasses::finish_stress(const Group& group)
 {
   EulerCells& cells = result_.cells;
-  this->each_cell(group, stresses_,
-    [&](std::size_t, std::int64_t place, double volume, const SumScale::Terms& sums)
+  blocks_.each_cell(group, stresses_,
+    [&](
+      std::size_t, const std::array<std::int64_t, 3>& x, double volume, const SumScale::Terms& sums)
     {
+      const std::int64_t place = request_.wanted.place(request_.grid, x);
       if (place < 0)
       {
         return;

@@ -3,7 +3,7 @@
 #define granular_euler_average_passes_h
 
 #include "granular/euler/average.h"
-#include "granular/euler/sum_blocks.h"
+#include "granular/euler/block_sums.h"
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/sorting/block_rows.h"
 
@@ -19,9 +19,6 @@ namespace granular
 class AveragePasses
 {
 public:
-  /// Bytes of the sums of a group. Larger groups mean fewer reductions over ranks.
-  static constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
-
   /// rows: the number of rows of all ranks.
   AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
     const EulerAverageRequest& request, Communicator& ranks, const Executor& executor,
@@ -38,23 +35,8 @@ private:
     Stress
   };
 
-  /// Blocks [first, last), each summed by this many tasks.
-  struct Group
-  {
-    std::int64_t first = 0;
-    std::int64_t last = 0;
-    std::int64_t parts = 1;
-
-    std::int64_t blocks() const noexcept { return last - first; }
-  };
-
-  /// Rows [first, last) of the rows of a block.
-  struct Part
-  {
-    std::int64_t block;
-    std::int64_t first;
-    std::int64_t last;
-  };
+  using Group = BlockSums::Group;
+  using Part = BlockSums::Part;
 
   /// The shares of a part, kept as long as there are not too many.
   struct KeptShares
@@ -86,7 +68,6 @@ private:
     const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const;
   void plan();
   void make_cells();
-  double volume_of(const std::array<std::int64_t, 3>& cell) const noexcept;
   void locate();
   template <class Take>
   void each_block(std::size_t chunks, const Take& take);
@@ -98,9 +79,6 @@ private:
   bool find_cells(std::int64_t place, const CellRange& range, Pass pass, Batch& batch);
   void finish_means(const Group& group);
   void finish_stress(const Group& group);
-  template <class Take>
-  void each_cell(const Group& group, const SumScale& scale, const Take& take);
-
   const FrameView& frame_;
   const std::int64_t rows_;
   const EulerAverageRequest& request_;
@@ -109,21 +87,17 @@ private:
   PartialProgress progress_;
   GrainValues grains_;
   GrainCells cells_;
-  SumBlocks blocks_;
+  BlockSums blocks_;
   bool stress_; ///< there is one on some rank
 
   GrainValues::Scan scanned_;
-  BlockRows block_rows_;
   std::vector<std::int16_t>
     found_; ///< cells of the rows of all blocks, where each has one; else empty
-  std::vector<std::int64_t> counts_; ///< rows of each block, of all ranks
   SumScale sums_{ {}, 1 };
   SumScale stresses_{ {}, 1 };
-  std::vector<std::int64_t> integers_;       ///< sums of a group: part, block, cell, level, lane
-  std::vector<KeptShares> kept_;             ///< of each part of a group
-  std::array<std::vector<double>, 3> edges_; ///< of the cells along each axis
-  std::vector<double> means_;                ///< velocities of the cells of a group
-  std::int64_t outside_ = 0; ///< grains without a share in the last pass over this rank's
+  std::vector<KeptShares> kept_; ///< of each part of a group
+  std::vector<double> means_;    ///< velocities of the cells of a group
+  std::int64_t outside_ = 0;     ///< grains without a share in the last pass over this rank's
   EulerAverages result_;
 };
 }

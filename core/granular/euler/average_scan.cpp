@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/average_passes.h"
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/gather.h"
 
@@ -71,7 +71,7 @@ void AveragePasses::scan()
 void AveragePasses::locate()
 {
   const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-  std::vector<std::vector<BlockRows::Entry>> entries(blocks_.size() > 1 ? chunks : 0);
+  std::vector<std::vector<BlockRows::Entry>> entries(blocks_.blocks().size() > 1 ? chunks : 0);
   std::vector<std::int64_t> counts(executor_.workers(entries.size()));
   this->each_block(entries.size(),
     [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
@@ -80,15 +80,10 @@ void AveragePasses::locate()
       counts[worker] += this->find_blocks(grains, rows.front() % rows_of_chunk, entries[chunk]);
     });
   result_.outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
-  block_rows_ = blocks_.size() > 1 ? BlockRows::sorted(entries, rows_of_chunk, blocks_.size())
-                                   : BlockRows::all(frame_.rows);
-  found_.resize(cells_.is_direct() ? static_cast<std::size_t>(block_rows_.size()) : 0);
-  counts_.resize(static_cast<std::size_t>(blocks_.size()));
-  for (std::size_t block = 0; block < counts_.size(); ++block)
-  {
-    counts_[block] = block_rows_.count(static_cast<std::int64_t>(block));
-  }
-  ranks_.sum(counts_);
+  blocks_.set_rows(blocks_.blocks().size() > 1
+      ? BlockRows::sorted(entries, rows_of_chunk, blocks_.blocks().size())
+      : BlockRows::all(frame_.rows));
+  found_.resize(cells_.is_direct() ? static_cast<std::size_t>(blocks_.rows().size()) : 0);
   ranks_.sum({ &result_.outside, 1 });
 }
 
@@ -115,7 +110,7 @@ std::int64_t AveragePasses::find_blocks(
       }
     };
     cells_.each_range(grains.positions + 3 * i, grains.radius[i],
-      [&](const CellRange& range) { blocks_.each(range, add); });
+      [&](const CellRange& range) { blocks_.blocks().each(range, add); });
     outside += before == static_cast<std::ptrdiff_t>(entries.size()) ? 1 : 0;
   }
   return outside;
@@ -142,14 +137,6 @@ void AveragePasses::plan()
   ranges.fill({ largest, largest - stress_bits });
   stresses_ = SumScale(ranges, terms);
 
-  const EulerGrid& grid = request_.grid;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::vector<double> faces = grid.faces(axis);
-    edges_[axis].resize(faces.size() - 1);
-    std::transform(
-      faces.begin() + 1, faces.end(), faces.begin(), edges_[axis].begin(), std::minus<>());
-  }
   this->make_cells();
 }
 
@@ -180,15 +167,8 @@ void AveragePasses::make_cells()
       }
       if (place >= 0 && kept > 0)
       {
-        sums.volume[to] = this->volume_of(cell);
+        sums.volume[to] = blocks_.volume_of(cell);
       }
     });
-}
-
-double AveragePasses::volume_of(const std::array<std::int64_t, 3>& cell) const noexcept
-{
-  const auto [x, y, z] = cell;
-  return edges_[0][static_cast<std::size_t>(x)] * edges_[1][static_cast<std::size_t>(y)] *
-    edges_[2][static_cast<std::size_t>(z)];
 }
 }

@@ -2,7 +2,7 @@
 #include "granular/euler/euler_dataset.h"
 
 #include "granular/euler/cells.h"
-#include "granular/euler/euler_grid.h"
+#include "granular/grid/euler_grid.h"
 #include "granular/vtk_files/vtk_corners.h"
 #include "granular/vtk_files/vtk_sections.h"
 

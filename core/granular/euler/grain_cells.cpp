@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/grain_cells.h"
 
+#include "granular/common/error.h"
+#include "granular/numbers/number_print.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,12 +17,20 @@ GrainCells::GrainCells(const EulerGrid& grid, const Options& options, const Box*
   , images_(grid, box)
   , short_cuts_(options.short_cuts)
 {
+  if (weights_ == CellWeights::Kernel)
+  {
+    if (!(options.width >= 1e-100 && options.width <= 1e100))
+    {
+      throw Error("expected a KernelWidth above 0, got " + to_text(options.width));
+    }
+    smooth_.emplace(grid_, Kernel(options.kernel, options.width), options.bounds, images_);
+  }
 }
 
 void GrainCells::set_largest_volume(double largest_volume) noexcept
 {
   constexpr int bits = 64;
-  quantum_ = 0;
+  quantum_ = weights_ == CellWeights::Kernel ? -bits : 0;
   if (weights_ == CellWeights::Overlap && largest_volume > 0)
   {
     double cell = 1;

@@ -2,18 +2,21 @@
 #ifndef granular_euler_grain_cells_h
 #define granular_euler_grain_cells_h
 
-#include "granular/euler/cell_finder.h"
-#include "granular/euler/euler_grid.h"
-#include "granular/euler/periodic_images.h"
-#include "granular/euler/sphere_box.h"
-#include "granular/euler/sphere_cells.h"
 #include "granular/geometry/box.h"
 #include "granular/geometry/expansion.h"
+#include "granular/grid/cell_finder.h"
+#include "granular/grid/euler_grid.h"
+#include "granular/grid/periodic_images.h"
+#include "granular/grid/sphere_box.h"
+#include "granular/grid/sphere_cells.h"
+#include "granular/kernels/kernel.h"
+#include "granular/kernels/smooth_cells.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace granular
@@ -21,8 +24,9 @@ namespace granular
 /// The division of a particle among cells.
 enum class CellWeights : std::uint8_t
 {
-  Centre, ///< the whole particle in the cell of its centre, as in LIGGGHTS
-  Overlap ///< each cell has the volume of the particle inside it
+  Centre,  ///< the whole particle in the cell of its centre, as in LIGGGHTS
+  Overlap, ///< each cell has the volume of the particle inside it
+  Kernel   ///< each cell has what a smoothing kernel around its centre gives: see SmoothCells
 };
 
 /// Finds the cells of particles and of their periodic images.
@@ -33,6 +37,9 @@ public:
   {
     CellWeights weights = CellWeights::Overlap;
     bool short_cuts = true; ///< see SphereCells
+    KernelShape kernel = KernelShape::Gaussian;
+    double width = 0; ///< of the kernel, above 0
+    KernelBounds bounds = KernelBounds::None;
   };
 
   /// box: of which grains have images along its periodic axes, wherever the grid reaches; null or tilted: none have.
@@ -48,7 +55,11 @@ public:
   const CellFinder& finder() const noexcept { return finder_; }
 
   /// Working memory of a thread.
-  using Shares = std::vector<CellShare>;
+  struct Shares
+  {
+    std::vector<CellShare> of_sphere;
+    SmoothCells::Room of_kernel;
+  };
 
   /// Calls visit(range) with the cells that each image of a particle may belong to, if any.
   template <class Visit>
@@ -62,10 +73,11 @@ public:
         });
       return;
     }
-    images_.each(centre, radius,
+    images_.each(centre, this->reach(radius),
       [&](const Twofold3& image)
       {
-        const CellRange range = spheres_.range(image, radius);
+        const CellRange range =
+          smooth_ ? smooth_->range(values_of(image), {}) : spheres_.range(image, radius);
         if (range.size() > 0)
         {
           visit(range);
@@ -92,6 +104,12 @@ public:
         });
       return;
     }
+    if (smooth_)
+    {
+      this->each_smooth(centre, within, shares.of_kernel,
+        [&](std::int64_t cell, double share) { add(cell, share, volume * share); });
+      return;
+    }
     std::int64_t whole = 0;
     if (short_cuts_ && images_.alone(centre, radius) &&
       finder_.find_whole(centre, radius, within, whole))
@@ -99,10 +117,10 @@ public:
       add(whole, 1.0, volume);
       return;
     }
-    shares.clear();
-    images_.each(
-      centre, radius, [&](const Twofold3& image) { spheres_.find(image, radius, within, shares); });
-    for (const CellShare& share : shares)
+    shares.of_sphere.clear();
+    images_.each(centre, radius,
+      [&](const Twofold3& image) { spheres_.find(image, radius, within, shares.of_sphere); });
+    for (const CellShare& share : shares.of_sphere)
     {
       const double part = share.volume / volume;
       const double rounded = part + share_shift_ - share_shift_;
@@ -117,7 +135,12 @@ public:
   /// may have in one cell: those of its images. Call it before asking for ranges or shares.
   std::int64_t check(double radius) const
   {
-    const double reach = weights_ == CellWeights::Overlap ? radius : 0;
+    if (smooth_)
+    {
+      smooth_->check();
+    }
+    const double reach =
+      std::ranges::max(this->reach(weights_ == CellWeights::Centre ? 0 : radius));
     images_.check(reach);
     return images_.most_in_cell(reach);
   }
@@ -125,14 +148,57 @@ public:
   /// largest_volume: of all particles. Call it before each_share if weights are Overlap.
   void set_largest_volume(double largest_volume) noexcept;
 
-  /// Shares are multiples of 2^quantum, 2^-64 of a grain or of the smallest cell, whatever is less; 0 for Centre.
+  /// Shares are multiples of 2^quantum: with Overlap 2^-64 of a grain or of the smallest cell, whatever is less, with a kernel
+  /// of a grain; 0 for Centre.
   int quantum() const noexcept { return quantum_; }
 
 private:
   /// Returns true if the particle belongs to one cell as a whole; so do particles without volume.
   bool is_point(double radius) const noexcept
   {
-    return weights_ == CellWeights::Centre || sphere_volume(radius) == 0;
+    return weights_ == CellWeights::Centre ||
+      (weights_ == CellWeights::Overlap && sphere_volume(radius) == 0);
+  }
+
+  Vector3 reach(double radius) const noexcept
+  {
+    return smooth_ ? smooth_->reach({}) : Vector3{ radius, radius, radius };
+  }
+
+  template <class Add>
+  void each_smooth(
+    const double* centre, const CellRange& within, SmoothCells::Room& room, const Add& add) const
+  {
+    images_.each(centre, smooth_->reach({}),
+      [&](const Twofold3& image)
+      {
+        const bool found = smooth_->each(values_of(image), {}, within, room,
+          [&](std::int64_t cell, double part)
+          {
+            const double rounded = part + share_shift_ - share_shift_;
+            if (rounded > 0)
+            {
+              add(cell, std::min(rounded, 1.0));
+            }
+          });
+        const std::int64_t number = found ? -1 : within.number(this->cell_of(image));
+        if (number >= 0)
+        {
+          add(number, 1.0);
+        }
+      });
+  }
+
+  /// The cell of an image, or -1 along axes where it is in none.
+  std::array<std::int64_t, 3> cell_of(const Twofold3& image) const noexcept
+  {
+    std::array<std::int64_t, 3> cell;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double x = floor_of(image[axis]); // below a face where the image is
+      cell[axis] = images_.is_twice(axis, x) ? -1 : finder_.find(axis, x);
+    }
+    return cell;
   }
 
   template <class Visit>
@@ -151,12 +217,7 @@ private:
     images_.each(centre, 0,
       [&](const Twofold3& image)
       {
-        std::array<std::int64_t, 3> cell;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          const double x = floor_of(image[axis]); // below a face where the image is
-          cell[axis] = images_.is_twice(axis, x) ? -1 : finder_.find(axis, x);
-        }
+        const std::array<std::int64_t, 3> cell = this->cell_of(image);
         if ((cell[0] | cell[1] | cell[2]) >= 0)
         {
           visit(cell);
@@ -169,6 +230,7 @@ private:
   SphereCells spheres_;
   CellFinder finder_;
   PeriodicImages images_;
+  std::optional<SmoothCells> smooth_; ///< with a kernel
   bool short_cuts_;
   int quantum_ = 0;
   double share_shift_ = 0; ///< 1.5 * 2^(52 + quantum)

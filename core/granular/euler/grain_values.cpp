@@ -2,7 +2,7 @@
 #include "granular/euler/grain_values.h"
 
 #include "granular/common/error.h"
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 #include "granular/particles/point_forms.h"
 
 #include <bit>

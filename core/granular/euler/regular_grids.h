@@ -4,7 +4,7 @@
 
 #include "granular/common/error.h"
 #include "granular/euler/euler_file.h"
-#include "granular/euler/euler_grid.h"
+#include "granular/grid/euler_grid.h"
 
 #include <cstdint>
 #include <vector>

@@ -4,7 +4,7 @@
 
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
-#include "granular/euler/euler_grid.h"
+#include "granular/grid/euler_grid.h"
 #include "granular/geometry/box.h"
 
 #include "vtkType.h"

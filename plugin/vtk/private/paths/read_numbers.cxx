@@ -2,7 +2,7 @@
 #include "private/paths/read_numbers.h"
 
 #include "granular/euler/grain_values.h"
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 #include "granular/local/ids.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/sphere_parts.h"
+#include "granular/grid/sphere_parts.h"
 
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_euler_sphere_cells_h
-#define granular_euler_sphere_cells_h
+#ifndef granular_grid_sphere_cells_h
+#define granular_grid_sphere_cells_h
 
-#include "granular/euler/cell_finder.h"
-#include "granular/euler/euler_grid.h"
 #include "granular/geometry/box.h"
+#include "granular/grid/cell_finder.h"
+#include "granular/grid/euler_grid.h"
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/periodic_images.h"
+#include "granular/grid/periodic_images.h"
 
 #include "granular/common/error.h"
 #include "granular/geometry/expansion.h"

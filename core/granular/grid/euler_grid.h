@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_euler_euler_grid_h
-#define granular_euler_euler_grid_h
+#ifndef granular_grid_euler_grid_h
+#define granular_grid_euler_grid_h
 
 #include "granular/geometry/box.h"
 

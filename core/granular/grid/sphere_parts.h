@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_euler_sphere_parts_h
-#define granular_euler_sphere_parts_h
+#ifndef granular_grid_sphere_parts_h
+#define granular_grid_sphere_parts_h
 
 #include "granular/geometry/box.h"
 

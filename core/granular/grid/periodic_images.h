@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_euler_periodic_images_h
-#define granular_euler_periodic_images_h
+#ifndef granular_grid_periodic_images_h
+#define granular_grid_periodic_images_h
 
-#include "granular/euler/euler_grid.h"
 #include "granular/geometry/box.h"
+#include "granular/grid/euler_grid.h"
 
 #include <array>
 #include <cstddef>
@@ -28,14 +28,24 @@ public:
       this->alone(2, centre[2], radius);
   }
 
+  /// Returns true if the grain has images along that axis.
+  bool repeats(std::size_t axis) const noexcept { return axes_[axis].repeats; }
+
   /// Calls visit(centre of the image) for each image that may reach into the grid, including the particle itself.
   template <class Visit>
   void each(const double* centre, double radius, const Visit& visit) const
   {
+    this->each(centre, Vector3{ radius, radius, radius }, visit);
+  }
+
+  /// The same for what reaches that far along each axis.
+  template <class Visit>
+  void each(const double* centre, const Vector3& reach, const Visit& visit) const
+  {
     CellRange images;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const auto [first, last] = this->range(axis, centre[axis], radius);
+      const auto [first, last] = this->range(axis, centre[axis], reach[axis]);
       images.first[axis] = first;
       images.last[axis] = last + 1;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/sphere_box.h"
+#include "granular/grid/sphere_box.h"
 
-#include "granular/euler/sphere_octant.h"
-#include "granular/euler/sphere_parts.h"
+#include "granular/grid/sphere_octant.h"
+#include "granular/grid/sphere_parts.h"
 
 #include <algorithm>
 #include <cmath>

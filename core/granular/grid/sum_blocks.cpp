@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/sum_blocks.h"
+#include "granular/grid/sum_blocks.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_euler_sum_blocks_h
-#define granular_euler_sum_blocks_h
+#ifndef granular_grid_sum_blocks_h
+#define granular_grid_sum_blocks_h
 
-#include "granular/euler/euler_grid.h"
+#include "granular/grid/euler_grid.h"
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/euler_grid.h"
+#include "granular/grid/euler_grid.h"
 
 #include "granular/common/error.h"
 #include "granular/numbers/number_print.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/cell_finder.h"
+#include "granular/grid/cell_finder.h"
 
 #include <algorithm>
 #include <cmath>

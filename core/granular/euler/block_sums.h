@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_euler_block_sums_h
+#define granular_euler_block_sums_h
+
+#include "granular/common/progress.h"
+#include "granular/geometry/reproducible_sum.h"
+#include "granular/grid/euler_grid.h"
+#include "granular/grid/sum_blocks.h"
+#include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
+#include "granular/sorting/block_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace granular
+{
+/// Sums in the cells of a grid over rows of all ranks, some blocks of cells at a time: all ranks work on the same blocks at
+/// the same time, and add up the integers of their sums, so that order, threads and ranks cannot matter.
+class BlockSums
+{
+public:
+  /// Bytes of the sums of a group. Larger groups mean fewer reductions over ranks.
+  static constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
+
+  /// Blocks [first, last), each summed by this many tasks.
+  struct Group
+  {
+    std::int64_t first = 0;
+    std::int64_t last = 0;
+    std::int64_t parts = 1;
+
+    std::int64_t blocks() const noexcept { return last - first; }
+    std::size_t tasks() const noexcept { return static_cast<std::size_t>(this->blocks() * parts); }
+  };
+
+  /// Rows [first, last) of the rows of a block, and the number of the block in its group.
+  struct Part
+  {
+    std::int64_t block;
+    std::int64_t first;
+    std::int64_t last;
+    std::int64_t place;
+  };
+
+  BlockSums(
+    const EulerGrid& grid, Communicator& ranks, const Executor& executor, Progress& progress);
+
+  const SumBlocks& blocks() const noexcept { return blocks_; }
+  const BlockRows& rows() const noexcept { return rows_; }
+
+  /// Takes the rows of this rank in each block. Collective.
+  void set_rows(BlockRows rows);
+
+  /// Returns groups of blocks, without those that no rank has rows in. largest_scale: see SumScale::size.
+  std::vector<Group> make_groups(std::size_t largest_scale) const;
+
+  /// Calls work(part, task, room, sums) for parts of the blocks of a group, on any threads, with the integers of the sums of
+  /// the block's cells. Afterwards the first part of each block has those of all ranks. rooms: one for each worker of
+  /// executor().workers(group.tasks()). Collective.
+  template <class Room, class Work>
+  void add(const Group& group, const SumScale& scale, std::vector<Room>& rooms, const Work& work)
+  {
+    const std::int64_t block_size = blocks_.largest() * static_cast<std::int64_t>(scale.size());
+    const std::int64_t part_size = group.blocks() * block_size;
+    integers_.resize(static_cast<std::size_t>(group.parts * part_size));
+    executor_.parallel_for(
+      group.tasks(),
+      [&](std::size_t task, std::size_t worker)
+      {
+        const std::int64_t place = static_cast<std::int64_t>(task) / group.parts;
+        const std::int64_t part = static_cast<std::int64_t>(task) % group.parts;
+        std::int64_t* const sums = integers_.data() + part * part_size + place * block_size;
+        std::fill_n(sums, block_size, 0);
+        const std::int64_t count = rows_.count(group.first + place);
+        work(Part{ group.first + place, count * part / group.parts,
+               count * (part + 1) / group.parts, place },
+          task, rooms[worker], sums);
+      },
+      progress_);
+    for (std::int64_t part = 1; part < group.parts; ++part)
+    {
+      const auto from = integers_.begin() + part * part_size;
+      std::transform(from, from + part_size, integers_.begin(), integers_.begin(), std::plus<>());
+    }
+    ranks_.sum({ integers_.data(), static_cast<std::size_t>(part_size) });
+  }
+
+  /// Calls take(number of the cell in the group, its place in the grid, its volume, its sums) for each cell of the blocks that
+  /// have rows.
+  template <class Take>
+  void each_cell(const Group& group, const SumScale& scale, const Take& take) const
+  {
+    const auto largest = static_cast<std::size_t>(blocks_.largest());
+    executor_.parallel_for(
+      static_cast<std::size_t>(group.blocks()),
+      [&](std::size_t place, std::size_t)
+      {
+        const std::int64_t block = group.first + static_cast<std::int64_t>(place);
+        if (counts_[static_cast<std::size_t>(block)] == 0)
+        {
+          return;
+        }
+        std::size_t cell = place * largest;
+        blocks_.range(block).each(
+          [&](const std::array<std::int64_t, 3>& x)
+          {
+            take(cell, x, this->volume_of(x), scale.values(integers_.data() + cell * scale.size()));
+            ++cell;
+          });
+      },
+      progress_);
+  }
+
+  double volume_of(const std::array<std::int64_t, 3>& cell) const noexcept
+  {
+    const auto [x, y, z] = cell;
+    return edges_[0][static_cast<std::size_t>(x)] * edges_[1][static_cast<std::size_t>(y)] *
+      edges_[2][static_cast<std::size_t>(z)];
+  }
+
+private:
+  SumBlocks blocks_;
+  Communicator& ranks_;
+  const Executor& executor_;
+  Progress& progress_;
+  BlockRows rows_;
+  std::vector<std::int64_t> counts_;         ///< rows of each block, of all ranks
+  std::vector<std::int64_t> integers_;       ///< sums of a group: part, block, cell, level, lane
+  std::array<std::vector<double>, 3> edges_; ///< of the cells along each axis
+};
+}
+#endif
