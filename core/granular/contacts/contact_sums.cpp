@@ -5,8 +5,8 @@
 #include "granular/contacts/find_ends.h"
 #include "granular/contacts/rattlers.h"
 #include "granular/contacts/sum_ends.h"
-#include "granular/euler/sphere_box.h"
 #include "granular/geometry/symmetric_tensor.h"
+#include "granular/grid/sphere_box.h"
 #include "granular/parallel/by_rank.h"
 #include "granular/parallel/trade.h"
 
