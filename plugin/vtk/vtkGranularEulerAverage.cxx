@@ -2,6 +2,7 @@
 #include "vtkGranularEulerAverage.h"
 
 #include "private/arrays/arrays.h"
+#include "private/contacts/contact_input.h"
 #include "private/dump/dump_output.h"
 #include "private/dump/input_frames.h"
 #include "private/dump/particles.h"
@@ -11,10 +12,14 @@
 #include "private/request/processes.h"
 #include "private/request/text_of.h"
 
+#include "granular/contacts/contact_cells.h"
+#include "granular/contacts/find_ends.h"
 #include "granular/euler/average.h"
 #include "granular/euler/time_average.h"
 #include "granular/numbers/number_print.h"
 
+#include "vtkCommand.h"
+#include "vtkDataArraySelection.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -25,9 +30,11 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -42,6 +49,38 @@ vtkStandardNewMacro(vtkGranularEulerAverage);
 namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+/**
+ * The arrays that can be made, and whether they are if nobody chooses.
+ */
+struct ArrayDefault
+{
+  const char* Name;
+  bool On;
+};
+
+constexpr ArrayDefault Arrays[] = {
+  { "v_avg", true },
+  { "volumefraction", true },
+  { "radius", true },
+  { "pressure", true },
+  { "sigma", true },
+  { "tau", true },
+  { "density", false },
+  { "momentum", false },
+  { "granular_temperature", false },
+  { "coordination", false },
+  { "fabric", false },
+  { "sigma_kinetic", false },
+  { "tau_kinetic", false },
+  { "sigma_contact", false },
+  { "tau_contact", false },
+};
+
+/**
+ * The data of the inputs at one time: particles, contacts between them, contacts with walls; null where there is none.
+ */
+using FrameInputs = std::array<vtkDataObject*, 3>;
 
 bool AreGiven(const double bounds[6])
 {
@@ -60,7 +99,7 @@ public:
   Averager(
     vtkGranularEulerAverage* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
     : Self(self)
-    , Input(vtkDataObject::GetData(inputs[0]))
+    , Inputs(DataOf(inputs))
     , Info(outputs->GetInformationObject(0))
     , Wanted(PieceRequest::Of(this->Info))
     , Ranks(self->Ranks->Get())
@@ -80,40 +119,82 @@ public:
     }
     else
     {
-      this->Cells = this->AverageFrame(this->Input).cells;
+      granular::EulerAverages averages = this->AverageFrame(this->Inputs);
+      this->Cells = std::move(averages.cells);
+      this->Fields = std::move(averages.fields);
+    }
+    if (!this->Fields.contact_normal.empty())
+    {
+      granular::add_contact_stress(this->Cells, this->Fields);
     }
     this->Tell();
     this->Fill();
   }
 
 private:
+  static FrameInputs DataOf(vtkInformationVector** inputs)
+  {
+    FrameInputs data = {};
+    for (std::size_t port = 0; port < data.size(); ++port)
+    {
+      vtkInformation* info = inputs[port]->GetInformationObject(0);
+      data[port] = info ? vtkDataObject::GetData(info) : nullptr;
+    }
+    return data;
+  }
+
+  bool IsOn(const char* name) const
+  {
+    return this->Self->ArraySelection->ArrayIsEnabled(name) != 0;
+  }
+
+  bool HaveContacts() const { return this->Inputs[1] || this->Inputs[2]; }
+
   void AverageFrames()
   {
     const bool own = IsOwn(this->Wanted, this->Ranks);
-    InputFrames frames(
-      this->Self, { own ? this->Wanted.Piece : 0, own ? this->Wanted.Pieces : 1, 0 });
-    std::vector<double> times = frames.GetTimes();
+    const InputFrames::Part part{ own ? this->Wanted.Piece : 0, own ? this->Wanted.Pieces : 1, 0 };
+    std::vector<std::unique_ptr<InputFrames>> inputs;
+    for (int port = 0; port < static_cast<int>(this->Inputs.size()); ++port)
+    {
+      if (this->Inputs[static_cast<std::size_t>(port)])
+      {
+        inputs.push_back(std::make_unique<InputFrames>(this->Self, part, port));
+      }
+    }
+    std::vector<double> times = inputs[0]->GetTimes();
     CheckTimes(times, this->Ranks);
     granular::TimeAverage sums;
     const std::size_t count = std::max<std::size_t>(times.size(), 1);
     for (std::size_t frame = 0; frame < count; ++frame)
     {
-      frames.Update(times.empty() ? std::nullopt : std::optional(times[frame]), this->Ranks);
+      FrameInputs data = {};
+      auto next = inputs.begin();
+      for (std::size_t port = 0; port < data.size(); ++port)
+      {
+        if (this->Inputs[port])
+        {
+          (*next)->Update(times.empty() ? std::nullopt : std::optional(times[frame]), this->Ranks);
+          data[port] = (*next++)->GetData();
+        }
+      }
       this->Progress.set_part(static_cast<double>(frame) / static_cast<double>(count),
         static_cast<double>(frame + 1) / static_cast<double>(count));
-      const granular::EulerAverages averages = this->AverageFrame(frames.GetData());
+      const granular::EulerAverages averages = this->AverageFrame(data);
       granular::do_together(this->Ranks, [&] { sums.add(averages); });
     }
     this->Cells = sums.cells();
+    this->Fields = sums.fields();
   }
 
-  granular::EulerAverages AverageFrame(vtkDataObject* input)
+  granular::EulerAverages AverageFrame(const FrameInputs& inputs)
   {
-    this->Grains.emplace(input, this->Ranks);
+    this->Grains.emplace(inputs[0], this->Ranks);
     granular::Notices notices;
-    CheckAllThere(input, notices);
+    CheckAllThere(inputs[0], notices);
     granular::SerialCommunicator alone;
-    granular::EulerAverages averages = this->Average(this->Together ? this->Ranks : alone, notices);
+    granular::EulerAverages averages =
+      this->Average(inputs, this->Together ? this->Ranks : alone, notices);
     this->Outside += averages.outside;
     this->Broken += averages.broken;
     for (const granular::Notice& notice : notices)
@@ -127,7 +208,8 @@ private:
   /**
    * Of the grains that these processes have together.
    */
-  granular::EulerAverages Average(granular::Communicator& ranks, granular::Notices& notices)
+  granular::EulerAverages Average(
+    const FrameInputs& inputs, granular::Communicator& ranks, granular::Notices& notices)
   {
     granular::FrameView& view = this->Grains->View();
     granular::EulerAverageRequest request;
@@ -143,12 +225,105 @@ private:
     this->CheckTilt(view, notices);
     request.grid = this->MakeGrid(largest);
     request.wanted = this->FindWanted(request.grid);
-    request.cells.weights = this->Self->Weights == CENTRE ? granular::CellWeights::Centre
-                                                          : granular::CellWeights::Overlap;
-    request.keep_sums = this->Self->TimeAverage;
+    this->ChooseWeights(request, ranks);
+    this->ChooseFields(request);
     this->Grid = request.grid;
     const granular::Executor executor(ChooseThreads(this->Self->Threads, this->Ranks));
-    return granular::average_in_cells(view, request, ranks, executor, notices, this->Progress);
+    granular::PartialProgress progress(this->Progress);
+    progress.set_part(0, this->HaveContacts() ? 0.5 : 1);
+    granular::EulerAverages averages =
+      granular::average_in_cells(view, request, ranks, executor, notices, progress);
+    if (this->HaveContacts())
+    {
+      progress.set_part(0.5, 1);
+      this->AverageContacts(inputs, request, ranks, executor, progress, averages);
+    }
+    return averages;
+  }
+
+  void ChooseWeights(granular::EulerAverageRequest& request, granular::Communicator& ranks) const
+  {
+    const vtkGranularEulerAverage& self = *this->Self;
+    switch (self.Weights)
+    {
+      case CENTRE:
+        request.cells.weights = granular::CellWeights::Centre;
+        return;
+      case OVERLAP:
+        request.cells.weights = granular::CellWeights::Overlap;
+        return;
+      default:
+        break;
+    }
+    constexpr granular::KernelShape shapes[] = { granular::KernelShape::Gaussian,
+      granular::KernelShape::Lucy, granular::KernelShape::Heaviside };
+    request.cells.weights = granular::CellWeights::Kernel;
+    request.cells.kernel = shapes[self.Weights - GAUSSIAN];
+    request.cells.bounds =
+      self.KernelBounds == INSIDE ? granular::KernelBounds::Inside : granular::KernelBounds::None;
+    request.cells.width = self.KernelWidth != 0
+      ? self.KernelWidth
+      : 2 * granular::largest_radius(this->Grains->View(), request.arrays, ranks);
+    if (self.KernelWidth == 0 && request.cells.width == 0) // without particles
+    {
+      request.cells.width = 1;
+    }
+  }
+
+  void ChooseFields(granular::EulerAverageRequest& request) const
+  {
+    const bool contacts = this->HaveContacts();
+    if (contacts && !request.arrays.stress.empty())
+    {
+      throw granular::Error("expected a StressArray or contacts (Lines, Walls), got both: contacts "
+                            "would count twice");
+    }
+    request.fields.density = this->IsOn("density");
+    request.fields.momentum = this->IsOn("momentum");
+    request.fields.temperature = this->IsOn("granular_temperature");
+    request.fields.coordination = contacts && this->IsOn("coordination");
+    request.fields.fabric = contacts && this->IsOn("fabric");
+    request.tensors = contacts && this->NeedStress();
+    request.pressure = this->IsOn("pressure");
+    request.keep_sums = this->Self->TimeAverage || request.fields.coordination;
+  }
+
+  bool NeedStress() const
+  {
+    return this->IsOn("pressure") || this->IsOn("sigma") || this->IsOn("tau") ||
+      this->IsOn("sigma_kinetic") || this->IsOn("tau_kinetic") || this->IsOn("sigma_contact") ||
+      this->IsOn("tau_contact");
+  }
+
+  void AverageContacts(const FrameInputs& inputs, const granular::EulerAverageRequest& request,
+    granular::Communicator& ranks, const granular::Executor& executor,
+    granular::PartialProgress& progress, granular::EulerAverages& averages)
+  {
+    constexpr Touched touched[] = { Touched::Particles, Touched::Walls };
+    std::array<std::optional<ContactInput>, 2> contacts;
+    std::vector<granular::ContactRows> rows;
+    for (std::size_t port = 0; port < 2; ++port)
+    {
+      if (vtkDataObject* input = inputs[port + 1])
+      {
+        ContactArrays wanted;
+        wanted.Force = this->NeedStress();
+        wanted.Point = port == 1 && !vtkPointSet::SafeDownCast(input); // where the wall is
+        contacts[port].emplace(input, touched[port], wanted, progress);
+        rows.push_back(contacts[port]->GetRows());
+      }
+    }
+    const granular::FrameView& view = this->Grains->View();
+    granular::ContactOptions options;
+    options.arm = granular::LeverArm::Half; // nobody asks where forces act
+    const granular::FoundEnds ends(
+      view, rows, request.arrays.radius, options, ranks, executor, progress);
+    granular::average_contacts(ends, view.has_box ? &view.header.box : nullptr, request, ranks,
+      executor, progress, averages);
+    std::array<std::int64_t, 2> left = { ends.missing(), ends.broken() };
+    ranks.sum(left);
+    this->Missing += left[0];
+    this->BrokenContacts += left[1];
   }
 
   static void CheckAllThere(vtkDataObject* input, granular::Notices& notices)
@@ -200,7 +375,13 @@ private:
         request.by = granular::EulerGridRequest::By::Cutoff;
         break;
     }
-    return granular::make_euler_grid(request);
+    granular::EulerGrid grid = granular::make_euler_grid(request);
+    for (std::size_t axis = 0; self.OutputType == PROFILE && axis < 3; ++axis)
+    {
+      grid.counts[axis] =
+        axis == static_cast<std::size_t>(self.ProfileAxis) ? grid.counts[axis] : 1;
+    }
+    return grid;
   }
 
   /**
@@ -209,7 +390,7 @@ private:
   granular::WantedCells FindWanted(const granular::EulerGrid& grid)
   {
     granular::WantedCells wanted = granular::WantedCells::all(grid);
-    if (this->Self->OutputType == POINTS)
+    if (this->Self->OutputType != IMAGE_DATA)
     {
       std::tie(wanted.first, wanted.last) = this->Wanted.RangeOf(grid.size());
       return wanted;
@@ -239,6 +420,10 @@ private:
     count(this->Broken,
       " particles are left out: a position, velocity, mass, radius or stress of theirs is no "
       "number, infinite or too large, or a mass or radius is negative");
+    count(this->Missing,
+      " contacts name a particle that is not there: their stress counts as far as it is known");
+    count(this->BrokenContacts,
+      " contacts are left out: a number of theirs is no number, infinite or too large");
     for (const std::string& text : this->Notices)
     {
       if (this->Ranks.rank() == 0 || !this->Together)
@@ -253,11 +438,17 @@ private:
     const granular::FrameView& view = this->Grains->View();
     const bool scaled = view.coordinates == granular::Coordinates::Scaled;
     const granular::Vector3 origin = scaled ? granular::Vector3{} : view.point_origin;
-    granular::EulerFrame frame = MakeFrame(std::move(this->Cells));
+    granular::EulerFrame frame = MakeFrame(std::move(this->Cells), std::move(this->Fields));
+    std::erase_if(frame.arrays,
+      [&](const granular::EulerValues& values) { return !this->IsOn(values.name.c_str()); });
     vtkDataObject* output = this->Info->Get(vtkDataObject::DATA_OBJECT());
     if (this->Self->OutputType == POINTS)
     {
       FillPoints(vtkPolyData::SafeDownCast(output), frame, 0, frame.cells, origin);
+    }
+    else if (this->Self->OutputType == PROFILE)
+    {
+      FillTable(vtkTable::SafeDownCast(output), frame, 0, frame.cells, this->Self->ProfileAxis);
     }
     else
     {
@@ -265,7 +456,7 @@ private:
         { this->Extent, 0 }, origin);
     }
     vtkFieldData* data = output->GetFieldData();
-    data->PassData(this->Input->GetFieldData());
+    data->PassData(this->Inputs[0]->GetFieldData());
     data->RemoveArray("Columns"); // of particles
     if (view.has_box)
     {
@@ -281,7 +472,7 @@ private:
   }
 
   vtkGranularEulerAverage* Self;
-  vtkDataObject* Input;
+  FrameInputs Inputs;
   vtkInformation* Info;
   PieceRequest Wanted;
   granular::Communicator& Ranks;
@@ -293,14 +484,25 @@ private:
   granular::EulerGrid Grid;
   CellExtent Extent = {};
   granular::EulerCells Cells;
+  granular::EulerFields Fields;
   vtkTypeInt64 Outside = 0; ///< particles, of all frames
   vtkTypeInt64 Broken = 0;
+  vtkTypeInt64 Missing = 0; ///< contacts
+  vtkTypeInt64 BrokenContacts = 0;
   std::set<std::string> Notices;
 };
 
 //------------------------------------------------------------------------------
 vtkGranularEulerAverage::vtkGranularEulerAverage()
+  : ArraySelection(vtkDataArraySelection::New())
 {
+  this->SetNumberOfInputPorts(3);
+  for (const ArrayDefault& array : Arrays)
+  {
+    this->ArraySelection->AddArray(array.Name, array.On);
+  }
+  this->ArraySelection->AddObserver(
+    vtkCommand::ModifiedEvent, this, &vtkGranularEulerAverage::Modified);
   this->SetVelocityArray("v");
   this->SetMassArray("mass");
   this->SetRadiusArray("radius");
@@ -313,12 +515,32 @@ vtkGranularEulerAverage::~vtkGranularEulerAverage()
   this->SetMassArray(nullptr);
   this->SetRadiusArray(nullptr);
   this->SetStressArray(nullptr);
+  this->ArraySelection->Delete();
 }
 
 //------------------------------------------------------------------------------
-int vtkGranularEulerAverage::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+void vtkGranularEulerAverage::SetLinesConnection(vtkAlgorithmOutput* output)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see Particles
+  this->SetInputConnection(1, output);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularEulerAverage::SetWallsConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularEulerAverage::GetArraySelection()
+{
+  return this->ArraySelection;
+}
+
+//------------------------------------------------------------------------------
+int vtkGranularEulerAverage::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see Particles, LocalRows
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
   return 1;
 }
 
@@ -338,6 +560,10 @@ int vtkGranularEulerAverage::RequestDataObject(vtkInformation* vtkNotUsed(reques
   if (this->OutputType == POINTS && !vtkPolyData::SafeDownCast(output))
   {
     info->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
+  }
+  if (this->OutputType == PROFILE && !vtkTable::SafeDownCast(output))
+  {
+    info->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkTable>());
   }
   if (this->OutputType == IMAGE_DATA && !vtkImageData::SafeDownCast(output))
   {
@@ -382,7 +608,7 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
   info->Remove(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
   info->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
   info->Remove(Pipeline::WHOLE_EXTENT());
-  if (this->OutputType == POINTS)
+  if (this->OutputType != IMAGE_DATA)
   {
     info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
     return 1;
@@ -438,11 +664,16 @@ void vtkGranularEulerAverage::PrintSelf(ostream& os, vtkIndent indent)
   print("CellSize", this->CellSize);
   os << indent << "CellSizeRelative: " << this->CellSizeRelative << "\n";
   print("Bounds", this->Bounds);
+  os << indent << "ProfileAxis: " << this->ProfileAxis << "\n";
   os << indent << "Weights: " << this->Weights << "\n";
+  os << indent << "KernelWidth: " << this->KernelWidth << "\n";
+  os << indent << "KernelBounds: " << this->KernelBounds << "\n";
   os << indent << "Periodic: " << this->Periodic << "\n";
   os << indent << "VelocityArray: " << TextOf(this->VelocityArray) << "\n";
   os << indent << "MassArray: " << TextOf(this->MassArray) << "\n";
   os << indent << "RadiusArray: " << TextOf(this->RadiusArray) << "\n";
   os << indent << "StressArray: " << TextOf(this->StressArray) << "\n";
   os << indent << "TimeAverage: " << (this->TimeAverage ? "On" : "Off") << "\n";
+  os << indent << "ArraySelection:\n";
+  this->ArraySelection->PrintSelf(os, indent.GetNextIndent());
 }

@@ -11,6 +11,18 @@
  *   stress itself, `sigma` (xx yy zz) and `tau` (xy xz yz). Without a StressArray the pressure contains only the velocity
  *   fluctuations, not the contacts.
  *
+ * Selected arrays besides (see GetArraySelection): `density` = sum w m / V, `momentum` = sum w m v / V, `granular_temperature` =
+ * sum w m |v - v_avg|^2 / (3 sum w m) [m2/s2].
+ *
+ * With contacts (ports 1 and 2: lines or rows as vtkGranularContactSums takes them) the stress, and with it pressure, sigma and tau,
+ * contain their part: branch_a force_b / V, shared among the cells along the line, by its length in each. `sigma_kinetic`,
+ * `tau_kinetic`, `sigma_contact`, `tau_contact`: both parts; `coordination`: ends of contacts over particles, both by their parts
+ * in the cell; `fabric`: mean product of contact normals, xx yy zz xy xz yz.
+ *
+ * With a smoothing kernel (see SetWeights), w is its value at the centre of the cell over the sum of its values at the centres of
+ * all cells, also beyond the grid: mass and momentum of what is inside stay. Contacts get the mean of the kernel along the line in
+ * place of the length. Along an axis with one cell nothing is smoothed.
+ *
  * These are the definitions of fix ave/euler of LIGGGHTS, where w is 1 or 0. Empty cells are 0. Where two particles overlap, their
  * common volume counts twice in volumefraction. Particles with one common velocity have a pressure of 0: the rounding of v_avg does
  * not count as fluctuation. The averages are over space at one moment; see SetTimeAverage. Sums are correctly rounded, so the result
@@ -28,6 +40,9 @@
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
+class vtkAlgorithmOutput;
+class vtkDataArraySelection;
+
 class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkGranularAlgorithm
 {
 public:
@@ -35,10 +50,17 @@ public:
   vtkTypeMacro(vtkGranularEulerAverage, vtkGranularAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * Sets the contacts between particles, and those with walls: input ports 1 and 2, both optional. See the class.
+   */
+  void SetLinesConnection(vtkAlgorithmOutput* output);
+  void SetWallsConnection(vtkAlgorithmOutput* output);
+
   enum OutputTypes
   {
     POINTS = 0,
-    IMAGE_DATA = 1
+    IMAGE_DATA = 1,
+    PROFILE = 2
   };
 
   enum CellsByType
@@ -51,7 +73,16 @@ public:
   enum WeightsType
   {
     CENTRE = 0,
-    OVERLAP = 1
+    OVERLAP = 1,
+    GAUSSIAN = 2,
+    LUCY = 3,
+    HEAVISIDE = 4
+  };
+
+  enum KernelBoundsType
+  {
+    ALL_SPACE = 0,
+    INSIDE = 1
   };
 
   enum PeriodicType
@@ -63,11 +94,21 @@ public:
   ///@{
   /**
    * Sets the type of the output. IMAGE_DATA, the default: vtkImageData with cell data; each rank has an extent. POINTS:
-   * vtkPolyData with a vertex at the centre of each cell and point data, as LIGGGHTS writes it.
+   * vtkPolyData with a vertex at the centre of each cell and point data, as LIGGGHTS writes it. PROFILE: vtkTable with a row for
+   * each layer of cells along ProfileAxis (0, 1 or 2; 2 by default), of which the other axes have one cell each, and the
+   * `position` of its centre along the axis; see SetCellsBy for the number of layers.
    */
-  vtkSetClampMacro(OutputType, int, POINTS, IMAGE_DATA);
+  vtkSetClampMacro(OutputType, int, POINTS, PROFILE);
   vtkGetMacro(OutputType, int);
+  vtkSetClampMacro(ProfileAxis, int, 0, 2);
+  vtkGetMacro(ProfileAxis, int);
   ///@}
+
+  /**
+   * Returns the selection of the arrays that are made. Those that are off cost nothing. v_avg, volumefraction, radius, pressure,
+   * sigma and tau are on by default.
+   */
+  virtual vtkDataArraySelection* GetArraySelection();
 
   ///@{
   /**
@@ -101,13 +142,27 @@ public:
   /**
    * To which cells a particle belongs. OVERLAP, the default: to each, by the volume of the sphere in it. CENTRE: to that of
    * its centre, whole, as in LIGGGHTS: quick, but the volume fraction may exceed 1, and jumps when particles pass faces.
+   * GAUSSIAN, LUCY, HEAVISIDE: to each, by a smoothing kernel around its centre, of the KernelWidth.
    * Periodic: BOUNDARY, the default: along axes that the flags of the input's box say to be periodic (`pp`) particles have
    * images, and what sticks out of a face comes in at the opposite one. NONE: particles are where they are.
    */
-  vtkSetClampMacro(Weights, int, CENTRE, OVERLAP);
+  vtkSetClampMacro(Weights, int, CENTRE, HEAVISIDE);
   vtkGetMacro(Weights, int);
   vtkSetClampMacro(Periodic, int, BOUNDARY, NONE);
   vtkGetMacro(Periodic, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sets the width w of the kernel [m]: GAUSSIAN is exp(-r^2 / 2 w^2), cut at 3 w; LUCY (1 + 3 q)(1 - q)^3 with q = r / 2 w;
+   * HEAVISIDE 1 within w. 0, the default: the largest diameter of the particles.
+   * KernelBounds: ALL_SPACE, the default: a kernel that reaches beyond the cells loses what is there. INSIDE: along axes that are
+   * not periodic it ends at the faces of the grid, and each particle inside belongs to the cells as a whole; for walls there.
+   */
+  vtkSetMacro(KernelWidth, double);
+  vtkGetMacro(KernelWidth, double);
+  vtkSetClampMacro(KernelBounds, int, ALL_SPACE, INSIDE);
+  vtkGetMacro(KernelBounds, int);
   ///@}
 
   ///@{
@@ -162,13 +217,17 @@ private:
   double CellSize[3] = { 0.01, 0.01, 0.01 };
   double CellSizeRelative = 3;
   double Bounds[6] = { 1, -1, 1, -1, 1, -1 };
+  int ProfileAxis = 2;
   int Weights = OVERLAP;
+  double KernelWidth = 0;
+  int KernelBounds = ALL_SPACE;
   int Periodic = BOUNDARY;
   char* VelocityArray = nullptr;
   char* MassArray = nullptr;
   char* RadiusArray = nullptr;
   char* StressArray = nullptr;
   bool TimeAverage = false;
+  vtkDataArraySelection* const ArraySelection;
 };
 
 #endif

@@ -74,13 +74,21 @@ std::string mebibytes(double bytes)
   return std::to_string(static_cast<std::int64_t>(bytes / 1048576)) + " MiB";
 }
 
+/// Values of a cell.
+double fields_of(const EulerFieldSet& fields)
+{
+  return (fields.density ? 1 : 0) + (fields.momentum ? 3 : 0) + (fields.temperature ? 1 : 0) +
+    (fields.coordination ? 1 : 0) + (fields.fabric ? 6 : 0);
+}
+
 /// Of the wanted cells, the faces, what is known of blocks of cells, and the sums of some of these.
 void check_memory(const EulerAverageRequest& request)
 {
   const auto& [nx, ny, nz] = request.grid.counts;
   const auto cells = static_cast<double>(request.grid.size());
   const double values = static_cast<double>(values_of_cell) +
-    (request.arrays.stress.empty() ? 0 : 6) + (request.keep_sums ? values_of_time_average : 0);
+    (request.arrays.stress.empty() && !request.tensors ? 0 : 6) + fields_of(request.fields) +
+    (request.keep_sums ? values_of_time_average : 0);
   const double bytes = 8 *
       (static_cast<double>(request.wanted.count(request.grid)) * values + cells / 1024 +
         static_cast<double>(nx) + static_cast<double>(ny) + static_cast<double>(nz)) +

@@ -5,6 +5,7 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/euler/cells.h"
+#include "granular/euler/fields.h"
 #include "granular/euler/grain_cells.h"
 #include "granular/euler/grain_values.h"
 #include "granular/grid/euler_grid.h"
@@ -41,6 +42,9 @@ struct EulerAverageRequest
   GrainArrays arrays;
   WantedCells wanted;     ///< of this rank
   bool keep_sums = false; ///< fill EulerAverages::sums
+  bool pressure = true; ///< false, without tensors or a temperature: no fluctuations are looked at
+  bool tensors = false; ///< fill normal_stress and shear_stress without a stress of particles, too
+  EulerFieldSet fields;
 };
 
 /// The sums behind averages over several frames: structure of arrays, of the wanted cells.
@@ -50,13 +54,18 @@ struct EulerSums
   std::vector<double> mass;     ///< sum w m [kg]
   std::vector<double> momentum; ///< sum w m v, three a cell [kg m/s]
   std::vector<double> volume;   ///< of the cell [m3]
+  std::vector<double>
+    ends; ///< of contacts: 2 for each between particles, 1 with a wall; empty without contacts
+  std::vector<double> contacts; ///< that have a normal
+  std::vector<double> normals;  ///< sums of its products, six a cell, or empty
 };
 
 /// Averages over the particles of a frame.
 struct EulerAverages
 {
   EulerCells cells; ///< the wanted ones
-  EulerSums sums;   ///< of the wanted ones, or empty
+  EulerFields fields;
+  EulerSums sums; ///< of the wanted ones, or empty
   std::int64_t outside =
     0; ///< particles that touch no cell; with Centre, particles whose centre is in none
   std::int64_t broken = 0; ///< particles that were left out: see GrainValues::load
@@ -78,6 +87,9 @@ inline double deviation(double v, double mean) noexcept
 /// the stress is that of the fluctuations of velocity alone; components of v - v_avg count as 0 up to 2^-49 v_avg, which
 /// rounding may make: particles of one velocity have no pressure. Where particles overlap one another their common volume
 /// counts for each of them.
+///
+/// With a kernel the share of a grain is the value of the kernel at the centre of the cell over the sum of these values: see
+/// SmoothCells. Granular temperature: sum w m |v - v_avg|^2 / (3 sum w m).
 ///
 /// Cells are lo <= x < hi; the last along an axis has x <= hi. Positions and images: see AbsolutePositions and GrainCells;
 /// an image is on that side of a face on which the exact image of its position in the box is, which is less than an ulp off.

@@ -73,6 +73,7 @@ AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources
   , cells_(request.grid, request.cells, frame.has_box ? &frame.header.box : nullptr)
   , blocks_(request.grid, ranks, executor, progress_)
   , stress_(!request.arrays.stress.empty())
+  , tensors_(stress_ || request.tensors)
 {
 }
 
@@ -115,6 +116,10 @@ void AveragePasses::sum_group(const Group& group)
     result_.outside = outside_;
   }
   this->finish_means(group);
+  if (!request_.pressure && !tensors_ && !request_.fields.temperature)
+  {
+    return;
+  }
   this->add_grains(Pass::Stress, group,
     [](Batch& batch, const double* means)
     {
@@ -129,7 +134,7 @@ void AveragePasses::sum_group(const Group& group)
         const double y = deviation(v[1], mean[1]);
         const double z = deviation(v[2], mean[2]);
         batch.terms[n] = { -mass * x * x, -mass * y * y, -mass * z * z, -mass * x * y,
-          -mass * x * z, -mass * y * z, 0, 0 };
+          -mass * x * z, -mass * y * z, mass * (x * x + y * y + z * z), 0 };
         for (std::size_t k = 0; grains.stresses && k < 6; ++k)
         {
           batch.terms[n][k] += grains.stresses[6 * i + k] * batch.share[n];
@@ -262,6 +267,7 @@ void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& m
 void AveragePasses::finish_means(const Group& group)
 {
   means_.resize(static_cast<std::size_t>(3 * group.blocks() * blocks_.blocks().largest()));
+  masses_.resize(request_.fields.temperature ? means_.size() / 3 : 0);
   EulerCells& cells = result_.cells;
   blocks_.each_cell(group, sums_,
     [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume,
@@ -269,6 +275,10 @@ void AveragePasses::finish_means(const Group& group)
     {
       const std::int64_t place = request_.wanted.place(request_.grid, x);
       double* const mean = means_.data() + 3 * cell;
+      if (request_.fields.temperature)
+      {
+        masses_[cell] = sums[Mass];
+      }
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         mean[axis] = sums[Mass] > 0 ? sums[MomentumX + axis] / sums[Mass] : 0;
@@ -281,6 +291,14 @@ void AveragePasses::finish_means(const Group& group)
       std::copy_n(mean, 3, cells.velocities.begin() + 3 * place);
       cells.radius[to] = sums[Share] > 0 ? sums[Radius] / sums[Share] : 0;
       cells.volume_fraction[to] = sums[Volume] / volume;
+      if (request_.fields.density)
+      {
+        result_.fields.density[to] = sums[Mass] / volume;
+      }
+      for (std::size_t axis = 0; request_.fields.momentum && axis < 3; ++axis)
+      {
+        result_.fields.momentum[3 * to + axis] = sums[MomentumX + axis] / volume;
+      }
       if (request_.keep_sums)
       {
         result_.sums.share[to] = sums[Share];
@@ -294,8 +312,8 @@ void AveragePasses::finish_stress(const Group& group)
 {
   EulerCells& cells = result_.cells;
   blocks_.each_cell(group, stresses_,
-    [&](
-      std::size_t, const std::array<std::int64_t, 3>& x, double volume, const SumScale::Terms& sums)
+    [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume,
+      const SumScale::Terms& sums)
     {
       const std::int64_t place = request_.wanted.place(request_.grid, x);
       if (place < 0)
@@ -303,8 +321,12 @@ void AveragePasses::finish_stress(const Group& group)
         return;
       }
       const auto to = static_cast<std::size_t>(place);
+      if (request_.fields.temperature)
+      {
+        result_.fields.temperature[to] = masses_[cell] > 0 ? sums[6] / (3 * masses_[cell]) : 0;
+      }
       cells.pressure[to] = (0 - (sums[0] + sums[1] + sums[2])) / (3 * volume); // 0, not -0
-      for (std::size_t k = 0; stress_ && k < 3; ++k)
+      for (std::size_t k = 0; tensors_ && k < 3; ++k)
       {
         cells.normal_stress[3 * to + k] = sums[k] / volume;
         cells.shear_stress[3 * to + k] = sums[3 + k] / volume;

@@ -88,7 +88,8 @@ private:
   GrainValues grains_;
   GrainCells cells_;
   BlockSums blocks_;
-  bool stress_; ///< there is one on some rank
+  bool stress_;  ///< there is one on some rank
+  bool tensors_; ///< are wanted
 
   GrainValues::Scan scanned_;
   std::vector<std::int16_t>
@@ -97,6 +98,7 @@ private:
   SumScale stresses_{ {}, 1 };
   std::vector<KeptShares> kept_; ///< of each part of a group
   std::vector<double> means_;    ///< velocities of the cells of a group
+  std::vector<double> masses_;   ///< of these, for temperatures
   std::int64_t outside_ = 0;     ///< grains without a share in the last pass over this rank's
   EulerAverages result_;
 };

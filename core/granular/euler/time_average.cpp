@@ -14,6 +14,23 @@ namespace
 constexpr std::array<std::array<std::size_t, 2>, 6> stress_axes = { { { 0, 0 }, { 1, 1 }, { 2, 2 },
   { 0, 1 }, { 0, 2 }, { 1, 2 } } };
 
+void add_values(const std::vector<double>& values, std::vector<CompensatedSum>& sums)
+{
+  sums.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    sums[i].add(values[i]);
+  }
+}
+
+std::vector<double> means_of(const std::vector<CompensatedSum>& sums, double frames)
+{
+  std::vector<double> means(sums.size());
+  std::ranges::transform(
+    sums, means.begin(), [&](const CompensatedSum& sum) { return sum.value() / frames; });
+  return means;
+}
+
 double quotient(const CompensatedSum& sum, const CompensatedSum& weight)
 {
   return weight.value() > 0 ? sum.over(weight.twofold()).value() : 0;
@@ -75,7 +92,59 @@ void TimeAverage::add(const EulerAverages& frame)
     }
     sums.volume = frame.sums.volume[i];
   }
+  this->add_fields(frame);
   ++frames_;
+}
+
+void TimeAverage::add_fields(const EulerAverages& frame)
+{
+  const EulerFields& fields = frame.fields;
+  FieldSums& sums = field_sums_;
+  add_values(fields.density, sums.density);
+  add_values(fields.momentum, sums.momentum);
+  add_values(fields.contact_normal, sums.contact_normal);
+  add_values(fields.contact_shear, sums.contact_shear);
+  add_values(frame.sums.ends, sums.ends);
+  add_values(frame.sums.contacts, sums.contacts);
+  add_values(frame.sums.normals, sums.normals);
+  coordination_ = !fields.coordination.empty();
+  sums.energy.resize(fields.temperature.size());
+  for (std::size_t i = 0; i < sums.energy.size(); ++i)
+  {
+    sums.energy[i].add_product(3 * frame.sums.mass[i], fields.temperature[i]);
+  }
+}
+
+EulerFields TimeAverage::fields() const
+{
+  EulerFields fields;
+  const FieldSums& sums = field_sums_;
+  const auto frames = static_cast<double>(frames_);
+  fields.density = means_of(sums.density, frames);
+  fields.momentum = means_of(sums.momentum, frames);
+  fields.contact_normal = means_of(sums.contact_normal, frames);
+  fields.contact_shear = means_of(sums.contact_shear, frames);
+  fields.temperature.resize(sums.energy.size());
+  for (std::size_t i = 0; i < sums.energy.size(); ++i)
+  {
+    CompensatedSum energy = sums.energy[i];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      energy.add(sums_[i].apart[k].twofold());
+    }
+    fields.temperature[i] = quotient(energy, sums_[i].mass) / 3;
+  }
+  fields.coordination.resize(coordination_ ? sums.ends.size() : 0);
+  for (std::size_t i = 0; i < fields.coordination.size(); ++i)
+  {
+    fields.coordination[i] = quotient(sums.ends[i], sums_[i].share);
+  }
+  fields.fabric.resize(sums.normals.size());
+  for (std::size_t i = 0; i < fields.fabric.size(); ++i)
+  {
+    fields.fabric[i] = quotient(sums.normals[i], sums.contacts[i / 6]);
+  }
+  return fields;
 }
 
 EulerCells TimeAverage::cells() const

@@ -26,6 +26,10 @@ public:
   std::int64_t frames() const noexcept { return frames_; }
   EulerCells cells() const; ///< 0 cells without frames
 
+  /// Returns the fields of the frames: densities and contact stresses are means over time, others ratios of sums over particles
+  /// or contacts of all frames.
+  EulerFields fields() const;
+
 private:
   /// Of a cell.
   struct Sums
@@ -44,10 +48,27 @@ private:
     void add_velocities(double mass, const double* momentum);
   };
 
+  /// Sums over frames of the fields that they have, one value after the other.
+  struct FieldSums
+  {
+    std::vector<CompensatedSum> density;
+    std::vector<CompensatedSum> momentum;
+    std::vector<CompensatedSum> energy; ///< sum w m |v - v_avg|^2
+    std::vector<CompensatedSum> contact_normal;
+    std::vector<CompensatedSum> contact_shear;
+    std::vector<CompensatedSum> ends;
+    std::vector<CompensatedSum> contacts;
+    std::vector<CompensatedSum> normals;
+  };
+
+  void add_fields(const EulerAverages& frame);
+
   std::int64_t frames_ = 0;
   bool stress_ = false; ///< is known
   std::vector<double> centres_;
   std::vector<Sums> sums_;
+  FieldSums field_sums_;
+  bool coordination_ = false; ///< is wanted
 };
 }
 #endif

@@ -20,6 +20,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <string>
@@ -38,12 +39,17 @@ namespace
 struct ComponentNames
 {
   std::string_view Array;
-  const char* Names[3];
+  const char* Names[6];
 };
 
 constexpr ComponentNames Tensors[] = {
   { "sigma", { "XX", "YY", "ZZ" } },
   { "tau", { "XY", "XZ", "YZ" } },
+  { "sigma_kinetic", { "XX", "YY", "ZZ" } },
+  { "tau_kinetic", { "XY", "XZ", "YZ" } },
+  { "sigma_contact", { "XX", "YY", "ZZ" } },
+  { "tau_contact", { "XY", "XZ", "YZ" } },
+  { "fabric", { "XX", "YY", "ZZ", "XY", "XZ", "YZ" } },
 };
 
 vtkSmartPointer<vtkDoubleArray> MakeArray(const granular::EulerValues& values, vtkIdType cells)
@@ -54,7 +60,8 @@ vtkSmartPointer<vtkDoubleArray> MakeArray(const granular::EulerValues& values, v
   array->SetNumberOfTuples(cells);
   for (const ComponentNames& tensor : Tensors)
   {
-    for (int i = 0; tensor.Array == values.name && i < std::min(values.components, 3); ++i)
+    for (int i = 0;
+         tensor.Array == values.name && i < values.components && i < 6 && tensor.Names[i]; ++i)
     {
       array->SetComponentName(i, tensor.Names[i]);
     }
@@ -75,6 +82,21 @@ void AddArray(vtkDataSetAttributes* data, vtkDoubleArray* array)
   if (array->GetNumberOfComponents() == 3 && std::string_view(array->GetName()) == "v_avg")
   {
     data->SetActiveVectors(array->GetName());
+  }
+}
+
+/**
+ * The values of some cells of a frame.
+ */
+void AddArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkTypeInt64 begin,
+  vtkIdType count)
+{
+  for (const granular::EulerValues& values : frame.arrays)
+  {
+    const auto array = MakeArray(values, count);
+    std::copy_n(values.values.begin() + begin * values.components, count * values.components,
+      array->GetPointer(0));
+    AddArray(data, array);
   }
 }
 
@@ -130,7 +152,7 @@ CellExtent AskedExtent(vtkInformation* output, const CellExtent& whole)
   return asked;
 }
 
-granular::EulerFrame MakeFrame(granular::EulerCells&& cells)
+granular::EulerFrame MakeFrame(granular::EulerCells&& cells, granular::EulerFields&& fields)
 {
   granular::EulerFrame frame;
   frame.cells = cells.count();
@@ -141,6 +163,14 @@ granular::EulerFrame MakeFrame(granular::EulerCells&& cells)
     if (!array.optional || !values.empty())
     {
       frame.arrays.push_back({ std::string(array.name), array.components, std::move(values) });
+    }
+  }
+  for (const granular::EulerField& field : granular::euler_fields)
+  {
+    std::vector<double>& values = fields.*field.values;
+    if (!values.empty())
+    {
+      frame.arrays.push_back({ std::string(field.name), field.components, std::move(values) });
     }
   }
   return frame;
@@ -162,13 +192,20 @@ void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeI
   points->SetData(centres);
   output->SetPoints(points);
   output->SetVerts(MakeCells(count, 1));
-  for (const granular::EulerValues& values : frame.arrays)
+  AddArrays(output->GetPointData(), frame, begin, count);
+}
+
+void FillTable(vtkTable* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
+  vtkTypeInt64 end, int axis)
+{
+  vtkNew<vtkDoubleArray> positions;
+  positions->SetName("position");
+  for (vtkTypeInt64 cell = begin; cell < end; ++cell)
   {
-    const auto array = MakeArray(values, count);
-    std::copy_n(values.values.begin() + begin * values.components, count * values.components,
-      array->GetPointer(0));
-    AddArray(output->GetPointData(), array);
+    positions->InsertNextValue(frame.centres[static_cast<std::size_t>(3 * cell + axis)]);
   }
+  output->GetRowData()->AddArray(positions);
+  AddArrays(output->GetRowData(), frame, begin, end - begin);
 }
 
 void FillImage(vtkImageData* output, const granular::EulerGrid& grid, const CellExtent& extent,

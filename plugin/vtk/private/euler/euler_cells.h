@@ -4,8 +4,9 @@
 
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
-#include "granular/grid/euler_grid.h"
+#include "granular/euler/fields.h"
 #include "granular/geometry/box.h"
+#include "granular/grid/euler_grid.h"
 
 #include "vtkType.h"
 
@@ -14,6 +15,7 @@
 class vtkImageData;
 class vtkInformation;
 class vtkPolyData;
+class vtkTable;
 
 namespace vtkGranularPrivate
 {
@@ -40,9 +42,9 @@ void OfferExtent(vtkInformation* output, const CellExtent& whole);
 CellExtent AskedExtent(vtkInformation* output, const CellExtent& whole);
 
 /**
- * Returns cells with the names in files: v_avg, volumefraction, ... Takes over their memory.
+ * Returns cells with the names in files: v_avg, volumefraction, ..., and with more fields. Takes over their memory.
  */
-granular::EulerFrame MakeFrame(granular::EulerCells&& cells);
+granular::EulerFrame MakeFrame(granular::EulerCells&& cells, granular::EulerFields&& fields);
 
 /**
  * Fills the output with cells [begin, end) of a frame as points minus the origin, each with a vertex, and point arrays
@@ -50,6 +52,13 @@ granular::EulerFrame MakeFrame(granular::EulerCells&& cells);
  */
 void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
   vtkTypeInt64 end, const granular::Vector3& pointOrigin);
+
+/**
+ * Fills the table with cells [begin, end) of a frame, a row for each: `position`, the coordinate of the centre along an axis, and
+ * the arrays.
+ */
+void FillTable(vtkTable* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
+  vtkTypeInt64 end, int axis);
 
 /**
  * The cells of a grid that a frame has: those of an extent, x fastest, from cell First of the frame on.
