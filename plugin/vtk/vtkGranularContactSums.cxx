@@ -2,6 +2,7 @@
 #include "vtkGranularContactSums.h"
 
 #include "private/arrays/arrays.h"
+#include "private/arrays/made_arrays.h"
 #include "private/contacts/contact_input.h"
 #include "private/dump/particles.h"
 #include "private/local/chosen_lines.h"
@@ -14,7 +15,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -49,13 +49,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 constexpr const char* FrictionArray = "mobilised_friction";
 
-struct ArrayDefault
-{
-  const char* Name;
-  bool On;
-};
-
-constexpr ArrayDefault Arrays[] = {
+constexpr MadeArray Arrays[] = {
   { "coordination", true },
   { "contact_force", true },
   { "contact_torque", true },
@@ -392,17 +386,11 @@ private:
 
 //------------------------------------------------------------------------------
 vtkGranularContactSums::vtkGranularContactSums()
-  : ArraySelection(vtkDataArraySelection::New())
+  : ArraySelection(MakeSelection(this, Arrays))
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
   this->SetRadiusArray("radius");
-  for (const ArrayDefault& array : Arrays)
-  {
-    this->ArraySelection->AddArray(array.Name, array.On);
-  }
-  this->ArraySelection->AddObserver(
-    vtkCommand::ModifiedEvent, this, &vtkGranularContactSums::Modified);
 }
 
 //------------------------------------------------------------------------------

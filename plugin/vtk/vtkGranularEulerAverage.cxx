@@ -2,23 +2,22 @@
 #include "vtkGranularEulerAverage.h"
 
 #include "private/arrays/arrays.h"
-#include "private/contacts/contact_input.h"
 #include "private/dump/dump_output.h"
 #include "private/dump/input_frames.h"
 #include "private/dump/particles.h"
+#include "private/euler/average_contacts.h"
 #include "private/euler/euler_cells.h"
+#include "private/euler/weights.h"
 #include "private/request/guard.h"
 #include "private/request/piece_request.h"
 #include "private/request/processes.h"
 #include "private/request/text_of.h"
 
 #include "granular/contacts/contact_cells.h"
-#include "granular/contacts/find_ends.h"
 #include "granular/euler/average.h"
 #include "granular/euler/time_average.h"
 #include "granular/numbers/number_print.h"
 
-#include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -49,33 +48,6 @@ vtkStandardNewMacro(vtkGranularEulerAverage);
 namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-/**
- * The arrays that can be made, and whether they are if nobody chooses.
- */
-struct ArrayDefault
-{
-  const char* Name;
-  bool On;
-};
-
-constexpr ArrayDefault Arrays[] = {
-  { "v_avg", true },
-  { "volumefraction", true },
-  { "radius", true },
-  { "pressure", true },
-  { "sigma", true },
-  { "tau", true },
-  { "density", false },
-  { "momentum", false },
-  { "granular_temperature", false },
-  { "coordination", false },
-  { "fabric", false },
-  { "sigma_kinetic", false },
-  { "tau_kinetic", false },
-  { "sigma_contact", false },
-  { "tau_contact", false },
-};
 
 /**
  * The data of the inputs at one time: particles, contacts between them, contacts with walls; null where there is none.
@@ -225,7 +197,9 @@ private:
     this->CheckTilt(view, notices);
     request.grid = this->MakeGrid(largest);
     request.wanted = this->FindWanted(request.grid);
-    this->ChooseWeights(request, ranks);
+    const bool smooth = this->Self->Weights >= GAUSSIAN && this->Self->KernelWidth == 0;
+    request.cells = MakeWeights(this->Self->Weights, this->Self->KernelWidth,
+      this->Self->KernelBounds, smooth ? granular::largest_radius(view, request.arrays, ranks) : 0);
     this->ChooseFields(request);
     this->Grid = request.grid;
     const granular::Executor executor(ChooseThreads(this->Self->Threads, this->Ranks));
@@ -236,38 +210,12 @@ private:
     if (this->HaveContacts())
     {
       progress.set_part(0.5, 1);
-      this->AverageContacts(inputs, request, ranks, executor, progress, averages);
+      const ContactsLeft left = AverageContacts({ inputs[1], inputs[2] }, view, request,
+        this->NeedStress(), ranks, executor, progress, averages);
+      this->Missing += left.Missing;
+      this->BrokenContacts += left.Broken;
     }
     return averages;
-  }
-
-  void ChooseWeights(granular::EulerAverageRequest& request, granular::Communicator& ranks) const
-  {
-    const vtkGranularEulerAverage& self = *this->Self;
-    switch (self.Weights)
-    {
-      case CENTRE:
-        request.cells.weights = granular::CellWeights::Centre;
-        return;
-      case OVERLAP:
-        request.cells.weights = granular::CellWeights::Overlap;
-        return;
-      default:
-        break;
-    }
-    constexpr granular::KernelShape shapes[] = { granular::KernelShape::Gaussian,
-      granular::KernelShape::Lucy, granular::KernelShape::Heaviside };
-    request.cells.weights = granular::CellWeights::Kernel;
-    request.cells.kernel = shapes[self.Weights - GAUSSIAN];
-    request.cells.bounds =
-      self.KernelBounds == INSIDE ? granular::KernelBounds::Inside : granular::KernelBounds::None;
-    request.cells.width = self.KernelWidth != 0
-      ? self.KernelWidth
-      : 2 * granular::largest_radius(this->Grains->View(), request.arrays, ranks);
-    if (self.KernelWidth == 0 && request.cells.width == 0) // without particles
-    {
-      request.cells.width = 1;
-    }
   }
 
   void ChooseFields(granular::EulerAverageRequest& request) const
@@ -293,37 +241,6 @@ private:
     return this->IsOn("pressure") || this->IsOn("sigma") || this->IsOn("tau") ||
       this->IsOn("sigma_kinetic") || this->IsOn("tau_kinetic") || this->IsOn("sigma_contact") ||
       this->IsOn("tau_contact");
-  }
-
-  void AverageContacts(const FrameInputs& inputs, const granular::EulerAverageRequest& request,
-    granular::Communicator& ranks, const granular::Executor& executor,
-    granular::PartialProgress& progress, granular::EulerAverages& averages)
-  {
-    constexpr Touched touched[] = { Touched::Particles, Touched::Walls };
-    std::array<std::optional<ContactInput>, 2> contacts;
-    std::vector<granular::ContactRows> rows;
-    for (std::size_t port = 0; port < 2; ++port)
-    {
-      if (vtkDataObject* input = inputs[port + 1])
-      {
-        ContactArrays wanted;
-        wanted.Force = this->NeedStress();
-        wanted.Point = port == 1 && !vtkPointSet::SafeDownCast(input); // where the wall is
-        contacts[port].emplace(input, touched[port], wanted, progress);
-        rows.push_back(contacts[port]->GetRows());
-      }
-    }
-    const granular::FrameView& view = this->Grains->View();
-    granular::ContactOptions options;
-    options.arm = granular::LeverArm::Half; // nobody asks where forces act
-    const granular::FoundEnds ends(
-      view, rows, request.arrays.radius, options, ranks, executor, progress);
-    granular::average_contacts(ends, view.has_box ? &view.header.box : nullptr, request, ranks,
-      executor, progress, averages);
-    std::array<std::int64_t, 2> left = { ends.missing(), ends.broken() };
-    ranks.sum(left);
-    this->Missing += left[0];
-    this->BrokenContacts += left[1];
   }
 
   static void CheckAllThere(vtkDataObject* input, granular::Notices& notices)
@@ -493,55 +410,12 @@ private:
 };
 
 //------------------------------------------------------------------------------
-vtkGranularEulerAverage::vtkGranularEulerAverage()
-  : ArraySelection(vtkDataArraySelection::New())
-{
-  this->SetNumberOfInputPorts(3);
-  for (const ArrayDefault& array : Arrays)
-  {
-    this->ArraySelection->AddArray(array.Name, array.On);
-  }
-  this->ArraySelection->AddObserver(
-    vtkCommand::ModifiedEvent, this, &vtkGranularEulerAverage::Modified);
-  this->SetVelocityArray("v");
-  this->SetMassArray("mass");
-  this->SetRadiusArray("radius");
-}
+vtkGranularEulerAverage::vtkGranularEulerAverage() = default;
 
 //------------------------------------------------------------------------------
 vtkGranularEulerAverage::~vtkGranularEulerAverage()
 {
-  this->SetVelocityArray(nullptr);
-  this->SetMassArray(nullptr);
-  this->SetRadiusArray(nullptr);
   this->SetStressArray(nullptr);
-  this->ArraySelection->Delete();
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerAverage::SetLinesConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(1, output);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerAverage::SetWallsConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(2, output);
-}
-
-//------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularEulerAverage::GetArraySelection()
-{
-  return this->ArraySelection;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularEulerAverage::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject"); // see Particles, LocalRows
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -666,14 +540,8 @@ void vtkGranularEulerAverage::PrintSelf(ostream& os, vtkIndent indent)
   print("Bounds", this->Bounds);
   os << indent << "ProfileAxis: " << this->ProfileAxis << "\n";
   os << indent << "Weights: " << this->Weights << "\n";
-  os << indent << "KernelWidth: " << this->KernelWidth << "\n";
   os << indent << "KernelBounds: " << this->KernelBounds << "\n";
   os << indent << "Periodic: " << this->Periodic << "\n";
-  os << indent << "VelocityArray: " << TextOf(this->VelocityArray) << "\n";
-  os << indent << "MassArray: " << TextOf(this->MassArray) << "\n";
-  os << indent << "RadiusArray: " << TextOf(this->RadiusArray) << "\n";
   os << indent << "StressArray: " << TextOf(this->StressArray) << "\n";
   os << indent << "TimeAverage: " << (this->TimeAverage ? "On" : "Off") << "\n";
-  os << indent << "ArraySelection:\n";
-  this->ArraySelection->PrintSelf(os, indent.GetNextIndent());
 }

@@ -7,14 +7,14 @@
  * - `v_avg` = sum w m v / sum w m [m/s]
  * - `volumefraction` = volume of the particles in the cell / V [-]
  * - `radius` = sum w r / sum w [m]
- * - `pressure` = -(xx + yy + zz) / 3 [Pa] of the stress sum(-w m (v - v_avg)(v - v_avg) + w S) / V; with a StressArray also the
- *   stress itself, `sigma` (xx yy zz) and `tau` (xy xz yz). Without a StressArray the pressure contains only the velocity
- *   fluctuations, not the contacts.
+ * - `pressure` = -(xx + yy + zz) / 3 [Pa] of the stress sum(-w m (v - v_avg)(v - v_avg) + w S) / V; with a StressArray or
+ *   contacts also the stress itself, `sigma` (xx yy zz) and `tau` (xy xz yz). Without them the pressure contains only the velocity
+ *   fluctuations.
  *
  * Selected arrays besides (see GetArraySelection): `density` = sum w m / V, `momentum` = sum w m v / V, `granular_temperature` =
  * sum w m |v - v_avg|^2 / (3 sum w m) [m2/s2].
  *
- * With contacts (ports 1 and 2: lines or rows as vtkGranularContactSums takes them) the stress, and with it pressure, sigma and tau,
+ * With contacts (ports 1 and 2) the stress, and with it pressure, sigma and tau,
  * contain their part: branch_a force_b / V, shared among the cells along the line, by its length in each. `sigma_kinetic`,
  * `tau_kinetic`, `sigma_contact`, `tau_contact`: both parts; `coordination`: ends of contacts over particles, both by their parts
  * in the cell; `fabric`: mean product of contact normals, xx yy zz xy xz yz.
@@ -28,33 +28,21 @@
  * not count as fluctuation. The averages are over space at one moment; see SetTimeAverage. Sums are correctly rounded, so the result
  * is the same, bit for bit, for any order of particles and any number of threads and ranks.
  *
- * Positions are absolute, whatever the points are (see the field data of vtkGranularDumpReader: Unwrapped, Scaled, PointOrigin). The
- * output has the same PointOrigin. Ghost duplicates are left out. Particles that touch no cell, have a nan or infinite number, or a
- * negative mass or radius, are left out with a warning that counts them. Another warning tells that the reader left out particles by
- * Stride or RegionOfInterest (field data `ParticlesLeftOut` of the input).
+ * The output has the PointOrigin of the input. Particles that touch no cell are counted in a warning.
  */
 
 #ifndef vtkGranularEulerAverage_h
 #define vtkGranularEulerAverage_h
 
-#include "vtkGranularAlgorithm.h"
+#include "vtkGranularAverageAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
-class vtkAlgorithmOutput;
-class vtkDataArraySelection;
-
-class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkGranularAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkGranularAverageAlgorithm
 {
 public:
   static vtkGranularEulerAverage* New();
-  vtkTypeMacro(vtkGranularEulerAverage, vtkGranularAlgorithm);
+  vtkTypeMacro(vtkGranularEulerAverage, vtkGranularAverageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * Sets the contacts between particles, and those with walls: input ports 1 and 2, both optional. See the class.
-   */
-  void SetLinesConnection(vtkAlgorithmOutput* output);
-  void SetWallsConnection(vtkAlgorithmOutput* output);
 
   enum OutputTypes
   {
@@ -68,15 +56,6 @@ public:
     COUNTS = 0,
     SIZE = 1,
     RELATIVE_SIZE = 2
-  };
-
-  enum WeightsType
-  {
-    CENTRE = 0,
-    OVERLAP = 1,
-    GAUSSIAN = 2,
-    LUCY = 3,
-    HEAVISIDE = 4
   };
 
   enum KernelBoundsType
@@ -103,12 +82,6 @@ public:
   vtkSetClampMacro(ProfileAxis, int, 0, 2);
   vtkGetMacro(ProfileAxis, int);
   ///@}
-
-  /**
-   * Returns the selection of the arrays that are made. Those that are off cost nothing. v_avg, volumefraction, radius, pressure,
-   * sigma and tau are on by default.
-   */
-  virtual vtkDataArraySelection* GetArraySelection();
 
   ///@{
   /**
@@ -154,30 +127,18 @@ public:
 
   ///@{
   /**
-   * Sets the width w of the kernel [m]: GAUSSIAN is exp(-r^2 / 2 w^2), cut at 3 w; LUCY (1 + 3 q)(1 - q)^3 with q = r / 2 w;
-   * HEAVISIDE 1 within w. 0, the default: the largest diameter of the particles.
-   * KernelBounds: ALL_SPACE, the default: a kernel that reaches beyond the cells loses what is there. INSIDE: along axes that are
+   * Sets what happens at faces of the grid, with a kernel. ALL_SPACE, the default: a kernel that reaches beyond the cells loses what is there. INSIDE: along axes that are
    * not periodic it ends at the faces of the grid, and each particle inside belongs to the cells as a whole; for walls there.
    */
-  vtkSetMacro(KernelWidth, double);
-  vtkGetMacro(KernelWidth, double);
   vtkSetClampMacro(KernelBounds, int, ALL_SPACE, INSIDE);
   vtkGetMacro(KernelBounds, int);
   ///@}
 
   ///@{
   /**
-   * The point arrays that are averaged: velocities, three components ("v" by default; without it v_avg is 0, with a
-   * warning); masses ("mass"; without it they are made from the array `density` and the radii, or are 1, with a warning);
-   * radii ("radius"; OVERLAP needs them, CENTRE warns); and the stress of particles times their volume, six components xx
-   * yy zz xy xz yz as `compute stress/atom` gives them, which becomes the array c_ID of dumps (none by default).
+   * Sets the point array of the stress of particles times their volume, six components xx yy zz xy xz yz as `compute stress/atom`
+   * gives them, which becomes the array c_ID of dumps; none by default. Not together with contacts, which would count twice.
    */
-  vtkSetStringMacro(VelocityArray);
-  vtkGetStringMacro(VelocityArray);
-  vtkSetStringMacro(MassArray);
-  vtkGetStringMacro(MassArray);
-  vtkSetStringMacro(RadiusArray);
-  vtkGetStringMacro(RadiusArray);
   vtkSetStringMacro(StressArray);
   vtkGetStringMacro(StressArray);
   ///@}
@@ -196,7 +157,6 @@ public:
 protected:
   vtkGranularEulerAverage();
   ~vtkGranularEulerAverage() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -219,15 +179,10 @@ private:
   double Bounds[6] = { 1, -1, 1, -1, 1, -1 };
   int ProfileAxis = 2;
   int Weights = OVERLAP;
-  double KernelWidth = 0;
   int KernelBounds = ALL_SPACE;
   int Periodic = BOUNDARY;
-  char* VelocityArray = nullptr;
-  char* MassArray = nullptr;
-  char* RadiusArray = nullptr;
   char* StressArray = nullptr;
   bool TimeAverage = false;
-  vtkDataArraySelection* const ArraySelection;
 };
 
 #endif

@@ -86,10 +86,10 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("arrays", ""),
     ("dump", "request arrays"),
     ("local", "request arrays dump"),
-    ("euler", "request arrays dump"),
     ("decomposition", "request arrays dump"),
     ("paths", "request arrays dump local"),
     ("contacts", "request arrays dump local"),
+    ("euler", "request arrays dump contacts"),
     ("writing", "request dump"),
 )}
 

@@ -39,8 +39,7 @@ class ContactPasses
 {
 public:
   ContactPasses(const FoundEnds& contacts, const Box* box, const EulerAverageRequest& request,
-    Communicator& ranks, const Executor& executor, Progress& progress,
-    EulerAverages& averages)
+    Communicator& ranks, const Executor& executor, Progress& progress, EulerAverages& averages)
     : contacts_(contacts)
     , request_(request)
     , ranks_(ranks)

@@ -20,8 +20,7 @@ namespace granular
 ///
 /// contacts: of this rank; may be anywhere. Sums as average_in_cells has them. Throws Error, LimitError, Cancelled. Collective.
 void average_contacts(const FoundEnds& contacts, const Box* box, const EulerAverageRequest& request,
-  Communicator& ranks, const Executor& executor, Progress& progress,
-  EulerAverages& averages);
+  Communicator& ranks, const Executor& executor, Progress& progress, EulerAverages& averages);
 
 /// Adds the contact stress to stress and pressure, and keeps what they were without it as the kinetic part.
 void add_contact_stress(EulerCells& cells, EulerFields& fields);

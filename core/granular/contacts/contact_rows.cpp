@@ -6,15 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace granular
 {
 namespace
 {
-constexpr double largest = 0x1p290;
-
 /// A span of the rows: whether it is known, its size and name.
 struct Part
 {
@@ -37,9 +34,7 @@ std::array<Part, 7> parts_of(const ContactRows& rows) noexcept
 
 bool are_usable(std::span<const double> values, std::size_t row, std::size_t width) noexcept
 {
-  return values.empty() ||
-    std::ranges::all_of(
-      values.subspan(row * width, width), [](double value) { return std::abs(value) < largest; });
+  return values.empty() || std::ranges::all_of(values.subspan(row * width, width), is_usable);
 }
 }
 

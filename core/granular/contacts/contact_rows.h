@@ -4,6 +4,7 @@
 
 #include "granular/parallel/communicator.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -43,7 +44,13 @@ struct ContactKinds
 /// Collective.
 ContactKinds share_kinds(const ContactRows& rows, Communicator& ranks);
 
-/// Returns true for a row that is left out: a number of it is not finite, or too large to multiply (2^290).
+/// Returns true for a number that sums can have: it is finite, and not too large to multiply (2^290).
+inline bool is_usable(double number) noexcept
+{
+  return std::abs(number) < 0x1p290;
+}
+
+/// Returns true for a row that is left out, as a number of it is not usable.
 bool is_broken(const ContactRows& rows, std::size_t row) noexcept;
 }
 #endif

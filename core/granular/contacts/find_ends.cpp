@@ -19,7 +19,7 @@ namespace
 {
 constexpr std::size_t rows_of_stretch = 65536;
 
-/// What the contacts need to know of particles.
+/// What contacts need to know of particles.
 struct Needs
 {
   bool points = false;
@@ -27,27 +27,50 @@ struct Needs
   bool must_radii = false; ///< or else nothing tells the overlap
 };
 
+Needs find_needs(const ContactKinds& kind, const ContactOptions& options)
+{
+  return { !kind.ends,
+    !kind.walls && !kind.contact_point && options.arm == LeverArm::ContactPoint,
+    options.least_overlap > 0 && !kind.overlap };
+}
+
+/// What all contacts need together.
 Needs find_needs(std::span<const ContactKinds> kinds, std::span<const std::int64_t> counts,
   const ContactOptions& options)
 {
-  Needs needs;
+  Needs all;
   for (std::size_t i = 0; i < kinds.size(); ++i)
   {
     if (counts[i] == 0)
     {
       continue;
     }
-    const ContactKinds& kind = kinds[i];
-    if (kind.walls && !kind.ends && !kind.contact_point)
+    if (kinds[i].walls && !kinds[i].ends && !kinds[i].contact_point)
     {
       throw Error("expected lines or an array 'contact_point' of contacts with walls, got neither");
     }
-    needs.points = needs.points || !kind.ends;
-    needs.radii =
-      needs.radii || (!kind.walls && !kind.contact_point && options.arm == LeverArm::ContactPoint);
-    needs.must_radii = needs.must_radii || (options.least_overlap > 0 && !kind.overlap);
+    const Needs needs = find_needs(kinds[i], options);
+    all.points = all.points || needs.points;
+    all.radii = all.radii || needs.radii;
+    all.must_radii = all.must_radii || needs.must_radii;
   }
-  return needs;
+  return all;
+}
+
+/// Returns true if a needed number of a particle, or of none, is not usable.
+bool is_broken(const ContactParticles& particles, std::int64_t place, const Needs& needs) noexcept
+{
+  if (place < 0)
+  {
+    return false;
+  }
+  const bool radius = (needs.radii || needs.must_radii) && particles.radii;
+  if (radius && !is_usable(particles.radius(place)))
+  {
+    return true;
+  }
+  const double* const point = particles.points + place * particles.point_step;
+  return needs.points && !std::all_of(point, point + 3, is_usable);
 }
 
 /// Contacts of each input, of all ranks.
@@ -189,16 +212,17 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     std::array<std::vector<std::int64_t>, 2> places;
-    this->find_places(finder, inputs[i], kinds[i], places, executor, progress);
+    this->find_places(finder, inputs[i], kinds[i], ends, options, places, executor, progress);
     inputs_.emplace_back(inputs[i], kinds[i], ends, std::move(places), images_, options);
   }
 }
 
 /// Of each row; nowhere where it is left out.
 void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
-  const ContactKinds& kinds, std::array<std::vector<std::int64_t>, 2>& places,
-  const Executor& executor, Progress& progress)
+  const ContactKinds& kinds, const ContactParticles& particles, const ContactOptions& options,
+  std::array<std::vector<std::int64_t>, 2>& places, const Executor& executor, Progress& progress)
 {
+  const Needs needs = find_needs(kinds, options);
   std::atomic<std::int64_t> missing = 0;
   std::atomic<std::int64_t> broken = 0;
   places[0].assign(rows.count, IdFinder::nowhere);
@@ -217,7 +241,8 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
       for (std::size_t row = first; row < first + count; ++row)
       {
         const bool lacks = places[1][row] < 0 || (!kinds.walls && places[0][row] < 0);
-        const bool breaks = is_broken(rows, row);
+        const bool breaks = is_broken(rows, row) || is_broken(particles, places[0][row], needs) ||
+          is_broken(particles, places[1][row], needs);
         lost += lacks ? 1 : 0;
         bad += breaks ? 1 : 0;
         if (breaks || (lacks && !kinds.ends)) // or else it is not known where the contact is

@@ -82,6 +82,7 @@ private:
   };
 
   void find_places(const IdFinder& finder, const ContactRows& rows, const ContactKinds& kinds,
+    const ContactParticles& particles, const ContactOptions& options,
     std::array<std::vector<std::int64_t>, 2>& places, const Executor& executor, Progress& progress);
 
   MinimumImage images_;

@@ -27,6 +27,16 @@ GrainCells::GrainCells(const EulerGrid& grid, const Options& options, const Box*
   }
 }
 
+bool GrainCells::is_direct() const noexcept
+{
+  return weights_ == CellWeights::Centre && !images_.of_centres();
+}
+
+Vector3 GrainCells::reach(double radius) const noexcept
+{
+  return smooth_ ? smooth_->reach({}) : Vector3{ radius, radius, radius };
+}
+
 void GrainCells::set_largest_volume(double largest_volume) noexcept
 {
   constexpr int bits = 64;
@@ -42,5 +52,27 @@ void GrainCells::set_largest_volume(double largest_volume) noexcept
     quantum_ = (ratio > 0 ? std::max(std::ilogb(ratio), -500) : -500) - bits;
   }
   share_shift_ = std::ldexp(1.5, 52 + quantum_);
+}
+
+std::int64_t GrainCells::check(double radius) const
+{
+  if (smooth_)
+  {
+    smooth_->check();
+  }
+  const double reach = std::ranges::max(this->reach(weights_ == CellWeights::Centre ? 0 : radius));
+  images_.check(reach);
+  return images_.most_in_cell(reach);
+}
+
+std::array<std::int64_t, 3> GrainCells::cell_of(const Twofold3& image) const noexcept
+{
+  std::array<std::int64_t, 3> cell;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double x = floor_of(image[axis]); // below a face where the image is
+    cell[axis] = images_.is_twice(axis, x) ? -1 : finder_.find(axis, x);
+  }
+  return cell;
 }
 }

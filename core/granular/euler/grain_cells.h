@@ -2,6 +2,7 @@
 #ifndef granular_euler_grain_cells_h
 #define granular_euler_grain_cells_h
 
+#include "granular/euler/cell_weights.h"
 #include "granular/geometry/box.h"
 #include "granular/geometry/expansion.h"
 #include "granular/grid/cell_finder.h"
@@ -9,7 +10,6 @@
 #include "granular/grid/periodic_images.h"
 #include "granular/grid/sphere_box.h"
 #include "granular/grid/sphere_cells.h"
-#include "granular/kernels/kernel.h"
 #include "granular/kernels/smooth_cells.h"
 
 #include <algorithm>
@@ -21,26 +21,11 @@
 
 namespace granular
 {
-/// The division of a particle among cells.
-enum class CellWeights : std::uint8_t
-{
-  Centre,  ///< the whole particle in the cell of its centre, as in LIGGGHTS
-  Overlap, ///< each cell has the volume of the particle inside it
-  Kernel   ///< each cell has what a smoothing kernel around its centre gives: see SmoothCells
-};
-
 /// Finds the cells of particles and of their periodic images.
 class GrainCells
 {
 public:
-  struct Options
-  {
-    CellWeights weights = CellWeights::Overlap;
-    bool short_cuts = true; ///< see SphereCells
-    KernelShape kernel = KernelShape::Gaussian;
-    double width = 0; ///< of the kernel, above 0
-    KernelBounds bounds = KernelBounds::None;
-  };
+  using Options = WeightOptions;
 
   /// box: of which grains have images along its periodic axes, wherever the grid reaches; null or tilted: none have.
   GrainCells(const EulerGrid& grid, const Options& options, const Box* box);
@@ -48,10 +33,7 @@ public:
   GrainCells& operator=(const GrainCells&) = delete;
 
   /// Returns true if each particle has at most one cell, that of its centre: see CellFinder.
-  bool is_direct() const noexcept
-  {
-    return weights_ == CellWeights::Centre && !images_.of_centres();
-  }
+  bool is_direct() const noexcept;
   const CellFinder& finder() const noexcept { return finder_; }
 
   /// Working memory of a thread.
@@ -133,17 +115,7 @@ public:
 
   /// Checks that particles up to that radius can be divided; throws LimitError. Returns the largest number of shares that one
   /// may have in one cell: those of its images. Call it before asking for ranges or shares.
-  std::int64_t check(double radius) const
-  {
-    if (smooth_)
-    {
-      smooth_->check();
-    }
-    const double reach =
-      std::ranges::max(this->reach(weights_ == CellWeights::Centre ? 0 : radius));
-    images_.check(reach);
-    return images_.most_in_cell(reach);
-  }
+  std::int64_t check(double radius) const;
 
   /// largest_volume: of all particles. Call it before each_share if weights are Overlap.
   void set_largest_volume(double largest_volume) noexcept;
@@ -160,10 +132,7 @@ private:
       (weights_ == CellWeights::Overlap && sphere_volume(radius) == 0);
   }
 
-  Vector3 reach(double radius) const noexcept
-  {
-    return smooth_ ? smooth_->reach({}) : Vector3{ radius, radius, radius };
-  }
+  Vector3 reach(double radius) const noexcept;
 
   template <class Add>
   void each_smooth(
@@ -190,16 +159,7 @@ private:
   }
 
   /// The cell of an image, or -1 along axes where it is in none.
-  std::array<std::int64_t, 3> cell_of(const Twofold3& image) const noexcept
-  {
-    std::array<std::int64_t, 3> cell;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double x = floor_of(image[axis]); // below a face where the image is
-      cell[axis] = images_.is_twice(axis, x) ? -1 : finder_.find(axis, x);
-    }
-    return cell;
-  }
+  std::array<std::int64_t, 3> cell_of(const Twofold3& image) const noexcept;
 
   template <class Visit>
   void each_cell(const double* centre, const Visit& visit) const
