@@ -2,10 +2,11 @@
 #include "vtkGranularEulerAverage.h"
 
 #include "private/arrays/arrays.h"
+#include "private/contacts/found_contacts.h"
 #include "private/dump/dump_output.h"
 #include "private/dump/input_frames.h"
 #include "private/dump/particles.h"
-#include "private/euler/average_contacts.h"
+#include "private/euler/chosen_fields.h"
 #include "private/euler/euler_cells.h"
 #include "private/euler/weights.h"
 #include "private/request/guard.h"
@@ -115,11 +116,6 @@ private:
     return data;
   }
 
-  bool IsOn(const char* name) const
-  {
-    return this->Self->ArraySelection->ArrayIsEnabled(name) != 0;
-  }
-
   bool HaveContacts() const { return this->Inputs[1] || this->Inputs[2]; }
 
   void AverageFrames()
@@ -163,7 +159,6 @@ private:
   {
     this->Grains.emplace(inputs[0], this->Ranks);
     granular::Notices notices;
-    CheckAllThere(inputs[0], notices);
     granular::SerialCommunicator alone;
     granular::EulerAverages averages =
       this->Average(inputs, this->Together ? this->Ranks : alone, notices);
@@ -194,7 +189,7 @@ private:
     {
       view.header.box.boundary.clear();
     }
-    this->CheckTilt(view, notices);
+    TellOfGrains(inputs[0], view, notices);
     request.grid = this->MakeGrid(largest);
     request.wanted = this->FindWanted(request.grid);
     const bool smooth = this->Self->Weights >= GAUSSIAN && this->Self->KernelWidth == 0;
@@ -210,10 +205,12 @@ private:
     if (this->HaveContacts())
     {
       progress.set_part(0.5, 1);
-      const ContactsLeft left = AverageContacts({ inputs[1], inputs[2] }, view, request,
-        this->NeedStress(), ranks, executor, progress, averages);
-      this->Missing += left.Missing;
-      this->BrokenContacts += left.Broken;
+      const FoundContacts contacts(
+        { inputs[1], inputs[2] }, view, request.tensors, ranks, executor, notices, progress);
+      granular::average_contacts(contacts.GetEnds(), view.has_box ? &view.header.box : nullptr,
+        request, ranks, executor, progress, averages);
+      this->Missing += contacts.CountMissing();
+      this->BrokenContacts += contacts.CountBroken();
     }
     return averages;
   }
@@ -226,45 +223,12 @@ private:
       throw granular::Error("expected a StressArray or contacts (Lines, Walls), got both: contacts "
                             "would count twice");
     }
-    request.fields.density = this->IsOn("density");
-    request.fields.momentum = this->IsOn("momentum");
-    request.fields.temperature = this->IsOn("granular_temperature");
-    request.fields.coordination = contacts && this->IsOn("coordination");
-    request.fields.fabric = contacts && this->IsOn("fabric");
-    request.tensors = contacts && this->NeedStress();
-    request.pressure = this->IsOn("pressure");
+    const ChosenFields chosen =
+      vtkGranularPrivate::ChooseFields(this->Self->ArraySelection, contacts);
+    request.fields = chosen.Fields;
+    request.pressure = chosen.Pressure;
+    request.tensors = chosen.Stress;
     request.keep_sums = this->Self->TimeAverage || request.fields.coordination;
-  }
-
-  bool NeedStress() const
-  {
-    return this->IsOn("pressure") || this->IsOn("sigma") || this->IsOn("tau") ||
-      this->IsOn("sigma_kinetic") || this->IsOn("tau_kinetic") || this->IsOn("sigma_contact") ||
-      this->IsOn("tau_contact");
-  }
-
-  static void CheckAllThere(vtkDataObject* input, granular::Notices& notices)
-  {
-    const std::string leftOut = FindLeftOut(input->GetFieldData());
-    if (!leftOut.empty())
-    {
-      granular::Notice notice;
-      notice.text = "particles are missing that the reader left out (" + leftOut +
-        "): averages count the particles that are there, volume fraction and stress are too small";
-      notices.push_back(notice);
-    }
-  }
-
-  void CheckTilt(const granular::FrameView& view, granular::Notices& notices) const
-  {
-    const granular::Box& box = view.header.box;
-    if (view.has_box && box.tilted && box.boundary.find('p') != std::string::npos)
-    {
-      granular::Notice notice;
-      notice.text = "the box is tilted: particles have no periodic images, and cells at its faces "
-                    "lack their parts";
-      notices.push_back(notice);
-    }
   }
 
   granular::EulerGrid MakeGrid(double largestRadius) const
@@ -356,8 +320,7 @@ private:
     const bool scaled = view.coordinates == granular::Coordinates::Scaled;
     const granular::Vector3 origin = scaled ? granular::Vector3{} : view.point_origin;
     granular::EulerFrame frame = MakeFrame(std::move(this->Cells), std::move(this->Fields));
-    std::erase_if(frame.arrays,
-      [&](const granular::EulerValues& values) { return !this->IsOn(values.name.c_str()); });
+    KeepChosen(this->Self->ArraySelection, frame);
     vtkDataObject* output = this->Info->Get(vtkDataObject::DATA_OBJECT());
     if (this->Self->OutputType == POINTS)
     {

@@ -29,8 +29,7 @@ struct Needs
 
 Needs find_needs(const ContactKinds& kind, const ContactOptions& options)
 {
-  return { !kind.ends,
-    !kind.walls && !kind.contact_point && options.arm == LeverArm::ContactPoint,
+  return { !kind.ends, !kind.walls && !kind.contact_point && options.arm == LeverArm::ContactPoint,
     options.least_overlap > 0 && !kind.overlap };
 }
 
@@ -69,8 +68,12 @@ bool is_broken(const ContactParticles& particles, std::int64_t place, const Need
   {
     return true;
   }
+  if (!needs.points)
+  {
+    return false;
+  }
   const double* const point = particles.points + place * particles.point_step;
-  return needs.points && !std::all_of(point, point + 3, is_usable);
+  return !std::all_of(point, point + 3, is_usable);
 }
 
 /// Contacts of each input, of all ranks.

@@ -22,53 +22,6 @@ namespace
 /// The sums of a frame, and what TimeAverage keeps of a cell.
 constexpr double values_of_time_average = 6 + 44;
 
-/// What is counted over the ranks: grains, ranks that have any, and how many of these ranks know something of theirs.
-enum Count : std::size_t
-{
-  Rows,
-  Holders,
-  Velocity,
-  Radius,
-  Mass,
-  CountKinds
-};
-using Counts = std::array<std::int64_t, CountKinds>;
-
-/// Tells what is not known of the grains. The same on all ranks: grains speak for those who have none.
-void check_known(const Counts& known, const EulerAverageRequest& request, Notices& notices)
-{
-  struct Missing
-  {
-    Count count;
-    std::string what;
-    const char* then;
-  };
-  const Missing all[] = {
-    { Velocity, "no array '" + request.arrays.velocity + "' of velocities", "v_avg is 0" },
-    { Radius, "no array '" + request.arrays.radius + "' of radii",
-      "radius and volumefraction are 0" },
-    { Mass, "neither an array '" + request.arrays.mass + "' nor density and radius",
-      "the mass of each grain is taken as 1" },
-  };
-  for (const Missing& missing : all)
-  {
-    const std::int64_t count = known[missing.count];
-    if (count == 0 && known[Holders] > 0)
-    {
-      notices.push_back({ {}, missing.what + ": " + missing.then });
-    }
-    else if (count < known[Holders])
-    {
-      throw Error("expected the same arrays on all processes, got some with " + missing.what);
-    }
-  }
-  if (request.cells.weights == CellWeights::Overlap && known[Radius] == 0 && known[Holders] > 0)
-  {
-    throw Error("expected an array '" + request.arrays.radius +
-      "' of radii, which the weights Overlap need, got none");
-  }
-}
-
 std::string mebibytes(double bytes)
 {
   return std::to_string(static_cast<std::int64_t>(bytes / 1048576)) + " MiB";
@@ -101,6 +54,67 @@ void check_memory(const EulerAverageRequest& request)
       "; " + mebibytes(available) + " are available");
   }
 }
+
+/// What is counted over the ranks: grains, ranks that have any, and how many of these ranks know something of theirs.
+enum Count : std::size_t
+{
+  Rows,
+  Holders,
+  Velocity,
+  Radius,
+  Mass,
+  CountKinds
+};
+using Counts = std::array<std::int64_t, CountKinds>;
+
+/// Tells what is not known of the grains. The same on all ranks: grains speak for those who have none.
+void check_known(const Counts& known, const GrainArrays& arrays, bool need_radius, Notices& notices)
+{
+  struct Missing
+  {
+    Count count;
+    std::string what;
+    const char* then;
+  };
+  const Missing all[] = {
+    { Velocity, "no array '" + arrays.velocity + "' of velocities", "v_avg is 0" },
+    { Radius, "no array '" + arrays.radius + "' of radii", "radius and volumefraction are 0" },
+    { Mass, "neither an array '" + arrays.mass + "' nor density and radius",
+      "the mass of each grain is taken as 1" },
+  };
+  for (const Missing& missing : all)
+  {
+    const std::int64_t count = known[missing.count];
+    if (count == 0 && known[Holders] > 0)
+    {
+      notices.push_back({ {}, missing.what + ": " + missing.then });
+    }
+    else if (count < known[Holders])
+    {
+      throw Error("expected the same arrays on all processes, got some with " + missing.what);
+    }
+  }
+  if (need_radius && known[Radius] == 0 && known[Holders] > 0)
+  {
+    throw Error("expected an array '" + arrays.radius +
+      "' of radii, which the weights Overlap need, got none");
+  }
+}
+}
+
+std::int64_t check_grains(const FrameView& frame, const GrainSources& sources,
+  const GrainArrays& arrays, bool need_radius, Communicator& ranks, Notices& notices)
+{
+  if (frame.rows > 0 && !frame.points)
+  {
+    throw Error("expected points to average, got none");
+  }
+  const std::int64_t holds = frame.rows > 0 ? 1 : 0;
+  Counts known = { frame.rows, holds, sources.velocity[0] ? holds : 0, sources.radius ? holds : 0,
+    sources.mass || sources.density ? holds : 0 };
+  ranks.sum(known);
+  check_known(known, arrays, need_radius, notices);
+  return known[Rows];
 }
 
 WantedCells WantedCells::all(const EulerGrid& grid) noexcept
@@ -129,18 +143,11 @@ EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest
   return do_together(ranks,
     [&]
     {
-      if (frame.rows > 0 && !frame.points)
-      {
-        throw Error("expected points to average, got none");
-      }
       const GrainSources sources = find_grain_sources(frame, request.arrays);
-      const std::int64_t holds = frame.rows > 0 ? 1 : 0;
-      Counts known = { frame.rows, holds, sources.velocity[0] ? holds : 0,
-        sources.radius ? holds : 0, sources.mass || sources.density ? holds : 0 };
-      ranks.sum(known);
-      check_known(known, request, notices);
+      const std::int64_t rows = check_grains(frame, sources, request.arrays,
+        request.cells.weights == CellWeights::Overlap, ranks, notices);
       check_memory(request);
-      return AveragePasses(frame, sources, known[Rows], request, ranks, executor, progress).run();
+      return AveragePasses(frame, sources, rows, request, ranks, executor, progress).run();
     });
 }
 

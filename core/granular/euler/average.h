@@ -102,6 +102,11 @@ inline double deviation(double v, double mean) noexcept
 EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,
   Communicator& ranks, const Executor& executor, Notices& notices, Progress& progress);
 
+/// Checks what is known of the particles of all ranks, and tells what is not. Returns their number. Throws Error: rows without
+/// points, arrays that differ between ranks, no radii where they are needed. Collective.
+std::int64_t check_grains(const FrameView& frame, const GrainSources& sources,
+  const GrainArrays& arrays, bool need_radius, Communicator& ranks, Notices& notices);
+
 /// Returns the largest radius of the particles of all ranks; 0 without particles. Throws Error, on all ranks, if there are no
 /// radii. Collective.
 double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/grain_cells.h"
 
-#include "granular/common/error.h"
-#include "granular/numbers/number_print.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -19,10 +16,7 @@ GrainCells::GrainCells(const EulerGrid& grid, const Options& options, const Box*
 {
   if (weights_ == CellWeights::Kernel)
   {
-    if (!(options.width >= 1e-100 && options.width <= 1e100))
-    {
-      throw Error("expected a KernelWidth above 0, got " + to_text(options.width));
-    }
+    check_width(options.width);
     smooth_.emplace(grid_, Kernel(options.kernel, options.width), options.bounds, images_);
   }
 }

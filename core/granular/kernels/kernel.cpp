@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/kernels/kernel.h"
 
+#include "granular/common/error.h"
 #include "granular/geometry/expansion.h"
+#include "granular/numbers/number_print.h"
 
 #include <array>
 #include <cstddef>
@@ -131,6 +133,14 @@ struct Kernel::Chord
   double length; ///< of a unit
   double height; ///< of the centre above the line
 };
+
+void check_width(double width)
+{
+  if (!(width >= 1e-100 && width <= 1e100))
+  {
+    throw Error("expected a KernelWidth above 0, got " + to_text(width));
+  }
+}
 
 Kernel::Kernel(KernelShape shape, double width) noexcept
   : shape_(shape)

@@ -20,11 +20,14 @@ enum class KernelShape : std::uint8_t
   Heaviside ///< 1 within w
 };
 
+/// Throws Error if a width is not above 0, or so small or large that its cube is no number (1e-100 to 1e100).
+void check_width(double width);
+
 /// A smoothing kernel of a width w: 1 at its centre, and 0 from its support on. Not normalised.
 class Kernel
 {
 public:
-  /// width: above 0, from 1e-100 to 1e100.
+  /// width: see check_width.
   Kernel(KernelShape shape, double width) noexcept;
 
   KernelShape shape() const noexcept { return shape_; }

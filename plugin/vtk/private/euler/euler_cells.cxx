@@ -195,6 +195,11 @@ void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeI
   AddArrays(output->GetPointData(), frame, begin, count);
 }
 
+void FillArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkIdType count)
+{
+  AddArrays(data, frame, 0, count);
+}
+
 void FillTable(vtkTable* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
   vtkTypeInt64 end, int axis)
 {

@@ -12,6 +12,7 @@
 
 #include <array>
 
+class vtkDataSetAttributes;
 class vtkImageData;
 class vtkInformation;
 class vtkPolyData;
@@ -52,6 +53,11 @@ granular::EulerFrame MakeFrame(granular::EulerCells&& cells, granular::EulerFiel
  */
 void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
   vtkTypeInt64 end, const granular::Vector3& pointOrigin);
+
+/**
+ * Adds the arrays of the first entries of a frame.
+ */
+void FillArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkIdType count);
 
 /**
  * Fills the table with cells [begin, end) of a frame, a row for each: `position`, the coordinate of the centre along an axis, and
