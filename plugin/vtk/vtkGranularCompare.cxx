@@ -41,6 +41,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -196,7 +197,10 @@ private:
     frames.Begin(
       this->Self, { own ? this->Wanted.Piece : 0, own ? this->Wanted.Pieces : 1, 0 }, this->Ranks);
     this->Current = frames.GetShown();
-    this->Reference = frames.Get(this->Self, this->FindReference(frames), this->Ranks);
+    const std::size_t reference = this->FindReference(frames);
+    this->Reference = frames.Get(this->Self, reference, this->Ranks);
+    const std::vector<double>& times = frames.GetTimes();
+    this->Passed = times.empty() ? 0 : times[frames.GetShownNumber()] - times[reference];
     frames.End(this->Self->Reference == PREVIOUS);
   }
 
@@ -340,6 +344,25 @@ private:
     }
     FillLines({ inputs[0], &*rows[0], this->PartOf(all) },
       { inputs[1], &*rows[1], this->PartOf(lost) }, changes.current, ranks, this->Outputs[port]);
+    this->AddAges(this->Outputs[port]->GetCellData());
+  }
+
+  /**
+   * Lines that were kept are as old as the reference frame, at least.
+   */
+  void AddAges(vtkCellData* data) const
+  {
+    vtkDataArray* changes = data->GetArray("change");
+    vtkNew<vtkDoubleArray> ages;
+    ages->SetName("age");
+    for (vtkIdType line = 0; line < changes->GetNumberOfTuples(); ++line)
+    {
+      const auto change = static_cast<Change>(static_cast<int>(changes->GetComponent(line, 0)));
+      ages->InsertNextValue(change == Change::Kept ? this->Passed
+          : change == Change::New                  ? 0
+                                                   : std::numeric_limits<double>::quiet_NaN());
+    }
+    data->AddArray(ages);
   }
 
   void FindFragments(granular::Communicator& ranks)
@@ -447,6 +470,7 @@ private:
   bool Together = false;
   FrameData Current;
   FrameData Reference;
+  double Passed = 0;                                                     ///< time between both
   std::array<std::optional<vtkGranularPrivate::Particles>, 2> Particles; ///< of both frames
   Rows ParticleRows; ///< of the current frame, that are no duplicates
   granular::ComparedParticles Compared;

@@ -24,7 +24,8 @@
  * (`fragment` and `fragment_size`, too), and empty texts.
  *
  * Output 1 has the lines of the current frame, and behind them the lost ones where they were, with the cell arrays of the
- * lines and `change`. Values that lost lines do not have are as above. Each line has points of its own; point arrays are not
+ * lines, `change`, and `age` (double): the time since the reference frame for kept lines, which is the least that they are old, 0
+ * for new ones. Values that lost lines do not have are as above. Each line has points of its own; point arrays are not
  * passed. If port 0 has lines, output 0 has these lines instead of particles, and output 1 is empty.
  *
  * Lines are the same if they connect the same two particles, in any order (see SetBondTypeArray). If a frame has several lines

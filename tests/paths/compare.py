@@ -103,7 +103,10 @@ for reference, properties in (([0, 0, 400, 800], {"Reference": "Previous"}),
         frame, before = frames[steps.index(step)], frames[steps.index(reference[steps.index(step)])]
         found = arrays_of(output_of(other))["displacement"]
         assert numpy.allclose(found, unwrapped(frame, ids) - unwrapped(before, ids), rtol=0, atol=3e-14)
-        change = arrays_of(output_of(other, 1), points=False)["change"]
+        cells = arrays_of(output_of(other, 1), points=False)
+        change = cells["change"]
+        ages = numpy.choose(change, [step - before.timestep, 0, numpy.nan])  # kept, new, lost
+        assert numpy.array_equal(cells["age"], ages, equal_nan=True), (step, reference)
         now, then = pairs(rows[step], True), pairs(rows[before.timestep], True)
         expected = [int(pair not in then) for pair in now] + [2 for pair in then if pair not in now]
         assert change.tolist() == expected, (step, reference)
