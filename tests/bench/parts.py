@@ -147,6 +147,49 @@ EULER = Part("euler", "Cells: averages of particles",
      plot_euler, wants_cores=2, words=euler_words, page_tables=CELL_TABLES)
 
 
+def plot_kernels(pyplot, figures):
+    cases = figures.all(r"^width")
+    widths = [float(case.split()[2]) for case in cases]
+    figure, (noise, time, both) = pyplot.subplots(1, 3, figsize=(13, 4.2), layout="constrained")
+    for i, name in enumerate(("Gaussian", "Lucy", "Heaviside", "Overlap")):
+        look = {"color": f"C{i}", "marker": "os^D"[i], "label": name}
+        noises = [figures.get(case, f"{name}, noise:1") for case in cases]
+        noise.plot(widths, noises, **look)
+        time.plot(widths, [figures.get(case, f"{name}:ns/particle") for case in cases], **look)
+        blur = figures.get("blur of a step", f"{name}, blur:widths")
+        both.plot([blur * width for width in widths], noises, **look)
+    for axes in (noise, time, both):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.grid(color="0.9")
+        axes.legend(fontsize=8)
+    for axes in (noise, time):
+        axes.set_xlabel("width of the kernel / radius")
+    noise.set_ylabel("noise of the volume fraction, rms / mean")
+    time.set_ylabel("time [ns/particle]")
+    both.set_xlabel("blur of a step, 10 to 90 % / radius")
+    both.set_ylabel("noise of the volume fraction, rms / mean")
+    return figure
+
+
+KERNEL_NAMES = ("Gaussian", "Lucy", "Heaviside", "Overlap")
+
+KERNELS = Part("kernels", "Smooth fields: kernels",
+     """Spheres of equal radius at random in a cube that they would fill by half if they did not overlap, so that the exact field is
+     uniform: noise is the root mean square of the volume fraction's deviations over its mean. Fields on a grid as fine as the width;
+     Overlap in cells that are as large as the sphere of Heaviside. blur: the way from 10 to 90 % of a step of the density, which is
+     proportional to the width. A Gaussian has the least noise for its blur; boxes are the fastest. Times include exact sums. One
+     thread.""",
+     [cases_by_metrics(r"^width", *columns(".0f", "particles:1"),
+                       *(Column(f"{name} noise", f"{name}, noise:1", ".3f") for name in KERNEL_NAMES)),
+      cases_by_metrics(r"^width", *(Column(f"{name} ns/particle", f"{name}:ns/particle", ".0f") for name in KERNEL_NAMES),
+                       Column("Heaviside against Overlap", "Heaviside, time against Overlap:1", ".2f"), *columns(".0%", "spread:1")),
+      cases_by_metrics(r"^blur", *(Column(f"{name} [widths]", f"{name}, blur:widths", ".2f") for name in KERNEL_NAMES),
+                       *(Column(f"{name} exact", f"{name}, blur, exact:widths", ".2f") for name in KERNEL_NAMES)),
+      cases_by_metrics(r"^lines", *columns(".0f", "mean over a line:ns", "value at a point:ns"))],
+     (), plot_kernels)
+
+
 # ---- the parts -----------------------------------------------------------------------------------
 PARTS = (
     Part("decode", "Decode: text to columns in memory",
