@@ -72,7 +72,7 @@ struct ContactSums
 ///
 /// Terms are rounded doubles; sums are correctly rounded, so that order, threads and ranks cannot matter. Throws Error, on all
 /// ranks: particles without ids, or without radii where a stress is divided by the volume,
-/// arrays that differ between ranks, contacts with walls without places, an overlap that nothing
+/// arrays that differ between ranks, contacts with walls without places, a least force or overlap that nothing
 /// tells; Cancelled; std::bad_alloc. Collective.
 ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows> inputs,
   const ContactSumsRequest& request, Communicator& ranks, Progress& progress);

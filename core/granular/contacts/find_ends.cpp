@@ -89,7 +89,8 @@ std::vector<std::int64_t> count_all(std::span<const ContactRows> inputs, Communi
 }
 
 /// Forces of all contacts, or of none.
-bool check_forces(std::span<const ContactKinds> kinds, std::span<const std::int64_t> counts)
+bool check_forces(std::span<const ContactKinds> kinds, std::span<const std::int64_t> counts,
+  const ContactOptions& options)
 {
   std::optional<bool> forces;
   for (std::size_t i = 0; i < kinds.size(); ++i)
@@ -103,6 +104,10 @@ bool check_forces(std::span<const ContactKinds> kinds, std::span<const std::int6
       }
       forces = kinds[i].force;
     }
+  }
+  if (options.least_force > 0 && !forces.value_or(true))
+  {
+    throw Error("expected forces of the contacts for MinimumForce, got none");
   }
   return forces.value_or(true);
 }
@@ -165,7 +170,7 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
     rows_ += rows.count;
   }
   const std::vector<std::int64_t> counts = count_all(inputs, ranks);
-  forces_ = check_forces(kinds, counts);
+  forces_ = check_forces(kinds, counts, options);
   const Needs needs = find_needs(kinds, counts, options);
   const Ids ids = find_ids(particles, executor, progress);
   if (needs.radii || needs.must_radii)

@@ -44,10 +44,10 @@ public:
   void each_range(const Vector3& start, const Vector3& branch, const Visit& visit) const
   {
     this->each_image(start, branch,
-      [&](const Vector3& image)
+      [&](const Vector3& image, const Vector3& middle)
       {
         const CellRange range =
-          smooth_ ? smooth_->range(image, branch) : this->range(image, branch);
+          smooth_ ? smooth_->range(image, branch, middle) : this->range(image, branch);
         if (range.size() > 0)
         {
           visit(range);
@@ -62,17 +62,29 @@ public:
     const Add& add) const
   {
     this->each_image(start, branch,
-      [&](const Vector3& image)
+      [&](const Vector3& image, const Vector3& middle)
       {
-        if (!smooth_ || !smooth_->each(image, branch, within, room.of_kernel, add))
+        if (!smooth_)
         {
           this->cut(image, branch, within, room, add);
+        }
+        else if (!smooth_->each(image, branch, middle, within, room.of_kernel, add))
+        {
+          // along an axis with one cell the middle decides, as with a wider kernel
+          Vector3 from = image;
+          Vector3 along = branch;
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            from[axis] = grid_.counts[axis] == 1 ? middle[axis] : from[axis];
+            along[axis] = grid_.counts[axis] == 1 ? 0 : along[axis];
+          }
+          this->cut(from, along, within, room, add);
         }
       });
   }
 
 private:
-  /// Calls visit(start of the image).
+  /// Calls visit(start of the image, its middle): both on the side of faces on which the exact image of the middle is.
   template <class Visit>
   void each_image(const Vector3& start, const Vector3& branch, const Visit& visit) const
   {
@@ -86,12 +98,17 @@ private:
     images_.each(middle.data(), smooth_ ? smooth_->reach(branch) : reach,
       [&](const Twofold3& image)
       {
-        Vector3 moved = start;
+        Vector3 moved;
+        const Vector3 at = floors_of(image);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          moved[axis] += image[axis].hi - middle[axis] + image[axis].lo;
+          const auto& [hi, lo] = image[axis];
+          const double to_start = start[axis] - middle[axis];
+          moved[axis] = at[axis] == middle[axis] ? start[axis]
+            : to_start == 0                      ? at[axis]
+                                                 : hi + (lo + to_start);
         }
-        visit(moved);
+        visit(moved, at);
       });
   }
 

@@ -67,7 +67,8 @@ Bins::Bins(const Extent& whole, double edge, std::span<const Extent> things)
     count = 1;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      counts[axis] = std::floor((whole.hi[axis] - whole.lo[axis]) / by) + 1;
+      counts[axis] =
+        std::floor(whole.hi[axis] / by - whole.lo[axis] / by) + 1; // no overflow in the end
       per_edge_[axis] = 1 / by;
       count *= counts[axis];
     }

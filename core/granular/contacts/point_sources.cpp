@@ -111,9 +111,28 @@ private:
     return this->send(grains);
   }
 
+  /// The longest component of the branches of all ranks.
+  double find_longest(const FoundEnds& contacts)
+  {
+    double longest = 0;
+    for (std::size_t i = 0; i < contacts.rows(); ++i)
+    {
+      const auto [ends, row] = contacts.at(static_cast<std::int64_t>(i));
+      if (ends.place(row, 0) >= 0 || ends.place(row, 1) >= 0)
+      {
+        for (const double component : ends.branch(row))
+        {
+          longest = std::max(longest, std::abs(component));
+        }
+      }
+    }
+    return std::ranges::max(gather(ranks_, longest));
+  }
+
   std::vector<NearLine> send_lines(const FoundEnds* contacts)
   {
     const PeriodicImages images = this->find_images();
+    images.check(this->find_longest(*contacts) / 2);
     std::vector<NearLine> lines;
     for (std::size_t i = 0; i < contacts->rows(); ++i)
     {

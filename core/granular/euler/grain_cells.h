@@ -4,7 +4,6 @@
 
 #include "granular/euler/cell_weights.h"
 #include "granular/geometry/box.h"
-#include "granular/geometry/expansion.h"
 #include "granular/grid/cell_finder.h"
 #include "granular/grid/euler_grid.h"
 #include "granular/grid/periodic_images.h"
@@ -58,8 +57,8 @@ public:
     images_.each(centre, this->reach(radius),
       [&](const Twofold3& image)
       {
-        const CellRange range =
-          smooth_ ? smooth_->range(values_of(image), {}) : spheres_.range(image, radius);
+        const CellRange range = smooth_ ? smooth_->range(values_of(image), {}, floors_of(image))
+                                        : spheres_.range(image, radius);
         if (range.size() > 0)
         {
           visit(range);
@@ -141,7 +140,7 @@ private:
     images_.each(centre, smooth_->reach({}),
       [&](const Twofold3& image)
       {
-        const bool found = smooth_->each(values_of(image), {}, within, room,
+        const bool found = smooth_->each(values_of(image), {}, floors_of(image), within, room,
           [&](std::int64_t cell, double part)
           {
             const double rounded = part + share_shift_ - share_shift_;

@@ -34,7 +34,11 @@ PeriodicImages::PeriodicImages(const EulerGrid& grid, const Box* box)
     const bool repeats = is_periodic(*box, axis) && bounds.lo[axis] < bounds.hi[axis];
     const Twofold length = box->vectors[axis][axis];
     const double margin = rounding * length.value();
-    const bool wraps = repeats && grid.hi[axis] - length.value() >= grid.lo[axis];
+    Expansion<4> rest; // of the grid beyond a period: exact, as grids often are a period long
+    rest.add(grid.hi[axis]);
+    rest.add(-grid.lo[axis]);
+    rest.add(Twofold{ -length.hi, -length.lo });
+    const bool wraps = repeats && rest.sign() >= 0;
     axes_[axis] = { repeats, wraps, length, grid.hi[axis] - length.value() + margin,
       grid.lo[axis] + length.value() - margin };
     of_centres_ = of_centres_ ||

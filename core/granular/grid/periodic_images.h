@@ -3,6 +3,7 @@
 #define granular_grid_periodic_images_h
 
 #include "granular/geometry/box.h"
+#include "granular/geometry/expansion.h"
 #include "granular/grid/euler_grid.h"
 
 #include <array>
@@ -11,6 +12,12 @@
 
 namespace granular
 {
+/// Returns an image rounded downwards: on the side of any face on which the image is.
+inline Vector3 floors_of(const Twofold3& image) noexcept
+{
+  return { floor_of(image[0]), floor_of(image[1]), floor_of(image[2]) };
+}
+
 /// The images of particles along the periodic axes of a box that reach into a grid.
 class PeriodicImages
 {

@@ -20,7 +20,8 @@ enum class KernelShape : std::uint8_t
   Heaviside ///< 1 within w
 };
 
-/// Throws Error if a width is not above 0, or so small or large that its cube is no number (1e-100 to 1e100).
+/// Throws Error if a width is not above 0, or so small or large that its fourth power is no number of all digits (1e-60 to
+/// 1e60).
 void check_width(double width);
 
 /// A smoothing kernel of a width w: 1 at its centre, and 0 from its support on. Not normalised.

@@ -58,16 +58,16 @@ Vector3 SmoothCells::reach(const Vector3& branch) const noexcept
 
 /// Along an axis with one cell all that begins in the middle of the line counts, and an image only once; along an axis that
 /// ends at faces only lines inside.
-bool SmoothCells::is_inside(const Vector3& start, const Vector3& branch) const noexcept
+bool SmoothCells::is_inside(const Vector3& middle) const noexcept
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double middle = start[axis] + branch[axis] / 2;
-    if (!smooth_[axis] && (finder_.find(axis, middle) < 0 || images_.is_twice(axis, middle)))
+    const double x = middle[axis];
+    if (!smooth_[axis] && (finder_.find(axis, x) < 0 || images_.is_twice(axis, x)))
     {
       return false;
     }
-    if (bounded_[axis] && finder_.find(axis, middle) < 0)
+    if (bounded_[axis] && finder_.find(axis, x) < 0)
     {
       return false;
     }
@@ -93,10 +93,11 @@ std::array<std::int64_t, 2> SmoothCells::cells_near(
     : std::array{ static_cast<std::int64_t>(first), static_cast<std::int64_t>(last) };
 }
 
-CellRange SmoothCells::range(const Vector3& start, const Vector3& branch) const noexcept
+CellRange SmoothCells::range(
+  const Vector3& start, const Vector3& branch, const Vector3& middle) const noexcept
 {
   CellRange range;
-  if (!this->is_inside(start, branch))
+  if (!this->is_inside(middle))
   {
     return range;
   }

@@ -52,18 +52,19 @@ public:
   Vector3 reach(const Vector3& branch) const noexcept;
 
   /// Returns the cells that a line may belong to: an image, with its start, the middle of which is at most reach() away from
-  /// the grid.
-  CellRange range(const Vector3& start, const Vector3& branch) const noexcept;
+  /// the grid. middle: which side of faces it is on; a rounded start does not tell of images.
+  CellRange range(
+    const Vector3& start, const Vector3& branch, const Vector3& middle) const noexcept;
 
   /// Calls add(cell in the range, part) for the cells of a range that a line belongs to. A branch of 0 is a point. Returns
   /// false if the kernel is so narrow that it has no cell: the line then belongs to the cells in which it is. May be called
   /// from any thread.
   template <class Add>
-  bool each(const Vector3& start, const Vector3& branch, const CellRange& within, Room& room,
-    const Add& add) const
+  bool each(const Vector3& start, const Vector3& branch, const Vector3& middle,
+    const CellRange& within, Room& room, const Add& add) const
   {
     double all = 0;
-    if (!this->is_inside(start, branch))
+    if (!this->is_inside(middle))
     {
       return true;
     }
@@ -76,7 +77,7 @@ public:
   }
 
 private:
-  bool is_inside(const Vector3& start, const Vector3& branch) const noexcept;
+  bool is_inside(const Vector3& middle) const noexcept;
   std::array<std::int64_t, 2> cells_near(std::size_t axis, double lo, double hi) const noexcept;
   void find(const Vector3& start, const Vector3& branch, const CellRange& within, Room& room,
     double& all) const;
