@@ -290,9 +290,12 @@ private:
     tuples->SetNumberOfIds(last - first);
     std::iota(tuples->begin(), tuples->end(), first);
     vtkPolyData* output = this->Outputs[0];
-    vtkNew<vtkPoints> points;
-    points->SetData(vtkDataArray::SafeDownCast(TakeTuples(all->GetPoints()->GetData(), tuples)));
-    output->SetPoints(points);
+    if (vtkPoints* const given = all->GetPoints())
+    {
+      vtkNew<vtkPoints> points;
+      points->SetData(vtkDataArray::SafeDownCast(TakeTuples(given->GetData(), tuples)));
+      output->SetPoints(points);
+    }
     output->SetVerts(MakeCells(last - first, 1));
     for (int i = 0; i < all->GetPointData()->GetNumberOfArrays(); ++i)
     {
