@@ -3,7 +3,7 @@
 import math
 import re
 
-from parts import EULER, KERNELS
+from parts import CONTACTS, EULER, KERNELS
 from tables import Column, Part, Target, cases_by_metrics, columns, markdown, scientific, span, verdict
 
 PLACES = ("0", "1e3", "1e6")
@@ -506,6 +506,7 @@ SCENE_PARTS = (
          [Target(r"^1 frame", "read against all:1", "<=", 0.06)], plot_choose, script=True),
     EULER,
     KERNELS,
+    CONTACTS,
     Part("average", "Averages over frames",
          """20,000 equal spheres at random that do not overlap, in a periodic box; 5 to 312 in each cell. Moving: in each frame
          at other places. At rest: at the same places in all frames. The expected volume fraction is 0.3. The velocity is a
