@@ -384,10 +384,10 @@ void add_benchmarks(const Size& size)
     const std::string order = in_order ? "in order" : "shuffled";
     for (const Selection& what : selections)
     {
-      add("contacts/" + what.name + ", " + order, size.pick(15, 1),
+      add("contacts/" + what.name + ", " + order, size.pick(in_order ? 5 : 3, 1),
         [=](benchmark::State& state) { measure(state, contacts_of(size, in_order), what, 1); });
     }
-    add("contacts/two threads, all, " + order, size.pick(15, 1),
+    add("contacts/two threads, all, " + order, size.pick(in_order ? 5 : 3, 1),
       [=](benchmark::State& state)
       { measure(state, contacts_of(size, in_order), selections[0], 2); });
   }

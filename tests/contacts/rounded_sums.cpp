@@ -31,7 +31,7 @@ std::optional<double> quick_sum(const Terms& terms)
   RoundedSums<1> sums;
   for (const double& term : terms)
   {
-    sums.add({ &term, 1 });
+    sums.add(std::span<const double, 1>(&term, 1));
   }
   double sum = 0;
   return sums.round(0, sum) ? std::optional(sum) : std::nullopt;
@@ -292,7 +292,7 @@ TEST(RoundedSums, SumsBesideEachOther)
 {
   std::mt19937_64 random(5);
   std::array<Terms, 7> columns;
-  RoundedSums<18> sums;
+  RoundedSums<7> sums;
   for (int row = 0; row < 500; ++row)
   {
     std::array<double, 7> terms;
@@ -309,11 +309,5 @@ TEST(RoundedSums, SumsBesideEachOther)
     double sum = 0;
     EXPECT_TRUE(sums.round(i, sum));
     EXPECT_EQ(sum, true_sum(columns[i])) << i;
-  }
-  for (std::size_t i = columns.size(); i < 18; ++i)
-  {
-    double sum = 1;
-    EXPECT_TRUE(sums.round(i, sum));
-    EXPECT_EQ(sum, 0) << i;
   }
 }

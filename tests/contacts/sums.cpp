@@ -119,7 +119,7 @@ TEST(ContactSums, SwappedEnds)
   }
 }
 
-TEST(ContactSums, AnyNumberOfThreads)
+TEST(ContactSums, AnyNumberOfThreadsAndMemory)
 {
   SceneForm form;
   form.grains = 5000; // several blocks
@@ -133,11 +133,13 @@ TEST(ContactSums, AnyNumberOfThreads)
     made::ContactSumsRequest request = made::everything();
     const made::Found expected = sum_all(scene, request);
     EXPECT_EQ(count_different(sum_all(scene, plain_request()).grains, plain_sums(scene)), 0);
-    for (const int threads : { 2, 3, 4 })
+    for (const auto& [threads, memory] :
+      { std::pair{ 2, request.memory }, { 3, 500'000 }, { 4, 1'000'000 }, { 1, 0 } })
     {
       request.threads = threads;
+      request.memory = memory;
       const made::Found found = sum_all(scene, request);
-      EXPECT_EQ(count_different(found.grains, expected.grains), 0) << threads;
+      EXPECT_EQ(count_different(found.grains, expected.grains), 0) << threads << ", " << memory;
       EXPECT_EQ(found.friction, expected.friction);
       EXPECT_EQ(found.counts, expected.counts);
     }

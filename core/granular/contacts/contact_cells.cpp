@@ -78,9 +78,9 @@ public:
       if (request_.fields.fabric)
       {
         this->add(group, normals_,
-          [](const ContactEnds& ends, std::size_t row, const Line&, SumScale::Terms& terms)
+          [](const ContactEnds& ends, std::size_t row, const Line& line, SumScale::Terms& terms)
           {
-            const auto& [x, y, z] = ends.load(row, 1).normal;
+            const auto& [x, y, z] = ends.normal(row, line.branch);
             const double counts = ends.counts(row);
             terms = { counts * x * x, counts * y * y, counts * z * z, counts * x * y,
               counts * x * z, counts * y * z, 0, 0 };

@@ -6,7 +6,6 @@
 #include "granular/geometry/box.h"
 #include "granular/local/minimum_image.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,16 +27,6 @@ struct ContactOptions
   double least_overlap = 0; ///< [m] as well
 };
 
-/// A contact as a particle feels it.
-struct ContactEnd
-{
-  Vector3 force = {};  ///< on the particle
-  Vector3 arm = {};    ///< from its centre to where the force acts
-  Vector3 torque = {}; ///< on the particle
-  Vector3 normal = {}; ///< towards the other end, of length 1, or 0 if the ends coincide
-  double counts = 0;   ///< 1, or 0 for a contact below the least force or overlap
-};
-
 /// The particles at the ends of contacts.
 struct ContactParticles
 {
@@ -57,56 +46,133 @@ public:
 
   /// places: of both particles of each row, or nowhere; of a wall always nowhere.
   ContactEnds(const ContactRows& rows, const ContactKinds& kinds, const ContactParticles& particles,
-    const std::array<std::span<const std::int64_t>, 2>& places, const MinimumImage& images,
-    const ContactOptions& options) noexcept;
+    std::span<const std::int64_t> places, const MinimumImage& images,
+    const ContactOptions& options) noexcept
+    : rows_(rows)
+    , kinds_(kinds)
+    , particles_(particles)
+    , places_(places)
+    , images_(images)
+    , options_(options)
+  {
+  }
 
   std::size_t count() const noexcept { return rows_.count; }
 
   bool is_wall() const noexcept { return kinds_.walls; }
 
   /// Returns the particle at end 0 or 1 of a row, or nowhere.
-  std::int64_t place(std::size_t row, std::size_t end) const noexcept { return places_[end][row]; }
-
-  /// Returns the vector from the first to the second end: with a wall from the point that is touched to the centre.
-  Vector3 branch(std::size_t row) const noexcept;
+  std::int64_t place(std::size_t row, std::size_t end) const noexcept
+  {
+    return places_[2 * row + end];
+  }
 
   /// Returns where the first end is.
-  Vector3 first(std::size_t row) const noexcept;
+  Vector3 first(std::size_t row) const noexcept
+  {
+    return kinds_.walls && !kinds_.ends ? of(rows_.contact_point, row) : this->centre(row, 0);
+  }
+
+  /// Returns the vector from the first to the second end: with a wall from the point that is touched to the centre.
+  Vector3 branch(std::size_t row) const noexcept
+  {
+    const Vector3 first = this->first(row);
+    const Vector3 second = this->centre(row, 1);
+    const Vector3 direct = minus(second, first);
+    return kinds_.ends ? direct : images_.moved(second, images_.find(direct), first);
+  }
 
   /// Returns 1, or 0 for a contact below the least force or overlap.
-  double counts(std::size_t row) const noexcept;
+  double counts(std::size_t row) const noexcept
+  {
+    return options_.least_force > 0 || options_.least_overlap > 0 ? this->is_enough(row) : 1;
+  }
 
+  /// Returns the force on the first particle, of a wall on the particle.
   Vector3 force(std::size_t row) const noexcept { return of(rows_.force, row); }
+
+  /// Returns the force on the particle at an end.
+  Vector3 force(std::size_t row, std::size_t end) const noexcept
+  {
+    return this->turned(end, this->force(row));
+  }
+
+  /// Returns the vector from the centre of the particle at an end to where the force acts. branch: of the row, here and below.
+  Vector3 arm(std::size_t row, std::size_t end, const Vector3& branch) const noexcept
+  {
+    if (kinds_.contact_point && options_.arm == LeverArm::ContactPoint)
+    {
+      const Vector3 centre = this->centre(row, end);
+      const Vector3 point = of(rows_.contact_point, row);
+      return images_.moved(point, images_.find(minus(point, centre)), centre);
+    }
+    return kinds_.walls ? minus(branch) : this->turned(end, times(this->part(row, end), branch));
+  }
+
+  /// Returns the torque on the particle at an end. Both together have the moment of the two forces, which have the branch
+  /// vector between them.
+  Vector3 torque(
+    std::size_t row, std::size_t end, const Vector3& branch, const Vector3& arm) const noexcept
+  {
+    if (!kinds_.torque)
+    {
+      return cross(arm, this->force(row, end));
+    }
+    const Vector3 of_first = of(rows_.torque, row);
+    return this->is_other(end) ? minus(cross(branch, this->force(row)), of_first) : of_first;
+  }
+
+  /// Returns the vector of length 1 from the second end to the first one, from a particle to its wall; 0 if the ends coincide.
+  Vector3 normal(std::size_t row, const Vector3& branch) const noexcept
+  {
+    const Vector3 towards = kinds_.walls ? this->arm(row, 1, branch) : minus(branch);
+    const double length = length_of(towards);
+    return length > 0 ? Vector3{ towards[0] / length, towards[1] / length, towards[2] / length }
+                      : Vector3{};
+  }
 
   /// Returns the part of the force across the normal over that along it: of the contact's friction, that is in use. 0 without
   /// a force.
   double friction(std::size_t row) const noexcept;
 
-  /// Returns the contact as the particle at an end feels it.
-  ContactEnd load(std::size_t row, std::size_t end) const noexcept;
-
-  /// Prefetches what load needs.
-  void prefetch(std::size_t row) const noexcept
-  {
-    __builtin_prefetch(rows_.force.data() + 3 * row);
-    __builtin_prefetch(rows_.ends.data() + 6 * row);
-    __builtin_prefetch(rows_.contact_point.data() + 3 * row);
-  }
-
 private:
+  static Vector3 minus(const Vector3& a, const Vector3& b) noexcept
+  {
+    return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+  }
+  static Vector3 minus(const Vector3& a) noexcept { return { -a[0], -a[1], -a[2] }; }
+  static Vector3 times(double factor, const Vector3& a) noexcept
+  {
+    return { factor * a[0], factor * a[1], factor * a[2] };
+  }
   static Vector3 of(std::span<const double> values, std::size_t row) noexcept
   {
     return values.empty() ? Vector3{}
                           : Vector3{ values[3 * row], values[3 * row + 1], values[3 * row + 2] };
   }
 
-  Vector3 centre(std::size_t row, std::size_t end) const noexcept;
-  Vector3 arm(std::size_t row, std::size_t end, const Vector3& branch) const noexcept;
+  /// Returns true at the end whose particle feels the opposite of what the first one feels.
+  bool is_other(std::size_t end) const noexcept { return end == 1 && !kinds_.walls; }
+  Vector3 turned(std::size_t end, const Vector3& a) const noexcept
+  {
+    return this->is_other(end) ? minus(a) : a;
+  }
+
+  Vector3 centre(std::size_t row, std::size_t end) const noexcept
+  {
+    const double* const from = kinds_.ends
+      ? rows_.ends.data() + 6 * row + 3 * end
+      : particles_.points + this->place(row, end) * particles_.point_step;
+    return { from[0], from[1], from[2] };
+  }
+
+  double is_enough(std::size_t row) const noexcept;
+  double part(std::size_t row, std::size_t end) const noexcept;
 
   const ContactRows& rows_;
   ContactKinds kinds_;
   ContactParticles particles_;
-  std::array<std::span<const std::int64_t>, 2> places_;
+  std::span<const std::int64_t> places_; ///< two a row
   const MinimumImage& images_;
   ContactOptions options_;
 };

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace granular
@@ -32,9 +34,18 @@ std::array<Part, 7> parts_of(const ContactRows& rows) noexcept
     { "overlap", rows.overlap.size(), 1, &ContactKinds::overlap } } };
 }
 
-bool are_usable(std::span<const double> values, std::size_t row, std::size_t width) noexcept
+bool are_usable(
+  std::span<const double> values, std::size_t first, std::size_t count, std::size_t width) noexcept
 {
-  return values.empty() || std::ranges::all_of(values.subspan(row * width, width), is_usable);
+  // by the bits, whose order is that of the numbers, infinities and nan above them: many at once
+  constexpr auto most = std::bit_cast<std::uint64_t>(largest_usable);
+  constexpr std::uint64_t sign = std::uint64_t{ 1 } << 63;
+  std::uint64_t rest = 0;
+  for (std::size_t i = first * width; !values.empty() && i < (first + count) * width; ++i)
+  {
+    rest |= most - (std::bit_cast<std::uint64_t>(values[i]) & ~sign);
+  }
+  return (rest & sign) == 0;
 }
 }
 
@@ -76,10 +87,10 @@ ContactKinds share_kinds(const ContactRows& rows, Communicator& ranks)
     });
 }
 
-bool is_broken(const ContactRows& rows, std::size_t row) noexcept
+bool is_broken(const ContactRows& rows, std::size_t first, std::size_t count) noexcept
 {
-  return !(are_usable(rows.ends, row, 6) && are_usable(rows.force, row, 3) &&
-    are_usable(rows.tangential, row, 3) && are_usable(rows.torque, row, 3) &&
-    are_usable(rows.contact_point, row, 3) && are_usable(rows.overlap, row, 1));
+  return !(are_usable(rows.ends, first, count, 6) && are_usable(rows.force, first, count, 3) &&
+    are_usable(rows.tangential, first, count, 3) && are_usable(rows.torque, first, count, 3) &&
+    are_usable(rows.contact_point, first, count, 3) && are_usable(rows.overlap, first, count, 1));
 }
 }

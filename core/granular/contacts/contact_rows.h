@@ -44,13 +44,15 @@ struct ContactKinds
 /// Collective.
 ContactKinds share_kinds(const ContactRows& rows, Communicator& ranks);
 
-/// Returns true for a number that sums can have: it is finite, and not too large to multiply (2^290).
+constexpr double largest_usable = 0x1.fffffffffffffp289;
+
+/// Returns true for a number that sums can have: it is finite, and not too large to multiply (below 2^290).
 inline bool is_usable(double number) noexcept
 {
-  return std::abs(number) < 0x1p290;
+  return std::abs(number) <= largest_usable;
 }
 
-/// Returns true for a row that is left out, as a number of it is not usable.
-bool is_broken(const ContactRows& rows, std::size_t row) noexcept;
+/// Returns true if one of some rows is left out, as a number of it is not usable.
+bool is_broken(const ContactRows& rows, std::size_t first, std::size_t count) noexcept;
 }
 #endif

@@ -23,128 +23,98 @@ namespace granular
 namespace
 {
 /// Ends of contacts that all are known here.
-class EndsHere
+class EndsHere final : public EndSource
 {
 public:
-  explicit EndsHere(const FoundEnds& found)
+  EndsHere(const FoundEnds& found, const ContactTerms& terms)
     : found_(found)
+    , terms_(terms)
   {
   }
 
-  std::size_t size() const noexcept { return 2 * found_.rows(); }
+  std::span<const std::int64_t> places() const noexcept override { return found_.places(); }
 
-  std::int64_t place(std::int64_t end) const noexcept
+  /// Makes the terms of some ends; those of both ends of a contact at once, where they follow each other.
+  void read(std::span<const std::size_t> wanted, EndTerms* to) const noexcept override
   {
-    const auto [ends, row] = found_.at(end / 2);
-    return ends.place(row, static_cast<std::size_t>(end % 2));
-  }
-  ContactEnd load(std::int64_t end) const noexcept
-  {
-    const auto [ends, row] = found_.at(end / 2);
-    return ends.load(row, static_cast<std::size_t>(end % 2));
-  }
-  void prefetch(std::int64_t end) const noexcept
-  {
-    const auto [ends, row] = found_.at(end / 2);
-    ends.prefetch(row);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+    {
+      const std::size_t contact = wanted[i] / 2;
+      const auto [ends, row] = found_.at(static_cast<std::int64_t>(contact));
+      std::array<EndTerms*, 2> both = {};
+      both[wanted[i] % 2] = to + i;
+      if (i + 1 < wanted.size() && wanted[i + 1] / 2 == contact)
+      {
+        ++i;
+        both[wanted[i] % 2] = to + i;
+      }
+      terms_.make(ends, row, both);
+    }
   }
 
 private:
   const FoundEnds& found_;
+  ContactTerms terms_;
 };
 
 /// Ends of contacts that come from the ranks which have them.
-class SentEnds
+class SentEnds final : public EndSource
 {
 public:
   /// Sends the ends to the ranks of their particles. Collective.
-  SentEnds(const FoundEnds& found, Communicator& ranks)
+  SentEnds(const FoundEnds& found, const ContactTerms& terms, Communicator& ranks)
+    : width_(terms.count)
   {
-    const EndsHere ends(found);
+    const EndsHere ends(found, terms);
     const std::vector<ParticleHome> homes = found.homes();
     const auto size = static_cast<std::size_t>(ranks.size());
     const auto home_of = [&](std::size_t end)
     {
-      const std::int64_t place = ends.place(static_cast<std::int64_t>(end));
+      const std::int64_t place = ends.places()[end];
       return place < 0 ? ParticleHome{} : homes[static_cast<std::size_t>(place)];
     };
-    const ByRank sorted = sort_by_rank(ends.size(), size,
+    const ByRank sorted = sort_by_rank(ends.places().size(), size,
       [&](std::size_t end)
       {
         const std::int64_t rank = home_of(end).rank;
         return rank < 0 ? size : static_cast<std::size_t>(rank);
       });
     std::vector<std::int64_t> rows;
-    std::vector<ContactEnd> loaded;
-    for (const std::int64_t end : sorted.places)
+    std::vector<Counted> counted;
+    std::vector<double> all;
+    for (const std::int64_t place : sorted.places)
     {
-      rows.push_back(home_of(static_cast<std::size_t>(end)).row);
-      loaded.push_back(ends.load(end));
+      const auto end = static_cast<std::size_t>(place);
+      EndTerms made;
+      ends.read({ &end, 1 }, &made);
+      all.insert(all.end(), made.terms.data(), made.terms.data() + width_);
+      counted.push_back(made.counted);
+      rows.push_back(home_of(end).row);
     }
     const std::vector<std::int64_t> come = swap_numbers(sorted.counts, ranks);
     rows_ = trade(rows, sorted.counts, come, ranks);
-    ends_ = trade(loaded, sorted.counts, come, ranks);
+    counted_ = trade(counted, sorted.counts, come, ranks);
+    terms_ = trade(all, sorted.counts, come, ranks, width_);
   }
 
-  std::size_t size() const noexcept { return rows_.size(); }
-  std::int64_t place(std::int64_t end) const noexcept
+  std::span<const std::int64_t> places() const noexcept override { return rows_; }
+
+  void read(std::span<const std::size_t> wanted, EndTerms* to) const noexcept override
   {
-    return rows_[static_cast<std::size_t>(end)];
-  }
-  const ContactEnd& load(std::int64_t end) const noexcept
-  {
-    return ends_[static_cast<std::size_t>(end)];
-  }
-  void prefetch(std::int64_t end) const noexcept
-  {
-    __builtin_prefetch(&ends_[static_cast<std::size_t>(end)]);
+    for (const std::size_t end : wanted)
+    {
+      to->counted = counted_[end];
+      std::copy_n(terms_.data() + width_ * end, width_, to->terms.data());
+      ++to;
+    }
   }
 
 private:
+  std::size_t width_;
   std::vector<std::int64_t> rows_;
-  std::vector<ContactEnd> ends_;
+  std::vector<Counted> counted_;
+  std::vector<double> terms_;
 };
-
-/// The ends of the particles of each block.
-template <class Source>
-BlockRows sort_ends(
-  const Source& source, std::int64_t rows, const Executor& executor, Progress& progress)
-{
-  constexpr std::size_t ends_of_chunk = 131072;
-  std::vector<std::vector<BlockRows::Entry>> entries(
-    (source.size() + ends_of_chunk - 1) / ends_of_chunk);
-  executor.for_each_stretch(
-    source.size(), ends_of_chunk,
-    [&](std::size_t first, std::size_t count, std::size_t)
-    {
-      std::vector<BlockRows::Entry>& own = entries[first / ends_of_chunk];
-      own.reserve(count);
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const std::int64_t place = source.place(static_cast<std::int64_t>(first + i));
-        if (place >= 0)
-        {
-          own.push_back({ static_cast<std::uint32_t>(place / EndSums::particles_of_block),
-            static_cast<std::uint32_t>(i) });
-        }
-      }
-    },
-    progress);
-  return BlockRows::sorted(
-    entries, static_cast<std::int64_t>(ends_of_chunk), EndSums::blocks_of(rows));
-}
-
-template <class Source>
-ContactSums sum_source(const Source& source, std::int64_t rows, const ContactTerms& terms,
-  const ContactSumsRequest& request, const Executor& executor, PartialProgress& progress)
-{
-  progress.set_part(0.4, 0.6);
-  const BlockRows ends = sort_ends(source, rows, executor, progress);
-  EndSums sums(rows, terms, request);
-  progress.set_part(0.6, 0.9);
-  sums.run(source, ends, executor, progress);
-  return std::move(sums.sums());
-}
 
 std::span<const std::int32_t> integers_in(const Block& block) noexcept
 {
@@ -269,11 +239,12 @@ ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows
       const Executor executor(request.threads);
       parts.set_part(0, 0.4);
       const FoundEnds found(
-        particles, inputs, request.radius, request.options, ranks, executor, parts);
+        particles, inputs, request.radius, request.options, ranks, executor, parts, request.pool);
       const ContactTerms terms(request, found.have_forces());
+      parts.set_part(0.4, 0.9);
       ContactSums sums = ranks.size() == 1
-        ? sum_source(EndsHere(found), particles.rows, terms, request, executor, parts)
-        : sum_source(SentEnds(found, ranks), particles.rows, terms, request, executor, parts);
+        ? sum_ends(EndsHere(found, terms), particles.rows, terms, request, executor, parts)
+        : sum_ends(SentEnds(found, terms, ranks), particles.rows, terms, request, executor, parts);
       const std::span<const std::int32_t> counts = integers_in(sums.coordination);
       for (std::int64_t row = 0; row < particles.rows; ++row)
       {

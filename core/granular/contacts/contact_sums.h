@@ -30,8 +30,10 @@ struct ContactSumsRequest
   bool friction = false;
   int least_contacts = 0; ///< particles with fewer are rattlers; 0: nobody asks for them
   ContactOptions options = {};
-  std::string radius = "radius";   ///< array of radii, or of diameters under that name
-  int threads = 1;                 ///< at least 1; changes no result
+  std::string radius = "radius"; ///< array of radii, or of diameters under that name
+  int threads = 1;               ///< at least 1; changes no result
+  /// [B] of sums while they grow; with less, contacts are looked through more often; changes no result
+  std::size_t memory = std::size_t{ 1 } << 30;
   std::shared_ptr<BlockPool> pool; ///< source of the memory; may be null
 };
 

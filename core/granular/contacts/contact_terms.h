@@ -7,14 +7,29 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace granular
 {
-/// What of the contacts is summed, and where its terms are among those of a contact.
-struct ContactTerms
+/// Contacts that count, and those of them that have a normal.
+struct Counted
+{
+  std::int32_t contacts = 0;
+  std::int32_t normals = 0;
+};
+
+/// What one end of a contact adds to the sums of its particle.
+struct EndTerms
 {
   static constexpr std::size_t most = 18;
 
+  Counted counted;
+  std::array<double, most> terms;
+};
+
+/// What of the contacts is summed, and where its terms are among those of a contact.
+struct ContactTerms
+{
   explicit ContactTerms(const ContactSumsRequest& request, bool forces) noexcept
     : force(forces && request.force)
     , torque(forces && request.torque)
@@ -24,31 +39,42 @@ struct ContactTerms
   {
   }
 
-  /// Writes the terms of a contact.
-  void make(const ContactEnd& contact, double* to) const noexcept
+  /// Makes the terms of a contact for the particles at its ends; of an end that is null nobody wants them.
+  void make(
+    const ContactEnds& ends, std::size_t row, const std::array<EndTerms*, 2>& to) const noexcept
   {
-    if (force)
+    const double counts = ends.counts(row);
+    const Vector3 branch = torque || fabric || stress ? ends.branch(row) : Vector3{};
+    const Vector3 normal = fabric ? ends.normal(row, branch) : Vector3{};
+    const Counted counted = { counts != 0 ? 1 : 0, counts != 0 && normal != Vector3{} ? 1 : 0 };
+    for (std::size_t end = 0; end < 2; ++end)
     {
-      to = std::copy_n(contact.force.data(), 3, to);
-    }
-    if (torque)
-    {
-      to = std::copy_n(contact.torque.data(), 3, to);
-    }
-    if (fabric)
-    {
-      const auto& [x, y, z] = contact.normal;
-      const double counts = contact.counts;
-      to = std::copy_n(std::array{ counts * x * x, counts * y * y, counts * z * z, counts * x * y,
-                         counts * x * z, counts * y * z }
-                         .data(),
-        6, to);
-    }
-    if (stress)
-    {
-      const auto& [x, y, z] = contact.arm;
-      const auto& [fx, fy, fz] = contact.force;
-      std::copy_n(std::array{ x * fx, y * fy, z * fz, x * fy, x * fz, y * fz }.data(), 6, to);
+      if (!to[end])
+      {
+        continue;
+      }
+      const Vector3 on = force || stress ? ends.force(row, end) : Vector3{};
+      const Vector3 arm = torque || stress ? ends.arm(row, end, branch) : Vector3{};
+      const Vector3 turning = torque ? ends.torque(row, end, branch, arm) : Vector3{};
+      double* next = to[end]->terms.data();
+      to[end]->counted = counted;
+      if (force)
+      {
+        next = write(on, next);
+      }
+      if (torque)
+      {
+        next = write(turning, next);
+      }
+      if (fabric)
+      {
+        next = write_products(
+          { counts * normal[0], counts * normal[1], counts * normal[2] }, normal, next);
+      }
+      if (stress)
+      {
+        write_products(arm, on, next);
+      }
     }
   }
 
@@ -57,6 +83,26 @@ struct ContactTerms
   bool fabric;
   bool stress;
   std::size_t count;
+
+private:
+  // value by value: a copy of what has just been written in parts would wait for all of them
+  static double* write(const Vector3& a, double* to) noexcept
+  {
+    to[0] = a[0];
+    to[1] = a[1];
+    to[2] = a[2];
+    return to + 3;
+  }
+  static double* write_products(const Vector3& a, const Vector3& b, double* to) noexcept
+  {
+    to[0] = a[0] * b[0];
+    to[1] = a[1] * b[1];
+    to[2] = a[2] * b[2];
+    to[3] = a[0] * b[1];
+    to[4] = a[0] * b[2];
+    to[5] = a[1] * b[2];
+    return to + 6;
+  }
 };
 }
 #endif

@@ -160,7 +160,7 @@ std::vector<double> load_radii(const FrameView& particles, const std::string& na
 
 FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
   const std::string& radius, const ContactOptions& options, Communicator& ranks,
-  const Executor& executor, PartialProgress& progress)
+  const Executor& executor, PartialProgress& progress, const std::shared_ptr<BlockPool>& pool)
   : images_(particles.has_box ? particles.header.box : Box{})
 {
   std::vector<ContactKinds> kinds;
@@ -217,50 +217,62 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
     ends.radii = static_cast<const double*>(here.arrays[0].components[0]);
     ends.radius_step = here.arrays[0].step;
   }
+  places_ = Block(2 * rows_ * sizeof(std::int64_t), pool);
+  const std::span all_places(static_cast<std::int64_t*>(places_.data()), 2 * rows_);
+  std::size_t begin = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    std::array<std::vector<std::int64_t>, 2> places;
+    const auto places = all_places.subspan(begin, 2 * inputs[i].count);
     this->find_places(finder, inputs[i], kinds[i], ends, options, places, executor, progress);
-    inputs_.emplace_back(inputs[i], kinds[i], ends, std::move(places), images_, options);
+    inputs_.emplace_back(inputs[i], kinds[i], ends, places, images_, options);
+    begin += places.size();
   }
 }
 
 /// Of each row; nowhere where it is left out.
 void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
   const ContactKinds& kinds, const ContactParticles& particles, const ContactOptions& options,
-  std::array<std::vector<std::int64_t>, 2>& places, const Executor& executor, Progress& progress)
+  std::span<std::int64_t> places, const Executor& executor, Progress& progress)
 {
+  constexpr std::size_t at_once = 1024;
   const Needs needs = find_needs(kinds, options);
   std::atomic<std::int64_t> missing = 0;
   std::atomic<std::int64_t> broken = 0;
-  places[0].assign(rows.count, IdFinder::nowhere);
-  places[1].resize(rows.count);
+  const auto find = [&](std::size_t first, std::size_t count)
+  {
+    std::array<std::array<std::int64_t, at_once>, 2> found;
+    found[0].fill(IdFinder::nowhere);
+    if (!kinds.walls)
+    {
+      finder.find(rows.id1.subspan(first, count), found[0].data());
+    }
+    finder.find(rows.id2.subspan(first, count), found[1].data());
+    const bool sound = !is_broken(rows, first, count);
+    std::int64_t lost = 0;
+    std::int64_t bad = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      auto [one, other] = std::array{ found[0][i], found[1][i] };
+      const bool lacks = other < 0 || (!kinds.walls && one < 0);
+      const bool breaks = (!sound && is_broken(rows, first + i, 1)) ||
+        is_broken(particles, one, needs) || is_broken(particles, other, needs);
+      lost += lacks ? 1 : 0;
+      bad += breaks ? 1 : 0;
+      const bool out = breaks || (lacks && !kinds.ends); // or else it is not known where it is
+      places[2 * (first + i)] = out ? IdFinder::nowhere : one;
+      places[2 * (first + i) + 1] = out ? IdFinder::nowhere : other;
+    }
+    missing += lost;
+    broken += bad;
+  };
   executor.for_each_stretch(
     rows.count, rows_of_stretch,
     [&](std::size_t first, std::size_t count, std::size_t)
     {
-      if (!kinds.walls)
+      for (std::size_t done = 0; done < count; done += at_once)
       {
-        finder.find(rows.id1.subspan(first, count), places[0].data() + first);
+        find(first + done, std::min(at_once, count - done));
       }
-      finder.find(rows.id2.subspan(first, count), places[1].data() + first);
-      std::int64_t lost = 0;
-      std::int64_t bad = 0;
-      for (std::size_t row = first; row < first + count; ++row)
-      {
-        const bool lacks = places[1][row] < 0 || (!kinds.walls && places[0][row] < 0);
-        const bool breaks = is_broken(rows, row) || is_broken(particles, places[0][row], needs) ||
-          is_broken(particles, places[1][row], needs);
-        lost += lacks ? 1 : 0;
-        bad += breaks ? 1 : 0;
-        if (breaks || (lacks && !kinds.ends)) // or else it is not known where the contact is
-        {
-          places[0][row] = IdFinder::nowhere;
-          places[1][row] = IdFinder::nowhere;
-        }
-      }
-      missing += lost;
-      broken += bad;
     },
     progress);
   missing_ += missing;

@@ -10,13 +10,14 @@
 #include "granular/local/id_finder.h"
 #include "granular/local/minimum_image.h"
 #include "granular/local/particle_values.h"
+#include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -33,11 +34,12 @@ std::vector<double> load_radii(const FrameView& particles, const std::string& na
 class FoundEnds
 {
 public:
-  /// radius: the array of radii, which is needed if the contacts do not say where they touch. Throws Error: see sum_contacts.
-  /// Collective.
+  /// radius: the array of radii, which is needed if the contacts do not say where they touch. pool: source of the memory; may
+  /// be null. Throws Error: see sum_contacts. Collective.
   FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
     const std::string& radius, const ContactOptions& options, Communicator& ranks,
-    const Executor& executor, PartialProgress& progress);
+    const Executor& executor, PartialProgress& progress,
+    const std::shared_ptr<BlockPool>& pool = nullptr);
   FoundEnds(const FoundEnds&) = delete;
   void operator=(const FoundEnds&) = delete;
 
@@ -49,11 +51,17 @@ public:
   {
     auto row = static_cast<std::size_t>(contact);
     std::size_t i = 0;
-    while (row >= inputs_[i].ends.count())
+    while (row >= inputs_[i].count())
     {
-      row -= inputs_[i++].ends.count();
+      row -= inputs_[i++].count();
     }
-    return { inputs_[i].ends, row };
+    return { inputs_[i], row };
+  }
+
+  /// Returns the particles of both ends of each contact, or -1: nowhere.
+  std::span<const std::int64_t> places() const noexcept
+  {
+    return { static_cast<const std::int64_t*>(places_.data()), 2 * rows_ };
   }
 
   /// Returns the homes of the particles that places are of; those of a single rank are its rows.
@@ -67,23 +75,9 @@ public:
   std::int64_t repeated() const noexcept { return repeated_; } ///< particles known here
 
 private:
-  struct Input
-  {
-    Input(const ContactRows& rows, const ContactKinds& kinds, const ContactParticles& particles,
-      std::array<std::vector<std::int64_t>, 2> found, const MinimumImage& images,
-      const ContactOptions& options)
-      : places(std::move(found))
-      , ends(rows, kinds, particles, { places[0], places[1] }, images, options)
-    {
-    }
-
-    std::array<std::vector<std::int64_t>, 2> places;
-    ContactEnds ends;
-  };
-
   void find_places(const IdFinder& finder, const ContactRows& rows, const ContactKinds& kinds,
     const ContactParticles& particles, const ContactOptions& options,
-    std::array<std::vector<std::int64_t>, 2>& places, const Executor& executor, Progress& progress);
+    std::span<std::int64_t> places, const Executor& executor, Progress& progress);
 
   MinimumImage images_;
   std::vector<double> radii_;       ///< of the particles of this rank
@@ -91,7 +85,8 @@ private:
   FetchedParticles fetched_;        ///< with several ranks
   std::vector<ParticleHome> homes_; ///< of the fetched
   std::int64_t own_rows_ = 0;       ///< with a single rank
-  std::deque<Input> inputs_;        ///< stay where they are
+  Block places_;
+  std::vector<ContactEnds> inputs_;
   std::size_t rows_ = 0;
   bool forces_ = true;
   std::int64_t missing_ = 0;

@@ -144,7 +144,7 @@ private:
       NearLine line;
       const Vector3 start = ends.first(row);
       line.branch = ends.branch(row);
-      line.normal = ends.load(row, 1).normal;
+      line.normal = ends.normal(row, line.branch);
       line.counts = ends.counts(row);
       line.ends = line.counts * (ends.is_wall() ? 1 : 2);
       line.force = ends.force(row);

@@ -21,10 +21,10 @@ template <std::size_t most>
 class RoundedSums
 {
 public:
-  void add(std::span<const double> terms) noexcept
+  /// Adds a term to each sum.
+  void add(std::span<const double, most> terms) noexcept
   {
-    const std::size_t count = terms.size();
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < most; ++i)
     {
       const double lost = RoundedSums::add(high_[i], terms[i]);
       rest_[i] += std::abs(RoundedSums::add(low_[i], lost));

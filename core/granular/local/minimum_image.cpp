@@ -85,7 +85,7 @@ MinimumImage::Sum MinimumImage::make_sum(const Vector3& counts) const noexcept
   return { counts, vector, dot(vector, vector) };
 }
 
-Vector3 MinimumImage::moved(
+Vector3 MinimumImage::moved_far(
   const Vector3& point, const BoxCounts& counts, const Vector3& less) const noexcept
 {
   Vector3 result;

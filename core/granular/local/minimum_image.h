@@ -5,6 +5,7 @@
 #include "granular/geometry/box.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -29,14 +30,24 @@ public:
   /// within rounding, the one with the smallest counts is taken.
   BoxCounts find(const Vector3& vector) const noexcept
   {
-    return straight_ ? this->find_straight(vector) : this->find_tilted(vector);
+    return !straight_          ? this->find_tilted(vector)
+      : this->is_short(vector) ? BoxCounts{}
+                               : this->find_straight(vector);
   }
 
   /// Returns a number of box vectors, rounded once.
   Vector3 shift(const BoxCounts& counts) const noexcept { return this->moved({}, counts, {}); }
 
   /// Returns a point plus a number of box vectors minus another point, rounded once.
-  Vector3 moved(const Vector3& point, const BoxCounts& counts, const Vector3& less) const noexcept;
+  Vector3 moved(const Vector3& point, const BoxCounts& counts, const Vector3& less) const noexcept
+  {
+    if (counts == BoxCounts{})
+    {
+      // 0 has no sign, as that of a sum
+      return { point[0] - less[0] + 0., point[1] - less[1] + 0., point[2] - less[2] + 0. };
+    }
+    return this->moved_far(point, counts, less);
+  }
 
 private:
   /// A sum of box vectors.
@@ -47,6 +58,15 @@ private:
     double square = 0; ///< of its length
   };
 
+  /// Returns true for a finite vector of at most half a box along each axis.
+  bool is_short(const Vector3& vector) const noexcept
+  {
+    return std::abs(vector[0] * per_length_[0]) <= 0.5 &&
+      std::abs(vector[1] * per_length_[1]) <= 0.5 && std::abs(vector[2] * per_length_[2]) <= 0.5;
+  }
+
+  Vector3 moved_far(
+    const Vector3& point, const BoxCounts& counts, const Vector3& less) const noexcept;
   BoxCounts find_straight(const Vector3& vector) const noexcept;
   BoxCounts find_tilted(const Vector3& vector) const noexcept;
 
