@@ -44,37 +44,30 @@ struct ContactTerms
     const ContactEnds& ends, std::size_t row, const std::array<EndTerms*, 2>& to) const noexcept
   {
     const double counts = ends.counts(row);
+    if (count == 0)
+    {
+      std::ranges::for_each(to,
+        [&](EndTerms* end)
+        {
+          if (end)
+          {
+            end->counted = { counts != 0 ? 1 : 0, 0 };
+          }
+        });
+      return;
+    }
     const Vector3 branch = torque || fabric || stress ? ends.branch(row) : Vector3{};
     const Vector3 normal = fabric ? ends.normal(row, branch) : Vector3{};
     const Counted counted = { counts != 0 ? 1 : 0, counts != 0 && normal != Vector3{} ? 1 : 0 };
-    for (std::size_t end = 0; end < 2; ++end)
+    const Feel first = to[0] ? this->feel(ends, row, 0, branch) : Feel{};
+    const Feel second = to[1] ? this->feel(ends, row, 1, branch) : Feel{};
+    if (to[0])
     {
-      if (!to[end])
-      {
-        continue;
-      }
-      const Vector3 on = force || stress ? ends.force(row, end) : Vector3{};
-      const Vector3 arm = torque || stress ? ends.arm(row, end, branch) : Vector3{};
-      const Vector3 turning = torque ? ends.torque(row, end, branch, arm) : Vector3{};
-      double* next = to[end]->terms.data();
-      to[end]->counted = counted;
-      if (force)
-      {
-        next = write(on, next);
-      }
-      if (torque)
-      {
-        next = write(turning, next);
-      }
-      if (fabric)
-      {
-        next = write_products(
-          { counts * normal[0], counts * normal[1], counts * normal[2] }, normal, next);
-      }
-      if (stress)
-      {
-        write_products(arm, on, next);
-      }
+      this->write(counted, counts, normal, first, *to[0]);
+    }
+    if (to[1])
+    {
+      this->write(counted, counts, normal, second, *to[1]);
     }
   }
 
@@ -85,6 +78,46 @@ struct ContactTerms
   std::size_t count;
 
 private:
+  /// What a particle feels of a contact.
+  struct Feel
+  {
+    Vector3 force;
+    Vector3 arm;
+    Vector3 torque;
+  };
+
+  Feel feel(
+    const ContactEnds& ends, std::size_t row, std::size_t end, const Vector3& branch) const noexcept
+  {
+    const Vector3 arm = torque || stress ? ends.arm(row, end, branch) : Vector3{};
+    return { force || stress ? ends.force(row, end) : Vector3{}, arm,
+      torque ? ends.torque(row, end, branch, arm) : Vector3{} };
+  }
+
+  void write(const Counted& counted, double counts, const Vector3& normal, const Feel& feel,
+    EndTerms& to) const noexcept
+  {
+    double* next = to.terms.data();
+    to.counted = counted;
+    if (force)
+    {
+      next = write(feel.force, next);
+    }
+    if (torque)
+    {
+      next = write(feel.torque, next);
+    }
+    if (fabric)
+    {
+      next = write_products(
+        { counts * normal[0], counts * normal[1], counts * normal[2] }, normal, next);
+    }
+    if (stress)
+    {
+      write_products(feel.arm, feel.force, next);
+    }
+  }
+
   // value by value: a copy of what has just been written in parts would wait for all of them
   static double* write(const Vector3& a, double* to) noexcept
   {

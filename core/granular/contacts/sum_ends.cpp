@@ -44,10 +44,7 @@ public:
     sums_.torque = room(terms.torque, 3 * sizeof(double));
     sums_.fabric = room(terms.fabric, 6 * sizeof(double));
     sums_.stress = room(terms.stress, 6 * sizeof(double));
-    for (std::size_t i = 0; i < most_records_ / block_size; ++i)
-    {
-      owners_.push_back(static_cast<std::uint32_t>(i % this->threads()));
-    }
+    blocks_.resize(most_records_ / block_size);
   }
 
   ContactSums run(Progress& progress)
@@ -63,13 +60,11 @@ public:
         const auto all = static_cast<double>(rows_);
         parts.set_part((before + from * own) / all, (before + to * own) / all);
       };
-      set_part(0, 0.05);
-      executor_.for_each_stretch(
-        records_.size(), block_size,
-        [&](std::size_t first, std::size_t size, std::size_t)
-        { std::uninitialized_value_construct_n(&records_[first], size); },
-        parts);
-      set_part(0.05, 0.85);
+      for (std::size_t i = 0; i < blocks_.size(); ++i)
+      {
+        blocks_[i] = { static_cast<std::uint32_t>(i % this->threads()), false };
+      }
+      set_part(0, 0.85);
       this->for_each_end([&](std::size_t from, std::size_t to, std::size_t thread)
         { this->add(from, to, thread); },
         parts);
@@ -89,6 +84,13 @@ private:
   {
     Counted counted;
     RoundedSums<count> sums;
+  };
+
+  /// Some records that follow each other.
+  struct RecordBlock
+  {
+    std::uint32_t owner; ///< the thread
+    bool begun;          ///< the records are there
   };
 
   using Terms = std::array<double, EndTerms::most>;
@@ -126,13 +128,29 @@ private:
   }
 
   /// Returns the record of the particle of an end; null if it is not in memory, or that of another thread.
-  Record* find(std::size_t end, std::size_t thread) const noexcept
+  Record* find(std::size_t end, std::size_t thread) noexcept
   {
     const std::size_t at = static_cast<std::size_t>(places_[end]) - first_;
-    return at < records_.size() && owners_[at / block_size] == thread ? &records_[at] : nullptr;
+    if (at >= records_.size() || blocks_[at / block_size].owner != thread)
+    {
+      return nullptr;
+    }
+    this->begin(at / block_size);
+    return &records_[at];
   }
 
-  void add(std::size_t from, std::size_t to, std::size_t thread) const
+  /// Not before they are needed: what then is in the cache stays there.
+  void begin(std::size_t block) noexcept
+  {
+    if (!blocks_[block].begun)
+    {
+      blocks_[block].begun = true;
+      const std::span all = records_.subspan(block * block_size);
+      std::uninitialized_value_construct_n(all.data(), std::min(all.size(), block_size));
+    }
+  }
+
+  void add(std::size_t from, std::size_t to, std::size_t thread)
   {
     Batch batch;
     while (from < to)
@@ -195,6 +213,7 @@ private:
       records_.size(), block_size,
       [&](std::size_t first, std::size_t size, std::size_t)
       {
+        this->begin(first / block_size);
         Terms terms;
         for (std::size_t at = first; at < first + size; ++at)
         {
@@ -300,8 +319,8 @@ private:
   const Executor& executor_;
   std::size_t most_records_; ///< in memory, for which all ends are looked through
   Block memory_;
-  std::vector<std::uint32_t> owners_; ///< a thread, of each block of records
-  std::size_t first_ = 0;             ///< the particle of the first record
+  std::vector<RecordBlock> blocks_;
+  std::size_t first_ = 0; ///< the particle of the first record
   std::span<Record> records_;
   bool avx2_ = best_simd() != Simd::Portable;
   ContactSums sums_;
