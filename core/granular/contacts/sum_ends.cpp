@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -231,10 +230,13 @@ private:
       },
       progress);
     std::vector<bool> all;
-    for (const std::size_t at : unsure | std::views::join)
+    for (const std::vector<std::size_t>& block : unsure)
     {
-      all.resize(records_.size());
-      all[at] = true;
+      for (const std::size_t at : block)
+      {
+        all.resize(records_.size());
+        all[at] = true;
+      }
     }
     return all;
   }

@@ -191,13 +191,12 @@ void SmoothCells::find_point(
 void SmoothCells::find_line(const Vector3& branch, const CellRange& near, const CellRange& within,
   Room& room, double& all) const
 {
-  const auto& [x, y, z] = room.places;
+  const auto place_of = [&](const std::array<std::int64_t, 3>& cell, std::size_t axis)
+  { return room.places[axis][static_cast<std::size_t>(cell[axis] - near.first[axis])]; };
   near.each(
     [&](const std::array<std::int64_t, 3>& cell)
     {
-      const Vector3 place = { x[static_cast<std::size_t>(cell[0] - near.first[0])],
-        y[static_cast<std::size_t>(cell[1] - near.first[1])],
-        z[static_cast<std::size_t>(cell[2] - near.first[2])] };
+      const Vector3 place = { place_of(cell, 0), place_of(cell, 1), place_of(cell, 2) };
       const double weight = kernel_.line_mean(place, branch);
       all += weight;
       if (const std::int64_t number = within.number(cell); number >= 0 && weight > 0)
