@@ -185,6 +185,7 @@ private:
     const double largest = this->Self->CellsBy == RELATIVE_SIZE
       ? granular::largest_radius(view, request.arrays, ranks)
       : 0;
+    const std::string boundary = view.header.box.boundary;
     if (this->Self->Periodic == NONE)
     {
       view.header.box.boundary.clear();
@@ -205,10 +206,12 @@ private:
     if (this->HaveContacts())
     {
       progress.set_part(0.5, 1);
+      const granular::Box box = view.header.box;
+      view.header.box.boundary = boundary; // a contact crosses a face, though nothing has images
       const FoundContacts contacts(
         { inputs[1], inputs[2] }, view, request.tensors, ranks, executor, notices, progress);
-      granular::average_contacts(contacts.GetEnds(), view.has_box ? &view.header.box : nullptr,
-        request, ranks, executor, progress, averages);
+      granular::average_contacts(contacts.GetEnds(), view.has_box ? &box : nullptr, request, ranks,
+        executor, progress, averages);
       this->Missing += contacts.CountMissing();
       this->BrokenContacts += contacts.CountBroken();
     }

@@ -86,6 +86,32 @@ TEST(Edges, MissingParticles)
   EXPECT_EQ(found.grains[0].force, (Vector3{ 0, 0, 1 }));
 }
 
+/// Nobody knows how far a particle that is not there overlaps with the other one: the contact counts.
+TEST(Edges, OverlapWithMissingParticles)
+{
+  Scene scene = two();
+  made::ContactSumsRequest request = everything();
+  request.options.least_overlap = 1e9;
+  EXPECT_EQ(sum_all(scene, request).grains[0].coordination, 0);
+  scene.grains.pop_back();
+  EXPECT_EQ(sum_all(scene, request).grains[0].coordination, 1);
+}
+
+/// The normal of a contact with a wall is that of its line, wherever the force acts.
+TEST(Edges, NormalsOfWalls)
+{
+  Scene scene = two();
+  scene.pairs.clear();
+  made::Touch touch = { 0, 1, { 0, 0, -1 }, {}, { 0, 0, 1 } };
+  touch.point = { 0.6, 0, -0.8 };
+  scene.walls = { touch };
+  for (const bool point : { false, true })
+  {
+    scene.known.point = point;
+    EXPECT_EQ(sum_all(scene).grains[0].fabric, (Six{ 0, 0, 1, 0, 0, 0 }));
+  }
+}
+
 /// A number that is none, infinite or too large leaves the row out, and is counted; the rest is as without the row.
 TEST(Edges, BrokenRows)
 {
@@ -357,6 +383,9 @@ TEST(Edges, RowsThatDoNotFit)
   short_one = rows.view();
   short_one.ends = short_one.ends.first(3);
   EXPECT_EQ(error({ short_one }), "expected 6 values a contact in 'ends', got 3 for 1 contacts");
+  short_one = rows.view();
+  short_one.id2 = {};
+  EXPECT_EQ(error({ short_one }), "expected an id2 of each contact, got 0 for 1 contacts");
   made::ContactRows walls = rows.view();
   walls.id1 = {};
   walls.force = {};

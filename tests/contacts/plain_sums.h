@@ -245,7 +245,8 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
     const auto grain = grain_of.find(touch.id2);
     if (grain != grain_of.end())
     {
-      add_end(sums[grain->second], arm, arm, touch.force,
+      const Vector3 normal = scene.known.ends ? minus(touch.from, touch.to) : arm;
+      add_end(sums[grain->second], arm, normal, touch.force,
         scene.known.torque ? touch.torque : moment(arm, touch.force), counts(touch));
     }
   }

@@ -206,6 +206,9 @@ assert all(found[name].tobytes() == everything[name].tobytes() for name in ALL)
 empty = with_lines(lambda data: data.Initialize(), lambda data: data.Initialize())
 found = empty.update()
 assert list(found) == ALL and not found["sigma_contact"].any() and not found["coordination"].any()
+# nobody asks for stresses, and nothing touches yet
+empty.choose(["coordination"])
+assert list(empty.update()) == ["coordination"] and not empty.update()["coordination"].any()
 
 # rows of a table, without lines: ends are at the particles, and walls cannot be without a place
 tables = Averages("periodic_bed", walls=False, CellCounts=COUNTS)
@@ -214,6 +217,13 @@ tables.filter.SetLinesConnection(tables.lines.GetOutputPort(1))
 found = tables.update()
 for name in ("sigma_contact", "tau_contact"):
     assert abs(found[name] - lines_only[name]).max() < 1e-10 * abs(found[name]).max(), name
+# contacts go through periodic faces, though nothing has images
+near = tables.update(Periodic=1)
+assert abs(near["sigma_contact"]).max() < 3 * abs(found["sigma_contact"]).max()
+inner = (numpy.arange(SIZE) // (COUNTS[0] * COUNTS[1]) > 0) & (numpy.arange(SIZE) % COUNTS[0] % (COUNTS[0] - 1) > 0) & (
+    numpy.arange(SIZE) // COUNTS[0] % COUNTS[1] % (COUNTS[1] - 1) > 0)
+assert abs(near["sigma_contact"] - found["sigma_contact"])[inner].max() < 1e-10 * abs(found["sigma_contact"]).max()
+tables.filter.SetPeriodic(0)
 tables.filter.SetLinesConnection(None)
 tables.filter.SetWallsConnection(local_of("periodic_bed_walls").GetOutputPort(1))
 fails(tables, "expected lines or an array 'contact_point' of contacts with walls, got neither")

@@ -325,3 +325,30 @@ TEST(PointAverage, AUniformLatticeHasItsVelocityAndNoTemperature)
     }
   }
 }
+
+/// A particle at the end of the kernel counts by its distance, not by what is sought for all points together.
+TEST(PointAverage, OtherPointsChangeNothing)
+{
+  Scene scene;
+  scene.grains.push_back({ { 0.1 + 0.2, 0, 0 }, { 0, 0, 0 }, 1, 1 });
+  scene.ids.push_back(1);
+  const PointAverageRequest request = request_at_points(KernelShape::Gaussian, 1.93);
+  const std::vector<double> alone = { -5.49, 0, 0 };
+  const std::vector<double> with_another = { -5.49, 0, 0, 0, 0, 0 };
+  EXPECT_EQ(average_points_of(scene, alone, nullptr, request).fields.density[0],
+    average_points_of(scene, with_another, nullptr, request).fields.density[0]);
+}
+
+/// Sums beyond all numbers are none.
+TEST(PointAverage, NumbersThatAreTooLarge)
+{
+  Scene scene;
+  for (int i = 0; i < 3000; ++i)
+  {
+    scene.grains.push_back({ { 0, 0, 0 }, { i % 2 == 0 ? 1e80 : -1e80, 0, 0 }, 1, 1e80 });
+    scene.ids.push_back(i + 1);
+  }
+  const EulerAverages found =
+    average_points_of(scene, { 0, 0, 0 }, nullptr, request_at_points(KernelShape::Gaussian, 1e-30));
+  EXPECT_FALSE(std::isfinite(found.cells.pressure[0]));
+}

@@ -318,12 +318,13 @@ TEST(SmoothCells, KernelsMuchWiderThanTheGridGiveAllCellsTheSame)
 
 TEST(SmoothCells, KernelsOfTooManyCellsAreRefused)
 {
-  const auto error_of = [](const EulerGrid& grid, double width)
+  const auto error_of = [](const EulerGrid& grid, double width, double length = 0)
   {
     const PeriodicImages images(grid, nullptr);
     try
     {
-      SmoothCells(grid, Kernel(KernelShape::Gaussian, width), KernelBounds::None, images).check();
+      SmoothCells(grid, Kernel(KernelShape::Gaussian, width), KernelBounds::None, images)
+        .check(length);
     }
     catch (const LimitError& error)
     {
@@ -337,6 +338,11 @@ TEST(SmoothCells, KernelsOfTooManyCellsAreRefused)
     "expected a kernel that is not much wider than the cells, got a width of 0.8, which reaches "
     "over 111284641 cells");
   EXPECT_NE(error_of(fine, 1e30), "none");
+  EXPECT_EQ(error_of(fine, 0.1, 3.6), "none");
+  EXPECT_EQ(error_of(fine, 0.1, 4.6),
+    "expected a kernel that is not much wider than the cells, got a width of 0.1 and contacts up "
+    "to 4.6 long, which reaches over 141420760 cells");
+  EXPECT_NE(error_of(fine, 0.1, 1e30), "none");
   // along axes with one cell there is no kernel
   EXPECT_EQ(error_of({ { 0, 0, 0 }, { 1, 1, 1 }, { 1, 1, 100 } }, 1e5), "none");
   EXPECT_NE(error_of({ { 0, 0, 0 }, { 1, 1, 1 }, { 1, 1, 100 } }, 1e6), "none");

@@ -58,11 +58,14 @@ public:
     this->make_room();
     progress_.set_part(0.1, 0.3);
     this->locate();
-    progress_.set_part(0.3, 1);
     const std::vector<BlockSums::Group> groups =
       blocks_.make_groups(std::max(stresses_.size(), normals_.size()));
-    for (const BlockSums::Group& group : groups)
+    for (std::size_t i = 0; i < groups.size(); ++i)
     {
+      const BlockSums::Group& group = groups[i];
+      const auto part_at = [&](double step)
+      { return 0.3 + 0.7 * (static_cast<double>(i) + step) / static_cast<double>(groups.size()); };
+      progress_.set_part(part_at(0), part_at(request_.fields.fabric ? 0.5 : 1));
       this->add(group, stresses_,
         [](const ContactEnds& ends, std::size_t row, const Line& line, SumScale::Terms& terms)
         {
@@ -77,10 +80,11 @@ public:
       this->finish_stress(group);
       if (request_.fields.fabric)
       {
+        progress_.set_part(part_at(0.5), part_at(1));
         this->add(group, normals_,
           [](const ContactEnds& ends, std::size_t row, const Line& line, SumScale::Terms& terms)
           {
-            const auto& [x, y, z] = ends.normal(row, line.branch);
+            const auto& [x, y, z] = ContactEnds::normal(line.branch);
             const double counts = ends.counts(row);
             terms = { counts * x * x, counts * y * y, counts * z * z, counts * x * y,
               counts * x * z, counts * y * z, 0, 0 };
@@ -94,9 +98,10 @@ private:
   /// Shares of contacts in cells, some at a time.
   struct Batch
   {
-    static constexpr std::size_t most = 256;
+    static constexpr std::size_t most_rows = 256;
+    static constexpr std::size_t most_shares = 4096;
 
-    std::vector<std::int64_t> rows = std::vector<std::int64_t>(most);
+    std::vector<std::int64_t> rows = std::vector<std::int64_t>(most_rows);
     LineCells::Room room;
     std::vector<std::int64_t> cells;
     std::vector<SumScale::Terms> terms;
@@ -177,7 +182,7 @@ private:
     const auto cells = static_cast<std::size_t>(request_.wanted.count(request_.grid));
     EulerFields& fields = averages_.fields;
     EulerSums& sums = averages_.sums;
-    fields.contact_normal.resize(contacts_.have_forces() ? 3 * cells : 0);
+    fields.contact_normal.resize(request_.tensors && contacts_.have_forces() ? 3 * cells : 0);
     fields.contact_shear.resize(fields.contact_normal.size());
     fields.coordination.resize(request_.fields.coordination ? cells : 0);
     fields.fabric.resize(request_.fields.fabric ? 6 * cells : 0);
@@ -236,20 +241,23 @@ private:
         {
           const std::span<const std::int64_t> rows =
             blocks_.rows().rows(part.block, first, part.last, batch.rows);
-          const std::span<const std::int64_t> some = rows.first(std::min(rows.size(), Batch::most));
-          first += static_cast<std::int64_t>(some.size());
-          this->fill(some, range, make_terms, batch);
-          scale.add(batch.terms, batch.cells.data(), sums);
+          first += static_cast<std::int64_t>(rows.size());
+          this->fill(rows, range, make_terms, batch,
+            [&]
+            {
+              scale.add(batch.terms, batch.cells.data(), sums);
+              batch.cells.clear();
+              batch.terms.clear();
+            });
         }
       });
   }
 
-  template <class MakeTerms>
+  /// Calls flush() whenever there are many shares, and at the end.
+  template <class MakeTerms, class Flush>
   void fill(std::span<const std::int64_t> rows, const CellRange& range, const MakeTerms& make_terms,
-    Batch& batch) const
+    Batch& batch, const Flush& flush) const
   {
-    batch.cells.clear();
-    batch.terms.clear();
     for (const std::int64_t contact : rows)
     {
       const Line line = this->load(contact);
@@ -262,8 +270,13 @@ private:
           SumScale::Terms& terms = batch.terms.emplace_back();
           std::ranges::transform(whole, terms.begin(), [&](double term) { return term * share; });
           batch.cells.push_back(cell);
+          if (batch.cells.size() == Batch::most_shares)
+          {
+            flush();
+          }
         });
     }
+    flush();
   }
 
   void finish_stress(const BlockSums::Group& group)

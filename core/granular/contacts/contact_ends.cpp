@@ -25,6 +25,10 @@ double ContactEnds::is_enough(std::size_t row) const noexcept
       for (std::size_t end = 0; end < 2; ++end)
       {
         const std::int64_t place = this->place(row, end);
+        if (place == nowhere && !(kinds_.walls && end == 0))
+        {
+          return 1; // with a particle that is not there: nobody knows
+        }
         overlap += place == nowhere ? 0 : particles_.radius(place);
       }
     }
@@ -53,8 +57,8 @@ double ContactEnds::friction(std::size_t row) const noexcept
   Vector3 across = of(rows_.tangential, row);
   if (!kinds_.tangential)
   {
-    const Vector3 normal = this->normal(row, this->branch(row));
-    across = minus(force, times(dot(force, normal), normal));
+    const Vector3 along = normal(this->branch(row));
+    across = minus(force, times(dot(force, along), along));
   }
   const double tangential = length_of(across);
   return tangential == 0 ? 0 : tangential / length_of(minus(force, across));

@@ -17,7 +17,7 @@ enum class LeverArm : std::uint8_t
 {
   ContactPoint, ///< at the contact point; where it is not known, at that part of the branch vector that the radii give; where
                 ///< they are not known, at half
-  Half          ///< at half the branch vector, as compute stress/atom has it
+  Half ///< at half the branch vector, as compute stress/atom has it; of walls where they are touched
 };
 
 struct ContactOptions
@@ -122,12 +122,11 @@ public:
     return this->is_other(end) ? minus(cross(branch, this->force(row)), of_first) : of_first;
   }
 
-  /// Returns the vector of length 1 from the second end to the first one, from a particle to its wall; 0 if the ends coincide.
-  Vector3 normal(std::size_t row, const Vector3& branch) const noexcept
+  /// Returns the vector of length 1 from the second end to the first one, which may be at a wall; 0 if the ends coincide.
+  static Vector3 normal(const Vector3& branch) noexcept
   {
-    const Vector3 towards = kinds_.walls ? this->arm(row, 1, branch) : minus(branch);
-    const double length = length_of(towards);
-    return length > 0 ? Vector3{ towards[0] / length, towards[1] / length, towards[2] / length }
+    const double length = length_of(branch);
+    return length > 0 ? Vector3{ -branch[0] / length, -branch[1] / length, -branch[2] / length }
                       : Vector3{};
   }
 

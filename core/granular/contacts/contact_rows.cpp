@@ -54,6 +54,11 @@ ContactKinds share_kinds(const ContactRows& rows, Communicator& ranks)
   return do_together(ranks,
     [&]
     {
+      if (rows.id2.size() != rows.count)
+      {
+        throw Error("expected an id2 of each contact, got " + std::to_string(rows.id2.size()) +
+          " for " + std::to_string(rows.count) + " contacts");
+      }
       const std::array<Part, 7> parts = parts_of(rows);
       std::array<int, 8> own = { rows.count > 0 ? 1 : 0 };
       for (std::size_t i = 0; i < parts.size(); ++i)

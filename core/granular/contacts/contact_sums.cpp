@@ -62,7 +62,8 @@ class SentEnds final : public EndSource
 {
 public:
   /// Sends the ends to the ranks of their particles. Collective.
-  SentEnds(const FoundEnds& found, const ContactTerms& terms, Communicator& ranks)
+  SentEnds(const FoundEnds& found, const ContactTerms& terms, Communicator& ranks,
+    const Executor& executor, Progress& progress)
     : width_(terms.count)
   {
     const EndsHere ends(found, terms);
@@ -79,18 +80,26 @@ public:
         const std::int64_t rank = home_of(end).rank;
         return rank < 0 ? size : static_cast<std::size_t>(rank);
       });
-    std::vector<std::int64_t> rows;
-    std::vector<Counted> counted;
-    std::vector<double> all;
-    for (const std::int64_t place : sorted.places)
-    {
-      const auto end = static_cast<std::size_t>(place);
-      EndTerms made;
-      ends.read({ &end, 1 }, &made);
-      all.insert(all.end(), made.terms.data(), made.terms.data() + width_);
-      counted.push_back(made.counted);
-      rows.push_back(home_of(end).row);
-    }
+    std::vector<std::int64_t> rows(sorted.places.size());
+    std::vector<Counted> counted(rows.size());
+    std::vector<double> all(width_ * rows.size());
+    executor.for_each_stretch(
+      rows.size(), 256,
+      [&](std::size_t first, std::size_t count, std::size_t)
+      {
+        const std::vector<std::size_t> wanted(
+          sorted.places.begin() + static_cast<std::ptrdiff_t>(first),
+          sorted.places.begin() + static_cast<std::ptrdiff_t>(first + count));
+        std::vector<EndTerms> made(count);
+        ends.read(wanted, made.data());
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          rows[first + i] = home_of(wanted[i]).row;
+          counted[first + i] = made[i].counted;
+          std::copy_n(made[i].terms.data(), width_, all.data() + width_ * (first + i));
+        }
+      },
+      progress);
     const std::vector<std::int64_t> come = swap_numbers(sorted.counts, ranks);
     rows_ = trade(rows, sorted.counts, come, ranks);
     counted_ = trade(counted, sorted.counts, come, ranks);
@@ -241,10 +250,14 @@ ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows
       const FoundEnds found(
         particles, inputs, request.radius, request.options, ranks, executor, parts, request.pool);
       const ContactTerms terms(request, found.have_forces());
-      parts.set_part(0.4, 0.9);
-      ContactSums sums = ranks.size() == 1
-        ? sum_ends(EndsHere(found, terms), particles.rows, terms, request, executor, parts)
-        : sum_ends(SentEnds(found, terms, ranks), particles.rows, terms, request, executor, parts);
+      const auto sum = [&](const EndSource& source)
+      {
+        parts.set_part(0.5, 0.9);
+        return sum_ends(source, particles.rows, terms, request, executor, parts);
+      };
+      parts.set_part(0.4, 0.5);
+      ContactSums sums = ranks.size() == 1 ? sum(EndsHere(found, terms))
+                                           : sum(SentEnds(found, terms, ranks, executor, parts));
       const std::span<const std::int32_t> counts = integers_in(sums.coordination);
       for (std::int64_t row = 0; row < particles.rows; ++row)
       {

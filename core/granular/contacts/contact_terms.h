@@ -57,7 +57,7 @@ struct ContactTerms
       return;
     }
     const Vector3 branch = torque || fabric || stress ? ends.branch(row) : Vector3{};
-    const Vector3 normal = fabric ? ends.normal(row, branch) : Vector3{};
+    const Vector3 normal = fabric ? ContactEnds::normal(branch) : Vector3{};
     const Counted counted = { counts != 0 ? 1 : 0, counts != 0 && normal != Vector3{} ? 1 : 0 };
     const Feel first = to[0] ? this->feel(ends, row, 0, branch) : Feel{};
     const Feel second = to[1] ? this->feel(ends, row, 1, branch) : Feel{};

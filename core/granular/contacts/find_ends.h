@@ -34,7 +34,8 @@ std::vector<double> load_radii(const FrameView& particles, const std::string& na
 class FoundEnds
 {
 public:
-  /// radius: the array of radii, which is needed if the contacts do not say where they touch. pool: source of the memory; may
+  /// radius: the array of radii, by which the place of a contact that is not given is found; without it that is half the
+  /// branch. pool: source of the memory; may
   /// be null. Throws Error: see sum_contacts. Collective.
   FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
     const std::string& radius, const ContactOptions& options, Communicator& ranks,

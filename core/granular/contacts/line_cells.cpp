@@ -27,7 +27,7 @@ std::int64_t LineCells::check(double length) const
 {
   if (smooth_)
   {
-    smooth_->check();
+    smooth_->check(length);
   }
   const double reach =
     smooth_ ? std::ranges::max(smooth_->reach({ length, length, length })) : length / 2;

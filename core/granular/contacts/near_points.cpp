@@ -31,8 +31,8 @@ Extent Extent::grown(double by) const noexcept
   Extent grown = *this;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    grown.lo[axis] -= by;
-    grown.hi[axis] += by;
+    grown.lo[axis] = std::nextafter(grown.lo[axis] - by, -HUGE_VAL);
+    grown.hi[axis] = std::nextafter(grown.hi[axis] + by, HUGE_VAL);
   }
   return grown;
 }

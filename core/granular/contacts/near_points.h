@@ -23,7 +23,7 @@ struct Extent
   bool empty() const noexcept { return !(lo[0] <= hi[0]); }
   bool meets(const Extent& other) const noexcept;
   void include(const Vector3& point) noexcept;
-  Extent grown(double by) const noexcept;
+  Extent grown(double by) const noexcept; ///< rounded outwards
 };
 
 /// Returns the extent of the finite ones among points x y z.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -41,7 +42,7 @@ public:
     Terms all;
     for (std::size_t k = 0; k < count; ++k)
     {
-      if (!sums.round(k, all[k]))
+      if (!sums.round(k, all[k]) && std::isfinite(all[k]))
       {
         ExactSum exact;
         for (std::size_t i = 0; i < n; ++i)
@@ -78,7 +79,9 @@ public:
 
   EulerAverages run(const GrainSources& sources)
   {
-    const Extent own = extent_of(points_).grown(support_);
+    // a little more than the support, as the kernel decides by rounded distances
+    const double reach = support_ * (1 + 0x1p-48);
+    const Extent own = extent_of(points_).grown(reach);
     progress_.set_part(0, 0.2);
     const PointSources found =
       find_point_sources(frame_, sources, contacts_, own, ranks_, progress_);
@@ -89,12 +92,12 @@ public:
     std::vector<Extent> reaches(grains.size());
     std::ranges::transform(grains, reaches.begin(),
       [&](const NearGrain& grain) {
-        return Extent{ grain.place, grain.place }.grown(support_);
+        return Extent{ grain.place, grain.place }.grown(reach);
       });
     const Bins near_grains(own, 2 * support_, reaches);
     reaches.resize(lines.size());
-    std::ranges::transform(lines, reaches.begin(),
-      [&](const NearLine& line) { return extent_of(line).grown(support_); });
+    std::ranges::transform(
+      lines, reaches.begin(), [&](const NearLine& line) { return extent_of(line).grown(reach); });
     const Bins near_lines(own, 2 * support_, reaches);
     progress_.set_part(0.2, 1);
     executor_.for_each_stretch(
@@ -263,8 +266,6 @@ private:
   PartialProgress progress_;
   double support_;
   double per_volume_;
-  std::vector<std::array<Vector3, 2>>
-    extents_; ///< of the points of all ranks, grown by the support
   EulerAverages result_;
 };
 }

@@ -60,10 +60,24 @@ private:
     return PeriodicImages(grid, frame_.has_box ? &frame_.header.box : nullptr);
   }
 
+  /// Returns true for what reaches the points of any rank.
+  template <class Thing>
+  bool is_wanted(const Thing& thing) const
+  {
+    return std::ranges::any_of(extents_,
+      [extent = extent_of(thing)](const std::array<Vector3, 2>& wanted) {
+        return extent.meets({ wanted[0], wanted[1] });
+      });
+  }
+
   /// Sends what reaches the points of a rank to it.
   template <class Thing>
-  std::vector<Thing> send(const std::vector<Thing>& things)
+  std::vector<Thing> send(std::vector<Thing> things)
   {
+    if (ranks_.size() == 1)
+    {
+      return things;
+    }
     std::vector<Thing> out;
     std::vector<std::int64_t> counts;
     for (const auto& [lo, hi] : extents_)
@@ -99,8 +113,12 @@ private:
           images.each(block.positions + 3 * i, 0,
             [&](const Twofold3& image)
             {
-              grains.push_back({ values_of(image), { v[0], v[1], v[2] }, block.mass[i],
-                block.radius[i], sphere_volume(block.radius[i]) });
+              const NearGrain grain = { values_of(image), { v[0], v[1], v[2] }, block.mass[i],
+                block.radius[i], sphere_volume(block.radius[i]) };
+              if (this->is_wanted(grain))
+              {
+                grains.push_back(grain);
+              }
             });
         }
       }
@@ -108,7 +126,7 @@ private:
     }
     found_.broken = scan.broken;
     ranks_.sum({ &found_.broken, 1 });
-    return this->send(grains);
+    return this->send(std::move(grains));
   }
 
   /// The longest component of the branches of all ranks.
@@ -136,6 +154,10 @@ private:
     std::vector<NearLine> lines;
     for (std::size_t i = 0; i < contacts->rows(); ++i)
     {
+      if (i % 65536 == 0)
+      {
+        progress_.step(static_cast<double>(i) / static_cast<double>(contacts->rows()));
+      }
       const auto [ends, row] = contacts->at(static_cast<std::int64_t>(i));
       if (ends.place(row, 0) < 0 && ends.place(row, 1) < 0)
       {
@@ -144,7 +166,7 @@ private:
       NearLine line;
       const Vector3 start = ends.first(row);
       line.branch = ends.branch(row);
-      line.normal = ends.normal(row, line.branch);
+      line.normal = ContactEnds::normal(line.branch);
       line.counts = ends.counts(row);
       line.ends = line.counts * (ends.is_wall() ? 1 : 2);
       line.force = ends.force(row);
@@ -163,10 +185,13 @@ private:
           {
             line.start[axis] = start[axis] + (image[axis].hi - middle[axis] + image[axis].lo);
           }
-          lines.push_back(line);
+          if (this->is_wanted(line))
+          {
+            lines.push_back(line);
+          }
         });
     }
-    return this->send(lines);
+    return this->send(std::move(lines));
   }
 
   const FrameView& frame_;

@@ -126,7 +126,7 @@ private:
     }
   }
 
-  /// Returns the record of the particle of an end; null if it is not in memory, or that of another thread.
+  /// Returns the record of the particle of an end, which begins here if none of its block has; null if it is not in memory, or that of another thread.
   Record* find(std::size_t end, std::size_t thread) noexcept
   {
     const std::size_t at = static_cast<std::size_t>(places_[end]) - first_;

@@ -52,7 +52,7 @@ std::int64_t GrainCells::check(double radius) const
 {
   if (smooth_)
   {
-    smooth_->check();
+    smooth_->check(0);
   }
   const double reach = std::ranges::max(this->reach(weights_ == CellWeights::Centre ? 0 : radius));
   images_.check(reach);

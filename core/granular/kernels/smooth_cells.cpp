@@ -30,17 +30,20 @@ SmoothCells::SmoothCells(
   }
 }
 
-void SmoothCells::check() const
+void SmoothCells::check(double length) const
 {
   double cells = 1;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    cells *= smooth_[axis] ? 2 * kernel_.support() / spacing_[axis] + 1 : 1;
+    cells *= smooth_[axis] ? (length + 2 * kernel_.support()) / spacing_[axis] + 1 : 1;
   }
   if (!(cells < most_cells_of_kernel))
   {
+    const std::string lines =
+      length > 0 ? " and contacts up to " + to_text(length) + " long" : std::string();
     throw LimitError("expected a kernel that is not much wider than the cells, got a width of " +
-      to_text(kernel_.width()) + ", which reaches over " + to_text(std::floor(cells)) + " cells");
+      to_text(kernel_.width()) + lines + ", which reaches over " + to_text(std::floor(cells)) +
+      " cells");
   }
 }
 

@@ -45,8 +45,8 @@ public:
     std::vector<Weight> weights;
   };
 
-  /// Throws LimitError if the kernel has too many cells.
-  void check() const;
+  /// Throws LimitError if the kernel has too many cells, for lines that long along any axis.
+  void check(double length) const;
 
   /// Returns how far a line reaches along each axis from its middle.
   Vector3 reach(const Vector3& branch) const noexcept;
