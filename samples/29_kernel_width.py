@@ -16,7 +16,9 @@ RADIUS, SIDE, WIDTHS = 0.0025, 0.03, (0.5, 1, 2, 4)
 # Fields at the points of a plane through the middle of the bed.
 section = Plane(Origin=[-0.018, 0, -0.0025], Point1=[0.018, 0, -0.0025], Point2=[-0.018, 0, 0.0455], XResolution=96, YResolution=128)
 averages = [GranularPointAverage(Input=particles, Lines=contacts, Walls=walls, Points=section, Kernel="Gaussian",
-                                 KernelWidth=width * RADIUS, Arrays=["volumefraction", "pressure"]) for width in WIDTHS]
+                                 KernelWidth=width * RADIUS) for width in WIDTHS]
+for average in averages:
+    average.Arrays = ["volumefraction", "pressure"]  # after it is made, as defaults are on until then
 # The circles in which the plane cuts the particles.
 spheres = Glyph(Input=particles, GlyphType="Sphere", ScaleArray=["POINTS", "radius"], ScaleFactor=2, GlyphMode="All Points")
 granular.set_properties(spheres.GlyphType, ThetaResolution=40, PhiResolution=40)

@@ -25,7 +25,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -45,8 +44,6 @@ vtkStandardNewMacro(vtkGranularContactSums);
 
 namespace
 {
-using Pipeline = vtkStreamingDemandDrivenPipeline;
-
 constexpr const char* FrictionArray = "mobilised_friction";
 
 constexpr MadeArray Arrays[] = {
@@ -108,7 +105,6 @@ public:
     {
       vtkInformation* info = inputs[port + 1]->GetInformationObject(0);
       this->Contacts[port] = info ? vtkDataObject::GetData(info) : nullptr;
-      this->HaveTimes[port] = info && info->Length(Pipeline::TIME_STEPS()) > 1;
     }
   }
 
@@ -159,6 +155,9 @@ private:
         // walls must say where they are
         wanted.Point = wanted.Point || (port == 1 && !vtkPointSet::SafeDownCast(this->Contacts[1]));
         this->Rows[port].emplace(this->Contacts[port], touched[port], wanted, this->Progress);
+        this->LackForces = this->LackForces ||
+          (wanted.Force && this->Rows[port]->GetRows().count > 0 &&
+            this->Rows[port]->GetRows().force.empty());
         this->Inputs.push_back(this->Rows[port]->GetRows());
         this->All[port] = static_cast<vtkTypeInt64>(this->Inputs.back().count);
       }
@@ -188,7 +187,7 @@ private:
       granular::sum_contacts(this->Input->View(), this->Inputs, request, ranks, this->Progress);
     for (std::size_t port = 0; port < 2; ++port)
     {
-      if (this->Rows[port] && this->HaveTimes[port])
+      if (this->Rows[port])
       {
         const std::string remark = CompareTimesteps(
           this->Particles->GetFieldData(), this->Rows[port]->GetLines().GetFieldData());
@@ -365,13 +364,15 @@ private:
       std::to_string(this->Sums.repeated) +
         " particles have the id of another one: contacts go to the first");
     tell(!this->Remark.empty(), "timesteps", this->Remark);
+    tell(this->LackForces, "no forces",
+      "the contacts have neither an array 'force' nor 'force_normal': what needs forces is not "
+      "made");
     this->Self->Ranks->Warn(this->Self, remarks);
   }
 
   vtkGranularContactSums* Self;
   vtkDataObject* Particles;
   std::array<vtkDataObject*, 2> Contacts = {}; ///< between particles, with walls
-  std::array<bool, 2> HaveTimes = {};          ///< or else they are those of all times
   std::array<vtkPolyData*, 2> Outputs;
   PieceRequest Wanted;
   granular::Communicator& Ranks;
@@ -385,6 +386,7 @@ private:
   granular::ContactSums Sums;
   std::array<std::int64_t, 2> All = {}; ///< contacts of all processes
   std::string Remark;
+  bool LackForces = false;
 };
 
 //------------------------------------------------------------------------------

@@ -196,29 +196,32 @@ private:
     const bool smooth = this->Self->Weights >= GAUSSIAN && this->Self->KernelWidth == 0;
     request.cells = MakeWeights(this->Self->Weights, this->Self->KernelWidth,
       this->Self->KernelBounds, smooth ? granular::largest_radius(view, request.arrays, ranks) : 0);
-    this->ChooseFields(request);
+    const bool contacts = this->ChooseFields(request);
     this->Grid = request.grid;
     const granular::Executor executor(ChooseThreads(this->Self->Threads, this->Ranks));
     granular::PartialProgress progress(this->Progress);
-    progress.set_part(0, this->HaveContacts() ? 0.5 : 1);
+    progress.set_part(0, contacts ? 0.5 : 1);
     granular::EulerAverages averages =
       granular::average_in_cells(view, request, ranks, executor, notices, progress);
-    if (this->HaveContacts())
+    if (contacts)
     {
       progress.set_part(0.5, 1);
       const granular::Box box = view.header.box;
       view.header.box.boundary = boundary; // a contact crosses a face, though nothing has images
-      const FoundContacts contacts(
-        { inputs[1], inputs[2] }, view, request.tensors, ranks, executor, notices, progress);
-      granular::average_contacts(contacts.GetEnds(), view.has_box ? &box : nullptr, request, ranks,
+      const FoundContacts found({ inputs[1], inputs[2] }, *inputs[0], view, request.tensors, ranks,
+        executor, notices, progress);
+      granular::average_contacts(found.GetEnds(), view.has_box ? &box : nullptr, request, ranks,
         executor, progress, averages);
-      this->Missing += contacts.CountMissing();
-      this->BrokenContacts += contacts.CountBroken();
+      this->Missing += found.CountMissing();
+      this->BrokenContacts += found.CountBroken();
     }
     return averages;
   }
 
-  void ChooseFields(granular::EulerAverageRequest& request) const
+  /**
+   * Returns true if contacts have a part in any array.
+   */
+  bool ChooseFields(granular::EulerAverageRequest& request) const
   {
     const bool contacts = this->HaveContacts();
     if (contacts && !request.arrays.stress.empty())
@@ -232,6 +235,7 @@ private:
     request.pressure = chosen.Pressure;
     request.tensors = chosen.Stress;
     request.keep_sums = this->Self->TimeAverage || request.fields.coordination;
+    return chosen.NeedContacts();
   }
 
   granular::EulerGrid MakeGrid(double largestRadius) const

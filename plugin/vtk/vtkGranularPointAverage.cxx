@@ -107,8 +107,9 @@ private:
   {
     const granular::FrameView& view = this->Grains->View();
     const vtkGranularPointAverage& self = *this->Self;
-    const bool contacts = this->Inputs[1] || this->Inputs[2];
-    const ChosenFields chosen = ChooseFields(self.ArraySelection, contacts);
+    const ChosenFields chosen =
+      ChooseFields(self.ArraySelection, this->Inputs[1] || this->Inputs[2]);
+    const bool contacts = chosen.NeedContacts();
     granular::PointAverageRequest request;
     request.arrays = { TextOf(self.VelocityArray), TextOf(self.RadiusArray), TextOf(self.MassArray),
       "" };
@@ -126,8 +127,8 @@ private:
     if (contacts)
     {
       this->Progress.set_part(0, 0.3);
-      found.emplace(std::array{ this->Inputs[1], this->Inputs[2] }, view, request.tensors, ranks,
-        executor, notices, this->Progress);
+      found.emplace(std::array{ this->Inputs[1], this->Inputs[2] }, *this->Inputs[0], view,
+        request.tensors, ranks, executor, notices, this->Progress);
       this->Counts = { found->CountMissing(), found->CountBroken() };
     }
     this->Progress.set_part(contacts ? 0.3 : 0, 0.95);
@@ -150,7 +151,17 @@ private:
   {
     this->Output->ShallowCopy(points);
     auto* output = vtkDataSet::SafeDownCast(this->Output);
-    FillArrays(output->GetPointData(), this->Frame, points->GetNumberOfPoints());
+    vtkNew<vtkPointData> fields;
+    FillArrays(fields, this->Frame, points->GetNumberOfPoints());
+    for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* const array = fields->GetAbstractArray(i);
+      if (points->GetPointData()->HasArray(array->GetName()))
+      {
+        array->SetName((std::string(array->GetName()) + "_avg").c_str());
+      }
+      output->GetPointData()->AddArray(array);
+    }
     for (const char* name : { "timestep", "time" })
     {
       if (vtkAbstractArray* array = this->Inputs[0]->GetFieldData()->GetAbstractArray(name))

@@ -101,12 +101,17 @@ assert list(parts) == OF_PARTICLES
 assert abs(parts["contact_force"] - all_["contact_force"]).max() < 1e-15  # N, of 15 digits
 # no forces at all: contacts without forces give their number and their directions
 sums = bed_without("force", "force_normal", "force_tangential")
+sums.filter.Update()
+assert len(sums.said) == 1 and "neither an array 'force' nor 'force_normal': what needs forces is not made" in sums.said[0]
+sums.said.clear()
 found = made_by(sums)
 assert list(found) == [name for name in OF_PARTICLES if name not in OF_FORCES]
 assert all((found[name] == all_[name]).all() for name in found)
 assert sums.filter.GetLinesOutput().GetNumberOfCells() == 0
 # normal forces alone are taken for the force
-normal = made_by(bed_without("force", "force_tangential", "torque"))
+normal = bed_without("force", "force_tangential", "torque")
+normal.choose([name for name in NAMES if name != "mobilised_friction"])
+normal = made_by(normal)
 grains, contacts, walls = (kind("bed" + what, 70000) for kind, what in (
     (plain.Particles, ""), (plain.Contacts, "_contacts"), (plain.Contacts, "_walls")))
 expected = sum(plain.add_up(grains, each, each.named["force_normal"], each.named["force_normal"] * sign)

@@ -149,7 +149,10 @@ works(made_of(particles=grains(id=[1.0, 2.0, 3.0]), lines=pairs()))
 refused("expected an array 'id1' of the lines, got none", 1, pairs(), lines=pairs(id1=None))
 refused("expected an array 'id2' of the lines, got none", 1, pairs(), lines=pairs(id2=None))
 refused("expected an array 'id2' of the lines, got none", 2, walls(), walls=walls(id2=None))
-works(made_of(walls=walls(id1=[77])))  # walls have no first particle
+refused("expected contacts with walls as Walls, got an array 'id1' of a second particle: contacts between particles are Lines", 2,
+        walls(), walls=walls(id1=[77]))
+refused("expected an array 'force_tangential' or 'force' of the contacts for mobilised_friction, got 'force_normal' alone", 1, pairs(),
+        lines=pairs(force=None, force_normal=ROWS["force"]), on=NAMES)
 refused("expected 3 numbers a row in the array 'force' of the lines, got 1", 1, pairs(), lines=pairs(force=[1.0, 2.0]))
 refused("expected 3 numbers a row in the array 'torque' of the lines, got 1", 1, pairs(), lines=pairs(torque=[1.0, 2.0]))
 refused("expected 3 numbers a row in the array 'contact_point' of the lines, got 1", 1, pairs(), lines=pairs(contact_point=[1.0, 2.0]))
@@ -160,7 +163,8 @@ works(made_of(lines=pairs(delta=ROWS["force"])))  # which nobody asks for
 ONE_KIND = "expected forces of all contacts, with particles and with walls, got those of one kind alone"
 refused(ONE_KIND, 2, walls(), lines=pairs(), walls=walls(force=None))
 refused(ONE_KIND, 1, pairs(), lines=pairs(force=None), walls=walls())
-works(made_of(lines=pairs(force=None), walls=walls(force=None)))
+works(made_of(lines=pairs(force=None), walls=walls(force=None)), "neither an array 'force' nor 'force_normal'")
+works(made_of(lines=pairs(force=None), on=["coordination", "fabric"]))
 refused("expected lines or an array 'contact_point' of contacts with walls, got neither", 2, walls(),
         walls=table_of({"id2": [1], "force": [[0, 0, 3.0]]}))
 works(made_of(walls=table_of({"id2": [1], "force": [[0, 0, 3.0]], "contact_point": [[0, 0, -1.0]]})))
@@ -176,7 +180,7 @@ refused(OVERLAP, 0, grains(), particles=grains(radius=None), lines=pairs(delta=[
 works(made_of(particles=grains(radius=None), lines=pairs(delta=[1.0, 1.0]), MinimumOverlap=1e-9))
 
 refused("expected forces of the contacts for MinimumForce, got none", 1, pairs(), lines=pairs(force=None), MinimumForce=1e-9)
-works(made_of(lines=pairs(force=None)))
+works(made_of(lines=pairs(force=None)), "neither an array 'force' nor 'force_normal'")
 
 # ---- properties ----------------------------------------------------------------------------------------------------------
 
@@ -237,11 +241,13 @@ made.Modified()
 made.UpdatePiece(0, 2, 0)
 assert len(made.said) == 3, made.said
 
-# lines of another time; of data with one time alone it is a matter of the user
-for name, step, said in (("moving", 3000, []), ("moving", 3020, []), ("bed", 70000, ["the particles are of timestep 70000, the lines of 3020"])):
-    made = Sums("moving", walls=False, on=NAMES[:5])
-    if name == "bed":
-        made.grains = Sums("bed").grains
+# lines of another time, also of a file with one time alone
+for grains_of, lines_of, step, said in (("moving", "moving", 3000, []), ("moving", "moving", 3020, []),
+                                        ("bed", "moving", 70000, ["the particles are of timestep 70000, the lines of 3020"]),
+                                        ("moving", "bed", 3020, ["the particles are of timestep 3020, the lines of 70000"])):
+    made = Sums(lines_of, walls=False, on=NAMES[:5])
+    if grains_of != lines_of:
+        made.grains = Sums(grains_of).grains
         made.filter.SetInputConnection(0, made.grains.GetOutputPort())
     made.filter.UpdateTimeStep(step)
     told = [each for each in made.said if "timestep" in each]

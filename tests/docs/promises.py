@@ -9,6 +9,7 @@ import sys
 
 import granular
 from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
 
 ROOT = sys.argv[1]
 SAMPLES = os.path.join(ROOT, "samples", "data")
@@ -73,6 +74,22 @@ def made():
     average.SetInputConnection(packing.GetOutputPort())
     average.SetCellCounts(2, 2, 2)
     yield "EulerAverage", names_of(outputs(packing)[0]) - {"radius"}, average
+    bed = open_with("DumpReader", SAMPLES, "continuum", "bed.dump.gz")
+    touching = open_with("LocalReader", SAMPLES, "continuum", "bed_contacts.dump.gz",
+                         ColumnMap="pos id force force_normal force_tangential torque delta contactPoint")
+    plane = vtkPlaneSource()
+    for name, inputs, more in (("ContactSums", names_of(outputs(bed)[0]), {}), ("EulerAverage", set(), {"CellCounts": (2, 2, 2)}),
+                               ("PointAverage", {"points", "Normals", "TextureCoordinates"}, {})):
+        made_of_contacts = getattr(granular, "vtkGranular" + name)()
+        made_of_contacts.SetInputConnection(0, bed.GetOutputPort())
+        made_of_contacts.SetLinesConnection(touching.GetOutputPort())
+        if name == "PointAverage":
+            made_of_contacts.SetPointsConnection(plane.GetOutputPort())
+        for key, value in more.items():
+            getattr(made_of_contacts, "Set" + key)(*value)
+        made_of_contacts.GetArraySelection().EnableAllArrays()
+        made_of_contacts.GetArraySelection().DisableArray("mobilised_friction")
+        yield name, inputs, made_of_contacts
     source = granular.vtkGranularDecompositionSource()
     yield "DecompositionSource", set(), source
     count = granular.vtkGranularDecomposition()

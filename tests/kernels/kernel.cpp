@@ -309,7 +309,8 @@ TEST(Kernel, WidthsThatAreNoneAreErrors)
     { -infinity, "-inf" }, { not_a_number, "nan" } };
   for (const auto& [width, text] : wrong)
   {
-    EXPECT_EQ(error_of(width), std::string("expected a KernelWidth above 0, got ") + text);
+    EXPECT_EQ(
+      error_of(width), std::string("expected a KernelWidth from 1e-60 to 1e60, got ") + text);
   }
   for (const double width : { 1e-60, 1e-9, 0.001, 1.0, 1e9, 1e60 })
   {

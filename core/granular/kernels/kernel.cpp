@@ -138,7 +138,7 @@ void check_width(double width)
 {
   if (!(width >= 1e-60 && width <= 1e60))
   {
-    throw Error("expected a KernelWidth above 0, got " + to_text(width));
+    throw Error("expected a KernelWidth from 1e-60 to 1e60, got " + to_text(width));
   }
 }
 

@@ -88,6 +88,11 @@ ContactInput::ContactInput(
     this->Ids[0] = this->Rows.ReadIds("id1", progress);
     this->View.id1 = this->Ids[0];
   }
+  else if (this->Rows.Has("id1"))
+  {
+    throw granular::Error("expected contacts with walls as Walls, got an array 'id1' of a second "
+                          "particle: contacts between particles are Lines");
+  }
   this->Ids[1] = this->Rows.ReadIds("id2", progress);
   this->View.id2 = this->Ids[1];
   this->ReadEnds(input);
@@ -150,6 +155,11 @@ void ContactInput::ReadForces(const ContactArrays& wanted)
     {
       const std::span<const double> across = this->Rows.ReadTuples("force_tangential", 3, own);
       std::ranges::transform(this->Force, across, this->Force.begin(), std::plus<>());
+    }
+    else if (wanted.Tangential)
+    {
+      throw granular::Error("expected an array 'force_tangential' or 'force' of the contacts for "
+                            "mobilised_friction, got 'force_normal' alone");
     }
     this->View.force = this->Force;
   }

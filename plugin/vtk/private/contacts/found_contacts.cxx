@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/contacts/found_contacts.h"
 
+#include "vtkDataObject.h"
 #include "vtkPointSet.h"
 
 #include <cstddef>
 
 namespace vtkGranularPrivate
 {
-FoundContacts::FoundContacts(const std::array<vtkDataObject*, 2>& inputs,
+FoundContacts::FoundContacts(const std::array<vtkDataObject*, 2>& inputs, vtkDataObject& grains,
   const granular::FrameView& particles, bool forces, granular::Communicator& ranks,
   const granular::Executor& executor, granular::Notices& notices, granular::Progress& progress)
 {
@@ -21,6 +22,12 @@ FoundContacts::FoundContacts(const std::array<vtkDataObject*, 2>& inputs,
       wanted.Point = port == 1 && !vtkPointSet::SafeDownCast(inputs[port]); // where the wall is
       this->Contacts[port].emplace(inputs[port], touched[port], wanted, progress);
       this->Rows.push_back(this->Contacts[port]->GetRows());
+      granular::Notice notice;
+      notice.text = CompareTimesteps(grains.GetFieldData(), inputs[port]->GetFieldData());
+      if (!notice.text.empty())
+      {
+        notices.push_back(notice);
+      }
     }
   }
   granular::ContactOptions options;

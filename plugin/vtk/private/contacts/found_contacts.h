@@ -27,11 +27,12 @@ class FoundContacts
 {
 public:
   /**
-   * forces: false reads none, where no stress is wanted; otherwise a notice tells if there are none. Throws what ContactInput and FoundEnds throw. Collective.
+   * grains: the input of the particles, a notice tells if it is of another timestep. forces: false reads none, where no stress
+   * is wanted; otherwise a notice tells if there are none. Throws what ContactInput and FoundEnds throw. Collective.
    */
-  FoundContacts(const std::array<vtkDataObject*, 2>& inputs, const granular::FrameView& particles,
-    bool forces, granular::Communicator& ranks, const granular::Executor& executor,
-    granular::Notices& notices, granular::Progress& progress);
+  FoundContacts(const std::array<vtkDataObject*, 2>& inputs, vtkDataObject& grains,
+    const granular::FrameView& particles, bool forces, granular::Communicator& ranks,
+    const granular::Executor& executor, granular::Notices& notices, granular::Progress& progress);
   FoundContacts(const FoundContacts&) = delete;
   void operator=(const FoundContacts&) = delete;
 

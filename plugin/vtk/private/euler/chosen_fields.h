@@ -20,6 +20,14 @@ struct ChosenFields
   granular::EulerFieldSet Fields;
   bool Pressure = false;
   bool Stress = false; ///< of contacts, too
+
+  /**
+   * Whether contacts have a part in any.
+   */
+  bool NeedContacts() const
+  {
+    return this->Stress || this->Fields.coordination || this->Fields.fabric;
+  }
 };
 
 /**

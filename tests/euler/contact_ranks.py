@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts in cells, profiles and at points: any number of ranks find the bits of one."""
+import granular
+import numpy
+from contact_averages import ALL, GAUSSIAN, OVERLAP, POINTS, PROFILE, Averages
+from paraview.simple import *
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
+
+import plain_contacts as plain
+
+CORNERS = {"Origin": (-0.015, 0.001, 0), "Point1": (0.015, 0.001, 0), "Point2": (-0.015, 0.001, 0.036)}
+for name in ("bed", "periodic_bed", "moving"):
+    grains = GranularDumpReader(FileNames=[plain.path(name)])
+    lines, walls = (GranularLocalReader(FileNames=[plain.path(name + what)], ColumnMap=plain.COLUMNS[name + what])
+                    for what in ("_contacts", "_walls"))
+    step = plain.steps(name)[-1]
+    ports = {"Input": grains, "Lines": lines, "Walls": walls}
+    plane = Plane(**CORNERS, XResolution=8, YResolution=9)
+    source = vtkPlaneSource()
+    for corner, place in CORNERS.items():
+        getattr(source, f"Set{corner}")(*place)
+    source.SetResolution(8, 9)
+    at_points = Averages(name, "PointAverage", KernelWidth=0.004)
+    at_points.filter.SetPointsConnection(source.GetOutputPort())
+    cells = {"CellCounts": (4, 3, 5), "KernelWidth": 0.004}
+    cases = [(GranularEulerAverage(**ports, **cells, Weights=weights, Output=output),
+              Averages(name, Weights=number, OutputType=kind, **cells))
+             for weights, number in (("Overlap", OVERLAP), ("Gaussian", GAUSSIAN)) for output, kind in (("Points", POINTS), ("Profile", PROFILE))]
+    for proxy, alone in cases + [(GranularPointAverage(**ports, Points=plane, KernelWidth=0.004), at_points)]:
+        proxy.Arrays = ALL
+        proxy.UpdatePipeline(step)
+        found, expected = granular.fetch(proxy, time=step), alone.update(step)
+        for array in ALL:
+            values = numpy.asarray(found[array]).reshape(len(expected[array]), -1)
+            assert (values == expected[array]).all(), (name, array)
+print("the same")
