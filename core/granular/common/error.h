@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -71,9 +72,19 @@ class UnsupportedError : public Error
 /// A message for the user that is not an error.
 struct Notice
 {
+  Notice() = default;
+
+  /// Not an aggregate: GCC 12 destroys a braced `where` twice if making `text` throws.
+  Notice(Where of, std::string says, std::string about = {})
+    : where(std::move(of))
+    , text(std::move(says))
+    , topic(std::move(about))
+  {
+  }
+
   Where where;
   std::string text;
-  std::string topic = {}; ///< a user gets the first notice of a topic per file; empty: each
+  std::string topic; ///< a user gets the first notice of a topic per file; empty: each
 };
 
 using Notices = std::vector<Notice>;
