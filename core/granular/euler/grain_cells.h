@@ -26,7 +26,7 @@ class GrainCells
 public:
   using Options = WeightOptions;
 
-  /// box: of which grains have images along its periodic axes, wherever the grid reaches; null or tilted: none have.
+  /// box: of which grains have images along its periodic axes, wherever the grid reaches; null, or a general one: none have.
   GrainCells(const EulerGrid& grid, const Options& options, const Box* box);
   GrainCells(const GrainCells&) = delete;
   GrainCells& operator=(const GrainCells&) = delete;

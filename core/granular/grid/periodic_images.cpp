@@ -24,15 +24,17 @@ constexpr double rounding = 1e-9;
 PeriodicImages::PeriodicImages(const EulerGrid& grid, const Box* box)
   : grid_(grid)
 {
-  if (!box || box->tilted)
+  if (!box || box->general)
   {
     return;
   }
+  vectors_ = box->vectors;
   const BoxBounds bounds = box->bounds();
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const bool repeats = is_periodic(*box, axis) && bounds.lo[axis] < bounds.hi[axis];
     const Twofold length = box->vectors[axis][axis];
+    const bool repeats =
+      is_periodic(*box, axis) && bounds.lo[axis] < bounds.hi[axis] && length.value() > 0;
     const double margin = rounding * length.value();
     Expansion<4> rest; // of the grid beyond a period: exact, as grids often are a period long
     rest.add(grid.hi[axis]);
@@ -41,7 +43,8 @@ PeriodicImages::PeriodicImages(const EulerGrid& grid, const Box* box)
     const bool wraps = repeats && rest.sign() >= 0;
     axes_[axis] = { repeats, wraps, length, grid.hi[axis] - length.value() + margin,
       grid.lo[axis] + length.value() - margin };
-    of_centres_ = of_centres_ ||
+    tilted_ = tilted_ || (repeats && box->tilted);
+    of_centres_ = of_centres_ || tilted_ ||
       (repeats && (grid.lo[axis] < bounds.lo[axis] || grid.hi[axis] > bounds.hi[axis]));
   }
 }
@@ -52,7 +55,9 @@ std::array<std::int64_t, 2> PeriodicImages::find_range(
   const double length = axes_[axis].length.value();
   const double first = std::ceil((grid_.lo[axis] - x - radius) / length - rounding);
   const double last = std::floor((grid_.hi[axis] - x + radius) / length + rounding);
-  return { static_cast<std::int64_t>(first), static_cast<std::int64_t>(last) };
+  constexpr double most = 0x1p62; // so far away images coincide
+  return { static_cast<std::int64_t>(std::clamp(first, -most, most)),
+    static_cast<std::int64_t>(std::clamp(last, -most, most)) };
 }
 
 /// The coordinate of image k.
@@ -61,6 +66,18 @@ Twofold PeriodicImages::moved(std::size_t axis, double x, std::int64_t k) const 
   Expansion<5> sum;
   sum.add(x);
   sum.add_product(static_cast<double>(k), axes_[axis].length);
+  return sum.twofold();
+}
+
+Twofold PeriodicImages::moved(
+  std::size_t axis, double x, const std::array<std::int64_t, 3>& k) const noexcept
+{
+  Expansion<13> sum;
+  sum.add(x);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    sum.add_product(static_cast<double>(k[i]), vectors_[i][axis]);
+  }
   return sum.twofold();
 }
 

@@ -22,7 +22,7 @@ inline Vector3 floors_of(const Twofold3& image) noexcept
 class PeriodicImages
 {
 public:
-  /// box: null or tilted: there are none but the grains themselves.
+  /// box: null, or a general one: there are none but the grains themselves.
   PeriodicImages(const EulerGrid& grid, const Box* box);
 
   /// Returns true if centres in the box may have images in the grid.
@@ -31,7 +31,7 @@ public:
   /// Returns true if a particle surely has no image in the grid but itself.
   bool alone(const double* centre, double radius) const noexcept
   {
-    return this->alone(0, centre[0], radius) && this->alone(1, centre[1], radius) &&
+    return !tilted_ && this->alone(0, centre[0], radius) && this->alone(1, centre[1], radius) &&
       this->alone(2, centre[2], radius);
   }
 
@@ -49,6 +49,11 @@ public:
   template <class Visit>
   void each(const double* centre, const Vector3& reach, const Visit& visit) const
   {
+    if (tilted_)
+    {
+      this->each_tilted(centre, reach, visit);
+      return;
+    }
     CellRange images;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -72,7 +77,8 @@ public:
   std::int64_t most_in_cell(double radius) const noexcept;
 
   /// Whether a place along an axis is that of a grain whose image one period below is in the grid, too: at the upper
-  /// face of a grid that is a period long, or longer.
+  /// face of a grid that is a period long, or longer. In a tilted box the image may be elsewhere along other axes: a grid with
+  /// the lengths of the box has each grain once all the same.
   bool is_twice(std::size_t axis, double x) const noexcept
   {
     return axes_[axis].wraps && x == grid_.hi[axis];
@@ -108,8 +114,38 @@ private:
   }
   Twofold moved(std::size_t axis, double x, std::int64_t k) const noexcept;
 
+  /// The last vector alone has a part along z, and only the first has none along y: axis by axis, the last one first, images
+  /// are as far apart as in a straight box.
+  template <class Visit>
+  void each_tilted(const double* centre, const Vector3& reach, const Visit& visit) const
+  {
+    std::array<std::int64_t, 3> k = {};
+    const auto place = [&](std::size_t axis) { return this->moved(axis, centre[axis], k); };
+    const auto along = [&](std::size_t axis, const auto& next)
+    {
+      k[axis] = 0;
+      const auto [first, last] = axes_[axis].repeats
+        ? this->find_range(axis, place(axis).value(), reach[axis])
+        : std::array<std::int64_t, 2>{};
+      for (k[axis] = first; k[axis] <= last; ++k[axis])
+      {
+        next();
+      }
+      k[axis] = 0;
+    };
+    along(2,
+      [&] {
+        along(1, [&] { along(0, [&] { visit(Twofold3{ place(0), place(1), place(2) }); }); });
+      });
+  }
+
+  /// The coordinate of the image that is so many of each vector of the box away.
+  Twofold moved(std::size_t axis, double x, const std::array<std::int64_t, 3>& k) const noexcept;
+
   EulerGrid grid_;
   std::array<Axis, 3> axes_;
+  bool tilted_ = false;
+  std::array<Twofold3, 3> vectors_ = {}; ///< of a tilted box
   bool of_centres_ = false;
 };
 }
