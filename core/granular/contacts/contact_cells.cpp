@@ -204,24 +204,12 @@ private:
         std::vector<BlockRows::Entry>& own = entries[first / rows_of_chunk];
         for (std::size_t i = 0; i < count; ++i)
         {
-          const auto before = static_cast<std::ptrdiff_t>(own.size());
           const Line line = this->load(static_cast<std::int64_t>(first + i));
-          if (!line.usable)
+          if (line.usable)
           {
-            continue;
+            blocks_.add_entries(static_cast<std::uint32_t>(i), own,
+              [&](const auto& visit) { cells_.each_range(line.start, line.branch, visit); });
           }
-          const auto add = [&](std::int64_t block)
-          {
-            const BlockRows::Entry entry = { static_cast<std::uint32_t>(block),
-              static_cast<std::uint32_t>(i) };
-            // one of several images may have been there before
-            if (std::find(own.begin() + before, own.end(), entry) == own.end())
-            {
-              own.push_back(entry);
-            }
-          };
-          cells_.each_range(line.start, line.branch,
-            [&](const CellRange& range) { blocks_.blocks().each(range, add); });
         }
       },
       progress_);

@@ -99,19 +99,10 @@ std::int64_t AveragePasses::find_blocks(
       continue;
     }
     const auto row = static_cast<std::uint32_t>(first_row + static_cast<std::int64_t>(i));
-    const auto before = static_cast<std::ptrdiff_t>(entries.size());
-    const auto add = [&](std::int64_t block)
-    {
-      const BlockRows::Entry entry = { static_cast<std::uint32_t>(block), row };
-      // one of several images may have been there before
-      if (std::find(entries.begin() + before, entries.end(), entry) == entries.end())
-      {
-        entries.push_back(entry);
-      }
-    };
-    cells_.each_range(grains.positions + 3 * i, grains.radius[i],
-      [&](const CellRange& range) { blocks_.blocks().each(range, add); });
-    outside += before == static_cast<std::ptrdiff_t>(entries.size()) ? 1 : 0;
+    const bool inside = blocks_.add_entries(row, entries,
+      [&](const auto& visit)
+      { cells_.each_range(grains.positions + 3 * i, grains.radius[i], visit); });
+    outside += inside ? 0 : 1;
   }
   return outside;
 }

@@ -54,6 +54,31 @@ public:
   const SumBlocks& blocks() const noexcept { return blocks_; }
   const BlockRows& rows() const noexcept { return rows_; }
 
+  /// Adds an entry of a row for each block with cells of the ranges that each_range(visit) visits, the images of one thing. A
+  /// block has one entry, though several images may reach it. Returns true if there are any.
+  template <class EachRange>
+  bool add_entries(
+    std::uint32_t row, std::vector<BlockRows::Entry>& entries, const EachRange& each_range) const
+  {
+    const auto first = static_cast<std::ptrdiff_t>(entries.size());
+    each_range(
+      [&](const CellRange& range)
+      {
+        const auto own = static_cast<std::ptrdiff_t>(entries.size());
+        blocks_.each(range,
+          [&](std::int64_t block)
+          {
+            const BlockRows::Entry entry = { static_cast<std::uint32_t>(block), row };
+            const auto end = entries.begin() + own; // a range has a block once
+            if (std::find(entries.begin() + first, end, entry) == end)
+            {
+              entries.push_back(entry);
+            }
+          });
+      });
+    return first < static_cast<std::ptrdiff_t>(entries.size());
+  }
+
   /// Takes the rows of this rank in each block. Collective.
   void set_rows(BlockRows rows);
 
