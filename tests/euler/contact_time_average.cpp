@@ -2,6 +2,7 @@
 // Averages over time of contacts and of chosen fields, against those of all frames at once.
 #include "made_touches.h"
 
+#include "granular/common/error.h"
 #include "granular/euler/time_average.h"
 
 #include "../support/hard_case.h"
@@ -152,6 +153,25 @@ TEST(ContactTimeAverage, TheMeanVelocityOfAllFramesIsWhatFluctuationsAreOf)
   EXPECT_EQ(fields.density[0], 2);
   EXPECT_EQ(fields.momentum[0], 2);
   EXPECT_EQ(fields.coordination[0], 0);
+}
+
+/// Their mean would be wrong: frames without forces are no frames without stress.
+TEST(ContactTimeAverage, FramesWithAndWithoutForcesHaveNoMean)
+{
+  const EulerAverageRequest request = request_of_contacts(grid, CellWeights::Centre);
+  std::vector<Scene> frames = some_frames();
+  for (const unsigned without : { 0U, 1U, 4U })
+  {
+    std::vector<Scene> mixed = frames;
+    mixed[without].forces = false;
+    EXPECT_THROW(over_time(mixed, request), Error) << without;
+  }
+  for (Scene& frame : frames)
+  {
+    frame.forces = false;
+  }
+  frames.erase(frames.begin() + 2, frames.begin() + 4); // which have no contacts
+  EXPECT_TRUE(over_time(frames, request).fields().contact_normal.empty());
 }
 
 TEST(ContactTimeAverage, FieldsThatNobodyWantsAreEmpty)

@@ -100,6 +100,13 @@ void TimeAverage::add_fields(const EulerAverages& frame)
 {
   const EulerFields& fields = frame.fields;
   FieldSums& sums = field_sums_;
+  if (frames_ > 0 && fields.contact_normal.empty() != sums.contact_normal.empty())
+  {
+    throw Error(
+      "expected forces of the contacts in all frames that are averaged, or in none, got " +
+      std::string(fields.contact_normal.empty() ? "none" : "some") + " in frame " +
+      std::to_string(frames_));
+  }
   add_values(fields.density, sums.density);
   add_values(fields.momentum, sums.momentum);
   add_values(fields.contact_normal, sums.contact_normal);

@@ -20,7 +20,7 @@ namespace granular
 class TimeAverage
 {
 public:
-  /// Adds averages with sums. Throws Error if the cells differ.
+  /// Adds averages with sums. Throws Error if the cells differ, or if some frames have forces of contacts and others have not.
   void add(const EulerAverages& frame);
 
   std::int64_t frames() const noexcept { return frames_; }
