@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_source.h"
 
+#include "granular/bytes/no_file.h"
 #include "granular/common/error.h"
 
 #include <algorithm>
@@ -102,14 +103,18 @@ public:
   void expect_file()
   {
     const struct stat status = this->status();
-    const bool is_folder = S_ISDIR(status.st_mode);
     if (!S_ISREG(status.st_mode))
     {
-      throw IoError(
-        std::string("expected a file, got ") + (is_folder ? "a directory" : "a device or a pipe"),
-        { path_ }, is_folder ? std::errc::is_a_directory : std::errc::not_supported);
+      refuse_no_file(path_, S_ISDIR(status.st_mode));
     }
     size_ = status.st_size;
+    char byte = 0;
+    // it has not grown meanwhile, either
+    if (size_ == 0 && ::pread(file_, &byte, 1, 0) > 0 && this->status().st_size == 0)
+    {
+      throw IoError("expected a file of a known size, got one of the system's, as in /proc",
+        { path_ }, std::errc::not_supported);
+    }
   }
 
 private:

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/find_files.h"
 
+#include "granular/bytes/no_file.h"
 #include "granular/common/error.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <system_error>
 
 #include <glob.h>
 
@@ -111,6 +113,57 @@ std::string last_part(const std::string& path)
   return path.substr(path.rfind('/') + 1);
 }
 
+/// The folders that a pattern begins with, as far as they are there under these names, with a slash at the end.
+std::string_view folders_of(std::string_view pattern)
+{
+  std::error_code none;
+  while (!pattern.empty() && !(pattern.ends_with('/') && fs::is_directory(pattern, none)))
+  {
+    pattern.remove_suffix(1);
+  }
+  return pattern;
+}
+
+/// The pattern of the shell that a pattern means. Signs in names of folders that there are stand for themselves.
+std::string shell_pattern(const std::string& pattern)
+{
+  const std::string_view folders = folders_of(pattern);
+  std::string shell;
+  for (const char c : folders)
+  {
+    const bool is_sign = c == '*' || c == '?' || c == '[';
+    shell += is_sign ? std::string{ '[', c, ']' } : std::string(1, c);
+  }
+  std::string rest = pattern.substr(folders.size());
+  std::ranges::replace(rest, '%', '*');
+  return shell + rest;
+}
+
+/// Says why a pattern fits no file.
+[[noreturn]] void refuse(const std::string& pattern)
+{
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(pattern, error)))
+  {
+    const fs::file_status status = fs::status(pattern, error);
+    if (fs::exists(status))
+    {
+      refuse_no_file(pattern, fs::is_directory(status));
+    }
+    error = error ? error : std::make_error_code(std::errc::no_such_file_or_directory); // a link
+    throw IoError(
+      "cannot open: " + error.message(), { pattern }, static_cast<std::errc>(error.value()));
+  }
+  const std::string folder(folders_of(pattern));
+  const fs::directory_iterator files(folder.empty() ? "." : folder, error);
+  if (error)
+  {
+    throw IoError("cannot list the folder: " + error.message(), { folder.empty() ? "." : folder },
+      static_cast<std::errc>(error.value()));
+  }
+  throw IoError("no file fits the pattern", { pattern }, std::errc::no_such_file_or_directory);
+}
+
 /// Appends the files that a pattern of the shell fits.
 void add_files(const std::string& pattern, std::vector<std::string>& names)
 {
@@ -188,10 +241,8 @@ std::vector<std::string> find_files(const std::vector<std::string>& patterns)
     std::vector<std::string> numbered;
     for (const char* ending : { "", ".gz", ".zst" })
     {
-      std::string shell = pattern + ending;
-      std::ranges::replace(shell, '%', '*');
       std::vector<std::string> names;
-      add_files(shell, names);
+      add_files(shell_pattern(pattern + ending), names);
       for (const std::string& name : names)
       {
         fitting.push_back(name);
@@ -203,7 +254,7 @@ std::vector<std::string> find_files(const std::vector<std::string>& patterns)
     }
     if (fitting.empty())
     {
-      throw IoError("no file fits the pattern", { pattern }, std::errc::no_such_file_or_directory);
+      refuse(pattern);
     }
     for (const std::string& name : numbered.empty() ? fitting : numbered)
     {

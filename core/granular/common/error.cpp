@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/common/error.h"
 
+#include "granular/common/shown_path.h"
+
 #include <utility>
 
 namespace granular
@@ -16,7 +18,7 @@ std::string message(const std::string& text, const Where& where)
 
 std::string to_string(const Where& where)
 {
-  std::string text = where.path;
+  std::string text = shown_path(where.path);
   if (where.line > 0)
   {
     text += ":" + std::to_string(where.line);

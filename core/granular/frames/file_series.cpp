@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/file_series.h"
 
+#include "granular/common/shown_path.h"
 #include "granular/frames/piece_sets.h"
 
 #include <algorithm>
@@ -275,7 +276,8 @@ void Collector::note_hidden_files()
       "no frame of this file" +
         (others > 0 ? ", and of " + std::to_string(others) + " more," : std::string()) +
         " is shown: later files have the same timesteps" +
-        (instead == series_.places.end() ? "" : ", such as " + files_[instead->file].path) +
+        (instead == series_.places.end() ? ""
+                                         : ", such as " + shown_path(files_[instead->file].path)) +
         "; leave out files of other runs, or, if these are pieces of one run, set RepeatedSteps to "
         "Merge" });
   }

@@ -193,7 +193,14 @@ RowStatus check_word(std::string_view word, ValueType type) noexcept
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
   std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd) noexcept
 {
-  row_text::RowPlan plan{ sinks, columns };
+  RowMemory memory;
+  return decode_rows(first, last, columns, sinks, max_rows, memory, simd);
+}
+
+RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
+  std::span<ColumnSink> sinks, std::int64_t max_rows, RowMemory& memory, Simd simd) noexcept
+{
+  row_text::RowPlan plan{ sinks, columns, memory };
 #if GRANULAR_X86
   switch (simd)
   {

@@ -8,8 +8,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <new>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace granular
 {
@@ -43,13 +46,51 @@ struct RowResult
   bool surplus = false; ///< some row had more words than columns; they were passed over
 };
 
+/// Memory that decode_rows needs, about 250 kB. It is kept for the next call, and not on the stack, which may be small.
+class RowMemory
+{
+public:
+  /// Returns memory for an object whose constructor does nothing; null if there is none.
+  template <typename Object>
+  Object* get() noexcept
+  {
+    static_assert(std::is_trivially_default_constructible_v<Object>);
+    if (bytes_ < sizeof(Object))
+    {
+      memory_.reset(static_cast<std::byte*>(
+        ::operator new(sizeof(Object), std::align_val_t(alignment), std::nothrow)));
+      bytes_ = memory_ ? sizeof(Object) : 0;
+    }
+    return bytes_ > 0 ? new (memory_.get()) Object : nullptr;
+  }
+
+private:
+  static constexpr std::size_t alignment = 64;
+
+  struct Free
+  {
+    void operator()(std::byte* memory) const noexcept
+    {
+      ::operator delete(memory, std::align_val_t(alignment));
+    }
+  };
+
+  std::unique_ptr<std::byte, Free> memory_;
+  std::size_t bytes_ = 0;
+};
+
 /// Decodes rows of blank-separated words into columns.
 ///
 /// [first, last) holds whole lines: it is empty or ends in LF. It must be in a PaddedBuffer: up to 64 bytes before and
 /// after are read and ignored. columns is the number of words that a row must have. sinks names the requested columns
 /// in increasing order; each sink's data pointer is advanced past the decoded rows. Lines without words are skipped. At
-/// most max_rows rows are decoded. Numbers equal those of parse_double and parse_int64 to the last bit. Does not throw
-/// or allocate. After an error the sinks' data pointers are unspecified.
+/// most max_rows rows are decoded. Numbers equal those of parse_double and parse_int64 to the last bit. Does not throw.
+/// After an error the sinks' data pointers are unspecified. Without memory, words are decoded one by one.
+RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
+  std::span<ColumnSink> sinks, std::int64_t max_rows, RowMemory& memory,
+  Simd simd = best_simd()) noexcept;
+
+/// The same with memory for this call alone.
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
   std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd = best_simd()) noexcept;
 

@@ -12,6 +12,7 @@ struct RowPlan
 {
   std::span<ColumnSink> sinks;
   std::uint32_t columns;
+  RowMemory& memory;
 };
 
 void store_text(const char* first, const char* last, char* data) noexcept;

@@ -55,6 +55,15 @@ struct Words
   alignas(64) std::uint64_t values[batch_bytes / 2 + 8];
 };
 
+/// What the decoders keep of a batch.
+struct Batch
+{
+  Edges edges;
+  Lines lines;
+  Rows rows;
+  Words words;
+};
+
 struct BlockMarks
 {
   std::uint64_t words; ///< bytes above ' '

@@ -134,7 +134,7 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
 {
   const char* const last = buffer_.data() + end_;
   const RowResult result =
-    decode_rows(buffer_.data() + at_, last, this->columns(), sinks, max_rows);
+    decode_rows(buffer_.data() + at_, last, this->columns(), sinks, max_rows, memory_);
   this->check(result, last, sinks);
   at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
   surplus_ = surplus_ || result.surplus;
@@ -151,7 +151,8 @@ RowCounts TextReader::decode_chosen(
     sizeof(std::int64_t) };
   const char* at = buffer_.data() + at_;
   const char* const last = buffer_.data() + end_;
-  const RowResult all = decode_rows(at, last, this->columns(), std::span(&numbers, 1), max_rows);
+  const RowResult all =
+    decode_rows(at, last, this->columns(), std::span(&numbers, 1), max_rows, memory_);
   const auto rows = static_cast<std::size_t>(all.rows);
   const auto passes = [&](std::size_t row) { return choice.passes(chosen_by_[row]); };
   RowCounts counts{ all.rows };
@@ -170,7 +171,7 @@ RowCounts TextReader::decode_chosen(
     at = skip_rows(at, last, first - passed);
     passed = row + 1;
     const char* const behind = skip_rows(at, last, passed - first);
-    const RowResult some = decode_rows(at, behind, this->columns(), sinks, max_rows);
+    const RowResult some = decode_rows(at, behind, this->columns(), sinks, max_rows, memory_);
     this->check(some, behind, sinks);
     counts.decoded += some.rows;
     at = behind;

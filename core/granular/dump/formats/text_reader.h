@@ -46,6 +46,7 @@ private:
   std::size_t at_ = 0;      ///< next row
   std::size_t end_ = 0;     ///< of the rows
   bool surplus_ = false;
+  RowMemory memory_;
   std::vector<std::int64_t> chosen_by_; ///< the integers of a choice
 };
 }

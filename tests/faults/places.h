@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of places share: a file of each kind, and all that is read of a run.
+#ifndef granular_tests_faults_places_h
+#define granular_tests_faults_places_h
+
+#include "../c/handles.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace places
+{
+namespace fs = std::filesystem;
+
+/// A kind of files, with a small file of a real run.
+struct Kind
+{
+  const char* name;
+  const char* file;
+  const char* ending;
+  granular_kind kind;
+};
+
+constexpr Kind kinds[] = {
+  { "text", "grains_1000.dump", ".dump", GRANULAR_KIND_DUMP },
+  { "binary", "ortho_custom.bin", ".bin", GRANULAR_KIND_DUMP },
+  { "gzip", "ortho_000000.dump.gz", ".dump.gz", GRANULAR_KIND_DUMP },
+  { "Zstandard", "", ".dump.zst", GRANULAR_KIND_DUMP }, // written from the first
+  { "contacts", "local/contacts.dump", ".dump", GRANULAR_KIND_LOCAL },
+  { "restart", "restart/style_sphere.restart", ".restart", GRANULAR_KIND_RESTART },
+  { "data file", "data_file/granular.data", ".data", GRANULAR_KIND_DATA_FILE },
+  { "cells", "euler_1000.vtk", ".vtk", GRANULAR_KIND_EULER },
+  { "subdomains", "decomposition_1000.vtk", ".vtk", GRANULAR_KIND_DECOMPOSITION },
+};
+
+/// A status, and all values of a run, or the message.
+struct Seen
+{
+  granular_status status = GRANULAR_OK;
+  std::string text;
+
+  bool operator==(const Seen&) const = default;
+};
+
+/// For messages of tests, which show the beginning.
+inline std::ostream& operator<<(std::ostream& out, const Seen& seen)
+{
+  return out << "status " << seen.status << ": " << seen.text.substr(0, 300);
+}
+
+inline Seen failed(granular_status status)
+{
+  return { status, message() };
+}
+
+inline void append_values(std::string& text, const granular_array& array)
+{
+  static constexpr std::size_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 4 };
+  text += std::string(array.name) + ":" + std::to_string(array.rows) + "\n";
+  const std::size_t bytes =
+    sizes[array.type] * static_cast<std::size_t>(array.rows * array.components);
+  if (bytes > 0)
+  {
+    text.append(static_cast<const char*>(array.data), bytes);
+  }
+  for (std::size_t i = 0; i < array.word_count; ++i)
+  {
+    text += std::string(array.words[i]) + "\n";
+  }
+}
+
+/// Reads all frames and arrays of a run.
+inline Seen look(const std::string& pattern, granular_kind kind = GRANULAR_KIND_AUTOMATIC,
+  int keep_index = 0, int threads = 2)
+{
+  granular_open_options options;
+  granular_open_options_init(&options);
+  options.kind = kind;
+  options.keep_index = keep_index;
+  options.threads = threads;
+  granular_run* opened = nullptr;
+  const char* const path = pattern.c_str();
+  if (const granular_status status = granular_open(&path, 1, &options, &opened))
+  {
+    return failed(status);
+  }
+  const RunHandle run(opened, granular_close);
+  granular_run_facts facts = {};
+  if (const granular_status status = granular_run_info(opened, &facts))
+  {
+    return failed(status);
+  }
+  granular_request request;
+  granular_request_init(&request);
+  request.threads = threads;
+  Seen seen;
+  for (std::int64_t number = 0; number < facts.frames; ++number)
+  {
+    granular_frame* read = nullptr;
+    if (const granular_status status = granular_read(opened, number, &request, &read))
+    {
+      return failed(status);
+    }
+    const FrameHandle frame(read, granular_release);
+    granular_frame_header header = {};
+    granular_header(read, &header); // timesteps of some kinds are in the names
+    for (std::size_t i = 0; i < header.arrays; ++i)
+    {
+      granular_array array = {};
+      granular_array_at(read, i, &array);
+      append_values(seen.text, array);
+    }
+  }
+  return seen;
+}
+
+/// Writes the frames of one run into the file of another name.
+inline Seen convert(const std::string& from, const std::string& to, int threads = 2)
+{
+  granular_run* opened = nullptr;
+  const char* const path = from.c_str();
+  if (const granular_status status = granular_open(&path, 1, nullptr, &opened))
+  {
+    return failed(status);
+  }
+  const RunHandle run(opened, granular_close);
+  granular_run_facts facts = {};
+  granular_run_info(opened, &facts);
+  granular_format format;
+  granular_format_init(&format);
+  format.threads = threads;
+  granular_writer* writer = nullptr;
+  if (const granular_status status = granular_create(to.c_str(), &format, &writer))
+  {
+    return failed(status);
+  }
+  granular_request request;
+  granular_request_init(&request);
+  request.threads = threads;
+  for (std::int64_t number = 0; number < facts.frames; ++number)
+  {
+    granular_frame* read = nullptr;
+    granular_status status = granular_read(opened, number, &request, &read);
+    const FrameHandle frame(read, granular_release);
+    status = status == GRANULAR_OK ? granular_write_frame(writer, read) : status;
+    if (status != GRANULAR_OK)
+    {
+      const Seen seen = failed(status);
+      granular_abandon(writer);
+      return seen;
+    }
+  }
+  const granular_status status = granular_finish(writer);
+  return status == GRANULAR_OK ? Seen{} : failed(status);
+}
+
+/// What is written of each system: from the file of a kind, under an ending.
+struct Output
+{
+  const char* name;
+  const char* file;
+  const char* ending;
+};
+
+constexpr Output outputs[] = {
+  { "text", "grains_1000.dump", ".dump" },
+  { "gzip", "grains_1000.dump", ".dump.gz" },
+  { "Zstandard", "grains_1000.dump", ".dump.zst" },
+  { "binary", "grains_1000.dump", ".bin" },
+  { "contacts", "local/contacts.dump", ".bonds" },
+  { "cells", "euler_1000.vtk", ".euler" },
+  { "subdomains", "decomposition_1000.vtk", ".decomposition" },
+};
+
+/// The names in a folder, hidden ones too, in no order.
+inline std::vector<std::string> names_in(const std::string& folder)
+{
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+  {
+    names.push_back(entry.path().filename());
+  }
+  return names;
+}
+
+/// The file of a kind. That of Zstandard is written here.
+inline std::string file_of(const Kind& kind)
+{
+  if (*kind.file != '\0')
+  {
+    return good(kind.file);
+  }
+  const std::string path = std::string(GRANULAR_OUTPUT) + "/source" + kind.ending;
+  if (!fs::exists(path))
+  {
+    EXPECT_EQ(convert(good(kinds[0].file), path).status, GRANULAR_OK) << message();
+  }
+  return path;
+}
+}
+
+#endif
