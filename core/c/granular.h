@@ -111,6 +111,8 @@ typedef struct granular_open_options
   granular_progress progress; /* may be null */
   granular_notice notice;     /* may be null */
   void* user;                 /* for both */
+  /* of compressed files: content beyond 256 MiB and this many times the file is refused; at least 1; 200 (default) */
+  int64_t largest_expansion;
 } granular_open_options;
 
 GRANULAR_API void granular_open_options_init(granular_open_options* options);
@@ -344,6 +346,9 @@ typedef struct granular_format
   granular_progress progress; /* may be null */
   granular_notice notice;     /* may be null */
   void* user;                 /* for both */
+  /* 1: the file is on the disk before it has its name, and survives a loss of power; 0: the system writes it when it likes; 2
+     (default): 1 for one file, 0 for a file of each frame */
+  int durable;
 } granular_format;
 
 GRANULAR_API void granular_format_init(granular_format* format);

@@ -36,6 +36,7 @@ extern "C"
       format->size = sizeof(*format);
       format->style = format->dialect = format->columns = format->numbers = format->label = "";
       format->scaled = 1;
+      format->durable = static_cast<int>(granular::Durability::Automatic);
     }
   }
 

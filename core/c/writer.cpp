@@ -50,6 +50,17 @@ std::optional<Value> choose(
   throw BadArgument(std::string("expected a ") + what + " of " + list + ", got '" + word + "'");
 }
 
+/// As granular_format has it.
+Durability durability_of(const granular_format& format)
+{
+  if (format.durable < 0 || format.durable > static_cast<int>(Durability::Automatic))
+  {
+    throw BadArgument(
+      "expected durable of 0, 1 or 2 (automatic), got " + std::to_string(format.durable));
+  }
+  return static_cast<Durability>(format.durable);
+}
+
 // ---- rows: particles, contacts and bonds -------------------------------------------------------
 class RowsWriter final : public granular_writer
 {
@@ -57,7 +68,9 @@ public:
   RowsWriter(RowKind of, std::string path, DumpFormat form, const granular_format& format)
     : granular_writer(of, format)
     , writer_(std::move(path), std::move(form),
-        { .threads = format.threads > 0 ? format.threads : available_cores() }, alone_)
+        { .threads = format.threads > 0 ? format.threads : available_cores(),
+          .durable = durability_of(format) },
+        alone_)
   {
   }
 
@@ -101,6 +114,7 @@ public:
     : granular_writer(of, format)
     , path_(std::move(path))
     , holds_many_(holds_many)
+    , durable_(is_durable(durability_of(format), path_))
   {
   }
 
@@ -143,11 +157,12 @@ private:
   void save(const std::string& path, const std::string& text) const
   {
     const Compression how = compression_of_name(path);
-    write_file(path, how == Compression::None ? text : compress(text, how));
+    write_file(path, how == Compression::None ? text : compress(text, how), durable_);
   }
 
   std::string path_;
   bool holds_many_;
+  bool durable_;
   std::string text_;
   std::int64_t frames_ = 0;
 };

@@ -69,8 +69,8 @@ class vtkGranularDecompositionWriter::File : public WholeFile
 {
 public:
   File(vtkGranularDecompositionWriter* self, Internals& internals)
-    : WholeFile({ self->FileName, "subdomains", self->Dialect == PUBLIC ? "PUBLIC" : "",
-                  self->Dialect == PUBLIC },
+    : WholeFile({ self->FileName, static_cast<granular::Durability>(self->Durable), "subdomains",
+                  self->Dialect == PUBLIC ? "PUBLIC" : "", self->Dialect == PUBLIC },
         internals.GetRanks(), *self->Past, internals.Notices)
     , Self(self)
     , Kind(KindOf(self->FileName))

@@ -39,8 +39,9 @@ class vtkGranularEulerWriter::File : public WholeFile
 {
 public:
   File(vtkGranularEulerWriter* self, Internals& internals)
-    : WholeFile({ self->FileName, "cells", Names.begin()[self->Dialect] }, internals.GetRanks(),
-        *self->Past, internals.Notices)
+    : WholeFile({ self->FileName, static_cast<granular::Durability>(self->Durable), "cells",
+                  Names.begin()[self->Dialect] },
+        internals.GetRanks(), *self->Past, internals.Notices)
     , Dialect(static_cast<granular::EulerDialect>(self->Dialect))
   {
   }

@@ -58,7 +58,8 @@ granular::WriteOptions vtkGranularWriter::Internals::MakeOptions(const vtkGranul
 {
   return { self->ParallelMode == MPI_IO ? granular::ParallelMode::MpiIo
                                         : granular::ParallelMode::Gather,
-    vtkGranularPrivate::ChooseThreads(self->Threads, this->GetRanks()) };
+    vtkGranularPrivate::ChooseThreads(self->Threads, this->GetRanks()),
+    static_cast<granular::Durability>(self->Durable) };
 }
 
 //------------------------------------------------------------------------------
@@ -80,6 +81,7 @@ void vtkGranularWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "WriteTimeSteps: " << this->WriteTimeSteps << "\n";
   os << indent << "ParallelMode: " << this->ParallelMode << "\n";
+  os << indent << "Durable: " << this->Durable << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
   os << indent << "GhostLevel: " << this->GhostLevel << "\n";
   os << indent << "Controller: " << this->GetController() << "\n";
@@ -119,6 +121,12 @@ void vtkGranularWriter::SetChoice(
 void vtkGranularWriter::SetParallelMode(int mode)
 {
   this->SetChoice("ParallelMode", this->ParallelMode, mode, { "Gather", "MPI-IO" });
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularWriter::SetDurable(int durable)
+{
+  this->SetChoice("Durable", this->Durable, durable, { "Off", "On", "Automatic" });
 }
 
 //------------------------------------------------------------------------------

@@ -7,7 +7,8 @@
  * stands for the timestep and a `%` for the rank, one file each, as in the `dump` command.
  *
  * Files are written under a temporary name and renamed when complete. After an error the old file is untouched, Write() returns 0, and
- * GetErrorCode() is not vtkErrorCode::NoError.
+ * GetErrorCode() is not vtkErrorCode::NoError. A killed program leaves the old file or the new one, and a hidden temporary file, which
+ * the next Write() of the same file on the same machine removes.
  */
 
 #ifndef vtkGranularWriter_h
@@ -38,6 +39,13 @@ public:
     MPI_IO = 1
   };
 
+  enum DurableType
+  {
+    DURABLE_OFF = 0,
+    DURABLE_ON = 1,
+    DURABLE_AUTOMATIC = 2
+  };
+
   ///@{
   /**
    * Sets the file to write. None by default.
@@ -63,6 +71,17 @@ public:
    */
   void SetParallelMode(int mode);
   vtkGetMacro(ParallelMode, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sets whether a new file survives a crash of the whole system, such as a loss of power. DURABLE_ON: its bytes are on the
+   * disk before it gets its name, and the name before Write() returns. DURABLE_OFF: the system writes it when it likes; a crash
+   * of the system soon afterwards may leave an empty or incomplete file, a crash of the program may not. DURABLE_AUTOMATIC,
+   * the default: on, but off if `*` in the name gives each timestep its file.
+   */
+  void SetDurable(int durable);
+  vtkGetMacro(Durable, int);
   ///@}
 
   ///@{
@@ -131,6 +150,7 @@ protected:
   char* FileName = nullptr;
   bool WriteTimeSteps = false;
   int ParallelMode = GATHER;
+  int Durable = DURABLE_AUTOMATIC;
   int Threads = 0;
   int GhostLevel = 0;
   bool Written = false;

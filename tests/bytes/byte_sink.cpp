@@ -21,7 +21,6 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace
@@ -177,16 +176,6 @@ TEST_F(WriteFile, WhatIsWriteProtected)
   EXPECT_EQ(this->names(), Names{ "a" });
 }
 
-TEST_F(WriteFile, WhatACrashLeftBehindIsPassedOver)
-{
-  const std::string left = ".granular-" + std::to_string(::getpid()) + "-0.tmp";
-  std::ofstream(this->path(left)) << "left";
-  write_file(this->path("a"), "bytes");
-  EXPECT_EQ(this->content("a"), "bytes");
-  EXPECT_EQ(this->content(left), "left");
-  EXPECT_EQ(this->names(), (Names{ left, "a" }));
-}
-
 TEST_F(WriteFile, ManyAtATimeEachOneWhole)
 {
   constexpr std::size_t bytes = 200'000;
@@ -286,7 +275,7 @@ TEST_F(WriteFile, PermissionsStay)
     {
       NewFile file(this->path("a"));
       EXPECT_EQ(fs::status(file.temporary_name()).permissions(), fs::perms(0600));
-      file.finish();
+      file.finish(true);
     }
     EXPECT_EQ(fs::status(this->path("a")).permissions(), fs::perms(mode));
     EXPECT_EQ(this->content("a"), "");
@@ -320,7 +309,7 @@ TEST_F(WriteFile, PartsInAnyOrderAndFromAnyThread)
     writers.clear();
     file.write_at(3, {});
     EXPECT_FALSE(fs::exists(this->path("a")));
-    file.finish();
+    file.finish(true);
   }
   EXPECT_TRUE(this->content("a") == expected);
   EXPECT_EQ(this->names(), Names{ "a" });
@@ -332,7 +321,7 @@ TEST_F(WriteFile, BeyondTheEndIsZeroUpToThere)
   NewFile file(this->path("a"));
   file.write_at(far, "end");
   file.write_at(0, "begin");
-  file.finish();
+  file.finish(true);
   EXPECT_EQ(fs::file_size(this->path("a")), static_cast<std::uintmax_t>(far) + 3);
   std::ifstream stream(this->path("a"), std::ios::binary);
   std::string begin(7, 'x');
@@ -354,35 +343,6 @@ TEST_F(WriteFile, WithoutFinishNothingIsLeft)
   }
   EXPECT_EQ(this->content("a"), "old");
   EXPECT_EQ(this->names(), Names{ "a" });
-}
-
-TEST_F(WriteFile, AKilledProgramLeavesTheOldFile)
-{
-  write_file(this->path("a"), "old");
-  int ready[2] = {};
-  ASSERT_EQ(::pipe(ready), 0);
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0)
-  {
-    NewFile file(this->path("a"));
-    file.write_at(0, "new bytes");
-    static_cast<void>(!::write(ready[1], "x", 1));
-    for (;;)
-    {
-      ::pause();
-    }
-  }
-  char got = 0;
-  ASSERT_EQ(::read(ready[0], &got, 1), 1);
-  ASSERT_EQ(::kill(child, SIGKILL), 0);
-  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
-  ::close(ready[0]);
-  ::close(ready[1]);
-  EXPECT_EQ(this->content("a"), "old");
-  write_file(this->path("a"), "newer");
-  EXPECT_EQ(this->content("a"), "newer");
-  EXPECT_EQ(this->names(), (Names{ ".granular-" + std::to_string(child) + "-0.tmp", "a" }));
 }
 
 TEST_F(WriteFile, AFullFileSystem)

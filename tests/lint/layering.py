@@ -36,7 +36,7 @@ STANDARD = set("""
 # Headers that are neither ours nor of the C++ standard library, and the files that may have them.
 _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
-    (_OPERATING_SYSTEM, r"core/granular/bytes/byte_(source(_\w+)?|sink)\.cpp"),
+    (_OPERATING_SYSTEM, r"core/granular/bytes/(byte_(source(_\w+)?|sink)|locked_file)\.cpp"),
     (r"glob\.h", r"core/granular/bytes/find_files\.cpp"),
     (r"(zlib|zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source(_\w+)?|compression)\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),

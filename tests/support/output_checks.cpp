@@ -117,7 +117,7 @@ void check_open_together(Communicator& ranks, const std::string& folder)
       });
     EXPECT_EQ(fs::exists(path), there) << "it has no name before it is finished";
     do_together(ranks, [] {});
-    file->finish();
+    file->finish(true);
     EXPECT_TRUE(content(path) == expected);
     EXPECT_EQ(names_in(folder), "file");
     do_together(ranks, [] {});
@@ -162,7 +162,7 @@ void check_open_together_fails(Communicator& ranks, const std::string& folder)
       }
     });
   EXPECT_EQ(
-    error_of(ranks, [&] { file->finish(); }), taken + ": cannot write: Is a directory" + where);
+    error_of(ranks, [&] { file->finish(true); }), taken + ": cannot write: Is a directory" + where);
   file.reset();
   EXPECT_EQ(names_in(folder), "file taken");
   do_together(ranks, [] {});

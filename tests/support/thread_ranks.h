@@ -128,7 +128,7 @@ public:
     file_->write_at(offset, bytes);
   }
 
-  void finish() override
+  void finish(bool durable) override
   {
     granular::agree(ranks_, nullptr); // all have written
     granular::do_together(ranks_,
@@ -136,7 +136,7 @@ public:
       {
         if (ranks_.rank() == 0)
         {
-          file_->finish();
+          file_->finish(durable);
         }
       });
   }

@@ -26,6 +26,14 @@ constexpr mode_t permission_bits = 0777;
     static_cast<std::errc>(error));
 }
 
+void check(int error, const std::string& path)
+{
+  if (error != 0)
+  {
+    fail(path, error);
+  }
+}
+
 void pwrite_all(int file, std::int64_t offset, std::string_view bytes, const std::string& path)
 {
   constexpr std::size_t most_bytes = std::size_t{ 1 } << 30; // systems refuse 2 GiB at once
@@ -40,6 +48,67 @@ void pwrite_all(int file, std::int64_t offset, std::string_view bytes, const std
     bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
     offset += std::max(done, ssize_t{ 0 });
   }
+}
+
+/// An open file that closes itself. -1: none.
+class Descriptor
+{
+public:
+  explicit Descriptor(int file) noexcept
+    : file_(file)
+  {
+  }
+  Descriptor(Descriptor&& other) noexcept
+    : file_(std::exchange(other.file_, -1))
+  {
+  }
+  Descriptor& operator=(Descriptor&& other) noexcept
+  {
+    std::swap(file_, other.file_);
+    return *this;
+  }
+  ~Descriptor()
+  {
+    if (file_ >= 0)
+    {
+      ::close(file_);
+    }
+  }
+
+  int get() const noexcept { return file_; }
+
+  /// Closes the file. Returns an error: a full disk behind a network may show here first.
+  int close() noexcept
+  {
+    return ::close(std::exchange(file_, -1)) != 0 && errno != EINTR ? errno : 0;
+  }
+
+private:
+  int file_;
+};
+
+Descriptor open_existing(const std::string& name, int flags)
+{
+  int file = -1;
+  do
+  {
+    file = ::open(name.c_str(), flags | O_CLOEXEC);
+  } while (file < 0 && errno == EINTR);
+  return Descriptor(file);
+}
+
+/// 0, or the reason. Some file systems keep nothing, or cannot tell.
+int sync(int file) noexcept
+{
+  while (::fsync(file) != 0)
+  {
+    if (errno != EINTR)
+    {
+      const bool cannot = errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+      return cannot ? 0 : errno;
+    }
+  }
+  return 0;
 }
 
 /// The path behind all symbolic links, there or not, where the folders before it are left as they are.
@@ -66,7 +135,7 @@ std::string follow(const std::string& path, std::error_code& error)
 }
 }
 
-NewFile::NewFile(const std::string& path)
+NewFile::NewFile(const std::string& path, Locking locking)
   : path_(path)
 {
   std::error_code error;
@@ -97,26 +166,29 @@ NewFile::NewFile(const std::string& path)
   {
     fail(path_, errno);
   }
-  this->create();
+  this->create(locking);
 }
 
-void NewFile::create()
+void NewFile::create(Locking locking)
 {
-  // what crashed programs left behind, and what other threads are writing, is passed over
-  constexpr int most_tries = 1000;
-  const std::string begin =
-    target_.substr(0, target_.rfind('/') + 1) + ".granular-" + std::to_string(::getpid()) + "-";
   // who may not read the old file may not read along either
-  const mode_t mode = permissions_ < 0 ? 0666 : 0600;
-  for (int number = 0; file_ < 0; ++number)
+  const unsigned mode = permissions_ < 0 ? 0666 : 0600;
+  try
   {
-    std::string name = begin + std::to_string(number) + ".tmp";
-    file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (file_ >= 0)
-    {
-      name_ = std::move(name);
-    }
-    else if ((errno != EEXIST && errno != EINTR) || number == most_tries)
+    locked_.emplace(target_, mode);
+  }
+  catch (const std::system_error& error)
+  {
+    fail(path_, error.code().value());
+  }
+  name_ = locked_->name();
+  file_ = locked_->descriptor();
+  if (locking == Locking::Others)
+  {
+    name_ += LockedFile::data_ending;
+    ::unlink(name_.c_str()); // nobody else may have it: the lock is this object's
+    file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (file_ < 0)
     {
       fail(path_, errno);
     }
@@ -125,14 +197,22 @@ void NewFile::create()
 
 NewFile::~NewFile()
 {
-  if (file_ >= 0)
-  {
-    ::close(file_);
-  }
-  if (!name_.empty())
+  if (file_ >= 0 && file_ != locked_->descriptor())
   {
     ::unlink(name_.c_str());
   }
+  this->close();
+}
+
+/// The lock last: until then the data are this object's.
+void NewFile::close() noexcept
+{
+  if (file_ >= 0 && file_ != locked_->descriptor())
+  {
+    ::close(file_);
+  }
+  file_ = -1;
+  locked_.reset();
 }
 
 void NewFile::write_at(std::int64_t offset, std::string_view bytes)
@@ -140,7 +220,7 @@ void NewFile::write_at(std::int64_t offset, std::string_view bytes)
   pwrite_all(file_, offset, bytes, path_);
 }
 
-void NewFile::finish()
+void NewFile::set_permissions() const
 {
   if (permissions_ >= 0)
   {
@@ -153,47 +233,65 @@ void NewFile::finish()
       fail(path_, errno);
     }
   }
-  const int file = file_;
-  file_ = -1;
-  // a full disk behind a network may show here first
-  if ((::close(file) != 0 && errno != EINTR) || std::rename(name_.c_str(), target_.c_str()) != 0)
+}
+
+/// Closes the file as far as a full disk behind a network may show, but not the lock: it holds until the file has its name.
+void NewFile::expect_written() const
+{
+  Descriptor second(::fcntl(file_, F_DUPFD_CLOEXEC, 0));
+  check(second.get() < 0 ? errno : second.close(), path_);
+}
+
+void NewFile::finish(bool durable)
+{
+  this->set_permissions();
+  check(durable ? sync(file_) : 0, path_);
+  this->expect_written();
+  Descriptor folder(-1);
+  if (durable)
+  {
+    folder = open_existing(target_.substr(0, target_.rfind('/') + 1) + ".", O_RDONLY | O_DIRECTORY);
+    // a folder that may not be read cannot be synchronised
+    check(folder.get() < 0 && errno != EACCES ? errno : 0, path_);
+  }
+  // what has the name now is not this file, if somebody has removed it
+  check(locked_->has_name() ? 0 : ENOENT, path_);
+  if (std::rename(name_.c_str(), target_.c_str()) != 0)
   {
     fail(path_, errno);
   }
-  name_.clear();
+  this->close();
+  const int error = folder.get() < 0 ? 0 : sync(folder.get());
+  if (error != 0)
+  {
+    throw IoError(
+      "written, but a loss of power may take the new file back: cannot synchronise its folder: " +
+        std::generic_category().message(error),
+      { path_ }, static_cast<std::errc>(error));
+  }
 }
 
 void write_into(
   const std::string& name, std::int64_t offset, std::string_view bytes, const std::string& path)
 {
-  int file = -1;
-  do
-  {
-    file = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
-  } while (file < 0 && errno == EINTR);
-  if (file < 0)
-  {
-    fail(path, errno);
-  }
-  try
-  {
-    pwrite_all(file, offset, bytes, path);
-  }
-  catch (...)
-  {
-    ::close(file);
-    throw;
-  }
-  if (::close(file) != 0 && errno != EINTR)
-  {
-    fail(path, errno);
-  }
+  Descriptor file = open_existing(name, O_WRONLY);
+  check(file.get() < 0 ? errno : 0, path);
+  pwrite_all(file.get(), offset, bytes, path);
+  check(file.close(), path);
 }
 
-void write_file(const std::string& path, std::string_view bytes)
+void sync_file(const std::string& name, const std::string& path)
+{
+  Descriptor file = open_existing(name, O_WRONLY);
+  check(file.get() < 0 ? errno : 0, path);
+  check(sync(file.get()), path);
+  check(file.close(), path);
+}
+
+void write_file(const std::string& path, std::string_view bytes, bool durable)
 {
   NewFile file(path);
   file.write_at(0, bytes);
-  file.finish();
+  file.finish(durable);
 }
 }

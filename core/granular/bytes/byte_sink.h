@@ -2,12 +2,24 @@
 #ifndef granular_bytes_byte_sink_h
 #define granular_bytes_byte_sink_h
 
+#include "granular/bytes/locked_file.h"
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace granular
 {
+/// Whether a new file survives a crash of the whole system, as a loss of power, once it has its name. The numbers are those
+/// of the C interface and of VTK.
+enum class Durability : std::uint8_t
+{
+  Off, ///< the system writes to the disk when it likes; whole after a crash of the program alone
+  On,  ///< the bytes are on the disk before the name is, and the name before finish() returns
+  Automatic ///< On for one file, Off for a series of files: see is_durable
+};
+
 /// A file that is written under a temporary name and takes the place of the old file when it is complete. Without
 /// finish() the temporary file is removed and the old file stays untouched.
 class OutputFile
@@ -22,32 +34,49 @@ public:
   /// thread for NewFile. Throws IoError; the content of that range is then undefined.
   virtual void write_at(std::int64_t offset, std::string_view bytes) = 0;
 
-  /// Gives the file its name. No other call may follow. Throws IoError; collective if opened by open_together.
-  virtual void finish() = 0;
+  /// Gives the file its name. No other call may follow. durable: as Durability::On. Throws IoError; collective if opened by
+  /// open_together.
+  virtual void finish(bool durable) = 0;
+};
+
+/// Who locks the bytes of a file.
+enum class Locking : std::uint8_t
+{
+  Own,   ///< this object
+  Others ///< who writes by the temporary name, in its own ways: the lock is then on a file beside it
 };
 
 /// An output file that one rank writes. A symbolic link stays, and the file that it points to is replaced. Permissions
 /// are those of the old file, or what the umask leaves. Something at the path that is not a regular file is an error.
+///
+/// A program that is killed leaves its temporary file behind. The next NewFile of the same path on the same machine removes
+/// it: see LockedFile.
 class NewFile final : public OutputFile
 {
 public:
   /// Opens a temporary file in the folder of path. Throws IoError.
-  explicit NewFile(const std::string& path);
+  explicit NewFile(const std::string& path, Locking locking = Locking::Own);
   ~NewFile() override;
 
   void write_at(std::int64_t offset, std::string_view bytes) override;
-  void finish() override;
+
+  /// Throws IoError also if the folder cannot be synchronised; the new file has its name then.
+  void finish(bool durable) override;
 
   /// Returns the temporary name, which is in the same folder.
   const std::string& temporary_name() const noexcept { return name_; }
 
 private:
-  void create();
+  void create(Locking locking);
+  void set_permissions() const;
+  void expect_written() const;
+  void close() noexcept;
 
   std::string path_;   ///< as it was given
   std::string target_; ///< behind all links
-  std::string name_;   ///< empty when there is no such file any more
-  int file_ = -1;
+  std::optional<LockedFile> locked_;
+  std::string name_;     ///< of the data
+  int file_ = -1;        ///< the data: that of locked_, or one beside it
   int permissions_ = -1; ///< of the old file; -1: there is none
 };
 
@@ -55,8 +84,12 @@ private:
 void write_into(
   const std::string& name, std::int64_t offset, std::string_view bytes, const std::string& path);
 
+/// Returns when all bytes of the existing file `name` that this machine has are on the disk; a file system that cannot
+/// tell is none of the errors. Throws IoError that names path.
+void sync_file(const std::string& name, const std::string& path);
+
 /// Writes a file completely or not at all, as NewFile does: a reader sees the old content or the new one. After an
-/// error the old file is untouched. Throws IoError.
-void write_file(const std::string& path, std::string_view bytes);
+/// error the old file is untouched. durable: as Durability::On. Throws IoError.
+void write_file(const std::string& path, std::string_view bytes, bool durable = true);
 }
 #endif

@@ -118,7 +118,7 @@ void save_index(const std::string& path, const std::vector<FileIndex>& files, No
   }
   try
   {
-    write_file(path, encode_index(files));
+    write_file(path, encode_index(files), false); // it can be made again
   }
   catch (const IoError& error)
   {

@@ -61,7 +61,7 @@ bool MpiFile::open()
     {
       if (ranks_.rank() == 0)
       {
-        made_ = std::make_unique<NewFile>(path_);
+        made_ = std::make_unique<NewFile>(path_, Locking::Others); // MPI locks files on NFS
         name = made_->temporary_name();
       }
     });
@@ -120,20 +120,24 @@ int MpiFile::write_some(std::int64_t offset, std::string_view bytes, int& status
   return status == MPI_SUCCESS ? done : 0;
 }
 
-void MpiFile::finish()
+void MpiFile::finish(bool durable)
 {
   do_together(ranks_,
     [&]
     {
       MPI_File file = std::exchange(file_, MPI_FILE_NULL);
       this->check(MPI_File_close(&file));
+      if (durable)
+      {
+        sync_file(name_, path_); // of another machine's bytes the first rank knows nothing
+      }
     });
   do_together(ranks_,
     [&]
     {
       if (made_)
       {
-        made_->finish();
+        made_->finish(durable);
       }
     });
   name_.clear();

@@ -28,7 +28,7 @@ public:
   bool open();
 
   void write_at(std::int64_t offset, std::string_view bytes) override;
-  void finish() override;
+  void finish(bool durable) override;
 
 private:
   void open_own();

@@ -93,6 +93,12 @@ bool is_name_of_steps(const std::string& path) noexcept
   return path.find('*', begin_of_name(path)) != path.npos;
 }
 
+bool is_durable(Durability durability, const std::string& path) noexcept
+{
+  return durability == Durability::On ||
+    (durability == Durability::Automatic && !is_name_of_steps(path));
+}
+
 std::string name_of_step(const std::string& path, std::int64_t timestep)
 {
   return replace_first(path, '*', std::to_string(timestep));

@@ -2,6 +2,7 @@
 #ifndef granular_dump_write_dump_format_h
 #define granular_dump_write_dump_format_h
 
+#include "granular/bytes/byte_sink.h"
 #include "granular/bytes/compression.h"
 #include "granular/dump/write/atom_rows.h"
 #include "granular/frames/frame.h"
@@ -63,6 +64,10 @@ std::string name_of_step(const std::string& path, std::int64_t timestep);
 
 /// Returns true if each frame is a file of its own: the name holds '*'.
 bool is_name_of_steps(const std::string& path) noexcept;
+
+/// Returns whether the files of this name are made to survive a crash of the system. Automatic: all but those of a series, a
+/// file for each frame, where waiting for the disk takes longer than writing.
+bool is_durable(Durability durability, const std::string& path) noexcept;
 
 /// Returns true if ranks write files of their own: the name holds '%'.
 bool is_name_of_ranks(const std::string& path) noexcept;

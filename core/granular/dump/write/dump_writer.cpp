@@ -360,9 +360,10 @@ void DumpWriter::finish()
 
 void DumpWriter::close()
 {
+  const bool durable = is_durable(options_.durable, path_);
   if (file_ && file_->way == File::Way::Shared)
   {
-    file_->shared->finish();
+    file_->shared->finish(durable);
   }
   else if (file_)
   {
@@ -371,7 +372,7 @@ void DumpWriter::close()
       {
         if (file_->own)
         {
-          file_->own->finish();
+          file_->own->finish(durable);
         }
       });
   }

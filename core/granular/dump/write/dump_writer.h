@@ -28,6 +28,7 @@ struct WriteOptions
 {
   ParallelMode mode = ParallelMode::Gather;
   int threads = 1; ///< at least 1, of each rank
+  Durability durable = Durability::Automatic;
 };
 
 /// Writes a dump of one or more frames, from the rows of all ranks in rank order. The bytes do not depend on the number of

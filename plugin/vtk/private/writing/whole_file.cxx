@@ -75,7 +75,7 @@ FrameFacts MakeFacts(
 }
 
 void WrittenFiles::Write(const std::string& path, const std::string& text, const std::string& keys,
-  const std::string& things, granular::Notices& notices)
+  const std::string& things, bool durable, granular::Notices& notices)
 {
   granular::Hash hash;
   hash.add(text.data(), text.size());
@@ -92,7 +92,7 @@ void WrittenFiles::Write(const std::string& path, const std::string& text, const
     }
     return;
   }
-  granular::write_file(path, text);
+  granular::write_file(path, text, durable);
   this->Files[path] = { keys, hash.value() };
 }
 
@@ -139,7 +139,8 @@ void WholeFile::WriteFrame(
   if (this->OneFileAStep)
   {
     const std::string path = granular::name_of_step(this->Form.Path, facts.Timestep);
-    this->Past.Write(path, this->Encode(facts, notices, progress), key, this->Form.Things, notices);
+    this->Past.Write(path, this->Encode(facts, notices, progress), key, this->Form.Things,
+      this->IsDurable(), notices);
     return;
   }
   if (this->LastKey == key)
@@ -157,6 +158,11 @@ void WholeFile::WriteFrame(
   this->LastKey = key;
 }
 
+bool WholeFile::IsDurable() const
+{
+  return granular::is_durable(this->Form.Durable, this->Form.Path);
+}
+
 void WholeFile::Finish()
 {
   granular::do_together(this->Ranks,
@@ -164,7 +170,8 @@ void WholeFile::Finish()
     {
       if (this->Ranks.rank() == 0 && !this->OneFileAStep)
       {
-        this->Past.Write(this->Form.Path, this->Text, this->Keys, this->Form.Things, this->OfFile);
+        this->Past.Write(this->Form.Path, this->Text, this->Keys, this->Form.Things,
+          this->IsDurable(), this->OfFile);
       }
     });
 }

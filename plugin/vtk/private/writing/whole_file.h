@@ -4,6 +4,8 @@
 
 #include "private/writing/writer.h"
 
+#include "granular/bytes/byte_sink.h"
+
 #include <cstdint>
 #include <map>
 #include <string>
@@ -49,7 +51,7 @@ public:
    * Writes a file, or leaves it if it exists and has the frames with these keys; a notice reports different contents.
    */
   void Write(const std::string& path, const std::string& text, const std::string& keys,
-    const std::string& things, granular::Notices& notices);
+    const std::string& things, bool durable, granular::Notices& notices);
 
 private:
   struct Entry
@@ -67,6 +69,7 @@ private:
 struct WholeFileForm
 {
   std::string Path;
+  granular::Durability Durable;
   std::string Things;    ///< of which there are some in a file, for messages
   std::string Dialect;   ///< in which they are written, if it is not the usual one
   bool TakesAll = false; ///< several frames come one after the other if there is no '*' in the name
@@ -110,6 +113,7 @@ protected:
 private:
   void WriteFrame(
     const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress);
+  bool IsDurable() const;
 
   WrittenFiles& Past;
   granular::Notices& OfFile;

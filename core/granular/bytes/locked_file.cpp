@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/bytes/locked_file.h"
+
+#include "granular/common/hash.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace granular
+{
+namespace
+{
+/// The folder of the target, and the begin of a name: the target's own name may have 255 bytes already.
+std::string begin_of_names(const std::string& target)
+{
+  std::array<char, 256> machine = {};
+  ::gethostname(machine.data(), machine.size() - 1); // without a name all machines are one
+  const std::size_t begin = target.rfind('/') + 1;
+  Hash hash;
+  hash.add(machine.data(), machine.size());
+  hash.add(target.data() + begin, target.size() - begin);
+  std::array<char, 17> digits = {};
+  std::snprintf(digits.data(), digits.size(), "%016llx",
+    static_cast<unsigned long long>(hash.value())); // NOLINT: the type of the format
+  return target.substr(0, begin) + ".granular-" + digits.data() + "-";
+}
+
+std::string numbered(const std::string& begin, int number)
+{
+  return begin + std::to_string(number) + ".tmp";
+}
+
+bool is_name_of(const std::string& name, int file)
+{
+  struct stat there = {};
+  struct stat open = {};
+  return ::lstat(name.c_str(), &there) == 0 && ::fstat(file, &open) == 0 &&
+    there.st_ino == open.st_ino && there.st_dev == open.st_dev;
+}
+
+/// 0, or the reason. A lock is that of the open file: a thread keeps out the others of its program, too.
+int lock(int file)
+{
+  while (::flock(file, LOCK_EX | LOCK_NB) != 0)
+  {
+    if (errno != EINTR)
+    {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+/// Removes a file whose writer is surely dead. Returns false if there is no file that might be one.
+bool remove_left(const std::string& name)
+{
+  const int file = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0)
+  {
+    return false;
+  }
+  struct stat state = {};
+  if (::fstat(file, &state) == 0 && S_ISREG(state.st_mode) && state.st_uid == ::geteuid() &&
+    lock(file) == 0 && is_name_of(name, file))
+  {
+    ::unlink((name + LockedFile::data_ending).c_str()); // first: it is found by the other
+    ::unlink(name.c_str());
+  }
+  ::close(file);
+  return true;
+}
+}
+
+LockedFile::LockedFile(const std::string& target, unsigned permissions)
+{
+  constexpr int most_tries = 1000;
+  constexpr int most_free = 8; // names in a row: writers that ended have left gaps between others
+  const std::string begin = begin_of_names(target);
+  for (int number = 0, free = 0; free < most_free && number < most_tries; ++number)
+  {
+    free = remove_left(numbered(begin, number)) ? 0 : free + 1;
+  }
+  for (int number = 0; number < most_tries; ++number)
+  {
+    name_ = numbered(begin, number);
+    file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
+    if (file_ < 0 && errno != EEXIST && errno != EINTR)
+    {
+      throw std::system_error(errno, std::generic_category());
+    }
+    // another may have taken the new file for one that was left, before it was locked. On a file system without locks
+    // nobody gets one, and nobody removes a file
+    if (file_ >= 0 && lock(file_) != EWOULDBLOCK && this->has_name())
+    {
+      return;
+    }
+    if (file_ >= 0)
+    {
+      ::close(file_);
+    }
+  }
+  throw std::system_error(EEXIST, std::generic_category());
+}
+
+LockedFile::~LockedFile()
+{
+  if (this->has_name())
+  {
+    ::unlink(name_.c_str());
+  }
+  ::close(file_);
+}
+
+bool LockedFile::has_name() const noexcept
+{
+  return is_name_of(name_, file_);
+}
+}
