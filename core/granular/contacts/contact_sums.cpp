@@ -141,16 +141,22 @@ Block block_of(const std::vector<Value>& values, const std::shared_ptr<BlockPool
   return block;
 }
 
-/// By the volume of spheres.
-void add_principal(const FrameView& particles, const ContactSumsRequest& request, ContactSums& sums)
+std::vector<double> radii_of_volumes(const FrameView& particles, const std::string& name)
 {
-  const std::vector<double> radii = load_radii(particles, request.radius);
-  const auto rows = static_cast<std::size_t>(particles.rows);
-  if (radii.size() != rows)
+  std::vector<double> radii = load_radii(particles, name);
+  if (radii.size() != static_cast<std::size_t>(particles.rows))
   {
-    throw Error("expected an array '" + request.radius +
+    throw Error("expected an array '" + name +
       "' of the particles, whose volume stresses are divided by, got none");
   }
+  return radii;
+}
+
+/// By the volume of spheres.
+void add_principal(
+  std::span<const double> radii, const ContactSumsRequest& request, ContactSums& sums)
+{
+  const std::size_t rows = radii.size();
   const auto room = [&](bool wanted, std::size_t width)
   { return wanted ? Block(width * rows * sizeof(double), request.pool) : Block(); };
   sums.principal_stress = room(request.principal_stress, 3);
@@ -250,6 +256,9 @@ ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows
       const FoundEnds found(
         particles, inputs, request.radius, request.options, ranks, executor, parts, request.pool);
       const ContactTerms terms(request, found.have_forces());
+      const bool principal = terms.stress && (request.principal_stress || request.von_mises);
+      const std::vector<double> radii =
+        principal ? radii_of_volumes(particles, request.radius) : std::vector<double>();
       const auto sum = [&](const EndSource& source)
       {
         parts.set_part(0.5, 0.9);
@@ -266,9 +275,9 @@ ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows
         sums.contacts += own ? counts[static_cast<std::size_t>(row)] : 0;
       }
       parts.set_part(0.9, 1);
-      if (terms.stress && (request.principal_stress || request.von_mises))
+      if (principal)
       {
-        add_principal(particles, request, sums);
+        add_principal(radii, request, sums);
       }
       if (request.friction && found.have_forces())
       {

@@ -160,7 +160,7 @@ std::vector<double> load_radii(const FrameView& particles, const std::string& na
 
 FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
   const std::string& radius, const ContactOptions& options, Communicator& ranks,
-  const Executor& executor, PartialProgress& progress, const std::shared_ptr<BlockPool>& pool)
+  const Executor& executor, Progress& progress, const std::shared_ptr<BlockPool>& pool)
   : images_(particles.has_box ? particles.header.box : Box{})
 {
   std::vector<ContactKinds> kinds;
@@ -172,7 +172,9 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
   const std::vector<std::int64_t> counts = count_all(inputs, ranks);
   forces_ = check_forces(kinds, counts, options);
   const Needs needs = find_needs(kinds, counts, options);
-  const Ids ids = find_ids(particles, executor, progress);
+  PartialProgress parts(progress);
+  parts.set_part(0, 0.3);
+  const Ids ids = find_ids(particles, executor, parts);
   if (needs.radii || needs.must_radii)
   {
     radii_ = load_radii(particles, radius);
@@ -192,7 +194,8 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
   const bool alone = ranks.size() == 1;
   if (needs.points || !alone)
   {
-    own_ = view_particles(particles, {}, executor, progress);
+    parts.set_part(0.3, 0.4);
+    own_ = view_particles(particles, {}, executor, parts);
   }
   if (known[1] > 0)
   {
@@ -223,7 +226,10 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     const auto places = all_places.subspan(begin, 2 * inputs[i].count);
-    this->find_places(finder, inputs[i], kinds[i], ends, options, places, executor, progress);
+    const auto all = static_cast<double>(std::max<std::size_t>(all_places.size(), 1));
+    parts.set_part(0.4 + 0.6 * static_cast<double>(begin) / all,
+      0.4 + 0.6 * static_cast<double>(begin + places.size()) / all);
+    this->find_places(finder, inputs[i], kinds[i], ends, options, places, executor, parts);
     inputs_.emplace_back(inputs[i], kinds[i], ends, places, images_, options);
     begin += places.size();
   }

@@ -35,12 +35,10 @@ class FoundEnds
 {
 public:
   /// radius: the array of radii, by which the place of a contact that is not given is found; without it that is half the
-  /// branch. pool: source of the memory; may
-  /// be null. Throws Error: see sum_contacts. Collective.
+  /// branch. pool: source of the memory; may be null. Throws Error: see sum_contacts. Collective.
   FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
     const std::string& radius, const ContactOptions& options, Communicator& ranks,
-    const Executor& executor, PartialProgress& progress,
-    const std::shared_ptr<BlockPool>& pool = nullptr);
+    const Executor& executor, Progress& progress, const std::shared_ptr<BlockPool>& pool = nullptr);
   FoundEnds(const FoundEnds&) = delete;
   void operator=(const FoundEnds&) = delete;
 
