@@ -7,6 +7,8 @@
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkPointData.h"
@@ -84,6 +86,20 @@ inline std::string WrongCells(vtkCellArray* cells, vtkIdType points)
   return {};
 }
 
+inline std::string WrongIn(vtkDataObject* output, bool empty);
+
+/// What is wrong with the blocks of an output; empty: nothing.
+inline std::string WrongBlocks(vtkCompositeDataSet* blocks, bool empty)
+{
+  std::string wrong;
+  const auto each = vtk::TakeSmartPointer(blocks->NewIterator());
+  for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem())
+  {
+    wrong += WrongIn(each->GetCurrentDataObject(), empty);
+  }
+  return wrong;
+}
+
 /// What is wrong with an output, or, where it must be empty, what it has; empty: nothing.
 inline std::string WrongIn(vtkDataObject* output, bool empty)
 {
@@ -96,6 +112,10 @@ inline std::string WrongIn(vtkDataObject* output, bool empty)
   {
     wrong += WrongArrays(table->GetRowData(), table->GetNumberOfRows(), "rows");
     return wrong + (empty && table->GetNumberOfRows() > 0 ? "rows after an error" : "");
+  }
+  if (auto* const blocks = vtkCompositeDataSet::SafeDownCast(output))
+  {
+    return wrong + WrongBlocks(blocks, empty);
   }
   auto* const data = vtkDataSet::SafeDownCast(output);
   if (!data)

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A wrong number in a file changes that number alone: files of each format with one number changed to others, to nan and to a word.
+
+Everything that is read must be bit for bit as before, but for what the number says itself: one value, or the point that it is a
+coordinate of. What is no number must be an error with the line and the place, or change nothing. Arguments: how many changes of each
+file (default 40), the seed."""
+import os
+import random
+import re
+import struct
+import sys
+import warnings
+
+import numpy
+
+import granular
+
+GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
+NUMBER = re.compile(rb"(?<![^\s])[-+0-9.][-+0-9.eE]*(?![^\s])")
+TEXTS = [b"0", b"1", b"7", b"-3", b"2.5", b"1e-3", b"123456789", b"-1e300", b"nan", b"inf", b"word", b"0x10", b"1,5"]
+NO_NUMBERS = TEXTS[-3:]
+DOUBLES = [struct.pack("<d", value) for value in (0.0, 1.0, 7.0, -3.0, 2.5, 1e300, float("nan"), float("inf"), 5e-324)]
+
+PLAIN = "id type x y z vx vy vz fx fy fz radius q"
+
+# A text, and the word of the last line before its rows.
+TEXT_FILES = [
+    ("ortho_plain.dump", b"ITEM: ATOMS"),
+    ("tri_scaled_image.dump", b"ITEM: ATOMS"),
+    ("tri_unwrapped.dump", b"ITEM: ATOMS"),
+    ("grains_1000.dump", b"ITEM: ATOMS"),
+    ("local/contacts.dump", b"ITEM: ENTRIES"),
+    ("local/chain_bonds.dump", b"ITEM: BONDS"),
+    ("data_file/sphere.data", b"Atoms"),
+    ("data_file/full.data", b"Atoms"),
+    ("data_file/full.data", b"\nBonds"),
+    ("data_file/ellipsoid.data", b"Velocities"),
+    ("euler_1000.vtk", b"LOOKUP_TABLE"),
+    ("euler/parallel_2000.vtk", b"POINTS"),
+    ("decomposition/hexahedra_42.vtk", b"nlocal"),
+]
+# A file of doubles in memory order, and names of its columns.
+BINARY_FILES = [("ortho_custom.bin", ""), ("plain.bin", PLAIN), ("restart/style_sphere.restart", "")]
+
+
+def content(path, column_names=""):
+    """All that is read of the first frame with rows: arrays by name, each a row per line."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        run = granular.open(path, column_names=column_names)
+        whole = run[next((i for i in range(len(run)) if run[i].rows), 0)].read()
+        read = {name: numpy.array(whole[name]) for name in whole.keys()}
+        try:
+            read["points"] = numpy.array(whole.points)
+        except granular.ColumnError:
+            pass  # a file without positions
+        if run.kind in ("data", "restart"):
+            read |= {"bonds " + name: numpy.array(whole.bonds[name]) for name in whole.bonds.keys()}
+    return read
+
+
+def differences(before, after):
+    """(array, row, how many of its components) of all rows that are not the same; None: other arrays or numbers of rows."""
+    if before.keys() != after.keys():
+        return None
+    found = []
+    for name, was in before.items():
+        now = after[name]
+        if now.dtype == float and was.dtype.kind == "i":
+            was = was.astype(float)  # one is no integer: a warning says that the column is kept as doubles
+        if was.shape != now.shape or was.dtype != now.dtype:
+            return None
+        if len(was):
+            was, now = ([repr(value) for value in each] if each.dtype.kind in "UO" else each.reshape(len(each), -1).view("u1").tolist()
+                        for each in (was, now))
+            found += [(name, row) for row in range(len(was)) if was[row] != now[row]]
+    return found
+
+
+def text_places(bytes_, word):
+    """Where the numbers of the first rows are: begin and end of each."""
+    for marker in re.finditer(re.escape(word) + rb".*\n", bytes_):
+        following = re.search(rb"\n[A-Za-z]", bytes_[marker.end() - 1:])
+        end = marker.end() - 1 + following.start() if following else len(bytes_)
+        places = [match.span() for match in NUMBER.finditer(bytes_, marker.end(), end)]
+        if places:
+            return places
+    raise AssertionError("no rows")
+
+
+def binary_places(bytes_, read):
+    """The same of doubles: those of the first chunk, which begins with an id and a type, or those of a position on."""
+    first = struct.pack("<dd", read["id"][0], read["type"][0])
+    if first in bytes_:
+        begin = bytes_.index(first)
+        end = begin + 8 * struct.unpack_from("<i", bytes_, begin - 4)[0]
+    else:
+        begin = bytes_.index(struct.pack("<3d", *read["points"][0]))
+        end = len(bytes_) - (len(bytes_) - begin) % 8
+    return [(at, at + 8) for at in range(begin, end, 8)]
+
+
+def judge(path, column_names, before, given, is_number):
+    """"error", "same" or "changed"; raises for anything else."""
+    try:
+        after = content(path, column_names)
+    except granular.Error as error:
+        assert re.search(re.escape(path) + "[:@][0-9]+", str(error)), f"an error without its place: {error}"
+        return "error"
+    changed = differences(before, after)
+    assert changed is not None, f"other arrays after {given!r}"
+    values = {name for name, _ in changed}
+    rows = {row for _, row in changed}
+    assert len(rows) <= 1 and (len(values) <= 1 or values == {"diameter", "radius"}), f"{given!r} changed {changed}"
+    assert is_number or not changed, f"{given!r}, which is no number, changed {changed}"
+    return "changed" if changed else "same"
+
+
+def main(changes=40, seed=1):
+    folder = os.path.join(os.environ.get("GRANULAR_OUTPUT", "."), "one_number")
+    os.makedirs(folder, exist_ok=True)
+    for name, of in TEXT_FILES + BINARY_FILES:
+        is_text = isinstance(of, bytes)
+        column_names = "" if is_text else of
+        with open(os.path.join(GOOD, name), "rb") as file:
+            good = file.read()
+        path = os.path.join(folder, os.path.basename(name))
+        before = content(os.path.join(GOOD, name), column_names)
+        places = text_places(good, of) if is_text else binary_places(good, before)
+        chance = random.Random(f"{seed} {name} {of}")
+        outcomes = {"error": 0, "same": 0, "changed": 0}
+        for _ in range(changes):
+            begin, end = chance.choice(places)
+            given = chance.choice(TEXTS if is_text else DOUBLES)
+            with open(path, "wb") as file:
+                file.write(good[:begin] + given + good[end:])
+            is_number = not is_text or given not in NO_NUMBERS
+            try:
+                outcomes[judge(path, column_names, before, given, is_number)] += 1
+            except AssertionError as error:
+                raise AssertionError(f"{name}: bytes {begin} to {end}, {good[begin:end]!r}: {error}") from None
+        print(f"{name}: {len(places)} numbers, {outcomes}")
+        assert outcomes["changed"] > 0, "no number could be changed"
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:3]))
