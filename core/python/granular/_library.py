@@ -58,7 +58,7 @@ class _CError(Structure):
 class OpenOptions(Structure):
     _fields_ = [("size", c_size_t), ("kind", c_int), ("timestep_size", c_double), ("column_names", c_char_p), ("preset", c_char_p),
                 ("column_map", c_char_p), ("atom_style", c_char_p), ("repeated_steps", c_int), ("keep_index", c_int),
-                ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+                ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p), ("largest_expansion", c_int64)]
 
 
 class RunFacts(Structure):
@@ -104,7 +104,8 @@ class CArray(Structure):
 class Format(Structure):
     _fields_ = [("size", c_size_t), ("style", c_char_p), ("dialect", c_char_p), ("columns", c_char_p), ("numbers", c_char_p),
                 ("label", c_char_p), ("scaled", c_int), ("image", c_int), ("sort_by_id", c_int), ("write_units", c_int),
-                ("write_time", c_int), ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+                ("write_time", c_int), ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p),
+                ("durable", c_int)]
 
 
 class Content(Structure):
@@ -149,12 +150,22 @@ _IO_ERROR, _BAD_ARGUMENT, _CANCELLED, _NO_MEMORY = 1, 5, 6, 7
 
 # The names of settings in messages, which readers share, and those of granular.open.
 _SETTINGS = {"AtomStyle": "atom_style", "ColumnMap": "column_map", "ColumnNames": "column_names", "Preset": "preset",
-             "RepeatedSteps to Merge": 'repeated_steps to "merge"', "TimestepSize": "dt"}
+             "RepeatedSteps to Merge": 'repeated_steps to "merge"', "LargestExpansion": "largest_expansion", "TimestepSize": "dt"}
 
 
 def text(value: bytes | None) -> str:
     """Returns a string of the library; names of files may be any bytes."""
     return os.fsdecode(value or b"")
+
+
+def shown(name: str) -> str:
+    """Returns the name of a file for a message, on one line and in UTF-8, as the library shows it."""
+    def escape(sign: str) -> str:
+        if "\ud800" <= sign <= "\udfff":  # a byte that is not UTF-8
+            return f"\\x{ord(sign) & 0xff:02x}"
+        return {"\n": r"\n", "\t": r"\t"}.get(sign) or "".join(f"\\x{byte:02x}" for byte in sign.encode())
+
+    return re.sub("[\0-\x1f\x7f-\x9f\ud800-\udfff]", lambda match: escape(match.group()), name)
 
 
 def message_of(value: bytes | None) -> str:
@@ -209,7 +220,14 @@ def library() -> Any:
 
 def texts(values: list[str]) -> Any:
     """Returns an array of strings for the library."""
-    return (c_char_p * len(values))(*map(os.fsencode, values))
+    return (c_char_p * len(values))(*map(name_bytes, values))
+
+
+def name_bytes(name: str | bytes) -> bytes:
+    """Returns a string for the library. Raises ArgumentError for one that ends early there."""
+    if "\0" in os.fsdecode(name):
+        raise ArgumentError(f"expected a text without a null character, got {name!r}")
+    return os.fsencode(name)
 
 
 class Calls:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, NoReturn
 
 from . import _library as c
 from ._run import _warn
+from ._whole_file import expect_file
 
 if TYPE_CHECKING:
     import gzip
@@ -202,14 +203,18 @@ class _Reader:
         self._empty_table: tuple[int, str] | None = None
 
     def _fail(self, line: int, text: str, column: str = "", byte: int = -1) -> NoReturn:
-        raise c.Error(f"{self.path}{f':{line}' if line else ''}: {text}", self.path, line, byte, column)
+        raise c.Error(f"{c.shown(self.path)}{f':{line}' if line else ''}: {text}", self.path, line, byte, column)
 
     # ---- the file ----
     def read(self) -> list[_Rows]:
         import gzip
         import zlib
 
-        with open(self.path, "rb") as file:
+        def opened(path: str, flags: int) -> int:
+            return os.open(path, flags | os.O_NONBLOCK)  # a pipe of that name must not make it wait
+
+        with open(self.path, "rb", opener=opened) as file:
+            expect_file(self.path, os.fstat(file.fileno()).st_mode)
             head = file.peek(4)[:4]
             if head[:2] == b"\x1f\x8b":
                 try:
@@ -240,13 +245,13 @@ class _Reader:
         if not self.runs:
             self._fail_without_tables(count)
         if was_cut:
-            _warn(f"{self.path}: expected complete gzip data, got data that end early: the rows before the end are read")
+            _warn(f"{c.shown(self.path)}: expected complete gzip data, got data that end early: the rows before the end are read")
         if self._run and not line.endswith(b"\n"):
-            _warn(f"{self.path}:{count}: the last line ends early and is left out")
+            _warn(f"{c.shown(self.path)}:{count}: the last line ends early and is left out")
         elif self._run and self._run.blocks is not None and self._cut_block:
-            _warn(f"{self.path}:{count}: the last block ends early and is left out")
+            _warn(f"{c.shown(self.path)}:{count}: the last block ends early and is left out")
         if self._without_step:
-            _warn(f"{self.path}:{self._without_step}: expected the column Step, got a table without it, which is left out")
+            _warn(f"{c.shown(self.path)}:{self._without_step}: expected the column Step, got a table without it, which is left out")
         if self._left_out:
             _warn(f"{self._first_left_out}; lines like this are left out: {self._left_out}")
 
@@ -359,7 +364,7 @@ class _Reader:
             if len(words) == len(names):
                 after = f"a row after timestep {run.steps[-1]}" if run and run.steps else "a row of numbers"
                 what = f"{after}, got {os.fsdecode(line.strip())!r}"
-            self._first_left_out = f"{self.path}:{number}: expected {what}"
+            self._first_left_out = f"{c.shown(self.path)}:{number}: expected {what}"
         self._left_out += 1
 
     # ---- other lines ----
@@ -591,7 +596,7 @@ def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], d
     """
     import numpy
 
-    given = [paths] if isinstance(paths, (str, os.PathLike)) else list(paths)
+    given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
     if not given:
         raise c.ArgumentError("expected at least one log, got none")
     if dt is not None and not 0 < float(dt) < math.inf:

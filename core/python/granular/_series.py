@@ -10,6 +10,7 @@ import warnings
 from fractions import Fraction
 from typing import Iterable
 
+from ._library import shown
 from ._whole_file import whole_file
 
 
@@ -24,7 +25,7 @@ def _step(file: str) -> int:
     stem, _ = _stem_and_suffix(os.path.basename(file))
     numbers = re.findall("[0-9]+", stem)
     if not numbers:
-        raise ValueError(f"no step number in the file name: {file}")
+        raise ValueError(f"no step number in the file name: {shown(file)}")
     return int(numbers[-1])
 
 
@@ -77,22 +78,26 @@ def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]
     Raises ValueError: no files, no number in a name, a step that occurs twice, a dt or a path that
     cannot be, an infinite time; FileNotFoundError if a file does not exist; OSError if the file cannot be written.
     """
-    files = [os.fspath(file) for file in ([files] if isinstance(files, (str, os.PathLike)) else files)]
+    files = [os.fsdecode(file) for file in ([files] if isinstance(files, (str, os.PathLike)) else files)]
     if not files:
         raise ValueError("no files")
     if not (math.isfinite(dt) and dt > 0):
         raise ValueError(f"dt must be finite and greater than 0, got {dt}")
     path = _default_path(files[0]) if path is None else os.fspath(path)
     if not path.endswith(".series"):
-        raise ValueError(f"the path must end in '.series', got {path}")
+        raise ValueError(f"the path must end in '.series', got {shown(path)}")
 
     by_step = {}
     for file in files:
         step = _step(file)
         if step in by_step:
-            raise ValueError(f"step {step} occurs twice: {by_step[step]} and {file}")
+            raise ValueError(f"step {step} occurs twice: {shown(by_step[step])} and {shown(file)}")
+        try:
+            file.encode()
+        except UnicodeEncodeError:
+            raise ValueError(f"expected a name in UTF-8, as .series files have them, got {shown(file)}") from None
         if not os.path.exists(file):
-            raise FileNotFoundError(f"no such file: {file}")
+            raise FileNotFoundError(f"no such file: {shown(file)}")
         by_step[step] = file
 
     folder = os.path.dirname(os.path.abspath(path))
@@ -100,6 +105,6 @@ def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]
     entries = [{"name": os.path.relpath(by_step[step], folder), "time": time}
                for step, time in zip(steps, _times(steps, dt))]
     series = {"file-series-version": "1.0", "files": entries}
-    with whole_file(path) as temporary, open(temporary, "x", encoding="utf-8") as out:
+    with whole_file(path) as temporary, open(temporary, "w", encoding="utf-8") as out:
         out.write(json.dumps(series, indent=2) + "\n")
     return path

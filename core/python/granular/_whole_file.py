@@ -3,20 +3,152 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import fcntl
+import hashlib
 import os
+import socket
+import stat
 from typing import Iterator
+
+from ._library import shown
+
+_MOST_TRIES = 1000
+_MOST_FREE = 8  # names in a row: programs that ended have left gaps between others
+
+
+def expect_file(path: str, mode: int) -> None:
+    """Raises OSError, as the library does, for the mode of something that is not a regular file."""
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(f"{shown(path)}: expected a file, got a directory")
+    if not stat.S_ISREG(mode):
+        raise OSError(f"{shown(path)}: expected a file, got a device or a pipe")
+
+
+def _behind_links(path: str) -> str:
+    """The file that a symbolic link leads to, there or not."""
+    target = path
+    for _ in range(40):  # as Linux has it
+        if not os.path.islink(target):
+            return target
+        target = os.path.join(os.path.dirname(target), os.readlink(target))
+    raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), path)
+
+
+def _is_name_of(name: str, file: int) -> bool:
+    try:
+        return os.path.samestat(os.lstat(name), os.fstat(file))
+    except OSError:
+        return False
+
+
+def _lock(file: int) -> bool:
+    """Returns whether the lock is this file's: a file system may have none. Raises BlockingIOError if another program has it."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return True
+    except BlockingIOError:
+        raise
+    except OSError:
+        return False
+
+
+def _remove_left(name: str, data: str) -> bool:
+    """Removes the two files that a dead program has left. Returns False if there is nothing of the name."""
+    try:
+        file = os.open(name, os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except OSError:
+        return False
+    try:
+        state = os.fstat(file)
+        if stat.S_ISREG(state.st_mode) and state.st_uid == os.geteuid() and _lock(file) and _is_name_of(name, file):
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(data)
+            os.unlink(name)
+    except BlockingIOError:
+        pass  # that program lives
+    finally:
+        os.close(file)
+    return True
+
+
+def _create_locked(target: str, ending: str) -> tuple[str, int]:
+    """Creates a locked file of a hidden name, and removes those of dead programs, as the library's LockedFile does."""
+    folder, file_name = os.path.split(target)
+    mark = hashlib.blake2b(os.fsencode(socket.gethostname()) + b"\0" + os.fsencode(file_name), digest_size=8).hexdigest()
+    begin = os.path.join(folder, f".granular-{mark}-")
+    free = number = 0
+    while free < _MOST_FREE and number < _MOST_TRIES:
+        name = f"{begin}{number}.tmp"
+        free = 0 if _remove_left(name, name + ending) else free + 1
+        number += 1
+    for number in range(_MOST_TRIES):
+        name = f"{begin}{number}.tmp"
+        try:
+            file = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
+        except FileExistsError:
+            continue
+        with contextlib.suppress(BlockingIOError):  # another program has taken it for one that was left
+            _lock(file)
+            if _is_name_of(name, file):
+                return name, file
+        os.close(file)
+    raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), begin)
+
+
+def _sync(path: str) -> None:
+    """Waits until a file or a folder is on the disk. Some file systems keep nothing, or cannot tell."""
+    file = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(file)
+    except OSError as error:
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS):
+            raise
+    finally:
+        os.close(file)
 
 
 @contextlib.contextmanager
-def whole_file(path: str, ending: str = "") -> Iterator[str]:
+def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[str]:
     """Yields the name of a temporary file beside a path. It replaces the old file at the end, and is removed after an error.
 
-    ending  of the temporary name, for programs that look at it
+    A symbolic link stays, and so do the permissions of the old file. Raises OSError for what is not a regular file.
+
+    ending   of the temporary name, for programs that look at it
+    durable  the file is on the disk before it gets its name
+
+    A program that is killed leaves two hidden files, which the next whole_file of the same path removes. The lock is on the first,
+    because other libraries lock the files that they write in their ways.
     """
-    temporary = f"{path}.{os.getpid()}.tmp{ending}"
+    target = _behind_links(path)
+    old = None
+    with contextlib.suppress(FileNotFoundError):
+        old = os.lstat(target).st_mode
+        expect_file(path, old)
+        if not os.access(target, os.W_OK):  # who may not write a file may not replace it either
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
+    ending = ".data" + ending
     try:
+        name, lock = _create_locked(target, ending)
+    except OSError as error:  # the user knows the path, and not the name of the hidden file
+        raise OSError(error.errno, error.strerror, path) from None
+    temporary = name + ending
+    try:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(temporary)
+        os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
         yield temporary
-        os.replace(temporary, path)
+        if old is not None:
+            os.chmod(temporary, stat.S_IMODE(old) & 0o777)
+        if durable:
+            _sync(temporary)
+        os.replace(temporary, target)
+        if durable:
+            with contextlib.suppress(PermissionError):  # a folder that may not be read cannot be synchronised
+                _sync(os.path.dirname(target) or ".")
     finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(temporary)
+        if _is_name_of(name, lock):
+            os.unlink(name)
+        os.close(lock)

@@ -86,9 +86,9 @@ class Writer:
 
     def __init__(self, path: str | os.PathLike[str], style: str = "", dialect: str = "", columns: str | Iterable[str] = "",
                  numbers: str = "", label: str = "", scaled: bool = True, image: bool = False, sort: bool = False, threads: int = 0,
-                 progress: Callable[[float], Any] | None = None):
+                 progress: Callable[[float], Any] | None = None, durable: bool | None = None):
         self._pointer: Any = None
-        self.path = os.fspath(path)
+        self.path = os.fsdecode(path)
         self._finished = False
         self._calls = c.Calls(progress, _warn)
         self._format = given = c.Format()
@@ -97,6 +97,8 @@ class Writer:
             setattr(given, name, (value or "").encode())
         given.scaled, given.image, given.sort_by_id, given.threads = int(scaled), int(image), int(sort), int(threads)
         given.progress, given.notice = self._calls.progress, self._calls.notice
+        if durable is not None:
+            given.durable = int(bool(durable))
 
     def _create(self, frame: Frame | None, has_time: bool, units: str) -> None:
         """Begins the file as the first frame asks for."""
@@ -113,7 +115,7 @@ class Writer:
             has_time, units = has_time or (lammps and frame._head("has_time")), units or (frame.units if lammps else "")
         given.write_time, given.write_units = int(has_time), int(bool(units))
         pointer = c.c_void_p()
-        c.library().granular_create(os.fsencode(self.path), c.byref(given), c.byref(pointer))
+        c.library().granular_create(c.name_bytes(self.path), c.byref(given), c.byref(pointer))
         self._pointer = pointer
 
     def write(self, data: Frame | Mapping[str, Any], box: Box | Any = None, step: int = 0, time: float | None = None,
@@ -127,9 +129,9 @@ class Writer:
         step   the timestep; time, units: the time and ITEM: UNITS of the frame, which the first frame decides for all
         """
         if self._finished:
-            raise c.ArgumentError(f"{self.path}: expected a file that is being written, got one that is finished")
+            raise c.ArgumentError(f"{c.shown(self.path)}: expected a file that is being written, got one that is finished")
         if not isinstance(data, (Frame, Mapping)):
-            raise c.ArgumentError(f"{self.path}: expected a frame, or arrays by their names, got {type(data).__name__}")
+            raise c.ArgumentError(f"{c.shown(self.path)}: expected a frame, or arrays by their names, got {type(data).__name__}")
         library = c.library()
         with self._calls:
             if isinstance(data, Frame):
@@ -159,7 +161,7 @@ class Writer:
             return
         path = os.path.abspath(self.path.replace("*", str(frame.step)))
         if path in frame._run.files:
-            raise c.ArgumentError(f"{path}: expected the name of another file, got that of a file that is read")
+            raise c.ArgumentError(f"{c.shown(path)}: expected the name of another file, got that of a file that is read")
 
     def finish(self) -> None:
         """Gives the file its name. Raises ArgumentError if there is no frame."""
@@ -167,7 +169,7 @@ class Writer:
             return
         self._finished, pointer, self._pointer = True, self._pointer, None
         if not pointer:
-            raise c.ArgumentError(f"{self.path}: expected at least one frame, got none")
+            raise c.ArgumentError(f"{c.shown(self.path)}: expected at least one frame, got none")
         c.library().granular_finish(pointer)
 
     def abandon(self) -> None:
@@ -192,7 +194,7 @@ class Writer:
 def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | Iterable[Frame], *, box: Any = None, step: int = 0,
           time: float | None = None, units: str = "", style: str = "", dialect: str = "", columns: str | Iterable[str] = "",
           numbers: str = "", label: str = "", scaled: bool = True, image: bool = False, sort: bool = False, threads: int = 0,
-          progress: Callable[[float], Any] | None = None) -> None:
+          progress: Callable[[float], Any] | None = None, durable: bool | None = None) -> None:
     """Writes arrays, a frame, or the frames of a run. Needs neither VTK nor ParaView.
 
     path      the file. Its ending chooses the format: .bonds (contacts and bonds), .euler (cells), .decomposition (subdomains),
@@ -211,6 +213,8 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
     scaled, image  of style "atom": xs ys zs (default) or x y z; also ix iy iz
     sort      True: rows in the order of their ids
     threads   0 (default): one per core; progress: as for granular.open
+    durable   True: the file is on the disk before it gets its name, and survives a loss of power; False: the system writes it when
+              it likes, and a file that is written in a loop takes less time; None (default): True for one file, False with `*`
 
     A file appears when it is complete; after an error the old file is untouched. With `*`, that holds for each file: those of earlier
     frames are there. Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, for a
@@ -225,7 +229,8 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
         """The progress of a half of a frame: it is read, and written."""
         return progress and (lambda fraction: progress((done + start + fraction / 2) / max(total, done + 1)))  # type: ignore[misc]
 
-    with Writer(path, style, dialect, columns, numbers, label, scaled, image, sort, threads, within(0.5)) as writer:
+    with Writer(path, style, dialect, columns, numbers, label, scaled, image, sort, threads, within(0.5),
+                durable) as writer:
         for frame in frames:
             if is_arrays:
                 writer.write(frame, box, step, time, units)  # type: ignore[arg-type]

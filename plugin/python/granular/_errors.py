@@ -5,6 +5,18 @@ from __future__ import annotations
 import contextlib
 from typing import Any, Iterator
 
+from ._library import shown
+
+
+def expect_utf8(path: str) -> str:
+    """Returns the name of a file. Raises ValueError for one that is not UTF-8, for which ParaView's libraries end the program."""
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"expected a name in UTF-8, as ParaView takes them, got {shown(path)}: granular.open and granular.write "
+                         "take any name") from None
+    return path
+
 
 def output_names(source: Any) -> list[str]:
     """Returns the names of the outputs of a source or filter."""

@@ -6,8 +6,9 @@ import numbers
 import os
 from typing import Any, Iterable
 
-from ._errors import raised
+from ._errors import expect_utf8, raised
 from ._files import files
+from ._library import shown
 from ._plugin import expect_plugin
 
 _READERS = ("GranularDumpReader", "GranularLocalReader", "GranularRestartReader", "GranularDataFileReader",
@@ -25,10 +26,10 @@ def _names(paths: Iterable[str], remote: bool) -> list[str]:
         elif any(sign in path for sign in "*%?["):
             names += files(path)
         else:
-            raise FileNotFoundError(f"no such file: {path}")
+            raise FileNotFoundError(f"no such file: {shown(path)}")
     if not names:
         raise ValueError("no files")
-    return names
+    return [expect_utf8(name) for name in names]
 
 
 def _find_reader(name: str) -> str:
@@ -55,15 +56,15 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     properties  of the reader's proxy: ColumnNames, Stride, RegionOfInterest, PointArrayStatus, ...
 
     The plugin must be loaded: see granular.load_plugin. Raises FileNotFoundError if there is no such file, AttributeError for
-    a property that there is not, and RuntimeError with the file's message, which names path, line or byte, and column, if
+    a property that there is not, ValueError for a name that is not UTF-8, and RuntimeError with the file's message, which names path, line or byte, and column, if
     the file cannot be read.
     """
     from paraview import servermanager, simple
 
     expect_plugin(hasattr(simple, _READERS[0]))
-    given = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+    given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else paths
     connection = servermanager.ActiveConnection
-    names = _names([os.fspath(path) for path in given], connection is not None and connection.IsRemote())
+    names = _names([os.fsdecode(path) for path in given], connection is not None and connection.IsRemote())
     kind = _find_reader(names[0])
     if kind == "GranularRestartReader" and len(names) > 1:
         bases = [name for name in names if "base" in os.path.basename(name)]

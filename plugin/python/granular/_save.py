@@ -7,7 +7,8 @@ import os
 import re
 from typing import Any
 
-from ._errors import output_names, raised, update, upstream
+from ._errors import expect_utf8, output_names, raised, update, upstream
+from ._library import shown
 from ._write import BINARIES, DUMPS, ending_of
 
 # For each kind of data its writer, and the endings that are this writer's.
@@ -80,7 +81,7 @@ def _choose(output: Any, path: str) -> str | None:
     if ending in theirs and not path.endswith((".gz", ".zst")):
         return None
     known = ", ".join([*ours, *(each for each in theirs if each not in ours)])
-    raise ValueError(f"expected a name for {kind} that ends in one of {known} (text may be compressed: .gz, .zst), got '{path}'; "
+    raise ValueError(f"expected a name for {kind} that ends in one of {known} (text may be compressed: .gz, .zst), got '{shown(path)}'; "
                      "a writer of your choice takes any name: writer=\"GranularDumpWriter\"")
 
 
@@ -88,13 +89,13 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
     from paraview import servermanager, simple
 
     if "*" in path:
-        raise ValueError(f"expected a name without *, got '{path}': ParaView's writers number the files of WriteTimeSteps themselves")
+        raise ValueError(f"expected a name without *, got '{shown(path)}': ParaView's writers number the files of WriteTimeSteps themselves")
     if "WriteTimeSteps" in properties:  # which ParaView's writers call by several names
         known = simple.CreateWriter(path, output).ListProperties()
         names = [name for name in known if re.fullmatch("Write(all)?timestepsasfileseries|WriteTimeSteps",
                                                         name, re.IGNORECASE)]
         if not names:
-            raise AttributeError(f"{path}: ParaView's writer of this format has no WriteTimeSteps")
+            raise AttributeError(f"{shown(path)}: ParaView's writer of this format has no WriteTimeSteps")
         properties = {names[0] if name == "WriteTimeSteps" else name: value for name, value in properties.items()}
 
     def written() -> dict[str, int]:
@@ -104,7 +105,7 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
     before = written()
     simple.SaveData(path, output, **properties)
     if not servermanager.ActiveConnection.IsRemote() and written() == before:
-        raise RuntimeError(f"{path}: ParaView wrote no file; its messages say why")
+        raise RuntimeError(f"{shown(path)}: ParaView wrote no file; its messages say why")
 
 
 def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, writer: str | None = None,
@@ -126,12 +127,12 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Label, Columns, NumberFormat, ...
 
     A file of this plugin is there when it is complete; after an error the old one is untouched. Raises ValueError for an
-    ending that no writer has for such data, and lists those that are known; AttributeError for a property, or a writer, that
+    ending that no writer has for such data, and lists those that are known, and for a name that is not UTF-8; AttributeError for a property, or a writer, that
     there is not; RuntimeError with the message if the file could not be written.
     """
     from paraview import servermanager
 
-    path = os.fspath(path)
+    path = expect_utf8(os.fsdecode(path))
     update(proxy, time)
     writer = writer or _choose(proxy, path)
     if writer is None:
@@ -146,4 +147,4 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
         written.UpdatePipeline()
     written.UpdatePropertyInformation()
     if not written.GetPropertyValue("Written"):
-        raise RuntimeError(f"{path} could not be written: see the messages above")
+        raise RuntimeError(f"{shown(path)} could not be written: see the messages above")

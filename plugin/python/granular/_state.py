@@ -7,6 +7,9 @@ import tempfile
 from pathlib import Path
 from xml.etree import ElementTree
 
+from ._errors import expect_utf8
+from ._library import shown
+
 
 def _find_again(name: str, folder: Path) -> str | None:
     """The file with the longest end of a path that lies below a folder."""
@@ -31,7 +34,7 @@ def load_state(path: str | os.PathLike[str]) -> None:
     """
     from paraview import simple
 
-    path = Path(path).resolve()
+    path = Path(expect_utf8(os.fsdecode(path))).resolve()
     state = ElementTree.parse(path)
     moved = False
     for proxy in state.iter("Proxy"):
@@ -46,7 +49,7 @@ def load_state(path: str | os.PathLike[str]) -> None:
                     continue
                 found = _find_again(name, path.parent)
                 if found is None:
-                    raise FileNotFoundError(f"{path} names {name}, which is neither there nor below {path.parent}")
+                    raise FileNotFoundError(f"{shown(str(path))} names {shown(name)}, which is neither there nor below {shown(str(path.parent))}")
                 element.set("value", found)
                 moved = True
     if not moved:

@@ -8,6 +8,7 @@ import argparse
 import json
 from typing import Any
 
+from .._library import shown
 from . import WRONG, add_files, add_frames, chosen, notices, open_run
 from .info import file_faults, oddities
 from .progress import Bar
@@ -175,5 +176,5 @@ def run(arguments: argparse.Namespace) -> int:
                 print(word + text)
     if not arguments.quiet or status:
         faults = {0: "nothing is wrong", 1: "1 fault"}.get(len(checker.faults), f"{len(checker.faults)} faults")
-        print(f"{' '.join(arguments.files)}: {count} frames, {rows} rows, {faults}")
+        print(f"{shown(' '.join(arguments.files))}: {count} frames, {rows} rows, {faults}")
     return status

@@ -7,6 +7,7 @@ import os
 import re
 from typing import Any, Callable, Iterable
 
+from .._library import shown
 from .._whole_file import whole_file
 from . import add_frames, add_reading, chosen, open_run
 from .progress import Bar
@@ -37,6 +38,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     form.add_argument("--label", default="", help="word for rows of contacts and bonds")
     form.add_argument("--unscaled", action="store_true", help="style atom: x y z instead of xs ys zs")
     form.add_argument("--image", action="store_true", help="style atom: also ix iy iz")
+    parser.add_argument("--durable", choices=("auto", "on", "off"), default="auto",
+                        help="on: files are on the disk before they get their names, and survive a loss of power "
+                        "(default: on for one file, off for a file a frame)")
     parser.add_argument("--quiet", "-q", action="store_true", help="no bar")
 
 
@@ -46,7 +50,7 @@ def _expect_output(out: str, files: list[str]) -> None:
         return re.sub(r"\d+", "#", os.path.abspath(path))
 
     if os.path.exists(out) and len(files) > 1 and shape(out) in map(shape, files):
-        raise ValueError(f"{out}: expected the name of a new file after those to read, got one like theirs")
+        raise ValueError(f"{shown(out)}: expected the name of a new file after those to read, got one like theirs")
 
 
 def _region(text: str | None) -> list[float | None] | None:
@@ -112,7 +116,7 @@ def _write_vtk(frame: Any, path: str, ending: str) -> None:
     writer.SetFileName(path)
     writer.SetInputData(data)
     if not writer.Write():
-        raise OSError(f"{path}: VTK could not write it")
+        raise OSError(f"{shown(path)}: VTK could not write it")
 
 
 _FRAME_WRITERS: dict[str, Callable[[Any, str, Any], None]] = {
@@ -129,15 +133,17 @@ def _to_stream(write: Callable[[Any, Any, Any], None], frame: Any, path: str, co
         write(frame, stream, columns)
 
 
-def _write_frames(frames: Iterable[Any], count: int, columns: list[str] | None, out: str, ending: str, bar: Bar) -> None:
+def _write_frames(frames: Iterable[Any], count: int, columns: list[str] | None, out: str, ending: str, bar: Bar, durable: bool | None) -> None:
     """Writes each frame to a file of its own, under a name that is replaced when the file is complete."""
     if count != 1 and "*" not in os.path.basename(out):
-        raise ValueError(f"{out}: expected * for the timestep in the name, or one frame (--frames -1): {ending} holds one frame a file, and "
+        raise ValueError(f"{shown(out)}: expected * for the timestep in the name, or one frame (--frames -1): {ending} holds one frame a file, and "
                          f"there are {count}")
+    if durable is None:
+        durable = "*" not in os.path.basename(out)
     for i, frame in enumerate(frames):
         frame.read(bar.within(i, count))
         path = os.path.join(os.path.dirname(out), os.path.basename(out).replace("*", str(frame.step)))
-        with whole_file(path, ending) as temporary:
+        with whole_file(path, ending, durable) as temporary:
             _FRAME_WRITERS[ending](frame, temporary, columns)
 
 
@@ -153,16 +159,17 @@ def run(arguments: argparse.Namespace) -> None:
         numbers = chosen(opened, arguments.frames)
         asked = {"stride": arguments.stride, "region": _region(arguments.region), "sort": arguments.sort,
                  "coordinates": arguments.coordinates or "absolute", "threads": arguments.threads}
+        durable = {"auto": None, "on": True, "off": False}[arguments.durable]
         words = arguments.columns.replace(",", " ").split()
         if ending in _FRAME_WRITERS:
             columns = arrays_of(numbers[0], words)[1] if words and len(numbers) else None
             frames = (opened._part(number, columns=words or None, **asked) for number in numbers._numbers())
-            _write_frames(frames, len(numbers), columns, arguments.out, ending, bar)
+            _write_frames(frames, len(numbers), columns, arguments.out, ending, bar, durable)
             return
         if arguments.coordinates:
-            raise ValueError(f"{arguments.out}: --coordinates is for .npz, .csv and files of VTK; dumps say by --columns which they have: xs xu x")
+            raise ValueError(f"{shown(arguments.out)}: --coordinates is for .npz, .csv and files of VTK; dumps say by --columns which they have: xs xu x")
         part = numbers if asked["stride"] == 1 and not asked["region"] else \
             (opened._part(number, **asked) for number in numbers._numbers())
         write(arguments.out, part, style=arguments.style or "", dialect=arguments.dialect, columns=" ".join(words), numbers=arguments.numbers,
               label=arguments.label, scaled=not arguments.unscaled, image=arguments.image, sort=arguments.sort,
-              threads=arguments.threads, progress=bar.show)
+              threads=arguments.threads, progress=bar.show, durable=durable)

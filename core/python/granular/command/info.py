@@ -8,6 +8,7 @@ import argparse
 import json
 from typing import Any
 
+from .._library import shown
 from . import add_files, notices, open_run, say
 
 MORE = "Only headers are read: large files take no longer than the search for their frames."
@@ -55,9 +56,9 @@ def file_faults(run: Any) -> list[str]:
         # a restart file of several ranks is known by its base; a rank may have no contacts to write
         usual = "one of several processes" in defect or (run.kind == "local" and defect.endswith("an empty file"))
         if defect and not usual:
-            found.append(defect if defect.startswith(path) else f"{path}: {defect}")
+            found.append(defect if defect.startswith(shown(path)) else f"{shown(path)}: {defect}")
         if repeated:
-            found.append(f"{path}: {repeated} frames have the timestep of an earlier one in this file, and the last one counts")
+            found.append(f"{shown(path)}: {repeated} frames have the timestep of an earlier one in this file, and the last one counts")
     return found
 
 
@@ -141,4 +142,4 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.json:
         print(json.dumps({"given": arguments.files, **found}, indent=2))
     else:
-        print_facts(found, " ".join(arguments.files))
+        print_facts(found, shown(" ".join(arguments.files)))

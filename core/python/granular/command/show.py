@@ -68,6 +68,6 @@ def run(arguments: argparse.Namespace) -> None:
     with whole_file(picture, ".png") as temporary:
         done = subprocess.run(_with_display([python, "-m", "granular.command.draw"]), input=json.dumps({**given, "picture": temporary}),
                               capture_output=True, text=True, env={**os.environ, "PYTHONPATH": path})
-        if done.returncode or not os.path.exists(temporary):
+        if done.returncode or not os.path.getsize(temporary):
             raise RuntimeError((done.stdout + done.stderr).strip() or f"{picture}: it was not drawn")
     print(arguments.output or os.path.basename(picture))
