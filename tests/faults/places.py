@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Strange places and names in ParaView: readers, writers, state files and traces; decimal commas, few open files, no home."""
+"""Strange places and names in ParaView: readers, writers, state files and traces; decimal commas."""
 import ctypes
 import locale
 import os
-import resource
 import shutil
 import socket
 import subprocess
@@ -182,29 +181,4 @@ if made and os.path.isdir("de_DE.UTF-8"):
     locale.setlocale(locale.LC_ALL, "C")
 delete_all()
 
-# ---- a series of more files than may be open, without a home ---------------------------------------
-for variable in ("HOME", "XDG_CACHE_HOME", "TMPDIR"):
-    os.environ.pop(variable, None)
-COUNT = int(os.environ.get("GRANULAR_PLACES", "300"))
-os.mkdir("series")
-for i in range(COUNT):
-    with open(f"series/s_{i}.dump", "w") as file:
-        file.write(f"ITEM: TIMESTEP\n{i}\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n{i} 0.5 0.5 0.5\n")
-    for kind in ("Local", "Restart", "DataFile", "Euler", "Decomposition"):
-        os.symlink(source(kind), f"series/{kind}_{i}{KINDS[kind][1]}")
-resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64))
-for index in (0, 1, 2, 2):
-    made, said = reader("Dump", *granular.files("series/s_*.dump"))
-    made.SetIndexFile(index)
-    made.SetPrefetch(1)
-    for time in list(range(0, COUNT, 10)) + [COUNT - 1]:
-        made.UpdateTimeStep(time)
-        assert made.GetOutputDataObject(0).GetNumberOfPoints() == 1 and made.GetErrorCode() == 0, made.GetErrorMessage()
-        assert made.GetOutputDataObject(0).GetPointData().GetArray("id").GetValue(0) == time
-for kind in ("Local", "Restart", "DataFile", "Euler", "Decomposition"):
-    made, said = reader(kind, *granular.files(f"series/{kind}_*{KINDS[kind][1]}"))
-    made.SetRepeatedSteps(2)
-    made.Update()
-    assert rows(made.GetOutputDataObject(0)) == plain[kind][0] and made.GetErrorCode() == 0, (kind, made.GetErrorMessage())
-shutil.rmtree("series")
 print("all places were tried")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of every kind where the system gives little: open files, memory, threads, stacks; and in locales with a decimal comma.
-// GRANULAR_PLACES: the number of files of the series, and of the limits of memory.
+// GRANULAR_PLACES: the number of files of a series; also of limits of memory, a fiftieth.
 #include "places.h"
 
 #include "../support/apart.h"
@@ -27,11 +27,11 @@ class PlacesLimits : public OwnFolder
 {
 };
 
-/// The long form tries more.
-int number_of(int quick)
+/// The number of files of a series. The long form tries more.
+int files_of_series()
 {
   const char* const wanted = std::getenv("GRANULAR_PLACES");
-  return wanted == nullptr ? quick : std::atoi(wanted);
+  return wanted == nullptr ? 300 : std::atoi(wanted);
 }
 
 void limit(__rlimit_resource what, rlim_t most)
@@ -131,7 +131,7 @@ bool set_locale(const std::string& name, const std::string& folder)
 /// A series of many more files than a process may have open.
 TEST_F(PlacesLimits, FewOpenFiles)
 {
-  const int count = number_of(300);
+  const int count = files_of_series();
   for (const Kind& kind : kinds)
   {
     SCOPED_TRACE(kind.name);
@@ -201,7 +201,7 @@ TEST_F(PlacesLimits, NoOpenFiles)
 TEST_F(PlacesLimits, LittleMemory)
 {
   const std::string large = large_dump(this->path("large.dump"));
-  const int steps = number_of(16);
+  const int steps = std::max(16, files_of_series() / 50);
   std::set<std::string> seen;
   for (int step = 0; step < steps; ++step)
   {

@@ -56,8 +56,8 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     properties  of the reader's proxy: ColumnNames, Stride, RegionOfInterest, PointArrayStatus, ...
 
     The plugin must be loaded: see granular.load_plugin. Raises FileNotFoundError if there is no such file, AttributeError for
-    a property that there is not, ValueError for a name that is not UTF-8, and RuntimeError with the file's message, which names path, line or byte, and column, if
-    the file cannot be read.
+    a property that there is not, ValueError for a name that is not UTF-8, and RuntimeError with the file's message, which names
+    path, line or byte, and column, if the file cannot be read.
     """
     from paraview import servermanager, simple
 

@@ -126,9 +126,9 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 files of any name. None: see path.
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Label, Columns, NumberFormat, ...
 
-    A file of this plugin is there when it is complete; after an error the old one is untouched. Raises ValueError for an
-    ending that no writer has for such data, and lists those that are known, and for a name that is not UTF-8; AttributeError for a property, or a writer, that
-    there is not; RuntimeError with the message if the file could not be written.
+    A file of this plugin is there when it is complete; after an error the old one is untouched. Raises ValueError for a name
+    that is not UTF-8, and for an ending that no writer has for such data, and lists those that are known; AttributeError for a
+    property, or a writer, that there is not; RuntimeError with the message if the file could not be written.
     """
     from paraview import servermanager
 
