@@ -274,10 +274,11 @@ private:
       [&](std::size_t thread, std::size_t)
       {
         std::ranges::sort(ends[thread], {}, &End::record);
+        std::vector<ExactSum> exact; // not on the stack, which may be small
         for (auto from = ends[thread].begin(); from != ends[thread].end();)
         {
           const std::size_t record = from->record;
-          std::array<ExactSum, count> exact;
+          exact.assign(count, {});
           for (; from != ends[thread].end() && from->record == record; ++from)
           {
             EndTerms added;
