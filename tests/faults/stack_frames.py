@@ -18,7 +18,9 @@ with subprocess.Popen(["objdump", "-d", "--no-show-raw-insn", sys.argv[1]], stdo
         elif "%rsp" in line:
             found = TAKES.search(line)
             if found:
-                frames[name] = max(frames.get(name, 0), int(found[1] or found[2], 16))
+                size = int(found[1] or found[2], 16)
+                size = min(size, (1 << 64) - size)  # subtracting -128 is a shorter instruction than adding 128
+                frames[name] = max(frames.get(name, 0), size)
 if listing.returncode or not frames:
     print("skipped: no objdump, or instructions of another processor")
     sys.exit(0)
