@@ -316,7 +316,7 @@ const FileFormat& decomposition_format() noexcept
   return format;
 }
 
-bool is_vtu(std::string_view first_bytes) noexcept
+bool is_vtu(std::string_view first_bytes)
 {
   return look_at(first_bytes).unstructured;
 }

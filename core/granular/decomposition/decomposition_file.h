@@ -34,7 +34,7 @@ const FileFormat& decomposition_format() noexcept;
 bool is_decomposition_file(const std::string& path) noexcept;
 
 /// Returns true if the first bytes of a file are those of XML files of VTK.
-bool is_vtu(std::string_view first_bytes) noexcept;
+bool is_vtu(std::string_view first_bytes);
 
 /// Decodes a frame. In a rectilinear grid the number of coordinates counts, not DIMENSIONS, which PFM writes for the whole
 /// grid into the files of single ranks. Voxels in the order of LIGGGHTS-INL, with x and z exchanged, are corrected with a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/vtu_head.h"
 
+#include "granular/common/error.h"
 #include "granular/common/words.h"
 #include "granular/decomposition/voxels.h"
 #include "granular/numbers/number.h"
@@ -67,14 +68,14 @@ void look_at_tags(std::string_view text, VtuHead& head)
 }
 }
 
-VtuHead look_at(std::string_view text) noexcept
+VtuHead look_at(std::string_view text)
 {
   VtuHead head;
   try
   {
     look_at_tags(text, head);
   }
-  catch (const std::exception&)
+  catch (const Error&)
   {
     return head; // what was found before the end of the text, or what is wrong there
   }

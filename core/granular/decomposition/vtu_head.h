@@ -22,6 +22,6 @@ struct VtuHead
 };
 
 /// Reads the tags as long as the text goes and they are right.
-VtuHead look_at(std::string_view text) noexcept;
+VtuHead look_at(std::string_view text);
 }
 #endif
