@@ -37,12 +37,16 @@ std::string numbered(const std::string& begin, int number)
   return begin + std::to_string(number) + ".tmp";
 }
 
-bool is_name_of(const std::string& name, int file)
+/// Returns 0 if a name is that of an open file, ESTALE if it is not, or why the system does not tell.
+int compare_name(const std::string& name, int file) noexcept
 {
   struct stat there = {};
   struct stat open = {};
-  return ::lstat(name.c_str(), &there) == 0 && ::fstat(file, &open) == 0 &&
-    there.st_ino == open.st_ino && there.st_dev == open.st_dev;
+  if (::fstat(file, &open) != 0 || (::lstat(name.c_str(), &there) != 0 && errno != ENOENT))
+  {
+    return errno;
+  }
+  return there.st_ino == open.st_ino && there.st_dev == open.st_dev ? 0 : ESTALE;
 }
 
 /// 0, or the reason. A lock is that of the open file: a thread keeps out the others of its program, too.
@@ -61,6 +65,7 @@ int lock(int file)
 /// Removes a file whose writer is surely dead. Returns false if there is no file that might be one.
 bool remove_left(const std::string& name)
 {
+  const std::string data = name + LockedFile::data_ending;
   const int file = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0)
   {
@@ -68,9 +73,9 @@ bool remove_left(const std::string& name)
   }
   struct stat state = {};
   if (::fstat(file, &state) == 0 && S_ISREG(state.st_mode) && state.st_uid == ::geteuid() &&
-    lock(file) == 0 && is_name_of(name, file))
+    lock(file) == 0 && compare_name(name, file) == 0)
   {
-    ::unlink((name + LockedFile::data_ending).c_str()); // first: it is found by the other
+    ::unlink(data.c_str()); // first: it is found by the other
     ::unlink(name.c_str());
   }
   ::close(file);
@@ -97,13 +102,23 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
     }
     // another may have taken the new file for one that was left, before it was locked. On a file system without locks
     // nobody gets one, and nobody removes a file
-    if (file_ >= 0 && lock(file_) != EWOULDBLOCK && this->has_name())
+    if (file_ < 0)
+    {
+      continue;
+    }
+    const int error = lock(file_) == EWOULDBLOCK ? ESTALE : compare_name(name_, file_);
+    if (error == 0)
     {
       return;
     }
-    if (file_ >= 0)
+    if (error != ESTALE)
     {
-      ::close(file_);
+      ::unlink(name_.c_str());
+    }
+    ::close(file_);
+    if (error != ESTALE)
+    {
+      throw std::system_error(error, std::generic_category());
     }
   }
   throw std::system_error(EEXIST, std::generic_category());
@@ -120,6 +135,6 @@ LockedFile::~LockedFile()
 
 bool LockedFile::has_name() const noexcept
 {
-  return is_name_of(name_, file_);
+  return compare_name(name_, file_) == 0;
 }
 }
