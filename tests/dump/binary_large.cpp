@@ -6,105 +6,22 @@
 
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
+#include "../support/sparse_file.h"
 
 #include <gtest/gtest.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <numeric>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace
 {
-using binary::Bytes;
 using binary::Form;
 using binary::Frame;
-
-/// A file of mostly holes, deleted at the end.
-class SparseFile
-{
-public:
-  explicit SparseFile(std::string path)
-    : path_(std::move(path))
-    , file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
-  {
-  }
-
-  SparseFile(const SparseFile&) = delete;
-  SparseFile& operator=(const SparseFile&) = delete;
-
-  ~SparseFile()
-  {
-    ::close(file_);
-    ::unlink(path_.c_str());
-  }
-
-  const std::string& path() const { return path_; }
-  std::int64_t size() const { return size_; }
-
-  void append(const std::string& bytes)
-  {
-    good_ = good_ && ::pwrite(file_, bytes.data(), bytes.size(), size_) == std::ssize(bytes);
-    size_ += std::ssize(bytes);
-  }
-
-  void append_hole(std::int64_t bytes)
-  {
-    size_ += bytes;
-    good_ = good_ && ::ftruncate(file_, size_) == 0;
-  }
-
-  /// Whether the file system holds such a file, and its holes are none of the disk.
-  bool good() const
-  {
-    struct stat stat = {};
-    return good_ && ::fstat(file_, &stat) == 0 && stat.st_size == size_ &&
-      stat.st_blocks * std::int64_t{ 512 } < std::int64_t{ 1 } << 24;
-  }
-
-private:
-  std::string path_;
-  int file_;
-  std::int64_t size_ = 0;
-  bool good_ = true;
-};
-
-/// A frame of so many rows in its chunks, the last row given, all others zeros.
-std::int64_t append_large(
-  SparseFile& file, const Form& form, Frame frame, const std::vector<std::int64_t>& chunk_rows)
-{
-  const std::vector<double> last = frame.chunks.at(0);
-  frame.chunks.assign(chunk_rows.size(), {});
-  Bytes header = binary::write(form, { frame });
-  const std::int64_t rows =
-    std::accumulate(chunk_rows.begin(), chunk_rows.end(), std::int64_t{ 0 });
-  const binary::Field atoms = header.field("atoms");
-  header.bytes = binary::with_field(header, form, atoms, rows);
-  file.append(header.bytes.substr(0, header.field("n").offset));
-  for (std::size_t chunk = 0; chunk < chunk_rows.size(); ++chunk)
-  {
-    const std::int64_t values = chunk_rows[chunk] * frame.size_one;
-    header.bytes = binary::with_field(header, form, header.field("n"), values);
-    file.append(header.bytes.substr(header.field("n").offset, 4));
-    const bool at_end = chunk + 1 == chunk_rows.size();
-    file.append_hole(8 * (values - (at_end ? frame.size_one : 0)));
-    if (at_end)
-    {
-      frame.chunks = { last };
-      const Bytes row = binary::write(form, { frame });
-      file.append(row.bytes.substr(row.first_value));
-    }
-  }
-  return rows;
-}
 
 std::size_t peak_memory()
 {

@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One reader whose properties change between its updates, while another one reads the same files in a thread of its own and a
+// process appends to them. Every row that comes out is compared with the formula that made it. Quick here; 10,000 updates with
+// GRANULAR_LOAD=full in the environment.
+#include "../dump/reader_helpers.h"
+#include "load.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkGranularDecompositionReader.h"
+#include "vtkGranularEulerReader.h"
+#include "vtkGranularLocalReader.h"
+#include "vtkGranularRestartReader.h"
+#include "vtkMultiProcessController.h"
+#include "vtkPointSet.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+// ---- a run whose rows follow from their ids ----------------------------------------------------
+
+constexpr double Side = 64; // of the box
+
+int RowsAt(long step)
+{
+  return 200 + static_cast<int>(step * 131 % 1800);
+}
+
+/// Exact in the file's digits.
+std::array<double, 3> PlaceOf(long step, long id)
+{
+  return { static_cast<double>((id * 7 + step) % 512) / 8, static_cast<double>(id % 128) / 2,
+    static_cast<double>((id + 3 * step) % 256) / 4 };
+}
+
+double RadiusOf(long step, long id)
+{
+  return static_cast<double>(step * 4096 + id) / 32;
+}
+
+/// Ids in an order of their own: the primes make each id occur once.
+std::string FrameOf(long step)
+{
+  const int count = RowsAt(step);
+  std::ostringstream rows;
+  rows.precision(17);
+  for (long i = 0; i < count; ++i)
+  {
+    const long id = 1 + (i * 7919 + step) % count;
+    const std::array<double, 3> place = PlaceOf(step, id);
+    rows << id << " 1 " << place[0] << " " << place[1] << " " << place[2] << " 1 0 -1 "
+         << RadiusOf(step, id) << "\n";
+  }
+  const std::string text =
+    Frame(step, static_cast<std::size_t>(count), "id type x y z ix iy iz radius", rows.str());
+  const std::string box = "pp pp ff\n0 10\n0 10\n0 10\n";
+  return std::string(text).replace(text.find(box), box.size(), "pp pp pp\n0 64\n0 64\n0 64\n");
+}
+
+/// Appends frames to a file from another process, until it is deleted.
+class Appending
+{
+public:
+  Appending(const std::string& path, long first, long most)
+  {
+    this->Process = fork();
+    if (this->Process == 0)
+    {
+      for (long step = first; step < most; ++step)
+      {
+        std::ofstream(path, std::ios::binary | std::ios::app) << FrameOf(step) << std::flush;
+        ::usleep(20'000);
+      }
+      ::_exit(0);
+    }
+  }
+
+  Appending(const Appending&) = delete;
+  void operator=(const Appending&) = delete;
+
+  ~Appending()
+  {
+    ::kill(this->Process, SIGKILL);
+    ::waitpid(this->Process, nullptr, 0);
+  }
+
+private:
+  pid_t Process = -1;
+};
+
+// ---- what a reader was asked for ---------------------------------------------------------------
+
+bool InRegion(const std::array<double, 3>& place, const double* region)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double lo = region[2 * axis];
+    const double hi = region[2 * axis + 1];
+    if (lo <= hi && !(place[axis] >= lo && place[axis] <= hi))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// What is wrong with the particles of a reader, or "".
+std::string Wrong(vtkGranularDumpReader* reader)
+{
+  vtkPolyData* particles = reader->GetOutput();
+  vtkDataArray* steps = particles->GetFieldData()->GetArray("timestep");
+  if (!steps)
+  {
+    return std::string("no frame: ") + reader->GetErrorMessage();
+  }
+  const auto step = static_cast<long>(steps->GetComponent(0, 0));
+  const double* origin = reader->GetPointOrigin();
+  const double* region = reader->GetRegionOfInterest();
+  long expected = 0;
+  long sum = 0;
+  for (long id = 1; id <= RowsAt(step); ++id)
+  {
+    if (id % reader->GetStride() == 0 && InRegion(PlaceOf(step, id), region))
+    {
+      ++expected;
+      sum += id;
+    }
+  }
+  const std::string where = " at step " + std::to_string(step);
+  if (particles->GetNumberOfPoints() != expected)
+  {
+    return "expected " + std::to_string(expected) + " particles, got " +
+      std::to_string(particles->GetNumberOfPoints()) + where;
+  }
+  vtkDataArray* ids = particles->GetPointData()->GetArray("id");
+  vtkDataArray* radii = particles->GetPointData()->GetArray("radius");
+  if (reader->GetPointDataArraySelection()->ArrayIsEnabled("radius") != (radii ? 1 : 0))
+  {
+    return "radius is there, or is not" + where;
+  }
+  long last = 0;
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints() && ids; ++i)
+  {
+    const auto id = static_cast<long>(ids->GetComponent(i, 0));
+    sum -= id;
+    std::array<double, 3> place = PlaceOf(step, id);
+    const int form = reader->GetCoordinates();
+    place[0] += form == vtkGranularDumpReader::UNWRAPPED ? Side : 0;
+    place[2] -= form == vtkGranularDumpReader::UNWRAPPED ? Side : 0;
+    double point[3];
+    particles->GetPoint(i, point);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double value = place[axis] / (form == vtkGranularDumpReader::SCALED ? Side : 1);
+      if (point[axis] != value - origin[axis])
+      {
+        return "point of id " + std::to_string(id) + where;
+      }
+    }
+    if (radii && radii->GetComponent(i, 0) != RadiusOf(step, id))
+    {
+      return "radius of id " + std::to_string(id) + where;
+    }
+    if (reader->GetSortById() && id <= last)
+    {
+      return "order of ids" + where;
+    }
+    last = id;
+  }
+  return ids && sum != 0 ? "ids" + where : "";
+}
+
+/// Changes one property of a reader, chosen at random.
+void Change(vtkGranularDumpReader* reader, std::mt19937& random)
+{
+  const auto below = [&random](int count) { return static_cast<int>(random() % count); };
+  vtkDataArraySelection* arrays = reader->GetPointDataArraySelection();
+  const std::function<void()> changes[] = {
+    [&] { reader->SetCoordinates(below(3)); },
+    [&] { reader->SetPointPrecision(below(2)); },
+    [&] { reader->SetPointOrigin(below(4) / 4., 0, below(2)); },
+    [&] { reader->SetSortById(below(2) == 0); },
+    [&] { reader->SetVertices(below(3)); },
+    [&] { reader->SetStride(1 + below(5)); },
+    [&] { reader->SetThreads(below(4)); },
+    [&] { reader->SetPrefetch(below(2) == 0); },
+    [&] { reader->SetRefreshOnUpdate(below(2) == 0); },
+    [&]
+    {
+      reader->SetIndexFile(
+        below(4) == 0 ? vtkGranularSeriesReader::BESIDE : vtkGranularSeriesReader::NEVER);
+    },
+    [&] { reader->SetRegionOfInterest(below(40), below(64), 1, -1, below(20), 30 + below(40)); },
+    [&] { reader->SetRegionOfInterest(1, -1, 1, -1, 1, -1); },
+    [&] { arrays->SetArraySetting("radius", below(2)); },
+    [&] { arrays->SetArraySetting("id", below(8) > 0); },
+    [&] { arrays->SetArraySetting("type", below(2)); },
+    [&] { reader->Refresh(); },
+  };
+  changes[random() % std::size(changes)]();
+}
+
+/// The frame of a reader at a random time.
+std::string Update(Reader& reader, std::mt19937& random)
+{
+  const std::size_t frames = reader.Times().size();
+  if (frames == 0)
+  {
+    return "no frames";
+  }
+  reader->UpdateTimeStep(static_cast<double>(random() % frames));
+  return reader.Said->Errors.empty() ? Wrong(reader.Get) : reader.Said->Errors.front();
+}
+
+/// The points and arrays of a reader and of a fresh one with the same properties.
+void ExpectSameAsAFreshOne(Reader& reader, const std::string& file)
+{
+  Reader fresh({ file });
+  fresh->SetController(nullptr);
+  fresh->SetCoordinates(reader->GetCoordinates());
+  fresh->SetPointPrecision(reader->GetPointPrecision());
+  fresh->SetPointOrigin(reader->GetPointOrigin());
+  fresh->SetSortById(reader->GetSortById());
+  fresh->SetVertices(reader->GetVertices());
+  fresh->SetStride(reader->GetStride());
+  fresh->SetRegionOfInterest(reader->GetRegionOfInterest());
+  fresh->UpdateInformation();
+  vtkDataArraySelection* arrays = reader->GetPointDataArraySelection();
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+  {
+    fresh->GetPointDataArraySelection()->SetArraySetting(
+      arrays->GetArrayName(i), arrays->GetArraySetting(i));
+  }
+  fresh->UpdateTimeStep(reader.Field("timestep")->GetComponent(0, 0));
+  ASSERT_EQ(fresh.Particles()->GetNumberOfPoints(), reader.Particles()->GetNumberOfPoints());
+  EXPECT_EQ(fresh.Particles()->GetNumberOfCells(), reader.Particles()->GetNumberOfCells());
+  vtkPointData* data = reader.Particles()->GetPointData();
+  ASSERT_EQ(fresh.Particles()->GetPointData()->GetNumberOfArrays(), data->GetNumberOfArrays());
+  for (vtkIdType i = 0; i < reader.Particles()->GetNumberOfPoints(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_EQ(fresh.Particles()->GetPoint(i)[axis], reader.Particles()->GetPoint(i)[axis]) << i;
+    }
+    for (int array = 0; array < data->GetNumberOfArrays(); ++array)
+    {
+      ASSERT_EQ(fresh.Numbers(data->GetArrayName(array))->GetComponent(i, 0),
+        data->GetArray(array)->GetComponent(i, 0))
+        << i;
+    }
+  }
+}
+}
+
+TEST(ChangingUpdates, AreRightAndKeepMemory)
+{
+  const auto updates = static_cast<int>(size_of_load(600, 10'002));
+  for (const char* const pool : { "0", "1", "" }) // MiB; empty: the default
+  {
+    std::string text;
+    for (long step = 0; step < 20; ++step)
+    {
+      text += FrameOf(step);
+    }
+    const std::string file = WriteFile("growing.dump", text);
+    ::setenv("GRANULAR_POOL_MIB", pool, 1);
+    const Appending appending(file, 20, 400);
+
+    std::atomic<bool> stop = false;
+    std::atomic<long> others = 0;
+    std::string other_wrong;
+    std::thread other(
+      [&]
+      {
+        std::mt19937 random(2);
+        Reader reader({ file });
+        reader->SetController(nullptr);
+        reader->RefreshOnUpdateOn();
+        reader->PrefetchOn();
+        while (!stop && other_wrong.empty())
+        {
+          other_wrong = Update(reader, random);
+          ++others;
+        }
+      });
+
+    std::mt19937 random(1);
+    Reader reader({ file });
+    reader->SetController(nullptr);
+    const int count = updates / 3;
+    std::int64_t memory = 0;
+    std::int64_t descriptors = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      if (i == count / 2) // warm
+      {
+        memory = status_of_process("VmRSS");
+        descriptors = open_descriptors();
+      }
+      Change(reader.Get, random);
+      const std::string wrong = Update(reader, random);
+      EXPECT_EQ(wrong, "") << "update " << i;
+      if (!wrong.empty())
+      {
+        break;
+      }
+      if (i % 50 == 0)
+      {
+        ExpectSameAsAFreshOne(reader, file);
+      }
+    }
+    const std::int64_t grown = status_of_process("VmRSS") - memory;
+    const std::int64_t opened = open_descriptors() - descriptors;
+    stop = true;
+    other.join();
+    EXPECT_EQ(other_wrong, "");
+    EXPECT_GT(others, 0);
+    std::printf("load | updates, pool '%s' | %d and %ld of another reader | %lld KiB more in the "
+                "second half | "
+                "%lld descriptors more | %zu frames at last\n",
+      pool, count, others.load(), static_cast<long long>(grown / 1024),
+      static_cast<long long>(opened), reader.Times().size());
+#ifndef GRANULAR_TEST_SANITIZED
+    EXPECT_LT(grown, 8 * mebibyte + count / 2 * 1024); // the pools of both fill as frames come
+#endif
+    EXPECT_LE(opened, 2); // the other one may be reading
+  }
+  ::unsetenv("GRANULAR_POOL_MIB");
+}
+
+TEST(ChangingUpdates, ReadersThatAreDeletedWhileTheyReadAhead)
+{
+  std::string rows;
+  for (int i = 1; i <= 20'000; ++i)
+  {
+    rows += std::to_string(i) + " 0.123456789012345 0.123456789012345 0.123456789012345\n";
+  }
+  std::string text;
+  for (int step = 0; step < 3; ++step)
+  {
+    text += Frame(step, 20'000, "id x y z", rows);
+  }
+  const std::string file = WriteFile("ahead.dump", text);
+  std::mt19937 random(3);
+  const std::int64_t threads = status_of_process("Threads");
+  const std::int64_t descriptors = open_descriptors();
+  const std::int64_t count = size_of_load(40, 2'000);
+  std::int64_t memory = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    memory = i == count / 2 ? status_of_process("VmRSS") : memory;
+    Reader reader({ file });
+    reader->SetController(nullptr);
+    reader->PrefetchOn();
+    reader->SetThreads(1 + static_cast<int>(i % 2));
+    reader->UpdateTimeStep(static_cast<double>(random() % 2));
+    ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 20'000);
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 4'000));
+  }
+  const std::int64_t grown = status_of_process("VmRSS") - memory;
+  std::printf(
+    "load | readers deleted while they read ahead | %lld | %lld KiB more in the second half\n",
+    static_cast<long long>(count), static_cast<long long>(grown / 1024));
+  EXPECT_EQ(status_of_process("Threads"), threads);
+  EXPECT_EQ(open_descriptors(), descriptors);
+#ifndef GRANULAR_TEST_SANITIZED
+  EXPECT_LT(grown, 16 * mebibyte);
+#endif
+}
+
+namespace
+{
+/// How much a reader of a class shows of a file.
+template <class Class>
+vtkIdType SizeOf(const std::string& file)
+{
+  vtkNew<Class> reader;
+  vtkNew<Messages> said;
+  reader->AddObserver(vtkCommand::ErrorEvent, said);
+  reader->AddObserver(vtkCommand::WarningEvent, said);
+  reader->SetController(nullptr);
+  reader->AddFileName(file.c_str());
+  reader->Update();
+  EXPECT_TRUE(said->Errors.empty()) << said->Errors.front();
+  vtkIdType size = 0;
+  for (int port = 0; port < reader->GetNumberOfOutputPorts(); ++port)
+  {
+    for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW })
+    {
+      size += reader->GetOutputDataObject(port)->GetNumberOfElements(type);
+    }
+  }
+  return size;
+}
+}
+
+TEST(ChangingUpdates, ReadersOfAllClassesInTwoThreads)
+{
+  struct Case
+  {
+    vtkIdType (*Size)(const std::string&);
+    const char* File;
+  };
+  const Case cases[] = {
+    { SizeOf<vtkGranularDumpReader>, "grains_1000.dump" },
+    { SizeOf<vtkGranularLocalReader>, "local/chain_bonds.dump" },
+    { SizeOf<vtkGranularEulerReader>, "euler_1000.vtk" },
+    { SizeOf<vtkGranularDecompositionReader>, "decomposition_1000.vtk" },
+    { SizeOf<vtkGranularRestartReader>, "restart/fibres.restart" },
+  };
+  std::vector<vtkIdType> expected;
+  for (const Case& each : cases)
+  {
+    expected.push_back(each.Size(Good(each.File)));
+    EXPECT_GT(expected.back(), 0) << each.File;
+  }
+  const std::int64_t rounds = size_of_load(20, 500);
+  std::atomic<int> wrong = 0;
+  const auto read = [&](std::size_t first)
+  {
+    for (std::int64_t i = 0; i < rounds * static_cast<std::int64_t>(std::size(cases)); ++i)
+    {
+      const std::size_t which = (first + static_cast<std::size_t>(i)) % std::size(cases);
+      wrong += cases[which].Size(Good(cases[which].File)) != expected[which];
+    }
+  };
+  std::thread other(read, 2);
+  read(0);
+  other.join();
+  EXPECT_EQ(wrong, 0);
+}
