@@ -14,6 +14,7 @@
 #include "../support/failing_calls.h"
 #include "../support/frame_content.h"
 #include "../support/series.h"
+#include "fault_numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -52,11 +53,15 @@ std::string text_of(const FrameContent& content)
 /// All that a frame holds.
 using Content = std::string (*)(const RunIndex& index, std::size_t frame, Notices& notices);
 
+/// Threads of an index and of a dump, whose result does not depend on them.
+int threads = 1;
+
 std::string dump_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
-  return text_of(
-    content_of(granular::read_dump(index.pieces(frame), everything(), notices, progress)));
+  const granular::DumpRequest request =
+    threads == 1 ? everything() : in_chunks(everything(), threads, 4096);
+  return text_of(content_of(granular::read_dump(index.pieces(frame), request, notices, progress)));
 }
 
 std::string lines_content(const granular::LocalFrame& frame)
@@ -195,6 +200,9 @@ struct Seen
   bool operator==(const Seen&) const = default;
 };
 
+constexpr const char* no_memory = "out of memory";
+constexpr long most_of_memory = 40; ///< calls that are tried, where not all are wanted
+
 /// What may be seen of a fault.
 enum class Sees
 {
@@ -210,6 +218,8 @@ struct Case
   CallFault fault;
   long count;
   Sees sees;
+  unsigned kinds = calls::reading;
+  int error = EIO;
 };
 
 constexpr long always = FailingCalls::always;
@@ -231,6 +241,18 @@ constexpr Case all_cases[] = {
   { "reads give letters", CallFault::Letters, always, Sees::Others },
   { "a read gives others", CallFault::Moved, 1, Sees::Others },
   { "reads give others", CallFault::Moved, always, Sees::Others },
+  { "a file cannot be closed", CallFault::Error, 1, Sees::Nothing, calls::close },
+  { "closing is interrupted", CallFault::Interrupted, 1, Sees::Nothing, calls::close },
+};
+
+/// Of memory and threads.
+constexpr Case memory_cases[] = {
+  { "memory is refused once", CallFault::Error, 1, Sees::Word, calls::memory, ENOMEM },
+  { "memory is refused", CallFault::Error, always, Sees::Word, calls::memory, ENOMEM },
+  { "pages are refused once", CallFault::Error, 1, Sees::Word, calls::map, ENOMEM },
+  { "pages are refused", CallFault::Error, always, Sees::Word, calls::map, ENOMEM },
+  { "a thread is refused", CallFault::Error, 1, Sees::Nothing, calls::thread, EAGAIN },
+  { "threads are refused", CallFault::Error, always, Sees::Nothing, calls::thread, EAGAIN },
 };
 
 /// Other bytes may look like many more frames than there are, of some bytes each.
@@ -266,7 +288,11 @@ protected:
     this->write_all();
   }
 
-  void TearDown() override { make_fail({}); }
+  void TearDown() override
+  {
+    make_fail({});
+    threads = 1;
+  }
 
   void write_all() const
   {
@@ -287,12 +313,13 @@ protected:
     Seen seen;
     Notices notices;
     Progress progress;
-    granular::IndexOptions options = { .format = &granular::dump_format() };
-    options.format = &this->kind().format();
-    options.keep_index = keep_index;
-    options.column_names = this->kind().columns;
     try
     {
+      granular::IndexOptions options = { .format = &granular::dump_format() };
+      options.format = &this->kind().format();
+      options.keep_index = keep_index;
+      options.threads = threads;
+      options.column_names = this->kind().columns;
       index.update(paths_, options, notices, progress);
       for (std::size_t frame = 0; frame < index.size(); ++frame)
       {
@@ -301,8 +328,15 @@ protected:
     }
     catch (const granular::Error& error)
     {
+      stop_failing();
       seen.error = error.what();
     }
+    catch (const std::bad_alloc&)
+    {
+      stop_failing();
+      seen.error = no_memory;
+    }
+    stop_failing();
     seen.said = lines_of(notices);
     return seen;
   }
@@ -334,33 +368,61 @@ protected:
     for (const Case& one : cases)
     {
       long number = 1;
-      for (bool fired = true; fired; ++number)
+      long possible_before = 0;
+      for (bool fired = true; fired;)
       {
         SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
-        RunIndex index = prepare();
-        long made = 0;
-        const Seen seen = this->look_with({ one.fault, number, one.count }, index, possible, made);
-        fired = possible >= number;
-        this->judge(one, fired, seen, clean);
-        EXPECT_LE(made, most_calls(one, usual, bytes));
-        if (one.fault == CallFault::Shortened)
+        const long files = open_files();
+        const long blocks = live_blocks();
+        const auto fail_once = [&]
         {
-          this->write_all();
-        }
-        const Seen again = this->look(index);
-        if (one.sees != Sees::Others)
+          fired = this->try_one(
+            whole, clean, one, number, most_calls(one, usual, bytes), prepare, possible);
+        };
+        fail_once();
+        if (live_blocks() != blocks)
         {
-          EXPECT_EQ(again.error, "");
-          EXPECT_TRUE(again.frames == whole.frames)
-            << again.frames.size() << " frames after " << seen.error << seen.said;
+          const long after_first = live_blocks(); // the first time, something may be kept for good
+          fail_once();
+          EXPECT_EQ(live_blocks(), after_first) << "memory is lost";
         }
+        EXPECT_EQ(open_files(), files);
+        faults.add(fired);
         if (::testing::Test::HasFailure())
         {
           return;
         }
+        possible_before = std::max(possible, possible_before);
+        number = one.kinds == calls::memory ? next_number(number, possible_before, most_of_memory)
+                                            : number + 1;
       }
-      EXPECT_GT(number, 2) << one.name;
+      EXPECT_TRUE(number > 2 || one.kinds >= calls::memory) << one.name;
     }
+  }
+
+  /// Fails a call, and looks again. Returns false if there was no such call.
+  bool try_one(const Seen& whole, const Seen& clean, const Case& one, long number, long most,
+    const std::function<RunIndex()>& prepare, long& possible) const
+  {
+    RunIndex index = prepare();
+    long made = 0;
+    const Seen seen = this->look_with(
+      { one.fault, number, one.count, one.kinds, one.error }, index, possible, made);
+    const bool fired = possible >= number;
+    this->judge(one, fired, seen, clean);
+    EXPECT_LE(made, most);
+    if (one.fault == CallFault::Shortened)
+    {
+      this->write_all();
+    }
+    const Seen again = this->look(index);
+    if (one.sees != Sees::Others)
+    {
+      EXPECT_EQ(again.error, "");
+      EXPECT_TRUE(again.frames == whole.frames)
+        << again.frames.size() << " frames after " << seen.error << seen.said;
+    }
+    return fired;
   }
 
   void judge(const Case& one, bool fired, const Seen& seen, const Seen& clean) const
@@ -373,8 +435,13 @@ protected:
     EXPECT_TRUE(one.sees == Sees::Others || complete || !seen.error.empty() ||
       seen.said.size() > clean.said.size())
       << seen.frames.size() << " of " << clean.frames.size() << " frames, and " << seen.said;
+    // who reads it is to know which file it was, unless the memory was for nothing of a file
+    const bool names_file = (seen.error + seen.said).find(folder_.path("")) != std::string::npos;
+    EXPECT_TRUE(one.sees != Sees::Word || complete || names_file || one.kinds >= calls::memory)
+      << seen.error;
   }
 
+  FaultCount faults;
   granular::KeepIndex keep_index = granular::KeepIndex::Never;
   Folder folder_;
   std::vector<std::string> texts_;
@@ -396,6 +463,14 @@ TEST_P(FailingReads, OfAFirstLook)
   ASSERT_EQ(whole.error, "");
   ASSERT_EQ(whole.frames.size(), this->kind().frames);
   this->try_all(whole, all_cases, [] { return RunIndex(); });
+}
+
+TEST_P(FailingReads, OfMemoryAndThreads)
+{
+  threads = 3;
+  RunIndex index;
+  const Seen whole = this->look(index);
+  this->try_all(whole, memory_cases, [] { return RunIndex(); });
 }
 
 /// The index knows the files as they were before the last one grew.
