@@ -26,7 +26,7 @@ extern "C"
     if (options != nullptr)
     {
       *options = { sizeof(*options), GRANULAR_KIND_AUTOMATIC, 1, "", "", "", "", 0, 0, 0, nullptr,
-        nullptr, nullptr };
+        nullptr, nullptr, granular::usual_expansion };
     }
   }
 

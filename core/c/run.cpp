@@ -53,6 +53,12 @@ IndexOptions index_options(const granular_open_options& options, const Kind& kin
   {
     throw BadArgument("expected keep_index from 0 to 2, got " + std::to_string(options.keep_index));
   }
+  if (options.largest_expansion < 1)
+  {
+    throw BadArgument("expected a largest_expansion of at least 1, got " +
+      std::to_string(options.largest_expansion));
+  }
+  made.largest_expansion = options.largest_expansion;
   made.repeated_steps = kind.has_pieces ? static_cast<RepeatedSteps>(options.repeated_steps)
                                         : RepeatedSteps::Last; // no file is a piece of another
   constexpr KeepIndex keep[] = { KeepIndex::Never, KeepIndex::Cache, KeepIndex::Beside };

@@ -43,6 +43,7 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
   options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
   options.keep_index = static_cast<granular::KeepIndex>(self->IndexFile);
   options.threads = ChooseThreads(self->Threads, ranks);
+  options.largest_expansion = self->LargestExpansion;
   granular::Notices notices;
   AlgorithmProgress progress(self);
   granular::update_run_index(this->Index, ranks, this->FileNames, options, notices, progress);
@@ -235,6 +236,21 @@ void vtkGranularSeriesReader::SetIndexFile(int where)
 }
 
 //------------------------------------------------------------------------------
+void vtkGranularSeriesReader::SetLargestExpansion(int times)
+{
+  if (times < 1)
+  {
+    vtkErrorMacro("LargestExpansion must be at least 1, got " << times);
+    return;
+  }
+  if (this->LargestExpansion != times)
+  {
+    this->LargestExpansion = times;
+    this->Refresh();
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkGranularSeriesReader::SetThreads(int threads)
 {
   if (threads < 0)
@@ -383,6 +399,7 @@ void vtkGranularSeriesReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefreshOnUpdate: " << (this->RefreshOnUpdate ? "On" : "Off") << "\n";
   os << indent << "RepeatedSteps: " << this->RepeatedSteps << "\n";
   os << indent << "IndexFile: " << this->IndexFile << "\n";
+  os << indent << "LargestExpansion: " << this->LargestExpansion << "\n";
   os << indent << "TimestepSize: " << this->TimestepSize << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
   os << indent << "Controller: " << this->GetController() << "\n";

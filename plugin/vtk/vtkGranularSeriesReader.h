@@ -101,6 +101,16 @@ public:
 
   ///@{
   /**
+   * Sets the limit of the content of compressed files: content of more than 256 MiB and more than this many times the
+   * bytes of its file is an error, because such files are made to fill memory and time. Numbers below 1 are an error and
+   * change nothing. 200 by default; real dumps reach 90.
+   */
+  void SetLargestExpansion(int times);
+  vtkGetMacro(LargestExpansion, int);
+  ///@}
+
+  ///@{
+  /**
    * Sets the time of one timestep, in seconds (or the run's unit of time), for files without ITEM: TIME. Finite and
    * greater than 0; anything else is an error and changes nothing. A size that makes the time of a frame infinite is an
    * error of the next update. 1 by default.
@@ -166,6 +176,7 @@ protected:
   bool RefreshOnUpdate = false;
   int RepeatedSteps = AUTO;
   int IndexFile = NEVER;
+  int LargestExpansion = 200;
   double TimestepSize = 1;
   int Threads = 0;
 

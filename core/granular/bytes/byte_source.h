@@ -77,6 +77,12 @@ struct SeekPoints
   std::size_t bytes() const noexcept;
 };
 
+/// How many times the bytes of a compressed file its content may have, unless the user raises it. Real dumps reach 90.
+inline constexpr std::int64_t usual_expansion = 200;
+
+/// Content below this size [bytes], 256 MiB, is read whatever the size of its compressed file.
+inline constexpr std::int64_t free_content = std::int64_t{ 1 } << 28;
+
 /// Opens a plain file. Throws IoError if the file is missing, unreadable, a directory or not a regular file. Reading throws
 /// IoError, too, if the file ends before its size at opening.
 std::unique_ptr<ByteSource> open_file(const std::string& path);
@@ -96,9 +102,10 @@ std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std:
 /// compressed source keeps the last MiB. To go back further, it restarts at a seek point: about every `spacing` bytes of
 /// gzip, which grows to 16 MiB when there are many; at starts of frames of Zstandard. A compressed source serves one thread
 /// at a time and reads up to 64 KiB ahead. Throws IoError; reading also throws FormatError and LimitError (a Zstandard window
-/// above 128 MiB), and the same error again later, because bytes before the damage may be wrong, too.
-std::unique_ptr<ByteSource> unpack(
-  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points = nullptr);
+/// above 128 MiB; content beyond free_content and largest_expansion times the file), and the same error again later, because
+/// bytes before the damage may be wrong, too.
+std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,
+  std::shared_ptr<SeekPoints> points = nullptr, std::int64_t largest_expansion = usual_expansion);
 
 /// A buffer that may be read up to `padding` bytes before its start and after its end, for the 64-byte steps of the row
 /// decoder. The padding holds line feeds.

@@ -40,9 +40,12 @@ void thin(SeekPoints& all)
 class Unpacker
 {
 public:
-  Unpacker(std::unique_ptr<Decoder> decoder, std::shared_ptr<const SeekPoints> points)
+  Unpacker(std::unique_ptr<Decoder> decoder, std::shared_ptr<const SeekPoints> points,
+    const ByteSource& packed, std::int64_t largest_expansion)
     : decoder_(std::move(decoder))
     , points_(std::move(points))
+    , packed_(packed)
+    , largest_expansion_(largest_expansion)
     , ring_(new char[ring_bytes]) // not value-initialised: many files are smaller
   {
   }
@@ -57,9 +60,12 @@ private:
   void compare_window(const SeekPoints::Point& before, const SeekPoints::Point& point);
   std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
   bool advance(std::int64_t target);
+  void expect_honest() const;
 
   std::unique_ptr<Decoder> decoder_;
   std::shared_ptr<const SeekPoints> points_;
+  const ByteSource& packed_;
+  std::int64_t largest_expansion_;
   std::unique_ptr<char[]> ring_; ///< the byte at an offset lies at offset % ring_bytes
   std::int64_t begin_ = 0;       ///< of the bytes in the ring
   std::int64_t end_ = 0;         ///< where the decoder stands, too, unless lost
@@ -171,6 +177,10 @@ bool Unpacker::advance(std::int64_t target)
   const std::size_t got = decoder_->decode(ring_.get() + at, std::min(step, ring_bytes - at));
   end_ += static_cast<std::int64_t>(got);
   begin_ = std::max(begin_, end_ - static_cast<std::int64_t>(ring_bytes));
+  if (end_ > free_content)
+  {
+    this->expect_honest();
+  }
   if (got == 0)
   {
     unchecked_.clear();
@@ -183,15 +193,29 @@ bool Unpacker::advance(std::int64_t target)
   return got > 0;
 }
 
+/// Throws if so much content came out of the file that it was made to fill memory and time.
+void Unpacker::expect_honest() const
+{
+  const std::int64_t size = packed_.stamp().size;
+  if (end_ / largest_expansion_ > size)
+  {
+    throw LimitError("expected content of at most " + std::to_string(largest_expansion_) +
+        " times the " + std::to_string(size) +
+        " bytes of the file, got more; raise LargestExpansion if you trust the file",
+      { decoder_->path(), 0, decoder_->position() });
+  }
+}
+
 class UnpackedSource final : public ByteSource
 {
 public:
   using MakeDecoder = std::unique_ptr<Decoder> (*)(const ByteSource&, SeekPoints&);
 
   UnpackedSource(std::unique_ptr<ByteSource> packed, const std::shared_ptr<SeekPoints>& points,
-    MakeDecoder make_decoder)
+    MakeDecoder make_decoder, std::int64_t largest_expansion)
     : packed_(std::move(packed))
-    , unpacker_(std::make_unique<Unpacker>(make_decoder(*packed_, *points), points))
+    , unpacker_(std::make_unique<Unpacker>(
+        make_decoder(*packed_, *points), points, *packed_, largest_expansion))
   {
   }
 
@@ -297,8 +321,8 @@ void Decoder::fail(const std::string& why) const
     { in_.path(), 0, in_.position() });
 }
 
-std::unique_ptr<ByteSource> unpack(
-  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points)
+std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,
+  std::shared_ptr<SeekPoints> points, std::int64_t largest_expansion)
 {
   std::array<char, 4> first = {};
   const std::string_view magic(first.data(), packed->read(0, first.data(), first.size()));
@@ -315,7 +339,7 @@ std::unique_ptr<ByteSource> unpack(
   {
     return packed;
   }
-  return std::make_unique<UnpackedSource>(
-    std::move(packed), points ? std::move(points) : std::make_shared<SeekPoints>(), make_decoder);
+  return std::make_unique<UnpackedSource>(std::move(packed),
+    points ? std::move(points) : std::make_shared<SeekPoints>(), make_decoder, largest_expansion);
 }
 }

@@ -27,14 +27,56 @@ bool others_changed(const FileIndex& index)
     index.beside, [](const KnownFile& file) { return !(stamp_of(file.path) == file.stamp); });
 }
 
+/// Whether a notice tells of bytes between two frames, or before the first: a frame there is left out, and the user knows.
+bool tells_gap(const FileIndex& index, const FrameEntry& before, const FrameEntry& after)
+{
+  return std::ranges::any_of(index.notices,
+    [&](const Notice& notice)
+    {
+      const Where& where = notice.where;
+      return where.line > 0 ? before.line <= where.line && where.line < after.line
+                            : before.end <= where.byte && where.byte < after.offset;
+    });
+}
+
+/// Whether bytes before the last frame belong to no frame, in silence: frames could be hidden there.
+bool has_gaps(const FileIndex& index)
+{
+  FrameEntry before = {};
+  for (const FrameEntry& frame : index.frames)
+  {
+    if (frame.offset != before.end && !tells_gap(index, before, frame))
+    {
+      return true;
+    }
+    before = frame;
+  }
+  return false;
+}
+
+/// Whether the file has bytes behind its last frame: an unfinished frame, or frames that an index hides.
+bool goes_on(const FileIndex& index)
+{
+  try
+  {
+    char byte = 0;
+    return open_indexed(index)->read(index.frames.back().end, &byte, 1) > 0;
+  }
+  catch (const Error&)
+  {
+    return true; // who looks at these bytes tells the error
+  }
+}
+
 /// Whether what was kept of a file can be what it holds, beyond what is looked at when a frame is read. All frames have the
 /// layout of the first.
 bool fits(const FileIndex& index)
 {
   try
   {
-    const std::unique_ptr<ByteSource> source = unpack(open_file(index.path), index.points);
-    return source->compressed() == index.compressed && !index.frames.empty() &&
+    const std::unique_ptr<ByteSource> source =
+      unpack(open_file(index.path), index.points, index.largest_expansion);
+    return source->compressed() == index.compressed && !index.frames.empty() && !has_gaps(index) &&
       index.frames.front().kind->layout < index.format->layouts &&
       (index.format->fits == nullptr || index.format->fits(*source, index));
   }
@@ -56,6 +98,11 @@ void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
   {
     index.stamp = good ? now : FileStamp{};
   }
+  if (same && good && goes_on(index))
+  {
+    --index.stamp.size;
+    index.ends_hash = hash_ends(packed, index.stamp.size);
+  }
   if (good)
   {
     const FrameEntry& last = index.frames.back();
@@ -72,6 +119,7 @@ FileIndex blank(const FileIndex& index)
   fresh.path = index.path;
   fresh.kinds = index.kinds;
   fresh.format = index.format;
+  fresh.largest_expansion = index.largest_expansion;
   return fresh;
 }
 
@@ -145,7 +193,8 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index.points = std::make_shared<SeekPoints>();
   }
-  const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
+  const std::unique_ptr<ByteSource> source =
+    unpack(std::move(packed), index.points, index.largest_expansion);
   const std::size_t known = index.notices.size();
   index.compressed = source->compressed();
   refuse_other_packings(*index.format, *source);
@@ -249,7 +298,7 @@ std::unique_ptr<ByteSource> open_indexed(const FileIndex& index)
   {
     throw IoError("the file changed since it was indexed; reload the files", { index.path });
   }
-  return unpack(std::move(packed), index.points);
+  return unpack(std::move(packed), index.points, index.largest_expansion);
 }
 
 std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size)

@@ -46,10 +46,11 @@ struct FileIndex
   bool unnamed = false;         ///< binary, without the names of its columns
   bool compressed = false;      ///< gzip or Zstandard
   bool loaded = false;          ///< from an index file: to be compared with the file first
-  std::vector<std::string> column_names; ///< of the user, for such a file
-  std::shared_ptr<SeekPoints> points;    ///< of a compressed file
-  std::shared_ptr<FrameKinds> kinds;     ///< may be shared by files; made if missing
-  const FileFormat* format = nullptr;    ///< must be there to be updated
+  std::vector<std::string> column_names;            ///< of the user, for such a file
+  std::shared_ptr<SeekPoints> points;               ///< of a compressed file
+  std::shared_ptr<FrameKinds> kinds;                ///< may be shared by files; made if missing
+  const FileFormat* format = nullptr;               ///< must be there to be updated
+  std::int64_t largest_expansion = usual_expansion; ///< of a compressed file: see unpack
 };
 
 /// Returns the first 64 KiB of a file, decompressed: enough for many headers of ordinary length, and all that is read to

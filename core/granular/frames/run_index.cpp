@@ -58,6 +58,13 @@ std::vector<std::string> distinct(const std::vector<std::string>& names)
   return kept;
 }
 
+/// Whether what is known of a file is so with another limit of its content, too.
+bool keeps_limit(const FileIndex& file, std::int64_t largest_expansion)
+{
+  return file.loaded || file.largest_expansion == largest_expansion ||
+    (!file.compressed && !file.error);
+}
+
 /// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
 /// is kept of the index.
 bool is_beside(const std::string& path)
@@ -131,13 +138,14 @@ void RunIndex::update_files(const std::vector<std::string>& files, const IndexOp
   for (std::size_t i = 0; i < files.size(); ++i)
   {
     const auto found = known.find(files[i]);
-    if (found != known.end())
+    if (found != known.end() && keeps_limit(found->second, options.largest_expansion))
     {
       updated[i] = std::move(found->second);
     }
     updated[i].path = files[i];
     updated[i].kinds = kinds;
     updated[i].format = options.format;
+    updated[i].largest_expansion = options.largest_expansion;
   }
   changed =
     granular::update_files(updated, options.column_names, options.threads, progress) || changed;
@@ -282,6 +290,7 @@ std::string RunIndex::encode() const
 {
   ArchiveWriter out;
   out.text(encode_files(files_));
+  out.number(files_.empty() ? usual_expansion : files_.front().largest_expansion);
   write_series(out, series_ ? *series_ : FileSeries());
   return std::move(out.bytes);
 }
@@ -293,6 +302,13 @@ void RunIndex::decode(std::string_view bytes)
   std::string files;
   in.text(files);
   index.files_ = decode_index(files, "", std::make_shared<FrameKinds>());
+  std::int64_t largest_expansion = 0;
+  in.number(largest_expansion);
+  require(largest_expansion >= 1, "a limit of content");
+  for (FileIndex& file : index.files_)
+  {
+    file.largest_expansion = largest_expansion;
+  }
   index.series_ = std::make_shared<const FileSeries>(read_series(in, index.files_));
   require(in.ended(), "the end of the index");
   *this = std::move(index);

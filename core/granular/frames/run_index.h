@@ -45,7 +45,8 @@ struct IndexOptions
   std::vector<std::string> column_names = {}; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
   KeepIndex keep_index = KeepIndex::Never;
-  int threads = 1; ///< at least 1; does not change the result
+  int threads = 1;                                  ///< at least 1; does not change the result
+  std::int64_t largest_expansion = usual_expansion; ///< of compressed files, at least 1: see unpack
 };
 
 /// A piece of a frame: the whole frame, or the part of one rank.

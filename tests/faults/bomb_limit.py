@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The limit of the content of compressed files, where users meet it: a small file with much in it is refused, and is opened once they
+raise the limit. Argument: proxies, for those of ParaView; else the package and the command."""
+import gzip
+import os
+import subprocess
+import sys
+
+PARTS, ROWS = 270, b"1 1 0 0 0\n" * 104858  # a MiB each
+
+
+def write_bomb(path):
+    """A dump of equal rows, 270 MiB in 700 kB."""
+    header = (f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{PARTS * 104858}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+              "ITEM: ATOMS id type x y z\n")
+    with open(path, "wb") as file:
+        file.write(gzip.compress(header.encode()) + PARTS * gzip.compress(ROWS))
+    assert os.path.getsize(path) < 1 << 20
+
+
+def check_package(path):
+    import granular
+
+    try:
+        granular.open(path)
+        raise AssertionError("a bomb was opened")
+    except granular.Error as error:
+        assert "expected content of at most 200 times" in str(error) and "raise largest_expansion" in str(error), error
+    assert granular.open(path, largest_expansion=100_000)[0].rows == PARTS * 104858
+    try:
+        granular.open(path, largest_expansion=0)
+        raise AssertionError("a limit of 0 was taken")
+    except granular.ArgumentError as error:
+        assert "expected a largest_expansion of at least 1, got 0" in str(error), error
+
+
+def check_command(path):
+    command = [os.environ["GRANULAR_COMMAND"], "info", path]
+    refused = subprocess.run(command, capture_output=True, text=True)
+    assert refused.returncode != 0 and "raise largest_expansion" in refused.stderr + refused.stdout, refused
+    opened = subprocess.run(command + ["--largest-expansion", "100000"], capture_output=True, text=True)
+    assert opened.returncode == 0, opened
+
+
+def check_proxies(path):
+    from paraview.simple import GranularDumpReader
+
+    good = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains_1000.dump")
+    reader = GranularDumpReader(FileNames=[good])
+    from said import said_by
+
+    said = said_by(reader.GetClientSideObject())
+    reader.FileNames = [path]
+    reader.UpdatePipelineInformation()
+    assert "raise LargestExpansion if you trust the file" in " ".join(said), said
+    said.clear()
+    reader.LargestExpansion = 100_000
+    reader.UpdatePipelineInformation()
+    assert not said, said
+    assert "id" in reader.PointArrayStatus.Available
+
+
+bomb = os.path.abspath("bomb.dump.gz")
+write_bomb(bomb)
+if sys.argv[1:] == ["proxies"]:
+    check_proxies(bomb)
+else:
+    check_package(bomb)
+    check_command(bomb)
+os.remove(bomb)
