@@ -114,7 +114,12 @@ void save_index(const std::string& path, const std::vector<FileIndex>& files, No
   if (path == index_file_path(KeepIndex::Cache, files.front().path))
   {
     std::error_code ignored; // without a folder the file cannot be written either
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (std::filesystem::create_directories(folder, ignored))
+    {
+      // what a user looks at is nobody else's business
+      std::filesystem::permissions(folder, std::filesystem::perms::owner_all, ignored);
+    }
   }
   try
   {
