@@ -77,7 +77,10 @@ std::string use_everything(const std::string& folder, int threads)
   std::string said;
   for (const Kind& kind : kinds)
   {
-    const Seen seen = look(file_of(kind), kind.kind, 2, threads);
+    const std::string path = folder + "/" + kind.name + kind.ending; // an index is kept beside it
+    std::error_code failed;
+    fs::copy_file(file_of(kind), path, fs::copy_options::skip_existing, failed);
+    const Seen seen = look(path, kind.kind, 2, threads);
     said += seen.status == GRANULAR_OK ? "" : std::string(kind.name) + ": " + seen.text + "\n";
   }
   for (const Output& output : outputs)
