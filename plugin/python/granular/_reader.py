@@ -36,10 +36,10 @@ def _find_reader(name: str) -> str:
     """The reader that recognises a file by its first bytes."""
     from paraview import servermanager
 
-    factory = servermanager.vtkSMReaderFactory
-    manager = servermanager.vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
     for reader in _READERS:
-        if factory.CanReadFile(name, manager.NewProxy("sources", reader)):
+        # not by NewProxy of the proxy manager, whose result Python never frees
+        proxy = getattr(servermanager.sources, reader)(no_update=True)
+        if servermanager.vtkSMReaderFactory.CanReadFile(name, proxy.SMProxy):
             return reader
     return _READERS[0]  # which says what it expected
 
