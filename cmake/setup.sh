@@ -1,17 +1,18 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by samples/run, tests/run, tests/tidy, tests/bench/run and packaging/deb: what they need before their own work.
+# Sourced by samples/run, tests/run, tests/fuzz/run, tests/tidy, tests/bench/run and packaging/deb: what they need before their own work.
 # Everything here does nothing, quickly, when it has been done before.
 
 granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 
-# Debian's names: what the core needs, the plugin and the samples on top of it, a VTK of its own, and the tests.
+# Debian's names: what the core needs, the plugin and the samples on top of it, a VTK of its own, the tests, and the fuzz targets.
 granular_core_packages=(cmake g++ libzstd-dev ninja-build python3 zlib1g-dev)
 granular_plugin_packages=(
   libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xauth xvfb)
 granular_vtk_packages=(libopenmpi-dev libvtk9-dev openmpi-bin python3-dev python3-vtk9 xauth xvfb)
 granular_test_packages=(binutils gfortran libbenchmark-dev libgtest-dev locales python3-numpy python3-setuptools python3-venv
   python3-wheel)
+granular_fuzz_packages=(clang libclang-rt-dev llvm)
 
 granular_say()
 {
@@ -121,7 +122,7 @@ granular_make()
   ninja -C "$granular_build" -j "$(nproc)" "$@" >&2
 }
 
-# granular_set_up samples|tests|plugin|benchmarks|vtk-samples|vtk|core-only|asan|tsan|damaged: from a bare Debian to a finished
+# granular_set_up samples|tests|plugin|benchmarks|vtk-samples|vtk|core-only|asan|tsan|damaged|fuzz|fuzz-coverage: from a bare Debian to a finished
 # build. The first four share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
 # GRANULAR_STRICT=ON is in the environment: a compiler that is newer than ours may have new ones.
 granular_set_up()
@@ -161,6 +162,11 @@ granular_set_up()
         damaged) granular_configure asan "$strict" && granular_make tests_fuzz ;;
         *) granular_configure "$1" "$strict" && granular_make ;;
       esac
+      ;;
+    fuzz | fuzz-coverage)
+      granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}" "${granular_fuzz_packages[@]}"
+      granular_configure "$1" "$strict"
+      granular_make tests_fuzz
       ;;
   esac
 }

@@ -2,6 +2,7 @@
 // A dump from memory, text or binary as its bytes say, all the way: index, then frames with several
 // requests, also of a file that changed since. Whatever the bytes are, there is an Error or a frame of
 // the rows it says, and no more memory than the bytes are worth.
+#include "binary_mutations.h"
 #include "dump_checks.h"
 
 #include "granular/common/words.h"
@@ -87,6 +88,12 @@ void use(std::string_view bytes, std::string_view names)
     check_changed(*cut, all.frames[i], every[1]);
   }
 }
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(
+  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+{
+  return fuzz::mutate_as(data, size, most, seed, fuzz::mutate_binary);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

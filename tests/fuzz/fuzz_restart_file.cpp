@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A restart file from memory, up to where its records are. Whatever the bytes are, there is an Error with a place, or chunks
-// that lie in the file, one behind the other, for as many particles as the header says.
+// A restart file from memory, all the way: layout, then particles and bonds. Whatever the bytes are, there is an Error with a
+// place, or chunks that lie in the file, one behind the other, for as many particles as the header says; and the same arrays
+// with any number of threads, of which three parts have each row once.
 #include "dump_checks.h"
+#include "restart_mutations.h"
 
-#include "granular/restart/restart_layout.h"
+#include "granular/restart/restart_file.h"
+#include "granular/restart/restart_reader.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 using namespace granular;
@@ -37,16 +41,92 @@ void check(const RestartLayout& layout, std::int64_t size)
   }
   require(at <= size && layout.records <= doubles / 11, "the end of the chunks");
 }
+
+/// What came of reading: all arrays, or what is wrong.
+std::string content_of(const RestartFrame& frame)
+{
+  std::string all;
+  for (const DumpFrame* const rows : { &frame.particles, &frame.bonds.table })
+  {
+    all.append(static_cast<const char*>(rows->points.data()), rows->points.bytes());
+    for (const DumpArray& array : rows->arrays)
+    {
+      all += array.info.name + values_of(array, rows->rows);
+    }
+  }
+  return all.append(
+    static_cast<const char*>(frame.bonds.lines.points.data()), frame.bonds.lines.points.bytes());
+}
+
+RestartFrame read(
+  const ByteSource& source, const RestartLayout& layout, const RestartRequest& request)
+{
+  Notices notices;
+  Progress progress;
+  RestartFrame frame = read_restart(source, layout, request, notices, progress);
+  check_frame(frame.particles, { .rows = frame.particles.rows }, {});
+  require(frame.bonds.table.rows <= frame.bonds.lines.count || !frame.bonds.has_lines,
+    "a line for each bond");
+  return frame;
+}
+
+void check_reading(const ByteSource& source, const RestartLayout& layout, RestartRequest request)
+{
+  request.lines.threads = 1;
+  const RestartFrame whole = read(source, layout, request);
+  require(whole.particles.rows == layout.records, "the particles");
+  request.lines.threads = 3;
+  require(content_of(read(source, layout, request)) == content_of(whole), "threads differ");
+  std::int64_t particles = 0;
+  std::int64_t bonds = 0;
+  request.pieces = 3;
+  for (; request.piece < request.pieces; ++request.piece)
+  {
+    const RestartFrame part = read(source, layout, request);
+    particles += part.particles.rows;
+    bonds += part.bonds.table.rows;
+  }
+  require(particles == whole.particles.rows && bonds == whole.bonds.table.rows, "rows of parts");
+}
+
+std::vector<RestartRequest> restart_requests()
+{
+  std::vector<RestartRequest> all(3);
+  all[1].bonds = false;
+  all[1].wanted = [](std::string_view name) { return name.size() % 2 == 0; };
+  all[2].history_layout = numbered_history;
+  all[2].wanted = [](std::string_view) { return false; };
+  all[2].lines.periodic = PeriodicLines::Split;
+  all[2].lines.point_origin = { 1, 2, 3 };
+  return all;
+}
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(
+  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+{
+  return fuzz::mutate_as(data, size, most, seed, fuzz::mutate_restart);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const auto source = open_memory(bytes);
   Notices notices;
   Progress progress;
+  FileIndex index;
+  index.path = source->path();
+  index.stamp = source->stamp();
+  restart_format().index(*source, index, progress, {});
   try
   {
-    check(read_layout(*open_memory(bytes), notices, progress), static_cast<std::int64_t>(size));
+    const RestartLayout layout = read_layout(*source, notices, progress);
+    check(layout, static_cast<std::int64_t>(size));
+    require(index.frames.size() == 1, "a file that can be read is a frame");
+    for (const RestartRequest& request : restart_requests())
+    {
+      check_reading(*source, layout, request);
+    }
   }
   catch (const Error& error)
   {

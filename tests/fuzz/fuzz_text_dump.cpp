@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A text dump from memory, all the way: index, then every frame with several requests. Whatever
-// the bytes are, there is an Error or a frame of the rows it says; and every instruction set
-// decodes the rows alike.
+// the bytes are, there is an Error or a frame of the rows it says; every instruction set decodes
+// the rows alike; and a binary dump of the same numbers gives the same arrays.
 #include "dump_checks.h"
 
+#include "granular/dump/formats/dump_files.h"
 #include "granular/dump/formats/text_dump.h"
+#include "granular/dump/write/encode_header.h"
 #include "granular/text/line_scan.h"
 #include "granular/text/row_text.h"
 
@@ -13,6 +15,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -104,6 +110,129 @@ void index(std::string_view text, FileIndex& index)
     require(frame.rows >= 0 && frame.rows <= frame.end - frame.offset, "more rows than bytes");
   }
 }
+
+double number_of(const DumpArray& array, std::size_t at)
+{
+  const auto* const bytes =
+    static_cast<const char*>(array.block.data()) + at * size_of(array.info.type);
+  const auto load = [&](auto value)
+  {
+    std::memcpy(&value, bytes, sizeof value);
+    return static_cast<double>(value);
+  };
+  switch (array.info.type)
+  {
+    case ValueType::Int32:
+      return load(std::int32_t());
+    case ValueType::Int64:
+      return load(std::int64_t());
+    case ValueType::Float32:
+      return load(float());
+    default:
+      return load(double());
+  }
+}
+
+/// A frame as a binary dump; nothing if doubles cannot hold it.
+std::optional<std::string> as_binary(const ByteSource& source, const FrameEntry& entry)
+{
+  constexpr std::int64_t most_values = 1 << 14;
+  constexpr double largest_integer = 9007199254740992.0;
+  DumpRequest request;
+  request.points = false; // coordinates are columns like others
+  request.wanted = [](const ArrayInfo&) { return true; };
+  Notices notices;
+  Progress progress;
+  DumpFrame frame;
+  try
+  {
+    frame = read_dump(source, entry, request, notices, progress);
+  }
+  catch (const Error&)
+  {
+    return std::nullopt;
+  }
+  std::vector<std::string> names;
+  for (const ColumnInfo& column : frame.schema.columns())
+  {
+    names.push_back(column.name);
+  }
+  if (frame.rows * static_cast<std::int64_t>(names.size()) > most_values)
+  {
+    return std::nullopt;
+  }
+  std::vector<double> values(
+    static_cast<std::size_t>(frame.rows) * names.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const DumpArray& array : frame.arrays)
+  {
+    const std::size_t width = array.info.columns.size();
+    const bool derived = array.info.scale != 1; // a radius, beside its diameter
+    for (std::size_t i = 0; !derived && i < width * static_cast<std::size_t>(frame.rows); ++i)
+    {
+      const auto column = static_cast<std::size_t>(array.info.columns[i % width]);
+      const double value = number_of(array, i);
+      if (array.info.type == ValueType::Text ||
+        (array.info.type == ValueType::Int64 && !(std::abs(value) < largest_integer)))
+      {
+        return std::nullopt;
+      }
+      values[i / width * names.size() + column] = value;
+    }
+  }
+  DumpFormat format;
+  format.binary = true;
+  format.units = !frame.header.units.empty();
+  format.time = frame.header.time.has_value();
+  const ChunkLengths chunks(frame.rows, static_cast<std::int64_t>(names.size()),
+    std::max<std::int64_t>(40, static_cast<std::int64_t>(names.size())));
+  std::string bytes;
+  try
+  {
+    bytes = encode_header(frame.header, names, format, chunks, true);
+  }
+  catch (const Error&)
+  {
+    return std::nullopt; // a box that binary dumps cannot hold
+  }
+  for (std::int64_t row = 0; row < frame.rows; ++row)
+  {
+    if (chunks.begins(row))
+    {
+      const std::int32_t count = chunks.values(row);
+      bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
+    }
+    bytes.append(
+      reinterpret_cast<const char*>(values.data() + static_cast<std::size_t>(row) * names.size()),
+      8 * names.size());
+  }
+  return bytes;
+}
+
+/// The same numbers, text and binary, give the same arrays.
+void compare_with_binary(
+  const ByteSource& text, const FrameEntry& entry, const std::vector<DumpRequest>& every)
+{
+  const auto bytes = as_binary(text, entry);
+  if (!bytes)
+  {
+    return;
+  }
+  const auto source = open_memory(*bytes);
+  FileIndex binary;
+  Progress progress;
+  index_dump(*source, binary, progress);
+  require(binary.frames.size() == 1, "a binary frame of the same numbers");
+  require(binary.frames[0].rows == entry.rows && binary.frames[0].timestep == entry.timestep,
+    "the same frame");
+  for (const DumpRequest& request : every)
+  {
+    constexpr std::size_t chunk = std::size_t{ 1 } << 18;
+    const Reading one = read_frame(text, entry, request, 1, chunk);
+    const Reading other = read_frame(*source, binary.frames[0], request, 1, chunk);
+    require(one.error.empty() == other.error.empty(), "text and binary: wrong or not");
+    require(!one.error.empty() || one.values == other.values, "text and binary: values");
+  }
+}
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -126,6 +255,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
       check_readings(*source, entry, request);
     }
+    compare_with_binary(*source, entry, every);
     compare_paths(text.substr(static_cast<std::size_t>(entry.offset),
                     static_cast<std::size_t>(entry.end - entry.offset)),
       entry.kind->schema.columns().size());

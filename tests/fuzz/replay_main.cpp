@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A main for fuzz targets without libFuzzer: feeds every file named on the command line, and every
-// file of every folder named there, to the target once. A crash is the failure; so is an empty
-// corpus, which would test nothing.
+// file of every folder named there, to the target once, and a few times as the target's own mutator
+// changes it. A crash is the failure; so is an empty corpus, which would test nothing.
 
 #include <algorithm>
 #include <cstddef>
@@ -11,12 +11,33 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(
+  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+/// Instead of libFuzzer's: another byte, the same in each run.
+std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most)
+{
+  if (size == 0 && most > 0)
+  {
+    data[size++] = '0';
+  }
+  if (size > 0)
+  {
+    std::uint8_t& byte = data[7919 % size];
+    byte = static_cast<std::uint8_t>(byte + 1);
+  }
+  return size;
+}
 
 namespace
 {
+constexpr unsigned mutations = 8;
+constexpr std::size_t most_growth = 4096;
 
 // The order of a folder's entries is the file system's: sorted, a failing run can be repeated.
 std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& name)
@@ -38,7 +59,7 @@ std::vector<std::filesystem::path> inputs_of(const std::filesystem::path& name)
   return inputs;
 }
 
-bool replay(const std::filesystem::path& input)
+bool replay(const std::filesystem::path& input, bool mutate)
 {
   std::ifstream stream(input, std::ios::binary);
   if (!stream)
@@ -52,6 +73,14 @@ bool replay(const std::filesystem::path& input)
   std::printf("%s (%zu bytes)\n", input.c_str(), data.size());
   std::fflush(stdout);
   LLVMFuzzerTestOneInput(data.data(), data.size());
+  for (unsigned seed = 1; mutate && LLVMFuzzerCustomMutator && seed <= mutations; ++seed)
+  {
+    std::vector<std::uint8_t> other = data;
+    other.resize(data.size() + most_growth);
+    const std::size_t size = LLVMFuzzerCustomMutator(other.data(), data.size(), other.size(), seed);
+    const std::vector<std::uint8_t> exact(other.data(), other.data() + size);
+    LLVMFuzzerTestOneInput(exact.data(), exact.size());
+  }
   return true;
 }
 
@@ -60,11 +89,13 @@ bool replay(const std::filesystem::path& input)
 int main(int argc, char** argv)
 {
   std::size_t count = 0;
-  for (int i = 1; i < argc; ++i)
+  // "as_is" first: no mutations, as where lines are counted
+  const bool mutate = argc < 2 || std::string_view(argv[1]) != "as_is";
+  for (int i = mutate ? 1 : 2; i < argc; ++i)
   {
     for (const std::filesystem::path& input : inputs_of(argv[i]))
     {
-      if (!replay(input))
+      if (!replay(input, mutate))
       {
         return 1;
       }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A compressed file from memory. Whatever the bytes are, there is an Error or content; the content
-// is the same from the start, from anywhere, and from seek points that another source found.
+// What the fuzz targets of compressed files share. Whatever the bytes are, there is an Error or content; the content is the
+// same from the start, from anywhere, from seek points that another source found, and as the library itself gives it.
+#ifndef granular_tests_fuzz_packed_checks_h
+#define granular_tests_fuzz_packed_checks_h
+
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
 
@@ -14,13 +17,11 @@
 #include <string_view>
 #include <vector>
 
-using namespace granular;
-
-namespace
+namespace granular::fuzz
 {
 constexpr std::size_t most_content = std::size_t{ 1 } << 23; // a few bytes may stand for a lot
 
-void require(bool good, const char* what)
+inline void require(bool good, const char* what)
 {
   if (!good)
   {
@@ -36,7 +37,7 @@ struct Content
   bool refused = false;
 };
 
-Content read_all(const ByteSource& source, std::size_t piece)
+inline Content read_all(const ByteSource& source, std::size_t piece)
 {
   Content content;
   std::vector<char> buffer(piece);
@@ -58,7 +59,7 @@ Content read_all(const ByteSource& source, std::size_t piece)
 }
 
 /// Reads of a few places, the last first. Damage may show or not, but what is read is the same.
-void check_places(const ByteSource& source, const Content& content)
+inline void check_places(const ByteSource& source, const Content& content)
 {
   const std::size_t size = content.text.size();
   const bool whole = !content.refused && size < most_content;
@@ -80,16 +81,53 @@ void check_places(const ByteSource& source, const Content& content)
     }
   }
 }
+
+/// The content by the library that made the format.
+struct Reference
+{
+  enum class End
+  {
+    Whole,
+    Cut,    ///< the bytes end within the data
+    Damaged ///< nothing is known of what is behind
+  };
+
+  std::string text; ///< up to most_content
+  End end = End::Whole;
+};
+
+inline void compare(const Content& content, const Reference& reference)
+{
+  using End = Reference::End;
+  const std::size_t known = std::min(content.text.size(), reference.text.size());
+  require(
+    content.text.compare(0, known, reference.text, 0, known) == 0, "not the library's content");
+  if (content.text.size() >= most_content || reference.text.size() >= most_content)
+  {
+    return; // nobody looked at the end
+  }
+  require(
+    content.refused == (reference.end == End::Damaged), "refused, or not, unlike the library");
+  require(
+    content.refused || content.text.size() == reference.text.size(), "the size of the content");
+  require(content.refused || content.unchecked.empty() == (reference.end == End::Whole),
+    "checked, or not, unlike the library");
 }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+/// All there is to do with a compressed file.
+inline void check_packed(std::string_view packed, const Reference& reference)
 {
-  const std::string_view packed(reinterpret_cast<const char*>(data), size);
-  const Content content = read_all(*unpack(open_memory(packed)), std::size_t{ 1 } << 18);
-
   const auto points = std::make_shared<SeekPoints>();
   points->spacing = 1;
-  const Content pieces = read_all(*unpack(open_memory(packed), points), 777);
+  const auto whole = unpack(open_memory(packed));
+  if (!whole->compressed())
+  {
+    return;
+  }
+  const Content content = read_all(*whole, std::size_t{ 1 } << 18);
+  compare(content, reference);
+
+  Content pieces = read_all(*unpack(open_memory(packed), points), 777);
   if (content.text.size() < most_content && pieces.text.size() < most_content)
   {
     require(pieces.refused == content.refused, "refused or not");
@@ -100,5 +138,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   check_places(*unpack(open_memory(packed), points), pieces);
   check_places(*unpack(open_memory(packed)), pieces);
-  return 0;
+  // points that an index file claims are not believed: they may be refused, but give no other content
+  const auto claimed = std::make_shared<SeekPoints>(*points);
+  claimed->claimed = true;
+  pieces.refused = true;
+  check_places(*unpack(open_memory(packed), claimed), pieces);
 }
+}
+
+#endif

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file of dump decomposition/vtk from memory, all the way: index, then every frame. Whatever the bytes are, there is
-// an Error, or as many subdomains as the index says; and a file that grew is indexed as one that was always as
-// long, but for what is said of it.
+// A file of subdomains from memory, all the way: index, then every frame. Whatever the bytes are, there is an Error, or as many
+// subdomains as the index says; and a file that grew is indexed as one that was always as long, but for what is said of it.
+#ifndef granular_tests_fuzz_decomposition_checks_h
+#define granular_tests_fuzz_decomposition_checks_h
+
 #include "dump_checks.h"
 
 #include "granular/decomposition/decomposition_file.h"
@@ -14,11 +16,9 @@
 #include <cstdint>
 #include <string_view>
 
-using namespace granular;
-
-namespace
+namespace granular::fuzz
 {
-void index(std::string_view text, FileIndex& index)
+inline void index_subdomains(std::string_view text, FileIndex& index)
 {
   const auto source = open_memory(text);
   Progress progress;
@@ -36,7 +36,7 @@ void index(std::string_view text, FileIndex& index)
 }
 
 /// Bounds may be any: nobody stumbles over them.
-void use(const Decomposition& all)
+inline void use_subdomains(const Decomposition& all)
 {
   if (all.subdomains.size() > 1000)
   {
@@ -55,7 +55,7 @@ void use(const Decomposition& all)
     "bounds of all");
 }
 
-void read(const ByteSource& source, const FrameEntry& entry)
+inline void read_subdomains(const ByteSource& source, const FrameEntry& entry)
 {
   Notices notices;
   Progress progress;
@@ -70,23 +70,21 @@ void read(const ByteSource& source, const FrameEntry& entry)
       require(box.particles >= 0 && (all.has_particles || box.particles == 0), "particles");
       require(box.rank >= 0 && (all.has_ranks || box.rank == static_cast<int>(i)), "rank");
     }
-    use(all);
+    use_subdomains(all);
   }
   catch (const Error& error)
   {
     require(error.where().line > 0 || error.where().byte >= 0, "an error without a place");
   }
 }
-}
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+inline void check_subdomain_file(std::string_view text)
 {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
   FileIndex all;
-  index(text, all);
+  index_subdomains(text, all);
   FileIndex grown; // as if the file had been half as long before
-  index(text.substr(0, size / 2), grown);
-  index(text, grown);
+  index_subdomains(text.substr(0, text.size() / 2), grown);
+  index_subdomains(text, grown);
   require(all.frames.size() == grown.frames.size(), "frames of a file that grew");
   const auto source = open_memory(text);
   constexpr std::size_t most_frames = 8;
@@ -96,8 +94,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(all.frames[i].offset == grown.frames[i].offset, "frames of a file that grew");
     if (all.frames[i].rows <= most_cells)
     {
-      read(*source, all.frames[i]);
+      read_subdomains(*source, all.frames[i]);
     }
   }
-  return 0;
 }
+}
+
+#endif

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A Zstandard file from memory, against the library. The mutator changes the content and packs it again: other levels, windows,
+// blocks, frames and header fields, and frames to be passed over.
+#include "mutations.h"
+#include "packed_checks.h"
+
+#include <zstd.h>
+
+using namespace granular;
+using namespace granular::fuzz;
+
+namespace
+{
+constexpr int largest_window = 27; // that the reader takes
+
+struct FreeContext
+{
+  void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+};
+
+/// Frames one after the other, as far as they go.
+Reference unpack_with_zstd(std::string_view packed, std::size_t most)
+{
+  const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
+  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, largest_window);
+  Reference all;
+  std::string buffer(1 << 16, '\0');
+  ZSTD_inBuffer input{ packed.data(), packed.size(), 0 };
+  std::size_t status = 0;
+  bool full = false; // there may be more content without more input
+  while ((input.pos < input.size || full) && all.text.size() < most)
+  {
+    ZSTD_outBuffer output{ buffer.data(), buffer.size(), 0 };
+    status = ZSTD_decompressStream(context.get(), &output, &input);
+    if (ZSTD_isError(status))
+    {
+      all.end = Reference::End::Damaged;
+      return all;
+    }
+    all.text.append(buffer, 0, output.pos);
+    full = output.pos == output.size && status != 0;
+  }
+  all.end = status == 0 ? Reference::End::Whole : Reference::End::Cut;
+  return all;
+}
+
+/// One frame that holds the content, in one of the many ways there are.
+std::string pack(std::string_view content, Random& random)
+{
+  const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
+  const auto set = [&](ZSTD_cParameter parameter, std::size_t value)
+  { ZSTD_CCtx_setParameter(context.get(), parameter, static_cast<int>(value)); };
+  set(ZSTD_c_compressionLevel, below(random, 8));
+  set(ZSTD_c_checksumFlag, below(random, 2));
+  set(ZSTD_c_contentSizeFlag, below(random, 2));
+  if (one_in(random, 2))
+  {
+    set(ZSTD_c_windowLog, 10 + below(random, 10));
+    set(ZSTD_c_strategy, 1 + below(random, 6));
+  }
+  std::string packed(ZSTD_compressBound(content.size()) + 4096, '\0');
+  ZSTD_outBuffer output{ packed.data(), packed.size(), 0 };
+  ZSTD_inBuffer input{ content.data(), 0, 0 };
+  for (std::size_t blocks = below(random, 6); blocks > 0; --blocks)
+  {
+    input.size += below(random, content.size() - input.size + 1);
+    ZSTD_compressStream2(
+      context.get(), &output, &input, one_in(random, 2) ? ZSTD_e_flush : ZSTD_e_continue);
+  }
+  input.size = content.size();
+  if (ZSTD_compressStream2(context.get(), &output, &input, ZSTD_e_end) != 0)
+  {
+    return {};
+  }
+  packed.resize(output.pos);
+  return packed;
+}
+
+/// A frame without content.
+std::string skippable(Random& random)
+{
+  std::string frame(1, static_cast<char>(0x50 + below(random, 16)));
+  frame += "\x2a\x4d\x18";
+  const auto size = static_cast<std::uint32_t>(below(random, 20));
+  append(frame, size);
+  return frame.append(size, 's');
+}
+
+void mutate(std::string& bytes, Random& random, std::size_t most)
+{
+  if (one_in(random, 3))
+  {
+    mutate_bytes(bytes, most);
+    return;
+  }
+  std::string content = unpack_with_zstd(bytes, 4 * most).text;
+  if (one_in(random, 8)) // the content is then larger than a block, or a step
+  {
+    while (!content.empty() && content.size() < (std::size_t{ 1 } << 18))
+    {
+      content += content;
+    }
+  }
+  if (!one_in(random, 3))
+  {
+    mutate_bytes(content, content.size() + 64);
+  }
+  const std::size_t cut = one_in(random, 3) ? below(random, content.size() + 1) : content.size();
+  bytes = one_in(random, 6) ? skippable(random) : std::string();
+  bytes += pack(std::string_view(content).substr(0, cut), random);
+  bytes += one_in(random, 6) ? skippable(random) : std::string();
+  if (cut < content.size())
+  {
+    bytes += pack(std::string_view(content).substr(cut), random);
+  }
+}
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(
+  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+{
+  return mutate_as(data, size, most, seed, mutate);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  const std::string_view packed(reinterpret_cast<const char*>(data), size);
+  if (!packed.starts_with("\x1f\x8b"))
+  {
+    check_packed(packed, unpack_with_zstd(packed, most_content));
+  }
+  return 0;
+}
