@@ -3,11 +3,11 @@
 #include "vtkGranularContactSums.h"
 
 #include "../support/observer.h"
+#include "../support/vtk_arrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArraySelection.h"
-#include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -36,23 +36,6 @@
 
 namespace
 {
-using Values = std::vector<double>;
-
-template <class Array = vtkDoubleArray>
-vtkSmartPointer<Array> MakeArray(const char* name, const Values& values, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    array->SetComponent(
-      static_cast<vtkIdType>(i) / components, static_cast<int>(i) % components, values[i]);
-  }
-  return array;
-}
-
 /// Points on the x axis.
 vtkSmartPointer<vtkPoints> MakePoints(const Values& xs, int type = VTK_DOUBLE)
 {

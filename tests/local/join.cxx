@@ -5,11 +5,11 @@
 #include "../support/hard_case.h"
 #include "../support/observer.h"
 #include "../support/quad.h"
+#include "../support/vtk_arrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -48,21 +48,6 @@
 
 namespace
 {
-using Values = std::vector<double>;
-
-template <class Array = vtkDoubleArray>
-vtkSmartPointer<Array> MakeArray(const char* name, const Values& values, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  for (const double value : values)
-  {
-    array->InsertNextValue(static_cast<typename Array::ValueType>(value));
-  }
-  return array;
-}
-
 void AddText(vtkFieldData* data, const char* name, const char* text)
 {
   vtkNew<vtkStringArray> array;

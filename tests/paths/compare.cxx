@@ -3,10 +3,10 @@
 #include "vtkGranularCompare.h"
 
 #include "../support/observer.h"
+#include "../support/vtk_arrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -42,21 +42,7 @@
 
 namespace
 {
-using Values = std::vector<double>;
 using Data = vtkSmartPointer<vtkPolyData>;
-
-template <class Array = vtkDoubleArray>
-vtkSmartPointer<Array> MakeArray(const char* name, const Values& values, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  for (const double value : values)
-  {
-    array->InsertNextValue(static_cast<typename Array::ValueType>(value));
-  }
-  return array;
-}
 
 void AddBox(vtkFieldData* fields, double length)
 {
