@@ -2,36 +2,16 @@
 #include "vtkGranularAverageAlgorithm.h"
 
 #include "private/arrays/made_arrays.h"
+#include "private/euler/chosen_fields.h"
 #include "private/request/text_of.h"
 
 #include "vtkInformation.h"
 
 using namespace vtkGranularPrivate;
 
-namespace
-{
-constexpr MadeArray Arrays[] = {
-  { "v_avg", true },
-  { "volumefraction", true },
-  { "radius", true },
-  { "pressure", true },
-  { "sigma", true },
-  { "tau", true },
-  { "density", false },
-  { "momentum", false },
-  { "granular_temperature", false },
-  { "coordination", false },
-  { "fabric", false },
-  { "sigma_kinetic", false },
-  { "tau_kinetic", false },
-  { "sigma_contact", false },
-  { "tau_contact", false },
-};
-}
-
 //------------------------------------------------------------------------------
 vtkGranularAverageAlgorithm::vtkGranularAverageAlgorithm()
-  : ArraySelection(MakeSelection(this, Arrays))
+  : ArraySelection(MakeSelection(this, AverageArrays))
 {
   this->SetNumberOfInputPorts(3);
   this->SetVelocityArray("v");

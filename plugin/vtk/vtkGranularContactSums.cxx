@@ -364,6 +364,8 @@ private:
       std::to_string(this->Sums.repeated) +
         " particles have the id of another one: contacts go to the first");
     tell(!this->Remark.empty(), "timesteps", this->Remark);
+    const std::string unknown = TellOfUnknown(this->Self->ArraySelection, Arrays);
+    tell(!unknown.empty(), "unknown arrays", unknown);
     tell(this->LackForces, "no forces",
       "the contacts have neither an array 'force' nor 'force_normal': what needs forces is not "
       "made");

@@ -190,7 +190,7 @@ private:
     {
       view.header.box.boundary.clear();
     }
-    TellOfGrains(inputs[0], view, notices);
+    TellOfInputs(inputs[0], view, this->Self->ArraySelection, notices);
     request.grid = this->MakeGrid(largest);
     request.wanted = this->FindWanted(request.grid);
     const bool smooth = this->Self->Weights >= GAUSSIAN && this->Self->KernelWidth == 0;

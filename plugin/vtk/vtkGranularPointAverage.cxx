@@ -14,7 +14,6 @@
 #include "granular/contacts/contact_cells.h"
 #include "granular/contacts/point_average.h"
 
-#include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -121,7 +120,7 @@ private:
     granular::check_width(weights.width);
     request.kernel = granular::Kernel(weights.kernel, weights.width);
     granular::Notices notices;
-    TellOfGrains(this->Inputs[0], view, notices);
+    TellOfInputs(this->Inputs[0], view, self.ArraySelection, notices);
     const granular::Executor executor(ChooseThreads(self.Threads, this->Ranks));
     std::optional<FoundContacts> found;
     if (contacts)

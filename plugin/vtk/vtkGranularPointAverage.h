@@ -10,7 +10,7 @@
  * - `sigma` and `tau`, with contacts: -sum k m (v - v_avg)(v - v_avg) + sum K branch_a force_b, with the mean K of k over the line;
  *   `pressure` = -(xx + yy + zz) / 3; both parts, granular_temperature, coordination and fabric as in vtkGranularEulerAverage
  *
- * Particles have images along periodic axes, but not in a tilted box. Sums are correctly rounded: the results are the same for any
+ * Particles have images along periodic axes, but not in a general triclinic box. Sums are correctly rounded: the results are the same for any
  * order of particles, threads and ranks. Each rank has its own points; particles may be on any.
  */
 

@@ -260,6 +260,13 @@ assert len(made.said) == 1 and (
     "an input has no lines, as its file does not say where these are: take the rows, the second output of the reader") in made.said[0]
 assert (vtk_to_numpy(made.filter.GetOutput().GetPointData().GetArray("coordination")) == 0).all()
 
+# arrays that nobody makes
+made = Sums("bed")
+made.filter.GetArraySelection().EnableArray("stress")
+made.filter.GetArraySelection().DisableArray("strain")
+made.filter.Update()
+assert len(made.said) == 1 and "there is no array 'stress': Arrays may name coordination, contact_force, " in made.said[0], made.said
+
 # ---- lines as readers draw them ------------------------------------------------------------------------------------------
 
 whole, split, written = (Sums("periodic_bed", local={"PeriodicLines": kind}) for kind in (0, 1, 2))

@@ -12,6 +12,7 @@ from said import said_by
 CENTRE, OVERLAP, GAUSSIAN, LUCY, HEAVISIDE = range(5)
 POINTS, IMAGE, PROFILE = range(3)
 ALL_SPACE, INSIDE = range(2)
+ROWS = ("tilted", "tilted_granular")  # periodic in all directions: contacts without places, no walls
 SUPPORT = {GAUSSIAN: 3, LUCY: 2, HEAVISIDE: 1}  # in widths
 ALL = ["v_avg", "volumefraction", "radius", "pressure", "sigma", "tau", "density", "momentum", "granular_temperature",
        "coordination", "fabric", "sigma_kinetic", "tau_kinetic", "sigma_contact", "tau_contact"]
@@ -32,8 +33,8 @@ class Averages:
         self.filter.SetInputConnection(0, self.grains.GetOutputPort())
         if lines:
             self.lines = local_of(name + "_contacts")
-            self.filter.SetLinesConnection(self.lines.GetOutputPort())
-        if walls:
+            self.filter.SetLinesConnection(self.lines.GetOutputPort(1 if name in ROWS else 0))
+        if walls and name not in ROWS:
             self.walls = local_of(name + "_walls")
             self.filter.SetWallsConnection(self.walls.GetOutputPort())
         self.choose(on)
@@ -79,8 +80,9 @@ class Run:
         parts = []
         if lines:
             pairs = plain.Contacts(name + "_contacts", step)
-            parts.append((pairs.ends[:, 0], plain.branches(self.grains, pairs)[0], pairs.force, 2))
-        if walls:
+            start = self.grains.x[self.grains.rows(pairs.ids[0])] if name in ROWS else pairs.ends[:, 0]
+            parts.append((start, plain.branches(self.grains, pairs)[0], pairs.force, 2))
+        if walls and name not in ROWS:
             rows = plain.Contacts(name + "_walls", step)
             parts.append((rows.ends[:, 0], rows.ends[:, 1] - rows.ends[:, 0], -rows.force, 1))
         self.start, self.branch, self.force = (numpy.concatenate([part[i] for part in parts]) for i in range(3))
@@ -93,8 +95,16 @@ class Run:
 
     def images(self):
         """What to add for each image."""
-        return [numpy.array(each) * self.size for each in
-                itertools.product(*((-1, 0, 1) if flag else (0,) for flag in self.periodic))]
+        most = 1 if (numpy.diag(self.size) == self.grains.vectors).all() else 2  # in a tilted box others come near
+        return [numpy.array(each) @ self.grains.vectors for each in
+                itertools.product(*(range(-most, most + 1) if flag else (0,) for flag in self.periodic))]
+
+    def wrapped(self):
+        """Particles moved between the planes that are the lengths of the box apart, the last axis first."""
+        x = self.grains.x.copy()
+        for axis in (2, 1, 0):
+            x -= numpy.floor((x[:, axis] - self.grains.origin[axis]) / self.size[axis])[:, None] * self.grains.vectors[axis]
+        return x
 
 
 def parts_by_length(run, lo, hi, counts):

@@ -6,7 +6,10 @@
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
 
+#include <algorithm>
 #include <span>
+#include <string>
+#include <string_view>
 
 namespace vtkGranularPrivate
 {
@@ -32,6 +35,35 @@ inline vtkDataArraySelection* MakeSelection(vtkAlgorithm* self, std::span<const 
   selection->AddObserver(
     vtkCommand::ModifiedEvent, static_cast<vtkObject*>(self), &vtkObject::Modified);
   return selection;
+}
+
+/**
+ * Returns a remark on the arrays of a selection that the algorithm does not make, though somebody turned them on; empty if there are none.
+ */
+inline std::string TellOfUnknown(
+  vtkDataArraySelection* selection, std::span<const MadeArray> arrays)
+{
+  std::string unknown;
+  for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
+  {
+    const std::string name = selection->GetArrayName(i);
+    if (selection->GetArraySetting(i) != 0 &&
+      std::ranges::find(arrays, name,
+        [](const MadeArray& array) { return std::string_view(array.Name); }) == arrays.end())
+    {
+      unknown += " '" + name + "'";
+    }
+  }
+  if (unknown.empty())
+  {
+    return unknown;
+  }
+  std::string known;
+  for (const MadeArray& array : arrays)
+  {
+    known += std::string(known.empty() ? "" : ", ") + array.Name;
+  }
+  return "there is no array" + unknown + ": Arrays may name " + known;
 }
 }
 

@@ -36,23 +36,25 @@ void KeepChosen(vtkDataArraySelection* selection, granular::EulerFrame& frame)
     { return selection->ArrayIsEnabled(values.name.c_str()) == 0; });
 }
 
-void TellOfGrains(vtkDataObject* input, const granular::FrameView& view, granular::Notices& notices)
+void TellOfInputs(vtkDataObject* input, const granular::FrameView& view,
+  vtkDataArraySelection* selection, granular::Notices& notices)
 {
+  const auto tell = [&](const std::string& text)
+  {
+    if (!text.empty())
+    {
+      notices.push_back({ {}, text });
+    }
+  };
   const std::string leftOut = FindLeftOut(input->GetFieldData());
-  if (!leftOut.empty())
-  {
-    granular::Notice notice;
-    notice.text = "particles are missing that the reader left out (" + leftOut +
-      "): averages count the particles that are there, volume fraction and stress are too small";
-    notices.push_back(notice);
-  }
+  tell(leftOut.empty() ? ""
+                       : "particles are missing that the reader left out (" + leftOut +
+        "): averages count the particles that are there, volume fraction and stress are too small");
   const granular::Box& box = view.header.box;
-  if (view.has_box && box.tilted && box.boundary.find('p') != std::string::npos)
-  {
-    granular::Notice notice;
-    notice.text = "the box is tilted: particles have no periodic images, and cells at its faces "
-                  "lack their parts";
-    notices.push_back(notice);
-  }
+  tell(view.has_box && box.general && box.boundary.find('p') != std::string::npos
+      ? "the box is a general triclinic one: particles have no periodic images, and cells at its "
+        "faces lack their parts"
+      : "");
+  tell(TellOfUnknown(selection, AverageArrays));
 }
 }

@@ -2,6 +2,8 @@
 #ifndef vtkGranularChosenFields_h
 #define vtkGranularChosenFields_h
 
+#include "private/arrays/made_arrays.h"
+
 #include "granular/common/error.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/fields.h"
@@ -12,6 +14,27 @@ class vtkDataObject;
 
 namespace vtkGranularPrivate
 {
+/**
+ * The arrays that averages can have.
+ */
+inline constexpr MadeArray AverageArrays[] = {
+  { "v_avg", true },
+  { "volumefraction", true },
+  { "radius", true },
+  { "pressure", true },
+  { "sigma", true },
+  { "tau", true },
+  { "density", false },
+  { "momentum", false },
+  { "granular_temperature", false },
+  { "coordination", false },
+  { "fabric", false },
+  { "sigma_kinetic", false },
+  { "tau_kinetic", false },
+  { "sigma_contact", false },
+  { "tau_contact", false },
+};
+
 /**
  * What is to be made for the arrays that are on.
  */
@@ -41,10 +64,11 @@ ChosenFields ChooseFields(vtkDataArraySelection* selection, bool contacts);
 void KeepChosen(vtkDataArraySelection* selection, granular::EulerFrame& frame);
 
 /**
- * Tells that particles are missing which the reader left out, and that a tilted box has no periodic images.
+ * Tells that particles are missing which the reader left out, that a general box has no periodic images, and that arrays are on
+ * which do not exist.
  */
-void TellOfGrains(
-  vtkDataObject* input, const granular::FrameView& view, granular::Notices& notices);
+void TellOfInputs(vtkDataObject* input, const granular::FrameView& view,
+  vtkDataArraySelection* selection, granular::Notices& notices);
 }
 
 #endif
