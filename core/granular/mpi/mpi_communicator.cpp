@@ -32,6 +32,22 @@ void check(int status)
     {}, std::errc::io_error);
 }
 
+/// Throws on all ranks of a communicator if one lacks memory.
+void expect_memory(MPI_Comm ranks, bool here)
+{
+  int size = 1;
+  int first = 0;
+  check(MPI_Comm_size(ranks, &size));
+  check(MPI_Comm_rank(ranks, &first));
+  first = here ? size : first;
+  check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, ranks));
+  if (first < size)
+  {
+    throw LimitError(
+      "out of memory (on rank " + std::to_string(first) + " of " + std::to_string(size) + ")");
+  }
+}
+
 /// Calls call(offset, count) for parts of at most `most`, one behind the other.
 template <class Call>
 void in_parts(std::int64_t count, std::int64_t most, const Call& call)
@@ -62,15 +78,37 @@ void wait(std::vector<MPI_Request>& messages, std::vector<MPI_Status>& states)
 MpiCommunicator::MpiCommunicator(MPI_Comm ranks, std::int64_t most_bytes)
   : most_bytes_(most_bytes)
 {
+  check(MPI_Comm_size(ranks, &size_));
+  bool has_room = true;
+  try
+  {
+    calls_.reserve(static_cast<std::size_t>(size_));
+  }
+  catch (const std::bad_alloc&)
+  {
+    has_room = false;
+  }
+  expect_memory(ranks, has_room);
   check(MPI_Comm_dup(ranks, &ranks_));
   check(MPI_Comm_set_errhandler(ranks_, MPI_ERRORS_RETURN));
   check(MPI_Comm_rank(ranks_, &rank_));
-  check(MPI_Comm_size(ranks_, &size_));
   MPI_Comm node = MPI_COMM_NULL;
   check(MPI_Comm_split_type(ranks_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node));
   check(MPI_Comm_size(node, &node_size_));
   check(MPI_Comm_free(&node));
-  calls_.reserve(static_cast<std::size_t>(size_));
+}
+
+std::unique_ptr<MpiCommunicator> MpiCommunicator::make(MPI_Comm ranks)
+{
+  struct GiveBack
+  {
+    void operator()(void* room) const noexcept { ::operator delete(room); }
+  };
+  std::unique_ptr<void, GiveBack> room(::operator new(sizeof(MpiCommunicator), std::nothrow));
+  expect_memory(ranks, room != nullptr);
+  std::unique_ptr<MpiCommunicator> made(new (room.get()) MpiCommunicator(ranks));
+  static_cast<void>(room.release()); // is the object's
+  return made;
 }
 
 MpiCommunicator::~MpiCommunicator()

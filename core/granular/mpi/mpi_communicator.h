@@ -19,8 +19,12 @@ class MpiCommunicator final : public Communicator
 public:
   /// Duplicates the communicator, so that messages never mix with others of the program. Call between MPI_Init and
   /// MPI_Finalize. MPI counts in int: larger data than most_bytes go in several messages; most_bytes is from 8 to 2^31
-  /// - 1 and the same on all ranks. Collective, like the destructor.
+  /// - 1 and the same on all ranks. Collective, like the destructor. Throws LimitError on all ranks if one lacks memory.
   explicit MpiCommunicator(MPI_Comm ranks, std::int64_t most_bytes = std::int64_t{ 1 } << 30);
+
+  /// Returns a new one. Here all ranks also know whether one lacks memory for the object itself.
+  static std::unique_ptr<MpiCommunicator> make(MPI_Comm ranks);
+
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;
   ~MpiCommunicator() override;

@@ -23,7 +23,7 @@ std::unique_ptr<granular::Communicator> MakeRanks(vtkMultiProcessController* con
     controller ? vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()) : nullptr;
   if (mpi && mpi->GetNumberOfProcesses() > 1)
   {
-    return std::make_unique<granular::MpiCommunicator>(*mpi->GetMPIComm()->GetHandle());
+    return granular::MpiCommunicator::make(*mpi->GetMPIComm()->GetHandle());
   }
 #else
   static_cast<void>(controller);
