@@ -79,16 +79,23 @@ Failure DescribeException(const std::exception_ptr& exception)
     const bool refused = !error.where().path.empty();
     return { refused ? Outcome::Refused : Outcome::Failed, FileErrorCode(error), error.what() };
   }
+  catch (const granular::LimitError& error)
+  {
+    // without a file it is memory that ran out on some rank
+    const bool of_file = !error.where().path.empty();
+    return { of_file ? Outcome::Failed : Outcome::Refused,
+      of_file ? vtkErrorCode::FileFormatError : vtkErrorCode::UnknownError, error.what() };
+  }
   catch (const granular::Error& error)
   {
-    // without a file it is memory that ran out on some rank, or a property: no fault of a format
+    // without a file it is a property: no fault of a format
     const bool of_file = !error.where().path.empty();
     return { Outcome::Failed, of_file ? vtkErrorCode::FileFormatError : vtkErrorCode::UnknownError,
       error.what() };
   }
   catch (const std::bad_alloc&)
   {
-    return { Outcome::Failed, vtkErrorCode::UnknownError,
+    return { Outcome::Refused, vtkErrorCode::UnknownError,
       "not enough memory: switch arrays off, or use Stride, RegionOfInterest or single-precision "
       "points" };
   }

@@ -31,7 +31,7 @@ enum class Outcome
   Done,
   Cancelled,
   Failed,
-  Refused ///< failed because the system refused a file: it may give it another time
+  Refused ///< failed because the system refused a file or memory: it may give it another time
 };
 
 /**
