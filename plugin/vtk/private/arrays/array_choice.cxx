@@ -14,13 +14,13 @@ void ArrayChoice::Begin(bool follow)
 {
   this->Follow = follow;
   this->Chosen = !this->AreAllOn();
-  this->Names.clear();
+  this->Next.clear(); // without End, all stays as it was
   this->Order.clear();
 }
 
 void ArrayChoice::Add(const std::string& name, bool on)
 {
-  if (this->Names.emplace(name, on).second)
+  if (this->Next.emplace(name, on).second)
   {
     this->Order.push_back(name);
   }
@@ -35,7 +35,7 @@ void ArrayChoice::End()
   for (int i = 0; i < this->Selection->GetNumberOfArrays(); ++i)
   {
     const std::string name = this->Selection->GetArrayName(i);
-    if (this->Names.count(name) != 0)
+    if (this->Next.count(name) != 0)
     {
       kept.push_back(name);
       continue;
@@ -49,7 +49,7 @@ void ArrayChoice::End()
   for (const std::string& name : this->Order)
   {
     const auto before = this->Gone.find(name);
-    const bool isOn = this->Names[name] && !(this->Follow && this->Chosen);
+    const bool isOn = this->Next[name] && !(this->Follow && this->Chosen);
     if (states.emplace(name, before == this->Gone.end() ? isOn : before->second).second)
     {
       kept.push_back(name);
@@ -68,6 +68,7 @@ void ArrayChoice::End()
   set({}, most);
   set(each[1 - most], 1 - most);
   set(all, most);
+  this->Names.swap(this->Next);
 }
 
 std::map<std::string, bool> ArrayChoice::GetStates() const

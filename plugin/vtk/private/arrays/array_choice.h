@@ -57,7 +57,8 @@ private:
 
   vtkNew<vtkDataArraySelection> Selection;
   std::map<std::string, bool> Names; ///< of all frames, and whether they are on if nobody chooses
-  std::vector<std::string> Order;    ///< of the names, as they were added
+  std::map<std::string, bool> Next;  ///< the same of the list that was begun
+  std::vector<std::string> Order;    ///< of its names, as they were added
   bool Chosen = false;               ///< some were left out when Begin was called
   bool Follow = false;               ///< as Begin was told
   std::map<std::string, bool> Gone;  ///< what was chosen of those that are no more
