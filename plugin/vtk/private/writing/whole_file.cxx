@@ -92,8 +92,10 @@ void WrittenFiles::Write(const std::string& path, const std::string& text, const
     }
     return;
   }
+  Entry now = { keys, hash.value() };
+  Entry& then = this->Files[path]; // nothing may fail once the file is there
   granular::write_file(path, text, durable);
-  this->Files[path] = { keys, hash.value() };
+  then = std::move(now);
 }
 
 WholeFile::WholeFile(
