@@ -69,7 +69,7 @@ constexpr Case Writing[] = {
   { "a thread is refused", calls::thread, CallFault::Error, EAGAIN, true },
 };
 
-constexpr long MostOfMemory = 60; ///< calls that are tried, where not all are wanted
+constexpr long MostOfMemory = 30; ///< calls that are tried, where not all are wanted
 
 bool OfMemory(const Case& one)
 {

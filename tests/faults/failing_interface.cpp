@@ -18,7 +18,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr int threads = 2;
-constexpr long most_of_memory = 60; ///< calls that are tried, where not all are wanted
+constexpr long most_of_memory = 30; ///< calls that are tried, where not all are wanted
 
 // ---- faults ------------------------------------------------------------------------------------
 

@@ -9,7 +9,7 @@ import failing_calls
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good") + "/"
 HERE = os.getcwd() + "/"
-MOST = 40  # calls for memory that are tried, where not all are wanted
+MOST = 3  # calls of a kind that are tried, where not all are wanted; those of the C interface are in failing_interface.cpp
 
 READERS = {
     "text": ["plain.dump"],
@@ -48,7 +48,7 @@ def read(files):
             run = granular.open([GOOD + file for file in files])
             found = [(frame.step, {name: frame[name].tobytes() for name in frame}) for frame in run]
         except (granular.Error, OSError, MemoryError) as error:
-            return None, error, told
+            return None, f"{type(error).__name__}: {error}", told  # the error itself would keep the run
         return found, None, told
 
 
@@ -56,7 +56,7 @@ def write(path, frames):
     try:
         granular.write(path, frames)
     except (granular.Error, OSError, MemoryError) as error:
-        return error
+        return f"{type(error).__name__}: {error}"
     return None
 
 
@@ -67,15 +67,16 @@ for name, files in READERS.items():
     for kinds, fault, number, harmless in failing_calls.READER_FAULTS + failing_calls.MEMORY_FAULTS:
         of_memory = kinds in (failing_calls.MEMORY, failing_calls.MAP)
         for found, error, told in failing_calls.each(kinds, fault, number, GOOD, lambda: read(files), "libgranular" if of_memory else "",
-                                                     MOST if of_memory else 0):
+                                                     MOST):
             faults += 1
             assert error is None or not harmless, (name, error)
             assert found == whole or error is not None or told, (name, kinds, fault)
-            assert error is None or of_memory or GOOD in str(error), (name, error)
+            assert error is None or of_memory or GOOD in error, (name, error)
             found, error, _ = read(files)
             assert found == whole, (name, error)
 print(faults, "faults in readers")
 
+warnings.simplefilter("ignore")
 faults = 0
 for path, source in WRITERS.items():
     frames = list(granular.open(GOOD + source))
@@ -84,17 +85,16 @@ for path, source in WRITERS.items():
     for kinds, fault, number, harmless in failing_calls.WRITER_FAULTS + failing_calls.MEMORY_FAULTS:
         of_memory = kinds in (failing_calls.MEMORY, failing_calls.MAP)
 
-        def fail_once():
+        def prepare():
             with open(path, "w") as stream:
                 stream.write("old")
-            return write(path, frames)
 
-        for error in failing_calls.each(kinds, fault, number, HERE, fail_once, "libgranular" if of_memory else "",
-                                        MOST if of_memory else 0):
+        for error in failing_calls.each(kinds, fault, number, HERE, lambda: write(path, frames), "libgranular" if of_memory else "",
+                                        MOST, prepare):
             faults += 1
             assert error is None or not harmless, (path, error)
-            assert error is None or of_memory or path in str(error), (path, error)
-            is_new = error is None or "written, but" in str(error)
+            assert error is None or of_memory or path in error, (path, error)
+            is_new = error is None or "written, but" in error
             assert content(path) == (whole if is_new else b"old"), (path, error)
             assert not [left for left in os.listdir(HERE) if left.startswith(".granular")], (path, error)
             error = write(path, frames)

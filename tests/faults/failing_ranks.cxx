@@ -67,7 +67,7 @@ constexpr Case Writing[] = {
   { "pages are refused", calls::map, CallFault::Error, ENOMEM },
 };
 
-constexpr long MostOfMemory = 20; ///< calls that are tried, where not all are wanted
+constexpr long MostOfMemory = 12; ///< calls that are tried, where not all are wanted
 
 bool OfMemory(const Case& one)
 {
@@ -246,7 +246,9 @@ protected:
         const long possible = calls_that_may_fail();
         const bool failed = reader->GetErrorCode() != 0;
         const std::vector<std::string>& said = reader.Seen->Said;
-        this->Judge(one, rank, { failed, said.empty() ? "" : said.back() }, Good);
+        const std::string last = said.empty() ? "" : said.back();
+        const std::string of = "): "; // behind the address of the reader
+        this->Judge(one, rank, { failed, last.substr(std::min(last.find(of), last.size())) }, Good);
         EXPECT_TRUE(!failed || IsEmpty(reader.Get));
         EXPECT_TRUE(failed || !said.empty() || Content(reader.Get) == whole);
         update(reader);
@@ -289,6 +291,7 @@ protected:
     ASSERT_EQ(undisturbed->Write(), 1) << undisturbed->GetErrorMessage();
     this->Wait();
     const std::string whole = BytesOf(path);
+    this->Wait();
     this->FailEach(Writing,
       [&](const Case& one, int rank, long number)
       {
@@ -300,7 +303,11 @@ protected:
         stop_failing();
         const long possible = calls_that_may_fail();
         const std::string last = writer->GetErrorMessage();
-        this->Judge(one, rank, { !written, last }, path);
+        // Open MPI does not write again what was interrupted
+        const bool byMpi = mode == vtkGranularWriter::MPI_IO && one.Fault == CallFault::Interrupted;
+        Case judged = one;
+        judged.Harmless = one.Harmless && !byMpi;
+        this->Judge(judged, rank, { !written, last }, path);
         const bool renamed = last.find(": written, but") != std::string::npos;
         this->Wait();
         EXPECT_TRUE(BytesOf(path) == (written || renamed ? whole : Old)) << last;

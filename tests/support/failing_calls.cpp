@@ -227,17 +227,16 @@ long open_files()
 #pragma GCC visibility push(default) // shared libraries are to find them
 extern "C"
 {
-  /// For programs in other languages.
+  /// For programs in other languages; empty texts are none.
   void granular_make_fail(unsigned kinds, int fault, int error, long first, long count,
     const char* folder, const char* caller)
   {
-    static std::string texts[2];
+    static char texts[2][256]; // which threads may still look at
     make_fail({});
-    texts[0] = folder != nullptr ? folder : "";
-    texts[1] = caller != nullptr ? caller : "";
+    std::snprintf(texts[0], sizeof texts[0], "%s", folder);
+    std::snprintf(texts[1], sizeof texts[1], "%s", caller);
     make_fail({ static_cast<CallFault>(fault), first, count, kinds, error,
-      texts[0].empty() ? nullptr : texts[0].c_str(),
-      texts[1].empty() ? nullptr : texts[1].c_str() });
+      *folder != '\0' ? texts[0] : nullptr, *caller != '\0' ? texts[1] : nullptr });
   }
 
   long granular_calls_that_may_fail()

@@ -3,7 +3,9 @@
 failing_calls.h, whose numbers these are."""
 import ctypes
 import errno
+import gc
 import os
+import threading
 
 OPEN, STAT, READ, CREATE, WRITE, CLOSE, RENAME, UNLINK, CHANGE, SYNC, MEMORY, MAP, THREAD = (1 << bit for bit in range(13))
 READING = OPEN | STAT | READ
@@ -19,20 +21,25 @@ def _fail(kinds, fault, error, number, folder, caller):
     _shim.granular_make_fail(kinds, fault, error, number, 1, folder.encode(), caller.encode())
 
 
-def each(kinds, fault, error, folder, use, caller="", most=0):
+def each(kinds, fault, error, folder, use, caller="", most=0, prepare=lambda: None):
     """Calls use() again and again, while one call after the other fails that is of these kinds and, if it is of a file, has folder in
-    its path. most: of more calls only about so many are tried, spread over all. Yields what use() returned, where a call failed."""
+    its path. most: of more calls only about so many are tried, spread over all. prepare() comes before use(), while nothing fails. Yields what use() returned, where a call failed."""
     most = 0 if os.environ.get("GRANULAR_FAULTS") == "all" else most
     number = 1
     while True:
+        prepare()
         files = len(os.listdir("/proc/self/fd"))
         _fail(kinds, fault, error, number, folder, caller)
         try:
             result = use()
+            for thread in threading.enumerate():
+                if thread is not threading.current_thread():
+                    thread.join()  # one that reads ahead
         finally:
             made = _shim.granular_calls_that_may_fail()
             _fail(0, 0, 0, 1, "", "")
-        assert len(os.listdir("/proc/self/fd")) == files, (number, "files are left open")
+        gc.collect()
+        assert len(os.listdir("/proc/self/fd")) == files, (kinds, fault, number, result, "files are left open")
         if made < number:
             return
         yield result

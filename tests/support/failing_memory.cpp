@@ -2,6 +2,7 @@
 // The part of failing_calls.h that takes memory away, and threads.
 #include "failing_calls.h"
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -56,9 +57,18 @@ void for_each_module(Use use)
   ::dl_iterate_phdr(look, &use);
 }
 
-/// The module of an address; without a name if there is none.
+/// The module of an address that a thread has looked for before, or of this one; without a name if there is none.
 Module module_of(std::uintptr_t address)
 {
+  static thread_local std::array<Module, 16> known = {};
+  static thread_local std::size_t next = 0;
+  for (const Module& module : known)
+  {
+    if (module.begin <= address && address < module.end)
+    {
+      return module;
+    }
+  }
   Module found = { 0, 0, nullptr };
   for_each_module(
     [&](const Module& module)
@@ -67,6 +77,7 @@ Module module_of(std::uintptr_t address)
       found = fits ? module : found;
       return fits;
     });
+  known[next++ % known.size()] = found;
   return found;
 }
 
