@@ -122,6 +122,18 @@ TEST(Gzip, CutAnywhere)
 }
 
 // Ends of blocks, and the end of the file anywhere near them.
+/// A CRC that is there counts, also where the file ends before the size.
+TEST(Gzip, DamagedAndCut)
+{
+  std::string packed = gzip(rows(1000));
+  packed[packed.size() - 5] ^= 1;
+  for (const std::size_t less : { 0u, 1u, 4u })
+  {
+    EXPECT_NE(packing::error_of(packed.substr(0, packed.size() - less)), "") << less;
+  }
+  EXPECT_EQ(packing::error_of(packed.substr(0, packed.size() - 5)), "");
+}
+
 TEST(Gzip, CutBetweenBlocks)
 {
   const std::string content = rows(3000);

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -123,6 +124,7 @@ private:
   void parse_header(HeaderBytes& header) const;
   std::size_t read_data(char* out, std::size_t bytes);
   std::size_t inflate_some(char* out, std::size_t bytes, int flush);
+  std::optional<std::uint32_t> read_32();
   bool read_trailer();
   void note_point();
 
@@ -341,31 +343,43 @@ void GzipDecoder::note_point()
     member_bytes_, std::move(window) });
 }
 
-/// False if the file ends within it.
-bool GzipDecoder::read_trailer()
+/// Nothing if the file ends within it.
+std::optional<std::uint32_t> GzipDecoder::read_32()
 {
-  const std::int64_t start = in_.position();
-  std::array<std::uint32_t, 2> fields = {};
-  for (unsigned i = 0; i < 8; ++i)
+  std::uint32_t number = 0;
+  for (unsigned shift = 0; shift < 32; shift += 8)
   {
     const int byte = in_.get();
     if (byte < 0)
     {
-      in_.seek(start); // there may be more of it next time
-      return this->end_of_file(true);
+      return std::nullopt;
     }
-    fields[i / 4] |= static_cast<std::uint32_t>(byte) << (8 * (i % 4));
+    number |= static_cast<std::uint32_t>(byte) << shift;
   }
+  return number;
+}
+
+/// False if the file ends within it. A CRC that is there counts, whether the size is there or not.
+bool GzipDecoder::read_trailer()
+{
+  const std::int64_t start = in_.position();
   const Where where{ in_.path(), 0, start };
-  if (fields[0] != check_)
+  const std::optional<std::uint32_t> check = this->read_32();
+  if (check && *check != check_)
   {
-    throw FormatError("expected gzip data with the CRC-32 " + hexadecimal(fields[0]) + ", got " +
-        hexadecimal(check_),
+    throw FormatError(
+      "expected gzip data with the CRC-32 " + hexadecimal(*check) + ", got " + hexadecimal(check_),
       where);
   }
-  if (fields[1] != member_bytes_)
+  const std::optional<std::uint32_t> bytes = check ? this->read_32() : std::nullopt;
+  if (!bytes)
   {
-    throw FormatError("expected gzip data of " + std::to_string(fields[1]) +
+    in_.seek(start); // there may be more of it next time
+    return this->end_of_file(true);
+  }
+  if (*bytes != member_bytes_)
+  {
+    throw FormatError("expected gzip data of " + std::to_string(*bytes) +
         " bytes modulo 2^32, got " + std::to_string(member_bytes_),
       where);
   }
