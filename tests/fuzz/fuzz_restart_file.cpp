@@ -64,7 +64,9 @@ RestartFrame read(
   Notices notices;
   Progress progress;
   RestartFrame frame = read_restart(source, layout, request, notices, progress);
-  check_frame(frame.particles, { .rows = frame.particles.rows }, {});
+  FrameEntry entry;
+  entry.rows = frame.particles.rows;
+  check_frame(frame.particles, entry, {});
   require(frame.bonds.table.rows <= frame.bonds.lines.count || !frame.bonds.has_lines,
     "a line for each bond");
   return frame;

@@ -252,18 +252,21 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
       const DumpRequest own = own_request(request, ranks.size() > 1);
       const Where where = where_of(pieces.front());
       ColumnSchema schema = join_schemas(pieces, request);
+      Notices
+        widened; // dropped if the frame cannot be read: how many there are depends on chunk_bytes
       DumpPart part = ahead ? std::move(*ahead) : decode(pieces, schema, own, forward);
       ahead.reset();
       for (share_remarks(ranks, part); !part.misfits.empty(); share_remarks(ranks, part))
       {
         const FrameKind& kind = *pieces.front().entry.kind;
         check_misfit(part.misfits.front(), kind, schema);
-        widen(part.misfits, kind, schema, notices);
+        widen(part.misfits, kind, schema, widened);
         part = {}; // the memory of a rank whose own rows did fit
         part = decode(pieces, schema, own, forward);
       }
       check_counts(ranks, pieces, part);
       sort(part, request, ranks, where);
+      notices.insert(notices.end(), widened.begin(), widened.end());
       notices.insert(notices.end(), part.notices.begin(), part.notices.end());
       note_point_loss(part.loss, part.frame.header.box, request.point_origin,
         request.single_precision, where, notices);
