@@ -423,3 +423,14 @@ TEST(RegularGrids, MicrometresThatAreNotEqual)
   EXPECT_NE(error_of(line({ 0.5e-6, 1.5e-6, 2.7e-6, 3.3e-6 })), "");
   EXPECT_EQ(error_of(line({ 4e-6, 8e-6, 13e-6, 17e-6 })), ""); // may be 4.25 apart
 }
+
+/// One layer so far away that numbers cannot hold its thickness.
+TEST(RegularGrids, ALayerWithoutRoom)
+{
+  EulerFrame frame;
+  add_grid(frame, { 0, 0, 1e30 }, { 2, 2, 1e30 }, { 2, 2, 1 }, [](double value) { return value; });
+  EXPECT_NE(error_of(frame).find("no room"), std::string::npos);
+  Notices notices;
+  EXPECT_THROW(find_regular_grids(frame, notices), UnsupportedError);
+  EXPECT_TRUE(notices.empty());
+}

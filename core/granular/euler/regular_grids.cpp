@@ -260,7 +260,9 @@ void GridFinder::find_bounds(std::size_t axis)
   {
     span.lo = span.first - span.spacing / 2;
     span.hi = span.last + span.spacing / 2;
-    if (!(span.spacing > 0 && std::isfinite(span.lo) && std::isfinite(span.hi)))
+    const bool has_room =
+      span.spacing > 0 && span.lo < span.hi; // far from the origin rounding may take it
+    if (!(has_room && std::isfinite(span.lo) && std::isfinite(span.hi)))
     {
       cells_.fail(first_cell(span), ", which has no room");
     }
@@ -280,6 +282,9 @@ void GridFinder::find_bounds(std::size_t axis)
 
 std::vector<RegularGrid> find_regular_grids(const EulerFrame& frame, Notices& notices)
 {
-  return GridFinder(frame).find(notices);
+  Notices found; // of what is no grid there are none
+  std::vector<RegularGrid> grids = GridFinder(frame).find(found);
+  notices.insert(notices.end(), found.begin(), found.end());
+  return grids;
 }
 }

@@ -114,9 +114,12 @@ bool MinimumImage::shorten(std::size_t which, double j_times, double k_times) no
   {
     counts[axis] += j_times * j[axis] + (k_times != 0 ? k_times * k[axis] : 0);
   }
+  if (!are_below(counts, most_counts_of_sum))
+  {
+    return false;
+  }
   const Sum shorter = this->make_sum(counts);
-  const bool is_shorter = are_below(counts, most_counts_of_sum) &&
-    shorter.square < (1 - 0x1p-30) * reduced_[which].square;
+  const bool is_shorter = shorter.square < (1 - 0x1p-30) * reduced_[which].square;
   if (is_shorter)
   {
     reduced_[which] = shorter;
