@@ -17,11 +17,12 @@ inline bool all_faults_wanted()
   return wanted != nullptr && std::string(wanted) == "all";
 }
 
-/// The number of the call that fails after call `number` has: the next one, or of many calls some, spread over all.
+/// The number of the call that fails after call `number` has: the next one, or of many calls the first and then some, spread over
+/// all, about `most` of each.
 inline long next_number(long number, long calls, long most)
 {
   const long step = all_faults_wanted() ? 1 : std::max(1L, calls / most);
-  return number + (number < std::min(step, calls) ? 1 : step);
+  return number + (number < std::min(step, most) ? 1 : step);
 }
 
 /// Counts the faults of a test, and prints their number at its end.

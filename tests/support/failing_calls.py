@@ -44,7 +44,7 @@ def each(kinds, fault, error, folder, use, caller="", most=0, prepare=lambda: No
             return
         yield result
         step = max(1, made // most) if most else 1
-        number += 1 if number < min(step, made) else step
+        number += 1 if number < min(step, most) else step
 
 
 # kinds, fault, error, and whether nothing may be seen of it
