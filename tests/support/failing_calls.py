@@ -54,3 +54,12 @@ WRITER_FAULTS = [(STAT, ERROR, errno.EIO, False), (CREATE, ERROR, errno.ENOSPC, 
                  (WRITE, SHORT, 0, True), (CREATE | WRITE | CLOSE, INTERRUPTED, 0, True), (CLOSE, ERROR, errno.EIO, False),
                  (RENAME, ERROR, errno.EACCES, False), (SYNC, ERROR, errno.EIO, False)]
 MEMORY_FAULTS = [(MEMORY, ERROR, errno.ENOMEM, False), (MAP, ERROR, errno.ENOMEM, False)]
+
+
+def count(kinds, use):
+    """How many calls of these kinds use() makes; none of them fails."""
+    _shim.granular_make_fail(kinds, ERROR, 0, 2**62, 1, b"", b"")
+    use()
+    made = _shim.granular_calls_that_may_fail()
+    _fail(0, 0, 0, 1, "", "")
+    return made
