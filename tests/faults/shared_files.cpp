@@ -69,6 +69,13 @@ std::string wrong_of(granular_run* run, std::int64_t number, bool sorted, std::i
   return "";
 }
 
+std::int64_t frames_of(granular_run* run)
+{
+  granular_run_facts facts = {};
+  EXPECT_EQ(granular_run_info(run, &facts), GRANULAR_OK) << message();
+  return facts.frames;
+}
+
 /// Opens, reads, follows and closes a run, again and again.
 void follow(const std::string& pattern, unsigned seed, std::int64_t rounds, std::string& wrong)
 {
@@ -87,13 +94,18 @@ void follow(const std::string& pattern, unsigned seed, std::int64_t rounds, std:
       return;
     }
     const RunHandle run(opened, granular_close);
+    std::int64_t before = 0;
     for (int i = 0; i < 10 && wrong.empty(); ++i)
     {
-      granular_run_facts facts = {};
-      granular_run_info(opened, &facts);
-      wrong = wrong_of(opened,
-        static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(facts.frames)),
-        random() % 2 == 0, 1 + static_cast<std::int64_t>(random() % 4));
+      const std::int64_t frames = frames_of(opened);
+      wrong =
+        wrong_of(opened, static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(frames)),
+          random() % 2 == 0, 1 + static_cast<std::int64_t>(random() % 4));
+      if (frames < before)
+      {
+        wrong = "fewer frames than before";
+      }
+      before = frames;
       if (wrong.empty() && granular_refresh(opened, nullptr, nullptr, nullptr) != GRANULAR_OK)
       {
         wrong = message();
@@ -119,12 +131,13 @@ TEST_F(SharedFiles, OfTwoRunsInTwoThreads)
   const std::int64_t descriptors = open_descriptors();
   for (const bool warm : { false, true })
   {
+    const RunHandle followed = open_run(pattern);
     memory = warm ? status_of_process("VmRSS") : 0;
     std::atomic<bool> stop = false;
     std::thread appending(
       [&]
       {
-        for (int i = 0; i < 200 && !stop; ++i)
+        for (int i = 0; i < 200 && (i < 10 || !stop); ++i)
         {
           std::ofstream(growing, std::ios::binary | std::ios::app) << frame_of(next++);
           std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -139,11 +152,16 @@ TEST_F(SharedFiles, OfTwoRunsInTwoThreads)
     appending.join();
     EXPECT_EQ(wrong[0], "");
     EXPECT_EQ(wrong[1], "");
+    EXPECT_EQ(granular_refresh(followed.get(), nullptr, nullptr, nullptr), GRANULAR_OK)
+      << message();
+    EXPECT_EQ(frames_of(followed.get()), next);
+    EXPECT_EQ(wrong_of(followed.get(), next - 1, true, 1), "");
   }
   const std::int64_t grown = status_of_process("VmRSS") - memory;
   std::printf("load | two runs in two threads | %lld openings and 10 times as many frames each | "
-              "%lld KiB more\n",
-    static_cast<long long>(2 * size_of_load(20, 1'000)), static_cast<long long>(grown / 1024));
+              "%lld KiB more | %lld frames at last\n",
+    static_cast<long long>(2 * size_of_load(20, 1'000)), static_cast<long long>(grown / 1024),
+    static_cast<long long>(next));
   EXPECT_EQ(open_descriptors(), descriptors);
 #ifndef GRANULAR_TEST_SANITIZED
   EXPECT_LT(grown, 8 * mebibyte);
