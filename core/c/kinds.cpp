@@ -156,8 +156,9 @@ std::vector<OfferedArray> restart_arrays(granular_run& run, std::size_t frame, i
 {
   Notices notices;
   Progress progress;
-  const auto source = open_indexed(run.index.first_piece(frame).file);
-  const RestartLayout layout = read_layout(*source, notices, progress);
+  const FileIndex& file = run.index.first_piece(frame).file;
+  const auto source = open_indexed(file);
+  const RestartLayout layout = read_layout(*source, notices, progress, file.largest_expansion);
   const RestartColumns columns = find_restart_columns(*source, layout, notices, progress);
   if (table == 0)
   {
@@ -172,8 +173,9 @@ std::vector<OfferedArray> restart_arrays(granular_run& run, std::size_t frame, i
 void read_restart_frame(granular_run& run, std::size_t frame, const Wanted& wanted,
   Notices& notices, Progress& progress, granular_frame& to)
 {
-  const auto source = open_indexed(run.index.first_piece(frame).file);
-  const RestartLayout layout = read_layout(*source, notices, progress);
+  const FileIndex& file = run.index.first_piece(frame).file;
+  const auto source = open_indexed(file);
+  const RestartLayout layout = read_layout(*source, notices, progress, file.largest_expansion);
   RestartRequest request;
   request.bonds = wanted.request.table == 1;
   const auto nothing = [](std::string_view) { return false; };

@@ -8,6 +8,7 @@
 #include "private/request/piece_request.h"
 #include "private/request/processes.h"
 
+#include "granular/common/memory_error.h"
 #include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/packing_plan.h"
@@ -170,8 +171,8 @@ void vtkGranularPackingSource::Internals::Run(
   }
   catch (const std::bad_alloc&)
   {
-    throw granular::LimitError("not enough memory for so many grains and bonds: ask for fewer, or "
-                               "use more processes on more machines");
+    throw granular::MemoryError("not enough memory for so many grains and bonds: ask for fewer, or "
+                                "use more processes on more machines");
   }
 }
 

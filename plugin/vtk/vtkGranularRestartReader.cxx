@@ -145,8 +145,10 @@ void vtkGranularRestartReader::Internals::Look(Self* self)
     const granular::RunIndex& index = self->Series->Index;
     for (const std::size_t frame : std::set<std::size_t>{ 0, index.size() - 1 })
     {
-      const auto source = granular::open_indexed(index.first_piece(frame).file);
-      const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
+      const granular::FileIndex& file = index.first_piece(frame).file;
+      const auto source = granular::open_indexed(file);
+      const granular::RestartLayout layout =
+        granular::read_layout(*source, notices, progress, file.largest_expansion);
       const granular::RestartColumns columns =
         granular::find_restart_columns(*source, layout, notices, progress);
       AddNames(granular::ColumnSchema(columns.particles), particles);
@@ -225,9 +227,11 @@ void vtkGranularRestartReader::Internals::Show(
   self->Series->StartFrame(notices);
   this->Look(self);
   const granular::RestartRequest request = this->MakeRequest(self, shown.Port);
-  const auto source = granular::open_indexed(shown.Pieces.front().file);
+  const granular::FileIndex& file = shown.Pieces.front().file;
+  const auto source = granular::open_indexed(file);
   progress.set_part(0, 0.1);
-  const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
+  const granular::RestartLayout layout =
+    granular::read_layout(*source, notices, progress, file.largest_expansion);
   progress.set_part(0.1, 0.95);
   granular::RestartFrame restart =
     granular::read_restart(*source, layout, request, notices, progress);

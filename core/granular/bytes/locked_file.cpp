@@ -17,6 +17,9 @@ namespace granular
 {
 namespace
 {
+constexpr int most_tries = 1000; // numbers that are looked at
+constexpr int most_processes = 1000000;
+
 /// The folder of the target, and the begin of a name: the target's own name may have 255 bytes already.
 std::string begin_of_names(const std::string& target)
 {
@@ -85,14 +88,13 @@ bool remove_left(const std::string& name)
 
 LockedFile::LockedFile(const std::string& target, unsigned permissions)
 {
-  constexpr int most_tries = 1000;
   constexpr int most_free = 8; // names in a row: writers that ended have left gaps between others
   const std::string begin = begin_of_names(target);
   for (int number = 0, free = 0; free < most_free && number < most_tries; ++number)
   {
     free = remove_left(numbered(begin, number)) ? 0 : free + 1;
   }
-  for (int number = 0; number < most_tries; ++number)
+  for (int tries = 0, number = 0; tries < most_tries; ++tries, ++number)
   {
     name_ = numbered(begin, number);
     file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
@@ -100,14 +102,14 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
     {
       throw std::system_error(errno, std::generic_category());
     }
-    // another may have taken the new file for one that was left, before it was locked. On a file system without locks
-    // nobody gets one, and nobody removes a file
+    // another may have taken the new file for one that was left, before it was locked
     if (file_ < 0)
     {
       continue;
     }
-    const int error = lock(file_) == EWOULDBLOCK ? ESTALE : compare_name(name_, file_);
-    if (error == 0)
+    const int locked = lock(file_);
+    const int error = locked == EWOULDBLOCK ? ESTALE : compare_name(name_, file_);
+    if (error == 0 && (locked == 0 || number >= most_tries))
     {
       return;
     }
@@ -116,9 +118,14 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
       ::unlink(name_.c_str());
     }
     ::close(file_);
-    if (error != ESTALE)
+    if (error != 0 && error != ESTALE)
     {
       throw std::system_error(error, std::generic_category());
+    }
+    if (error == 0)
+    {
+      // Without a lock it would pass for one that was left as soon as another gets one: nobody looks at numbers like this.
+      number = most_tries * (1 + static_cast<int>(::getpid() % most_processes));
     }
   }
   throw std::system_error(EEXIST, std::generic_category());

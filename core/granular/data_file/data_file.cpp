@@ -4,13 +4,33 @@
 #include "granular/data_file/data_layout.h"
 #include "granular/frames/file_index.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace granular
 {
 namespace
 {
+/// The size of the content; of a compressed file it is known where nothing more comes.
+std::int64_t end_of(const ByteSource& source, const DataLayout& layout)
+{
+  std::int64_t end = source.compressed() ? 0 : source.stamp().size;
+  for (const std::optional<DataSection>& section :
+    { layout.particles, layout.velocities, layout.bond_rows })
+  {
+    end = std::max(end, section ? section->end : 0);
+  }
+  std::array<char, 4096> bytes;
+  while (const std::size_t got = source.read(end, bytes.data(), bytes.size()))
+  {
+    end += static_cast<std::int64_t>(got);
+  }
+  return end;
+}
+
 void index_data_file(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
 {
@@ -28,11 +48,11 @@ void index_data_file(
     FrameEntry entry;
     entry.timestep = layout.timestep;
     entry.rows = layout.atoms;
-    entry.end = index.stamp.size;
+    entry.end = end_of(source, layout);
     entry.line = 1;
     entry.kind = index.kinds->share(FrameKind{});
     index.frames.push_back(std::move(entry));
-    index.resume_offset = index.stamp.size;
+    index.resume_offset = index.frames.back().end;
   }
   catch (const FormatError& error)
   {

@@ -100,17 +100,24 @@ void TimeAverage::add_fields(const EulerAverages& frame)
 {
   const EulerFields& fields = frame.fields;
   FieldSums& sums = field_sums_;
-  if (frames_ > 0 && fields.contact_normal.empty() != sums.contact_normal.empty())
+  const bool forces = !fields.contact_normal.empty();
+  if (std::ranges::any_of(frame.sums.ends, [](double ends) { return ends > 0; }))
   {
-    throw Error(
-      "expected forces of the contacts in all frames that are averaged, or in none, got " +
-      std::string(fields.contact_normal.empty() ? "none" : "some") + " in frame " +
-      std::to_string(frames_));
+    if (forces_.value_or(forces) != forces)
+    {
+      throw Error(
+        "expected forces of the contacts in all frames that are averaged, or in none, got " +
+        std::string(forces ? "some" : "none") + " in frame " + std::to_string(frames_));
+    }
+    forces_ = forces;
   }
   add_values(fields.density, sums.density);
   add_values(fields.momentum, sums.momentum);
-  add_values(fields.contact_normal, sums.contact_normal);
-  add_values(fields.contact_shear, sums.contact_shear);
+  if (forces)
+  {
+    add_values(fields.contact_normal, sums.contact_normal);
+    add_values(fields.contact_shear, sums.contact_shear);
+  }
   add_values(frame.sums.ends, sums.ends);
   add_values(frame.sums.contacts, sums.contacts);
   add_values(frame.sums.normals, sums.normals);
@@ -129,8 +136,11 @@ EulerFields TimeAverage::fields() const
   const auto frames = static_cast<double>(frames_);
   fields.density = means_of(sums.density, frames);
   fields.momentum = means_of(sums.momentum, frames);
-  fields.contact_normal = means_of(sums.contact_normal, frames);
-  fields.contact_shear = means_of(sums.contact_shear, frames);
+  if (forces_.value_or(true))
+  {
+    fields.contact_normal = means_of(sums.contact_normal, frames);
+    fields.contact_shear = means_of(sums.contact_shear, frames);
+  }
   fields.temperature.resize(sums.energy.size());
   for (std::size_t i = 0; i < sums.energy.size(); ++i)
   {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace granular
@@ -65,6 +66,7 @@ private:
 
   std::int64_t frames_ = 0;
   bool stress_ = false; ///< is known
+  std::optional<bool> forces_; ///< contacts have some; frames without contacts do not tell
   std::vector<double> centres_;
   std::vector<Sums> sums_;
   FieldSums field_sums_;

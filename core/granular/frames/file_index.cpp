@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace granular
@@ -54,13 +55,74 @@ bool has_gaps(const FileIndex& index)
   return false;
 }
 
-/// Whether the file has bytes behind its last frame: an unfinished frame, or frames that an index hides.
-bool goes_on(const FileIndex& index)
+/// Whether a source has bytes behind the last frame: an unfinished frame, or frames that an index hides.
+bool goes_on(const ByteSource& source, const FileIndex& index)
 {
+  char byte = 0;
+  return source.read(index.frames.back().end, &byte, 1) > 0;
+}
+
+/// The contents of a file of which an index says that they end with its frame: who reads them finds out.
+class ClaimedContent final : public ByteSource
+{
+public:
+  ClaimedContent(std::unique_ptr<ByteSource> source, std::int64_t end)
+    : source_(std::move(source))
+    , end_(end)
+  {
+  }
+
+  const std::string& path() const override { return source_->path(); }
+  FileStamp stamp() const override { return source_->stamp(); }
+  bool compressed() const override { return source_->compressed(); }
+  std::string unchecked() const override { return source_->unchecked(); }
+  double fraction(std::int64_t offset) const override { return source_->fraction(offset); }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const std::size_t got = source_->read(offset, buffer, bytes);
+    const std::int64_t to = offset + static_cast<std::int64_t>(got);
+    char byte = 0;
+    if (got > 0 && (to > end_ || (to == end_ && source_->read(end_, &byte, 1) > 0)))
+    {
+      throw FormatError("expected the end of the content where the index file says, got more; "
+                        "remove the index file",
+        { source_->path() });
+    }
+    return got;
+  }
+
+private:
+  std::unique_ptr<ByteSource> source_;
+  std::int64_t end_;
+};
+
+/// What marks a file as ClaimedContent. No reader adds seek points to it: several may share it.
+std::shared_ptr<SeekPoints> claim_of_end()
+{
+  auto claim = std::make_shared<SeekPoints>();
+  claim->claimed = true;
+  claim->spacing = std::numeric_limits<std::int64_t>::max();
+  return claim;
+}
+
+bool claims_end(const FileIndex& index)
+{
+  return index.points && index.points->spacing == std::numeric_limits<std::int64_t>::max();
+}
+
+/// Whether a file that has no seek points, and the time and size of the index, goes on behind its last frame. Of a compressed
+/// one this is not known before its single frame is read, and nothing is decompressed for it.
+bool may_go_on(FileIndex& index)
+{
+  if (index.compressed && !index.points)
+  {
+    index.points = claim_of_end();
+    return false;
+  }
   try
   {
-    char byte = 0;
-    return open_indexed(index)->read(index.frames.back().end, &byte, 1) > 0;
+    return goes_on(*open_indexed(index), index);
   }
   catch (const Error&)
   {
@@ -98,7 +160,7 @@ void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
   {
     index.stamp = good ? now : FileStamp{};
   }
-  if (same && good && goes_on(index))
+  if (same && good && may_go_on(index))
   {
     --index.stamp.size;
     index.ends_hash = hash_ends(packed, index.stamp.size);
@@ -189,7 +251,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
   packed = first_bytes(std::move(packed), stamp.size);
   index.ends_hash = hash_ends(*packed, stamp.size);
-  if (!index.points)
+  if (!index.points || claims_end(index))
   {
     index.points = std::make_shared<SeekPoints>();
   }
@@ -205,8 +267,9 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index.defect->text += "; " + index.unchecked;
   }
-  // a single frame is read from the start anyway
-  if (!source->compressed() || index.frames.size() <= 1)
+  // a single frame is read from the start anyway; an index without points says that nothing is behind it
+  if (!source->compressed() || index.frames.empty() ||
+    (index.frames.size() == 1 && !goes_on(*source, index)))
   {
     index.points.reset();
   }
@@ -298,7 +361,11 @@ std::unique_ptr<ByteSource> open_indexed(const FileIndex& index)
   {
     throw IoError("the file changed since it was indexed; reload the files", { index.path });
   }
-  return unpack(std::move(packed), index.points, index.largest_expansion);
+  std::unique_ptr<ByteSource> source =
+    unpack(std::move(packed), index.points, index.largest_expansion);
+  return claims_end(index)
+    ? std::make_unique<ClaimedContent>(std::move(source), index.frames.back().end)
+    : std::move(source);
 }
 
 std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size)

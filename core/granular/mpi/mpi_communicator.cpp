@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/mpi/mpi_communicator.h"
 
+#include "granular/common/memory_error.h"
 #include "granular/mpi/mpi_file.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ void expect_memory(MPI_Comm ranks, bool here)
   check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, ranks));
   if (first < size)
   {
-    throw LimitError(
+    throw MemoryError(
       "out of memory (on rank " + std::to_string(first) + " of " + std::to_string(size) + ")");
   }
 }

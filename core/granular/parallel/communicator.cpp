@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/parallel/communicator.h"
 
+#include "granular/common/memory_error.h"
 #include "granular/common/pass.h"
 #include "granular/common/progress.h"
 
@@ -22,6 +23,7 @@ enum class Kind : char
   Io,
   Format,
   Limit,
+  Memory,
   Unsupported,
   Other
 };
@@ -53,6 +55,10 @@ Failure describe(const std::exception_ptr& failure)
   {
     return { Kind::Format, error.text(), error.where() };
   }
+  catch (const MemoryError& error)
+  {
+    return { Kind::Memory, error.text(), error.where() };
+  }
   catch (const LimitError& error)
   {
     return { Kind::Limit, error.text(), error.where() };
@@ -67,7 +73,7 @@ Failure describe(const std::exception_ptr& failure)
   }
   catch (const std::bad_alloc&)
   {
-    return { Kind::Limit, "out of memory" };
+    return { Kind::Memory, "out of memory" };
   }
   catch (const std::exception& other)
   {
@@ -90,6 +96,8 @@ Failure describe(const std::exception_ptr& failure)
       throw FormatError(text, failure.where);
     case Kind::Limit:
       throw LimitError(text, failure.where);
+    case Kind::Memory:
+      throw MemoryError(text, failure.where);
     case Kind::Unsupported:
       throw UnsupportedError(text, failure.where);
     case Kind::Cancelled: // agree() sees to that
@@ -134,7 +142,7 @@ Failure unpack_failure(std::string_view bytes)
 {
   if (bytes == no_memory_to_say_so)
   {
-    return { Kind::Limit, "out of memory" };
+    return { Kind::Memory, "out of memory" };
   }
   Failure failure;
   ArchiveReader unpacker{ bytes };
@@ -205,7 +213,7 @@ void Communicator::fail_together(const std::exception_ptr& failure)
   {
     if (this->add_up(own != nullptr, beside) > 0)
     {
-      throw LimitError("out of memory");
+      throw MemoryError("out of memory");
     }
   };
   const std::vector<std::string> answers = this->gather(pack(failure), status);

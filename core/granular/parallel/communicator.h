@@ -37,11 +37,11 @@ public:
   /// Returns the number of ranks on this machine, including this one.
   virtual int node_size() const noexcept = 0;
 
-  /// Gives all ranks the bytes of the root, from 0 to size() - 1. Throws LimitError on all ranks if one lacks memory for
+  /// Gives all ranks the bytes of the root, from 0 to size() - 1. Throws MemoryError on all ranks if one lacks memory for
   /// them.
   void broadcast(std::string& bytes, int root);
 
-  /// Returns the bytes of every rank, by rank, on all ranks; for small data. Throws LimitError on all ranks if one lacks
+  /// Returns the bytes of every rank, by rank, on all ranks; for small data. Throws MemoryError on all ranks if one lacks
   /// memory for them.
   std::vector<std::string> all_gather(std::string_view bytes);
 
@@ -122,7 +122,7 @@ private:
 
 /// Ends a step of work in which any rank may have failed. Returns on all ranks if none did. Otherwise throws the same on all
 /// ranks: the error of the lowest failed rank, of the same kind, place and code, with the rank in its text ("... (on rank 2
-/// of 3)", unless all ranks have the same error). Lack of memory becomes a LimitError, an exception of another kind an Error.
+/// of 3)", unless all ranks have the same error). Lack of memory becomes a MemoryError, an exception of another kind an Error.
 /// Throws Cancelled if some ranks were cancelled and none has an error. A single rank throws its own exception unchanged.
 /// failure is null without an error; then no memory is needed. An exception that all ranks have thrown together before is
 /// thrown again without waiting.

@@ -47,7 +47,7 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
   try
   {
     Notices notices; // what is missing of a frame that can be read is told when it is
-    const RestartLayout layout = read_layout(source, notices, progress);
+    const RestartLayout layout = read_layout(source, notices, progress, index.largest_expansion);
     FrameEntry entry;
     entry.timestep = layout.header.timestep;
     entry.rows = layout.records;

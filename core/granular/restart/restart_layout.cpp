@@ -18,10 +18,11 @@ namespace
 class LayoutReader
 {
 public:
-  LayoutReader(const ByteSource& source, Progress& progress)
+  LayoutReader(const ByteSource& source, Progress& progress, std::int64_t largest_expansion)
     : bytes_(source)
     , progress_(progress)
   {
+    layout_.largest_expansion = largest_expansion;
   }
 
   RestartLayout read()
@@ -162,11 +163,12 @@ private:
 };
 }
 
-RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress)
+RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress,
+  std::int64_t largest_expansion)
 {
   if (!source.compressed())
   {
-    RestartLayout layout = LayoutReader(source, progress).read();
+    RestartLayout layout = LayoutReader(source, progress, largest_expansion).read();
     if (!layout.has_fixes && layout.records > 0)
     {
       notices.push_back({ { source.path(), 0, layout.begin },
@@ -181,6 +183,6 @@ RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& 
   }
   const std::string content = read_content(source, progress);
   const std::unique_ptr<ByteSource> unpacked = open_memory(content, source.path());
-  return read_layout(*unpacked, notices, progress);
+  return read_layout(*unpacked, notices, progress, largest_expansion);
 }
 }

@@ -46,6 +46,7 @@ struct RestartLayout
   std::int64_t records = 0; ///< in all chunks
   std::int64_t begin = 0;   ///< byte of the count of the first chunk; of a `base` file its end
   std::int64_t size = 0;    ///< bytes of the file, unpacked
+  std::int64_t largest_expansion = usual_expansion; ///< of the files of processes: see unpack
 };
 
 /// Finds all parts. The length of the force fields' data is unknown, so each byte from there on is tried as the start of the
@@ -57,6 +58,7 @@ struct RestartLayout
 /// held in memory meanwhile. Memory depends on the bytes of the file, not on its claims, except for the masses of at most a
 /// million types; a search reads at most a few times the size of the file. Throws FormatError that tells which parts were
 /// understood, where the search began, and which files of ranks are missing; UnsupportedError; IoError; Cancelled.
-RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress);
+RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress,
+  std::int64_t largest_expansion = usual_expansion);
 }
 #endif

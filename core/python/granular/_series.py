@@ -78,12 +78,12 @@ def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]
     Raises ValueError: no files, no number in a name, a step that occurs twice, a dt or a path that
     cannot be, an infinite time; FileNotFoundError if a file does not exist; OSError if the file cannot be written.
     """
-    files = [os.fsdecode(file) for file in ([files] if isinstance(files, (str, os.PathLike)) else files)]
+    files = [os.fsdecode(file) for file in ([files] if isinstance(files, (str, bytes, os.PathLike)) else files)]
     if not files:
         raise ValueError("no files")
     if not (math.isfinite(dt) and dt > 0):
         raise ValueError(f"dt must be finite and greater than 0, got {dt}")
-    path = _default_path(files[0]) if path is None else os.fspath(path)
+    path = _default_path(files[0]) if path is None else os.fsdecode(path)
     if not path.endswith(".series"):
         raise ValueError(f"the path must end in '.series', got {shown(path)}")
 

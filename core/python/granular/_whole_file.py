@@ -82,16 +82,22 @@ def _create_locked(target: str, ending: str) -> tuple[str, int]:
         name = f"{begin}{number}.tmp"
         free = 0 if _remove_left(name, name + ending) else free + 1
         number += 1
-    for number in range(_MOST_TRIES):
+    number = -1
+    for _ in range(_MOST_TRIES):
+        number += 1
         name = f"{begin}{number}.tmp"
         try:
             file = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
         except FileExistsError:
             continue
         with contextlib.suppress(BlockingIOError):  # another program has taken it for one that was left
-            _lock(file)
+            locked = _lock(file)
             if _is_name_of(name, file):
-                return name, file
+                if locked or number >= _MOST_TRIES:
+                    return name, file
+                # without a lock it would pass for one that was left as soon as another gets one: nobody looks at numbers like this
+                os.unlink(name)
+                number = _MOST_TRIES * (1 + os.getpid())
         os.close(file)
     raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), begin)
 
@@ -136,12 +142,15 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
     try:
         with contextlib.suppress(FileNotFoundError):
             os.unlink(temporary)
-        os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+        # who may not read the old file may not read along either
+        os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if old is None else 0o600))
         yield temporary
         if old is not None:
             os.chmod(temporary, stat.S_IMODE(old) & 0o777)
         if durable:
             _sync(temporary)
+        if not _is_name_of(name, lock):  # somebody has removed it, and another may have the name
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
         os.replace(temporary, target)
         if durable:
             with contextlib.suppress(PermissionError):  # a folder that may not be read cannot be synchronised

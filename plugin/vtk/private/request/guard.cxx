@@ -3,7 +3,7 @@
 
 #include "private/request/abort.h"
 
-#include "granular/common/error.h"
+#include "granular/common/memory_error.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
@@ -79,12 +79,9 @@ Failure DescribeException(const std::exception_ptr& exception)
     const bool refused = !error.where().path.empty();
     return { refused ? Outcome::Refused : Outcome::Failed, FileErrorCode(error), error.what() };
   }
-  catch (const granular::LimitError& error)
+  catch (const granular::MemoryError& error)
   {
-    // without a file it is memory that ran out on some rank
-    const bool of_file = !error.where().path.empty();
-    return { of_file ? Outcome::Failed : Outcome::Refused,
-      of_file ? vtkErrorCode::FileFormatError : vtkErrorCode::UnknownError, error.what() };
+    return { Outcome::Refused, vtkErrorCode::UnknownError, error.what() };
   }
   catch (const granular::Error& error)
   {

@@ -84,16 +84,21 @@ void WrittenFiles::Write(const std::string& path, const std::string& text, const
   if (known != this->Files.end() && known->second.Keys == keys &&
     std::filesystem::exists(path, failed))
   {
-    if (known->second.Hash != hash.value())
+    const bool same = known->second.Hash == hash.value();
+    if (!same)
     {
       notices.push_back({ { path },
         "this writer has written " + keys + " already, with other " + things +
           ": the file is left as it was" });
     }
-    return;
+    if (!same || !durable || known->second.Durable)
+    {
+      return;
+    }
   }
-  Entry now = { keys, hash.value() };
+  Entry now = { keys, hash.value(), durable };
   Entry& then = this->Files[path]; // nothing may fail once the file is there
+  then = {};                       // an error may come when the new file has its name already
   granular::write_file(path, text, durable);
   then = std::move(now);
 }

@@ -58,6 +58,7 @@ private:
   {
     std::string Keys;
     std::uint64_t Hash = 0;
+    bool Durable = false;
   };
 
   std::map<std::string, Entry> Files;
