@@ -170,7 +170,8 @@ TEST(ContactTimeAverage, FramesWithAndWithoutForcesHaveNoMean)
   {
     frame.forces = false;
   }
-  frames.erase(frames.begin() + 2, frames.begin() + 4); // which have no contacts
+  EXPECT_TRUE(over_time(frames, request).fields().contact_normal.empty());
+  std::rotate(frames.begin(), frames.begin() + 2, frames.end()); // one without contacts first
   EXPECT_TRUE(over_time(frames, request).fields().contact_normal.empty());
 }
 

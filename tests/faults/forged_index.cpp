@@ -35,6 +35,12 @@ const std::vector<std::pair<const char*, Forge>> forgeries = {
     [](FileIndex& file) { file.frames.erase(file.frames.begin() + 2, file.frames.begin() + 4); } },
   { "the last frame hidden", [](FileIndex& file) { file.frames.pop_back(); } },
   { "all but the first hidden", [](FileIndex& file) { file.frames.resize(1); } },
+  { "all but the first hidden, as if the file had no seek points",
+    [](FileIndex& file)
+    {
+      file.frames.resize(1);
+      file.points.reset();
+    } },
   { "a frame hidden in the one before",
     [](FileIndex& file)
     {

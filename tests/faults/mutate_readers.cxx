@@ -307,7 +307,11 @@ struct Counts
 void UpdateAndCheck(
   Reader& reader, const std::function<void()>& update, const fs::path& folder, Counts& counts)
 {
-  reader.Said->Errors.clear();
+  for (Listener* listener : { reader.Said.Get(), reader.OfPipeline.Get() })
+  {
+    listener->Errors.clear();
+    listener->Warnings.clear();
+  }
   update();
   const bool failed = reader.Get->GetErrorCode() != vtkErrorCode::NoError;
   const std::string message = reader.Get->GetErrorMessage();

@@ -4,10 +4,12 @@
 #include "granular/frames/saved_index.h"
 #include "granular/dump/formats/dump_files.h"
 
+#include "../support/byte_source_packing.h"
 #include "../support/own_folder.h"
 
 #include "granular/common/hash.h"
 #include "granular/dump/formats/binary_header.h"
+#include "granular/dump/read/dump_reader.h"
 #include "granular/frames/run_index.h"
 #include "granular/frames/saved_index.h"
 
@@ -787,6 +789,65 @@ TEST_F(IndexFileTest, ASecondOpeningDoesNotReadTheFile)
   EXPECT_EQ(second.said, "");
   EXPECT_FALSE(second.index.changed());
   EXPECT_EQ(text_of(second.index.files()), text_of(first.index.files()));
+}
+
+/// Nothing is decompressed where each file has one frame, and a file that has more than the index says is not shown as if it had not.
+TEST_F(IndexFileTest, ASecondOpeningDoesNotDecompressFilesOfAFrameEach)
+{
+  for (const bool gzip : { true, false })
+  {
+    const auto pack = [&](const std::string& text) {
+      return gzip ? packing::gzip(text) : packing::zstd(text, { 3, true, false });
+    };
+    const std::string text = frame(5, 20000);
+    const std::string good = pack(text);
+    const std::string path = this->write("a.dump.gz", good);
+    const Opened first({ path });
+    EXPECT_EQ(first.steps(), steps_from(5, 1));
+    const auto time = fs::last_write_time(path);
+    std::string damaged = good;
+    ASSERT_GT(damaged.size(), 10'200U);
+    for (std::size_t i = damaged.size() / 2; i < damaged.size() / 2 + 1000; ++i)
+    {
+      damaged[i] = static_cast<char>(~damaged[i]);
+    }
+    this->write("a.dump.gz", damaged);
+    fs::last_write_time(path, time);
+    EXPECT_THROW(Opened({ path }, KeepIndex::Never), FormatError) << "who reads it sees it";
+    const Opened second({ path });
+    EXPECT_EQ(second.steps(), steps_from(5, 1));
+    EXPECT_EQ(second.said, "");
+    EXPECT_FALSE(second.index.changed());
+
+    // the index of a longer file says that it ends with its first frame
+    const std::string longer = pack(text + frame(6, 30000));
+    this->write("a.dump.gz", longer);
+    const Opened both({ path });
+    EXPECT_EQ(both.steps(), steps_from(5, 2));
+    const std::string kept = path + ".granular.idx";
+    Notices notices;
+    Files files = load_index(kept, path, std::make_shared<FrameKinds>(), notices);
+    ASSERT_EQ(files.size(), 1U);
+    files[0].frames.resize(1);
+    files[0].points.reset();
+    save_index(kept, files, notices);
+    const Opened hidden({ path });
+    ASSERT_EQ(hidden.steps(), steps_from(5, 1));
+    Progress progress;
+    try
+    {
+      read_dump(hidden.index.pieces(0), {}, notices, progress);
+      ADD_FAILURE() << "a frame is hidden in silence";
+    }
+    catch (const FormatError& error)
+    {
+      EXPECT_EQ(std::string(error.what()),
+        path +
+          ": expected the end of the content where the index file says, got more; remove the index "
+          "file");
+    }
+    fs::remove(kept);
+  }
 }
 
 TEST_F(IndexFileTest, InTheCacheOfTheUser)

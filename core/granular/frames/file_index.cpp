@@ -115,7 +115,7 @@ bool claims_end(const FileIndex& index)
 /// one this is not known before its single frame is read, and nothing is decompressed for it.
 bool may_go_on(FileIndex& index)
 {
-  if (index.compressed && !index.points)
+  if (index.compressed && index.frames.size() == 1 && (!index.points || claims_end(index)))
   {
     index.points = claim_of_end();
     return false;
