@@ -33,6 +33,30 @@ def check_package(path):
         assert "expected a largest_expansion of at least 1, got 0" in str(error), error
 
 
+def check_log():
+    import granular
+
+    def refused(path, *words, **options):
+        try:
+            granular.read_log(path, **options)
+        except granular.Error as error:
+            assert all(word in str(error) for word in words), error
+        else:
+            raise AssertionError("a bomb was read")
+
+    table = b"Step Temp\n0 1\n1 2\nLoop time of 1\n"
+    with open("log.gz", "wb") as file:
+        file.write(gzip.compress(table) + PARTS * gzip.compress((b"#" * 1023 + b"\n") * 1024))
+    refused("log.gz", "expected content of at most 200 times", "raise largest_expansion")
+    assert len(granular.read_log("log.gz", largest_expansion=100_000)) == 2
+    refused("log.gz", "expected a largest_expansion of at least 1, got 0", largest_expansion=0)
+    with open("log", "wb") as file:
+        file.write(table + b"x" * (1 << 22))
+    refused("log", "log:5: expected lines of fewer than 4194304 bytes")
+    os.remove("log.gz")
+    os.remove("log")
+
+
 def check_command(path):
     from command import granular
 
@@ -42,12 +66,19 @@ def check_command(path):
 
 
 def check_proxies(path):
-    from paraview.simple import GranularDumpReader
-
-    good = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains_1000.dump")
-    reader = GranularDumpReader(FileNames=[good])
+    import paraview.simple
     from said import said_by
 
+    for name, file in (("Local", "local/contacts.dump"), ("DataFile", "data_file/full.data"), ("Restart", "restart/half.restart"),
+                       ("Euler", "euler_1000.vtk"), ("Decomposition", "decomposition_1000.vtk")):
+        reader = getattr(paraview.simple, f"Granular{name}Reader")(FileNames=[os.path.join(os.environ["GRANULAR_DATA"], "good", file)])
+        assert reader.LargestExpansion == 200, name
+        said = said_by(reader.GetClientSideObject())
+        reader.LargestExpansion = 0
+        reader.UpdateVTKObjects()
+        assert "LargestExpansion must be at least 1, got 0" in " ".join(said), (name, said)
+    good = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains_1000.dump")
+    reader = paraview.simple.GranularDumpReader(FileNames=[good])
     said = said_by(reader.GetClientSideObject())
     reader.FileNames = [path]
     reader.UpdatePipelineInformation()
@@ -65,5 +96,6 @@ if sys.argv[1:] == ["proxies"]:
     check_proxies(bomb)
 else:
     check_package(bomb)
+    check_log()
     check_command(bomb)
 os.remove(bomb)

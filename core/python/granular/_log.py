@@ -172,17 +172,29 @@ class _Rows:
         return {"Step": steps, **{name: values[i] for i, name in enumerate(self.columns) if i != self.at}}
 
 
-class _Unpacked(io.RawIOBase):
-    """A gzip file. If it ends early, its data are read up to the end before the error."""
+_FREE_CONTENT = 1 << 28  # bytes that are read whatever the size of the compressed file
+_LONGEST_LINE = 1 << 22
 
-    def __init__(self, file: gzip.GzipFile):
+
+class _TooMuch(ValueError):
+    """The content of a compressed file is beyond its limit."""
+
+
+class _Unpacked(io.RawIOBase):
+    """A gzip file with content of at most so many bytes. If it ends early, its data are read up to the end before the error."""
+
+    def __init__(self, file: gzip.GzipFile, most: int):
         self._file = file
+        self._left = most
 
     def readable(self) -> bool:
         return True
 
     def readinto(self, buffer: Any) -> int:
         data = self._file.read1(len(buffer))
+        self._left -= len(data)
+        if self._left < 0:
+            raise _TooMuch
         buffer[:len(data)] = data
         return len(data)
 
@@ -190,8 +202,9 @@ class _Unpacked(io.RawIOBase):
 class _Reader:
     """Finds the tables among the lines of a log."""
 
-    def __init__(self, path: str):
+    def __init__(self, path: str, largest_expansion: int):
         self.path = path
+        self._largest_expansion = largest_expansion
         self.runs: list[_Rows] = []
         self._run: _Rows | None = None
         self._width = -1  # of rows that are expected now
@@ -217,8 +230,13 @@ class _Reader:
             expect_file(self.path, os.fstat(file.fileno()).st_mode)
             head = file.peek(4)[:4]
             if head[:2] == b"\x1f\x8b":
+                size = os.fstat(file.fileno()).st_size
+                most = max(_FREE_CONTENT, size * self._largest_expansion)
                 try:
-                    self._read(io.BufferedReader(_Unpacked(gzip.GzipFile(fileobj=file)), 1 << 16))
+                    self._read(io.BufferedReader(_Unpacked(gzip.GzipFile(fileobj=file), most), 1 << 16))
+                except _TooMuch:
+                    self._fail(0, f"expected content of at most {self._largest_expansion} times the {size} bytes of the file, got more; "
+                                  "raise largest_expansion if you trust the file")
                 except (OSError, zlib.error) as error:
                     self._fail(0, f"expected gzip data, got damaged ones: {error}")
             elif head == b"\x28\xb5\x2f\xfd":
@@ -268,12 +286,15 @@ class _Reader:
         self._cut_block = self._in_block and (is_short or not line.endswith(b"\n"))
         return self._cut_block
 
-    def _read_lines(self, stream: Iterable[bytes]) -> tuple[int, bytes, bool]:
+    def _read_lines(self, stream: Any) -> tuple[int, bytes, bool]:
         """Returns the number of lines, the last one, and whether compressed data end early."""
-        number, line, took = 0, b"", False
+        number, last, took = 0, b"", False
         try:
-            for line in stream:
+            while line := stream.readline(_LONGEST_LINE):
                 number += 1
+                if len(line) == _LONGEST_LINE and not line.endswith(b"\n"):
+                    self._fail(number, f"expected lines of fewer than {_LONGEST_LINE} bytes, got a longer one")
+                last = line
                 words = line.split()
                 took = len(words) == self._width and self._row(line, words, number)
                 if not took and words:
@@ -282,7 +303,7 @@ class _Reader:
             return number, b"\n", True
         finally:
             self._took_last = took
-        return number, line, False
+        return number, last, False
 
     def _fail_without_tables(self, count: int) -> NoReturn:
         if self._empty_table is None and self._names:
@@ -579,20 +600,23 @@ def _merged(runs: list[dict[str, Any]], starts: list[int], everything: dict[str,
     return merged, kept
 
 
-def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None) -> Log:
+def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None,
+             largest_expansion: int = 200) -> Log:
     """Reads the thermo tables of a log of LAMMPS or LIGGGHTS, and returns them as a Log. Needs numpy alone.
 
     paths  the log, or what the program printed on the screen, plain or .gz; a list of logs, in the order in which they were written
     dt     the time of one timestep, greater than 0, in the unit of the run. None: the log says it, by its commands `timestep` and
            `units` or by LAMMPS's line "Time step". If the timestep changes, times go on from those of the run before. A column
            Time counts if it differs by more than rounding, as with `fix dt/reset`. If the log says nothing, times are timesteps.
+    largest_expansion  refuses a compressed log whose content exceeds 256 MiB and so many times its size; from 1 on
 
     The function reads thermo_style one, multi, custom and yaml, of any number of runs, with columns that differ. It skips other lines
     between the rows. Three things are left out with a warning: a last row that ends early, because a simulation may be writing it;
     lines of numbers that are no rows of their table; tables without the column Step.
 
     Raises FileNotFoundError if there is no such file; granular.Error with path, line and column if a row has a word in place of a
-    number, if a file is binary or empty, and if it has no table with rows; granular.ArgumentError for a dt that cannot be.
+    number, if a file is binary or empty, if a line has 4 MiB or more, if the content is beyond largest_expansion, and if it has no table
+    with rows; granular.ArgumentError for a dt or a largest_expansion that cannot be.
     """
     import numpy
 
@@ -601,10 +625,12 @@ def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], d
         raise c.ArgumentError("expected at least one log, got none")
     if dt is not None and not 0 < float(dt) < math.inf:
         raise c.ArgumentError(f"expected a dt that is finite and greater than 0, got {dt}")
+    if largest_expansion < 1:
+        raise c.ArgumentError(f"expected a largest_expansion of at least 1, got {largest_expansion}")
     names = [os.path.abspath(os.fsdecode(path)) for path in given]
     rows: list[_Rows] = []
     for name in names:
-        reader = _Reader(name)
+        reader = _Reader(name, largest_expansion)
         reader._dt = rows[-1].dt if rows else None  # a log that begins with a restart file may not say it again
         rows += reader.read()
     tables = [run.arrays() for run in rows]
