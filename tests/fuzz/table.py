@@ -9,7 +9,7 @@ import sys
 
 # The code that reads what others wrote, by room, and the files there that make something else of it.
 READING = (
-    ("bytes", r"granular/bytes/", "byte_sink"),
+    ("bytes", r"granular/bytes/", "byte_sink|locked_file"),
     ("text", r"granular/text/", None),
     ("numbers", r"granular/numbers/", None),
     ("frames", r"granular/frames/", None),
