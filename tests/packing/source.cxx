@@ -272,6 +272,10 @@ TEST(PackingSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     EXPECT_NE(source.Seen->Said[0].find(each.Text), std::string::npos) << source.Seen->Said[0];
     EXPECT_NE(source->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
     ExpectEmpty(source);
+    // what does not fit is not tried again before something changes
+    const vtkMTimeType changed = source->GetMTime();
+    source->Update();
+    EXPECT_EQ(source->GetMTime(), changed) << each.Text;
     source->SetRadius(0.003);
     source->SetBoxLengths(0.1, 0.1, 0.1);
     source->SetBoxTilts(0, 0, 0);
