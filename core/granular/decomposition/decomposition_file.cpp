@@ -116,13 +116,15 @@ private:
 /// The last frame is indexed again: data of its cells may have come.
 VtkPlace GridIndexer::first_place(FileIndex& index)
 {
+  VtkPlace place{ index.resume_offset, index.resume_line };
   if (!index.frames.empty())
   {
-    index.resume_offset = index.frames.back().offset;
-    index.resume_line = index.frames.back().line;
+    place = { index.frames.back().offset, index.frames.back().line };
+    index.resume_offset = place.offset;
+    index.resume_line = std::max(place.line, std::int64_t{ 1 });
     index.frames.pop_back();
   }
-  return { index.resume_offset, index.resume_line };
+  return place;
 }
 
 /// False at the end.
@@ -181,7 +183,7 @@ void GridIndexer::add(const DecompositionGrid& grid)
   entry.kind = index_.kinds->share(FrameKind{});
   index_.frames.push_back(std::move(entry));
   index_.resume_offset = file_.place().offset;
-  index_.resume_line = file_.place().line;
+  index_.resume_line = std::max(file_.place().line, std::int64_t{ 1 }); // 0 in binary files
 }
 
 void GridIndexer::leave_out(const Error& error)
