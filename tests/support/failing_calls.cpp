@@ -13,6 +13,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/types.h>
@@ -33,7 +34,8 @@ unsigned kinds_of(CallFault fault)
     case CallFault::Error:
       return ~0U;
     case CallFault::Interrupted:
-      return calls::open | calls::read | calls::create | calls::write | calls::close;
+      return calls::open | calls::read | calls::create | calls::write | calls::close | calls::lock |
+        calls::sync;
     case CallFault::Short:
       return calls::read | calls::write;
     default:
@@ -150,6 +152,14 @@ int open_with(const char* path, int flags, const Call& call)
   const bool counts = (flags & O_DIRECTORY) == 0;
   const unsigned kind = reads ? calls::open : calls::create;
   return counts && fails(failing_calls::next_fault(kind, -1, path)) ? -1 : call();
+}
+
+/// Controls a file by one of the two names of fcntl: it fails where it copies a descriptor.
+int control_with(const char* name, int file, int command, void* argument)
+{
+  const bool copies = command == F_DUPFD || command == F_DUPFD_CLOEXEC;
+  const bool refused = copies && fails(failing_calls::next_fault(calls::copy, file));
+  return refused ? -1 : of_system<int(int, int, ...)>(name)(file, command, argument);
 }
 
 /// Makes a call of the system by its name, unless it is to fail.
@@ -342,6 +352,26 @@ extern "C"
     return make_call("lstat", failing_calls::next_fault(calls::stat, -1, path), path, status);
   }
 
+  int stat64(const char* path, struct stat64* status) noexcept
+  {
+    return make_call("stat64", failing_calls::next_fault(calls::stat, -1, path), path, status);
+  }
+
+  int lstat64(const char* path, struct stat64* status) noexcept
+  {
+    return make_call("lstat64", failing_calls::next_fault(calls::stat, -1, path), path, status);
+  }
+
+  int fstat64(int file, struct stat64* status) noexcept
+  {
+    return make_call("fstat64", failing_calls::next_fault(calls::stat, file), file, status);
+  }
+
+  int access(const char* path, int mode) noexcept
+  {
+    return make_call("access", failing_calls::next_fault(calls::stat, -1, path), path, mode);
+  }
+
   int faccessat(int folder, const char* path, int mode, int flags) noexcept
   {
     return make_call(
@@ -368,9 +398,37 @@ extern "C"
     return make_call("fchmod", failing_calls::next_fault(calls::change, file), file, mode);
   }
 
+  int chmod(const char* path, mode_t mode) noexcept
+  {
+    return make_call("chmod", failing_calls::next_fault(calls::change, -1, path), path, mode);
+  }
+
   int ftruncate(int file, off_t size) noexcept
   {
     return make_call("ftruncate", failing_calls::next_fault(calls::change, file), file, size);
+  }
+
+  int flock(int file, int operation) noexcept
+  {
+    return make_call("flock", failing_calls::next_fault(calls::lock, file), file, operation);
+  }
+
+  int fcntl(int file, int command, ...)
+  {
+    va_list more;
+    va_start(more, command);
+    void* const argument = va_arg(more, void*); // numbers are as wide
+    va_end(more);
+    return control_with("fcntl", file, command, argument);
+  }
+
+  int fcntl64(int file, int command, ...)
+  {
+    va_list more;
+    va_start(more, command);
+    void* const argument = va_arg(more, void*);
+    va_end(more);
+    return control_with("fcntl64", file, command, argument);
   }
 
   int fsync(int file)

@@ -13,7 +13,7 @@ enum class CallFault
 {
   None,
   Short,       ///< one byte is read or written
-  Interrupted, ///< EINTR; not of asking, of memory and of threads
+  Interrupted, ///< EINTR; of calls that know it
   End,         ///< a read gives nothing, as at the end of the file
   Shortened,   ///< the file is cut in two before the read
   Zeros,       ///< a read gives other bytes: zeros
@@ -27,19 +27,21 @@ enum class CallFault
 namespace calls
 {
 constexpr unsigned open = 1;     ///< of a file to read
-constexpr unsigned stat = 2;     ///< fstat, stat, lstat, access
+constexpr unsigned stat = 2;     ///< fstat, stat, lstat, access, faccessat
 constexpr unsigned read = 4;     ///< read, pread
 constexpr unsigned create = 8;   ///< open of a file to write, and mkdir
 constexpr unsigned write = 16;   ///< write, pwrite, pwritev
 constexpr unsigned close = 32;   ///< which closes nevertheless
 constexpr unsigned rename = 64;  ///< rename, link
 constexpr unsigned unlink = 128; ///< unlink
-constexpr unsigned change = 256; ///< fchmod, ftruncate
+constexpr unsigned change = 256; ///< fchmod, chmod, ftruncate
 constexpr unsigned sync = 512;   ///< fsync, fdatasync
 constexpr unsigned memory =
   1024; ///< malloc, calloc, realloc, aligned memory, and new, which needs these
 constexpr unsigned map = 2048;    ///< mmap of memory without a file
 constexpr unsigned thread = 4096; ///< pthread_create
+constexpr unsigned lock = 8192;   ///< flock
+constexpr unsigned copy = 16384;  ///< fcntl that copies a descriptor
 constexpr unsigned reading = open | stat | read;
 }
 
