@@ -59,7 +59,7 @@ inline constexpr FailingCase writer_cases[] = {
   { "one byte is written", calls::write, CallFault::Short, 0, true },
   { "a write is interrupted", calls::write, CallFault::Interrupted, EINTR, true },
   { "a file cannot be changed", calls::change, CallFault::Error, EPERM },
-  { "there are no locks", calls::lock, CallFault::Error, ENOLCK, true },
+  { "there are no locks", calls::lock, CallFault::Error, ENOLCK, true, FailingCalls::always },
   { "locking is interrupted", calls::lock, CallFault::Interrupted, EINTR, true },
   { "there are no descriptors", calls::copy, CallFault::Error, EMFILE },
   { "closing fails", calls::close, CallFault::Error, ENOSPC },
