@@ -36,10 +36,23 @@ def _behind_links(path: str) -> str:
 
 
 def _is_name_of(name: str, file: int) -> bool:
+    """Returns whether a name is that of an open file. Raises OSError if the system does not tell."""
     try:
         return os.path.samestat(os.lstat(name), os.fstat(file))
-    except OSError:
+    except FileNotFoundError:
         return False
+
+
+def _close(file: int) -> None:
+    """Closes a file that nothing was written to, so that an error means nothing."""
+    with contextlib.suppress(OSError):
+        os.close(file)
+
+
+def _remove(name: str) -> None:
+    """Removes a hidden file, if that can be done: the next program that writes the same file tries it again."""
+    with contextlib.suppress(OSError):
+        os.unlink(name)
 
 
 def _lock(file: int) -> bool:
@@ -62,13 +75,12 @@ def _remove_left(name: str, data: str) -> bool:
     try:
         state = os.fstat(file)
         if stat.S_ISREG(state.st_mode) and state.st_uid == os.geteuid() and _lock(file) and _is_name_of(name, file):
-            with contextlib.suppress(FileNotFoundError):
-                os.unlink(data)
-            os.unlink(name)
-    except BlockingIOError:
-        pass  # that program lives
+            _remove(data)
+            _remove(name)
+    except OSError:
+        pass  # that program lives, or the system does not tell
     finally:
-        os.close(file)
+        _close(file)
     return True
 
 
@@ -90,15 +102,21 @@ def _create_locked(target: str, ending: str) -> tuple[str, int]:
             file = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
         except FileExistsError:
             continue
-        with contextlib.suppress(BlockingIOError):  # another program has taken it for one that was left
+        try:
             locked = _lock(file)
             if _is_name_of(name, file):
                 if locked or number >= _MOST_TRIES:
                     return name, file
                 # without a lock it would pass for one that was left as soon as another gets one: nobody looks at numbers like this
-                os.unlink(name)
+                _remove(name)
                 number = _MOST_TRIES * (1 + os.getpid())
-        os.close(file)
+        except BlockingIOError:
+            pass  # another program has taken it for one that was left
+        except OSError:
+            _remove(name)
+            _close(file)
+            raise
+        _close(file)
     raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), begin)
 
 
@@ -111,7 +129,29 @@ def _sync(path: str) -> None:
         if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS):
             raise
     finally:
-        os.close(file)
+        _close(file)
+
+
+def _sync_folder(folder: str, path: str) -> None:
+    """Waits until the new name of a path is on the disk."""
+    try:
+        _sync(folder)
+    except PermissionError:
+        pass  # a folder that may not be read cannot be synchronised
+    except OSError as error:
+        raise OSError(error.errno, "written, but a loss of power may take the new file back: cannot synchronise its folder: "
+                      f"{error.strerror}", path) from None
+
+
+def _remove_own(name: str, lock: int) -> None:
+    """Removes the file of a lock, unless another program has the name."""
+    try:
+        own = _is_name_of(name, lock)
+    except OSError:
+        own = True  # as it was a moment ago
+    if own:
+        _remove(name)
+    _close(lock)
 
 
 @contextlib.contextmanager
@@ -139,11 +179,11 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
     except OSError as error:  # the user knows the path, and not the name of the hidden file
         raise OSError(error.errno, error.strerror, path) from None
     temporary = name + ending
+    folder = os.path.dirname(target) or "."
     try:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(temporary)
+        _remove(temporary)
         # who may not read the old file may not read along either
-        os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if old is None else 0o600))
+        _close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if old is None else 0o600))
         yield temporary
         if old is not None:
             os.chmod(temporary, stat.S_IMODE(old) & 0o777)
@@ -152,12 +192,12 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
         if not _is_name_of(name, lock):  # somebody has removed it, and another may have the name
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
         os.replace(temporary, target)
-        if durable:
-            with contextlib.suppress(PermissionError):  # a folder that may not be read cannot be synchronised
-                _sync(os.path.dirname(target) or ".")
+    except OSError as error:
+        if error.errno is None or error.filename not in (None, temporary, name):
+            raise  # of another file
+        raise OSError(error.errno, error.strerror, path) from error
     finally:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(temporary)
-        if _is_name_of(name, lock):
-            os.unlink(name)
-        os.close(lock)
+        _remove(temporary)
+        _remove_own(name, lock)
+    if durable:
+        _sync_folder(folder, path)
