@@ -1,65 +1,133 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes calls of the system fail in this process, which must have been started with the library failing_calls in LD_PRELOAD. See
-failing_calls.h, whose numbers these are."""
+failing_calls.h, whose numbers these are, and failing_cases.h, whose faults."""
 import ctypes
 import errno
 import gc
 import os
 import threading
+from typing import NamedTuple
 
-OPEN, STAT, READ, CREATE, WRITE, CLOSE, RENAME, UNLINK, CHANGE, SYNC, MEMORY, MAP, THREAD = (1 << bit for bit in range(13))
-READING = OPEN | STAT | READ
+OPEN, STAT, READ, CREATE, WRITE, CLOSE, RENAME, UNLINK, CHANGE, SYNC, MEMORY, MAP, THREAD, LOCK, COPY = (1 << bit for bit in range(15))
 SHORT, INTERRUPTED, END, ERROR = 1, 2, 3, 9
+ALWAYS = 2**30
 
 _shim = ctypes.CDLL(None)
 _shim.granular_calls_that_may_fail.restype = ctypes.c_long
+_shim.granular_live_blocks.restype = ctypes.c_long
 _shim.granular_make_fail.argtypes = [ctypes.c_uint, ctypes.c_int, ctypes.c_int, ctypes.c_long, ctypes.c_long, ctypes.c_char_p,
                                      ctypes.c_char_p]
 
 
-def _fail(kinds, fault, error, number, folder, caller):
-    _shim.granular_make_fail(kinds, fault, error, number, 1, folder.encode(), caller.encode())
+class Fault(NamedTuple):
+    """A fault. harmless: nothing may be seen of it. leaves: hidden files that are there after it, of this writer (own) or of one before
+    (older)."""
+    name: str
+    kinds: int
+    fault: int = ERROR
+    error: int = errno.EIO
+    harmless: bool = False
+    count: int = 1
+    leaves: str = ""
+
+    @property
+    def of_memory(self):
+        return bool(self.kinds & (MEMORY | MAP))
 
 
-def each(kinds, fault, error, folder, use, caller="", most=0, prepare=lambda: None):
-    """Calls use() again and again, while one call after the other fails that is of these kinds and, if it is of a file, has folder in
-    its path. most: of more calls only about so many are tried, spread over all. prepare() comes before use(), while nothing fails. Yields what use() returned, where a call failed."""
-    most = 0 if os.environ.get("GRANULAR_FAULTS") == "all" else most
-    number = 1
-    while True:
-        prepare()
-        files = len(os.listdir("/proc/self/fd"))
-        _fail(kinds, fault, error, number, folder, caller)
-        try:
-            result = use()
-            for thread in threading.enumerate():
-                if thread is not threading.current_thread():
-                    thread.join()  # one that reads ahead
-        finally:
-            made = _shim.granular_calls_that_may_fail()
-            _fail(0, 0, 0, 1, "", "")
-        gc.collect()
-        assert len(os.listdir("/proc/self/fd")) == files, (kinds, fault, number, result, "files are left open")
-        if made < number:
-            return
-        yield result
+READER_FAULTS = [
+    Fault("a file cannot be opened", OPEN, ERROR, errno.EACCES),
+    Fault("opening is interrupted", OPEN, INTERRUPTED, 0, True),
+    Fault("a file cannot be asked", STAT),
+    Fault("a read fails", READ),
+    Fault("a read gives nothing", READ, END, 0),
+    Fault("a read gives one byte", READ, SHORT, 0, True),
+    Fault("a read is interrupted", READ, INTERRUPTED, 0, True),
+    Fault("closing fails", CLOSE, ERROR, errno.EIO, True),
+    Fault("closing is interrupted", CLOSE, INTERRUPTED, 0, True),
+]
+WRITER_FAULTS = [
+    Fault("a file cannot be asked", STAT),
+    Fault("no file can be made", CREATE, ERROR, errno.ENOSPC),
+    Fault("making a file is interrupted", CREATE, INTERRUPTED, 0, True),
+    Fault("the disk is full", WRITE, ERROR, errno.ENOSPC),
+    Fault("one byte is written", WRITE, SHORT, 0, True),
+    Fault("a write is interrupted", WRITE, INTERRUPTED, 0, True),
+    Fault("a file cannot be changed", CHANGE, ERROR, errno.EPERM),
+    Fault("there are no locks", LOCK, ERROR, errno.ENOLCK, True, ALWAYS),
+    Fault("locking is interrupted", LOCK, INTERRUPTED, 0, True),
+    Fault("there are no descriptors", COPY, ERROR, errno.EMFILE),
+    Fault("closing fails", CLOSE, ERROR, errno.ENOSPC),
+    Fault("closing is interrupted", CLOSE, INTERRUPTED, 0, True),
+    Fault("renaming fails", RENAME, ERROR, errno.EACCES),
+    Fault("renaming and removing fail", RENAME | UNLINK, ERROR, errno.EACCES, False, ALWAYS, "own"),
+    Fault("an older file cannot be removed", UNLINK, ERROR, errno.EACCES, True, ALWAYS, "older"),
+    Fault("the disk takes nothing", SYNC),
+    Fault("waiting for the disk is interrupted", SYNC, INTERRUPTED, 0, True),
+]
+MEMORY_FAULTS = [Fault("memory is refused", MEMORY, ERROR, errno.ENOMEM)]
+LARGE_FAULTS = [Fault("pages are refused", MAP, ERROR, errno.ENOMEM), Fault("a thread is refused", THREAD, ERROR, errno.EAGAIN, True)]
+LEAVING = Fault("a writer leaves its file", RENAME | UNLINK, ERROR, errno.EACCES, False, ALWAYS)
+
+
+def _with(one, number, folder, use):
+    """Returns what use() returns, and how many calls there were that might fail. The caller's memory is that of our library."""
+    caller = b"libgranular" if one.of_memory else b""
+    _shim.granular_make_fail(one.kinds, one.fault, one.error, number, one.count, folder.encode(), caller)
+    try:
+        result = use()
+        for thread in threading.enumerate():
+            if thread is not threading.current_thread():
+                thread.join()  # one that reads ahead
+        return result, _shim.granular_calls_that_may_fail()
+    finally:
+        _shim.granular_make_fail(0, 0, 0, 1, 1, b"", b"")
+
+
+def leave(folder, use):
+    """Calls use(), a writer, which leaves its hidden file behind, as one does that is killed."""
+    return _with(LEAVING, 1, folder, use)[0]
+
+
+def wants_all():
+    """Whether the environment asks for all calls."""
+    return os.environ.get("GRANULAR_FAULTS") == "all"
+
+
+def each(one, folder, use, most=0, prepare=lambda: None, cannot=False, memory=True):
+    """Calls use() again and again, while one call after the other fails that is of this fault and, if it is of a file, has folder,
+    without a slash at its end, in its path. Yields what use() returned, where a call failed.
+
+    most     of more calls only about so many are tried, spread over all
+    prepare  called before use(), while nothing fails
+    cannot   the fault cannot come up; otherwise it must, once or more
+    memory   as many blocks are to be there after use() as before
+    """
+    most = 0 if wants_all() else most
+    number, delivered, fired = 1, 0, True
+    gc.collect()
+    gc.freeze()  # what was there before need not be looked at again and again
+    while fired:
+        for _ in range(4):  # something may be kept for good, but not each time
+            prepare()
+            gc.collect()
+            files, blocks = len(os.listdir("/proc/self/fd")), _shim.granular_live_blocks()
+            result, made = _with(one, number, folder, use)
+            gc.collect()
+            grown = memory and _shim.granular_live_blocks() > blocks
+            assert len(os.listdir("/proc/self/fd")) == files, (one.name, number, result, "files are left open")
+            if not grown:
+                break
+        assert not grown, (one.name, number, result, "memory is lost")
+        fired = number <= made
+        if fired:
+            delivered += 1
+            yield result
         step = max(1, made // most) if most else 1
         number += 1 if number < min(step, most) else step
-
-
-# kinds, fault, error, and whether nothing may be seen of it
-READER_FAULTS = [(READING, ERROR, errno.EIO, False), (READ, END, 0, False), (READ, SHORT, 0, True),
-                 (OPEN | READ, INTERRUPTED, 0, True), (CLOSE, ERROR, errno.EIO, True)]
-WRITER_FAULTS = [(STAT, ERROR, errno.EIO, False), (CREATE, ERROR, errno.ENOSPC, False), (WRITE, ERROR, errno.ENOSPC, False),
-                 (WRITE, SHORT, 0, True), (CREATE | WRITE | CLOSE, INTERRUPTED, 0, True), (CLOSE, ERROR, errno.EIO, False),
-                 (RENAME, ERROR, errno.EACCES, False), (SYNC, ERROR, errno.EIO, False)]
-MEMORY_FAULTS = [(MEMORY, ERROR, errno.ENOMEM, False), (MAP, ERROR, errno.ENOMEM, False)]
+    assert (delivered == 0) == cannot, (one.name, delivered, "times; expected", "none" if cannot else "some")
 
 
 def count(kinds, use):
     """How many calls of these kinds use() makes; none of them fails."""
-    _shim.granular_make_fail(kinds, ERROR, 0, 2**62, 1, b"", b"")
-    use()
-    made = _shim.granular_calls_that_may_fail()
-    _fail(0, 0, 0, 1, "", "")
-    return made
+    return _with(Fault("none", kinds, ERROR, 0, False, 1), 2**62, "", use)[1]
