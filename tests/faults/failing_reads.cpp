@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every call of the system that a reader makes fails in turn, once or for ever. The reference is the run in which none does.
+#include "granular/bytes/byte_sink.h"
 #include "granular/data_file/data_file.h"
 #include "granular/data_file/read_data.h"
 #include "granular/decomposition/decomposition_file.h"
@@ -623,6 +624,33 @@ TEST_P(FailingReads, OfAnIndexThatIsWritten)
     }
     expect_delivered(one.name, delivered);
   }
+}
+
+/// A file that is written by MPI has another one beside it for its lock.
+TEST(FailingNewFile, IsMadeWhereMakingItIsInterrupted)
+{
+  const Folder folder;
+  const std::string path = folder.path("new.dump");
+  const std::string name = without_slash(folder.path(""));
+  bool fired = true;
+  long number = 1;
+  for (; fired; ++number)
+  {
+    SCOPED_TRACE(number);
+    make_fail({ CallFault::Interrupted, number, 1, calls::create, EINTR, name.c_str() });
+    EXPECT_EQ(error_of(
+                [&]
+                {
+                  granular::NewFile file(path, granular::Locking::Others);
+                  file.write_at(0, "new");
+                  file.finish(false);
+                }),
+      "");
+    stop_failing();
+    fired = calls_that_may_fail() >= number;
+    EXPECT_EQ(names_in(folder.path("")), "new.dump");
+  }
+  EXPECT_GT(number, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -187,11 +187,11 @@ void NewFile::create(Locking locking)
   {
     name_ += LockedFile::data_ending;
     ::unlink(name_.c_str()); // nobody else may have it: the lock is this object's
-    file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (file_ < 0)
+    do
     {
-      fail(path_, errno);
-    }
+      file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    } while (file_ < 0 && errno == EINTR);
+    check(file_ < 0 ? errno : 0, path_);
   }
 }
 
