@@ -86,7 +86,7 @@ def check_reader(name, paths, folder, faults):
     assert whole[0] and whole[1] is None, (name, whole)
     count = 0
     for one in faults:
-        for seen in failing_calls.each(one, folder, lambda: read(paths), MOST):
+        for seen in failing_calls.each(one, folder, lambda: read(paths), whole, MOST):
             count += 1
             found, error, told = seen
             where = (name, one.name, error, told)
@@ -115,7 +115,7 @@ def check_writer(path, write, faults, most_left=1):
 
     for one in faults:
         cannot = (ending, one.name) in CANNOT
-        for error in failing_calls.each(one, HERE, write, MOST, prepare, cannot):
+        for error in failing_calls.each(one, HERE, write, None, MOST, prepare, cannot):
             count += 1
             where = (path, one.name, error)
             assert error is None or not one.harmless, where
@@ -125,6 +125,7 @@ def check_writer(path, write, faults, most_left=1):
             assert content(path) == (whole if is_new else b"old"), where
             assert bool(one.leaves) <= len(hidden()) <= (most_left if one.leaves else 0), (*where, hidden())
             assert write() is None and content(path) == whole and not hidden(), (*where, hidden())
+        assert content(path) == whole, (path, one.name, "after the last call, which did not fail")
     assert written_but, (path, "of the folder, which is behind the file")
     return count
 

@@ -94,10 +94,11 @@ def wants_all():
     return os.environ.get("GRANULAR_FAULTS") == "all"
 
 
-def each(one, folder, use, most=0, prepare=lambda: None, cannot=False, memory=True):
+def each(one, folder, use, usual, most=0, prepare=lambda: None, cannot=False, memory=True):
     """Calls use() again and again, while one call after the other fails that is of this fault and, if it is of a file, has folder,
     without a slash at its end, in its path. Yields what use() returned, where a call failed.
 
+    usual    what use() returns where no call fails
     most     of more calls only about so many are tried, spread over all
     prepare  called before use(), while nothing fails
     cannot   the fault cannot come up; otherwise it must, once or more
@@ -123,6 +124,8 @@ def each(one, folder, use, most=0, prepare=lambda: None, cannot=False, memory=Tr
         if fired:
             delivered += 1
             yield result
+        else:
+            assert result == usual, (one.name, number, result, "without a fault")
         step = max(1, made // most) if most else 1
         number += 1 if number < min(step, most) else step
     assert (delivered == 0) == cannot, (one.name, delivered, "times; expected", "none" if cannot else "some")
