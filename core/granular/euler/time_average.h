@@ -65,7 +65,7 @@ private:
   void add_fields(const EulerAverages& frame);
 
   std::int64_t frames_ = 0;
-  bool stress_ = false; ///< is known
+  bool stress_ = false;        ///< is known
   std::optional<bool> forces_; ///< contacts have some; frames without contacts do not tell
   std::vector<double> centres_;
   std::vector<Sums> sums_;

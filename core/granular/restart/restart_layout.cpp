@@ -163,8 +163,8 @@ private:
 };
 }
 
-RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress,
-  std::int64_t largest_expansion)
+RestartLayout read_layout(
+  const ByteSource& source, Notices& notices, Progress& progress, std::int64_t largest_expansion)
 {
   if (!source.compressed())
   {
