@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of places share: a file of each kind, and all that is read of a run.
+// What the tests of places share: a file of each kind, and everything that is read and written of a run.
 #ifndef granular_tests_faults_places_h
 #define granular_tests_faults_places_h
 
 #include "../c/handles.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -54,25 +57,27 @@ inline Seen failed(granular_status status)
   return { status, message() };
 }
 
-inline void append_values(std::string& text, const granular_array& array)
+/// Calls add(bytes, count) for the name, the size and the values of an array.
+template <class Add>
+void visit_values(const granular_array& array, const Add& add)
 {
   static constexpr std::size_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 4 };
-  text += std::string(array.name) + ":" + std::to_string(array.rows) + "\n";
-  const std::size_t bytes =
-    sizes[array.type] * static_cast<std::size_t>(array.rows * array.components);
-  if (bytes > 0)
+  add(array.name, std::strlen(array.name) + 1);
+  add(&array.rows, sizeof array.rows);
+  if (array.rows > 0)
   {
-    text.append(static_cast<const char*>(array.data), bytes);
+    add(array.data, sizes[array.type] * static_cast<std::size_t>(array.rows * array.components));
   }
   for (std::size_t i = 0; i < array.word_count; ++i)
   {
-    text += std::string(array.words[i]) + "\n";
+    add(array.words[i], std::strlen(array.words[i]) + 1);
   }
 }
 
-/// Reads all frames and arrays of a run.
-inline Seen look(const std::string& pattern, granular_kind kind = GRANULAR_KIND_AUTOMATIC,
-  int keep_index = 0, int threads = 2)
+/// Reads all frames and arrays of a run. Needs no memory but that of the interface, which lets no exception out.
+template <class Add>
+granular_status visit(
+  const char* pattern, granular_kind kind, int keep_index, int threads, const Add& add) noexcept
 {
   granular_open_options options;
   granular_open_options_init(&options);
@@ -80,60 +85,77 @@ inline Seen look(const std::string& pattern, granular_kind kind = GRANULAR_KIND_
   options.keep_index = keep_index;
   options.threads = threads;
   granular_run* opened = nullptr;
-  const char* const path = pattern.c_str();
-  if (const granular_status status = granular_open(&path, 1, &options, &opened))
+  if (const granular_status status = granular_open(&pattern, 1, &options, &opened))
   {
-    return failed(status);
+    return status;
   }
   const RunHandle run(opened, granular_close);
   granular_run_facts facts = {};
   if (const granular_status status = granular_run_info(opened, &facts))
   {
-    return failed(status);
+    return status;
   }
   granular_request request;
   granular_request_init(&request);
   request.threads = threads;
-  Seen seen;
   for (std::int64_t number = 0; number < facts.frames; ++number)
   {
     granular_frame* read = nullptr;
     if (const granular_status status = granular_read(opened, number, &request, &read))
     {
-      return failed(status);
+      return status;
     }
     const FrameHandle frame(read, granular_release);
     granular_frame_header header = {};
-    granular_header(read, &header); // timesteps of some kinds are in the names
+    if (const granular_status status = granular_header(read, &header))
+    {
+      return status; // timesteps of some kinds are in the names
+    }
     for (std::size_t i = 0; i < header.arrays; ++i)
     {
       granular_array array = {};
-      granular_array_at(read, i, &array);
-      append_values(seen.text, array);
+      if (const granular_status status = granular_array_at(read, i, &array))
+      {
+        return status;
+      }
+      visit_values(array, add);
     }
   }
-  return seen;
+  return GRANULAR_OK;
 }
 
-/// Writes the frames of one run into the file of another name.
-inline Seen convert(const std::string& from, const std::string& to, int threads = 2)
+/// Returns the values of all frames and arrays of a run.
+inline Seen look(const std::string& pattern, granular_kind kind = GRANULAR_KIND_AUTOMATIC,
+  int keep_index = 0, int threads = 2)
+{
+  Seen seen;
+  const granular_status status = visit(pattern.c_str(), kind, keep_index, threads,
+    [&](const void* bytes, std::size_t count)
+    { seen.text.append(static_cast<const char*>(bytes), count); });
+  return status == GRANULAR_OK ? seen : failed(status);
+}
+
+/// Writes the frames of one run into the file of another name. As `visit`.
+inline granular_status convert_file(const char* from, const char* to, int threads) noexcept
 {
   granular_run* opened = nullptr;
-  const char* const path = from.c_str();
-  if (const granular_status status = granular_open(&path, 1, nullptr, &opened))
+  if (const granular_status status = granular_open(&from, 1, nullptr, &opened))
   {
-    return failed(status);
+    return status;
   }
   const RunHandle run(opened, granular_close);
   granular_run_facts facts = {};
-  granular_run_info(opened, &facts);
+  if (const granular_status status = granular_run_info(opened, &facts))
+  {
+    return status;
+  }
   granular_format format;
   granular_format_init(&format);
   format.threads = threads;
   granular_writer* writer = nullptr;
-  if (const granular_status status = granular_create(to.c_str(), &format, &writer))
+  if (const granular_status status = granular_create(to, &format, &writer))
   {
-    return failed(status);
+    return status;
   }
   granular_request request;
   granular_request_init(&request);
@@ -146,12 +168,16 @@ inline Seen convert(const std::string& from, const std::string& to, int threads 
     status = status == GRANULAR_OK ? granular_write_frame(writer, read) : status;
     if (status != GRANULAR_OK)
     {
-      const Seen seen = failed(status);
       granular_abandon(writer);
-      return seen;
+      return status;
     }
   }
-  const granular_status status = granular_finish(writer);
+  return granular_finish(writer);
+}
+
+inline Seen convert(const std::string& from, const std::string& to, int threads = 2)
+{
+  const granular_status status = convert_file(from.c_str(), to.c_str(), threads);
   return status == GRANULAR_OK ? Seen{} : failed(status);
 }
 

@@ -6,15 +6,21 @@
 #include "../support/apart.h"
 #include "../support/own_folder.h"
 
+#include "granular/common/hash.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <clocale>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <locale>
-#include <set>
+#include <map>
+#include <sstream>
 
 #include <pthread.h>
 #include <sys/resource.h>
@@ -116,6 +122,78 @@ std::string large_dump(const std::string& path)
   return path;
 }
 
+/// A run that is read, or written into another file where `to` is not empty. Running needs no memory but that of the interface.
+struct Task
+{
+  std::string from = {};
+  std::string to = {};
+  granular_kind kind = GRANULAR_KIND_AUTOMATIC;
+  int keep_index = 0;
+  std::string expected = {}; ///< the result without limits
+  granular_status status = GRANULAR_OK;
+  std::uint64_t hash = 0;              ///< of the values read
+  std::array<char, 1000> message = {}; ///< of the error
+
+  /// An exception that leaves the interface ends the process.
+  void run() noexcept
+  {
+    granular::Hash values;
+    status = !to.empty()
+      ? convert_file(from.c_str(), to.c_str(), 4)
+      : visit(from.c_str(), kind, keep_index, 4,
+          [&](const void* bytes, std::size_t count) { values.add(bytes, count); });
+    hash = values.value();
+    if (status != GRANULAR_OK)
+    {
+      std::strncpy(message.data(), granular_last_error()->message, message.size() - 1);
+    }
+  }
+
+  std::string result() const
+  {
+    granular::Hash bytes;
+    const std::string written = to.empty() ? "" : content(to);
+    bytes.add(written.data(), written.size());
+    return std::to_string(to.empty() ? hash : bytes.value());
+  }
+
+  std::string judgement() const
+  {
+    if (status == GRANULAR_OK)
+    {
+      return this->result() == expected ? "right" : "other values or bytes: " + from + " " + to;
+    }
+    if (status == GRANULAR_NO_MEMORY)
+    {
+      return "no memory";
+    }
+    const std::string text = message.data();
+    const bool named = text.find(from) != text.npos || (!to.empty() && text.find(to) != text.npos);
+    return named ? "names the file" : from + " " + to + ": " + text;
+  }
+};
+
+/// All kinds, with the index that is kept and without, all outputs, and a large file.
+std::vector<Task> all_tasks(const std::string& folder)
+{
+  std::vector<Task> tasks;
+  for (const Kind& kind : kinds)
+  {
+    const std::string path = folder + "/" + kind.name + kind.ending;
+    fs::copy_file(file_of(kind), path);
+    tasks.push_back({ .from = path, .kind = kind.kind });
+    tasks.push_back({ .from = path, .kind = kind.kind, .keep_index = 2 });
+  }
+  for (const Output& output : outputs)
+  {
+    tasks.push_back({ .from = good(output.file), .to = folder + "/new" + output.ending });
+  }
+  const std::string large = large_dump(folder + "/large.dump");
+  tasks.push_back({ .from = large });
+  tasks.push_back({ .from = large, .to = folder + "/large.dump.zst" });
+  return tasks;
+}
+
 /// Whether the system knows a locale; else it is made in a folder.
 bool set_locale(const std::string& name, const std::string& folder)
 {
@@ -200,44 +278,75 @@ TEST_F(PlacesLimits, NoOpenFiles)
       ": cannot open: Too many open files");
 }
 
-/// From hopeless to enough: done, or an error.
+/// From hopeless to enough: the values and bytes are right, or the error says that memory lacks, or names the file.
 TEST_F(PlacesLimits, LittleMemory)
 {
-  const std::string large = large_dump(this->path("large.dump"));
+  std::vector<Task> tasks = all_tasks(this->folder());
+  const Ended free = run_apart( // this process gets no memory that it could use later
+    [&]
+    {
+      std::string results;
+      for (Task& task : tasks)
+      {
+        task.run();
+        results += task.status == GRANULAR_OK ? task.result() + "\n" : task.message.data();
+      }
+      return results;
+    });
+  std::istringstream results(free.text);
+  for (Task& task : tasks)
+  {
+    std::getline(results, task.expected);
+    ASSERT_EQ(task.expected.find_first_not_of("0123456789"), task.expected.npos) << task.expected;
+    ASSERT_FALSE(task.expected.empty()) << free.how;
+  }
   const int steps = std::max(16, files_of_series() / 50);
-  std::set<std::string> seen;
+  std::map<std::string, int> count;
   for (int step = 0; step < steps; ++step)
   {
-    for (const bool everything : { true, false })
-    {
-      // closer together where there is little; 8 MiB are one stack of a thread, 64 one arena of malloc
-      const rlim_t bytes = static_cast<rlim_t>(6e8 * std::pow((step + 0.3) / steps, 5));
-      const Ended ended = run_apart(
-        [&]
+    // closer together where there is little; 8 MiB are one stack of a thread, 64 one arena of malloc
+    const auto bytes = static_cast<rlim_t>(6e8 * std::pow((step + 0.3) / steps, 5));
+    const Ended ended = run_apart(
+      [&]
+      {
+        grow_stack();
+        rlimit limits = {};
+        ::getrlimit(RLIMIT_AS, &limits);
+        const rlim_t before = limits.rlim_cur;
+        std::ifstream status("/proc/self/statm");
+        status >> limits.rlim_cur;
+        limits.rlim_cur = limits.rlim_cur * 4096 + bytes;
+        ::setrlimit(RLIMIT_AS, &limits);
+        for (Task& task : tasks)
         {
-          grow_stack();
-          std::ifstream status("/proc/self/statm");
-          rlim_t pages = 0;
-          status >> pages;
-          limit(RLIMIT_AS, pages * 4096 + bytes);
-          if (everything)
-          {
-            return use_everything(this->folder(), 4).empty() ? "done" : "failed";
-          }
-          const bool done = look(large, GRANULAR_KIND_DUMP, 0, 4).status == GRANULAR_OK &&
-            convert(large, this->path("large.dump.zst"), 4).status == GRANULAR_OK;
-          return done ? "done" : "failed";
-        });
-      EXPECT_TRUE(ended.how == "done" || ended.how == "status 3")
-        << ended.how << " with " << bytes << " bytes";
-      seen.insert(ended.text);
+          task.run();
+        }
+        limits.rlim_cur = before;
+        ::setrlimit(RLIMIT_AS, &limits);
+        std::string said;
+        for (const Task& task : tasks)
+        {
+          said += task.judgement() + "\n";
+        }
+        return said;
+      });
+    EXPECT_EQ(ended.how, "done") << ended.text << " with " << bytes << " bytes";
+    std::istringstream lines(ended.text);
+    for (std::string line; std::getline(lines, line);)
+    {
+      ++count[line];
     }
   }
-  EXPECT_TRUE(seen.contains("done"));
-  EXPECT_TRUE(seen.contains("failed"));
+  EXPECT_GT(count["right"], 0);
+  EXPECT_GT(count["no memory"], 0);
+  for (const auto& [line, times] : count)
+  {
+    EXPECT_TRUE(line == "right" || line == "no memory" || line == "names the file") << line;
+    this->RecordProperty(line, times);
+  }
   for (const std::string& name : names_in(this->folder()))
   {
-    EXPECT_FALSE(name.ends_with(".tmp")) << name;
+    EXPECT_FALSE(name.starts_with(".granular-")) << name;
   }
 }
 

@@ -17,7 +17,7 @@ struct Ended
   std::string text;
 };
 
-/// Runs a function that returns a text. A process that does not end is killed after a minute.
+/// Runs a function that returns a text. An exception is status 3 and its text. A process that does not end is killed after a minute.
 template <class Function>
 Ended run_apart(const Function& function)
 {
@@ -30,17 +30,20 @@ Ended run_apart(const Function& function)
   if (child == 0)
   {
     ::alarm(60);
-    int status = 3;
+    int status = 0;
+    std::string text;
     try
     {
-      const std::string text = function();
-      status =
-        ::write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size()) ? 0 : 4;
+      text = function();
     }
-    catch (...)
+    catch (const std::exception& error)
     {
+      status = 3;
+      text = error.what();
     }
-    ::_exit(status);
+    const bool told =
+      ::write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    ::_exit(told ? status : 4);
   }
   ::close(ends[1]);
   Ended ended;
