@@ -43,7 +43,6 @@
 #include <vector>
 
 #include <time.h>
-#include <unistd.h>
 
 namespace
 {
@@ -551,7 +550,8 @@ int main(int argc, char** argv)
   const std::uint64_t first = std::strtoull(argv[2], nullptr, 10);
   const std::uint64_t copies = std::strtoull(argv[3], nullptr, 10);
   const fs::path folder =
-    fs::temp_directory_path() / ("granular_mutate_readers." + std::to_string(getpid()));
+    fs::current_path() / ("mutate_readers." + std::to_string(seed) + "." + std::to_string(first));
+  fs::remove_all(folder); // of a run that crashed or was killed
   fs::create_directories(folder);
   setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
   std::size_t wrong = 0;
