@@ -13,6 +13,7 @@
 #include "granular/frames/run_index.h"
 #include "granular/local/local_file.h"
 #include "granular/restart/restart_file.h"
+#include "granular/restart/restart_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -39,17 +40,24 @@ struct Part
 };
 using Parts = std::vector<Part> (*)(std::int64_t rows);
 
-/// So much content, packed in pieces of equal rows.
-template <class Pack>
-std::string bomb(const Parts& parts, std::int64_t bytes, const Pack& pack)
+constexpr std::int64_t together = 1 << 16; ///< rows of a piece
+
+/// The pieces of equal rows that fill so much content.
+std::int64_t pieces_of(const Parts& parts, std::int64_t bytes)
 {
-  constexpr std::int64_t together = 1 << 16;
   std::int64_t bytes_of_row = 0;
   for (const Part& part : parts(0))
   {
     bytes_of_row += static_cast<std::int64_t>(part.row.size());
   }
-  const std::int64_t pieces = bytes / (bytes_of_row * together) + 1;
+  return bytes / (bytes_of_row * together) + 1;
+}
+
+/// So much content, packed in pieces of equal rows.
+template <class Pack>
+std::string bomb(const Parts& parts, std::int64_t bytes, const Pack& pack)
+{
+  const std::int64_t pieces = pieces_of(parts, bytes);
   std::string packed;
   for (const Part& part : parts(pieces * together))
   {
@@ -118,17 +126,28 @@ std::vector<Part> subdomains(std::int64_t rows)
     { "Y_COORDINATES 2 float\n0 1\nZ_COORDINATES 2 float\n0 1\n", "" } };
 }
 
-std::vector<Part> restart(std::int64_t rows)
+/// A restart file without the particles, of one process.
+std::string restart_base(std::int64_t rows)
 {
-  const restart_builder::Record record = grains(1, 1).front();
   restart_builder::RestartBuilder file;
   file.atoms = rows;
-  std::string header = file.file(); // ends with the count of no doubles
+  return file.base();
+}
+
+/// The count of doubles and the particles of a process.
+std::vector<Part> process(std::int64_t rows)
+{
+  const restart_builder::Record record = grains(1, 1).front();
   const auto doubles = static_cast<std::int32_t>(rows * static_cast<std::int64_t>(record.size()));
-  header.replace(
-    header.size() - 4, 4, std::string_view(reinterpret_cast<const char*>(&doubles), 4));
-  return { { header,
+  return { { std::string(reinterpret_cast<const char*>(&doubles), sizeof doubles),
     std::string(reinterpret_cast<const char*>(record.data()), 8 * record.size()) } };
+}
+
+std::vector<Part> restart(std::int64_t rows)
+{
+  std::vector<Part> parts = process(rows);
+  parts.front().header.insert(0, restart_base(rows));
+  return parts;
 }
 
 std::string gzip(const std::string& content)
@@ -182,17 +201,42 @@ struct Kind
   std::int64_t most = 64 * mebibyte; ///< of memory
 };
 
-void expect_limit(const std::string& path, const std::string& bytes, const Kind& kind)
+/// The error of `path`, a file of so many bytes.
+void expect_limit_error(const std::string& error, const std::string& path, std::size_t bytes)
 {
-  const std::string error = error_of(path, granular::usual_expansion, kind.format, kind.most);
   EXPECT_TRUE(error.starts_with(path + "@")) << error;
-  EXPECT_NE(error.find("expected content of at most 200 times the " + std::to_string(bytes.size()) +
+  EXPECT_NE(error.find("expected content of at most 200 times the " + std::to_string(bytes) +
               " bytes of the file, got more; raise LargestExpansion if you trust the file"),
     error.npos)
     << error;
+}
+
+void expect_limit(const std::string& path, const std::string& bytes, const Kind& kind)
+{
+  expect_limit_error(
+    error_of(path, granular::usual_expansion, kind.format, kind.most), path, bytes.size());
   const std::string raised = error_of(path, 100'000, kind.format, kind.most);
   EXPECT_EQ(raised.empty(), *kind.raised == '\0') << raised;
   EXPECT_TRUE(raised.ends_with(kind.raised)) << raised;
+}
+
+/// The error of reading all particles of a restart file.
+std::string error_of_particles(const std::string& path, const granular::RestartLayout& layout)
+{
+  granular::RestartRequest request;
+  request.wanted = [](std::string_view) { return false; };
+  request.bonds = false;
+  granular::Notices notices;
+  granular::Progress progress;
+  try
+  {
+    granular::read_restart(*granular::open_file(path), layout, request, notices, progress);
+  }
+  catch (const granular::Error& caught)
+  {
+    return caught.what();
+  }
+  return {};
 }
 }
 
@@ -221,6 +265,27 @@ TEST_F(Bombs, Zstandard)
     const std::string bytes = bomb(kind.parts, beyond, zstd);
     expect_limit(this->write(kind.name, bytes), bytes, kind);
   }
+}
+
+// The particles of a restart are in files of the processes, which the base does not mention.
+TEST_F(Bombs, FileOfAProcess)
+{
+  const std::int64_t rows = pieces_of(process, beyond) * together;
+  const std::string base = this->write("a.base.restart", restart_base(rows));
+  const std::string bytes = bomb(process, beyond, zstd);
+  const std::string path = this->write("a.0.restart", bytes);
+  const granular::FileFormat& format = granular::restart_format();
+  constexpr std::int64_t most = 2 * beyond + 64 * mebibyte; // as of a restart file
+  expect_limit_error(error_of(base, granular::usual_expansion, format, most), path, bytes.size());
+  EXPECT_EQ(error_of(base, 100'000, format, most), "");
+  granular::Notices notices;
+  granular::Progress progress;
+  granular::RestartLayout layout =
+    granular::read_layout(*granular::open_file(base), notices, progress, 100'000);
+  EXPECT_EQ(layout.records, rows);
+  EXPECT_EQ(error_of_particles(base, layout), "");
+  layout.largest_expansion = granular::usual_expansion;
+  expect_limit_error(error_of_particles(base, layout), path, bytes.size());
 }
 
 TEST_F(Bombs, SmallContentIsReadWhateverItsFile)
