@@ -144,6 +144,27 @@ std::string shown(const granular::RunIndex& index, std::size_t frame)
   return seen;
 }
 
+/// Takes away the frame before the first seek point, and moves all that follows to its place.
+void hide_before_point(FileIndex& file)
+{
+  const std::span points = points_of(file);
+  ASSERT_FALSE(points.empty());
+  const auto hidden = std::ranges::find(file.frames, points.front().offset, &FrameEntry::end);
+  ASSERT_NE(hidden, file.frames.end());
+  const std::int64_t bytes = hidden->end - hidden->offset;
+  for (auto later = hidden + 1; later != file.frames.end(); ++later)
+  {
+    later->offset -= bytes;
+    later->end -= bytes;
+  }
+  for (granular::SeekPoints::Point& point : points)
+  {
+    point.offset -= bytes;
+  }
+  file.resume_offset -= bytes;
+  file.frames.erase(hidden);
+}
+
 /// What of the forgeries is seen otherwise than without them, one a line. Expects that all but `without` change the index.
 std::string silent(const std::string& path, const std::string& without)
 {
@@ -192,6 +213,29 @@ TEST_F(ForgedIndex, Zstandard)
   EXPECT_EQ(
     silent(this->write("a.dump.zst", packing::zstd_frames(text_run(), 100'000)), "other windows\n"),
     "");
+}
+
+// The known limit that docs/developers/index_file.md tells of: nothing before the start of a Zstandard frame can be compared.
+TEST_F(ForgedIndex, AFrameBeforeAZstandardFrameCanBeHidden)
+{
+  const std::string text = text_run();
+  std::string packed;
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end)
+  {
+    end = std::min(text.find("ITEM: TIMESTEP", begin + 1), text.size());
+    packed += packing::zstd(text.substr(begin, end - begin));
+  }
+  index_damage::Run run;
+  run.files = { this->write("a.dump.zst", packed) };
+  run.show = shown;
+  granular::Notices notices;
+  const std::string right = index_damage::open_and_show(run, notices);
+  std::vector<FileIndex> files = granular::decode_index(
+    index_damage::content(run.kept()), run.files.front(), std::make_shared<granular::FrameKinds>());
+  hide_before_point(files.front());
+  index_damage::Outcomes outcomes;
+  index_damage::judge(run, granular::encode_index(files), right, "hidden", outcomes);
+  EXPECT_EQ(outcomes.silent, "hidden\n");
 }
 
 // A run that was killed and goes on has half a frame in its middle, which a warning tells of each time.
