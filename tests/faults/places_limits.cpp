@@ -138,6 +138,7 @@ struct Task
   void run() noexcept
   {
     granular::Hash values;
+    ::unlink(to.c_str()); // of the run before
     status = !to.empty()
       ? convert_file(from.c_str(), to.c_str(), 4)
       : visit(from.c_str(), kind, keep_index, 4,
@@ -162,6 +163,10 @@ struct Task
     if (status == GRANULAR_OK)
     {
       return this->result() == expected ? "right" : "other values or bytes: " + from + " " + to;
+    }
+    if (!to.empty() && fs::exists(to))
+    {
+      return "an error, and yet a file: " + to;
     }
     if (status == GRANULAR_NO_MEMORY)
     {
