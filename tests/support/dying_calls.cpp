@@ -45,6 +45,11 @@ void die_at_call(long number)
   left = number;
 }
 
+long calls_before_death()
+{
+  return left;
+}
+
 // NOLINTBEGIN: the names and types are those of the system
 #pragma GCC visibility push(default) // shared libraries are to find them
 extern "C"

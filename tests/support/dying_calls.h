@@ -7,4 +7,7 @@
 /// This process is killed (SIGKILL) at the call of this number from now on, counted from 1, before the call is made; where bytes
 /// are written, after half of them.
 void die_at_call(long number);
+
+/// Returns how many calls are left until then.
+long calls_before_death();
 #endif
