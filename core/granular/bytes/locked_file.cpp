@@ -19,6 +19,7 @@ namespace
 {
 constexpr int most_tries = 1000; // numbers that are looked at
 constexpr int most_processes = 1000000;
+constexpr const char* locktest_ending = ".locktest.0"; // Open MPI tries a lock before it opens
 
 /// The folder of the target, and the begin of a name: the target's own name may have 255 bytes already.
 std::string begin_of_names(const std::string& target)
@@ -78,7 +79,8 @@ bool remove_left(const std::string& name)
   if (::fstat(file, &state) == 0 && S_ISREG(state.st_mode) && state.st_uid == ::geteuid() &&
     lock(file) == 0 && compare_name(name, file) == 0)
   {
-    ::unlink(data.c_str()); // first: it is found by the other
+    ::unlink((data + locktest_ending).c_str()); // first: they are found by the last
+    ::unlink(data.c_str());
     ::unlink(name.c_str());
   }
   ::close(file);
