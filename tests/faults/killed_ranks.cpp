@@ -48,7 +48,7 @@ int main(int argc, char** argv)
     MpiCommunicator ranks(MPI_COMM_WORLD);
     const std::string own = std::to_string(ranks.rank());
     std::ofstream("rank_" + own) << ::getpid();
-    const MadeRows rows(30000, small_box(false));
+    const MadeRows rows(12000, small_box(false));
     const std::int64_t share = rows.view().rows / ranks.size();
     const FrameView part = rows_of(rows.view(), ranks.rank() * share, share);
     std::ofstream most("most_" + own);

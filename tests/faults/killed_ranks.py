@@ -70,17 +70,16 @@ def is_pvbatch(program):
     return "pvbatch" in os.path.basename(program)
 
 
-def write_all(mpirun, program):
-    """Writes a file for each name, mode and durability, without kills. Returns the contents, and the most calls or seconds of each rank."""
-    ways = [(name, mode, durable) for name in NAMES for mode in MODES for durable in DURABLE]
-    arguments = [word for name, mode, durable in ways for word in (f"{mode}_{durable}_{name}", mode, durable, -1, 0)]
+def write_all(mpirun, program, ways):
+    """Writes a file in each way, without kills. Returns the contents, and the most calls or seconds of each rank."""
+    arguments = [word for name, mode, durable in ways for word in (f"{mode}_{name}", mode, durable, -1, 0)]
     status, said = run(mpirun, program, *arguments)
     assert status == 0, said
     most = []
     for rank in range(RANKS):
         with open(f"most_{rank}") as file:
             most.append(dict(zip(ways, map(float, file))))
-    return {way: content("%s_%s_%s" % (way[1], way[2], way[0])) for way in ways}, most
+    return {way: content(f"{way[1]}_{way[0]}") for way in ways}, most
 
 
 def content(name):
@@ -110,11 +109,12 @@ def main(kills, mpirun, program):
     os.chdir("killed")
     if is_pvbatch(program):
         make_source()
-    expected, most = write_all(mpirun, program)
-    frame = granular.open("Gather_On_a.dump")[0]
+    ways = [(name, mode, chosen.choice(DURABLE)) for name in NAMES for mode in MODES]
+    expected, most = write_all(mpirun, program, ways)
+    frame = granular.open("Gather_a.dump")[0]
     tries = killed = new = left = 0
     while tries < kills or (killed == 0 and tries < 10 * kills):
-        way = NAMES[tries // len(MODES) % len(NAMES)], MODES[tries % len(MODES)], chosen.choice(DURABLE)
+        way = ways[tries % len(ways)]
         name = way[0]
         with open(name, "wb") as file:
             file.write(OLD)
