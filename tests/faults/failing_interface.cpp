@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int threads = 2;
 constexpr long most_of_memory = 20; ///< calls that are tried, where not all are wanted
+constexpr long most_of_large = 2;   ///< in inputs that take long
 
 // ---- faults ------------------------------------------------------------------------------------
 
@@ -80,7 +81,10 @@ void fail_each(std::span<const FailingCase> cases,
       {
         return;
       }
-      number = of_memory(one) ? next_number(number, made, most_of_memory) : number + 1;
+      const bool large = (one.kinds & (calls::map | calls::thread)) != 0;
+      number = large     ? next_number(number, made, most_of_large)
+        : of_memory(one) ? next_number(number, made, most_of_memory)
+                         : number + 1;
     }
     expect_delivered(one.name, delivered, never);
   }

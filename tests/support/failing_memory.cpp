@@ -217,6 +217,8 @@ void* operator new(std::size_t n, const std::nothrow_t&) noexcept { return new_b
 void* operator new[](std::size_t n, const std::nothrow_t&) noexcept { return new_block(n, 0, __builtin_return_address(0)); }
 void* operator new(std::size_t n, std::align_val_t a) { return new_or_throw(n, static_cast<std::size_t>(a), __builtin_return_address(0)); }
 void* operator new[](std::size_t n, std::align_val_t a) { return new_or_throw(n, static_cast<std::size_t>(a), __builtin_return_address(0)); }
+void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept { return new_block(n, static_cast<std::size_t>(a), __builtin_return_address(0)); }
+void* operator new[](std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept { return new_block(n, static_cast<std::size_t>(a), __builtin_return_address(0)); }
 void operator delete(void* p) noexcept { delete_block(p, __builtin_return_address(0)); }
 void operator delete[](void* p) noexcept { delete_block(p, __builtin_return_address(0)); }
 void operator delete(void* p, std::size_t) noexcept { delete_block(p, __builtin_return_address(0)); }
