@@ -6,8 +6,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <string_view>
 #include <system_error>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -19,7 +21,6 @@ namespace
 {
 constexpr int most_tries = 1000; // numbers that are looked at
 constexpr int most_processes = 1000000;
-constexpr const char* locktest_ending = ".locktest.0"; // Open MPI tries a lock before it opens
 
 /// The folder of the target, and the begin of a name: the target's own name may have 255 bytes already.
 std::string begin_of_names(const std::string& target)
@@ -66,10 +67,30 @@ int lock(int file)
   return 0;
 }
 
+/// Removes the files of a folder whose names begin like this, if the system tells them.
+void remove_all(const std::string& folder, std::string_view begin)
+{
+  DIR* const opened = ::opendir(folder.c_str());
+  if (opened == nullptr)
+  {
+    return;
+  }
+  while (const dirent* const entry = ::readdir(opened))
+  {
+    if (std::string_view(entry->d_name).starts_with(begin))
+    {
+      ::unlinkat(::dirfd(opened), entry->d_name, 0);
+    }
+  }
+  ::closedir(opened);
+}
+
 /// Removes a file whose writer is surely dead. Returns false if there is no file that might be one.
 bool remove_left(const std::string& name)
 {
   const std::string data = name + LockedFile::data_ending;
+  const std::size_t begin = data.rfind('/') + 1;
+  const std::string folder = begin == 0 ? "." : data.substr(0, begin);
   const int file = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0)
   {
@@ -79,8 +100,8 @@ bool remove_left(const std::string& name)
   if (::fstat(file, &state) == 0 && S_ISREG(state.st_mode) && state.st_uid == ::geteuid() &&
     lock(file) == 0 && compare_name(name, file) == 0)
   {
-    ::unlink((data + locktest_ending).c_str()); // first: they are found by the last
-    ::unlink(data.c_str());
+    ::unlink(data.c_str());                                   // first: they are found by the last
+    remove_all(folder, std::string_view(data).substr(begin)); // of Open MPI
     ::unlink(name.c_str());
   }
   ::close(file);
