@@ -6,10 +6,11 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
+#include <new>
 #include <string_view>
 #include <system_error>
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -67,22 +68,25 @@ int lock(int file)
   return 0;
 }
 
-/// Removes the files of a folder whose names begin like this, if the system tells them.
-void remove_all(const std::string& folder, std::string_view begin)
+/// Removes the files of a folder whose names begin like this, as far as the system tells them.
+void remove_all(const std::string& folder, std::string_view begin) noexcept
 {
-  DIR* const opened = ::opendir(folder.c_str());
-  if (opened == nullptr)
+  try
   {
-    return;
-  }
-  while (const dirent* const entry = ::readdir(opened))
-  {
-    if (std::string_view(entry->d_name).starts_with(begin))
+    std::error_code failed;
+    std::filesystem::directory_iterator entry(folder, failed);
+    for (; !failed && entry != end(entry); entry.increment(failed))
     {
-      ::unlinkat(::dirfd(opened), entry->d_name, 0);
+      if (std::string_view(entry->path().filename().native()).starts_with(begin))
+      {
+        ::unlink(entry->path().c_str());
+      }
     }
   }
-  ::closedir(opened);
+  catch (const std::bad_alloc&)
+  {
+    // small files stay
+  }
 }
 
 /// Removes a file whose writer is surely dead. Returns false if there is no file that might be one.
