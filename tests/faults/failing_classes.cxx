@@ -13,6 +13,7 @@
 #include "vtkGranularLocalWriter.h"
 #include "vtkGranularRestartReader.h"
 
+#include "../support/dump_writing.h"
 #include "../support/dumps.h"
 #include "../support/observer.h"
 #include "failing_cases.h"
@@ -22,9 +23,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -98,18 +97,6 @@ enum class Again
   Follow   ///< one that looks whether files have changed
 };
 
-/// What was said, without the address of who said it.
-std::string Words(const std::vector<std::string>& said)
-{
-  const std::string of = "): ";
-  std::string words;
-  for (const std::string& text : said)
-  {
-    words += text.substr(std::min(text.find(of), text.size())) + "\n";
-  }
-  return words;
-}
-
 /// Files, and what a reader shows of them that was not disturbed.
 struct Whole
 {
@@ -182,12 +169,6 @@ void TryAll(const std::vector<std::string>& files,
 
 constexpr const char* Old = "what was there before";
 
-std::string BytesOf(const std::string& path)
-{
-  std::ifstream in(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
-}
-
 /// Writes all that a reader shows to a file of that name, whatever fails.
 template <class FromReader, class ToWriter>
 class WriterTrial
@@ -207,7 +188,7 @@ public:
     Watched<ToWriter> undisturbed;
     this->Connect(undisturbed);
     ASSERT_EQ(undisturbed->Write(), 1);
-    this->Whole = BytesOf(this->Path);
+    this->Whole = bytes_of_file(this->Path);
     ASSERT_FALSE(this->Whole.empty());
     this->Said = undisturbed.Seen->Said;
     FaultCount faults;
@@ -262,10 +243,10 @@ private:
     }
     const bool renamed = last.find(": written, but") != std::string::npos;
     this->WrittenBut += renamed ? 1 : 0;
-    EXPECT_TRUE(BytesOf(this->Path) == (written || renamed ? this->Whole : Old)) << last;
+    EXPECT_TRUE(bytes_of_file(this->Path) == (written || renamed ? this->Whole : Old)) << last;
     EXPECT_EQ(count_hidden(this->Folder), fired && one.leaves != Leaves::Nothing ? 1 : 0) << last;
     EXPECT_EQ(writer->Write(), 1);
-    EXPECT_TRUE(BytesOf(this->Path) == this->Whole);
+    EXPECT_TRUE(bytes_of_file(this->Path) == this->Whole);
     if (one.leaves != Leaves::Nothing)
     {
       Watched<ToWriter> other; // which does not know what the first one has written

@@ -58,10 +58,6 @@ def content(path):
         return stream.read()
 
 
-def hidden():
-    return [name for name in os.listdir(HERE) if name.startswith(".granular-")]
-
-
 def said(error):
     return f"{type(error).__name__}: {error}"  # the error itself would keep the run
 
@@ -98,36 +94,10 @@ def check_reader(name, paths, folder, faults):
 
 
 def check_writer(path, write, faults, most_left=1):
-    """write() returns the error, or None. most_left: hidden files that are there where none can be removed."""
+    """write() returns the error, or None."""
     ending = os.path.splitext(path)[1]
-    assert write() is None
-    whole, count, written_but = content(path), 0, 0
-
-    def put_old():
-        with open(path, "w") as stream:
-            stream.write("old")
-
-    def prepare():
-        put_old()
-        if one.leaves == "older":
-            assert failing_calls.leave(HERE, write) is not None
-            put_old()
-
-    for one in faults:
-        cannot = (ending, one.name) in CANNOT
-        for error in failing_calls.each(one, HERE, write, None, MOST, prepare, cannot):
-            count += 1
-            where = (path, one.name, error)
-            assert error is None or not one.harmless, where
-            assert error is None or one.of_memory or path in error, where
-            is_new = error is None or "written, but" in error
-            written_but += is_new and error is not None
-            assert content(path) == (whole if is_new else b"old"), where
-            assert bool(one.leaves) <= len(hidden()) <= (most_left if one.leaves else 0), (*where, hidden())
-            assert write() is None and content(path) == whole and not hidden(), (*where, hidden())
-        assert content(path) == whole, (path, one.name, "after the last call, which did not fail")
-    assert written_but, (path, "of the folder, which is behind the file")
-    return count
+    return failing_calls.check_writer(path, write, faults, None, lambda error: error, lambda: content(path), MOST, most_left,
+                                      lambda one: (ending, one.name) in CANNOT)
 
 
 def write_by_library(path, frames):

@@ -76,34 +76,10 @@ def check_writer(file, source):
         with open(path, "rb") as stream:
             return stream.read()
 
-    def put_old():
-        with open(path, "wb") as stream:
-            stream.write(b"old")
+    def error_in(told):
+        return next((text for text in reversed(told) if path in text), None)
 
-    def prepare():
-        put_old()
-        if one.leaves == "older":
-            assert failing_calls.leave(HERE, save) != usual
-            put_old()
-
-    def hidden():
-        return sum(name.startswith(".granular-") for name in os.listdir(HERE))
-
-    usual = save()
-    whole, count, written_but = content(), 0, 0
-    for one in failing_calls.WRITER_FAULTS:
-        for told in failing_calls.each(one, HERE, save, usual, MOST, prepare, memory=False):
-            count += 1
-            where = (file, one.name, told)
-            errors = [text for text in told if path in text]
-            assert told == usual or not one.harmless, where
-            is_new = not errors or "written, but" in errors[-1]
-            written_but += is_new and bool(errors)
-            assert content() == (whole if is_new else b"old"), where
-            assert hidden() == (1 if one.leaves else 0), where
-            assert save() == usual and content() == whole and hidden() == 0, where
-        assert content() == whole, (file, one.name, "after the last call, which did not fail")
-    assert written_but, (file, "of the folder, which is behind the file")
+    count = failing_calls.check_writer(path, save, failing_calls.WRITER_FAULTS, save(), error_in, content, MOST, memory=False)
     Delete(reader)
     return count
 

@@ -12,6 +12,7 @@
 #include "vtkGranularLocalWriter.h"
 #include "vtkGranularRestartReader.h"
 
+#include "../support/dump_writing.h"
 #include "../support/dumps.h"
 #include "../support/observer.h"
 #include "../support/rank_tests.h"
@@ -30,7 +31,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <span>
 #include <string>
 #include <thread>
@@ -40,9 +40,6 @@ namespace
 {
 constexpr long Most = 3; ///< calls that are tried, where not all are wanted
 constexpr long MostOfMemory = 2;
-
-/// What cannot come up where all ranks write by MPI, and where the first one writes for them.
-const std::span<const NeverFires> NeverOnRanks;
 
 const std::string Good = std::string(GRANULAR_DATA) + "/good/";
 constexpr const char* Old = "what was there before";
@@ -85,12 +82,6 @@ private:
   char What[256] = {};
   std::jthread Thread;
 };
-
-std::string BytesOf(const std::string& path)
-{
-  std::ifstream in(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>() };
-}
 
 /// What came of an update on a rank.
 struct Result
@@ -161,7 +152,7 @@ protected:
           number = next_number(number, made, of_memory(one) ? MostOfMemory : Most);
         }
       }
-      expect_delivered(one.name, delivered, NeverOnRanks);
+      expect_delivered(one.name, delivered);
     }
   }
 
@@ -222,22 +213,12 @@ protected:
   {
     const auto update = [&](Watched<Reader>& reader)
     { reader->UpdatePiece(this->Rank(), this->Size(), 0); };
-    const auto words = [](const std::vector<std::string>& said)
-    {
-      const std::string of = "): "; // behind the address of the reader
-      std::string all;
-      for (const std::string& text : said)
-      {
-        all += text.substr(std::min(text.find(of), text.size()));
-      }
-      return all;
-    };
     const int threads = cases.data() == large_cases ? 2 : 1;
     Watched<Reader> undisturbed;
     Open(undisturbed, files, threads);
     update(undisturbed);
     const std::string whole = Content(undisturbed.Get);
-    const std::string usual = words(undisturbed.Seen->Said);
+    const std::string usual = Words(undisturbed.Seen->Said);
     ASSERT_EQ(undisturbed->GetErrorCode(), 0u);
     this->FailEach(cases,
       [&](const FailingCase& one, int rank, long number)
@@ -250,20 +231,20 @@ protected:
         const long possible = calls_that_may_fail();
         const bool failed = reader->GetErrorCode() != 0;
         const std::vector<std::string>& said = reader.Seen->Said;
-        const std::string last = said.empty() ? "" : words({ said.back() });
+        const std::string last = said.empty() ? "" : Words({ said.back() });
         const bool told =
-          this->OfAny(words(said) != usual); // a notice may be the first rank's alone
+          this->OfAny(Words(said) != usual); // a notice may be the first rank's alone
         this->Judge(one, rank, { failed, last }, folder);
         EXPECT_TRUE(!failed || IsEmpty(reader.Get));
         EXPECT_TRUE(failed || told || Content(reader.Get) == whole);
         if (one.harmless)
         {
           EXPECT_TRUE(Content(reader.Get) == whole);
-          EXPECT_EQ(words(said), usual);
+          EXPECT_EQ(Words(said), usual);
         }
         update(reader);
         EXPECT_TRUE(!failed || (reader->GetErrorCode() == 0 && Content(reader.Get) == whole))
-          << words(said);
+          << Words(said);
         return possible;
       });
   }
@@ -305,7 +286,7 @@ protected:
     begin(nullptr);
     ASSERT_TRUE(write());
     this->Wait();
-    const std::string whole = BytesOf(path);
+    const std::string whole = bytes_of_file(path);
     this->Wait();
     long writtenBut = 0;
     this->FailEach(writer_cases,
@@ -327,19 +308,19 @@ protected:
         const bool renamed = last.find(": written, but") != std::string::npos;
         writtenBut += renamed ? 1 : 0;
         this->Wait();
-        EXPECT_TRUE(BytesOf(path) == (written || renamed ? whole : Old)) << last;
+        EXPECT_TRUE(bytes_of_file(path) == (written || renamed ? whole : Old)) << last;
         const bool fired = this->OfRank(possible, 0) >= number && rank == 0;
         this->ExpectHidden(folder, one, fired, mode == vtkGranularWriter::MPI_IO);
         this->Wait();
         EXPECT_EQ(writer->Write(), 1);
         this->Wait();
-        EXPECT_TRUE(BytesOf(path) == whole);
+        EXPECT_TRUE(bytes_of_file(path) == whole);
         if (one.leaves != Leaves::Nothing || one.kinds == calls::stat)
         {
           EXPECT_TRUE(write()); // by a writer that does not know what the first one has written
         }
         this->Wait();
-        EXPECT_EQ(CountHidden(folder), 0) << last;
+        EXPECT_EQ(count_hidden(folder), 0) << last;
         this->Wait();
         reader.Seen->Said = {};
         reader.OfPipeline->Said = {};

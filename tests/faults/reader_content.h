@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that a reader shows, to be compared.
+// All that a reader shows and says, to be compared.
 #ifndef granular_tests_faults_reader_content_h
 #define granular_tests_faults_reader_content_h
 
@@ -10,8 +10,10 @@
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <sstream>
 #include <string>
+#include <vector>
 
 /// Times, and every value of every array of all outputs.
 inline std::string Content(vtkAlgorithm* reader)
@@ -60,5 +62,17 @@ inline bool IsEmpty(vtkAlgorithm* reader)
     }
   }
   return true;
+}
+
+/// What was said, without the address of who said it.
+inline std::string Words(const std::vector<std::string>& said)
+{
+  const std::string of = "): ";
+  std::string words;
+  for (const std::string& text : said)
+  {
+    words += text.substr(std::min(text.find(of), text.size())) + "\n";
+  }
+  return words;
 }
 #endif

@@ -131,6 +131,52 @@ def each(one, folder, use, usual, most=0, prepare=lambda: None, cannot=False, me
     assert (delivered == 0) == cannot, (one.name, delivered, "times; expected", "none" if cannot else "some")
 
 
+def check_writer(path, write, faults, usual, error_in, content, most, most_left=1, cannot=lambda one: False, memory=True):
+    """Makes a writer fail in all these ways. After each, the file is the old one, with an error that names it, or the new one, the writer
+    has left hidden files only where none can be removed, and the next write is good. Returns the number of faults.
+
+    write      writes the file, and returns what was said; usual: what that is where nothing fails
+    error_in   returns the error among what was said, or None
+    content    returns what the file holds
+    most       as in each(); most_left: hidden files that may be there where none can be removed
+    cannot     whether a fault cannot come up; memory: as in each()
+    """
+    folder = os.path.dirname(path)
+
+    def hidden():
+        return [name for name in os.listdir(folder) if name.startswith(".granular-")]
+
+    def put_old():
+        with open(path, "wb") as stream:
+            stream.write(b"old")
+
+    def prepare():
+        put_old()
+        if one.leaves == "older":
+            assert error_in(leave(folder, write)) is not None
+            put_old()
+
+    put_old()
+    old = content()
+    assert write() == usual
+    whole, faults_made, written_but = content(), 0, 0
+    for one in faults:
+        for said in each(one, folder, write, usual, most, prepare, cannot(one), memory):
+            faults_made += 1
+            error = error_in(said)
+            where = (path, one.name, said, hidden())
+            assert said == usual or not one.harmless, where
+            assert error is None or one.of_memory or path in error, where
+            is_new = error is None or "written, but" in error
+            written_but += is_new and error is not None
+            assert content() == (whole if is_new else old), where
+            assert bool(one.leaves) <= len(hidden()) <= (most_left if one.leaves else 0), where
+            assert write() == usual and content() == whole and not hidden(), (*where, hidden())
+        assert content() == whole, (path, one.name, "after the last call, which did not fail")
+    assert written_but, (path, "of the folder, which is behind the file")
+    return faults_made
+
+
 def count(kinds, use):
     """How many calls of these kinds use() makes; none of them fails."""
     return _with(Fault("none", kinds, ERROR, 0, False, 1), 2**62, "", use)[1]

@@ -17,7 +17,11 @@ namespace
 /// The size of the content; of a compressed file it is known where nothing more comes.
 std::int64_t end_of(const ByteSource& source, const DataLayout& layout)
 {
-  std::int64_t end = source.compressed() ? 0 : source.stamp().size;
+  if (!source.compressed())
+  {
+    return source.stamp().size;
+  }
+  std::int64_t end = 0;
   for (const std::optional<DataSection>& section :
     { layout.particles, layout.velocities, layout.bond_rows })
   {

@@ -39,7 +39,6 @@ void add_frame(LegacyVtk& file, const EulerDataset& dataset, FileIndex& index)
   entry.kind = index.kinds->share(FrameKind{});
   index.frames.push_back(std::move(entry));
   index.resume_offset = file.place().offset;
-  index.resume_line = std::max(file.place().line, std::int64_t{ 1 }); // 0 in binary files
   if (file.at_header())
   {
     tell(index,

@@ -111,15 +111,9 @@ bool claims_end(const FileIndex& index)
   return index.points && index.points->spacing == std::numeric_limits<std::int64_t>::max();
 }
 
-/// Whether a file that has no seek points, and the time and size of the index, goes on behind its last frame. Of a compressed
-/// one this is not known before its single frame is read, and nothing is decompressed for it.
-bool may_go_on(FileIndex& index)
+/// Whether a file goes on behind its last frame, or cannot be read there.
+bool goes_on(const FileIndex& index)
 {
-  if (index.compressed && index.frames.size() == 1 && (!index.points || claims_end(index)))
-  {
-    index.points = claim_of_end();
-    return false;
-  }
   try
   {
     return goes_on(*open_indexed(index), index);
@@ -160,7 +154,12 @@ void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
   {
     index.stamp = good ? now : FileStamp{};
   }
-  if (same && good && may_go_on(index))
+  if (same && good && index.compressed && index.frames.size() == 1 &&
+    (!index.points || claims_end(index)))
+  {
+    index.points = claim_of_end(); // nothing is decompressed before the frame is read
+  }
+  else if (same && good && goes_on(index))
   {
     --index.stamp.size;
     index.ends_hash = hash_ends(packed, index.stamp.size);
