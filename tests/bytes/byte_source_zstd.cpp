@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,12 +26,24 @@ using packing::zstd_skippable;
 constexpr const char* cut_text =
   "expected the end of the zstd data, got the end of the file; what is there is taken unchecked";
 
-/// A frame of three bytes as RFC 8878 describes it: no size, no checksum, one raw block. Its window
+/// A frame of three bytes as RFC 8878 describes it: no checksum, one raw block, its size if asked for. Its window
 /// is 2^(10 + exponent) and mantissa eighths of that.
-std::string frame_with_window(int exponent, int mantissa)
+std::string frame_with_window(int exponent, int mantissa, bool sized = false)
 {
-  return std::string("\x28\xb5\x2f\xfd\0", 5) + static_cast<char>(exponent << 3 | mantissa) +
-    std::string("\x19\0\0abc", 6);
+  return std::string("\x28\xb5\x2f\xfd") + static_cast<char>(sized ? 2 << 6 : 0) +
+    static_cast<char>(exponent << 3 | mantissa) +
+    (sized ? std::string("\x03\0\0\0", 4) : std::string()) + std::string("\x19\0\0abc", 6);
+}
+
+/// The window of such a frame is its content.
+std::string frame_of_one_segment(std::uint32_t content)
+{
+  std::string frame = "\x28\xb5\x2f\xfd\xa0";
+  for (int byte = 0; byte < 4; ++byte)
+  {
+    frame += static_cast<char>(content >> 8 * byte & 0xff);
+  }
+  return frame + std::string("\x19\0\0abc", 6);
 }
 }
 
@@ -172,15 +185,19 @@ TEST(Zstd, ThrowsAgain)
 TEST(Zstd, LargestWindow)
 {
   expect_content(frame_with_window(17, 0), "abc"); // 128 MiB
+  expect_content(frame_with_window(17, 0, true), "abc");
+  expect_content(frame_of_one_segment(3), "abc");
   const std::string before = zstd("x");
-  for (const auto& [exponent, mantissa] : { std::pair(17, 1), std::pair(18, 0), std::pair(31, 7) })
+  for (const std::string& frame : { frame_with_window(17, 1), frame_with_window(18, 0),
+         frame_with_window(31, 7), frame_with_window(17, 1, true), frame_with_window(31, 7, true),
+         frame_of_one_segment(1 << 28) })
   {
-    const std::string packed = before + frame_with_window(exponent, mantissa);
+    const std::string packed = before + frame;
     const auto source = open(packed);
     try
     {
       read_all(*source);
-      FAIL() << exponent;
+      FAIL() << testing::PrintToString(frame);
     }
     catch (const granular::LimitError& error)
     {

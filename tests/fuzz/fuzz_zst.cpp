@@ -19,18 +19,19 @@ struct FreeContext
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
-/// Frames one after the other, as far as they go.
+/// Frames one after the other, as far as they go. Byte by byte: of a frame as a whole, the library takes a window of any size.
 Reference unpack_with_zstd(std::string_view packed, std::size_t most)
 {
   const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
   ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, largest_window);
   Reference all;
   std::string buffer(1 << 16, '\0');
-  ZSTD_inBuffer input{ packed.data(), packed.size(), 0 };
+  ZSTD_inBuffer input{ packed.data(), 0, 0 };
   std::size_t status = 0;
   bool full = false; // there may be more content without more input
-  while ((input.pos < input.size || full) && all.text.size() < most)
+  while ((input.pos < packed.size() || full) && all.text.size() < most)
   {
+    input.size = std::min(input.pos + 1, packed.size());
     ZSTD_outBuffer output{ buffer.data(), buffer.size(), 0 };
     status = ZSTD_decompressStream(context.get(), &output, &input);
     if (ZSTD_isError(status))

@@ -16,6 +16,10 @@ namespace granular
 namespace
 {
 constexpr int largest_window = 27; // as a power of 2; also what programs take unless told otherwise
+constexpr int least_window = 10;   // RFC 8878, 3.1.1.1.2
+constexpr int magic[] = { 0x28, 0xb5, 0x2f, 0xfd };
+constexpr int single_segment =
+  1 << 5; // of the header's descriptor: the window is the content, and no field
 
 struct FreeStream
 {
@@ -42,7 +46,9 @@ public:
 
 private:
   void begin_frame();
+  bool window_is_too_large();
   [[noreturn]] void fail_with(std::size_t status) const;
+  [[noreturn]] void refuse_window() const;
 
   std::unique_ptr<ZSTD_DStream, FreeStream> stream_;
   std::int64_t frame_start_ = 0; ///< in the file
@@ -96,9 +102,38 @@ void ZstdDecoder::begin_frame()
   {
     this->add_point({ offset_, frame_start_, 0, 0, 0, {} });
   }
+  // The library takes any window if it gets a frame at once, with room for the content. What is taken must not depend on the way
+  // in which a file is read.
+  if (this->window_is_too_large())
+  {
+    this->refuse_window();
+  }
+  in_.seek(frame_start_);
+  in_.more();
   ZSTD_DCtx_reset(stream_.get(), ZSTD_reset_session_only);
   in_frame_ = true;
   flushed_ = true;
+}
+
+/// Reads the header up to the window, RFC 8878, 3.1.1.
+bool ZstdDecoder::window_is_too_large()
+{
+  for (const int byte : magic)
+  {
+    if (in_.get() != byte)
+    {
+      return false;
+    }
+  }
+  const int descriptor = in_.get();
+  return descriptor >= 0 && (descriptor & single_segment) == 0 &&
+    in_.get() > (largest_window - least_window) << 3;
+}
+
+void ZstdDecoder::refuse_window() const
+{
+  throw LimitError(
+    "expected a zstd window of at most 128 MiB, got a larger one", { in_.path(), 0, frame_start_ });
 }
 
 void ZstdDecoder::fail_with(std::size_t status) const
@@ -109,8 +144,7 @@ void ZstdDecoder::fail_with(std::size_t status) const
   }
   if (ZSTD_getErrorCode(status) == ZSTD_error_frameParameter_windowTooLarge)
   {
-    throw LimitError("expected a zstd window of at most 128 MiB, got a larger one",
-      { in_.path(), 0, frame_start_ });
+    this->refuse_window();
   }
   std::string why = ZSTD_getErrorName(status);
   why[0] = static_cast<char>(why[0] >= 'A' && why[0] <= 'Z' ? why[0] - 'A' + 'a' : why[0]);
