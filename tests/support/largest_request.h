@@ -13,15 +13,7 @@ namespace
 std::size_t largest_request = 0; ///< of memory, since it was last set to 0
 }
 
-// A sanitizer has its own, and keeps freed memory.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GRANULAR_TEST_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define GRANULAR_TEST_SANITIZED 1
-#endif
-#endif
-
+// A sanitizer has its own.
 #ifndef GRANULAR_TEST_SANITIZED
 // NOLINTBEGIN: every allocation of the program is seen
 [[gnu::noinline]] void* operator new(std::size_t bytes)

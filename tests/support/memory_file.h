@@ -70,15 +70,6 @@ private:
   granular::Notices notices_;
 };
 
-// A sanitizer keeps freed memory.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GRANULAR_TEST_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define GRANULAR_TEST_SANITIZED 1
-#endif
-#endif
-
 /// The most memory that the process has had, where that can be told.
 inline std::int64_t peak_bytes()
 {
