@@ -90,6 +90,14 @@ TEST(DataParticles, VelocitiesInAnyOrder)
   EXPECT_EQ(array_of(run.read(request).particles, "v"), (Numbers{ 2, 2, 2 }));
 }
 
+TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
+{
+  DataRun run(write_data(
+    three("atomic", "3 1 3 0 0\n2 1 1 0 0\n2 2 2 0 0\n", "2 2 2 2\n3 3 3 3\n1 1 1 1\n")));
+  EXPECT_EQ(array_of(run.read().particles, "v"), (Numbers{ 3, 3, 3, 2, 2, 2, 2, 2, 2 }));
+  EXPECT_EQ(run.said(), "particles that have the id of another one, and its velocity: 1\n");
+}
+
 TEST(DataParticles, WhatDumpsCanDo)
 {
   DataRun run(write_data(three("atomic", rows, "2 2 2 2\n3 3 3 3\n1 1 1 1\n")));

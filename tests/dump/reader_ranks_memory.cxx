@@ -45,6 +45,18 @@ void* Allocate(std::size_t size, const void* caller)
   return Allocate(size, __builtin_return_address(0));
 }
 
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+  try
+  {
+    return Allocate(size, __builtin_return_address(0));
+  }
+  catch (const std::bad_alloc&)
+  {
+    return nullptr;
+  }
+}
+
 [[gnu::noinline]] void operator delete(void* memory) noexcept
 {
   std::free(memory);

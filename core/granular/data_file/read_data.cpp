@@ -227,6 +227,7 @@ private:
     {
       keep_found(table, joined);
     }
+    this->note_repeated(joined);
     this->note_bonds(joined);
     progress_.set_part(0.9, 1);
     this->make_bond_lines(frame.bonds, joined);
@@ -237,6 +238,16 @@ private:
 
   /// Whether particles are left out because the user wants few.
   bool is_filtered() const { return own_.stride > 1 || restricts(own_.region); }
+
+  void note_repeated(const JoinedLines& joined)
+  {
+    if (layout_.velocities && joined.repeated > 0)
+    {
+      notices_.push_back({ { source_->path(), layout_.velocities->name_line },
+        "particles that have the id of another one, and its velocity: " +
+          std::to_string(joined.repeated) });
+    }
+  }
 
   void note_bonds(const JoinedLines& joined)
   {
