@@ -3,6 +3,7 @@
 // no more time than the limit takes.
 #include "../restart/restart_files.h"
 #include "../support/byte_source_packing.h"
+#include "../support/memory_file.h"
 #include "../support/own_folder.h"
 
 #include "granular/common/error.h"
@@ -21,8 +22,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <sys/resource.h>
 
 namespace
 {
@@ -164,13 +163,7 @@ std::string zstd(const std::string& content)
 std::string error_of(const std::string& path, std::int64_t largest_expansion,
   const granular::FileFormat& format = granular::dump_format(), std::int64_t most = 64 * mebibyte)
 {
-  const auto peak = []
-  {
-    rusage usage = {};
-    getrusage(RUSAGE_SELF, &usage);
-    return std::int64_t{ usage.ru_maxrss } << 10;
-  };
-  const std::int64_t before = peak();
+  const std::int64_t before = peak_bytes();
   granular::IndexOptions options{ .format = &format };
   options.largest_expansion = largest_expansion;
   granular::RunIndex run;
@@ -185,9 +178,7 @@ std::string error_of(const std::string& path, std::int64_t largest_expansion,
   {
     error = caught.what();
   }
-#ifndef GRANULAR_TEST_SANITIZED // a sanitizer keeps freed memory
-  EXPECT_LT(peak() - before, most);
-#endif
+  EXPECT_LT(peak_bytes() - before, most);
   return error;
 }
 
