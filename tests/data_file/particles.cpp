@@ -92,10 +92,17 @@ TEST(DataParticles, VelocitiesInAnyOrder)
 
 TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
 {
-  DataRun run(write_data(
-    three("atomic", "3 1 3 0 0\n2 1 1 0 0\n2 2 2 0 0\n", "2 2 2 2\n3 3 3 3\n1 1 1 1\n")));
+  const std::string path =
+    write_data(three("atomic", "3 1 3 0 0\n2 1 1 0 0\n2 2 2 0 0\n", "2 2 2 2\n3 3 3 3\n1 1 1 1\n"));
+  DataRun run(path);
   EXPECT_EQ(array_of(run.read().particles, "v"), (Numbers{ 3, 3, 3, 2, 2, 2, 2, 2, 2 }));
   EXPECT_EQ(run.said(), "particles that have the id of another one, and its velocity: 1\n");
+
+  DataRun other(path);
+  granular::DataRequest request;
+  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "id"; };
+  other.read(request);
+  EXPECT_EQ(other.said(), "");
 }
 
 TEST(DataParticles, WhatDumpsCanDo)

@@ -26,35 +26,26 @@ bool IsOfVtk(const void* caller)
     !std::strstr(library.dli_fname, "libvtkGranular");
 }
 
-void* Allocate(std::size_t size, const void* caller)
+/// Null where memory has run out.
+void* Allocate(std::size_t size, const void* caller) noexcept
 {
-  if (Armed && Left > 0 && !IsOfVtk(caller) && --Left == 0)
-  {
-    throw std::bad_alloc();
-  }
-  if (void* memory = std::malloc(size > 0 ? size : 1))
-  {
-    return memory;
-  }
-  throw std::bad_alloc();
+  const bool refused = Armed && Left > 0 && !IsOfVtk(caller) && --Left == 0;
+  return refused ? nullptr : std::malloc(size > 0 ? size : 1);
 }
 }
 
 [[gnu::noinline]] void* operator new(std::size_t size)
 {
-  return Allocate(size, __builtin_return_address(0));
+  if (void* memory = Allocate(size, __builtin_return_address(0)))
+  {
+    return memory;
+  }
+  throw std::bad_alloc();
 }
 
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept
 {
-  try
-  {
-    return Allocate(size, __builtin_return_address(0));
-  }
-  catch (const std::bad_alloc&)
-  {
-    return nullptr;
-  }
+  return Allocate(size, __builtin_return_address(0));
 }
 
 [[gnu::noinline]] void operator delete(void* memory) noexcept

@@ -46,9 +46,9 @@ BINARY_FILES = [("ortho_custom.bin", ""), ("plain.bin", PLAIN), ("restart/style_
 
 
 def content(path, column_names=""):
-    """All that is read of the first frame with rows: arrays by name, each a row per line."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    """All that is read of the first frame with rows: arrays by name, each a row per line; and what was said."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
         run = granular.open(path, column_names=column_names)
         whole = run[next((i for i in range(len(run)) if run[i].rows), 0)].read()
         read = {name: numpy.array(whole[name]) for name in whole.keys()}
@@ -58,7 +58,7 @@ def content(path, column_names=""):
             pass  # a file without positions
         if run.kind in ("data", "restart"):
             read |= {"bonds " + name: numpy.array(whole.bonds[name]) for name in whole.bonds.keys()}
-    return read
+    return read, " ".join(str(each.message) for each in said)
 
 
 def differences(before, after):
@@ -120,11 +120,13 @@ def binary_places(bytes_, read):
 def judge(path, column_names, before, given, is_number):
     """"error", "same" or "changed"; raises for anything else."""
     try:
-        after = content(path, column_names)
+        after, said = content(path, column_names)
     except granular.Error as error:
         assert re.search(re.escape(path) + "[:@][0-9]+", str(error)), f"an error without its place: {error}"
         return "error"
     if path.endswith(".data") and differences({"id": before["id"]}, {"id": after["id"]}):
+        only_id = differences(before, after) == [("id", row) for _, row in differences({"id": before["id"]}, {"id": after["id"]})]
+        assert only_id or "id of another one" in said or "left out" in said, f"{given!r} changed what belongs to an id in silence"
         before, after = without_joined(before), without_joined(after)
     shorter = without_bond(before, after)
     changed = differences(shorter, after)
@@ -132,6 +134,7 @@ def judge(path, column_names, before, given, is_number):
     values = {name for name, _ in changed}
     rows = {row for _, row in changed}
     missing = shorter is not before
+    assert not missing or "left out" in said, f"{given!r} left out a bond in silence"
     assert len(rows) + missing <= 1 and (len(values) <= 1 or values == ONE_COLUMN), f"{given!r} changed {changed}"
     assert is_number or not (changed or missing), f"{given!r}, which is no number, changed {changed}"
     return "changed" if changed or missing else "same"
@@ -146,7 +149,7 @@ def main(changes=40, seed=1):
         with open(os.path.join(GOOD, name), "rb") as file:
             good = file.read()
         path = os.path.join(folder, os.path.basename(name))
-        before = content(os.path.join(GOOD, name), column_names)
+        before, _ = content(os.path.join(GOOD, name), column_names)
         places = text_places(good, of) if is_text else binary_places(good, before)
         chance = random.Random(f"{seed} {name} {of}")
         outcomes = {"error": 0, "same": 0, "changed": 0}

@@ -331,7 +331,7 @@ std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,
   {
     make_decoder = make_gzip_decoder;
   }
-  else if (begins_with(magic, "\x28\xb5\x2f\xfd") || is_skippable_frame(magic))
+  else if (begins_with(magic, zstd_magic) || is_skippable_frame(magic))
   {
     make_decoder = make_zstd_decoder;
   }

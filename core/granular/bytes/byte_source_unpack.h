@@ -9,9 +9,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace granular
 {
+/// The first bytes of a frame of Zstandard.
+inline constexpr std::string_view zstd_magic = "\x28\xb5\x2f\xfd";
+
 /// Reads the bytes of a compressed file in order, through a buffer.
 class PackedInput
 {

@@ -4,6 +4,7 @@
 
 #include "granular/common/error.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <new>
 #include <string>
@@ -17,7 +18,6 @@ namespace
 {
 constexpr int largest_window = 27; // as a power of 2; also what programs take unless told otherwise
 constexpr int least_window = 10;   // RFC 8878, 3.1.1.1.2
-constexpr int magic[] = { 0x28, 0xb5, 0x2f, 0xfd };
 constexpr int single_segment =
   1 << 5; // of the header's descriptor: the window is the content, and no field
 
@@ -46,7 +46,7 @@ public:
 
 private:
   void begin_frame();
-  bool window_is_too_large();
+  void check_window();
   [[noreturn]] void fail_with(std::size_t status) const;
   [[noreturn]] void refuse_window() const;
 
@@ -102,32 +102,26 @@ void ZstdDecoder::begin_frame()
   {
     this->add_point({ offset_, frame_start_, 0, 0, 0, {} });
   }
-  // The library takes any window if it gets a frame at once, with room for the content. What is taken must not depend on the way
-  // in which a file is read.
-  if (this->window_is_too_large())
-  {
-    this->refuse_window();
-  }
-  in_.seek(frame_start_);
-  in_.more();
+  this->check_window();
   ZSTD_DCtx_reset(stream_.get(), ZSTD_reset_session_only);
   in_frame_ = true;
   flushed_ = true;
 }
 
-/// Reads the header up to the window, RFC 8878, 3.1.1.
-bool ZstdDecoder::window_is_too_large()
+/// The library takes any window if it gets a frame at once, with room for the content. What is taken must not depend on the way in
+/// which a file is read. The header: RFC 8878, 3.1.1.
+void ZstdDecoder::check_window()
 {
-  for (const int byte : magic)
+  const bool magic = std::ranges::all_of(
+    zstd_magic, [this](char byte) { return in_.get() == static_cast<unsigned char>(byte); });
+  const int descriptor = magic ? in_.get() : -1;
+  if (descriptor >= 0 && (descriptor & single_segment) == 0 &&
+    in_.get() > (largest_window - least_window) << 3)
   {
-    if (in_.get() != byte)
-    {
-      return false;
-    }
+    this->refuse_window();
   }
-  const int descriptor = in_.get();
-  return descriptor >= 0 && (descriptor & single_segment) == 0 &&
-    in_.get() > (largest_window - least_window) << 3;
+  in_.seek(frame_start_);
+  in_.more(); // the header may have ended in the next buffer
 }
 
 void ZstdDecoder::refuse_window() const

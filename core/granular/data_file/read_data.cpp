@@ -176,15 +176,19 @@ private:
     }
   }
 
-  void read_velocities(DumpFrame& frame)
+  bool wants_velocities(const ColumnSchema& schema) const
   {
-    const bool wanted = std::ranges::any_of(frame.schema.arrays(),
+    return std::ranges::any_of(schema.arrays(),
       [&](const ArrayInfo& array)
       {
         const auto own = static_cast<int>(columns_.particles.size());
         return array.columns.front() >= own && this->is_wanted(array);
       });
-    if (!wanted)
+  }
+
+  void read_velocities(DumpFrame& frame)
+  {
+    if (!this->wants_velocities(frame.schema))
     {
       return;
     }
@@ -227,8 +231,8 @@ private:
     {
       keep_found(table, joined);
     }
-    this->note_repeated(joined);
     this->note_bonds(joined);
+    this->note_repeated(joined, frame.particles.schema);
     progress_.set_part(0.9, 1);
     this->make_bond_lines(frame.bonds, joined);
     std::erase_if(table.arrays,
@@ -239,14 +243,23 @@ private:
   /// Whether particles are left out because the user wants few.
   bool is_filtered() const { return own_.stride > 1 || restricts(own_.region); }
 
-  void note_repeated(const JoinedLines& joined)
+  /// Says what particles share that have one id.
+  void note_repeated(const JoinedLines& joined, const ColumnSchema& schema)
   {
-    if (layout_.velocities && joined.repeated > 0)
+    const auto note = [&](const std::optional<DataSection>& section, const char* what)
     {
-      notices_.push_back({ { source_->path(), layout_.velocities->name_line },
-        "particles that have the id of another one, and its velocity: " +
-          std::to_string(joined.repeated) });
+      if (section && joined.repeated > 0)
+      {
+        notices_.push_back({ { source_->path(), section->name_line },
+          std::string("particles that have the id of another one, ") + what + ": " +
+            std::to_string(joined.repeated) });
+      }
+    };
+    if (this->wants_velocities(schema))
+    {
+      note(layout_.velocities, "and its velocity");
     }
+    note(layout_.bond_rows, "where bonds end at the first that has it");
   }
 
   void note_bonds(const JoinedLines& joined)
@@ -261,12 +274,6 @@ private:
       notices_.push_back({ where,
         "bonds that are left out, as a particle of theirs is not there: " +
           std::to_string(joined.missing) });
-    }
-    if (joined.repeated > 0)
-    {
-      notices_.push_back({ where,
-        "particles that have the id of another one, where bonds end at the first that has it: " +
-          std::to_string(joined.repeated) });
     }
   }
 
