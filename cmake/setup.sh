@@ -7,6 +7,9 @@ granular_source="$(CDPATH="" cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd
 
 # Debian's names: what the core needs, the plugin and the samples on top of it, a VTK of its own, the tests, and the fuzz targets.
 granular_core_packages=(cmake g++ libzstd-dev ninja-build python3 zlib1g-dev)
+if [ "$(dpkg --print-architecture 2>/dev/null)" = amd64 ]; then
+  granular_core_packages+=(libisal-dev) # Debian has it for this processor alone
+fi
 granular_plugin_packages=(
   libopenmpi-dev openmpi-bin paraview-dev python3-dev python3-paraview xauth xvfb)
 granular_vtk_packages=(libopenmpi-dev libvtk9-dev openmpi-bin python3-dev python3-vtk9 xauth xvfb)

@@ -171,6 +171,9 @@ the files of LIGGGHTS and LAMMPS as VTK classes.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgranular${PROJECT_VERSION_MAJOR} (= ${granular_version}), libzstd-dev, zlib1g-dev")
+if(GRANULAR_ISAL AND GRANULAR_ISAL_LIBRARY)
+  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libisal-dev")
+endif()
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libopenmpi-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "discrete-element data for programs (development files)
 The headers of libgranular, for C, C++ and Fortran, and the core of

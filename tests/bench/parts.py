@@ -434,8 +434,9 @@ PARTS = (
          cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread.
          speed against from_chars: the plain loop of the part decode, one thread, on the same text in memory, not compressed.
          decode alone is decode_rows on one thread, on the same text in memory. Both write to memory that was touched before.
-         gzip (level 6) is one member and Zstandard (level 3) one frame, which can only be decompressed in order: threads
-         decode what has been decompressed.""",
+         gzip (level 6) is one member and Zstandard (level 3) one frame. With one frame of the dump they are decompressed in
+         order, and threads decode what has been decompressed. With two, whose second is empty, the index has places where
+         decompression can start, and each thread decompresses what it decodes.""",
          [contenders_by_metrics(
               *columns(".1f", ":ns/row"),
               *columns(".2f", ", speed against 1 thread:1"),

@@ -212,14 +212,28 @@ std::string zstd(const std::string& bytes)
   return packed;
 }
 
-void packed(
-  benchmark::State& state, std::int64_t rows, std::string (*pack)(const std::string& bytes))
+/// Many frames of Zstandard, as the writer of dumps makes them.
+std::string zstd_parts(const std::string& bytes)
+{
+  std::string packed;
+  for (std::size_t at = 0; at < bytes.size(); at += std::size_t{ 1 } << 20)
+  {
+    packed += zstd(bytes.substr(at, std::size_t{ 1 } << 20));
+  }
+  return packed;
+}
+
+/// more: a frame behind it, without rows.
+void packed(benchmark::State& state, std::int64_t rows,
+  std::string (*pack)(const std::string& bytes), bool more)
 {
   const TextFrame frame(Form::Custom, rows);
   TextInMemory memory(frame.rows);
   std::ifstream in(frame.file.path(), std::ios::binary);
   TemporaryFile file;
-  file.append(pack(std::string(std::istreambuf_iterator<char>(in), {})));
+  std::string content(std::istreambuf_iterator<char>(in), {});
+  content += more ? header(100, 0, 0, 1, Print::Full, frame.rows) : "";
+  file.append(pack(content));
   const granular::RunIndex index = index_of({ file.path() });
   measure(state, { index, frame.truth, frame.rows.count, frame.count }, { &memory, nullptr });
 }
@@ -239,8 +253,12 @@ void add_benchmarks(const Size& size)
     { "text", [rows](benchmark::State& state) { text(state, rows); }, rounds },
     { "binary, 16 chunks", [rows](benchmark::State& state) { binary(state, rows); },
       size.pick(15, 1) },
-    { "gzip", [rows](benchmark::State& state) { packed(state, rows, gzip); }, rounds },
-    { "Zstandard", [rows](benchmark::State& state) { packed(state, rows, zstd); }, rounds },
+    { "gzip", [rows](benchmark::State& state) { packed(state, rows, gzip, false); }, rounds },
+    { "gzip, two frames", [rows](benchmark::State& state) { packed(state, rows, gzip, true); },
+      rounds },
+    { "Zstandard", [rows](benchmark::State& state) { packed(state, rows, zstd, false); }, rounds },
+    { "Zstandard, two frames in parts of 1 MiB",
+      [rows](benchmark::State& state) { packed(state, rows, zstd_parts, true); }, rounds },
   };
   if (size.large)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "byte_source_packing.h"
 
+#include "granular/bytes/byte_source_unpack.h"
 #include "granular/common/error.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@
 namespace packing
 {
 using granular::ByteSource;
+using granular::SeekPoints;
 
 std::string rows(std::size_t bytes, unsigned seed)
 {
@@ -104,10 +106,25 @@ std::string zstd_skippable(std::string_view bytes, char kind)
   return frame.append(bytes);
 }
 
+const granular::Inflation* inflation = nullptr;
+
+std::unique_ptr<ByteSource> unpack(
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points)
+{
+  char first = 0;
+  if (inflation == nullptr || packed->read(0, &first, 1) == 0 || first != '\x1f')
+  {
+    return granular::unpack(std::move(packed), std::move(points));
+  }
+  const auto make = [](const ByteSource& source, SeekPoints& found)
+  { return granular::make_gzip_decoder(source, found, *inflation); };
+  return granular::unpack_by(make, std::move(packed), std::move(points), granular::usual_expansion);
+}
+
 std::unique_ptr<ByteSource> open(
   std::string_view packed, std::shared_ptr<granular::SeekPoints> points, std::string name)
 {
-  return granular::unpack(granular::open_memory(packed, std::move(name)), std::move(points));
+  return packing::unpack(granular::open_memory(packed, std::move(name)), std::move(points));
 }
 
 std::string read_all(const ByteSource& source, std::size_t piece, std::int64_t offset)

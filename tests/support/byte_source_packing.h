@@ -3,6 +3,7 @@
 #define granular_tests_support_byte_source_packing_h
 
 #include "granular/bytes/byte_source.h"
+#include "granular/bytes/inflate.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,12 @@ std::shared_ptr<granular::SeekPoints> spaced(std::int64_t spacing);
 
 /// That a packed file is known as one, whole, and has that content, however it is read.
 void expect_content(const std::string& packed, const std::string& content);
+
+/// The library that unpacks gzip in what follows; null: the one that users have.
+extern const granular::Inflation* inflation;
+
+std::unique_ptr<granular::ByteSource> unpack(std::unique_ptr<granular::ByteSource> packed,
+  std::shared_ptr<granular::SeekPoints> points = nullptr);
 
 std::unique_ptr<granular::ByteSource> open(std::string_view packed,
   std::shared_ptr<granular::SeekPoints> points = nullptr, std::string name = "packed");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gzip, RFC 1952. zlib inflates; header and trailer are read here, since zlib checks neither in what
-// is inflated from the middle on.
+// gzip, RFC 1952. A library inflates; header and trailer are read here, since none checks them in what is inflated from the
+// middle on.
 #include "granular/bytes/byte_source_unpack.h"
+#include "granular/bytes/inflate.h"
 
 #include "granular/common/error.h"
 
@@ -9,49 +10,26 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <new>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
-
-#define ZLIB_CONST
-#include <zlib.h>
 
 namespace granular
 {
 namespace
 {
-constexpr int raw_deflate = -15; // and windows of 2^15 bytes
 constexpr std::size_t window_bytes = std::size_t{ 1 } << 15;
-
-/// zlib's state.
-class Inflate
-{
-public:
-  Inflate()
-  {
-    if (inflateInit2(&stream_, raw_deflate) != Z_OK)
-    {
-      throw std::bad_alloc();
-    }
-  }
-  Inflate(const Inflate&) = delete;
-  Inflate& operator=(const Inflate&) = delete;
-  ~Inflate() { inflateEnd(&stream_); }
-
-  z_stream* operator->() noexcept { return &stream_; }
-  z_stream* get() noexcept { return &stream_; }
-
-private:
-  z_stream stream_ = {};
-};
 
 /// The fields of a member's header, with the CRC of what was read of it.
 class HeaderBytes
 {
 public:
-  explicit HeaderBytes(PackedInput& in)
+  HeaderBytes(PackedInput& in, const Inflate& inflate)
     : in_(in)
+    , inflate_(inflate)
   {
   }
 
@@ -60,8 +38,8 @@ public:
   {
     const int next = in_.get();
     ended_ = ended_ || next < 0;
-    const auto byte = static_cast<Bytef>(ended_ ? 0 : next);
-    check_ = crc32(check_, &byte, 1);
+    const auto byte = static_cast<unsigned char>(ended_ ? 0 : next);
+    check_ = inflate_.check(check_, { reinterpret_cast<const char*>(&byte), 1 });
     return byte;
   }
 
@@ -91,7 +69,8 @@ public:
 
 private:
   PackedInput& in_;
-  uLong check_ = 0;
+  const Inflate& inflate_;
+  std::uint32_t check_ = 0;
   bool ended_ = false;
 };
 
@@ -105,7 +84,11 @@ std::string hexadecimal(std::uint32_t value)
 class GzipDecoder final : public Decoder
 {
 public:
-  using Decoder::Decoder;
+  GzipDecoder(const ByteSource& packed, SeekPoints& points, const Inflation& inflation)
+    : Decoder(packed, points)
+    , inflate_(inflation.make())
+  {
+  }
 
   const char* name() const noexcept override { return "gzip"; }
   void restart(const SeekPoints::Point& point) override;
@@ -123,15 +106,17 @@ private:
   bool read_header();
   void parse_header(HeaderBytes& header) const;
   std::size_t read_data(char* out, std::size_t bytes);
-  std::size_t inflate_some(char* out, std::size_t bytes, int flush);
+  std::size_t inflate_some(std::span<char> out, bool to_block);
   std::optional<std::uint32_t> read_32();
   bool read_trailer();
-  void note_point();
+  void remember(std::string_view content);
+  void note_point(int bits);
 
-  Inflate inflate_;
+  std::unique_ptr<Inflate> inflate_;
   Part part_ = Part::Header;
   std::uint32_t check_ = 0;        ///< CRC-32 of the member so far
   std::uint32_t member_bytes_ = 0; ///< of the member so far, modulo 2^32
+  std::string last_; ///< bytes of the member: at least a window of them where a point is due
 };
 
 void GzipDecoder::restart(const SeekPoints::Point& point)
@@ -143,16 +128,15 @@ void GzipDecoder::restart(const SeekPoints::Point& point)
   {
     return;
   }
-  inflateReset(inflate_.get());
   const int bits = point.bits & 7;
+  int byte = 0;
   if (bits > 0)
   {
     in_.seek(point.packed - 1);
-    const int byte = std::max(in_.get(), 0); // should the file end here now, the next read sees it
-    inflatePrime(inflate_.get(), bits, byte >> (8 - bits));
+    byte = std::max(in_.get(), 0); // should the file end here now, the next read sees it
   }
-  inflateSetDictionary(inflate_.get(), reinterpret_cast<const Bytef*>(point.window.data()),
-    static_cast<uInt>(point.window.size()));
+  inflate_->start(bits, static_cast<unsigned>(byte), point.window);
+  last_ = point.window;
   check_ = point.check;
   member_bytes_ = point.member_bytes;
   part_ = Part::Data;
@@ -199,7 +183,7 @@ bool GzipDecoder::read_header()
   }
   const std::int64_t start = in_.position() - 1;
   in_.seek(start);
-  HeaderBytes header(in_);
+  HeaderBytes header(in_, *inflate_);
   this->parse_header(header);
   if (header.ended())
   {
@@ -210,7 +194,8 @@ bool GzipDecoder::read_header()
   {
     this->add_point({ offset_, start, 0, 0, 0, {} });
   }
-  inflateReset(inflate_.get());
+  inflate_->start();
+  last_.clear();
   check_ = 0;
   member_bytes_ = 0;
   part_ = Part::Data;
@@ -265,82 +250,77 @@ void GzipDecoder::parse_header(HeaderBytes& header) const
 /// The next bytes of the member. 0 at its end, or at that of the file.
 std::size_t GzipDecoder::read_data(char* out, std::size_t bytes)
 {
-  while (part_ == Part::Data)
+  std::size_t done = 0;
+  while (part_ == Part::Data && done < bytes)
   {
     const bool more = in_.more();
     // Up to where a point is due at full speed, then to the end of the block of deflate: only there
     // can it start. A block may be long - nothing limits it, common writers end it after some 100
     // KiB of content - and the next point is then as far away.
     const std::int64_t left = this->to_next_point();
-    const bool point_due = left == 0 && more;
-    const std::size_t got =
-      this->inflate_some(out, left == 0 ? bytes : std::min(bytes, static_cast<std::size_t>(left)),
-        point_due ? Z_BLOCK : Z_NO_FLUSH);
-    if (point_due && part_ == Part::Data)
+    const std::size_t room =
+      left == 0 ? bytes - done : std::min(bytes - done, static_cast<std::size_t>(left));
+    const std::size_t got = this->inflate_some({ out + done, room }, left == 0 && more);
+    done += got;
+    if (!more && got == 0 && part_ == Part::Data)
     {
-      this->note_point();
-    }
-    if (got > 0)
-    {
-      return got;
-    }
-    if (!more && part_ == Part::Data)
-    {
-      this->end_of_file(true);
-      return 0;
+      if (done == 0)
+      {
+        this->end_of_file(true);
+      }
+      break;
     }
   }
-  return 0;
+  return done;
 }
 
-std::size_t GzipDecoder::inflate_some(char* out, std::size_t bytes, int flush)
+/// Makes a point where that is due and a block begins.
+std::size_t GzipDecoder::inflate_some(std::span<char> out, bool to_block)
 {
-  inflate_->next_in = in_.data();
-  inflate_->avail_in = static_cast<uInt>(in_.size());
-  inflate_->next_out = reinterpret_cast<Bytef*>(out);
-  inflate_->avail_out = static_cast<uInt>(bytes);
-  const int status = inflate(inflate_.get(), flush);
-  in_.skip(in_.size() - inflate_->avail_in);
-  if (status == Z_MEM_ERROR)
+  const Inflate::Step step =
+    inflate_->inflate({ reinterpret_cast<const char*>(in_.data()), in_.size() }, out, to_block);
+  in_.seek(in_.position() + step.read);
+  if (step.damage != nullptr)
   {
-    throw std::bad_alloc();
+    this->fail(step.damage);
   }
-  if (status != Z_OK && status != Z_BUF_ERROR && status != Z_STREAM_END)
-  {
-    this->fail(inflate_->msg != nullptr ? inflate_->msg : "not known to zlib");
-  }
-  const std::size_t got = bytes - inflate_->avail_out;
-  check_ = static_cast<std::uint32_t>(crc32_z(check_, reinterpret_cast<const Bytef*>(out), got));
-  member_bytes_ += static_cast<std::uint32_t>(got);
-  offset_ += static_cast<std::int64_t>(got);
-  if (status == Z_STREAM_END)
+  const std::string_view content(out.data(), step.written);
+  check_ = inflate_->check(check_, content);
+  member_bytes_ += static_cast<std::uint32_t>(content.size());
+  offset_ += static_cast<std::int64_t>(content.size());
+  this->remember(content);
+  if (step.ended)
   {
     part_ = Part::Trailer;
   }
-  return got;
+  else if (step.block_bits && !last_.empty()) // empty: would look like the start of a member
+  {
+    this->note_point(*step.block_bits);
+  }
+  return content.size();
 }
 
-/// Makes a point of where inflate stopped, if that is between two blocks of deflate.
-void GzipDecoder::note_point()
+/// Keeps the content that a point needs, from where one is near.
+void GzipDecoder::remember(std::string_view content)
 {
-  constexpr int between_blocks = 128;
-  constexpr int in_last_block = 64;
-  constexpr int bits = 7;
-  const int state = inflate_->data_type;
-  if ((state & between_blocks) == 0 || (state & in_last_block) != 0)
+  if (this->to_next_point() > static_cast<std::int64_t>(2 * window_bytes))
   {
+    last_.clear();
     return;
   }
-  std::string window(window_bytes, '\0');
-  uInt length = 0;
-  inflateGetDictionary(inflate_.get(), reinterpret_cast<Bytef*>(window.data()), &length);
-  if (length == 0)
+  if (last_.size() + content.size() > 4 * window_bytes) // not each time
   {
-    return; // an empty block first: would look like the start of a member
+    last_.erase(0, last_.size() - std::min(last_.size(), window_bytes));
   }
-  window.resize(length);
-  this->add_point({ offset_, in_.position(), static_cast<std::uint8_t>(state & bits), check_,
-    member_bytes_, std::move(window) });
+  last_ += content.substr(content.size() - std::min(content.size(), window_bytes));
+}
+
+/// A block begins so many bits before the next byte of the file.
+void GzipDecoder::note_point(int bits)
+{
+  const std::size_t begin = last_.size() - std::min(last_.size(), window_bytes);
+  this->add_point({ offset_, in_.position() - bits / 8, static_cast<std::uint8_t>(bits % 8), check_,
+    member_bytes_, last_.substr(begin) });
 }
 
 /// Nothing if the file ends within it.
@@ -388,8 +368,9 @@ bool GzipDecoder::read_trailer()
 }
 }
 
-std::unique_ptr<Decoder> make_gzip_decoder(const ByteSource& packed, SeekPoints& points)
+std::unique_ptr<Decoder> make_gzip_decoder(
+  const ByteSource& packed, SeekPoints& points, const Inflation& inflation)
 {
-  return std::make_unique<GzipDecoder>(packed, points);
+  return std::make_unique<GzipDecoder>(packed, points, inflation);
 }
 }

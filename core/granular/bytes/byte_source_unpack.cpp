@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_source_unpack.h"
 
+#include "granular/bytes/inflate.h"
 #include "granular/common/error.h"
 
 #include <algorithm>
@@ -60,7 +61,6 @@ private:
   void compare_window(const SeekPoints::Point& before, const SeekPoints::Point& point);
   std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
   bool advance(std::int64_t target);
-  void expect_honest() const;
 
   std::unique_ptr<Decoder> decoder_;
   std::shared_ptr<const SeekPoints> points_;
@@ -146,9 +146,7 @@ void Unpacker::compare_window(const SeekPoints::Point& before, const SeekPoints:
   if (first < begin_ || end_ < point.offset ||
     this->copy(first, there.data(), there.size()) < there.size() || there != window)
   {
-    throw FormatError(
-      "expected the content that the index file says, got other; remove the index file",
-      { decoder_->path() });
+    fail_window(decoder_->path());
   }
   begin_ = point.offset; // nobody compared the window of the point before
 }
@@ -177,10 +175,7 @@ bool Unpacker::advance(std::int64_t target)
   const std::size_t got = decoder_->decode(ring_.get() + at, std::min(step, ring_bytes - at));
   end_ += static_cast<std::int64_t>(got);
   begin_ = std::max(begin_, end_ - static_cast<std::int64_t>(ring_bytes));
-  if (end_ > free_content)
-  {
-    this->expect_honest();
-  }
+  expect_honest(*decoder_, end_, packed_, largest_expansion_);
   if (got == 0)
   {
     unchecked_.clear();
@@ -193,26 +188,11 @@ bool Unpacker::advance(std::int64_t target)
   return got > 0;
 }
 
-/// Throws if so much content came out of the file that it was made to fill memory and time.
-void Unpacker::expect_honest() const
-{
-  const std::int64_t size = packed_.stamp().size;
-  if (end_ / largest_expansion_ > size)
-  {
-    throw LimitError("expected content of at most " + std::to_string(largest_expansion_) +
-        " times the " + std::to_string(size) +
-        " bytes of the file, got more; raise LargestExpansion if you trust the file",
-      { decoder_->path(), 0, decoder_->position() });
-  }
-}
-
 class UnpackedSource final : public ByteSource
 {
 public:
-  using MakeDecoder = std::unique_ptr<Decoder> (*)(const ByteSource&, SeekPoints&);
-
   UnpackedSource(std::unique_ptr<ByteSource> packed, const std::shared_ptr<SeekPoints>& points,
-    MakeDecoder make_decoder, std::int64_t largest_expansion)
+    const MakeDecoder& make_decoder, std::int64_t largest_expansion)
     : packed_(std::move(packed))
     , unpacker_(std::make_unique<Unpacker>(
         make_decoder(*packed_, *points), points, *packed_, largest_expansion))
@@ -321,25 +301,59 @@ void Decoder::fail(const std::string& why) const
     { in_.path(), 0, in_.position() });
 }
 
+void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed,
+  std::int64_t largest_expansion)
+{
+  if (content <= free_content)
+  {
+    return;
+  }
+  const std::int64_t size = packed.stamp().size;
+  if (content / largest_expansion > size)
+  {
+    throw LimitError("expected content of at most " + std::to_string(largest_expansion) +
+        " times the " + std::to_string(size) +
+        " bytes of the file, got more; raise LargestExpansion if you trust the file",
+      { decoder.path(), 0, decoder.position() });
+  }
+}
+
+void fail_window(const std::string& path)
+{
+  throw FormatError(
+    "expected the content that the index file says, got other; remove the index file", { path });
+}
+
+MakeDecoder find_decoder(const ByteSource& packed)
+{
+  std::array<char, 4> first = {};
+  const std::string_view magic(first.data(), packed.read(0, first.data(), first.size()));
+  if (begins_with(magic, "\x1f\x8b\x08"))
+  {
+    return [](const ByteSource& source, SeekPoints& points)
+    { return make_gzip_decoder(source, points, inflations().front()); };
+  }
+  if (begins_with(magic, zstd_magic) || is_skippable_frame(magic))
+  {
+    return make_zstd_decoder;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<ByteSource> unpack_by(const MakeDecoder& make_decoder,
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points,
+  std::int64_t largest_expansion)
+{
+  return std::make_unique<UnpackedSource>(std::move(packed),
+    points ? std::move(points) : std::make_shared<SeekPoints>(), make_decoder, largest_expansion);
+}
+
 std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,
   std::shared_ptr<SeekPoints> points, std::int64_t largest_expansion)
 {
-  std::array<char, 4> first = {};
-  const std::string_view magic(first.data(), packed->read(0, first.data(), first.size()));
-  UnpackedSource::MakeDecoder make_decoder = nullptr;
-  if (begins_with(magic, "\x1f\x8b\x08"))
-  {
-    make_decoder = make_gzip_decoder;
-  }
-  else if (begins_with(magic, zstd_magic) || is_skippable_frame(magic))
-  {
-    make_decoder = make_zstd_decoder;
-  }
-  if (make_decoder == nullptr)
-  {
-    return packed;
-  }
-  return std::make_unique<UnpackedSource>(std::move(packed),
-    points ? std::move(points) : std::make_shared<SeekPoints>(), make_decoder, largest_expansion);
+  const MakeDecoder make_decoder = find_decoder(*packed);
+  return make_decoder
+    ? unpack_by(make_decoder, std::move(packed), std::move(points), largest_expansion)
+    : std::move(packed);
 }
 }

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -99,7 +100,27 @@ private:
   bool cut_ = false;
 };
 
-std::unique_ptr<Decoder> make_gzip_decoder(const ByteSource& packed, SeekPoints& points);
+struct Inflation;
+
+std::unique_ptr<Decoder> make_gzip_decoder(
+  const ByteSource& packed, SeekPoints& points, const Inflation& inflation);
 std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, SeekPoints& points);
+
+using MakeDecoder = std::function<std::unique_ptr<Decoder>(const ByteSource&, SeekPoints&)>;
+
+/// Returns what makes a decoder for a file, by its first bytes; nothing if it is not compressed.
+MakeDecoder find_decoder(const ByteSource& packed);
+
+/// Returns the content of a file by a decoder: see unpack.
+std::unique_ptr<ByteSource> unpack_by(const MakeDecoder& make_decoder,
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points,
+  std::int64_t largest_expansion);
+
+/// Throws LimitError if so many bytes of content came out of a file that it was made to fill memory and time.
+void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed,
+  std::int64_t largest_expansion);
+
+/// Throws FormatError: the window of a seek point, from an index file, is not what lies before it.
+[[noreturn]] void fail_window(const std::string& path);
 }
 #endif

@@ -2,10 +2,10 @@
 #include "granular/frames/file_index.h"
 
 #include "granular/common/hash.h"
+#include "granular/frames/index_claims.h"
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 namespace granular
@@ -62,55 +62,6 @@ bool goes_on(const ByteSource& source, const FileIndex& index)
   return source.read(index.frames.back().end, &byte, 1) > 0;
 }
 
-/// The contents of a file of which an index says that they end with its frame: who reads them finds out.
-class ClaimedContent final : public ByteSource
-{
-public:
-  ClaimedContent(std::unique_ptr<ByteSource> source, std::int64_t end)
-    : source_(std::move(source))
-    , end_(end)
-  {
-  }
-
-  const std::string& path() const override { return source_->path(); }
-  FileStamp stamp() const override { return source_->stamp(); }
-  bool compressed() const override { return source_->compressed(); }
-  std::string unchecked() const override { return source_->unchecked(); }
-  double fraction(std::int64_t offset) const override { return source_->fraction(offset); }
-
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    const std::size_t got = source_->read(offset, buffer, bytes);
-    const std::int64_t to = offset + static_cast<std::int64_t>(got);
-    char byte = 0;
-    if (got > 0 && (to > end_ || (to == end_ && source_->read(end_, &byte, 1) > 0)))
-    {
-      throw FormatError("expected the end of the content where the index file says, got more; "
-                        "remove the index file",
-        { source_->path() });
-    }
-    return got;
-  }
-
-private:
-  std::unique_ptr<ByteSource> source_;
-  std::int64_t end_;
-};
-
-/// What marks a file as ClaimedContent. No reader adds seek points to it: several may share it.
-std::shared_ptr<SeekPoints> claim_of_end()
-{
-  auto claim = std::make_shared<SeekPoints>();
-  claim->claimed = true;
-  claim->spacing = std::numeric_limits<std::int64_t>::max();
-  return claim;
-}
-
-bool claims_end(const FileIndex& index)
-{
-  return index.points && index.points->spacing == std::numeric_limits<std::int64_t>::max();
-}
-
 /// Whether a file goes on behind its last frame, or cannot be read there.
 bool goes_on(const FileIndex& index)
 {
@@ -157,7 +108,7 @@ void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
   if (same && good && index.compressed && index.frames.size() == 1 &&
     (!index.points || claims_end(index)))
   {
-    index.points = claim_of_end(); // nothing is decompressed before the frame is read
+    index.points = no_points(); // nothing is decompressed before the frame is read
   }
   else if (same && good && goes_on(index))
   {
@@ -343,28 +294,6 @@ FileStamp stamp_of(const std::string& path)
   {
     return {};
   }
-}
-
-std::unique_ptr<ByteSource> open_indexed(const FileIndex& index)
-{
-  std::unique_ptr<ByteSource> packed = open_file(index.path);
-  const FileStamp now = packed->stamp();
-  if (now.size < index.stamp.size)
-  {
-    throw IoError("the file was shortened since it was indexed: expected at least " +
-        std::to_string(index.stamp.size) + " bytes, got " + std::to_string(now.size) +
-        "; reload the files",
-      { index.path });
-  }
-  if (!(now == index.stamp) && hash_ends(*packed, index.stamp.size) != index.ends_hash)
-  {
-    throw IoError("the file changed since it was indexed; reload the files", { index.path });
-  }
-  std::unique_ptr<ByteSource> source =
-    unpack(std::move(packed), index.points, index.largest_expansion);
-  return claims_end(index)
-    ? std::make_unique<ClaimedContent>(std::move(source), index.frames.back().end)
-    : std::move(source);
 }
 
 std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size)

@@ -87,6 +87,11 @@ FileStamp stamp_of(const std::string& path);
 /// Opens the contents of a file for reading by its index. Throws IoError, also if the file changed other than by growing.
 std::unique_ptr<ByteSource> open_indexed(const FileIndex& index);
 
+/// Opens the content of a frame to read it in order. So many threads may read a large one of a compressed file at once: see
+/// unpack_segments. The end of the frame may seem to be that of the file. Throws as open_indexed.
+std::unique_ptr<ByteSource> open_indexed(
+  const FileIndex& index, const FrameEntry& entry, int threads);
+
 /// Returns the hash of the first 4 KiB of a file and of the 4 KiB before a size.
 std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size);
 

@@ -101,4 +101,17 @@ void check_claims(const FileIndex& file)
   }
   check_frames(file);
 }
+
+std::shared_ptr<SeekPoints> no_points()
+{
+  auto none = std::make_shared<SeekPoints>();
+  none->claimed = true;
+  none->spacing = std::numeric_limits<std::int64_t>::max();
+  return none;
+}
+
+bool claims_end(const FileIndex& index) noexcept
+{
+  return index.points && index.points->spacing == std::numeric_limits<std::int64_t>::max();
+}
 }

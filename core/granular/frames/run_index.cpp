@@ -74,11 +74,23 @@ bool is_beside(const std::string& path)
 }
 }
 
+namespace
+{
+/// The source of a piece, if it is open already.
+std::shared_ptr<const ByteSource> lent_by(const FramePiece& piece)
+{
+  return { piece.source, [](const ByteSource*) {} };
+}
+}
+
 std::shared_ptr<const ByteSource> open_piece(const FramePiece& piece)
 {
-  const auto lent = [](const ByteSource*) {};
-  return piece.source ? std::shared_ptr<const ByteSource>(piece.source, lent)
-                      : open_indexed(piece.file);
+  return piece.source ? lent_by(piece) : open_indexed(piece.file);
+}
+
+std::shared_ptr<const ByteSource> open_piece(const FramePiece& piece, int threads)
+{
+  return piece.source ? lent_by(piece) : open_indexed(piece.file, piece.entry, threads);
 }
 
 Where where_of(const FramePiece& piece)

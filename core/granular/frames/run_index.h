@@ -60,6 +60,9 @@ struct FramePiece
 /// Returns the content of the file of a piece: see open_indexed.
 std::shared_ptr<const ByteSource> open_piece(const FramePiece& piece);
 
+/// Returns the content of a piece, to be read in order by so many threads: see open_indexed.
+std::shared_ptr<const ByteSource> open_piece(const FramePiece& piece, int threads);
+
 Where where_of(const FramePiece& piece);
 
 /// The complete frames of a run, of dumps or other files, found at scan speed without decoding rows.

@@ -38,7 +38,7 @@ std::shared_ptr<const FrameDecoder::Source> FrameDecoder::open(std::size_t piece
   std::shared_ptr<const Source> source = sources_[piece].lock();
   if (!source)
   {
-    std::shared_ptr<const ByteSource> bytes = open_piece(pieces_[piece]);
+    std::shared_ptr<const ByteSource> bytes = open_piece(pieces_[piece], executor_.threads());
     std::unique_ptr<const FrameRows> rows = open_rows(*bytes, pieces_[piece].entry);
     source = std::make_shared<const Source>(Source{ std::move(bytes), std::move(rows) });
     sources_[piece] = source;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_bytes_byte_source_segments_h
+#define granular_bytes_byte_source_segments_h
+
+#include "granular/bytes/byte_source.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace granular
+{
+/// Returns the content of a compressed file from an offset to another for several threads at once: each decompresses what it
+/// needs from one seek point to the next, keeps that for the others, and decompresses the next part where it would have to wait. At
+/// the end offset the content seems to end. Returns null where that would not help: with one thread, with fewer than three such
+/// parts, or with one above 64 MiB. Memory: twice as many parts as threads, and two. Throws, and reading throws, as unpack does.
+std::unique_ptr<ByteSource> unpack_segments(std::unique_ptr<ByteSource>& packed,
+  const SeekPoints& points, std::int64_t begin, std::int64_t end, int threads,
+  std::int64_t largest_expansion = usual_expansion);
+}
+#endif
