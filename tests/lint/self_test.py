@@ -130,9 +130,11 @@ class Layering(unittest.TestCase):
             core__granular__bytes__a_dot_h=
             '#include <vector>\n#include "granular/bytes/b.h"\n#include "granular/text/d.h"\n'
             '// #include "vtkObject.h"\n#include "vtkObject.h"\n#include <unistd.h>\n',
-            core__granular__bytes__byte_source_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
-            core__granular__bytes__byte_source_x_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
-            core__granular__bytes__byte_source_x_dot_h="#include <zstd.h>\n",
+            core__granular__bytes__byte_source_dot_cpp="#include <unistd.h>\n#include <fcntl.h>\n",
+            core__granular__bytes__byte_source_zstd_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
+            core__granular__bytes__byte_source_zstd_dot_h="#include <zstd.h>\n",
+            core__granular__bytes__inflate_zlib_dot_cpp="#include <zlib.h>\n#include <zstd.h>\n",
+            core__granular__bytes__inflate_isal_dot_cpp="#include <isa-l/crc.h>\n",
             core__granular__bytes__byte_sink_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
             core__granular__bytes__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
             core__granular__memory__mapping_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
@@ -145,8 +147,9 @@ class Layering(unittest.TestCase):
             core__granular__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/bytes/b.h"\n'
             '#include "granular/frames/d.h"\n'), [
                 "core/granular/bytes/a.h:3", "core/granular/bytes/a.h:5", "core/granular/bytes/a.h:6",
-                "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_x.h:1",
-                "core/granular/bytes/compression.cpp:2", "core/granular/dump/d.cpp:1",
+                "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_zstd.cpp:2",
+                "core/granular/bytes/byte_source_zstd.h:1", "core/granular/bytes/compression.cpp:2",
+                "core/granular/bytes/inflate_zlib.cpp:2", "core/granular/dump/d.cpp:1",
                 "core/granular/dump/read/r.cpp:2", "core/granular/dump/read/r.cpp:3",
                 "core/granular/euler/e.cpp:2", "core/granular/memory/mapping.cpp:2", "core/granular/mpi/m.cpp:3"])
 

@@ -3,7 +3,16 @@
 
 #if GRANULAR_X86
 
+// GCC 12 takes the deliberately undefined operands inside its own intrinsics for a mistake of the
+// caller (GCC bug 105593).
+#if !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
+
 #include "granular/text/row_text_tables.h"
+
+#include <utility>
 
 #include <immintrin.h>
 
@@ -11,7 +20,7 @@ namespace granular::row_text::avx2
 {
 namespace
 {
-#define GRANULAR_TARGET __attribute__((target("avx2,bmi,bmi2,popcnt")))
+#define GRANULAR_TARGET __attribute__((target("avx2,bmi,bmi2,fma,popcnt")))
 
 GRANULAR_TARGET inline BlockMarks mark_block(const char* block) noexcept
 {
@@ -43,12 +52,42 @@ GRANULAR_TARGET inline void append(
   }
 }
 
+/// The places of the bits of a byte, in order.
+alignas(64) constexpr auto bit_places = []
+{
+  std::array<std::array<std::uint8_t, 8>, 256> places{};
+  for (std::size_t byte = 0; byte < places.size(); ++byte)
+  {
+    std::size_t count = 0;
+    for (std::uint8_t bit = 0; bit < 8; ++bit)
+    {
+      if ((byte >> bit & 1) != 0)
+      {
+        places[byte][count++] = bit;
+      }
+    }
+  }
+  return places;
+}();
+
+/// Byte by byte: a table takes less time than to look for each bit.
 GRANULAR_TARGET inline void append_edges(
   std::uint64_t bits, std::uint32_t base, Edges& edges) noexcept
 {
-  const int count = __builtin_popcountll(bits);
-  append(bits, base, edges.offsets + edges.count, count);
-  edges.count += static_cast<std::uint32_t>(count);
+  std::uint16_t* to = edges.offsets + edges.count;
+  edges.count += static_cast<std::uint32_t>(__builtin_popcountll(bits));
+  __m128i offset = _mm_set1_epi16(static_cast<short>(base));
+  for (int i = 0; i < 8; ++i)
+  {
+    const std::uint64_t byte = bits & 0xff;
+    bits >>= 8;
+    const __m128i places =
+      _mm_loadl_epi64(reinterpret_cast<const __m128i*>(bit_places[byte].data()));
+    _mm_storeu_si128(
+      reinterpret_cast<__m128i*>(to), _mm_add_epi16(_mm_cvtepu8_epi16(places), offset));
+    to += __builtin_popcountll(byte);
+    offset = _mm_add_epi16(offset, _mm_set1_epi16(8));
+  }
 }
 
 GRANULAR_TARGET inline void append_lines(
@@ -68,9 +107,54 @@ GRANULAR_TARGET inline void append_lines(
 /// Words that are parsed together.
 constexpr std::uint32_t group = 4;
 
-/// None need to be kept.
+/// A constant that is kept in a register, or in memory: it is not made anew each time.
+GRANULAR_TARGET inline __m256i kept(__m256i constant) noexcept
+{
+  asm("" : "+x"(constant));
+  return constant;
+}
+
+/// What all words need.
 struct Constants
 {
+  __m256i zero;
+  __m256i minus;
+  __m256i point;
+  __m256i one;
+  __m256i sign_bit;
+  __m256i all_but_sign;
+  __m256i nine;
+  __m256i pairs;  ///< to combine digits
+  __m256i fours;  ///< pairs of them
+  __m256i eights; ///< fours of them
+  __m256i hundred_million;
+  __m256i point_bits;
+  __m256i one_64;
+  __m256i sixteen_64;
+  __m256i high_bits; ///< of 2^84
+  __m256i low_bits;  ///< of 2^52
+  __m256i both;      ///< 2^84 + 2^52
+
+  GRANULAR_TARGET Constants() noexcept
+    : zero(kept(_mm256_set1_epi8('0')))
+    , minus(kept(_mm256_set1_epi8('-')))
+    , point(kept(_mm256_set1_epi8('.' - '0')))
+    , one(kept(_mm256_set1_epi8(1)))
+    , sign_bit(kept(_mm256_set1_epi8(-128)))
+    , all_but_sign(kept(_mm256_set1_epi8(0x7f)))
+    , nine(kept(_mm256_set1_epi8(9)))
+    , pairs(kept(_mm256_set1_epi16(0x010a)))
+    , fours(kept(_mm256_set1_epi32(0x00010064)))
+    , eights(kept(_mm256_set1_epi32(0x00012710)))
+    , hundred_million(kept(_mm256_set1_epi64x(100'000'000)))
+    , point_bits(kept(_mm256_set1_epi64x(0x7f)))
+    , one_64(kept(_mm256_set1_epi64x(1)))
+    , sixteen_64(kept(_mm256_set1_epi64x(16)))
+    , high_bits(kept(_mm256_set1_epi64x(0x4530000000000000)))
+    , low_bits(kept(_mm256_set1_epi64x(0x4330000000000000)))
+    , both(kept(_mm256_castpd_si256(_mm256_set1_pd(0x1p84 + 0x1p52))))
+  {
+  }
 };
 
 /// The bytes of a register by their place in its lanes of so many bytes.
@@ -81,6 +165,21 @@ constexpr auto by_place(std::uint8_t from)
   for (std::size_t i = 0; i < 32; ++i)
   {
     bytes[i] = static_cast<std::uint8_t>(from + i % Bytes);
+  }
+  return bytes;
+}
+
+/// The bytes of a register by their place in its lanes: those that are named, else 0.
+template <std::size_t Bytes, std::size_t Count>
+constexpr auto by_place_of(const std::pair<std::size_t, std::uint8_t> (&named)[Count])
+{
+  std::array<std::uint8_t, 32> bytes{};
+  for (std::size_t lane = 0; lane < 32; lane += Bytes)
+  {
+    for (const auto& [place, byte] : named)
+    {
+      bytes[lane + place] = byte;
+    }
   }
   return bytes;
 }
@@ -107,101 +206,16 @@ GRANULAR_TARGET inline bool all_zero(__m256i bits) noexcept
   return _mm256_testz_si256(bits, bits) != 0;
 }
 
-/// Two of four words without their signs, each right-aligned in its lane.
-struct TwoWords
-{
-  __m256i digits;
-  __m256i marks; ///< in all bytes of a lane: the place of the point, from 1, and 128 for a minus
-};
-
-/// starts: where in their lanes the words start, in 32 bits each.
-template <int which>
-GRANULAR_TARGET inline TwoWords read_two(
-  const char* base, const std::uint16_t* edges, __m256i starts) noexcept
-{
-  const auto word_at = [&](std::size_t i) GRANULAR_TARGET
-  { return reinterpret_cast<const __m128i*>(base + edges[2 * i + 1] - 16); };
-  const __m256i text =
-    _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(word_at(which))),
-      _mm_loadu_si128(word_at(which + 1)), 1);
-  const __m256i start = _mm256_shuffle_epi8(
-    starts, _mm256_set_m128i(_mm_set1_epi8(4 * which + 4), _mm_set1_epi8(4 * which)));
-  const __m256i places = load(places_of_16);
-  const __m256i word = _mm256_andnot_si256(
-    _mm256_cmpgt_epi8(start, places), _mm256_sub_epi8(text, _mm256_set1_epi8('0')));
-  const __m256i minus = _mm256_and_si256(
-    _mm256_cmpeq_epi8(places, start), _mm256_cmpeq_epi8(text, _mm256_set1_epi8('-')));
-  const __m256i point = _mm256_cmpeq_epi8(word, _mm256_set1_epi8('.' - '0'));
-  const __m256i mark = _mm256_or_si256(_mm256_and_si256(minus, _mm256_set1_epi8(-128)),
-    _mm256_and_si256(point, load(places_of_16_from_1)));
-  __m256i sums = _mm256_sad_epu8(mark, _mm256_setzero_si256());
-  sums = _mm256_add_epi64(sums, _mm256_shuffle_epi32(sums, 0x4e));
-  const __m256i marks = _mm256_shuffle_epi8(sums, _mm256_setzero_si256());
-  // bytes up to the point come from one place before; a second point would stay, and be found
-  const __m256i shift = _mm256_min_epu8(
-    _mm256_subs_epu8(_mm256_and_si256(marks, _mm256_set1_epi8(0x7f)), places), _mm256_set1_epi8(1));
-  return { _mm256_shuffle_epi8(_mm256_andnot_si256(minus, word), _mm256_sub_epi8(places, shift)),
-    sums };
-}
-
 /// Digits four by four as numbers: in the low half of each 32 bits.
-GRANULAR_TARGET inline __m256i combine_fours(__m256i digits) noexcept
+GRANULAR_TARGET inline __m256i combine_fours(__m256i digits, const Constants& constants) noexcept
 {
-  const __m256i pairs = _mm256_maddubs_epi16(digits, _mm256_set1_epi16(0x010a));
-  return _mm256_madd_epi16(pairs, _mm256_set1_epi32(0x00010064));
+  return _mm256_madd_epi16(_mm256_maddubs_epi16(digits, constants.pairs), constants.fours);
 }
 
 /// Whether some bytes are above 9.
-GRANULAR_TARGET inline bool has_others(__m256i digits) noexcept
+GRANULAR_TARGET inline bool has_others(__m256i digits, const Constants& constants) noexcept
 {
-  return !all_zero(_mm256_subs_epu8(digits, _mm256_set1_epi8(9)));
-}
-
-/// Four doubles of a sign, digits and a point, of up to 16 characters. False if one is not.
-GRANULAR_TARGET inline bool parse_doubles(
-  const char* base, const std::uint16_t* edges, const Constants&, std::uint64_t* values) noexcept
-{
-  const __m128i length = lengths(edges);
-  if (_mm_movemask_epi8(_mm_cmpgt_epi32(length, _mm_set1_epi32(16))) != 0)
-  {
-    return false;
-  }
-  const __m128i start = _mm_sub_epi32(_mm_set1_epi32(16), length);
-  const __m256i starts = _mm256_broadcastsi128_si256(start);
-  const TwoWords a = read_two<0>(base, edges, starts);
-  const TwoWords b = read_two<2>(base, edges, starts);
-  // from here on the words are in the order 0, 2, 1, 3
-  const __m256i fours = _mm256_packus_epi32(combine_fours(a.digits), combine_fours(b.digits));
-  const __m256i eights = _mm256_madd_epi16(fours, _mm256_set1_epi32(0x00012710));
-  const __m256i number = _mm256_add_epi64(
-    _mm256_mul_epu32(eights, _mm256_set1_epi64x(100'000'000)), _mm256_srli_epi64(eights, 32));
-  const __m256i marks = _mm256_unpacklo_epi64(a.marks, b.marks);
-  const __m256i point = _mm256_and_si256(marks, _mm256_set1_epi64x(0x7f));
-  const __m256i no_point = _mm256_cmpeq_epi64(point, _mm256_setzero_si256());
-  const __m256i behind =
-    _mm256_andnot_si256(no_point, _mm256_sub_epi64(_mm256_set1_epi64x(16), point));
-  const __m256i minus = _mm256_srli_epi64(marks, 7);
-  // characters that are not digits
-  const __m256i others = _mm256_add_epi64(_mm256_add_epi64(minus, no_point), _mm256_set1_epi64x(1));
-  const __m256i ordered = _mm256_cvtepi32_epi64(_mm_shuffle_epi32(length, 0xd8));
-  const __m256i enough = _mm256_cmpgt_epi64(ordered, others);
-  const __m256i large = _mm256_srli_epi64(number, 53);
-  if (has_others(_mm256_max_epu8(a.digits, b.digits)) || !all_zero(large) ||
-    _mm256_movemask_epi8(enough) != -1)
-  {
-    return false;
-  }
-  // 2^84 + high * 2^32 and 2^52 + low as their bits, then without 2^84 and 2^52: both exact
-  const __m256d high = _mm256_castsi256_pd(
-    _mm256_or_si256(_mm256_srli_epi64(number, 32), _mm256_set1_epi64x(0x4530000000000000)));
-  const __m256d low =
-    _mm256_castsi256_pd(_mm256_blend_epi32(number, _mm256_set1_epi64x(0x4330000000000000), 0xaa));
-  const __m256d whole = _mm256_add_pd(_mm256_sub_pd(high, _mm256_set1_pd(0x1p84 + 0x1p52)), low);
-  const __m256d powers = _mm256_i64gather_pd(powers_of_ten.data(), behind, 8);
-  const __m256d value =
-    _mm256_or_pd(_mm256_div_pd(whole, powers), _mm256_castsi256_pd(_mm256_slli_epi64(minus, 63)));
-  _mm256_storeu_pd(reinterpret_cast<double*>(values), _mm256_permute4x64_pd(value, 0xd8));
-  return true;
+  return !all_zero(_mm256_subs_epu8(digits, constants.nine));
 }
 
 /// Eight digits of each of four integers.
@@ -214,8 +228,8 @@ struct EightDigits
 
 /// The eight bytes that are so many before the ends. start: place of the first that counts, perhaps
 /// before these bytes or behind them.
-GRANULAR_TARGET inline EightDigits read_digits(
-  const char* base, const std::uint16_t* edges, std::ptrdiff_t before, __m128i start) noexcept
+GRANULAR_TARGET inline EightDigits read_digits(const char* base, const std::uint16_t* edges,
+  std::ptrdiff_t before, __m128i start, const Constants& constants) noexcept
 {
   const auto text = [&](int i) GRANULAR_TARGET
   {
@@ -227,30 +241,31 @@ GRANULAR_TARGET inline EightDigits read_digits(
   const __m256i places = load(places_of_8);
   const __m256i starts = _mm256_shuffle_epi8(
     _mm256_cvtepu32_epi64(start), _mm256_setr_epi64x(0, 0x0808080808080808, 0, 0x0808080808080808));
-  const __m256i minus = _mm256_and_si256(
-    _mm256_cmpeq_epi8(places, starts), _mm256_cmpeq_epi8(word, _mm256_set1_epi8('-')));
+  const __m256i minus =
+    _mm256_and_si256(_mm256_cmpeq_epi8(places, starts), _mm256_cmpeq_epi8(word, constants.minus));
   const __m256i outside = _mm256_or_si256(_mm256_cmpgt_epi8(starts, places), minus);
-  const __m256i digits = _mm256_andnot_si256(outside, _mm256_sub_epi8(word, _mm256_set1_epi8('0')));
+  const __m256i digits = _mm256_andnot_si256(outside, _mm256_sub_epi8(word, constants.zero));
   const __m256i eights =
-    _mm256_madd_epi16(combine_fours(digits), _mm256_set1_epi64x(0x0000000100002710));
+    _mm256_madd_epi16(combine_fours(digits, constants), _mm256_set1_epi64x(0x0000000100002710));
   return { _mm256_add_epi64(_mm256_and_si256(eights, _mm256_set1_epi64x(0xffffffff)),
              _mm256_srli_epi64(eights, 32)),
     minus, digits };
 }
 
 /// Four integers of a sign and digits, of up to 16 characters. False if one is not.
-GRANULAR_TARGET inline bool parse_integers(
-  const char* base, const std::uint16_t* edges, const Constants&, std::uint64_t* values) noexcept
+GRANULAR_TARGET inline bool parse_integers(const char* base, const std::uint16_t* edges,
+  const Constants& constants, std::uint64_t* values) noexcept
 {
   const __m128i length = lengths(edges);
-  EightDigits low = read_digits(base, edges, 8, _mm_sub_epi32(_mm_set1_epi32(8), length));
+  EightDigits low =
+    read_digits(base, edges, 8, _mm_sub_epi32(_mm_set1_epi32(8), length), constants);
   bool good = true;
   if (_mm_movemask_epi8(_mm_cmpgt_epi32(length, _mm_set1_epi32(8))) != 0)
   {
     const EightDigits high =
-      read_digits(base, edges, 16, _mm_sub_epi32(_mm_set1_epi32(16), length));
+      read_digits(base, edges, 16, _mm_sub_epi32(_mm_set1_epi32(16), length), constants);
     low.value =
-      _mm256_add_epi64(low.value, _mm256_mul_epu32(high.value, _mm256_set1_epi64x(100'000'000)));
+      _mm256_add_epi64(low.value, _mm256_mul_epu32(high.value, constants.hundred_million));
     low.minus = _mm256_or_si256(low.minus, high.minus);
     low.digits = _mm256_max_epu8(low.digits, high.digits);
     good = _mm_movemask_epi8(_mm_cmpgt_epi32(length, _mm_set1_epi32(16))) == 0;
@@ -261,10 +276,13 @@ GRANULAR_TARGET inline bool parse_integers(
   const __m256i sign = _mm256_andnot_si256(positive, _mm256_set1_epi64x(-1));
   const __m256i value = _mm256_sub_epi64(_mm256_xor_si256(low.value, sign), sign);
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(values), value);
-  return good && !has_others(low.digits) && all_zero(_mm256_and_si256(single, sign));
+  return good && !has_others(low.digits, constants) && all_zero(_mm256_and_si256(single, sign));
 }
 
 #include "granular/text/row_text_avx2_word.inc"
+
+#include "granular/text/row_text_avx2_doubles.inc"
+
 #include "granular/text/row_text_kernel.inc"
 }
 
