@@ -478,6 +478,53 @@ def others_table(part, figures, quick):
                     rows) + words
 
 
+FRAMES, RANKS, PARTICLES, BANDWIDTHS = 1000, 64, 1e9, (10, 100)  # the last in GB/s
+
+
+def span_of_time(seconds):
+    """In the unit in which it is a number that people read."""
+    for unit, size, least in (("h", 3600, 3600), ("min", 60, 60), ("s", 1, 0.1), ("ms", 1e-3, 0)):
+        if seconds >= least:
+            return f"{seconds / size:.2g} {unit}"
+
+
+def scale_table(part, figures, quick):
+    rows = []
+    for case in figures.all(r"^(text|binary), (open|read|write)$"):
+        if figures.get(case, "exponent:1") is None:
+            continue
+        rows.append([f"`{case}`", *(f"{figures.get(case, f'{size}:ns/particle'):.0f}" for size in ("smallest", "largest")),
+                     f"{figures.get(case, 'exponent:1'):.3f} +- {figures.get(case, 'exponent, uncertain:1'):.3f}",
+                     span_of_time(figures.get(case, "predicted:s")),
+                     f"{figures.get(case, 'predicted, uncertain:1'):.1f}"])
+    return markdown(["one frame, one thread", "smallest ns/particle", "largest ns/particle", "exponent", "predicted",
+                     "within a factor of"], rows)
+
+
+def scale_words(figures):
+    def times(case, count=1):
+        if figures.get(case, "predicted:s") is None:
+            return count * figures.get(case, "a frame:s"), 1
+        return count * figures.get(case, "predicted:s"), figures.get(case, "predicted, uncertain:1")
+
+    def moved(name, bandwidth, frames=1):
+        return frames * PARTICLES * figures.get(f"{name}, size", "size:B/particle") / (1e9 * bandwidth)
+
+    rows = []
+    for name in ("text", "binary"):
+        for what, case, frames in (("open the run, looked through by one rank", "open", FRAMES), ("one more frame, by all ranks", "read", 1),
+                                   ("write a frame, by all ranks", "write", 1)):
+            seconds, factor = times(f"{name}, {case}", frames)
+            bound = case != "open" or name == "text"
+            rows.append([f"{name}: {what}", f"{span_of_time(seconds / factor)} to {span_of_time(seconds * factor)}"
+                         if factor > 1 else span_of_time(seconds),
+                         *(span_of_time(moved(name, bandwidth, frames)) if bound else "nothing" for bandwidth in BANDWIDTHS)])
+    memory = figures.get("memory", "arrays:B/particle") * PARTICLES / RANKS / 2 ** 30
+    return markdown(["10^9 particles, 1000 frames, 64 ranks of one thread", "processor",
+                     *(f"bytes at {bandwidth} GB/s" for bandwidth in BANDWIDTHS)], rows) + [
+        f"Memory of a rank: {memory:.1f} GiB for the arrays of a frame, and twice that while a pool keeps those of the frame before.", ""]
+
+
 VOLUMES = ("exact", "19 points", "136 points", "912 points", "7208 points")
 
 SCENE = """A packing of 63,504 particles with radii from 4.7e-3 to 5.3e-3 in a box of length 1, stretched by 5 %; 12 columns: id
@@ -552,6 +599,11 @@ SCENE_PARTS = (
          on the wall. All thread counts give the same bits, or this fails.""",
          [cases_by_metrics(r"", *columns(".0f", "time:ns/particle"), *columns(".2f", "speed against 1 thread:1"))],
          [Target(r"read, 2", "speed against 1 thread:1", ">=", 1.5, cores=2)], script=True, wants_cores=2),
+    Part("scale", "Scale, on paper",
+         """Frames of 317,520 to 2,540,160 particles, 12 columns, text of %g and binary of LAMMPS, files in the page cache, processor
+         time of one thread. Times are fitted by powers of the number of particles; +- and the factors are 95 % intervals of the
+         fit. Predicted: open, a frame of 10^9 particles; read and write, the part of one of 64 ranks, 1.6 x 10^7 particles.""",
+         [scale_table], [], script=True, words=scale_words),
     Part("others", "Other programs on the same files",
          """15,876 particles at 1e3 lengths from the origin. Errors are distances from what the words in the file say. ASE and
          MDAnalysis keep positions only; MDAnalysis moves the box to the origin, which is undone here. Opening the file is
