@@ -132,7 +132,33 @@ TEST_P(Gzip, CutAnywhere)
   EXPECT_EQ(source->unchecked(), cut_text);
 }
 
-// Ends of blocks, and the end of the file anywhere near them.
+// What is only not there yet must not pass for damage.
+TEST_P(Gzip, CutAnywhereInAnyKind)
+{
+  const std::string content = rows(400) + std::string(600, 'x') + rows(300, 2) + "\x80\xff\x01\n";
+  for (const int strategy : { Z_DEFAULT_STRATEGY, Z_FILTERED, Z_HUFFMAN_ONLY, Z_RLE, Z_FIXED })
+  {
+    for (const int level : { 0, 1, 4, 9 })
+    {
+      for (const std::size_t flush_every : { 0u, 37u, 250u })
+      {
+        const std::string packed = gzip(content, { level, strategy, false, flush_every });
+        std::size_t last = 0;
+        for (std::size_t length = 3; length < packed.size(); ++length)
+        {
+          const auto source = open(std::string_view(packed).substr(0, length));
+          const std::string text = read_all(*source);
+          ASSERT_EQ(text, content.substr(0, text.size())) << length;
+          ASSERT_EQ(source->unchecked(), cut_text) << length;
+          ASSERT_GE(text.size(), last) << length;
+          last = text.size();
+        }
+        ASSERT_GE(last + 3, content.size()) << "all but the sum is there";
+      }
+    }
+  }
+}
+
 /// A CRC that is there counts, also where the file ends before the size.
 TEST_P(Gzip, DamagedAndCut)
 {
@@ -145,6 +171,7 @@ TEST_P(Gzip, DamagedAndCut)
   EXPECT_EQ(packing::error_of(packed.substr(0, packed.size() - 5)), "");
 }
 
+// Ends of blocks, and the end of the file anywhere near them.
 TEST_P(Gzip, CutBetweenBlocks)
 {
   const std::string content = rows(3000);

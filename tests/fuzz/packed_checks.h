@@ -106,11 +106,20 @@ inline void compare(const Content& content, const Reference& reference)
   {
     return; // nobody looked at the end
   }
-  require(
-    content.refused == (reference.end == End::Damaged), "refused, or not, unlike the library");
-  require(
-    content.refused || content.text.size() == reference.text.size(), "the size of the content");
-  require(content.refused || content.unchecked.empty() == (reference.end == End::Whole),
+  // where the bytes end within a header, one sees that it is wrong, and another waits for the rest of it
+  const bool cut = reference.end == End::Cut || !content.unchecked.empty();
+  require(content.refused == (reference.end == End::Damaged) || cut,
+    "refused, or not, unlike the library");
+  if (content.refused || reference.end == End::Damaged)
+  {
+    return;
+  }
+  constexpr std::size_t held_back = 3; // ISA-L decodes up to three characters at a time
+  const std::size_t size = reference.text.size();
+  require(content.text.size() == size ||
+      (cut && content.text.size() < size && size - content.text.size() <= held_back),
+    "the size of the content");
+  require(content.unchecked.empty() == (reference.end == End::Whole),
     "checked, or not, unlike the library");
 }
 

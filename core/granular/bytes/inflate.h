@@ -51,7 +51,8 @@ struct Inflation
   std::unique_ptr<Inflate> (*make)();
 };
 
-/// Returns those that there are, the fastest first. The content is the same with all, and so is what is refused, but for the reason.
+/// Returns those that there are, the fastest first. Whole data give the same content with all of them, and damaged data are refused. If
+/// data end within a block, up to three of the last bytes may be held back, and damage in its header may be seen or not.
 std::span<const Inflation> inflations() noexcept;
 
 std::unique_ptr<Inflate> make_zlib_inflate();
