@@ -325,3 +325,65 @@ TEST(IndexThreads, SeekPointsOfTheFirstFiles)
     }
   }
 }
+
+/// A frame of a compressed file by several threads: from places inside, which the index of a file with one frame has only if
+/// they take no memory.
+TEST(IndexThreads, FramesOfCompressedFiles)
+{
+  const Folder folder;
+  const std::string frame = grains(0, ids_from(1, 200'000));
+  const std::string text = frame + grains(100, ids_from(1, 200'000));
+  ASSERT_GT(frame.size(), std::size_t{ 3 } << 20) << "there are several places in it";
+  const auto members = [](const std::string& bytes)
+  {
+    std::string packed;
+    for (std::size_t at = 0; at < bytes.size(); at += std::size_t{ 1 } << 19)
+    {
+      packed += packing::gzip(bytes.substr(at, std::size_t{ 1 } << 19));
+    }
+    return packed;
+  };
+  const struct
+  {
+    std::string bytes;
+    std::size_t frames;
+    bool points;
+  } files[] = {
+    { packing::gzip(text), 2, true },
+    { members(text), 2, true },
+    { packing::zstd_frames(text, std::size_t{ 1 } << 19), 2, true },
+    { packing::gzip(frame), 1, false },
+    { members(frame), 1, true },
+    { packing::zstd(frame), 1, false },
+    { packing::zstd_frames(frame, std::size_t{ 1 } << 19), 1, true },
+  };
+  int number = 0;
+  for (const auto& file : files)
+  {
+    const std::string path = folder.write(std::to_string(number++) + ".gz", file.bytes);
+    for (const bool kept : { false, true, true }) // made and kept, then loaded
+    {
+      Series run;
+      run.options.keep_index = kept ? granular::KeepIndex::Beside : granular::KeepIndex::Never;
+      run.update({ path });
+      ASSERT_EQ(run.index.size(), file.frames) << path;
+      for (std::size_t i = 0; i < file.frames; ++i)
+      {
+        granular::DumpRequest request = everything();
+        const Decoded alone = run.read(i, request);
+        EXPECT_EQ(alone.rows(), 200'000);
+        for (const int threads : { 2, 5 })
+        {
+          request.threads = threads;
+          request.chunk_bytes = 100'000;
+          const Decoded decoded = run.read(i, request);
+          EXPECT_EQ(decoded.points(), alone.points()) << path;
+          EXPECT_EQ(decoded.integers("id"), alone.integers("id")) << path;
+        }
+      }
+    }
+    Series fresh;
+    fresh.update({ path });
+    EXPECT_EQ(fresh.index.files()[0].points != nullptr, file.points) << path;
+  }
+}

@@ -172,6 +172,15 @@ void drop_repeated(Notices& notices, std::size_t known)
   notices.erase(std::remove_if(first_new, notices.end(), repeated), notices.end());
 }
 
+/// Whether there are seek points, and all are starts of gzip members or Zstandard frames.
+bool has_free_points(const FileIndex& index)
+{
+  const std::vector<SeekPoints::Point>& points = index.points->points;
+  return !points.empty() &&
+    std::ranges::all_of(
+      points, [](const SeekPoints::Point& point) { return point.window.empty(); });
+}
+
 /// Returns whether anything was read.
 bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
   const ScanAhead& ahead)
@@ -217,9 +226,9 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index.defect->text += "; " + index.unchecked;
   }
-  // a single frame is read from the start anyway; an index without points says that nothing is behind it
+  // a single frame is read from the start anyway: points serve several threads alone, and are kept where they take no memory
   if (!source->compressed() || index.frames.empty() ||
-    (index.frames.size() == 1 && !goes_on(*source, index)))
+    (index.frames.size() == 1 && !goes_on(*source, index) && !has_free_points(index)))
   {
     index.points.reset();
   }
