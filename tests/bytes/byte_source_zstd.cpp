@@ -182,6 +182,25 @@ TEST(Zstd, ThrowsAgain)
   }
 }
 
+/// However the file is read: the library looks at the size in the header only if it gets a frame at once.
+TEST(Zstd, ContentOfAnotherSize)
+{
+  const std::string content = rows(100'000);
+  const std::string packed = zstd(content);
+  ASSERT_EQ(packed[4] & 0xe0, 0xa0) << "one segment, and four bytes of size";
+  for (const int more : { -1, 1 })
+  {
+    std::string other = packed;
+    other[5] = static_cast<char>(other[5] + more);
+    for (const std::size_t piece : { 777u, 70'000u, 300'000u })
+    {
+      EXPECT_THROW(read_all(*open(other), piece), granular::FormatError) << piece;
+    }
+  }
+  packing::expect_prefixes(zstd(rows(300)), rows(300),
+    [&](std::size_t length) { return length == zstd(rows(300)).size(); });
+}
+
 TEST(Zstd, LargestWindow)
 {
   expect_content(frame_with_window(17, 0), "abc"); // 128 MiB

@@ -28,7 +28,9 @@ Reference unpack_with_zstd(std::string_view packed, std::size_t most)
   std::string buffer(1 << 16, '\0');
   ZSTD_inBuffer input{ packed.data(), 0, 0 };
   std::size_t status = 0;
-  bool full = false; // there may be more content without more input
+  bool full = false;     // there may be more content without more input
+  std::size_t frame = 0; // where it begins
+  std::size_t content = 0;
   while ((input.pos < packed.size() || full) && all.text.size() < most)
   {
     input.size = std::min(input.pos + 1, packed.size());
@@ -40,6 +42,19 @@ Reference unpack_with_zstd(std::string_view packed, std::size_t most)
       return all;
     }
     all.text.append(buffer, 0, output.pos);
+    content += output.pos;
+    const auto claimed = ZSTD_getFrameContentSize(packed.data() + frame, packed.size() - frame);
+    if (claimed < ZSTD_CONTENTSIZE_ERROR &&
+      (content > claimed || (status == 0 && content < claimed)))
+    {
+      all.end = Reference::End::Damaged; // of a frame as a whole, the library says so
+      return all;
+    }
+    if (status == 0)
+    {
+      frame = input.pos;
+      content = 0;
+    }
     full = output.pos == output.size && status != 0;
   }
   all.end = status == 0 ? Reference::End::Whole : Reference::End::Cut;

@@ -58,7 +58,7 @@ public:
 private:
   void go_to(std::int64_t offset);
   void start_at(const SeekPoints::Point& point);
-  void compare_window(const SeekPoints::Point& before, const SeekPoints::Point& point);
+  void compare_window(const SeekPoints::Point& before, SeekPoints::Point point);
   std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
   bool advance(std::int64_t target);
 
@@ -133,8 +133,8 @@ void Unpacker::start_at(const SeekPoints::Point& point)
 }
 
 /// Gets to a point from the one before. Throws if the window of the point is not what lies before it: bytes that were made
-/// with another one would be other data.
-void Unpacker::compare_window(const SeekPoints::Point& before, const SeekPoints::Point& point)
+/// with another one would be other data. The point is a copy: others are added where the decoder gets further than it.
+void Unpacker::compare_window(const SeekPoints::Point& before, SeekPoints::Point point)
 {
   this->start_at(before);
   while (end_ < point.offset && this->advance(point.offset))

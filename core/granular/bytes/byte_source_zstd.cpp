@@ -4,10 +4,12 @@
 
 #include "granular/common/error.h"
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <zstd.h>
 #include <zstd_errors.h>
@@ -18,6 +20,7 @@ namespace
 {
 constexpr int largest_window = 27; // as a power of 2; also what programs take unless told otherwise
 constexpr int least_window = 10;   // RFC 8878, 3.1.1.1.2
+constexpr std::size_t longest_header = 18;
 constexpr int single_segment =
   1 << 5; // of the header's descriptor: the window is the content, and no field
 
@@ -46,14 +49,16 @@ public:
 
 private:
   void begin_frame();
-  void check_window();
+  void read_header();
+  void count_content(std::size_t bytes, bool ended);
   [[noreturn]] void fail_with(std::size_t status) const;
   [[noreturn]] void refuse_window() const;
 
   std::unique_ptr<ZSTD_DStream, FreeStream> stream_;
   std::int64_t frame_start_ = 0; ///< in the file
   bool in_frame_ = false;
-  bool flushed_ = false; ///< the stream holds no content back
+  bool flushed_ = false;                      ///< the stream holds no content back
+  std::optional<std::uint64_t> content_left_; ///< of the frame, if its header says how much it has
 };
 
 void ZstdDecoder::restart(const SeekPoints::Point& point)
@@ -88,6 +93,7 @@ std::size_t ZstdDecoder::decode(char* out, std::size_t bytes)
     offset_ += static_cast<std::int64_t>(output.pos);
     flushed_ = output.pos < output.size;
     in_frame_ = status != 0;
+    this->count_content(output.pos, !in_frame_);
     if (output.pos > 0)
     {
       return output.pos;
@@ -102,26 +108,50 @@ void ZstdDecoder::begin_frame()
   {
     this->add_point({ offset_, frame_start_, 0, 0, 0, {} });
   }
-  this->check_window();
+  this->read_header();
   ZSTD_DCtx_reset(stream_.get(), ZSTD_reset_session_only);
   in_frame_ = true;
   flushed_ = true;
 }
 
-/// The library takes any window if it gets a frame at once, with room for the content. What is taken must not depend on the way in
-/// which a file is read. The header: RFC 8878, 3.1.1.
-void ZstdDecoder::check_window()
+/// What is taken must not depend on the way in which a file is read. If the library gets a frame at once, with room for the content, it
+/// takes any window, and refuses a content of another size than the header says; else it is the other way round. The header: RFC
+/// 8878, 3.1.1.
+void ZstdDecoder::read_header()
 {
-  const bool magic = std::ranges::all_of(
-    zstd_magic, [this](char byte) { return in_.get() == static_cast<unsigned char>(byte); });
-  const int descriptor = magic ? in_.get() : -1;
-  if (descriptor >= 0 && (descriptor & single_segment) == 0 &&
-    in_.get() > (largest_window - least_window) << 3)
+  std::array<char, longest_header> header;
+  std::size_t bytes = 0;
+  for (int next = in_.get(); next >= 0; next = bytes < header.size() ? in_.get() : -1)
   {
-    this->refuse_window();
+    header[bytes++] = static_cast<char>(next);
   }
   in_.seek(frame_start_);
   in_.more(); // the header may have ended in the next buffer
+  const std::string_view text(header.data(), bytes);
+  const std::size_t descriptor = zstd_magic.size();
+  if (text.starts_with(zstd_magic) && bytes > descriptor + 1 &&
+    (text[descriptor] & single_segment) == 0 &&
+    static_cast<unsigned char>(text[descriptor + 1]) > (largest_window - least_window) << 3)
+  {
+    this->refuse_window();
+  }
+  const unsigned long long size = ZSTD_getFrameContentSize(text.data(), text.size());
+  content_left_ = size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR
+    ? std::nullopt
+    : std::optional<std::uint64_t>(size);
+}
+
+/// Of the frame, before they are given away.
+void ZstdDecoder::count_content(std::size_t bytes, bool ended)
+{
+  if (content_left_ && (bytes > *content_left_ || (ended && bytes < *content_left_)))
+  {
+    this->fail("the content has another size than its header says");
+  }
+  if (content_left_)
+  {
+    *content_left_ -= bytes;
+  }
 }
 
 void ZstdDecoder::refuse_window() const
