@@ -22,7 +22,6 @@ Bytef* bytes_of(std::string& text)
 Reference unpack_with_zlib(std::string packed, std::size_t most)
 {
   Reference all;
-  all.summed = true;
   std::string buffer(1 << 16, '\0');
   for (std::size_t at = 0; all.end == Reference::End::Whole && all.text.size() < most;)
   {
