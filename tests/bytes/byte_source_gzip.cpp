@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_source.h"
+#include "granular/bytes/byte_source_segments.h"
 
 #include "../support/byte_source_packing.h"
 #include "granular/common/error.h"
@@ -371,6 +372,37 @@ TEST_P(Gzip, GrowsWhileOpen)
   }
   EXPECT_EQ(text, content);
   EXPECT_EQ(source->unchecked(), "");
+}
+
+/// Readers of an index that is finished add nothing to it, wherever they stop.
+TEST_P(Gzip, KnownPointsStayAsTheyAre)
+{
+  const std::string content = rows(4 << 20, 3);
+  const std::string packed = gzip(content, { 1 });
+  const auto points = spaced(1 << 18);
+  EXPECT_TRUE(read_all(*open(packed, points)) == content);
+  const SeekPoints before = *points;
+  points->points.resize(points->points.size() / 2); // others are due
+  for (const std::size_t piece : { 100u, 4097u, 300'000u })
+  {
+    const auto source = granular::unpack_known(granular::open_memory(packed), points);
+    EXPECT_TRUE(read_all(*source, piece) == content);
+    EXPECT_EQ(points->points.size(), before.points.size() / 2);
+  }
+}
+
+/// One block for all of the content, or many whose beginnings nobody sees: the search for them must end.
+TEST_P(Gzip, EndlessBlocks)
+{
+  const std::string content = rows(12 << 20, 4);
+  for (const std::string& packed :
+    { gzip(content, { 6, Z_FIXED }), gzip(content, { 1, Z_FIXED, false, 5'000'000 }) })
+  {
+    const auto points = spaced(1 << 18);
+    const auto source = open(packed, points);
+    EXPECT_TRUE(read_all(*source) == content);
+    packing::expect_random_reads(*open(packed, points), content, 20, 18);
+  }
 }
 
 // zlib ends a block after 16 thousand words: each of these stands for 258 bytes.

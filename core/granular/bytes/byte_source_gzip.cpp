@@ -2,13 +2,12 @@
 // gzip, RFC 1952. A library inflates; header and trailer are read here, since none checks them in what is inflated from the
 // middle on.
 #include "granular/bytes/byte_source_unpack.h"
-#include "granular/bytes/inflate.h"
 
+#include "granular/bytes/gzip_header.h"
+#include "granular/bytes/inflate.h"
 #include "granular/common/error.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,64 +22,6 @@ namespace
 {
 constexpr std::size_t window_bytes = std::size_t{ 1 } << 15;
 
-/// The fields of a member's header, with the CRC of what was read of it.
-class HeaderBytes
-{
-public:
-  HeaderBytes(PackedInput& in, const Inflate& inflate)
-    : in_(in)
-    , inflate_(inflate)
-  {
-  }
-
-  /// 0 once the file has ended.
-  unsigned get()
-  {
-    const int next = in_.get();
-    ended_ = ended_ || next < 0;
-    const auto byte = static_cast<unsigned char>(ended_ ? 0 : next);
-    check_ = inflate_.check(check_, { reinterpret_cast<const char*>(&byte), 1 });
-    return byte;
-  }
-
-  unsigned get_16()
-  {
-    const unsigned low = this->get();
-    return low | this->get() << 8;
-  }
-
-  void skip(unsigned bytes)
-  {
-    for (; bytes > 0 && !ended_; --bytes)
-    {
-      this->get();
-    }
-  }
-
-  void skip_text()
-  {
-    while (this->get() != 0)
-    {
-    }
-  }
-
-  bool ended() const noexcept { return ended_; }
-  unsigned check_16() const noexcept { return check_ & 0xffffu; }
-
-private:
-  PackedInput& in_;
-  const Inflate& inflate_;
-  std::uint32_t check_ = 0;
-  bool ended_ = false;
-};
-
-std::string hexadecimal(std::uint32_t value)
-{
-  std::array<char, 8> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, 16).ptr;
-  return "0x" + std::string(digits.data(), end);
-}
-
 class GzipDecoder final : public Decoder
 {
 public:
@@ -93,6 +34,7 @@ public:
   const char* name() const noexcept override { return "gzip"; }
   void restart(const SeekPoints::Point& point) override;
   std::size_t decode(char* out, std::size_t bytes) override;
+  void expect(const SeekPoints::Point& point) override;
 
 private:
   /// Of a member: which comes next.
@@ -104,12 +46,14 @@ private:
   };
 
   bool read_header();
-  void parse_header(HeaderBytes& header) const;
   std::size_t read_data(char* out, std::size_t bytes);
   std::size_t inflate_some(std::span<char> out, bool to_block);
   std::optional<std::uint32_t> read_32();
   bool read_trailer();
+  std::int64_t to_search() const noexcept;
   void remember(std::string_view content);
+  bool has_window() const noexcept;
+  void count_search(std::ptrdiff_t packed, bool found);
   void note_point(int bits);
 
   std::unique_ptr<Inflate> inflate_;
@@ -117,12 +61,16 @@ private:
   std::uint32_t check_ = 0;        ///< CRC-32 of the member so far
   std::uint32_t member_bytes_ = 0; ///< of the member so far, modulo 2^32
   std::string last_; ///< bytes of the member: at least a window of them where a point is due
+  std::int64_t searched_ = 0;    ///< bytes of the file, for the beginning of a block
+  std::int64_t pause_ = 0;       ///< bytes of content without a search
+  std::int64_t search_from_ = 0; ///< in the content
 };
 
 void GzipDecoder::restart(const SeekPoints::Point& point)
 {
   in_.seek(point.packed);
   offset_ = point.offset;
+  searched_ = pause_ = search_from_ = 0;
   part_ = Part::Header;
   if (point.window.empty())
   {
@@ -169,6 +117,28 @@ std::size_t GzipDecoder::decode(char* out, std::size_t bytes)
   }
 }
 
+/// What was inflated may still have the end of its member to come.
+void GzipDecoder::expect(const SeekPoints::Point& point)
+{
+  char none = 0;
+  for (int tries = 0; tries < 2 && point.window.empty() && part_ == Part::Data; ++tries)
+  {
+    in_.more();
+    this->inflate_some({ &none, 0 }, false);
+  }
+  if (part_ == Part::Trailer)
+  {
+    this->read_trailer();
+  }
+  const bool same = point.window.empty()
+    ? part_ == Part::Header
+    : part_ == Part::Data && check_ == point.check && member_bytes_ == point.member_bytes;
+  if (!same)
+  {
+    this->fail("their sum is another");
+  }
+}
+
 /// False if there is no other member, or not yet the whole of its header.
 bool GzipDecoder::read_header()
 {
@@ -183,9 +153,7 @@ bool GzipDecoder::read_header()
   }
   const std::int64_t start = in_.position() - 1;
   in_.seek(start);
-  HeaderBytes header(in_, *inflate_);
-  this->parse_header(header);
-  if (header.ended())
+  if (!pass_gzip_header(in_, *inflate_))
   {
     in_.seek(start); // there may be more of it next time
     return this->end_of_file(true);
@@ -202,51 +170,6 @@ bool GzipDecoder::read_header()
   return true;
 }
 
-void GzipDecoder::parse_header(HeaderBytes& header) const
-{
-  enum : unsigned
-  {
-    has_check = 2,
-    has_extra = 4,
-    has_name = 8,
-    has_comment = 16,
-    reserved = 0xe0
-  };
-  const Where where{ in_.path(), 0, in_.position() };
-  for (const unsigned expected : { 0x1fu, 0x8bu, 0x08u })
-  {
-    if (header.get() != expected && !header.ended())
-    {
-      throw FormatError(
-        "expected the end of the gzip data or more of them, got other bytes", where);
-    }
-  }
-  const unsigned flags = header.get();
-  if ((flags & reserved) != 0)
-  {
-    throw FormatError(
-      "expected a gzip header, got flags that are not defined (" + hexadecimal(flags) + ")", where);
-  }
-  header.skip(6); // time, how hard it was compressed, operating system
-  if ((flags & has_extra) != 0)
-  {
-    header.skip(header.get_16());
-  }
-  if ((flags & has_name) != 0)
-  {
-    header.skip_text();
-  }
-  if ((flags & has_comment) != 0)
-  {
-    header.skip_text();
-  }
-  const unsigned check = header.check_16();
-  if ((flags & has_check) != 0 && header.get_16() != check && !header.ended())
-  {
-    throw FormatError("expected a gzip header that fits its CRC, got another", where);
-  }
-}
-
 /// The next bytes of the member. 0 at its end, or at that of the file.
 std::size_t GzipDecoder::read_data(char* out, std::size_t bytes)
 {
@@ -257,7 +180,7 @@ std::size_t GzipDecoder::read_data(char* out, std::size_t bytes)
     // Up to where a point is due at full speed, then to the end of the block of deflate: only there
     // can it start. A block may be long - nothing limits it, common writers end it after some 100
     // KiB of content - and the next point is then as far away.
-    const std::int64_t left = this->to_next_point();
+    const std::int64_t left = this->to_search();
     const std::size_t room =
       left == 0 ? bytes - done : std::min(bytes - done, static_cast<std::size_t>(left));
     const std::size_t got = this->inflate_some({ out + done, room }, left == 0 && more);
@@ -289,21 +212,54 @@ std::size_t GzipDecoder::inflate_some(std::span<char> out, bool to_block)
   member_bytes_ += static_cast<std::uint32_t>(content.size());
   offset_ += static_cast<std::int64_t>(content.size());
   this->remember(content);
+  const bool found = !step.ended && step.block_bits && this->has_window();
+  if (to_block)
+  {
+    this->count_search(step.read, found);
+  }
   if (step.ended)
   {
     part_ = Part::Trailer;
   }
-  else if (step.block_bits && !last_.empty()) // empty: would look like the start of a member
+  else if (found)
   {
     this->note_point(*step.block_bits);
   }
   return content.size();
 }
 
+/// Not an empty one, which would look like the start of a member.
+bool GzipDecoder::has_window() const noexcept
+{
+  return !last_.empty() && (last_.size() >= window_bytes || last_.size() == member_bytes_);
+}
+
+/// Bytes of content until the beginning of a block is looked for; 0: now.
+std::int64_t GzipDecoder::to_search() const noexcept
+{
+  return std::max(this->to_next_point(), search_from_ - offset_);
+}
+
+/// A search takes several times as long as other bytes. Blocks may be endless, or begin where that is not seen: it is given up soon,
+/// and tried again after more and more content.
+void GzipDecoder::count_search(std::ptrdiff_t packed, bool found)
+{
+  constexpr std::int64_t most_searched = std::int64_t{ 1 } << 17;
+  constexpr std::int64_t longest_pause = std::int64_t{ 1 } << 30;
+  searched_ = found ? 0 : searched_ + packed;
+  pause_ = found ? 0 : pause_;
+  if (searched_ > most_searched)
+  {
+    pause_ = std::clamp(std::max(2 * pause_, this->spacing()), std::int64_t{ 1 }, longest_pause);
+    search_from_ = offset_ + pause_;
+    searched_ = 0;
+  }
+}
+
 /// Keeps the content that a point needs, from where one is near.
 void GzipDecoder::remember(std::string_view content)
 {
-  if (this->to_next_point() > static_cast<std::int64_t>(2 * window_bytes))
+  if (this->to_search() > static_cast<std::int64_t>(2 * window_bytes))
   {
     last_.clear();
     return;

@@ -10,7 +10,6 @@
 #include <condition_variable>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -23,7 +22,7 @@ namespace
 {
 constexpr std::int64_t longest_segment = std::int64_t{ 1 } << 26;
 constexpr std::size_t fewest_segments = 3;
-constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t shortest_segment = std::int64_t{ 1 } << 18;
 
 struct Content
 {
@@ -66,7 +65,7 @@ const Segment& longest_of(const std::vector<Segment>& segments)
 /// A decoder and the points that it must have and does not add to.
 struct SpareDecoder
 {
-  std::unique_ptr<SeekPoints> points;
+  std::shared_ptr<SeekPoints> points;
   std::unique_ptr<Decoder> decoder;
 };
 
@@ -126,7 +125,7 @@ private:
   std::shared_ptr<const Content> get(std::size_t number) const;
   std::size_t next_absent(std::size_t number) const noexcept;
   void make(std::size_t number, std::unique_lock<std::mutex>& lock) const;
-  std::shared_ptr<const Content> decompress(const Segment& segment, Decoder& decoder) const;
+  std::shared_ptr<const Content> decompress(std::size_t number, Decoder& decoder) const;
   void trust_next(std::size_t number, const Content& content) const;
   void forget() const;
 
@@ -226,11 +225,10 @@ void SegmentSource::make(std::size_t number, std::unique_lock<std::mutex>& lock)
   {
     if (!spare.decoder)
     {
-      spare.points = std::make_unique<SeekPoints>();
-      spare.points->spacing = never;
+      spare.points = add_no_points();
       spare.decoder = make_decoder_(*packed_, *spare.points);
     }
-    content = this->decompress(segment, *spare.decoder);
+    content = this->decompress(number, *spare.decoder);
   }
   catch (const IoError&)
   {
@@ -261,9 +259,9 @@ void SegmentSource::make(std::size_t number, std::unique_lock<std::mutex>& lock)
   spare_.push_back(std::move(spare));
 }
 
-std::shared_ptr<const Content> SegmentSource::decompress(
-  const Segment& segment, Decoder& decoder) const
+std::shared_ptr<const Content> SegmentSource::decompress(std::size_t number, Decoder& decoder) const
 {
+  const Segment& segment = segments_[number];
   const std::size_t length = length_of(segment);
   const auto content = std::make_shared<Content>(Content{ Block(length, pool_) });
   char* const bytes = static_cast<char*>(content->bytes.data());
@@ -274,6 +272,13 @@ std::shared_ptr<const Content> SegmentSource::decompress(
     content->size += got;
     expect_honest(decoder, segment.point.offset + static_cast<std::int64_t>(content->size),
       *packed_, largest_expansion_);
+  }
+  const bool ends_at_next =
+    number + 1 < segments_.size() && segment.end == segments_[number + 1].point.offset;
+  if (content->size == length && ends_at_next)
+  {
+    decoder.expect(
+      segments_[number + 1].point); // what is damaged must not wait for the end of the member
   }
   return content;
 }
@@ -301,13 +306,14 @@ void SegmentSource::forget() const
     std::size_t there = 0;
     for (Segment& segment : segments_)
     {
+      there += segment.state == Segment::State::Made ? 1 : 0;
       if (segment.state == Segment::State::There)
       {
         ++there;
         oldest = oldest == nullptr || segment.used < oldest->used ? &segment : oldest;
       }
     }
-    if (there <= most_)
+    if (there <= most_ || oldest == nullptr)
     {
       return;
     }
@@ -316,23 +322,46 @@ void SegmentSource::forget() const
   }
 }
 
+/// The places where [begin, end) is cut, and the two at or before its begin, not too near to each other. The start of the file
+/// is a place.
+std::vector<SeekPoints::Point> choose_places(
+  const SeekPoints& all, std::int64_t begin, std::int64_t end)
+{
+  std::vector<SeekPoints::Point> places(1);
+  for (const SeekPoints::Point& point : all.points)
+  {
+    if (point.offset >= end)
+    {
+      break;
+    }
+    if (point.offset - places.back().offset >= shortest_segment)
+    {
+      if (point.offset <= begin && places.size() == 2)
+      {
+        places.erase(places.begin());
+      }
+      places.push_back(point);
+    }
+  }
+  return places;
+}
+
 /// The segments of [begin, end), and one before where the window of the first must be compared.
 std::vector<Segment> cut_content(const SeekPoints& all, std::int64_t begin, std::int64_t end)
 {
-  const std::vector<SeekPoints::Point>& points = all.points;
-  const auto after = std::ranges::upper_bound(points, begin, {}, &SeekPoints::Point::offset);
-  auto first = static_cast<std::size_t>(after - points.begin()); // 0: the start of the file
-  const auto compared = [&](std::size_t number)
-  { return all.claimed && number > 0 && !points[number - 1].window.empty(); };
-  const bool more = compared(first);
-  first -= more ? 1 : 0;
+  const std::vector<SeekPoints::Point> places = choose_places(all, begin, end);
+  const auto compared = [&](const SeekPoints::Point& point)
+  { return all.claimed && !point.window.empty(); };
   std::vector<Segment> segments;
-  for (std::size_t i = first; i == first || (i <= points.size() && points[i - 1].offset < end); ++i)
+  for (std::size_t i = 0; i < places.size(); ++i)
   {
-    Segment segment{ i == 0 ? SeekPoints::Point{} : points[i - 1], end };
-    segment.end = i < points.size() ? std::min(points[i].offset, end) : end;
-    segment.trusted = i == first || !compared(i);
-    segments.push_back(std::move(segment));
+    const bool last = i + 1 == places.size();
+    const bool before = !last && places[i + 1].offset <= begin;
+    if (!before || compared(places[i + 1]))
+    {
+      segments.push_back({ places[i], last ? end : places[i + 1].offset });
+      segments.back().trusted = segments.size() == 1 || !compared(places[i]);
+    }
   }
   return segments;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_source_unpack.h"
 
+#include "granular/bytes/byte_source_segments.h"
 #include "granular/bytes/inflate.h"
 #include "granular/common/error.h"
 
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <exception>
 #include <iterator>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -191,11 +193,14 @@ bool Unpacker::advance(std::int64_t target)
 class UnpackedSource final : public ByteSource
 {
 public:
-  UnpackedSource(std::unique_ptr<ByteSource> packed, const std::shared_ptr<SeekPoints>& points,
-    const MakeDecoder& make_decoder, std::int64_t largest_expansion)
+  /// found: gets the points that are found.
+  UnpackedSource(std::unique_ptr<ByteSource> packed, std::shared_ptr<const SeekPoints> points,
+    std::shared_ptr<SeekPoints> found, const MakeDecoder& make_decoder,
+    std::int64_t largest_expansion)
     : packed_(std::move(packed))
+    , found_(std::move(found))
     , unpacker_(std::make_unique<Unpacker>(
-        make_decoder(*packed_, *points), points, *packed_, largest_expansion))
+        make_decoder(*packed_, *found_), std::move(points), *packed_, largest_expansion))
   {
   }
 
@@ -216,6 +221,7 @@ public:
 
 private:
   std::unique_ptr<ByteSource> packed_;
+  std::shared_ptr<SeekPoints> found_;
   std::unique_ptr<Unpacker> unpacker_; ///< reading moves it
 };
 
@@ -344,8 +350,30 @@ std::unique_ptr<ByteSource> unpack_by(const MakeDecoder& make_decoder,
   std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points,
   std::int64_t largest_expansion)
 {
-  return std::make_unique<UnpackedSource>(std::move(packed),
-    points ? std::move(points) : std::make_shared<SeekPoints>(), make_decoder, largest_expansion);
+  const std::shared_ptr<SeekPoints> found =
+    points ? std::move(points) : std::make_shared<SeekPoints>();
+  return std::make_unique<UnpackedSource>(
+    std::move(packed), found, found, make_decoder, largest_expansion);
+}
+
+std::unique_ptr<ByteSource> unpack_known(std::unique_ptr<ByteSource> packed,
+  std::shared_ptr<const SeekPoints> points, std::int64_t largest_expansion)
+{
+  if (!points)
+  {
+    return unpack(std::move(packed), nullptr, largest_expansion);
+  }
+  const MakeDecoder make_decoder = find_decoder(*packed);
+  return make_decoder ? std::make_unique<UnpackedSource>(std::move(packed), std::move(points),
+                          add_no_points(), make_decoder, largest_expansion)
+                      : std::move(packed);
+}
+
+std::shared_ptr<SeekPoints> add_no_points()
+{
+  auto points = std::make_shared<SeekPoints>();
+  points->spacing = std::numeric_limits<std::int64_t>::max();
+  return points;
 }
 
 std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,

@@ -66,6 +66,9 @@ public:
   /// Throws IoError, FormatError and LimitError; after each of them restart() must be called.
   virtual std::size_t decode(char* out, std::size_t bytes) = 0;
 
+  /// Throws FormatError unless what was decoded since the last restart ends where a point is, and its sums fit.
+  virtual void expect(const SeekPoints::Point& point) = 0;
+
   /// Returns true if decode() returned 0 because the file is truncated.
   bool cut() const noexcept { return cut_; }
 
@@ -80,6 +83,7 @@ public:
 protected:
   /// Returns the bytes of content up to the next restart point; 0 if the point is due.
   std::int64_t to_next_point() const noexcept;
+  std::int64_t spacing() const noexcept { return points_.spacing; }
   void add_point(SeekPoints::Point point);
 
   /// Records that the end of the file was reached, within the compressed data (cut) or after it. Returns false.
@@ -115,6 +119,9 @@ MakeDecoder find_decoder(const ByteSource& packed);
 std::unique_ptr<ByteSource> unpack_by(const MakeDecoder& make_decoder,
   std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points,
   std::int64_t largest_expansion);
+
+/// Returns points of a decoder that is to add none.
+std::shared_ptr<SeekPoints> add_no_points();
 
 /// Throws LimitError if so many bytes of content came out of a file that it was made to fill memory and time.
 void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed,

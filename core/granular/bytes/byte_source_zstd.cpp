@@ -46,6 +46,7 @@ public:
   const char* name() const noexcept override { return "zstd"; }
   void restart(const SeekPoints::Point& point) override;
   std::size_t decode(char* out, std::size_t bytes) override;
+  void expect(const SeekPoints::Point& point) override;
 
 private:
   void begin_frame();
@@ -98,6 +99,29 @@ std::size_t ZstdDecoder::decode(char* out, std::size_t bytes)
     {
       return output.pos;
     }
+  }
+}
+
+/// What was decompressed may still have its sum to come.
+void ZstdDecoder::expect(const SeekPoints::Point&)
+{
+  char none = 0;
+  for (int tries = 0; tries < 3 && in_frame_ && in_.more(); ++tries)
+  {
+    ZSTD_inBuffer input{ in_.data(), in_.size(), 0 };
+    ZSTD_outBuffer output{ &none, 0, 0 };
+    const std::size_t status = ZSTD_decompressStream(stream_.get(), &output, &input);
+    if (ZSTD_isError(status))
+    {
+      this->fail_with(status);
+    }
+    in_.skip(input.pos);
+    in_frame_ = status != 0;
+    this->count_content(0, !in_frame_);
+  }
+  if (in_frame_)
+  {
+    this->fail("a frame does not end where another begins");
   }
 }
 

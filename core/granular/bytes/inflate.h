@@ -51,8 +51,9 @@ struct Inflation
   std::unique_ptr<Inflate> (*make)();
 };
 
-/// Returns those that there are, the fastest first. Whole data give the same content with all of them, and damaged data are refused. If
-/// data end within a block, up to three of the last bytes may be held back, and damage in its header may be seen or not.
+/// Returns those that there are, the fastest first. Whole data give the same content with all of them. What is damaged may be refused or
+/// not, as long as no sum is compared: ISA-L takes codes that are incomplete but not used. If data end within a block, up to three of
+/// the last bytes may be held back, and damage in its header may be seen or not.
 std::span<const Inflation> inflations() noexcept;
 
 std::unique_ptr<Inflate> make_zlib_inflate();

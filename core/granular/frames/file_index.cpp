@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/file_index.h"
 
+#include "granular/bytes/byte_source_segments.h"
 #include "granular/common/hash.h"
 #include "granular/frames/index_claims.h"
 
@@ -82,7 +83,7 @@ bool fits(const FileIndex& index)
   try
   {
     const std::unique_ptr<ByteSource> source =
-      unpack(open_file(index.path), index.points, index.largest_expansion);
+      unpack_known(open_file(index.path), index.points, index.largest_expansion);
     return source->compressed() == index.compressed && !index.frames.empty() && !has_gaps(index) &&
       index.frames.front().kind->layout < index.format->layouts &&
       (index.format->fits == nullptr || index.format->fits(*source, index));

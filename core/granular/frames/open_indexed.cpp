@@ -67,7 +67,8 @@ std::unique_ptr<ByteSource> open_packed(const FileIndex& index)
 std::unique_ptr<ByteSource> unpack_indexed(const FileIndex& index,
   std::unique_ptr<ByteSource> packed, const std::shared_ptr<SeekPoints>& points)
 {
-  std::unique_ptr<ByteSource> source = unpack(std::move(packed), points, index.largest_expansion);
+  std::unique_ptr<ByteSource> source =
+    unpack_known(std::move(packed), points, index.largest_expansion);
   return claims_end(index)
     ? std::make_unique<ClaimedContent>(std::move(source), index.frames.back().end)
     : std::move(source);
