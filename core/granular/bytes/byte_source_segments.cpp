@@ -324,23 +324,24 @@ void SegmentSource::forget() const
 
 /// The places where [begin, end) is cut, and the two at or before its begin, not too near to each other. The start of the file
 /// is a place.
-std::vector<SeekPoints::Point> choose_places(
+std::vector<const SeekPoints::Point*> choose_places(
   const SeekPoints& all, std::int64_t begin, std::int64_t end)
 {
-  std::vector<SeekPoints::Point> places(1);
+  static const SeekPoints::Point start;
+  std::vector<const SeekPoints::Point*> places = { &start };
   for (const SeekPoints::Point& point : all.points)
   {
     if (point.offset >= end)
     {
       break;
     }
-    if (point.offset - places.back().offset >= shortest_segment)
+    if (point.offset - places.back()->offset >= shortest_segment)
     {
       if (point.offset <= begin && places.size() == 2)
       {
         places.erase(places.begin());
       }
-      places.push_back(point);
+      places.push_back(&point);
     }
   }
   return places;
@@ -349,18 +350,18 @@ std::vector<SeekPoints::Point> choose_places(
 /// The segments of [begin, end), and one before where the window of the first must be compared.
 std::vector<Segment> cut_content(const SeekPoints& all, std::int64_t begin, std::int64_t end)
 {
-  const std::vector<SeekPoints::Point> places = choose_places(all, begin, end);
+  const std::vector<const SeekPoints::Point*> places = choose_places(all, begin, end);
   const auto compared = [&](const SeekPoints::Point& point)
   { return all.claimed && !point.window.empty(); };
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const bool last = i + 1 == places.size();
-    const bool before = !last && places[i + 1].offset <= begin;
-    if (!before || compared(places[i + 1]))
+    const bool before = !last && places[i + 1]->offset <= begin;
+    if (!before || compared(*places[i + 1]))
     {
-      segments.push_back({ places[i], last ? end : places[i + 1].offset });
-      segments.back().trusted = segments.size() == 1 || !compared(places[i]);
+      segments.push_back({ *places[i], last ? end : places[i + 1]->offset });
+      segments.back().trusted = segments.size() == 1 || !compared(*places[i]);
     }
   }
   return segments;

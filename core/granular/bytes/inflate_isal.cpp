@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ISA-L takes a fourth of the time of zlib.
+// ISA-L takes half of the time of zlib, or less.
 #ifdef GRANULAR_ISAL
 #include "granular/bytes/inflate.h"
 
