@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes table.md and missed.txt of tests/fuzz/run. Arguments: the folder of the core, and the folder
-of the inputs with `log` (a line for each process: target, seconds, runs, new paths, those in the last
+of the inputs with `log` (a line for each process: target, processor seconds, runs, new paths, those in the last
 tenth of the time) and `lines` (what llvm-cov counted, in the format of lcov)."""
 import collections
 import os

@@ -116,8 +116,8 @@ std::unique_ptr<ByteSource> unpack(
   {
     return granular::unpack(std::move(packed), std::move(points));
   }
-  const auto make = [](const ByteSource& source, SeekPoints& found)
-  { return granular::make_gzip_decoder(source, found, *inflation); };
+  const auto make = [](const ByteSource& source, std::shared_ptr<SeekPoints> found)
+  { return granular::make_gzip_decoder(source, std::move(found), *inflation); };
   return granular::unpack_by(make, std::move(packed), std::move(points), granular::usual_expansion);
 }
 

@@ -68,6 +68,8 @@ struct SeekPoints
     bool operator==(const Point&) const = default;
   };
 
+  static constexpr std::int64_t widest_spacing = std::int64_t{ 1 } << 24;
+
   std::vector<Point> points;                      ///< by offset
   std::int64_t spacing = std::int64_t{ 1 } << 20; ///< smallest distance of two, in bytes of content
   bool claimed =

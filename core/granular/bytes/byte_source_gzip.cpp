@@ -25,8 +25,9 @@ constexpr std::size_t window_bytes = std::size_t{ 1 } << 15;
 class GzipDecoder final : public Decoder
 {
 public:
-  GzipDecoder(const ByteSource& packed, SeekPoints& points, const Inflation& inflation)
-    : Decoder(packed, points)
+  GzipDecoder(
+    const ByteSource& packed, std::shared_ptr<SeekPoints> points, const Inflation& inflation)
+    : Decoder(packed, std::move(points))
     , inflate_(inflation.make())
   {
   }
@@ -325,8 +326,8 @@ bool GzipDecoder::read_trailer()
 }
 
 std::unique_ptr<Decoder> make_gzip_decoder(
-  const ByteSource& packed, SeekPoints& points, const Inflation& inflation)
+  const ByteSource& packed, std::shared_ptr<SeekPoints> points, const Inflation& inflation)
 {
-  return std::make_unique<GzipDecoder>(packed, points, inflation);
+  return std::make_unique<GzipDecoder>(packed, std::move(points), inflation);
 }
 }

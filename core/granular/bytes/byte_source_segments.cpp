@@ -62,13 +62,6 @@ const Segment& longest_of(const std::vector<Segment>& segments)
   return *std::ranges::max_element(segments, {}, length_of);
 }
 
-/// A decoder and the points that it must have and does not add to.
-struct SpareDecoder
-{
-  std::shared_ptr<SeekPoints> points;
-  std::unique_ptr<Decoder> decoder;
-};
-
 class SegmentSource final : public ByteSource
 {
 public:
@@ -134,7 +127,7 @@ private:
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   mutable std::vector<Segment> segments_;
-  mutable std::vector<SpareDecoder> spare_;
+  mutable std::vector<std::unique_ptr<Decoder>> spare_;
   mutable std::int64_t uses_ = 0;
   std::size_t most_; ///< segments in memory
   std::int64_t largest_expansion_;
@@ -211,10 +204,10 @@ void SegmentSource::make(std::size_t number, std::unique_lock<std::mutex>& lock)
 {
   Segment& segment = segments_[number];
   segment.state = Segment::State::Made;
-  SpareDecoder spare;
+  std::unique_ptr<Decoder> decoder;
   if (!spare_.empty())
   {
-    spare = std::move(spare_.back());
+    decoder = std::move(spare_.back());
     spare_.pop_back();
   }
   lock.unlock();
@@ -223,12 +216,11 @@ void SegmentSource::make(std::size_t number, std::unique_lock<std::mutex>& lock)
   bool damaged = false;
   try
   {
-    if (!spare.decoder)
+    if (!decoder)
     {
-      spare.points = add_no_points();
-      spare.decoder = make_decoder_(*packed_, *spare.points);
+      decoder = make_decoder_(*packed_, nullptr);
     }
-    content = this->decompress(number, *spare.decoder);
+    content = this->decompress(number, *decoder);
   }
   catch (const IoError&)
   {
@@ -256,7 +248,7 @@ void SegmentSource::make(std::size_t number, std::unique_lock<std::mutex>& lock)
   {
     std::rethrow_exception(error);
   }
-  spare_.push_back(std::move(spare));
+  spare_.push_back(std::move(decoder));
 }
 
 std::shared_ptr<const Content> SegmentSource::decompress(std::size_t number, Decoder& decoder) const

@@ -19,7 +19,6 @@ namespace granular
 namespace
 {
 constexpr std::size_t most_points = 1024;
-constexpr std::int64_t widest_spacing = std::int64_t{ 1 } << 24;
 constexpr std::size_t input_bytes = std::size_t{ 1 } << 18;
 constexpr std::size_t ring_bytes = std::size_t{ 1 } << 20;
 // As much as is wanted at a time, but not in steps that cost more than what is in them.
@@ -142,7 +141,7 @@ void Unpacker::compare_window(const SeekPoints::Point& before, SeekPoints::Point
   while (end_ < point.offset && this->advance(point.offset))
   {
   }
-  const std::string& window = point.window;
+  const std::string window = std::move(point.window);
   std::string there(window.size(), '\0');
   const std::int64_t first = point.offset - static_cast<std::int64_t>(window.size());
   if (first < begin_ || end_ < point.offset ||
@@ -193,14 +192,13 @@ bool Unpacker::advance(std::int64_t target)
 class UnpackedSource final : public ByteSource
 {
 public:
-  /// found: gets the points that are found.
+  /// found: see Decoder.
   UnpackedSource(std::unique_ptr<ByteSource> packed, std::shared_ptr<const SeekPoints> points,
     std::shared_ptr<SeekPoints> found, const MakeDecoder& make_decoder,
     std::int64_t largest_expansion)
     : packed_(std::move(packed))
-    , found_(std::move(found))
     , unpacker_(std::make_unique<Unpacker>(
-        make_decoder(*packed_, *found_), std::move(points), *packed_, largest_expansion))
+        make_decoder(*packed_, std::move(found)), std::move(points), *packed_, largest_expansion))
   {
   }
 
@@ -221,7 +219,6 @@ public:
 
 private:
   std::unique_ptr<ByteSource> packed_;
-  std::shared_ptr<SeekPoints> found_;
   std::unique_ptr<Unpacker> unpacker_; ///< reading moves it
 };
 
@@ -285,18 +282,23 @@ int PackedInput::get()
 
 std::int64_t Decoder::to_next_point() const noexcept
 {
-  const std::int64_t last = points_.points.empty() ? 0 : points_.points.back().offset;
-  return std::max(
-    std::int64_t{ 0 }, std::max(std::int64_t{ 1 }, points_.spacing) - (offset_ - last));
+  const std::int64_t last = !points_ || points_->points.empty() ? 0 : points_->points.back().offset;
+  return std::max(std::int64_t{ 0 }, this->spacing() - (offset_ - last));
+}
+
+std::int64_t Decoder::spacing() const noexcept
+{
+  return points_ ? std::max(std::int64_t{ 1 }, points_->spacing)
+                 : std::numeric_limits<std::int64_t>::max();
 }
 
 void Decoder::add_point(SeekPoints::Point point)
 {
-  points_.points.push_back(std::move(point));
-  while (points_.points.size() > most_points && points_.spacing < widest_spacing)
+  points_->points.push_back(std::move(point));
+  while (points_->points.size() > most_points && points_->spacing < SeekPoints::widest_spacing)
   {
-    points_.spacing = std::min(2 * std::max(std::int64_t{ 1 }, points_.spacing), widest_spacing);
-    thin(points_);
+    points_->spacing = std::min(2 * this->spacing(), SeekPoints::widest_spacing);
+    thin(*points_);
   }
 }
 
@@ -336,8 +338,8 @@ MakeDecoder find_decoder(const ByteSource& packed)
   const std::string_view magic(first.data(), packed.read(0, first.data(), first.size()));
   if (begins_with(magic, "\x1f\x8b\x08"))
   {
-    return [](const ByteSource& source, SeekPoints& points)
-    { return make_gzip_decoder(source, points, inflations().front()); };
+    return [](const ByteSource& source, std::shared_ptr<SeekPoints> points)
+    { return make_gzip_decoder(source, std::move(points), inflations().front()); };
   }
   if (begins_with(magic, zstd_magic) || is_skippable_frame(magic))
   {
@@ -365,15 +367,8 @@ std::unique_ptr<ByteSource> unpack_known(std::unique_ptr<ByteSource> packed,
   }
   const MakeDecoder make_decoder = find_decoder(*packed);
   return make_decoder ? std::make_unique<UnpackedSource>(std::move(packed), std::move(points),
-                          add_no_points(), make_decoder, largest_expansion)
+                          nullptr, make_decoder, largest_expansion)
                       : std::move(packed);
-}
-
-std::shared_ptr<SeekPoints> add_no_points()
-{
-  auto points = std::make_shared<SeekPoints>();
-  points->spacing = std::numeric_limits<std::int64_t>::max();
-  return points;
 }
 
 std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace granular
 {
@@ -52,9 +53,10 @@ private:
 class Decoder
 {
 public:
-  Decoder(const ByteSource& packed, SeekPoints& points)
+  /// points: gets those that are found; null: none are looked for.
+  Decoder(const ByteSource& packed, std::shared_ptr<SeekPoints> points)
     : in_(packed)
-    , points_(points)
+    , points_(std::move(points))
   {
   }
   virtual ~Decoder() = default;
@@ -83,7 +85,7 @@ public:
 protected:
   /// Returns the bytes of content up to the next restart point; 0 if the point is due.
   std::int64_t to_next_point() const noexcept;
-  std::int64_t spacing() const noexcept { return points_.spacing; }
+  std::int64_t spacing() const noexcept;
   void add_point(SeekPoints::Point point);
 
   /// Records that the end of the file was reached, within the compressed data (cut) or after it. Returns false.
@@ -100,17 +102,19 @@ protected:
   std::int64_t offset_ = 0; ///< of the next byte of the content
 
 private:
-  SeekPoints& points_;
+  std::shared_ptr<SeekPoints> points_;
   bool cut_ = false;
 };
 
 struct Inflation;
 
 std::unique_ptr<Decoder> make_gzip_decoder(
-  const ByteSource& packed, SeekPoints& points, const Inflation& inflation);
-std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, SeekPoints& points);
+  const ByteSource& packed, std::shared_ptr<SeekPoints> points, const Inflation& inflation);
+std::unique_ptr<Decoder> make_zstd_decoder(
+  const ByteSource& packed, std::shared_ptr<SeekPoints> points);
 
-using MakeDecoder = std::function<std::unique_ptr<Decoder>(const ByteSource&, SeekPoints&)>;
+using MakeDecoder =
+  std::function<std::unique_ptr<Decoder>(const ByteSource&, std::shared_ptr<SeekPoints>)>;
 
 /// Returns what makes a decoder for a file, by its first bytes; nothing if it is not compressed.
 MakeDecoder find_decoder(const ByteSource& packed);
@@ -119,9 +123,6 @@ MakeDecoder find_decoder(const ByteSource& packed);
 std::unique_ptr<ByteSource> unpack_by(const MakeDecoder& make_decoder,
   std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points,
   std::int64_t largest_expansion);
-
-/// Returns points of a decoder that is to add none.
-std::shared_ptr<SeekPoints> add_no_points();
 
 /// Throws LimitError if so many bytes of content came out of a file that it was made to fill memory and time.
 void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed,

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstdint>
 #include <new>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <zstd.h>
 #include <zstd_errors.h>
@@ -32,8 +34,8 @@ struct FreeStream
 class ZstdDecoder final : public Decoder
 {
 public:
-  ZstdDecoder(const ByteSource& packed, SeekPoints& points)
-    : Decoder(packed, points)
+  ZstdDecoder(const ByteSource& packed, std::shared_ptr<SeekPoints> points)
+    : Decoder(packed, std::move(points))
     , stream_(ZSTD_createDStream())
   {
     if (!stream_ ||
@@ -200,8 +202,9 @@ void ZstdDecoder::fail_with(std::size_t status) const
 }
 }
 
-std::unique_ptr<Decoder> make_zstd_decoder(const ByteSource& packed, SeekPoints& points)
+std::unique_ptr<Decoder> make_zstd_decoder(
+  const ByteSource& packed, std::shared_ptr<SeekPoints> points)
 {
-  return std::make_unique<ZstdDecoder>(packed, points);
+  return std::make_unique<ZstdDecoder>(packed, std::move(points));
 }
 }

@@ -85,9 +85,9 @@ void check_points(const FileIndex& file)
     require(point.window.size() <= largest_window, "a window of gzip");
     last = point.offset;
   }
-  constexpr std::int64_t widest_spacing = std::int64_t{ 1 } << 24;
   require(file.points->spacing > 0 &&
-      (file.points->spacing <= widest_spacing || (claims_end(file) && file.points->points.empty())),
+      (file.points->spacing <= SeekPoints::widest_spacing ||
+        (claims_end(file) && file.points->points.empty())),
     "a spacing of seek points");
 }
 }
