@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -322,6 +323,59 @@ TEST(WriteColumns, elements)
     grains.add("state", ValueType::Text, texts);
     EXPECT_EQ(write(grains.frame, { "state" }).error,
       std::string("column 'state': expected a word, got '") + bad + "'");
+  }
+}
+
+/// Lines of more numbers than are printed at a time, between words that are longer than any number.
+TEST(WriteColumns, many_columns_and_long_words)
+{
+  constexpr std::size_t rows = 300;
+  std::vector<std::string> words;
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    words.emplace_back(1 + row % 90, static_cast<char>('a' + row % 26));
+  }
+  for (const std::size_t count : { 1U, 63U, 254U, 255U, 256U, 257U, 700U })
+  {
+    std::vector<double> reals;
+    std::vector<std::int32_t> integers;
+    for (std::size_t i = 0; i < rows * count; ++i)
+    {
+      reals.push_back((static_cast<double>(i % 977) - 400) * 0.37);
+      integers.push_back(static_cast<std::int32_t>(i * 2654435761U));
+    }
+    FrameView frame;
+    frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 1, 1, 1 });
+    frame.rows = rows;
+    frame.arrays = { view_rows("word", ValueType::Text, words.data()),
+      view_rows("a", ValueType::Float64, reals.data(), static_cast<int>(count)),
+      view_rows("n", ValueType::Int32, integers.data()) };
+    Names columns = { "word" };
+    std::string expected;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      columns.push_back(count == 1 ? "a" : "a[" + std::to_string(i + 1) + "]");
+    }
+    columns.insert(columns.end(), { "n", "word" });
+    for (const std::string& name : columns)
+    {
+      expected += (expected.empty() ? "" : " ") + name;
+    }
+    expected += "\n";
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+      expected += words[row];
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        char word[32];
+        std::snprintf(word, sizeof word, " %g", reals[row * count + i]);
+        expected += word;
+      }
+      expected += " " + std::to_string(integers[row]) + " " + words[row] + "\n";
+    }
+    const Text text = write(frame, columns);
+    EXPECT_EQ(text.error, "");
+    EXPECT_EQ(difference(text.body, expected), "") << count << " columns";
   }
 }
 

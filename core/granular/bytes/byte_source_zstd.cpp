@@ -6,8 +6,8 @@
 
 #include <array>
 #include <cstdint>
-#include <new>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>

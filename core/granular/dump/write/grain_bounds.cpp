@@ -13,8 +13,9 @@ namespace
 {
 double radius_of(const RowValues::Column& column, std::size_t row) noexcept
 {
-  return column.type == ValueType::Int64 ? static_cast<double>(column.integers[row])
-                                         : column.reals[row];
+  return column.type == ValueType::Int32 ? column.at<std::int32_t>(row)
+    : column.type == ValueType::Int64    ? static_cast<double>(column.at<std::int64_t>(row))
+                                         : column.at<double>(row);
 }
 }
 
@@ -65,7 +66,7 @@ GrainBounds bounds_of_grains(const FrameView& frame)
     {
       for (std::size_t row = 0; row < values.rows(); ++row)
       {
-        const double x = values.columns()[axis].reals[row];
+        const double x = values.columns()[axis].at<double>(row);
         const double r = spheres ? radius_of(values.columns()[3], row) : 0;
         const bool finite = std::isfinite(x - r) && std::isfinite(x + r);
         bounds.lo[axis] = finite ? std::min(bounds.lo[axis], x - r) : bounds.lo[axis];

@@ -166,34 +166,35 @@ void PrintLoss::add_place(const ColumnSource& source, std::size_t column, const 
 
 void PrintLoss::measure(const RowValues& values, RoundingLoss& loss) const
 {
+  const auto is_real = [&](std::size_t column)
+  { return values.columns()[column].type == ValueType::Float64; };
   for (const Place& place : places_)
   {
-    const RowValues::Column& column = values.columns()[place.column];
-    if (column.type == ValueType::Float64)
+    if (is_real(place.column))
     {
-      this->measure_place(place, column.reals, loss);
+      this->measure_place(place, values, loss);
     }
   }
   for (const std::size_t column : values_)
   {
-    this->measure_values(column, values.columns()[column], loss);
+    if (is_real(column))
+    {
+      this->measure_values(column, values, loss);
+    }
   }
 }
 
-void PrintLoss::measure_place(
-  const Place& place, const std::vector<double>& values, RoundingLoss& loss) const
+void PrintLoss::measure_place(const Place& place, const RowValues& values, RoundingLoss& loss) const
 {
+  const RowValues::Column& column = values.columns()[place.column];
   std::int64_t unsafe = 0; // of 64 bits, as the values: vector instructions count
-  for (const double value : values)
+  for (std::size_t row = 0; row < values.rows(); ++row)
   {
-    unsafe += std::abs(value) > place.safe ? 1 : 0;
+    unsafe += std::abs(column.at<double>(row)) > place.safe ? 1 : 0;
   }
-  if (unsafe == 0)
+  for (std::size_t row = 0; unsafe > 0 && row < values.rows(); ++row)
   {
-    return;
-  }
-  for (const double value : values)
-  {
+    const double value = column.at<double>(row);
     const double moved = std::abs(as_printed(value, numbers_) - value);
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -203,15 +204,13 @@ void PrintLoss::measure_place(
 }
 
 void PrintLoss::measure_values(
-  std::size_t column, const RowValues::Column& values, RoundingLoss& loss) const
+  std::size_t column, const RowValues& values, RoundingLoss& loss) const
 {
-  if (values.type != ValueType::Float64)
+  const RowValues::Column& numbers = values.columns()[column];
+  for (std::size_t row = 0; row < values.rows(); ++row)
   {
-    return;
-  }
-  for (const double value : values.reals)
-  {
-    const bool whole = values.whole && std::trunc(value) == value;
+    const double value = numbers.at<double>(row);
+    const bool whole = numbers.whole && std::trunc(value) == value;
     if (!whole)
     {
       loss.change(column, value, as_printed(value, numbers_));

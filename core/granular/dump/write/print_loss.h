@@ -55,10 +55,8 @@ private:
 
   void add_place(const ColumnSource& source, std::size_t column, const Vector3& of_box,
     const Vector3& of_sums, const RoundingLimit& limit);
-  void measure_place(
-    const Place& place, const std::vector<double>& values, RoundingLoss& loss) const;
-  void measure_values(
-    std::size_t column, const RowValues::Column& values, RoundingLoss& loss) const;
+  void measure_place(const Place& place, const RowValues& values, RoundingLoss& loss) const;
+  void measure_values(std::size_t column, const RowValues& values, RoundingLoss& loss) const;
 
   Box box_;
   NumberFormat of_box_ = { 6 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/row_encoder.h"
 
-#include "granular/common/words.h"
+#include "granular/dump/write/text_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,55 +12,11 @@ namespace granular
 {
 namespace
 {
+constexpr std::int64_t ahead =
+  256; ///< rows that are fetched from memory early: those of the next call
 constexpr double most_exact = 9007199254740992.0; // 2^53
 
 using Column = RowValues::Column;
-
-/// Room that rows of text can need.
-std::size_t most_text_bytes(std::span<const Column> columns, std::size_t rows)
-{
-  std::size_t bytes = rows * (columns.size() * (most_number_chars + 1) + 2);
-  for (const Column& column : columns)
-  {
-    for (std::size_t row = 0; column.type == ValueType::Text && row < rows; ++row)
-    {
-      bytes += column.texts[row]->size();
-    }
-  }
-  return bytes;
-}
-
-/// A text that would not be one word when it is read again has no place in a dump.
-void check_texts(const Column& column, const std::string& name)
-{
-  for (const std::string* text : column.texts)
-  {
-    if (text->empty() || std::any_of(text->begin(), text->end(), is_blank))
-    {
-      throw FormatError("expected a word, got '" + *text + "'", { .column = name });
-    }
-  }
-}
-
-[[gnu::always_inline]] inline char* print_value(
-  char* to, const Column& column, std::size_t row, NumberFormat format)
-{
-  if (column.type == ValueType::Int64)
-  {
-    return print_integer(to, column.integers[row]);
-  }
-  if (column.type == ValueType::Text)
-  {
-    const std::string& text = *column.texts[row];
-    return std::copy(text.begin(), text.end(), to);
-  }
-  const double value = column.reals[row];
-  if (column.whole && std::abs(value) < most_exact && std::trunc(value) == value)
-  {
-    return print_integer(to, static_cast<std::int64_t>(value));
-  }
-  return print_number(to, value, format);
-}
 
 [[noreturn]] void fail_integer(std::int64_t value, const std::string& name)
 {
@@ -76,14 +32,41 @@ bool is_double(std::int64_t value) noexcept
   return real < 0x1p63 && static_cast<std::int64_t>(real) == value;
 }
 
-/// One column of the rows, a double every `step` bytes.
-template <class Value>
-void scatter(const Value* from, std::size_t count, char* to, std::size_t step) noexcept
+/// Throws for an integer that a double cannot hold.
+void check_integers(
+  const Column& column, const std::string& name, std::size_t first, std::size_t count)
 {
+  constexpr auto most = static_cast<std::uint64_t>(most_exact);
+  std::uint64_t large = 0; // without a branch for each
+  for (std::size_t row = first; row < first + count; ++row)
+  {
+    large |=
+      std::uint64_t{ static_cast<std::uint64_t>(column.at<std::int64_t>(row)) + most > 2 * most };
+  }
+  for (std::size_t row = first; large != 0 && row < first + count; ++row)
+  {
+    if (!is_double(column.at<std::int64_t>(row)))
+    {
+      fail_integer(column.at<std::int64_t>(row), name);
+    }
+  }
+}
+
+/// One column of the rows, a double every `step` bytes.
+template <class Number>
+void scatter(
+  const Column& column, std::size_t first, std::size_t count, char* to, std::size_t step) noexcept
+{
+  const Number* from =
+    static_cast<const Number*>(column.data) + static_cast<std::int64_t>(first) * column.step;
+  const std::int64_t from_step = column.step;
   for (std::size_t row = 0; row < count; ++row)
   {
-    const auto value = static_cast<double>(from[row]);
-    std::memcpy(to + row * step, &value, sizeof value);
+    __builtin_prefetch(from + ahead * from_step, 0, 2);
+    const auto value = static_cast<double>(*from);
+    std::memcpy(to, &value, sizeof value);
+    from += from_step;
+    to += step;
   }
 }
 }
@@ -96,18 +79,20 @@ void pack_rows(
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     const Column& column = columns[i];
-    if (column.type != ValueType::Int64)
+    char* const place = to + i * sizeof(double);
+    switch (column.type)
     {
-      scatter(column.reals.data() + first, count, to + i * sizeof(double), step);
-      continue;
+      case ValueType::Int32:
+        scatter<std::int32_t>(column, first, count, place, step);
+        break;
+      case ValueType::Int64:
+        check_integers(column, plan.columns[i].name, first, count);
+        scatter<std::int64_t>(column, first, count, place, step);
+        break;
+      default:
+        scatter<double>(column, first, count, place, step);
+        break;
     }
-    const std::int64_t* integers = column.integers.data() + first;
-    const auto* const bad = std::find_if_not(integers, integers + count, is_double);
-    if (bad != integers + count)
-    {
-      fail_integer(*bad, plan.columns[i].name);
-    }
-    scatter(integers, count, to + i * sizeof(double), step);
   }
 }
 
@@ -126,36 +111,10 @@ void RowEncoder::encode(std::int64_t first, std::int64_t count, std::int64_t kep
     }
     else
     {
-      this->encode_text(values, to);
+      print_rows(values, plan, has_trailing_blanks(format), to);
     }
     row += static_cast<std::int64_t>(values.rows());
   }
-}
-
-void RowEncoder::encode_text(const RowValues& values, RowBuffer& to) const
-{
-  const std::span<const Column> columns = values.columns();
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    if (columns[i].type == ValueType::Text)
-    {
-      check_texts(columns[i], plan.columns[i].name);
-    }
-  }
-  const bool trailing_blank = has_trailing_blanks(format);
-  char* const begin = to.room(most_text_bytes(columns, values.rows()));
-  char* end = begin;
-  for (std::size_t row = 0; row < values.rows(); ++row)
-  {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-    {
-      end = print_value(end, columns[i], row, plan.columns[i].numbers);
-      *end++ = ' ';
-    }
-    end -= trailing_blank ? 0 : 1;
-    *end++ = '\n';
-  }
-  to.add(static_cast<std::size_t>(end - begin));
 }
 
 /// Rows up to the next chunk at a time, whose length stands before it.

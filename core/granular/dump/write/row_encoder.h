@@ -36,7 +36,6 @@ struct RowEncoder
     RowBuffer& to, RoundingLoss& loss) const;
 
 private:
-  void encode_text(const RowValues& values, RowBuffer& to) const;
   void encode_binary(const RowValues& values, std::int64_t in_file, RowBuffer& to) const;
 };
 }

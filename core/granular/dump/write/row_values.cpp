@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace granular
 {
@@ -30,40 +31,6 @@ void check_unsigned(const ColumnSource& source, Rows rows)
       throw LimitError(
         "expected integers below 2^63, got " + std::to_string(values[row * source.values.step]),
         { .column = source.name });
-    }
-  }
-}
-
-void load_array(const ColumnSource& source, Rows rows, bool as_doubles, RowValues::Column& column)
-{
-  const ValueSource& values = source.values;
-  if (values.type == ValueType::Text)
-  {
-    const auto* texts = static_cast<const std::string*>(values.data);
-    column.type = ValueType::Text;
-    column.texts.resize(rows.size());
-    std::transform(rows.begin(), rows.end(), column.texts.begin(),
-      [&](std::int64_t row) { return texts + row * values.step; });
-  }
-  else if (is_integer(values.type) && values.factor == 1 &&
-    !(as_doubles && values.type < ValueType::Int64))
-  {
-    if (values.type == ValueType::UInt64)
-    {
-      check_unsigned(source, rows);
-    }
-    column.type = ValueType::Int64;
-    column.integers.resize(rows.size());
-    load_numbers(values, rows, column.integers.data());
-  }
-  else
-  {
-    column.type = ValueType::Float64;
-    column.reals.resize(rows.size());
-    load_numbers(values, rows, column.reals.data());
-    for (double& value : column.reals)
-    {
-      value *= values.factor;
     }
   }
 }
@@ -124,6 +91,90 @@ void put_back_digits(double& value, int digits, double allowed) noexcept
 }
 }
 
+/// Room for the integers of a column that are made.
+std::span<std::int64_t> RowValues::make_integers(std::size_t column)
+{
+  std::vector<std::int64_t>& made = integers_[column];
+  made.resize(rows_);
+  columns_[column].type = ValueType::Int64;
+  columns_[column].data = made.data();
+  columns_[column].step = 1;
+  return made;
+}
+
+/// Room for the real numbers of a column that are made.
+std::span<double> RowValues::make_reals(std::size_t column)
+{
+  std::vector<double>& made = reals_[column];
+  made.resize(rows_);
+  columns_[column].type = ValueType::Float64;
+  columns_[column].data = made.data();
+  columns_[column].step = 1;
+  return made;
+}
+
+/// Whether the numbers of a column can be written as they are in their array; if so the column shows them there.
+bool RowValues::find_in_place(const ColumnSource& source, Column& column) const noexcept
+{
+  const ValueSource& values = source.values;
+  const bool kept_type = values.type == ValueType::Int32 || values.type == ValueType::Int64 ||
+    values.type == ValueType::Float64;
+  if (!contiguous_ || rows_ == 0 || !kept_type || values.factor != 1)
+  {
+    return false;
+  }
+  constexpr std::size_t small = sizeof(std::int32_t);
+  const std::size_t bytes = values.type == ValueType::Int32 ? small : sizeof(double);
+  column.type = values.type;
+  column.step = values.step;
+  column.data = static_cast<const char*>(values.data) +
+    kept_.front() * values.step * static_cast<std::int64_t>(bytes);
+  return true;
+}
+
+void RowValues::load_array(const ColumnSource& source, std::size_t column, bool as_doubles)
+{
+  const ValueSource& values = source.values;
+  if (this->find_in_place(source, columns_[column]))
+  {
+    return;
+  }
+  if (values.type == ValueType::Text)
+  {
+    const auto* first = static_cast<const std::string*>(values.data);
+    std::vector<const std::string*>& texts = columns_[column].texts;
+    columns_[column].type = ValueType::Text;
+    texts.resize(rows_);
+    std::ranges::transform(
+      this->kept(), texts.begin(), [&](std::int64_t row) { return first + row * values.step; });
+  }
+  else if (is_integer(values.type) && values.factor == 1 &&
+    !(as_doubles && values.type < ValueType::Int64))
+  {
+    if (values.type == ValueType::UInt64)
+    {
+      check_unsigned(source, this->kept());
+    }
+    load_numbers(values, this->kept(), this->make_integers(column).data());
+  }
+  else
+  {
+    const std::span<double> reals = this->make_reals(column);
+    load_numbers(values, this->kept(), reals.data());
+    for (double& value : reals)
+    {
+      value *= values.factor;
+    }
+    if (source.kept_digits() > 0 && values.type == ValueType::Float32)
+    {
+      constexpr double half_unit = 0x1p-24;
+      std::ranges::for_each(reals,
+        [&](double& value)
+        { put_back_digits(value, source.kept_digits(), half_unit * std::abs(value)); });
+    }
+  }
+}
+
 void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)
 {
   own_.resize(rows_);
@@ -131,7 +182,7 @@ void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)
   images_.assign(3 * rows_, 0);
   const auto load_axis = [&](const ValueSource& source, std::size_t axis, std::vector<double>& to)
   {
-    load_numbers(source, std::span(kept_).first(rows_), own_.data());
+    load_numbers(source, this->kept(), own_.data());
     for (std::size_t i = 0; i < rows_; ++i)
     {
       to[3 * i + axis] = own_[i];
@@ -170,11 +221,10 @@ std::span<const double> RowValues::coordinates(const FrameView& frame, ColumnRol
 }
 
 void RowValues::load_coordinate(
-  const FrameView& frame, const Box& box, const ColumnSource& source, std::vector<double>& to)
+  const FrameView& frame, const Box& box, const ColumnSource& source, std::span<double> to)
 {
   const std::span<const double> all = this->coordinates(frame, source.role);
   const auto axis = static_cast<std::size_t>(source.axis);
-  to.resize(rows_);
   for (std::size_t i = 0; i < rows_; ++i)
   {
     to[i] = all[3 * i + axis];
@@ -186,7 +236,7 @@ void RowValues::load_coordinate(
   // the file's own number, where it is that of the point within rounding: its last digits are its own
   if (source.own)
   {
-    load_numbers(source.values, std::span(kept_).first(rows_), own_.data());
+    load_numbers(source.values, this->kept(), own_.data());
   }
   const double unit = frame.points->type == ValueType::Float32 ? 0x1p-22 : 0x1p-50;
   const double magnitude = magnitudes(box, box_, source.role)[axis];
@@ -219,8 +269,10 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
       [&](std::int64_t row) { return frame.is_duplicate(row); });
     rows_ = static_cast<std::size_t>(end - kept_.begin());
   }
-  const Rows rows = std::span(kept_).first(rows_);
+  contiguous_ = is_consecutive(this->kept());
   columns_.resize(plan.columns.size());
+  integers_.resize(columns_.size());
+  reals_.resize(columns_.size());
   const auto is_derived = [&](const ColumnSource& source)
   {
     return source.kind == Kind::Image ||
@@ -234,49 +286,36 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
   for (std::size_t i = 0; i < columns_.size(); ++i)
   {
     const ColumnSource& source = plan.columns[i];
-    Column& column = columns_[i];
-    column.type = ValueType::Float64;
-    column.whole = source.whole;
+    columns_[i].whole = source.whole;
     switch (source.kind)
     {
       case Kind::Array:
-        load_array(source, rows, plan.binary, column);
-        if (source.kept_digits() > 0 && source.values.type == ValueType::Float32)
-        {
-          constexpr double half_unit = 0x1p-24;
-          std::ranges::for_each(column.reals,
-            [&](double& value)
-            { put_back_digits(value, source.kept_digits(), half_unit * std::abs(value)); });
-        }
+        this->load_array(source, i, plan.binary);
         break;
       case Kind::Coordinate:
         if (scales_alone(source, frame, box))
         {
           const auto axis = static_cast<std::size_t>(source.axis);
-          column.reals.resize(rows_);
-          load_numbers(point_values(frame, axis), rows, column.reals.data());
-          scale_aligned(box_, axis, column.reals);
+          const std::span<double> reals = this->make_reals(i);
+          load_numbers(point_values(frame, axis), this->kept(), reals.data());
+          scale_aligned(box_, axis, reals);
           break;
         }
-        this->load_coordinate(frame, box, source, column.reals);
+        this->load_coordinate(frame, box, source, this->make_reals(i));
         break;
       case Kind::Image:
-        column.type = ValueType::Int64;
-        column.integers.resize(rows_);
-        for (std::size_t row = 0; row < rows_; ++row)
-        {
-          column.integers[row] =
-            as_image(images_[3 * row + static_cast<std::size_t>(source.axis)], source.name);
-        }
+        std::ranges::generate(this->make_integers(i),
+          [&, image = images_.data() + source.axis]() mutable
+          { return as_image(*std::exchange(image, image + 3), source.name); });
         break;
       case Kind::RowNumber:
-        column.type = ValueType::Int64;
-        column.integers.resize(rows_);
-        std::iota(column.integers.begin(), column.integers.end(), row_number + 1);
+      {
+        const std::span<std::int64_t> numbers = this->make_integers(i);
+        std::iota(numbers.begin(), numbers.end(), row_number + 1);
         break;
+      }
       case Kind::One:
-        column.type = ValueType::Int64;
-        column.integers.assign(rows_, 1);
+        std::ranges::fill(this->make_integers(i), 1);
         break;
     }
   }

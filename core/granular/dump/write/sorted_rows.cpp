@@ -25,10 +25,20 @@ ValueType type_of(const ColumnSource& column) noexcept
                                                         : ValueType::Float64;
 }
 
-template <class Value>
-void copy_to(const std::vector<Value>& values, const Block& block, std::int64_t row)
+template <class From, class To>
+void copy_numbers(const RowValues::Column& column, std::size_t rows, To* to)
 {
-  std::copy(values.begin(), values.end(), static_cast<Value*>(block.data()) + row);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    to[row] = static_cast<To>(column.at<From>(row));
+  }
+}
+
+/// The integers of a column, of whatever width.
+void copy_integers(const RowValues::Column& column, std::size_t rows, std::int64_t* to)
+{
+  column.type == ValueType::Int32 ? copy_numbers<std::int32_t>(column, rows, to)
+                                  : copy_numbers<std::int64_t>(column, rows, to);
 }
 }
 
@@ -85,14 +95,17 @@ void SortedRows::copy(const FrameView& frame, const FramePlan& plan, int rank, P
           }
           break;
         case ValueType::Float64:
-          copy_to(column.reals, rows_.arrays[i].block, done);
+          copy_numbers<double>(
+            column, values.rows(), static_cast<double*>(rows_.arrays[i].block.data()) + done);
           break;
         default:
-          copy_to(column.integers, rows_.arrays[i].block, done);
+          copy_integers(
+            column, values.rows(), static_cast<std::int64_t*>(rows_.arrays[i].block.data()) + done);
           break;
       }
     }
-    copy_to(values.columns().back().integers, ids_, done);
+    copy_integers(
+      values.columns().back(), values.rows(), static_cast<std::int64_t*>(ids_.data()) + done);
     done += static_cast<std::int64_t>(values.rows());
   }
   for (std::size_t i = 0; i < words.size(); ++i)

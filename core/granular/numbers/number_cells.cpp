@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/numbers/number_cells.h"
+
+#include "granular/numbers/number_print_few.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t ahead =
+  256; ///< numbers that are fetched from memory early: those of the next call
+
+/// A loop of its own for each kind of number, so that what is the same for all is asked once.
+template <class Number, class Print>
+[[gnu::always_inline]] inline void print_all(const Number* from, std::int64_t step,
+  std::size_t count, const NumberCells& to, Print&& print) noexcept
+{
+  const NumberCells cells = to; // not read again after each character
+  char* cell = cells.text;
+  std::uint8_t* length = cells.lengths;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    __builtin_prefetch(from + ahead * step);
+    char* const end = print(cell, *from);
+    std::memcpy(end, cells.end.data(), cells.end.size());
+    *length = static_cast<std::uint8_t>(end - cell + cells.end_chars);
+    from += step;
+    cell += cells.step * most_number_chars;
+    length += cells.step;
+  }
+}
+}
+
+void print_numbers(const double* from, std::int64_t step, std::size_t count, NumberFormat format,
+  bool whole, const NumberCells& to) noexcept
+{
+  using namespace number_print;
+  constexpr double most_exact = 9007199254740992.0; // 2^53
+  if (whole)
+  {
+    print_all(from, step, count, to,
+      [format](char* cell, double value)
+      {
+        return std::abs(value) < most_exact && std::trunc(value) == value
+          ? print_whole(cell, static_cast<std::int64_t>(value))
+          : print_number(cell, value, format);
+      });
+    return;
+  }
+  constexpr int few = 6;
+  if (format != NumberFormat{ few })
+  {
+    print_all(from, step, count, to,
+      [format](char* cell, double value) { return print_number(cell, value, format); });
+    return;
+  }
+  print_all(from, step, count, to,
+    [](char* cell, double value)
+    {
+      const std::uint64_t magnitude = std::bit_cast<std::uint64_t>(value) & ~sign_bit;
+      if (is_usual(magnitude)) [[likely]]
+      {
+        const Rounded rounded = round_few(magnitude, few);
+        if (rounded.sure) [[likely]]
+        {
+          return lay_out_few(cell, value, rounded, few);
+        }
+      }
+      return print_number(cell, value, { few });
+    });
+}
+
+void print_integers(
+  const std::int32_t* from, std::int64_t step, std::size_t count, const NumberCells& to) noexcept
+{
+  print_all(from, step, count, to,
+    [](char* cell, std::int32_t value) { return number_print::print_whole(cell, value); });
+}
+
+void print_integers(
+  const std::int64_t* from, std::int64_t step, std::size_t count, const NumberCells& to) noexcept
+{
+  print_all(from, step, count, to,
+    [](char* cell, std::int64_t value) { return number_print::print_whole(cell, value); });
+}
+}
