@@ -8,7 +8,7 @@ namespace granular
 namespace
 {
 /// Of the sums of a group, where there is one process.
-constexpr std::int64_t bytes_of_thread = std::int64_t{ 8 } << 20;
+constexpr std::int64_t bytes_of_thread = std::int64_t{ 2 } << 20;
 
 /// Below it the parts of a block are not worth a sum of their own each.
 constexpr std::int64_t rows_of_part = 16384;

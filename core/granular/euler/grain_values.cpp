@@ -5,6 +5,7 @@
 #include "granular/grid/sphere_box.h"
 #include "granular/particles/point_forms.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -70,32 +71,19 @@ template <std::size_t size>
 const double* load(const std::array<std::optional<ValueSource>, size>& sources, double missing,
   std::span<const std::int64_t> rows, double* buffer)
 {
-  constexpr auto step = static_cast<std::int64_t>(size);
   if (!sources[0])
   {
     std::fill_n(buffer, size * rows.size(), missing);
     return buffer;
   }
-  const auto* const first = static_cast<const double*>(sources[0]->data);
-  bool plain = is_consecutive(rows);
-  for (std::size_t k = 0; plain && k < size; ++k)
+  std::array<ValueSource, size> there;
+  std::ranges::transform(sources, there.begin(), [](const auto& source) { return *source; });
+  constexpr auto step = static_cast<std::int64_t>(size);
+  if (!rows.empty() && there[0].step == step && are_rows(there) && is_consecutive(rows))
   {
-    plain = sources[k]->type == ValueType::Float64 && sources[k]->step == step &&
-      sources[k]->factor == 1 && sources[k]->data == first + k;
+    return static_cast<const double*>(there[0].data) + step * rows.front();
   }
-  if (plain)
-  {
-    return rows.empty() ? buffer : first + step * rows.front();
-  }
-  std::array<double, most_rows> values;
-  for (std::size_t k = 0; k < size; ++k)
-  {
-    load_numbers(*sources[k], rows, values.data());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      buffer[size * i + k] = values[i] * sources[k]->factor;
-    }
-  }
+  load_rows(there, rows, buffer);
   return buffer;
 }
 

@@ -176,19 +176,9 @@ ExactCoordinate AbsolutePositions::exact(std::size_t axis, std::int64_t row) con
 void AbsolutePositions::convert(std::span<const std::int64_t> rows, double* buffer) const
 {
   const std::size_t count = rows.size();
-  std::array<double, most_rows> values;
-  const auto load_axis = [&](const ValueSource& source, std::size_t axis, double* to)
-  {
-    load_numbers(source, rows, values.data());
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      to[3 * i + axis] = values[i] * source.factor;
-    }
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    load_axis(point_values(frame_, axis), axis, buffer);
-  }
+  const std::array<ValueSource, 3> points = { point_values(frame_, 0), point_values(frame_, 1),
+    point_values(frame_, 2) };
+  load_rows(points, rows, buffer);
   if (frame_.coordinates == Coordinates::Absolute && frame_.point_origin == Vector3{})
   {
     return;
@@ -196,14 +186,14 @@ void AbsolutePositions::convert(std::span<const std::int64_t> rows, double* buff
   std::vector<double> images;
   if (frame_.coordinates == Coordinates::Unwrapped)
   {
-    images.assign(3 * count, 0);
+    const double none = 0;
+    std::array<ValueSource, 3> counts;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (images_[axis])
-      {
-        load_axis(*images_[axis], axis, images.data());
-      }
+      counts[axis] = images_[axis].value_or(ValueSource{ ValueType::Float64, &none, 0 });
     }
+    images.resize(3 * count);
+    load_rows(counts, rows, images.data());
     if (crosses_)
     {
       count_crossings(box_, { buffer, 3 * count }, images);

@@ -3,6 +3,8 @@
 
 #include "granular/geometry/exact_determinant.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace granular
@@ -29,6 +31,20 @@ void copy_values(const ValueSource& source, Rows rows, To* to)
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
     to[i] = static_cast<To>(from[rows[i] * step]);
+  }
+}
+
+template <std::size_t size>
+void copy_rows(const ValueSource& first, Rows rows, double* to) noexcept
+{
+  const auto* const from = static_cast<const double*>(first.data);
+  for (const std::int64_t row : rows)
+  {
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      to[k] = from[row * first.step + static_cast<std::int64_t>(k)];
+    }
+    to += size;
   }
 }
 
@@ -83,6 +99,45 @@ void load_numbers(const ValueSource& source, Rows rows, Number* to)
 
 template void load_numbers(const ValueSource& source, Rows rows, double* to);
 template void load_numbers(const ValueSource& source, Rows rows, std::int64_t* to);
+
+bool are_rows(std::span<const ValueSource> sources) noexcept
+{
+  const ValueSource& first = sources.front();
+  bool same = first.type == ValueType::Float64 && first.factor == 1;
+  for (std::size_t k = 1; same && k < sources.size(); ++k)
+  {
+    same = sources[k].type == ValueType::Float64 && sources[k].factor == 1 &&
+      sources[k].step == first.step &&
+      sources[k].data == static_cast<const double*>(first.data) + k;
+  }
+  return same;
+}
+
+void load_rows(std::span<const ValueSource> sources, Rows rows, double* to)
+{
+  const std::size_t size = sources.size();
+  if ((size == 1 || size == 3 || size == 6) && are_rows(sources))
+  {
+    const auto copy = size == 1 ? copy_rows<1> : size == 3 ? copy_rows<3> : copy_rows<6>;
+    copy(sources.front(), rows, to);
+    return;
+  }
+  std::array<double, 256> values;
+  while (!rows.empty())
+  {
+    const Rows some = rows.first(std::min(rows.size(), values.size()));
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      load_numbers(sources[k], some, values.data());
+      for (std::size_t i = 0; i < some.size(); ++i)
+      {
+        to[size * i + k] = values[i] * sources[k].factor;
+      }
+    }
+    rows = rows.subspan(some.size());
+    to += size * some.size();
+  }
+}
 
 bool is_periodic(const Box& box, std::size_t axis) noexcept
 {

@@ -20,6 +20,14 @@ bool is_consecutive(std::span<const std::int64_t> rows) noexcept;
 template <class Number>
 void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, Number* to);
 
+/// Returns true if sources are doubles of a row side by side, with factors of 1.
+bool are_rows(std::span<const ValueSource> sources) noexcept;
+
+/// Writes the values of several sources, multiplied by their factors, one row after the other: the values of a row are side by
+/// side. They may be of any type but texts.
+void load_rows(
+  std::span<const ValueSource> sources, std::span<const std::int64_t> rows, double* to);
+
 /// Returns true if a box is periodic along an axis, by its boundary flags.
 bool is_periodic(const Box& box, std::size_t axis) noexcept;
 
