@@ -4,6 +4,7 @@
 #include "granular/dump/read/dump_reader.h"
 
 #include "../support/dumps.h"
+#include "../support/frame_content.h"
 #include "../support/hard_case.h"
 
 #include <gtest/gtest.h>
@@ -364,6 +365,53 @@ TEST(ReadDump, StrideById)
   {
     expect_rows(dump.read(with_stride(stride)), 7000,
       [stride](std::int64_t row) { return id_of(row) % stride == 0; });
+  }
+}
+
+/// Where many rows are wanted all are decoded, but words of the others are nobody's business.
+TEST(ReadDump, StrideReadsNothingElseOfOtherRows)
+{
+  constexpr std::int64_t count = 9000; // more than are decoded at a time
+  constexpr std::int64_t lines_before = 9;
+  const auto text = [](std::int64_t bad_row)
+  {
+    std::string rows;
+    for (std::int64_t row = 0; row < count; ++row)
+    {
+      rows += std::to_string(row) + " " + std::to_string(row) +
+        (row == bad_row ? " half " : " 0.5 ") + std::to_string(row % 10) + " 1e" +
+        std::to_string(row % 7) + "\n";
+    }
+    return one_frame("id x y z q", rows);
+  };
+  for (const std::int64_t stride : { 2, 3, 4, 5, 1000 })
+  {
+    Doubles points;
+    Doubles charges;
+    Integers ids;
+    for (std::int64_t row = 0; row < count; row += stride)
+    {
+      points.insert(points.end(), { static_cast<double>(row), 0.5, static_cast<double>(row % 10) });
+      charges.push_back(std::pow(10.0, static_cast<double>(row % 7)));
+      ids.push_back(row);
+    }
+    for (const std::int64_t bad_row : { std::int64_t{ -1 }, std::int64_t{ 1 }, stride - 1,
+           7 * stride + 1, count / stride * stride - 1 })
+    {
+      for (const int threads : { 1, 2 })
+      {
+        const std::string bad = text(bad_row);
+        const Decoded frame = Dump(bad).read(in_chunks(with_stride(stride), threads, 20'000));
+        EXPECT_TRUE(frame.points() == points) << "stride " << stride << ", row " << bad_row;
+        EXPECT_TRUE(frame.values("q") == charges);
+        EXPECT_TRUE(frame.integers("id") == ids);
+      }
+    }
+    const std::int64_t bad_row = 6000 / stride * stride;
+    const std::string bad = text(bad_row);
+    EXPECT_EQ(error_of([&] { Dump(bad).read(with_stride(stride)); }),
+      "memory:" + std::to_string(lines_before + bad_row + 1) +
+        ": column 'y': expected a number, got 'half'");
   }
 }
 

@@ -5,6 +5,7 @@
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <string>
 
@@ -12,6 +13,9 @@ namespace granular
 {
 namespace
 {
+/// With fewer rows for each stretch of chosen ones it is faster to decode them all: beginning a stretch takes as long as some rows.
+constexpr std::int64_t rows_a_stretch = 4;
+
 /// The line behind so many lines with words.
 const char* skip_rows(const char* at, const char* last, std::size_t rows) noexcept
 {
@@ -141,11 +145,49 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
   return result.rows;
 }
 
+/// Decodes all rows, chosen or not. Returns false if there is a word that is no number: then it may be in a row that nobody
+/// wants, and nothing is decoded.
+bool TextReader::decode_numbers(
+  std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice, RowCounts& counts)
+{
+  constexpr std::int64_t most_looked_at = 256;
+  const std::vector<ColumnSink> before(sinks.begin(), sinks.end());
+  const auto chosen_by = std::ranges::find(before, choice.column, &ColumnSink::column);
+  const RowResult result = decode_rows(
+    buffer_.data() + at_, buffer_.data() + end_, this->columns(), sinks, max_rows, memory_);
+  if (result.status != RowStatus::Done)
+  {
+    std::ranges::copy(before, sinks.begin());
+    return false;
+  }
+  const std::int64_t looked_at = std::min(result.rows, most_looked_at);
+  std::int64_t chosen = 0;
+  const char* from = chosen_by->data;
+  for (std::int64_t row = 0; row < looked_at; ++row, from += chosen_by->stride)
+  {
+    std::int64_t number = 0;
+    std::memcpy(&number, from, sizeof number);
+    chosen += choice.passes(number) ? 1 : 0;
+  }
+  many_chosen_ = chosen > looked_at / rows_a_stretch;
+  at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
+  surplus_ = surplus_ || result.surplus;
+  counts = { result.rows, result.rows };
+  return true;
+}
+
 /// Decodes the column of the choice of all rows, and then whole stretches of rows that pass. A row in which the choice
 /// fails comes after those before it.
 RowCounts TextReader::decode_chosen(
   std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice)
 {
+  RowCounts counts;
+  const bool texts =
+    std::ranges::any_of(sinks, [](const ColumnSink& sink) { return sink.type == ValueType::Text; });
+  if (many_chosen_ && !texts && this->decode_numbers(sinks, max_rows, choice, counts))
+  {
+    return counts;
+  }
   chosen_by_.resize(static_cast<std::size_t>(max_rows));
   ColumnSink numbers{ choice.column, ValueType::Int64, reinterpret_cast<char*>(chosen_by_.data()),
     sizeof(std::int64_t) };
@@ -155,8 +197,9 @@ RowCounts TextReader::decode_chosen(
     decode_rows(at, last, this->columns(), std::span(&numbers, 1), max_rows, memory_);
   const auto rows = static_cast<std::size_t>(all.rows);
   const auto passes = [&](std::size_t row) { return choice.passes(chosen_by_[row]); };
-  RowCounts counts{ all.rows };
+  counts = { all.rows };
   std::size_t passed = 0; // rows before `at`
+  std::int64_t stretches = 0;
   for (std::size_t row = 0; row < rows; ++row)
   {
     if (!passes(row))
@@ -175,7 +218,9 @@ RowCounts TextReader::decode_chosen(
     this->check(some, behind, sinks);
     counts.decoded += some.rows;
     at = behind;
+    ++stretches;
   }
+  many_chosen_ = stretches > all.rows / rows_a_stretch;
   this->check(all, last, std::span(&numbers, 1));
   at_ = static_cast<std::size_t>(all.ptr - buffer_.data());
   surplus_ = surplus_ || all.surplus;

@@ -30,6 +30,8 @@ public:
     std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice) override;
 
 private:
+  bool decode_numbers(
+    std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice, RowCounts& counts);
   void load(std::int64_t from, std::int64_t to);
   std::size_t load_line(std::size_t at);
   void check_length(std::size_t first, std::size_t end) const;
@@ -48,6 +50,7 @@ private:
   bool surplus_ = false;
   RowMemory memory_;
   std::vector<std::int64_t> chosen_by_; ///< the integers of a choice
+  bool many_chosen_ = false;            ///< of the last rows so many that decoding all is faster
 };
 }
 #endif

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <type_traits>
 
 namespace granular
 {
@@ -22,6 +23,18 @@ void copy_scaled(const char* from, std::ptrdiff_t from_stride, char* to, std::pt
     *reinterpret_cast<double*>(to) = static_cast<double>(*reinterpret_cast<const T*>(from)) * scale;
     from += from_stride;
     to += to_stride;
+  }
+}
+
+/// Moves rows to the beginning; width: of a row.
+template <class Width>
+void move_rows(char* first, std::span<const std::uint32_t> rows, Width width) noexcept
+{
+  char* to = first;
+  for (const std::uint32_t row : rows)
+  {
+    std::memmove(to, first + row * static_cast<std::size_t>(width), width);
+    to += width;
   }
 }
 }
@@ -155,12 +168,17 @@ std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number, R
   {
     return count;
   }
-  const auto kept = static_cast<std::size_t>(
-    std::count(keep_.begin(), keep_.begin() + static_cast<std::ptrdiff_t>(count), 1));
+  kept_.resize(count);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    kept_[kept] = static_cast<std::uint32_t>(i);
+    kept += std::size_t{ keep_[i] != 0 };
+  }
+  kept_.resize(kept);
   if (kept < count)
   {
-    layout_.for_each_block(
-      [&](Block& block, std::size_t width) { this->compact(block, width, count); });
+    layout_.for_each_block([&](Block& block, std::size_t width) { this->compact(block, width); });
   }
   return kept;
 }
@@ -286,17 +304,21 @@ void ChunkDecoder::choose_by_id(std::size_t count, std::int64_t number)
 }
 
 /// Moves the rows that stay together, from where the batch begins.
-void ChunkDecoder::compact(Block& block, std::size_t width, std::size_t count) const
+void ChunkDecoder::compact(Block& block, std::size_t width) const
 {
-  const char* from = static_cast<char*>(block.data()) + static_cast<std::size_t>(row_) * width;
-  char* to = static_cast<char*>(block.data()) + static_cast<std::size_t>(row_) * width;
-  for (std::size_t i = 0; i < count; ++i, from += width)
+  char* const first = static_cast<char*>(block.data()) + static_cast<std::size_t>(row_) * width;
+  switch (width) // known to the compiler, a move is one instruction or two
   {
-    if (keep_[i])
-    {
-      std::memmove(to, from, width);
-      to += width;
-    }
+    case sizeof(std::int32_t):
+      return move_rows(first, kept_, std::integral_constant<std::size_t, 4>());
+    case sizeof(double):
+      return move_rows(first, kept_, std::integral_constant<std::size_t, 8>());
+    case 3 * sizeof(float):
+      return move_rows(first, kept_, std::integral_constant<std::size_t, 12>());
+    case 3 * sizeof(double):
+      return move_rows(first, kept_, std::integral_constant<std::size_t, 24>());
+    default:
+      return move_rows(first, kept_, width);
   }
 }
 }

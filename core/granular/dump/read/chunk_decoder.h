@@ -52,15 +52,16 @@ private:
   void choose_rows(std::size_t count, std::int64_t number);
   RowCounts decode_batch(RowReader& reader, std::int64_t wanted);
   void choose_by_id(std::size_t count, std::int64_t number);
-  void compact(Block& block, std::size_t width, std::size_t count) const;
+  void compact(Block& block, std::size_t width) const;
 
   FrameLayout& layout_;
   const DumpRequest& request_;
   std::unique_ptr<char[]> scratch_;
   std::vector<ColumnSink> sinks_;
-  std::vector<char> keep_; ///< of a batch; empty: all rows stay
-  RowChoice choice_;       ///< by integer ids, if `passes` is not empty
-  std::int64_t row_ = 0;   ///< where the batch goes
+  std::vector<char> keep_;          ///< of a batch; empty: all rows stay
+  std::vector<std::uint32_t> kept_; ///< those that stay
+  RowChoice choice_;                ///< by integer ids, if `passes` is not empty
+  std::int64_t row_ = 0;            ///< where the batch goes
 };
 }
 #endif
