@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 #include <string>
@@ -441,6 +442,12 @@ Vector3 convert(const std::string& columns, const Box& box, Coordinates wanted,
   return point;
 }
 
+/// All numbers that are none are the same.
+std::uint64_t bits_of(double value)
+{
+  return std::isnan(value) ? ~std::uint64_t{ 0 } : std::bit_cast<std::uint64_t>(value);
+}
+
 const double not_a_number = std::nan("");
 const double infinity = std::numeric_limits<double>::infinity();
 }
@@ -572,6 +579,49 @@ TEST(Positions, NumbersThatStayAsTheyAreStayToTheBit)
   EXPECT_TRUE(std::signbit(point[0]));
   EXPECT_EQ(point[1], 5e-324);
   EXPECT_EQ(point[2], 0.1);
+}
+
+/// Several points are converted at once where the plan allows it: the bits must be those of each alone.
+TEST(Positions, ManyAtOnceAreThoseOfEach)
+{
+  const Box boxes[] = { Box::from_bounds({ 0.1, -0.2, 0.3 }, { 0.3, 0.4, 0.5 }),
+    Box::from_bounds({ 1e6, -1e9, 0 }, { 1e6 + 1, -1e9 + 0.1, 5e-324 }),
+    Box::from_bounds({ -0.0, 0, 0 }, { infinity, 1e300, 1 }),
+    Box::from_tilted_bounds({ 0.1, 0.2, 0.3 }, { 1, 2, 3 }, 0.3, -0.2, 0.1) };
+  std::mt19937_64 random(3);
+  std::vector<double> numbers = { -0.0, 0, infinity, -infinity, not_a_number, 1, 1e308, 5e-324 };
+  while (numbers.size() < 3 * 41)
+  {
+    numbers.push_back(2 * std::generate_canonical<double, 53>(random) - 0.5);
+  }
+  for (const Box& box : boxes)
+  {
+    for (const char* const columns : { "xs ys zs", "x y z", "xsu ysu zsu" })
+    {
+      for (const Vector3& origin : { Vector3{}, Vector3{ 0.1, 1e6, -3 } })
+      {
+        Notices notices;
+        const PositionPlan plan =
+          granular::plan_positions(schema_of(columns), box, Coordinates::Absolute, {}, notices);
+        for (std::size_t count = 0; count <= 41; ++count)
+        {
+          std::vector<double> many(
+            numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(3 * count));
+          granular::convert_positions(plan, box, origin, {}, many);
+          for (std::size_t i = 0; i < count; ++i)
+          {
+            Vector3 one = { numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2] };
+            granular::convert_positions(plan, box, origin, {}, one);
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+              ASSERT_EQ(bits_of(many[3 * i + k]), bits_of(one[k]))
+                << columns << ", point " << i << " of " << count;
+            }
+          }
+        }
+      }
+    }
+  }
 }
 
 // ---- which columns -----------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "granular/geometry/exact_determinant.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -188,9 +189,60 @@ inline Twofold3 solve_general(
   }
 }
 
+/// Whether three scaled coordinates become those of an aligned box, as in most dumps.
+bool places_scaled(const Conversion& c) noexcept
+{
+  return c.plan.coordinates != Coordinates::Scaled && !c.box.tilted &&
+    std::ranges::all_of(c.plan.axes,
+      [](const PositionPlan::Axis& axis)
+      { return axis.column >= 0 && axis.scaled && axis.shift == 0; });
+}
+
+/// What to_cartesian_aligned does then. Eight points at once: compilers find vector instructions for them.
+[[gnu::always_inline]] inline void place_rows(
+  const Conversion& c, std::span<double> points) noexcept
+{
+  constexpr std::size_t some = 24;
+  std::array<Twofold, some> origin;
+  std::array<Twofold, some> length;
+  std::array<double, some> less;
+  for (std::size_t i = 0; i < some; ++i)
+  {
+    origin[i] = c.box.origin[i % 3];
+    length[i] = c.box.vectors[i % 3][i % 3];
+    less[i] = -c.point_origin[i % 3];
+  }
+  const auto place = [&](double& x, std::size_t i)
+  {
+    CompensatedSum sum;
+    sum.add(origin[i]);
+    sum.add_product(x, length[i]);
+    sum.add(less[i]);
+    x = sum.value();
+  };
+  double* x = points.data();
+  const double* const end = x + points.size();
+  for (; end - x >= static_cast<std::ptrdiff_t>(some); x += some)
+  {
+    for (std::size_t i = 0; i < some; ++i)
+    {
+      place(x[i], i);
+    }
+  }
+  for (std::size_t i = 0; x + i < end; ++i)
+  {
+    place(x[i], i);
+  }
+}
+
 [[gnu::always_inline]] inline void convert_rows(
   const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
 {
+  if (places_scaled(c))
+  {
+    place_rows(c, points);
+    return;
+  }
   const double none[3] = {};
   const std::size_t step = images.empty() ? 0 : 3;
   const double* image = images.empty() ? none : images.data();
@@ -233,7 +285,7 @@ inline Twofold3 solve_general(
 
 #if GRANULAR_FMA
 /// The same operations; std::fma is an instruction here and a function call there.
-__attribute__((target("fma"))) void convert_fma(
+__attribute__((target("avx2,fma"))) void convert_avx2(
   const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
 {
   convert_rows(c, images, points);
@@ -297,10 +349,10 @@ void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& 
     return;
   }
 #if GRANULAR_FMA
-  static const bool has_fma = __builtin_cpu_supports("fma");
-  if (has_fma)
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (has_avx2)
   {
-    convert_fma(conversion, images, points);
+    convert_avx2(conversion, images, points);
     return;
   }
 #endif
