@@ -96,49 +96,85 @@ Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floo
     seventeen_digits(whole * whole_power_of_ten(17 - digits)), place_of_digits(k, digits));
 }
 
-/// A number as 15 digits.
-struct Fifteen
+/// The high 64 bits of g * x / 2^64, with the lowest bit set if any below is: enough to compare it with whole numbers.
+inline std::uint64_t multiply_to_odd(const PowerOfFive& g, std::uint64_t x)
+{
+  const Wide product = Wide{ g.high } * x + static_cast<std::uint64_t>(Wide{ g.low } * x >> 64);
+  return static_cast<std::uint64_t>(product >> 64) |
+    std::uint64_t{ static_cast<std::uint64_t>(product) > 1 };
+}
+
+/// Seventeen digits, of which those at the end may be 0.
+struct Shortest
 {
   std::uint64_t whole; ///< the digits
   int k;               ///< the first of them is times 10^k
-  bool fits;           ///< false: there may be more before the point
-  bool exact;          ///< they read back as the number
 };
 
-/// A decimal of at most 15 digits is what its nearest double gives rounded to 15 digits. So one
-/// that reads back as the value is found by that rounding, and with the zeros at its end taken
-/// off it is the shortest. It is at most half a unit of the mantissa away, 1/8 of the last digit.
-inline Fifteen fifteen_digits(double value)
+/// digits * 10^k with 16 or 17 digits.
+inline Shortest seventeen_of(std::uint64_t digits, int k)
 {
-  constexpr int digits = 15;
-  const Scaled scaled = scale(std::bit_cast<std::uint64_t>(value) & ~sign_bit, digits);
-  const std::uint64_t eighth = std::uint64_t{ 1 } << (scaled.shift - 3);
-  const std::uint64_t whole = (scaled.product + eighth) >> scaled.shift;
-  const int k = digits - 1 - scaled.q;
-  const bool fits = k < digits && whole < whole_power_of_ten(digits);
-  double back = 0;
-  return { whole, k, fits,
-    fits && ((scaled.product + eighth) & (8 * eighth - 1)) <= 2 * eighth &&
-      to_double(whole, -scaled.q, back) && back == std::abs(value) };
+  const bool all = digits >= whole_power_of_ten(16);
+  return { all ? digits : digits * 10, k + (all ? 16 : 15) };
 }
 
-/// The shortest number that reads back.
+/// The shortest decimal that reads back as a magnitude, not 0 and not small; of several the nearest. R. Giulietti, "The Schubfach
+/// way to render doubles", 2020: with the largest power 10^k that is not above the distance of two doubles, the interval that is read
+/// as the number holds a multiple of it, and at most one of 10^(k+1). Everything is four times as large, for halves of an ulp.
+inline Shortest shortest_digits(std::uint64_t magnitude)
+{
+  constexpr int largest_exact = 55; // power of five of 128 bits
+  constexpr std::uint64_t hidden = std::uint64_t{ 1 } << 52;
+  const std::uint64_t fraction = magnitude & (hidden - 1);
+  const auto exponent = static_cast<int>(magnitude >> 52) - 1075;
+  const bool closer = fraction == 0; // the double below is half as far away
+  // floor(log10(2^exponent)), or of 3/4 of it; times 2^22
+  const int k = (exponent * 1262611 - (closer ? 524031 : 0)) >> 22;
+  PowerOfFive g = power_of_five(-k);
+  g.low += -k > largest_exact ? 1 : 0; // not below the true value
+  const int shift = exponent + binary_exponent(-k) + 1;
+  const std::uint64_t four = (fraction | hidden) << 2;
+  const std::uint64_t value = multiply_to_odd(g, four << shift);
+  const std::uint64_t odd =
+    fraction & 1; // then the ends of the interval are read as its neighbours
+  const std::uint64_t low = multiply_to_odd(g, (four - (closer ? 1 : 2)) << shift) + odd;
+  const std::uint64_t high = multiply_to_odd(g, (four + 2) << shift) - odd;
+  const std::uint64_t floor = value >> 2;
+  const std::uint64_t tens = floor / 10;
+  const bool tens_fit = low <= 40 * tens;
+  const bool next_tens_fit = 40 * tens + 40 <= high;
+  if (tens_fit != next_tens_fit)
+  {
+    return seventeen_of((tens + (next_tens_fit ? 1 : 0)) * 10, k);
+  }
+  const bool floor_fits = low <= 4 * floor;
+  const bool next_fits = 4 * floor + 4 <= high;
+  const std::uint64_t rest = value - 4 * floor;
+  const bool nearer_up = rest > 2 || (rest == 2 && (floor & 1) != 0);
+  const bool up = floor_fits != next_fits ? next_fits : nearer_up;
+  return seventeen_of(floor + (up ? 1 : 0), k);
+}
+
+/// The shortest number that reads back, not 0 and not small.
 [[gnu::noinline]] char* print_shortest(char* to, double value) noexcept
 {
-  const Fifteen found = fifteen_digits(value);
-  if (!found.exact)
+  constexpr int most_exact =
+    15; // integers of more digits need not be printed with zeros at their ends,
+  constexpr int least_far = 22; // until they are printed with an exponent
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Shortest found = shortest_digits(bits & ~sign_bit);
+  const int k = found.k;
+  if (k > most_exact && k < least_far)
   {
     return print_exactly(to, value, 0);
   }
-  const int k = found.k;
-  const Seventeen raw = seventeen_digits(found.whole * 100);
+  const Seventeen raw = seventeen_digits(found.whole);
   const int length = static_cast<int>(raw.length());
   const int point = length > 1 ? 1 : 0;
-  const int scientific = length + point + (k <= -100 ? 5 : 4);
+  const int scientific = length + point + (k <= -100 || k >= 100 ? 5 : 4);
   const int fixed = k < 0 ? length + 1 - k : std::max(length + (length > k + 1 ? 1 : 0), k + 1);
   *to = '-';
-  return lay_out_seventeen(
-    to + (std::bit_cast<std::uint64_t>(value) >> 63), raw, place_of(k, fixed <= scientific));
+  return lay_out_seventeen(to + (bits >> 63), raw, place_of(k, fixed <= scientific));
 }
 
 /// So many digits where they read back as the same number. Slow.
@@ -149,23 +185,25 @@ inline Fifteen fifteen_digits(double value)
   return parse_double(to, end, back) && back == value ? end : print_exactly(to, value, 0);
 }
 
-/// The same for 1 to 15 digits of a number that is not 0 and not small.
+/// The same for 1 to 15 digits of a number that is not 0 and not small: no other decimal of 15 digits reads back.
 [[gnu::noinline]] char* print_at_least(char* to, double value, int least) noexcept
 {
-  const Fifteen found = fifteen_digits(value);
-  if (!found.fits)
+  constexpr int most = 15;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const Shortest found = shortest_digits(bits & ~sign_bit);
+  if (found.k >= most)
   {
     return print_checked(to, value, least);
   }
-  if (!found.exact)
+  const Seventeen raw = seventeen_digits(found.whole);
+  const auto length = static_cast<int>(raw.length());
+  if (length > most)
   {
-    return print_exactly(to, value, 0);
+    return print_shortest(to, value);
   }
-  const Seventeen raw = seventeen_digits(found.whole * 100);
-  const int digits = std::max(least, static_cast<int>(raw.length()));
   *to = '-';
   return lay_out_seventeen(
-    to + (std::bit_cast<std::uint64_t>(value) >> 63), raw, place_of_digits(found.k, digits));
+    to + (bits >> 63), raw, place_of_digits(found.k, std::max(least, length)));
 }
 
 inline char* print_few(char* to, double value, int digits) noexcept
