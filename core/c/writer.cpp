@@ -99,7 +99,7 @@ std::vector<double> doubles_of(const FrameView& frame, std::string_view name, in
       (array == nullptr ? std::string("none") : std::to_string(array->size())));
   }
   std::vector<double> values(static_cast<std::size_t>(frame.rows * components));
-  for (int i = 0; i < components; ++i)
+  for (int i = 0; frame.rows > 0 && i < components; ++i)
   {
     read_numbers(*array, i, frame.rows, values.data() + i, components);
   }
