@@ -376,7 +376,42 @@ TEST(WriteColumns, many_columns_and_long_words)
     const Text text = write(frame, columns);
     EXPECT_EQ(text.error, "");
     EXPECT_EQ(difference(text.body, expected), "") << count << " columns";
+
+    // LIGGGHTS has a blank at the end of each line
+    DumpFormat liggghts;
+    liggghts.dialect = Dialect::Liggghts;
+    std::string blanks;
+    for (const char c : expected)
+    {
+      blanks += c == '\n' ? " \n" : std::string(1, c);
+    }
+    EXPECT_EQ(difference(write(frame, columns, liggghts).body, blanks), "") << count << " columns";
   }
+}
+
+/// Rows that other ranks write, more of them than are looked at a time, before the first of our own.
+TEST(WriteColumns, image_counts_behind_duplicates)
+{
+  constexpr std::size_t rows = 700;
+  constexpr std::size_t duplicates = 600;
+  std::vector<unsigned char> ghosts(rows, 0);
+  std::fill_n(ghosts.begin(), duplicates, FrameView::duplicate_row);
+  std::vector<double> points(3 * rows, 0.5);
+  std::vector<std::int64_t> numbers;
+  std::string expected = "id ix iy iz\n";
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    numbers.push_back(static_cast<std::int64_t>(row));
+    expected += row < duplicates ? "" : std::to_string(row) + " 0 0 0\n";
+  }
+  FrameView frame;
+  frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 1, 1, 1 });
+  frame.rows = rows;
+  frame.ghosts = ghosts.data();
+  frame.points = view_rows("points", ValueType::Float64, points.data(), 3);
+  frame.arrays = { view_rows("id", ValueType::Int64, numbers.data()) };
+  EXPECT_EQ(write(frame, { "id", "ix", "iy", "iz" }).body, expected);
+  EXPECT_EQ(write_binary(frame, { "id", "ix", "iy", "iz" }).size(), 4 * rows);
 }
 
 /// A column that is there twice, with other values each time, as LIGGGHTS writes it where it is asked for twice.

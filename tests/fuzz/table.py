@@ -97,7 +97,7 @@ def main():
     rooms = list(room_rows(read_lines(os.path.join(folder, "lines"), core), missed))
     rooms.append(("all", sum(room[1] for room in rooms), sum(room[2] for room in rooms)))
     text = table(
-        ("target", "minutes", "runs", "new paths", "in the last tenth of the last process", "inputs", "findings"),
+        ("target", "minutes of processor time", "runs", "new paths", "in the last tenth of the last process", "inputs", "findings"),
         target_rows(folder))
     text += "\n" + table(
         ("room", "lines", "reached", "%"),

@@ -432,6 +432,16 @@ TEST(PrintShortest, ReadsBackAndIsNeverLonger)
       ASSERT_FALSE(::testing::Test::HasFatalFailure());
     }
   }
+  // the double below a power of two is half as far away
+  for (int power = -1074; power <= 1023; ++power)
+  {
+    const auto bits = std::bit_cast<std::uint64_t>(std::ldexp(1.0, power));
+    for (std::uint64_t near = bits < 3 ? 1 : bits - 2; near <= bits + 2; ++near)
+    {
+      expect_shortest(std::bit_cast<double>(near));
+      ASSERT_FALSE(::testing::Test::HasFatalFailure());
+    }
+  }
   HardCase hard("numbers, written",
     "shortest: words that do not read back, or that a shorter one reads back as", "words", 0);
   std::mt19937_64 random(4);

@@ -11,8 +11,7 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t ahead =
-  256; ///< numbers that are fetched from memory early: those of the next call
+constexpr std::int64_t ahead = 256; ///< so many numbers later they are fetched from memory, early
 
 /// A loop of its own for each kind of number, so that what is the same for all is asked once.
 template <class Number, class Print>

@@ -10,7 +10,8 @@
 
 namespace granular
 {
-/// Where the text of a column goes: each number into a cell of most_number_chars bytes, with what follows it.
+/// Where the text of a column goes: each number into a cell of most_number_chars bytes, with what follows it. A number has at
+/// most 24 characters.
 struct NumberCells
 {
   char* text;              ///< the first cell

@@ -96,7 +96,8 @@ Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floo
     seventeen_digits(whole * whole_power_of_ten(17 - digits)), place_of_digits(k, digits));
 }
 
-/// The high 64 bits of g * x / 2^64, with the lowest bit set if any below is: enough to compare it with whole numbers.
+/// The high 64 bits of g * x / 2^64, with the lowest bit set if there is more below than the error of g: enough to compare it with
+/// whole numbers.
 inline std::uint64_t multiply_to_odd(const PowerOfFive& g, std::uint64_t x)
 {
   const Wide product = Wide{ g.high } * x + static_cast<std::uint64_t>(Wide{ g.low } * x >> 64);
@@ -158,13 +159,13 @@ inline Shortest shortest_digits(std::uint64_t magnitude)
 /// The shortest number that reads back, not 0 and not small.
 [[gnu::noinline]] char* print_shortest(char* to, double value) noexcept
 {
-  constexpr int most_exact =
-    15; // integers of more digits need not be printed with zeros at their ends,
-  constexpr int least_far = 22; // until they are printed with an exponent
+  // std::to_chars prints integers between all their digits, not zeros behind the shortest ones
+  constexpr int most_padded = 15;
+  constexpr int least_far = 22;
   const auto bits = std::bit_cast<std::uint64_t>(value);
   const Shortest found = shortest_digits(bits & ~sign_bit);
   const int k = found.k;
-  if (k > most_exact && k < least_far)
+  if (k > most_padded && k < least_far)
   {
     return print_exactly(to, value, 0);
   }

@@ -2,7 +2,7 @@
 #ifndef granular_numbers_number_print_layout_h
 #define granular_numbers_number_print_layout_h
 
-// Conversion of digits to text with as few branches as possible. Only for number_print.cpp.
+// Conversion of digits to text with as few branches as possible. Only for number_print.cpp and number_cells.cpp.
 
 #include "granular/numbers/decimal.h"
 

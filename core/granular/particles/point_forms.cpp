@@ -116,6 +116,10 @@ bool are_rows(std::span<const ValueSource> sources) noexcept
 void load_rows(std::span<const ValueSource> sources, Rows rows, double* to)
 {
   const std::size_t size = sources.size();
+  if (rows.empty())
+  {
+    return; // there may be no array at all
+  }
   if ((size == 1 || size == 3 || size == 6) && are_rows(sources))
   {
     const auto copy = size == 1 ? copy_rows<1> : size == 3 ? copy_rows<3> : copy_rows<6>;

@@ -13,7 +13,8 @@ namespace granular
 {
 namespace
 {
-/// With fewer rows for each stretch of chosen ones it is faster to decode them all: beginning a stretch takes as long as some rows.
+/// With fewer rows than that for each stretch of chosen ones it is faster to decode them all: beginning a stretch takes as long as
+/// two of them.
 constexpr std::int64_t rows_a_stretch = 4;
 
 /// The line behind so many lines with words.
@@ -145,8 +146,8 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
   return result.rows;
 }
 
-/// Decodes all rows, chosen or not. Returns false if there is a word that is no number: then it may be in a row that nobody
-/// wants, and nothing is decoded.
+/// Decodes all rows, chosen or not. Returns false, with the sinks as before, if a row is not what it should be: it may be one that
+/// nobody wants.
 bool TextReader::decode_numbers(
   std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice, RowCounts& counts)
 {
@@ -155,7 +156,7 @@ bool TextReader::decode_numbers(
   const auto chosen_by = std::ranges::find(before, choice.column, &ColumnSink::column);
   const RowResult result = decode_rows(
     buffer_.data() + at_, buffer_.data() + end_, this->columns(), sinks, max_rows, memory_);
-  if (result.status != RowStatus::Done)
+  if (result.status != RowStatus::Done || chosen_by == before.end())
   {
     std::ranges::copy(before, sinks.begin());
     return false;
@@ -182,6 +183,7 @@ RowCounts TextReader::decode_chosen(
   std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice)
 {
   RowCounts counts;
+  // texts of rows that nobody wants must not become words of an array
   const bool texts =
     std::ranges::any_of(sinks, [](const ColumnSink& sink) { return sink.type == ValueType::Text; });
   if (many_chosen_ && !texts && this->decode_numbers(sinks, max_rows, choice, counts))

@@ -12,9 +12,8 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t ahead =
-  256; ///< rows that are fetched from memory early: those of the next call
-constexpr double most_exact = 9007199254740992.0; // 2^53
+constexpr std::int64_t ahead = RowValues::most_rows; ///< rows that are fetched from memory early
+constexpr double most_exact = 9007199254740992.0;    // 2^53
 
 using Column = RowValues::Column;
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace granular
 {
@@ -304,10 +303,15 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
         this->load_coordinate(frame, box, source, this->make_reals(i));
         break;
       case Kind::Image:
-        std::ranges::generate(this->make_integers(i),
-          [&, image = images_.data() + source.axis]() mutable
-          { return as_image(*std::exchange(image, image + 3), source.name); });
+      {
+        const std::span<std::int64_t> counts = this->make_integers(i);
+        for (std::size_t row = 0; row < rows_; ++row)
+        {
+          counts[row] =
+            as_image(images_[3 * row + static_cast<std::size_t>(source.axis)], source.name);
+        }
         break;
+      }
       case Kind::RowNumber:
       {
         const std::span<std::int64_t> numbers = this->make_integers(i);

@@ -18,13 +18,18 @@ class RowValues
 public:
   static constexpr std::size_t most_rows = 256; ///< at a time: they stay in the nearest cache
 
+  RowValues() = default;
+  RowValues(RowValues&&) = default; // a copy would show the numbers of the other
+  RowValues& operator=(RowValues&&) = default;
+
   /// One column: integers, real numbers or texts.
   struct Column
   {
     ValueType type = ValueType::Float64; ///< Int32, Int64, Float64 or Text
     bool whole = false;                  ///< reals: integral ones are shown with all their digits
-    const void* data = nullptr; ///< of numbers: in the arrays of the frame, or made from these
-    std::int64_t step = 1;      ///< numbers from one row to the next
+    const void* data =
+      nullptr; ///< of numbers: in the arrays of the frame or of this, until the next load
+    std::int64_t step = 1; ///< numbers from one row to the next
     std::vector<const std::string*> texts = {};
 
     /// Returns where the number of a row is. The type must be that of the column.

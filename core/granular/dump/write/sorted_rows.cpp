@@ -37,8 +37,12 @@ void copy_numbers(const RowValues::Column& column, std::size_t rows, To* to)
 /// The integers of a column, of whatever width.
 void copy_integers(const RowValues::Column& column, std::size_t rows, std::int64_t* to)
 {
-  column.type == ValueType::Int32 ? copy_numbers<std::int32_t>(column, rows, to)
-                                  : copy_numbers<std::int64_t>(column, rows, to);
+  if (column.type == ValueType::Int32)
+  {
+    copy_numbers<std::int32_t>(column, rows, to);
+    return;
+  }
+  copy_numbers<std::int64_t>(column, rows, to);
 }
 }
 
