@@ -415,6 +415,33 @@ TEST(ReadDump, StrideReadsNothingElseOfOtherRows)
   }
 }
 
+/// More or fewer words than columns are what they are without Stride, also behind the rows that are decoded first.
+TEST(ReadDump, StrideSeesLinesOfOtherLengths)
+{
+  constexpr std::int64_t count = 9000;
+  const auto text = [](std::int64_t bad_row, const std::string& bad)
+  {
+    std::string rows;
+    for (std::int64_t row = 0; row < count; ++row)
+    {
+      const std::string id = std::to_string(row);
+      rows += id + (row == bad_row ? bad : " 1 2 3") + "\n";
+    }
+    return one_frame("id x y z", rows);
+  };
+  for (const std::int64_t row : { 1, 5001, 8999, 5000 })
+  {
+    const std::string more = text(row, " 1 2 3 4");
+    EXPECT_EQ(Dump(more).read(with_stride(2)).said(), Dump(more).read().said()) << row;
+    EXPECT_NE(Dump(more).read(with_stride(2)).said(), "") << row;
+    const std::string fewer = text(row, " 1 2");
+    const auto error = [&](const DumpRequest& request)
+    { return error_of([&] { Dump(fewer).read(request); }); };
+    EXPECT_EQ(error(with_stride(2)), error({})) << row;
+    EXPECT_NE(error({}), "") << row;
+  }
+}
+
 TEST(ReadDump, StrideByRowWhereThereAreNoIds)
 {
   const Dump dump(many_rows(7000, "x y z q ix iy iz element"));
