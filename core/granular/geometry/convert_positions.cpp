@@ -284,6 +284,12 @@ bool places_scaled(const Conversion& c) noexcept
 }
 
 #if GRANULAR_FMA
+bool has_avx2() noexcept
+{
+  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return has;
+}
+
 /// The same operations; std::fma is an instruction here and a function call there.
 __attribute__((target("avx2,fma"))) void convert_avx2(
   const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
@@ -328,8 +334,7 @@ bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexc
 void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
 {
 #if GRANULAR_FMA
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (has_avx2)
+  if (has_avx2())
   {
     scale_avx2(box, axis, coordinates);
     return;
@@ -349,8 +354,7 @@ void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& 
     return;
   }
 #if GRANULAR_FMA
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (has_avx2)
+  if (has_avx2())
   {
     convert_avx2(conversion, images, points);
     return;

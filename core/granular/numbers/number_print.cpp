@@ -226,7 +226,6 @@ inline char* print_few_or_more(char* to, double value, int digits) noexcept
     ? lay_out_few(to, value, rounded, digits)
     : print_at_least(to, value, digits);
 }
-
 }
 
 char* print_number(char* to, double value, NumberFormat format) noexcept

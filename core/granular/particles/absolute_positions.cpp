@@ -176,9 +176,7 @@ ExactCoordinate AbsolutePositions::exact(std::size_t axis, std::int64_t row) con
 void AbsolutePositions::convert(std::span<const std::int64_t> rows, double* buffer) const
 {
   const std::size_t count = rows.size();
-  const std::array<ValueSource, 3> points = { point_values(frame_, 0), point_values(frame_, 1),
-    point_values(frame_, 2) };
-  load_rows(points, rows, buffer);
+  load_point_rows(frame_, rows, buffer);
   if (frame_.coordinates == Coordinates::Absolute && frame_.point_origin == Vector3{})
   {
     return;
@@ -186,14 +184,8 @@ void AbsolutePositions::convert(std::span<const std::int64_t> rows, double* buff
   std::vector<double> images;
   if (frame_.coordinates == Coordinates::Unwrapped)
   {
-    const double none = 0;
-    std::array<ValueSource, 3> counts;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      counts[axis] = images_[axis].value_or(ValueSource{ ValueType::Float64, &none, 0 });
-    }
     images.resize(3 * count);
-    load_rows(counts, rows, images.data());
+    load_image_rows(images_, rows, images.data());
     if (crosses_)
     {
       count_crossings(box_, { buffer, 3 * count }, images);

@@ -153,6 +153,24 @@ ValueSource point_values(const FrameView& frame, std::size_t axis)
   return { frame.points->type, frame.points->components[axis], frame.points->step };
 }
 
+void load_point_rows(const FrameView& frame, Rows rows, double* to)
+{
+  const std::array<ValueSource, 3> points = { point_values(frame, 0), point_values(frame, 1),
+    point_values(frame, 2) };
+  load_rows(points, rows, to);
+}
+
+void load_image_rows(const std::array<std::optional<ValueSource>, 3>& images, Rows rows, double* to)
+{
+  const double none = 0;
+  std::array<ValueSource, 3> counts;
+  std::ranges::transform(images, counts.begin(),
+    [&](const auto& image) {
+      return image.value_or(ValueSource{ ValueType::Float64, &none, 0 });
+    });
+  load_rows(counts, rows, to);
+}
+
 PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
 {
   PositionPlan plan;

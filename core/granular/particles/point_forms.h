@@ -7,7 +7,9 @@
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/frame_view.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +35,13 @@ bool is_periodic(const Box& box, std::size_t axis) noexcept;
 
 /// Returns where a coordinate of the points lies; there must be points.
 ValueSource point_values(const FrameView& frame, std::size_t axis);
+
+/// Writes three coordinates of each row; there must be points.
+void load_point_rows(const FrameView& frame, std::span<const std::int64_t> rows, double* to);
+
+/// Writes three image counts of each row, 0 along axes without any.
+void load_image_rows(const std::array<std::optional<ValueSource>, 3>& images,
+  std::span<const std::int64_t> rows, double* to);
 
 /// Returns the conversion from the points to a column of this role.
 PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept;

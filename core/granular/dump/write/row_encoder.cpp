@@ -56,8 +56,7 @@ template <class Number>
 void scatter(
   const Column& column, std::size_t first, std::size_t count, char* to, std::size_t step) noexcept
 {
-  const Number* from =
-    static_cast<const Number*>(column.data) + static_cast<std::int64_t>(first) * column.step;
+  const Number* from = column.from<Number>(first);
   const std::int64_t from_step = column.step;
   for (std::size_t row = 0; row < count; ++row)
   {

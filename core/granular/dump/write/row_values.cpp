@@ -122,12 +122,10 @@ bool RowValues::find_in_place(const ColumnSource& source, Column& column) const 
   {
     return false;
   }
-  constexpr std::size_t small = sizeof(std::int32_t);
-  const std::size_t bytes = values.type == ValueType::Int32 ? small : sizeof(double);
+  const auto bytes = static_cast<std::int64_t>(size_of(values.type));
   column.type = values.type;
   column.step = values.step;
-  column.data = static_cast<const char*>(values.data) +
-    kept_.front() * values.step * static_cast<std::int64_t>(bytes);
+  column.data = static_cast<const char*>(values.data) + kept_.front() * values.step * bytes;
   return true;
 }
 
@@ -178,26 +176,12 @@ void RowValues::load_points(const FrameView& frame, const ColumnPlan& plan)
 {
   own_.resize(rows_);
   points_.resize(frame.points ? 3 * rows_ : 0);
-  images_.assign(3 * rows_, 0);
-  const auto load_axis = [&](const ValueSource& source, std::size_t axis, std::vector<double>& to)
+  images_.resize(3 * rows_);
+  if (frame.points)
   {
-    load_numbers(source, this->kept(), own_.data());
-    for (std::size_t i = 0; i < rows_; ++i)
-    {
-      to[3 * i + axis] = own_[i];
-    }
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    if (frame.points)
-    {
-      load_axis(point_values(frame, axis), axis, points_);
-    }
-    if (plan.images[axis])
-    {
-      load_axis(*plan.images[axis], axis, images_);
-    }
+    load_point_rows(frame, this->kept(), points_.data());
   }
+  load_image_rows(plan.images, this->kept(), images_.data());
   if (plan.wraps)
   {
     count_crossings(box_, points_, images_);
