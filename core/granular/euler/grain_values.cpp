@@ -14,7 +14,6 @@ namespace granular
 {
 namespace
 {
-constexpr std::size_t most_rows = GrainBlock::most_rows;
 
 /// Magnitudes that can be multiplied with each other as averages do.
 constexpr double too_large = 0x1p290;
