@@ -158,14 +158,14 @@ std::vector<OfferedArray> restart_arrays(granular_run& run, std::size_t frame, i
   Progress progress;
   const FileIndex& file = run.index.first_piece(frame).file;
   const auto source = open_indexed(file);
-  const RestartLayout layout = read_layout(*source, notices, progress, file.largest_expansion);
-  const RestartColumns columns = find_restart_columns(*source, layout, notices, progress);
+  const auto layout = find_restart_layout(file, *source, notices, progress);
+  const RestartColumns columns = find_restart_columns(*source, *layout, notices, progress);
   if (table == 0)
   {
     return arrays_of(ColumnSchema(columns.particles), known_columns());
   }
   return columns.has_bonds
-    ? arrays_of(make_bond_schema(automatic_history, layout.header.version, columns.history_values),
+    ? arrays_of(make_bond_schema(automatic_history, layout->header.version, columns.history_values),
         local_known_columns())
     : std::vector<OfferedArray>();
 }
@@ -175,7 +175,7 @@ void read_restart_frame(granular_run& run, std::size_t frame, const Wanted& want
 {
   const FileIndex& file = run.index.first_piece(frame).file;
   const auto source = open_indexed(file);
-  const RestartLayout layout = read_layout(*source, notices, progress, file.largest_expansion);
+  const auto layout = find_restart_layout(file, *source, notices, progress);
   RestartRequest request;
   request.bonds = wanted.request.table == 1;
   const auto nothing = [](std::string_view) { return false; };
@@ -183,7 +183,7 @@ void read_restart_frame(granular_run& run, std::size_t frame, const Wanted& want
   request.wanted = request.bonds ? std::function<bool(std::string_view)>(nothing) : named;
   request.wanted_bonds = named;
   request.lines = line_request(wanted);
-  RestartFrame read = read_restart(*source, layout, request, notices, progress);
+  RestartFrame read = read_restart(*source, *layout, request, notices, progress);
   if (request.bonds)
   {
     take_lines(to, std::move(read.bonds));
@@ -206,8 +206,9 @@ std::vector<OfferedArray> data_arrays(granular_run& run, std::size_t frame, int 
   Progress progress;
   const FramePiece piece = run.index.first_piece(frame);
   const auto source = open_indexed(piece.file);
-  return arrays_of(make_particle_schema(find_data_columns(read_data_layout(*source, progress),
-                     run.atom_style, piece.file.path, notices)),
+  return arrays_of(
+    make_particle_schema(find_data_columns(
+      *find_data_layout(piece.file, *source, progress), run.atom_style, piece.file.path, notices)),
     known_columns());
 }
 

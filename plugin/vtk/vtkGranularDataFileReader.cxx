@@ -74,8 +74,9 @@ void vtkGranularDataFileReader::Internals::Look(Self* self)
     {
       const granular::FramePiece piece = index.first_piece(frame);
       const auto source = granular::open_indexed(piece.file);
-      granular::DataColumns columns = granular::find_data_columns(
-        granular::read_data_layout(*source, progress), this->AtomStyle, piece.file.path, notices);
+      granular::DataColumns columns =
+        granular::find_data_columns(*granular::find_data_layout(piece.file, *source, progress),
+          this->AtomStyle, piece.file.path, notices);
       granular::pass(packer, columns.particles);
       granular::pass(packer, columns.velocities);
     }

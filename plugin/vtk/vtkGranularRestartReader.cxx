@@ -147,15 +147,14 @@ void vtkGranularRestartReader::Internals::Look(Self* self)
     {
       const granular::FileIndex& file = index.first_piece(frame).file;
       const auto source = granular::open_indexed(file);
-      const granular::RestartLayout layout =
-        granular::read_layout(*source, notices, progress, file.largest_expansion);
+      const auto layout = granular::find_restart_layout(file, *source, notices, progress);
       const granular::RestartColumns columns =
-        granular::find_restart_columns(*source, layout, notices, progress);
+        granular::find_restart_columns(*source, *layout, notices, progress);
       AddNames(granular::ColumnSchema(columns.particles), particles);
       if (columns.has_bonds)
       {
         AddNames(granular::make_bond_schema(
-                   Layouts[self->HistoryLayout], layout.header.version, columns.history_values),
+                   Layouts[self->HistoryLayout], layout->header.version, columns.history_values),
           bonds);
       }
     }
@@ -230,15 +229,14 @@ void vtkGranularRestartReader::Internals::Show(
   const granular::FileIndex& file = shown.Pieces.front().file;
   const auto source = granular::open_indexed(file);
   progress.set_part(0, 0.1);
-  const granular::RestartLayout layout =
-    granular::read_layout(*source, notices, progress, file.largest_expansion);
+  const auto layout = granular::find_restart_layout(file, *source, notices, progress);
   progress.set_part(0.1, 0.95);
   granular::RestartFrame restart =
-    granular::read_restart(*source, layout, request, notices, progress);
+    granular::read_restart(*source, *layout, request, notices, progress);
   this->Points.CheckNames(shown.Where.path, notices, NamesOf(restart.particles.schema));
   this->Cells.CheckNames(shown.Where.path, notices, NamesOf(restart.bonds.table.schema));
   this->FillOutputs(self, outputs, request, restart, shown);
-  vtkPolyData::GetData(outputs, 0)->GetFieldData()->AddArray(MakeStrings("Groups", layout.groups));
+  vtkPolyData::GetData(outputs, 0)->GetFieldData()->AddArray(MakeStrings("Groups", layout->groups));
 }
 
 //------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 
 #include "granular/bytes/byte_source.h"
 #include "granular/memory/block_pool.h"
+#include "granular/memory/mapping.h"
 #include "granular/restart/restart_layout.h"
 #include "granular/restart/restart_reader.h"
 
@@ -121,18 +122,22 @@ private:
   std::int64_t bytes_ = 0;
 };
 
-/// The whole file, into memory that holds all of it, or that is used again and again.
+/// The whole file, into fresh memory that holds all of it, or into some that is used again and again.
 bool read_plainly(const ByteSource& source, std::int64_t bytes, bool whole)
 {
   const std::size_t piece = std::size_t{ 1 } << 20;
-  std::unique_ptr<char[]> memory(new char[whole ? static_cast<std::size_t>(bytes) : piece]);
+  // not by malloc, which keeps what was given back
+  const Mapping fresh = whole ? map_memory(static_cast<std::size_t>(bytes)) : Mapping();
+  static std::vector<char> reused(piece);
+  char* const memory = whole ? static_cast<char*>(fresh.base) : reused.data();
   std::int64_t done = 0;
-  while (done < bytes)
+  while (memory && done < bytes)
   {
-    done += static_cast<std::int64_t>(source.read(done, memory.get() + (whole ? done : 0),
+    done += static_cast<std::int64_t>(source.read(done, memory + (whole ? done : 0),
       std::min<std::size_t>(piece, static_cast<std::size_t>(bytes - done))));
   }
-  benchmark::DoNotOptimize(memory.get());
+  benchmark::DoNotOptimize(memory);
+  unmap_memory(fresh);
   return done == bytes;
 }
 

@@ -4,6 +4,8 @@
 
 #include "data_run.h"
 
+#include "../support/counting_source.h"
+
 #include <map>
 
 namespace
@@ -103,6 +105,28 @@ TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
   request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "id"; };
   other.read(request);
   EXPECT_EQ(other.said(), "");
+}
+
+TEST(DataParticles, FilesAreLookedThroughOnce)
+{
+  const std::string row = "1 1 0.5 0 0\n";
+  const std::string path = write_data(data_text(1, "Atoms # atomic\n\n" + row));
+  granular::RunIndex run;
+  granular::IndexOptions options;
+  options.format = &granular::data_file_format();
+  granular::Notices notices;
+  granular::Progress progress;
+  run.update({ path }, options, notices, progress);
+  const auto bytes_for_layout = [&](const std::string& text)
+  {
+    const CountingSource source(text);
+    granular::find_data_layout(run.first_piece(0).file, source, progress);
+    return source.bytes_read();
+  };
+  EXPECT_EQ(bytes_for_layout(data_text(1, "Atoms # atomic\n\n" + row)), 0);
+  const std::string longer = data_text(1, "Atoms # atomic\n\n\n\n" + row);
+  write_data(longer); // behind the back of the index
+  EXPECT_GT(bytes_for_layout(longer), 0);
 }
 
 TEST(DataParticles, WhatDumpsCanDo)

@@ -5,6 +5,7 @@
 #include "restart_files.h"
 
 #include "../support/byte_source_packing.h"
+#include "../support/counting_source.h"
 #include "../support/dumps.h"
 
 #include "granular/frames/run_index.h"
@@ -133,6 +134,83 @@ TEST(RestartFile, FilesOfProcessesBesideTheirBase)
     "error: " + first +
       ": expected a restart file, got what one of several processes has written of it: open the "
       "file with 'base' in its name\n");
+}
+
+/// The bytes that are read to learn the layout of a file that is in an index.
+std::int64_t bytes_for_layout(const granular::FileIndex& file, const std::string& bytes)
+{
+  const CountingSource source(bytes);
+  granular::Notices notices;
+  granular::Progress progress;
+  const auto layout = granular::find_restart_layout(file, source, notices, progress);
+  EXPECT_EQ(layout->records, file.frames.at(0).rows);
+  EXPECT_EQ(layout->largest_expansion, file.largest_expansion);
+  return source.bytes_read();
+}
+
+TEST(RestartFile, IsLookedThroughOnce)
+{
+  const Folder folder;
+  RestartBuilder file = small_file();
+  const std::string path = folder.write("a.restart", file.file());
+  Indexed all;
+  all.update({ path });
+  EXPECT_EQ(bytes_for_layout(all.index.files()[0], file.file()), 0);
+
+  file.forces += "longer";
+  folder.write("a.restart", file.file()); // behind the back of the index
+  EXPECT_GT(bytes_for_layout(all.index.files()[0], file.file()), 0);
+  all.update({ path });
+  EXPECT_EQ(bytes_for_layout(all.index.files()[0], file.file()), 0);
+
+  granular::RunIndex passed; // to another rank
+  passed.decode(all.index.encode());
+  EXPECT_GT(bytes_for_layout(passed.files()[0], file.file()), 0);
+}
+
+TEST(RestartFile, FilesOfProcessesAreLookedThroughOnce)
+{
+  const Folder folder;
+  RestartBuilder file = small_file();
+  const std::string base = folder.write("rbase.restart", file.base());
+  folder.write("r0.restart", file.part(0));
+  folder.write("r1.restart", file.part(1));
+  Indexed all;
+  all.update({ base });
+  granular::FileIndex index = all.index.files()[0];
+  const auto look = [&]
+  {
+    granular::Notices notices;
+    granular::Progress progress;
+    return granular::find_restart_layout(index, *granular::open_file(base), notices, progress);
+  };
+  EXPECT_EQ(look(), index.layout);
+  index.largest_expansion *= 2;
+  EXPECT_NE(look(), index.layout);
+  index.largest_expansion /= 2;
+  file.chunks[1] = grains(4, 20);
+  folder.write("r1.restart", file.part(1));
+  EXPECT_THROW(look(), granular::FormatError) << "the base says how many particles there are";
+}
+
+TEST(RestartFile, NoticesAreGivenWithAKnownLayout)
+{
+  const Folder folder;
+  RestartBuilder file = small_file();
+  file.peratom_fixes[1].id = "p\x01";
+  const std::string path = folder.write("a.restart", file.file());
+  Indexed all;
+  all.update({ path });
+  const granular::FileIndex& index = all.index.files()[0];
+  granular::Notices known;
+  granular::Notices anew;
+  granular::Progress progress;
+  const auto source = granular::open_file(path);
+  ASSERT_EQ(granular::find_restart_layout(index, *source, known, progress), index.layout);
+  granular::read_layout(*source, anew, progress);
+  ASSERT_EQ(known.size(), 1u);
+  ASSERT_EQ(anew.size(), 1u);
+  EXPECT_EQ(to_string(known[0]), to_string(anew[0]));
 }
 
 TEST(RestartFile, FilesOfProcessesWithoutTheirBase)

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/data_file/data_file.h"
 
-#include "granular/data_file/data_layout.h"
-#include "granular/frames/file_index.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,7 +45,8 @@ void index_data_file(
   index.resume_line = 1;
   try
   {
-    const DataLayout layout = read_data_layout(source, progress);
+    const auto found = std::make_shared<const DataLayout>(read_data_layout(source, progress));
+    const DataLayout& layout = *found;
     FrameEntry entry;
     entry.timestep = layout.timestep;
     entry.rows = layout.atoms;
@@ -57,6 +55,7 @@ void index_data_file(
     entry.kind = index.kinds->share(FrameKind{});
     index.frames.push_back(std::move(entry));
     index.resume_offset = index.frames.back().end;
+    index.layout = found;
   }
   catch (const FormatError& error)
   {
@@ -85,6 +84,13 @@ const FileFormat& data_file_format() noexcept
     .name = "a data file", .index = &index_data_file, .fits = &header_fits
   };
   return format;
+}
+
+std::shared_ptr<const DataLayout> find_data_layout(
+  const FileIndex& file, const ByteSource& source, Progress& progress)
+{
+  auto known = std::dynamic_pointer_cast<const DataLayout>(known_layout(file));
+  return known ? known : std::make_shared<const DataLayout>(read_data_layout(source, progress));
 }
 
 bool is_data_file(const std::string& path) noexcept

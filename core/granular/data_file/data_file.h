@@ -2,8 +2,10 @@
 #ifndef granular_data_file_data_file_h
 #define granular_data_file_data_file_h
 
-#include "granular/frames/file_format.h"
+#include "granular/data_file/data_layout.h"
+#include "granular/frames/file_index.h"
 
+#include <memory>
 #include <string>
 
 namespace granular
@@ -11,6 +13,10 @@ namespace granular
 /// Data files of LAMMPS and LIGGGHTS (read_data, write_data), for a RunIndex: one frame each, with the timestep of the title,
 /// or 0.
 const FileFormat& data_file_format() noexcept;
+
+/// Returns the layout of a file: what known_layout has, or what read_data_layout finds. Throws as that.
+std::shared_ptr<const DataLayout> find_data_layout(
+  const FileIndex& file, const ByteSource& source, Progress& progress);
 
 /// Returns true if the contents of a file are a title and a header that counts atoms. Looks at the first 64 KiB,
 /// decompressed. Returns false, and never throws, for unreadable files.

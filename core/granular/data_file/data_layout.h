@@ -5,6 +5,7 @@
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
+#include "granular/frames/file_format.h"
 #include "granular/geometry/box.h"
 
 #include <cstdint>
@@ -28,7 +29,7 @@ struct DataSection
 };
 
 /// The positions of the parts of a data file of LAMMPS or LIGGGHTS (documentation of LAMMPS, read_data).
-struct DataLayout
+struct DataLayout : FileLayout
 {
   std::int64_t timestep = 0; ///< write_data puts it into the title; 0 without
   std::string units;         ///< likewise; may be empty

@@ -2,6 +2,7 @@
 #include "granular/data_file/read_data.h"
 
 #include "granular/common/shares.h"
+#include "granular/data_file/data_file.h"
 #include "granular/data_file/section_rows.h"
 #include "granular/data_file/velocities.h"
 #include "granular/geometry/region.h"
@@ -92,12 +93,12 @@ public:
   DataFrame read()
   {
     progress_.set_part(0, 0.1);
-    layout_ = read_data_layout(*source_, progress_);
-    if (layout_.timestep != file_.entry.timestep || layout_.atoms != file_.entry.rows)
+    layout_ = find_data_layout(file_.file, *source_, progress_);
+    if (layout_->timestep != file_.entry.timestep || layout_->atoms != file_.entry.rows)
     {
       throw IoError("the file was changed after it was indexed", where_of(file_));
     }
-    columns_ = find_data_columns(layout_, request_.atom_style, source_->path(), notices_);
+    columns_ = find_data_columns(*layout_, request_.atom_style, source_->path(), notices_);
     own_ = request_.particles;
     if (ranks_.size() == 1)
     {
@@ -116,9 +117,9 @@ private:
   FrameHeader header() const
   {
     FrameHeader header;
-    header.timestep = layout_.timestep;
-    header.units = layout_.units;
-    header.box = layout_.box;
+    header.timestep = layout_->timestep;
+    header.units = layout_->units;
+    header.box = layout_->box;
     header.box.boundary = request_.boundary.empty() ? "" : parse_boundary(request_.boundary);
     return header;
   }
@@ -145,7 +146,7 @@ private:
     request.header = this->header();
     request.wanted = [this](const ArrayInfo& array)
     { return array.name == "id" || array.name == "image" || this->is_wanted(array); };
-    frame = this->read_rows(layout_.particles, columns_.particles, request);
+    frame = this->read_rows(layout_->particles, columns_.particles, request);
     if (request_.boundary.empty())
     {
       this->find_boundary(frame);
@@ -194,8 +195,8 @@ private:
     }
     DumpRequest request = this->table_request();
     request.ranges = false;
-    const DumpFrame table = this->read_rows(layout_.velocities, columns_.velocities, request);
-    add_velocities(frame, table, frame.schema, *source_, *layout_.velocities, own_.pool, ranks_);
+    const DumpFrame table = this->read_rows(layout_->velocities, columns_.velocities, request);
+    add_velocities(frame, table, frame.schema, *source_, *layout_->velocities, own_.pool, ranks_);
   }
 
   /// All rows of a section, or this rank's share of them.
@@ -217,7 +218,7 @@ private:
     DumpFrame& table = frame.bonds.table;
     DumpRequest request = this->table_request();
     request.schema = make_data_bond_schema();
-    table = this->read_rows(layout_.bond_rows, bond_columns, request);
+    table = this->read_rows(layout_->bond_rows, bond_columns, request);
     table.header = frame.particles.header;
     table.header.counted = "BONDS";
     const bool scaled = frame.particles.coordinates == Coordinates::Scaled;
@@ -257,18 +258,18 @@ private:
     };
     if (this->wants_velocities(schema))
     {
-      note(layout_.velocities, "and its velocity");
+      note(layout_->velocities, "and its velocity");
     }
-    note(layout_.bond_rows, "where bonds end at the first that has it");
+    note(layout_->bond_rows, "where bonds end at the first that has it");
   }
 
   void note_bonds(const JoinedLines& joined)
   {
-    if (!layout_.bond_rows)
+    if (!layout_->bond_rows)
     {
       return;
     }
-    const Where where{ source_->path(), layout_.bond_rows->name_line };
+    const Where where{ source_->path(), layout_->bond_rows->name_line };
     if (joined.missing > 0 && !this->is_filtered())
     {
       notices_.push_back({ where,
@@ -332,7 +333,7 @@ private:
   Notices& notices_;
   PartialProgress progress_;
   std::shared_ptr<const ByteSource> source_;
-  DataLayout layout_;
+  std::shared_ptr<const DataLayout> layout_;
   DataColumns columns_;
   DumpRequest own_; ///< of the particles, as this rank decodes them
 };

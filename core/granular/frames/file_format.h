@@ -23,13 +23,19 @@ struct FirstRows
   bool are_ids = false; ///< no two rows have the same; else equal rows have
 };
 
+/// The positions of the parts of a file that is one frame, for its reader. Formats derive their own.
+struct FileLayout
+{
+  virtual ~FileLayout() = default;
+};
+
 /// The operations on a file format whose files are indexed frame by frame.
 struct FileFormat
 {
   const char* name; ///< for messages: "a dump"
 
   /// Finds the frames from index.resume_offset to the end of the source; incomplete frames are left out. Lists the
-  /// other files that it examined in index.beside. Throws IoError, LimitError; FormatError for compressed data;
+  /// other files that it examined in index.beside, and may leave index.layout. Throws IoError, LimitError; FormatError for compressed data;
   /// Cancelled.
   void (*index)(
     const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead);

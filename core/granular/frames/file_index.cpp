@@ -207,6 +207,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   index.stamp = stamp;
   index.error = nullptr;
   index.defect.reset();
+  index.layout.reset();
   index.column_names = column_names;
   // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
   packed = first_bytes(std::move(packed), stamp.size);
@@ -292,6 +293,11 @@ bool update_file_index(FileIndex& index, const std::vector<std::string>& column_
 bool is_changed(const FileIndex& index)
 {
   return !(stamp_of(index.path) == index.stamp) || others_changed(index);
+}
+
+std::shared_ptr<const FileLayout> known_layout(const FileIndex& index)
+{
+  return index.layout && !is_changed(index) ? index.layout : nullptr;
 }
 
 FileStamp stamp_of(const std::string& path)

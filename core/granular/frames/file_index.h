@@ -49,6 +49,7 @@ struct FileIndex
   std::vector<std::string> column_names;            ///< of the user, for such a file
   std::shared_ptr<SeekPoints> points;               ///< of a compressed file
   std::shared_ptr<FrameKinds> kinds;                ///< may be shared by files; made if missing
+  std::shared_ptr<const FileLayout> layout;         ///< see known_layout
   const FileFormat* format = nullptr;               ///< must be there to be updated
   std::int64_t largest_expansion = usual_expansion; ///< of a compressed file: see unpack
 };
@@ -80,6 +81,10 @@ bool update_file_index(FileIndex& index, const std::vector<std::string>& column_
 
 /// Returns true if the file, or one beside it, has changed since it was indexed.
 bool is_changed(const FileIndex& index);
+
+/// Returns the layout that was found when a file was indexed. Returns null if there is none, as in an index from bytes, or if
+/// the file or one beside it has changed since.
+std::shared_ptr<const FileLayout> known_layout(const FileIndex& index);
 
 /// Returns the current state of a file, or a state that no file has if it cannot be opened.
 FileStamp stamp_of(const std::string& path);

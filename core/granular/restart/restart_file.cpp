@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/restart_file.h"
 
-#include "granular/frames/file_index.h"
 #include "granular/restart/process_files.h"
 #include "granular/restart/restart_bytes.h"
-#include "granular/restart/restart_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +45,9 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
   try
   {
     Notices notices; // what is missing of a frame that can be read is told when it is
-    const RestartLayout layout = read_layout(source, notices, progress, index.largest_expansion);
+    const auto found = std::make_shared<const RestartLayout>(
+      read_layout(source, notices, progress, index.largest_expansion));
+    const RestartLayout& layout = *found;
     FrameEntry entry;
     entry.timestep = layout.header.timestep;
     entry.rows = layout.records;
@@ -63,6 +63,7 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
         index.beside.push_back({ chunk.path, chunk.stamp });
       }
     }
+    index.layout = found;
   }
   catch (const FormatError& error)
   {
@@ -182,6 +183,19 @@ const FileFormat& restart_format() noexcept
     .complete = &pass_over_parts,
     .fits = &header_fits };
   return format;
+}
+
+std::shared_ptr<const RestartLayout> find_restart_layout(
+  const FileIndex& file, const ByteSource& source, Notices& notices, Progress& progress)
+{
+  const auto known = std::dynamic_pointer_cast<const RestartLayout>(known_layout(file));
+  if (known && known->largest_expansion == file.largest_expansion)
+  {
+    note_fixes(*known, source.path(), notices);
+    return known;
+  }
+  return std::make_shared<const RestartLayout>(
+    read_layout(source, notices, progress, file.largest_expansion));
 }
 
 bool is_restart_file(const std::string& path) noexcept

@@ -2,8 +2,10 @@
 #ifndef granular_restart_restart_file_h
 #define granular_restart_restart_file_h
 
-#include "granular/frames/file_format.h"
+#include "granular/frames/file_index.h"
+#include "granular/restart/restart_layout.h"
 
+#include <memory>
 #include <string>
 
 namespace granular
@@ -11,6 +13,11 @@ namespace granular
 /// Restart files of LIGGGHTS, for a RunIndex: one frame each, with the timestep of the header. An incomplete file is left out
 /// with a notice about the parts that were understood. Files of ranks beside their base are skipped.
 const FileFormat& restart_format() noexcept;
+
+/// Returns the layout of a file: what known_layout has, or what read_layout finds, with the same notices. Throws as
+/// read_layout.
+std::shared_ptr<const RestartLayout> find_restart_layout(
+  const FileIndex& file, const ByteSource& source, Notices& notices, Progress& progress);
 
 /// Returns true if the contents of a file are a restart file: the first words of the header, in either byte order. Also true
 /// for LAMMPS' files and for files of ranks beside their base, so that the user learns why they cannot be read. Returns

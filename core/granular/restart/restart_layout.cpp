@@ -169,12 +169,7 @@ RestartLayout read_layout(
   if (!source.compressed())
   {
     RestartLayout layout = LayoutReader(source, progress, largest_expansion).read();
-    if (!layout.has_fixes && layout.records > 0)
-    {
-      notices.push_back({ { source.path(), 0, layout.begin },
-        "expected what fixes have stored before the particles, found nothing: what they "
-        "add to particles has no names" });
-    }
+    note_fixes(layout, source.path(), notices);
     return layout;
   }
   {
@@ -184,5 +179,15 @@ RestartLayout read_layout(
   const std::string content = read_content(source, progress);
   const std::unique_ptr<ByteSource> unpacked = open_memory(content, source.path());
   return read_layout(*unpacked, notices, progress, largest_expansion);
+}
+
+void note_fixes(const RestartLayout& layout, const std::string& path, Notices& notices)
+{
+  if (!layout.has_fixes && layout.records > 0)
+  {
+    notices.push_back({ { path, 0, layout.begin },
+      "expected what fixes have stored before the particles, found nothing: what they "
+      "add to particles has no names" });
+  }
 }
 }

@@ -5,6 +5,7 @@
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
+#include "granular/frames/file_format.h"
 #include "granular/restart/restart_header.h"
 
 #include <cstdint>
@@ -31,7 +32,7 @@ struct RestartChunk
 };
 
 /// The positions of all parts of a restart file.
-struct RestartLayout
+struct RestartLayout : FileLayout
 {
   RestartHeader header;
   bool swapped = false;            ///< the order of its bytes is not this machine's
@@ -60,5 +61,8 @@ struct RestartLayout
 /// understood, where the search began, and which files of ranks are missing; UnsupportedError; IoError; Cancelled.
 RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress,
   std::int64_t largest_expansion = usual_expansion);
+
+/// Adds the notice of read_layout on a layout that is known already.
+void note_fixes(const RestartLayout& layout, const std::string& path, Notices& notices);
 }
 #endif
