@@ -73,7 +73,7 @@ ROOMS = {room: words.split() for room, words in (
     ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles sorting grid kernels"),
     ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
               "dump/read"),
-    ("restart", "common numbers bytes geometry parallel frames particles bonds local"),
+    ("restart", "common numbers bytes memory geometry parallel frames particles bonds local"),
     ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/read local"),
     ("paths", "common columns numbers memory geometry parallel frames particles sorting dump/read local"),

@@ -218,7 +218,7 @@ private:
     auto* to = static_cast<double*>(array.block.data()) + first * columns.size();
     for (const Bond& bond : bonds)
     {
-      const double* const values = copies.history.get() + bond.copy * bonds_.history_values();
+      const double* const values = copies.values() + bond.copy * bonds_.history_values();
       for (const int column : columns)
       {
         const auto i = static_cast<std::size_t>(column) - 3;

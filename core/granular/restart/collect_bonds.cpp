@@ -11,6 +11,7 @@ BondCollector::BondCollector(const RecordPlan& plan, std::int64_t rows, std::siz
   const std::int64_t* ids, const double* points, const std::shared_ptr<BlockPool>& pool)
   : history_values_(static_cast<std::size_t>(plan.history_values()))
   , rows_(static_cast<std::size_t>(rows))
+  , pool_(pool)
   , ids_(ids)
   , points_(points)
   , copies_(blocks)
@@ -35,9 +36,9 @@ void BondCollector::collect(std::size_t block, const RecordBatch& batch, const R
     copies.first_row = batch.first_row;
     copies.begins.reserve(batch.size() + 1);
     // more than there are, of which what is not needed stays untouched
-    copies.history.reset(new double[history_values_ > 0 ? batch.starts.back() : 0]);
+    copies.history = Block(history_values_ > 0 ? batch.starts.back() * sizeof(double) : 0, pool_);
   }
-  double* history = copies.history.get() + copies.size() * history_values_;
+  double* history = static_cast<double*>(copies.history.data()) + copies.size() * history_values_;
   for (std::size_t i = 0; i < rows.count; ++i)
   {
     const auto row = static_cast<std::size_t>(rows.first_row) + i;

@@ -35,6 +35,7 @@ public:
 private:
   std::size_t history_values_;
   std::size_t rows_;
+  std::shared_ptr<BlockPool> pool_;
   Block own_ids_;
   Block own_points_;
   std::int64_t* to_ids_ = nullptr; ///< where they are collected

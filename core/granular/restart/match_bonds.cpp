@@ -163,7 +163,7 @@ private:
       blocks_.size(),
       [&](std::size_t block, std::size_t worker)
       {
-        const double* number = blocks_[block].history.get();
+        const double* number = blocks_[block].values();
         for (std::size_t copy = 0; copy < blocks_[block].size(); ++copy)
         {
           for (std::size_t value = 0; value < history_values_; ++value, ++number)
@@ -291,8 +291,8 @@ private:
   {
     BondCopies& left = blocks_[higher.block];
     left.states[higher.place] = BondCopies::Left;
-    const Doubtful copies = { blocks_[lower.block].history.get() + lower.place * history_values_,
-      left.history.get() + higher.place * history_values_ };
+    const Doubtful copies = { blocks_[lower.block].values() + lower.place * history_values_,
+      left.values() + higher.place * history_values_ };
     if (!same_values(copies.lower, copies.higher, history_values_))
     {
       scratch.doubtful.push_back(copies);

@@ -3,11 +3,11 @@
 #define granular_restart_match_bonds_h
 
 #include "granular/common/progress.h"
+#include "granular/memory/block.h"
 #include "granular/parallel/executor.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,11 +27,12 @@ struct BondCopies
   std::vector<std::int64_t> begins = { 0 }; ///< of the copies of each row, and the end
   std::vector<std::int64_t> partners;       ///< ids, then rows; -1: not there
   std::vector<std::int32_t> types;
-  std::unique_ptr<double[]> history; ///< of each copy
+  Block history; ///< doubles of each copy
   std::vector<unsigned char> states;
 
   std::size_t rows() const noexcept { return begins.size() - 1; }
   std::size_t size() const noexcept { return partners.size(); }
+  const double* values() const noexcept { return static_cast<const double*>(history.data()); }
 };
 
 /// Counts for notices about bonds.
