@@ -10,6 +10,7 @@
 #include "../support/dumps.h"
 
 #include "../support/largest_request.h"
+#include "../support/resident_memory.h"
 
 #include <gtest/gtest.h>
 
@@ -24,8 +25,6 @@
 #include <string_view>
 #include <vector>
 
-#include <sys/resource.h>
-
 namespace
 {
 using binary::Bytes;
@@ -38,20 +37,12 @@ using Integers = std::vector<std::int64_t>;
 
 constexpr std::size_t much = std::size_t{ 1 } << 26;
 
-/// The most memory that the process has held, in bytes.
-std::size_t peak_memory()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
 /// Memory that a test takes, in single requests and in all.
 class MemoryCheck
 {
 public:
   MemoryCheck()
-    : before_(peak_memory())
+    : before_(peak_bytes())
   {
     largest_request = 0;
   }
@@ -60,12 +51,12 @@ public:
   {
     EXPECT_LT(largest_request, much);
 #ifndef GRANULAR_TEST_SANITIZED
-    EXPECT_LT(peak_memory() - before_, much);
+    EXPECT_LT(peak_bytes() - before_, static_cast<std::int64_t>(much));
 #endif
   }
 
 private:
-  std::size_t before_;
+  std::int64_t before_;
 };
 
 std::string defect_of(const Dump& dump)

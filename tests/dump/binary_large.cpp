@@ -6,6 +6,7 @@
 
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
+#include "../support/resident_memory.h"
 #include "../support/sparse_file.h"
 
 #include <gtest/gtest.h>
@@ -16,19 +17,10 @@
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
-
 namespace
 {
 using binary::Form;
 using binary::Frame;
-
-std::size_t peak_memory()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 /// Stops a task after some reports.
 class Stop final : public granular::Progress
@@ -149,7 +141,7 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   ASSERT_EQ(index.size(), 1u);
   EXPECT_EQ(index.first_piece(0).entry.rows, rows);
 
-  const std::size_t before = peak_memory();
+  const std::int64_t before = peak_bytes();
   granular::DumpRequest request;
   request.stride = 1 << 30;
   request.wanted = [](const granular::ArrayInfo&) { return false; };
@@ -158,5 +150,5 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   EXPECT_GT(stop.fraction(), 0);
   EXPECT_LT(stop.fraction(), 0.1);
   // a sanitizer keeps freed memory, too
-  EXPECT_LT(peak_memory() - before, std::size_t{ 1 } << 28);
+  EXPECT_LT(peak_bytes() - before, std::int64_t{ 1 } << 28);
 }

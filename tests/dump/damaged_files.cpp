@@ -2,13 +2,12 @@
 // Compressed dumps with any of their bytes changed: an error that names the file and the byte, or what
 // was there before, or a word that it could not be checked; never other numbers in silence.
 #include "../support/byte_source_packing.h"
+#include "../support/resident_memory.h"
 #include "../support/series.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
-
-#include <sys/resource.h>
 
 namespace
 {
@@ -16,13 +15,6 @@ std::string first_frame()
 {
   const std::string text = data_file("good/ortho_scaled.dump");
   return text.substr(0, text.find("ITEM: TIMESTEP", 1));
-}
-
-std::int64_t peak_bytes()
-{
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{ usage.ru_maxrss } * 1024;
 }
 
 struct Counts

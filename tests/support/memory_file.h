@@ -4,6 +4,7 @@
 #define granular_tests_support_memory_file_h
 
 #include "dumps.h"
+#include "resident_memory.h"
 
 #include "granular/frames/file_index.h"
 
@@ -12,8 +13,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-
-#include <sys/resource.h>
 
 /// A file in memory, called "memory" in messages, with its index. Frame: what becomes of a frame.
 template <class Frame>
@@ -69,18 +68,6 @@ private:
   granular::FileIndex index_;
   granular::Notices notices_;
 };
-
-/// The most memory that the process has had, where that can be told.
-inline std::int64_t peak_bytes()
-{
-#ifdef GRANULAR_TEST_SANITIZED
-  return 0;
-#else
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{ usage.ru_maxrss } * 1024;
-#endif
-}
 
 /// Calls use for each text that differs from a good one in one byte.
 inline void change_each_byte(

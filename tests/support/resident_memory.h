@@ -11,7 +11,20 @@
 #include <vector>
 
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
+
+/// The most memory that the process has had, where that can be told.
+inline std::int64_t peak_bytes()
+{
+#ifdef GRANULAR_TEST_SANITIZED
+  return 0;
+#else
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{ usage.ru_maxrss } * 1024;
+#endif
+}
 
 /// Bytes of the pages of the range that are in memory; -1 if they are not of this process.
 inline std::int64_t resident_bytes(const void* data, std::size_t bytes)
