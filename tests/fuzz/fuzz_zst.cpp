@@ -19,6 +19,13 @@ struct FreeContext
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
+/// Says whether the library finds so much content in a frame as a whole. It then sees damage that it passes over byte by byte.
+bool holds(std::string_view frame, std::size_t content)
+{
+  std::string buffer(content, '\0');
+  return ZSTD_decompress(buffer.data(), content, frame.data(), frame.size()) == content;
+}
+
 /// Frames one after the other, as far as they go. Byte by byte: of a frame as a whole, the library takes a window of any size.
 Reference unpack_with_zstd(std::string_view packed, std::size_t most)
 {
@@ -43,11 +50,12 @@ Reference unpack_with_zstd(std::string_view packed, std::size_t most)
     }
     all.text.append(buffer, 0, output.pos);
     content += output.pos;
-    const auto claimed = ZSTD_getFrameContentSize(packed.data() + frame, packed.size() - frame);
-    if (claimed < ZSTD_CONTENTSIZE_ERROR &&
-      (content > claimed || (status == 0 && content < claimed)))
+    const std::string_view rest = packed.substr(frame);
+    const auto claimed = ZSTD_getFrameContentSize(rest.data(), rest.size());
+    if ((claimed < ZSTD_CONTENTSIZE_ERROR && content > claimed) ||
+      (status == 0 && !holds(rest.substr(0, input.pos - frame), content)))
     {
-      all.end = Reference::End::Damaged; // of a frame as a whole, the library says so
+      all.end = Reference::End::Damaged;
       return all;
     }
     if (status == 0)

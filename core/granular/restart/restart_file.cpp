@@ -188,7 +188,7 @@ const FileFormat& restart_format() noexcept
 std::shared_ptr<const RestartLayout> find_restart_layout(
   const FileIndex& file, const ByteSource& source, Notices& notices, Progress& progress)
 {
-  const auto known = std::dynamic_pointer_cast<const RestartLayout>(known_layout(file));
+  auto known = std::dynamic_pointer_cast<const RestartLayout>(known_layout(file));
   if (known && known->largest_expansion == file.largest_expansion)
   {
     note_fixes(*known, source.path(), notices);
