@@ -312,7 +312,7 @@ protected:
         const bool fired = this->OfRank(possible, 0) >= number && rank == 0;
         this->ExpectHidden(folder, one, fired, mode == vtkGranularWriter::MPI_IO);
         this->Wait();
-        EXPECT_EQ(writer->Write(), 1);
+        EXPECT_EQ(writer->Write(), 1) << writer->GetErrorMessage();
         this->Wait();
         EXPECT_TRUE(bytes_of_file(path) == whole);
         if (one.leaves != Leaves::Nothing || one.kinds == calls::stat)

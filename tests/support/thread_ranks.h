@@ -39,9 +39,9 @@ public:
   {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return offered_ != nullptr; });
-    std::string bytes(*std::exchange(offered_, nullptr));
-    changed_.notify_all();
-    return bytes;
+    const std::string_view offered = *std::exchange(offered_, nullptr);
+    changed_.notify_all(); // who waits goes on when this is left, also without memory
+    return std::string(offered);
   }
 
 private:

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -257,7 +258,12 @@ void MpiCommunicator::send(std::string_view bytes, int to)
   this->expect_other(to);
   const auto count = static_cast<std::int64_t>(bytes.size());
   check(MPI_Send(&count, 1, MPI_INT64_T, to, pair_tag, ranks_));
-  in_parts(count, most_bytes_,
+  std::int64_t taken = 0;
+  if (count > 0)
+  {
+    check(MPI_Recv(&taken, 1, MPI_INT64_T, to, pair_tag, ranks_, MPI_STATUS_IGNORE));
+  }
+  in_parts(taken, most_bytes_,
     [&](std::int64_t offset, int part)
     { check(MPI_Send(bytes.data() + offset, part, MPI_BYTE, to, pair_tag, ranks_)); });
 }
@@ -267,7 +273,24 @@ void MpiCommunicator::receive(std::string& bytes, int from)
   this->expect_other(from);
   std::int64_t count = 0;
   check(MPI_Recv(&count, 1, MPI_INT64_T, from, pair_tag, ranks_, MPI_STATUS_IGNORE));
-  bytes.resize(static_cast<std::size_t>(count));
+  std::exception_ptr failure;
+  try
+  {
+    bytes.resize(static_cast<std::size_t>(count));
+  }
+  catch (const std::bad_alloc&)
+  {
+    failure = std::current_exception();
+  }
+  if (count > 0)
+  {
+    const std::int64_t taken = failure ? 0 : count;
+    check(MPI_Send(&taken, 1, MPI_INT64_T, from, pair_tag, ranks_));
+  }
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
   in_parts(count, most_bytes_,
     [&](std::int64_t offset, int part)
     {

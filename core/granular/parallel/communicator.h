@@ -65,7 +65,8 @@ public:
   virtual bool called_off() { return false; }
 
   /// Sends bytes to another rank, which must receive them; messages between two ranks keep their order. May wait until they
-  /// are received. Throws std::logic_error, like receive, if the other is this rank.
+  /// are received. Throws std::logic_error, like receive, if the other is this rank. receive throws std::bad_alloc if memory
+  /// is lacking for the bytes; the message is then lost, and the next one can be received.
   virtual void send(std::string_view bytes, int to) = 0;
   virtual void receive(std::string& bytes, int from) = 0;
 

@@ -6,6 +6,7 @@
 #include "granular/dump/write/sorted_rows.h"
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -109,6 +110,19 @@ void DumpWriter::File::gather_rows(std::string_view header, RowBatches& rows, Pr
       ranks.call_off();
     }
   };
+  const auto take = [&](std::string& bytes, int source)
+  {
+    try
+    {
+      ranks.receive(bytes, source);
+      return !bytes.empty();
+    }
+    catch (const std::bad_alloc&)
+    {
+      attempt([] { throw; });
+      return true;
+    }
+  };
   SharedProgress shared_progress(progress, ranks);
   PartialProgress part(shared_progress);
   const double share = 1.0 / ranks.size();
@@ -120,7 +134,7 @@ void DumpWriter::File::gather_rows(std::string_view header, RowBatches& rows, Pr
     {
       part.set_part(source * share, (source + 1) * share);
       std::string bytes;
-      for (ranks.receive(bytes, source); !bytes.empty(); ranks.receive(bytes, source))
+      while (take(bytes, source))
       {
         attempt(
           [&]
