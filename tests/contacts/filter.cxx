@@ -26,6 +26,10 @@
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersion.h"
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+#include "vtkAffineArray.h"
+#endif
 
 #include <gtest/gtest.h>
 
@@ -230,6 +234,36 @@ TEST(ContactSums, LinesOfAnyKind)
   ghosts->Update();
   EXPECT_TRUE(ghosts.Seen->Said.empty());
   ExpectSame(ghosts, expected);
+}
+
+/// Ends in order, in each form in which VTK stores cells.
+TEST(ContactSums, CellsOfAnyStorage)
+{
+  Filter expected(MakeParticles(4), MakeLines(3));
+  expected->Update();
+  const auto ids = MakeArray<vtkTypeInt32Array>("", { 0, 1, 2, 3, 4, 5 });
+  vtkNew<vtkCellArray> narrow;
+  narrow->SetData(MakeArray<vtkTypeInt32Array>("", { 0, 2, 4, 6 }), ids);
+  vtkNew<vtkCellArray> sized; // from VTK 9.6 on without offsets
+  sized->SetData(2, ids);
+  std::vector<vtkCellArray*> storages = { narrow, sized };
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  vtkNew<vtkAffineArray<vtkTypeInt64>> counted;
+  counted->ConstructBackend(1, 0);
+  counted->SetNumberOfValues(6);
+  vtkNew<vtkCellArray> ruled;
+  ruled->SetData(2, counted);
+  storages.push_back(ruled);
+#endif
+  for (vtkCellArray* const cells : storages)
+  {
+    const auto lines = MakeLines(3);
+    lines->SetLines(cells);
+    Filter filter(MakeParticles(4), lines);
+    filter->Update();
+    ExpectSame(filter, expected);
+    EXPECT_EQ(filter->GetLinesOutput()->GetNumberOfLines(), 3);
+  }
 }
 
 /// Duplicates of other ranks are no particles of their own.

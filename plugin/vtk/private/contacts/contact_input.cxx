@@ -5,15 +5,15 @@
 
 #include "granular/common/error.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
+#include "vtkDataArrayRange.h"
 #include "vtkDataObject.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkTypeInt32Array.h"
-#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -60,7 +60,7 @@ bool AreEndsInOrder(vtkPointSet* input)
   {
     return false;
   }
-  const auto isOrdered = [&](const auto* ids)
+  const auto isOrdered = [&](const auto& ids)
   {
     vtkIdType next = 0;
     while (next < points && ids[next] == next)
@@ -69,8 +69,16 @@ bool AreEndsInOrder(vtkPointSet* input)
     }
     return next == points;
   };
-  return lines->IsStorage64Bit() ? isOrdered(lines->GetConnectivityArray64()->GetPointer(0))
-                                 : isOrdered(lines->GetConnectivityArray32()->GetPointer(0));
+  vtkDataArray* const ids = lines->GetConnectivityArray();
+  if (auto* const narrow = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
+  {
+    return isOrdered(narrow->GetPointer(0));
+  }
+  if (auto* const wide = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
+  {
+    return isOrdered(wide->GetPointer(0));
+  }
+  return isOrdered(vtk::DataArrayValueRange<1>(ids)); // from VTK 9.6 on there may be others
 }
 }
 
