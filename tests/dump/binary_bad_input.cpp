@@ -50,9 +50,7 @@ public:
   ~MemoryCheck()
   {
     EXPECT_LT(largest_request, much);
-#ifndef GRANULAR_TEST_SANITIZED
     EXPECT_LT(peak_bytes() - before_, static_cast<std::int64_t>(much));
-#endif
   }
 
 private:

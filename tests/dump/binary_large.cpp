@@ -149,6 +149,5 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   EXPECT_THROW(read_dump(index.pieces(0), request, notices, stop), granular::Cancelled);
   EXPECT_GT(stop.fraction(), 0);
   EXPECT_LT(stop.fraction(), 0.1);
-  // a sanitizer keeps freed memory, too
   EXPECT_LT(peak_bytes() - before, std::int64_t{ 1 } << 28);
 }

@@ -105,10 +105,11 @@ std::string data_content(const RunIndex& index, std::size_t frame, Notices& noti
 std::string restart_content(const RunIndex& index, std::size_t frame, Notices& notices)
 {
   Progress progress;
-  const auto source = granular::open_indexed(index.first_piece(frame).file);
-  const granular::RestartLayout layout = granular::read_layout(*source, notices, progress);
+  const granular::FileIndex& file = index.first_piece(frame).file;
+  const auto source = granular::open_indexed(file);
+  const auto layout = granular::find_restart_layout(file, *source, notices, progress);
   const granular::RestartFrame read =
-    granular::read_restart(*source, layout, {}, notices, progress);
+    granular::read_restart(*source, *layout, {}, notices, progress);
   return text_of(content_of(read.particles)) + lines_content(read.bonds);
 }
 

@@ -23,7 +23,8 @@ void check(const RestartLayout& layout, std::int64_t size)
   require(header.end <= layout.begin && layout.begin <= size, "the begin of the particles");
   require(layout.size == size, "the size");
   require(layout.records == header.atoms, "records");
-  require(layout.masses.size() == static_cast<std::size_t>(header.types), "masses");
+  require(layout.masses.empty() || layout.masses.size() == static_cast<std::size_t>(header.types),
+    "masses");
   require(layout.groups.size() <= 32, "groups");
   require(layout.has_fixes || layout.fixes.empty(), "fixes");
   require(layout.chunks.empty()

@@ -19,7 +19,8 @@ struct FreeContext
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
-/// Says whether the library finds so much content in a frame as a whole. It then sees damage that it passes over byte by byte.
+/// Says whether the library finds so much content in a frame. Decompressed as a whole, a frame shows damage that the streaming
+/// decoder passes over.
 bool holds(std::string_view frame, std::size_t content)
 {
   std::string buffer(content, '\0');

@@ -181,12 +181,13 @@ void read_records(const RunIndex& run, std::size_t frame, Random& random, Sessio
 {
   Notices notices;
   Progress progress;
-  const auto source = open_indexed(run.first_piece(frame).file);
-  const RestartLayout layout = read_layout(*source, notices, progress);
+  const FileIndex& file = run.first_piece(frame).file;
+  const auto source = open_indexed(file);
+  const auto layout = find_restart_layout(file, *source, notices, progress);
   RestartRequest request;
   request.lines.threads = static_cast<int>(below(random, 3)) + 1;
   request.lines.pool = session.pool;
-  const RestartFrame read = read_restart(*source, layout, request, notices, progress);
+  const RestartFrame read = read_restart(*source, *layout, request, notices, progress);
   check_arrays(read.particles);
   check_arrays(read.bonds.table);
 }

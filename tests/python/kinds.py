@@ -102,4 +102,22 @@ assert run.kind == "data" and frame.rows == len(atoms)
 for number, point in zip(frame["id"].tolist(), frame.points.tolist()):
     assert all(value in atoms[number] for value in point), (number, point)
 assert len(frame.bonds["id1"]) == len(plain_data.Data(path).rows("Bonds"))
+
+
+def bytes_read():
+    """Bytes that this process has read from files so far."""
+    with open("/proc/self/io") as counts:
+        return int(next(line for line in counts if line.startswith("rchar:")).split()[1])
+
+
+# a file is looked through when it is opened, not again for its frame; records are read for the list of arrays, and twice for the frame
+with open("large.data", "w") as stream:
+    stream.write("title\n\n50000 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms # atomic\n\n")
+    stream.writelines(f"{number} 1 0.5 0.25 0.125\n" for number in range(1, 50001))
+for path, most in ("large.data", 1.1), (os.path.join(SAMPLES, "restart", "fibres.20000.restart"), 3.1):
+    run = granular.open(path)
+    before = bytes_read()
+    points = run[0].points
+    read = (bytes_read() - before) / os.path.getsize(path)
+    assert len(points) and 0.9 < read < most, (path, read)
 print("all kinds")

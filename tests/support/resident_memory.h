@@ -14,7 +14,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/// The most memory that the process has had, where that can be told.
+/// The most memory that the process has had; 0 under a sanitizer, which keeps freed memory.
 inline std::int64_t peak_bytes()
 {
 #ifdef GRANULAR_TEST_SANITIZED

@@ -89,7 +89,7 @@ const FileFormat& data_file_format() noexcept
 std::shared_ptr<const DataLayout> find_data_layout(
   const FileIndex& file, const ByteSource& source, Progress& progress)
 {
-  auto known = std::dynamic_pointer_cast<const DataLayout>(known_layout(file));
+  auto known = known_layout<DataLayout>(file);
   return known ? known : std::make_shared<const DataLayout>(read_data_layout(source, progress));
 }
 

@@ -14,7 +14,7 @@ namespace granular
 /// or 0.
 const FileFormat& data_file_format() noexcept;
 
-/// Returns the layout of a file: what known_layout has, or what read_data_layout finds. Throws as that.
+/// Returns the known layout of a file, or reads it. Throws the errors of read_data_layout.
 std::shared_ptr<const DataLayout> find_data_layout(
   const FileIndex& file, const ByteSource& source, Progress& progress);
 

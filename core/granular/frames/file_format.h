@@ -35,8 +35,8 @@ struct FileFormat
   const char* name; ///< for messages: "a dump"
 
   /// Finds the frames from index.resume_offset to the end of the source; incomplete frames are left out. Lists the
-  /// other files that it examined in index.beside, and may leave index.layout. Throws IoError, LimitError; FormatError for compressed data;
-  /// Cancelled.
+  /// other files that it examined in index.beside, and may set index.layout. Throws IoError, LimitError; FormatError for
+  /// compressed data; Cancelled.
   void (*index)(
     const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead);
 

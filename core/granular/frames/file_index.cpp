@@ -295,11 +295,6 @@ bool is_changed(const FileIndex& index)
   return !(stamp_of(index.path) == index.stamp) || others_changed(index);
 }
 
-std::shared_ptr<const FileLayout> known_layout(const FileIndex& index)
-{
-  return index.layout && !is_changed(index) ? index.layout : nullptr;
-}
-
 FileStamp stamp_of(const std::string& path)
 {
   try

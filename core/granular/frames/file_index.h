@@ -82,9 +82,14 @@ bool update_file_index(FileIndex& index, const std::vector<std::string>& column_
 /// Returns true if the file, or one beside it, has changed since it was indexed.
 bool is_changed(const FileIndex& index);
 
-/// Returns the layout that was found when a file was indexed. Returns null if there is none, as in an index from bytes, or if
-/// the file or one beside it has changed since.
-std::shared_ptr<const FileLayout> known_layout(const FileIndex& index);
+/// Returns the layout that was found when a file was indexed. Returns null if there is none of this type, as in an index from
+/// bytes, or if the file or one beside it has changed since.
+template <class Layout>
+std::shared_ptr<const Layout> known_layout(const FileIndex& index)
+{
+  auto layout = std::dynamic_pointer_cast<const Layout>(index.layout);
+  return layout && !is_changed(index) ? layout : nullptr;
+}
 
 /// Returns the current state of a file, or a state that no file has if it cannot be opened.
 FileStamp stamp_of(const std::string& path);

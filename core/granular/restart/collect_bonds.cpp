@@ -35,7 +35,7 @@ void BondCollector::collect(std::size_t block, const RecordBatch& batch, const R
   {
     copies.first_row = batch.first_row;
     copies.begins.reserve(batch.size() + 1);
-    // more than there are, of which what is not needed stays untouched
+    // enough for any number of bonds; the rest is never touched, but counts for the limit of the pool
     copies.history = Block(history_values_ > 0 ? batch.starts.back() * sizeof(double) : 0, pool_);
   }
   double* history = static_cast<double*>(copies.history.data()) + copies.size() * history_values_;

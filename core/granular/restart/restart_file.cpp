@@ -188,7 +188,8 @@ const FileFormat& restart_format() noexcept
 std::shared_ptr<const RestartLayout> find_restart_layout(
   const FileIndex& file, const ByteSource& source, Notices& notices, Progress& progress)
 {
-  auto known = std::dynamic_pointer_cast<const RestartLayout>(known_layout(file));
+  auto known = known_layout<RestartLayout>(file);
+  // an index is kept when the limit changes, but files of ranks may be refused by another limit
   if (known && known->largest_expansion == file.largest_expansion)
   {
     note_fixes(*known, source.path(), notices);

@@ -14,8 +14,7 @@ namespace granular
 /// with a notice about the parts that were understood. Files of ranks beside their base are skipped.
 const FileFormat& restart_format() noexcept;
 
-/// Returns the layout of a file: what known_layout has, or what read_layout finds, with the same notices. Throws as
-/// read_layout.
+/// Returns the known layout of a file, or reads it; the notices are the same. Throws the errors of read_layout.
 std::shared_ptr<const RestartLayout> find_restart_layout(
   const FileIndex& file, const ByteSource& source, Notices& notices, Progress& progress);
 

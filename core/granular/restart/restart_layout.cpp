@@ -6,7 +6,6 @@
 #include "granular/restart/process_files.h"
 #include "granular/restart/restart_bytes.h"
 
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -91,13 +90,11 @@ private:
   {
     constexpr const char* what = "the masses of types (0), or their end (-1)";
     auto kind = bytes_.next<std::int32_t>(at_, what);
-    layout_.masses.assign(
-      static_cast<std::size_t>(layout_.header.types), std::numeric_limits<double>::quiet_NaN());
     if (kind == 0)
     {
-      for (double& mass : layout_.masses)
+      for (int type = 0; type < layout_.header.types; ++type)
       {
-        mass = bytes_.next<double>(at_, "the mass of a type");
+        layout_.masses.push_back(bytes_.next<double>(at_, "the mass of a type"));
       }
       kind = bytes_.next<std::int32_t>(at_, "the end of the masses of types (-1)");
     }

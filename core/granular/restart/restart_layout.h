@@ -37,7 +37,7 @@ struct RestartLayout : FileLayout
   RestartHeader header;
   bool swapped = false;            ///< the order of its bytes is not this machine's
   std::vector<std::string> groups; ///< by their bit in a mask; empty names are free bits
-  std::vector<double> masses;      ///< of types 1, 2, ...; nan if the file has none
+  std::vector<double> masses;      ///< of types 1, 2, ...; none if the file has none
   bool has_fixes = false;          ///< false: the data of fixes in records were not found
   /// In the order of the file. LIGGGHTS writes their parts of records in another order once a fix of the same id was defined
   /// again. If the parts do not fit then, their lengths identify the fixes; fixes with equal lengths cannot be told apart.
@@ -56,8 +56,8 @@ struct RestartLayout : FileLayout
 /// no particles, the chunks are in files with 0, 1, 2, ... there; if it has no chunks at all, those files are looked for
 /// first. The data of fixes end directly before the particles and are recognised by their structure; a notice tells if they
 /// are not found although there are particles. All records are visited once, from length to length. Compressed contents are
-/// held in memory meanwhile. Memory depends on the bytes of the file, not on its claims, except for the masses of at most a
-/// million types; a search reads at most a few times the size of the file. Throws FormatError that tells which parts were
+/// held in memory meanwhile. Memory depends on the bytes of the file, not on its claims; a search reads at most a few times
+/// the size of the file. Throws FormatError that tells which parts were
 /// understood, where the search began, and which files of ranks are missing; UnsupportedError; IoError; Cancelled.
 RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress,
   std::int64_t largest_expansion = usual_expansion);
