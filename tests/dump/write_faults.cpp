@@ -393,6 +393,45 @@ TEST(WriteFaults, another_try)
   }
 }
 
+/// The first rank lacks memory for a message of another: it takes the rest all the same, and the next file is whole.
+TEST(WriteFaults, no_memory_for_a_message)
+{
+  const ThreeRanks three;
+  const Folder folder;
+  const std::string whole = write_dump(folder.path("whole"), three.frames, {}).bytes;
+  for (const int kept : { 0, 1, 2 })
+  {
+    std::vector<std::string> errors(3);
+    run_ranks(3,
+      [&](Communicator& ranks)
+      {
+        const auto rank = static_cast<std::size_t>(ranks.rank());
+        const Frames frames = three.ranks()[rank];
+        dynamic_cast<ThreadCommunicator&>(ranks).lack_memory_after(kept);
+        for (int i = 0; i < 2; ++i)
+        {
+          Notices notices;
+          Progress progress;
+          errors[rank] += error_of(
+                            [&]
+                            {
+                              DumpWriter writer(folder.path("a"), {}, {}, ranks);
+                              for (const FrameView& frame : frames)
+                              {
+                                writer.write(frame, notices, progress);
+                              }
+                              writer.finish();
+                            }) +
+            "\n";
+        }
+      });
+    EXPECT_EQ(errors[0], "out of memory (on rank 0 of 3)\n\n") << kept;
+    EXPECT_EQ(errors[0], errors[1]);
+    EXPECT_EQ(errors[0], errors[2]);
+    EXPECT_EQ(difference(bytes_of_file(folder.path("a")), whole), "");
+  }
+}
+
 /// A process that is killed while it writes leaves the old file as it was; the next one removes what it left.
 TEST(WriteFaults, killed)
 {

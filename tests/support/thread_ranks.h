@@ -12,8 +12,10 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -169,7 +171,14 @@ public:
   {
     this->expect_other(from);
     bytes = meeting_.handover(from, rank_).take();
+    if (!bytes.empty() && --kept_ == -1)
+    {
+      throw std::bad_alloc();
+    }
   }
+
+  /// Of the messages that are received, so many are kept; for the next one there is no memory.
+  void lack_memory_after(int messages) noexcept { kept_ = messages; }
 
   std::unique_ptr<granular::OutputFile> open_together(const std::string& path) override
   {
@@ -268,6 +277,7 @@ private:
   Meeting& meeting_;
   int rank_;
   bool matched_ = true;
+  int kept_ = std::numeric_limits<int>::max();
   std::size_t broadcast_bytes_ = 0;
 };
 
