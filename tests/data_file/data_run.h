@@ -50,6 +50,7 @@ public:
   }
 
   std::int64_t step() const { return index_.first_piece(0).entry.timestep; }
+  const granular::FileIndex& file() const { return index_.first_piece(0).file; }
 
   granular::DataFrame read(const granular::DataRequest& request = {})
   {

@@ -110,17 +110,12 @@ TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
 TEST(DataParticles, FilesAreLookedThroughOnce)
 {
   const std::string row = "1 1 0.5 0 0\n";
-  const std::string path = write_data(data_text(1, "Atoms # atomic\n\n" + row));
-  granular::RunIndex run;
-  granular::IndexOptions options;
-  options.format = &granular::data_file_format();
-  granular::Notices notices;
-  granular::Progress progress;
-  run.update({ path }, options, notices, progress);
+  const DataRun run(write_data(data_text(1, "Atoms # atomic\n\n" + row)));
   const auto bytes_for_layout = [&](const std::string& text)
   {
     const CountingSource source(text);
-    granular::find_data_layout(run.first_piece(0).file, source, progress);
+    granular::Progress progress;
+    granular::find_data_layout(run.file(), source, progress);
     return source.bytes_read();
   };
   EXPECT_EQ(bytes_for_layout(data_text(1, "Atoms # atomic\n\n" + row)), 0);
