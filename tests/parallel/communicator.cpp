@@ -53,6 +53,7 @@ TEST(Communicator, threads)
         check_sum(ranks);
         check_exchange(ranks);
         check_send(ranks);
+        check_send_without_memory(ranks);
       });
   }
 }

@@ -86,6 +86,7 @@ TEST(MpiCommunicator, moves_bytes)
     check_sum(ranks);
     check_exchange(ranks);
     check_send(ranks);
+    check_send_without_memory(ranks);
   }
 }
 

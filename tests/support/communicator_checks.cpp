@@ -212,10 +212,6 @@ void check_send(Communicator& ranks)
   std::string bytes;
   EXPECT_THROW(ranks.send("x", ranks.rank()), std::logic_error);
   EXPECT_THROW(ranks.receive(bytes, ranks.rank()), std::logic_error);
-  std::size_t too_much = std::size_t{ 1 } << 60; // bytes, which nobody looks at
-#ifdef GRANULAR_TEST_SANITIZED
-  too_much = 1; // a sanitizer ends the program instead
-#endif
   for (int from = 0; from < ranks.size(); ++from)
   {
     for (int to = 0; to < ranks.size(); ++to)
@@ -230,8 +226,6 @@ void check_send(Communicator& ranks)
         {
           ranks.send(pattern(size, from, to), to);
           ranks.send("next", to); // the order stays
-          ranks.send({ bytes.data(), too_much }, to);
-          ranks.send("next", to);
         }
         else if (ranks.rank() == to)
         {
@@ -240,18 +234,31 @@ void check_send(Communicator& ranks)
           EXPECT_TRUE(bytes == pattern(size, from, to)) << from << ' ' << to << ' ' << size;
           ranks.receive(bytes, from);
           EXPECT_EQ(bytes, "next");
-          if (too_much > 1)
-          {
-            EXPECT_THROW(ranks.receive(bytes, from), std::bad_alloc);
-          }
-          else
-          {
-            ranks.receive(bytes, from);
-          }
-          ranks.receive(bytes, from);
-          EXPECT_EQ(bytes, "next");
         }
       }
+    }
+  }
+}
+
+void check_send_without_memory(Communicator& ranks)
+{
+#ifdef GRANULAR_TEST_SANITIZED
+  return; // a sanitizer ends the program instead
+#endif
+  constexpr std::size_t too_much = std::size_t{ 1 } << 60; // bytes, which nobody looks at
+  std::string bytes;
+  for (int from = 1; from < ranks.size(); ++from)
+  {
+    if (ranks.rank() == from)
+    {
+      ranks.send({ bytes.data(), too_much }, 0);
+      ranks.send("next", 0);
+    }
+    else if (ranks.rank() == 0)
+    {
+      EXPECT_THROW(ranks.receive(bytes, from), std::bad_alloc);
+      ranks.receive(bytes, from);
+      EXPECT_EQ(bytes, "next");
     }
   }
 }

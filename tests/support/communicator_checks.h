@@ -13,6 +13,7 @@ void check_sum(granular::Communicator& ranks);
 void check_exchange(granular::Communicator& ranks);
 void check_agree(granular::Communicator& ranks);
 void check_send(granular::Communicator& ranks);
+void check_send_without_memory(granular::Communicator& ranks);
 
 // In an empty folder of their own, the same for all ranks.
 void check_open_together(granular::Communicator& ranks, const std::string& folder);

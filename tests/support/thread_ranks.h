@@ -177,7 +177,7 @@ public:
     }
   }
 
-  /// Of the messages that are received, so many are kept; for the next one there is no memory.
+  /// Makes receive lack memory for one message, after so many others.
   void lack_memory_after(int messages) noexcept { kept_ = messages; }
 
   std::unique_ptr<granular::OutputFile> open_together(const std::string& path) override

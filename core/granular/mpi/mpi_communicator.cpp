@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -258,11 +257,8 @@ void MpiCommunicator::send(std::string_view bytes, int to)
   this->expect_other(to);
   const auto count = static_cast<std::int64_t>(bytes.size());
   check(MPI_Send(&count, 1, MPI_INT64_T, to, pair_tag, ranks_));
-  std::int64_t taken = 0;
-  if (count > 0)
-  {
-    check(MPI_Recv(&taken, 1, MPI_INT64_T, to, pair_tag, ranks_, MPI_STATUS_IGNORE));
-  }
+  std::int64_t taken = 0; // nothing, if the other lacks memory
+  check(MPI_Recv(&taken, 1, MPI_INT64_T, to, pair_tag, ranks_, MPI_STATUS_IGNORE));
   in_parts(taken, most_bytes_,
     [&](std::int64_t offset, int part)
     { check(MPI_Send(bytes.data() + offset, part, MPI_BYTE, to, pair_tag, ranks_)); });
@@ -273,24 +269,18 @@ void MpiCommunicator::receive(std::string& bytes, int from)
   this->expect_other(from);
   std::int64_t count = 0;
   check(MPI_Recv(&count, 1, MPI_INT64_T, from, pair_tag, ranks_, MPI_STATUS_IGNORE));
-  std::exception_ptr failure;
+  const auto answer = [&](std::int64_t taken)
+  { check(MPI_Send(&taken, 1, MPI_INT64_T, from, pair_tag, ranks_)); };
   try
   {
     bytes.resize(static_cast<std::size_t>(count));
   }
   catch (const std::bad_alloc&)
   {
-    failure = std::current_exception();
+    answer(0);
+    throw;
   }
-  if (count > 0)
-  {
-    const std::int64_t taken = failure ? 0 : count;
-    check(MPI_Send(&taken, 1, MPI_INT64_T, from, pair_tag, ranks_));
-  }
-  if (failure)
-  {
-    std::rethrow_exception(failure);
-  }
+  answer(count);
   in_parts(count, most_bytes_,
     [&](std::int64_t offset, int part)
     {
