@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 
 #if GRANULAR_X86
 #include <immintrin.h>
@@ -56,6 +55,26 @@ struct PairExtremes
   }
 };
 
+__m128d load_pair(const double* values) noexcept
+{
+  return _mm_loadu_pd(values);
+}
+
+__m128d load_pair(const float* values) noexcept
+{
+  return _mm_set_pd(values[1], values[0]);
+}
+
+__m128d load_pair(const std::int32_t* values) noexcept
+{
+  return _mm_cvtepi32_pd(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(values)));
+}
+
+__m128d load_pair(const std::int64_t* values) noexcept
+{
+  return _mm_set_pd(static_cast<double>(values[1]), static_cast<double>(values[0]));
+}
+
 /// The sums of the squares of two rows of one or three components.
 template <std::size_t n>
 __m128d sum_rows(const __m128d* squares) noexcept
@@ -73,9 +92,9 @@ __m128d sum_rows(const __m128d* squares) noexcept
   }
 }
 
-/// As add_rows, for an even number of rows of one or three doubles.
-template <std::size_t n>
-bool add_pairs(const double* values, std::size_t rows, ValueRange::Bounds* components,
+/// As add_rows, for an even number of rows.
+template <std::size_t n, typename T>
+bool add_pairs(const T* values, std::size_t rows, ValueRange::Bounds* components,
   ValueRange::Bounds& squares) noexcept
 {
   PairExtremes each[n];
@@ -86,7 +105,7 @@ bool add_pairs(const double* values, std::size_t rows, ValueRange::Bounds* compo
     __m128d powers[n];
     for (std::size_t i = 0; i < n; ++i)
     {
-      const __m128d pair = _mm_loadu_pd(values + 2 * i);
+      const __m128d pair = load_pair(values + 2 * i);
       each[i].add(pair);
       powers[i] = _mm_mul_pd(pair, pair);
     }
@@ -111,12 +130,9 @@ bool add_rows(const T* values, std::size_t rows, ValueRange::Bounds* components,
   std::size_t row = 0;
   bool numbers = true;
 #if GRANULAR_X86
-  if constexpr (std::is_same_v<T, double>)
-  {
-    row = rows / 2 * 2;
-    numbers = add_pairs<n>(values, row, components, squares);
-    values += row * n;
-  }
+  row = rows / 2 * 2;
+  numbers = add_pairs<n>(values, row, components, squares);
+  values += row * n;
 #endif
   Extremes each[n];
   Extremes sums;
