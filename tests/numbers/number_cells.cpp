@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <random>
 #include <string>
@@ -18,6 +19,7 @@ namespace
 using granular::most_number_chars;
 using granular::NumberCells;
 using granular::NumberFormat;
+using granular::Simd;
 
 constexpr char untouched = '#';
 
@@ -93,6 +95,15 @@ std::vector<double> hard_doubles()
     -std::numeric_limits<double>::max(), 0x1p-963, 0x1p53, -0x1p53 - 2, 9007199254740991.0,
     999999.5, 9999995e-10, 0.5, 2.5, 1e5, 123456.5, 1e6, 1e15, 1e16, 1e17, 1e22, 1e23, 0.1, -0.3,
     1.0 / 3 };
+  for (const double place : { 0x1p-33, 999999.5, 99999.95, 0.9999995, 0.00099999950000000001 })
+  {
+    values.insert(values.end(), { std::nextafter(place, 0), place, std::nextafter(place, 1e9) });
+  }
+  for (int power = -12; power <= 8; ++power)
+  {
+    const double ten = std::strtod(("1e" + std::to_string(power)).c_str(), nullptr);
+    values.insert(values.end(), { std::nextafter(ten, 0), ten, -std::nextafter(ten, 1e9) });
+  }
   std::mt19937_64 random(5);
   for (int i = 0; i < 3000; ++i)
   {
@@ -126,9 +137,15 @@ TEST(NumberCells, as_printf)
     {
       words.push_back(by_printf("%.*g", value, digits));
     }
-    expect_cells(values, words,
-      [&](const double* from, std::int64_t step, std::size_t count, const NumberCells& to)
-      { granular::print_numbers(from, step, count, { digits }, false, to); });
+    for (const Simd simd : { Simd::Portable, Simd::Avx2, Simd::Avx512 })
+    {
+      if (simd <= granular::best_simd())
+      {
+        expect_cells(values, words,
+          [&](const double* from, std::int64_t step, std::size_t count, const NumberCells& to)
+          { granular::print_numbers(from, step, count, { digits }, false, to, simd); });
+      }
+    }
   }
 }
 

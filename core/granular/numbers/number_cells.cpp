@@ -2,7 +2,9 @@
 #include "granular/numbers/number_cells.h"
 
 #include "granular/numbers/number_print_few.h"
+#include "granular/numbers/six_digits.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -32,45 +34,83 @@ template <class Number, class Print>
     length += cells.step;
   }
 }
+
+constexpr int few = 6;
+
+char* print_few(char* cell, double value) noexcept
+{
+  using namespace number_print;
+  const std::uint64_t magnitude = std::bit_cast<std::uint64_t>(value) & ~sign_bit;
+  if (is_usual(magnitude)) [[likely]]
+  {
+    const Rounded rounded = round_few(magnitude, few);
+    if (rounded.sure) [[likely]]
+    {
+      return lay_out_few(cell, value, rounded, few);
+    }
+  }
+  return print_number(cell, value, { few });
+}
+
+/// Prints numbers whose digits are found together.
+void print_together(const double* from, std::int64_t step, std::size_t count, const NumberCells& to,
+  Simd simd) noexcept
+{
+  using number_print::SixDigits;
+  SixDigits numbers;
+  for (std::size_t first = 0; first < count; first += SixDigits::most)
+  {
+    const std::size_t some = std::min(SixDigits::most, count - first);
+    for (std::size_t i = 0; i < some; ++i, from += step)
+    {
+      __builtin_prefetch(from + ahead * step);
+      numbers.values[i] = *from;
+    }
+    find_six_digits(numbers, some, simd);
+    NumberCells cells = to;
+    cells.text += first * to.step * most_number_chars;
+    cells.lengths += first * to.step;
+    print_all(numbers.values.data(), 1, some, cells,
+      [&numbers, i = std::size_t{ 0 }](char* cell, double value) mutable
+      {
+        const std::size_t at = i++;
+        return numbers.k[at] != SixDigits::not_found
+          ? number_print::lay_out_six(
+              cell, value, numbers.digits[at], static_cast<int>(numbers.k[at]))
+          : print_few(cell, value);
+      });
+  }
+}
 }
 
 void print_numbers(const double* from, std::int64_t step, std::size_t count, NumberFormat format,
-  bool whole, const NumberCells& to) noexcept
+  bool whole, const NumberCells& to, Simd simd) noexcept
 {
-  using namespace number_print;
   constexpr double most_exact = 9007199254740992.0; // 2^53
+  constexpr std::size_t many = 4;                   // fewer are printed as fast one by one
   if (whole)
   {
     print_all(from, step, count, to,
       [format](char* cell, double value)
       {
         return std::abs(value) < most_exact && std::trunc(value) == value
-          ? print_whole(cell, static_cast<std::int64_t>(value))
+          ? number_print::print_whole(cell, static_cast<std::int64_t>(value))
           : print_number(cell, value, format);
       });
-    return;
   }
-  constexpr int few = 6;
-  if (format != NumberFormat{ few })
+  else if (format != NumberFormat{ few })
   {
     print_all(from, step, count, to,
       [format](char* cell, double value) { return print_number(cell, value, format); });
-    return;
   }
-  print_all(from, step, count, to,
-    [](char* cell, double value)
-    {
-      const std::uint64_t magnitude = std::bit_cast<std::uint64_t>(value) & ~sign_bit;
-      if (is_usual(magnitude)) [[likely]]
-      {
-        const Rounded rounded = round_few(magnitude, few);
-        if (rounded.sure) [[likely]]
-        {
-          return lay_out_few(cell, value, rounded, few);
-        }
-      }
-      return print_number(cell, value, { few });
-    });
+  else if (simd == Simd::Portable || count < many)
+  {
+    print_all(from, step, count, to, print_few);
+  }
+  else
+  {
+    print_together(from, step, count, to, simd);
+  }
 }
 
 void print_integers(

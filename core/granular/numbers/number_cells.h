@@ -2,6 +2,7 @@
 #ifndef granular_numbers_number_cells_h
 #define granular_numbers_number_cells_h
 
+#include "granular/common/simd.h"
 #include "granular/numbers/number_print.h"
 
 #include <array>
@@ -24,7 +25,7 @@ struct NumberCells
 /// Prints `count` numbers that are `step` apart as print_number does. whole: integral ones below 2^53 have all their digits,
 /// as print_integer prints them.
 void print_numbers(const double* from, std::int64_t step, std::size_t count, NumberFormat format,
-  bool whole, const NumberCells& to) noexcept;
+  bool whole, const NumberCells& to, Simd simd = best_simd()) noexcept;
 
 /// Prints `count` integers that are `step` apart as print_integer does.
 void print_integers(

@@ -97,6 +97,14 @@ inline Rounded round_few(std::uint64_t magnitude, int digits)
     fraction + doubt - (std::uint64_t{ 1 } << 63) >= 2 * doubt };
 }
 
+/// Lays out six digits with a sign; the first has the weight 10^k.
+inline char* lay_out_six(char* to, double value, std::uint64_t digits, int k, int most = 6)
+{
+  *to = '-';
+  return lay_out_eight(
+    to + (std::bit_cast<std::uint64_t>(value) >> 63), digits, place_of_digits(k, most));
+}
+
 inline char* lay_out_few(char* to, double value, const Rounded& rounded, int digits)
 {
   std::uint64_t whole = rounded.whole * whole_power_of_ten(6 - digits);
@@ -106,9 +114,7 @@ inline char* lay_out_few(char* to, double value, const Rounded& rounded, int dig
     whole = 100'000;
     ++k;
   }
-  *to = '-';
-  return lay_out_eight(to + (std::bit_cast<std::uint64_t>(value) >> 63), six_digits(whole),
-    place_of_digits(k, digits));
+  return lay_out_six(to, value, six_digits(whole), k, digits);
 }
 
 /// x < 10^8 does it in one go.

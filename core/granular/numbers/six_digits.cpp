@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/numbers/six_digits.h"
+
+#if GRANULAR_X86
+
+// GCC 12 takes the deliberately undefined operands inside its own intrinsics for a mistake of the
+// caller (GCC bug 105593).
+#if !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+// Without optimisation its intrinsics are macros, so the conversions inside them stand here.
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#endif
+
+#include <immintrin.h>
+
+namespace granular::number_print
+{
+namespace
+{
+// A number x with the first digit at 10^k, -10 <= k <= 5, has six digits before the point as x * 10^(5 - k). That power is
+// exact, so the product is rounded once: by less than it is away from a half, unless it looks like one. And k is that of the
+// power of two below the number, by log10(2) = 78913 / 2^18, or one more. A number just below a power of ten may pass for it:
+// both have the digits 100000.
+constexpr double least = 0x1p-33;
+constexpr double end = 1e6;
+constexpr int largest_k = 5;
+constexpr int least_k = -10;
+constexpr std::int64_t log_of_two = 78913;
+constexpr int log_bits = 18;
+constexpr std::int64_t exponent_bias = 1023;
+
+alignas(64) constexpr std::array<double, 16> powers = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8,
+  1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15 };
+
+/// 10^(k + 1), by k - least_k.
+alignas(64) constexpr std::array<double, 16> next_powers = { 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4,
+  1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6 };
+
+#define GRANULAR_AVX2 __attribute__((target("avx2")))
+#define GRANULAR_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq")))
+
+/// As eight_digits, of four numbers.
+GRANULAR_AVX2 inline __m256i eight_digits(__m256i x) noexcept
+{
+  const __m256i high = _mm256_srli_epi64(_mm256_mul_epu32(x, _mm256_set1_epi64x(3518437209)), 45);
+  const __m256i low = _mm256_sub_epi64(x, _mm256_mul_epu32(high, _mm256_set1_epi64x(10000)));
+  const __m256i halves = _mm256_or_si256(_mm256_slli_epi64(low, 32), high);
+  const __m256i hundreds =
+    _mm256_srli_epi32(_mm256_mullo_epi32(halves, _mm256_set1_epi32(10486)), 20);
+  const __m256i pairs = _mm256_sub_epi32(_mm256_slli_epi32(halves, 16),
+    _mm256_mullo_epi32(hundreds, _mm256_set1_epi32((100 << 16) - 1)));
+  const __m256i tens = _mm256_mulhi_epu16(pairs, _mm256_set1_epi16(103 << 6));
+  return _mm256_sub_epi16(
+    _mm256_slli_epi16(pairs, 8), _mm256_mullo_epi16(tens, _mm256_set1_epi16((10 << 8) - 1)));
+}
+
+GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
+{
+  const __m256d magnitude = _mm256_castsi256_pd(_mm256_set1_epi64x(~(std::int64_t{ 1 } << 63)));
+  const __m256d any = _mm256_and_pd(_mm256_load_pd(&numbers.values[at]), magnitude);
+  const __m256d usual = _mm256_and_pd(_mm256_cmp_pd(any, _mm256_set1_pd(least), _CMP_GE_OQ),
+    _mm256_cmp_pd(any, _mm256_set1_pd(end), _CMP_LT_OQ));
+  const __m256d x =
+    _mm256_blendv_pd(_mm256_set1_pd(1), any, usual); // no place outside of the tables
+  const __m256i exponent = _mm256_srli_epi64(_mm256_castpd_si256(x), 52);
+  const __m256i bias =
+    _mm256_set1_epi64x(exponent_bias * log_of_two + least_k * (std::int64_t{ 1 } << log_bits));
+  const __m256i at_least = _mm256_srli_epi64( // k - least_k, or one less
+    _mm256_sub_epi64(_mm256_mul_epu32(exponent, _mm256_set1_epi64x(log_of_two)), bias), log_bits);
+  const __m256d next = _mm256_i64gather_pd(next_powers.data(), at_least, 8);
+  const __m256i place =
+    _mm256_sub_epi64(at_least, _mm256_castpd_si256(_mm256_cmp_pd(x, next, _CMP_GE_OQ)));
+  const __m256d power = _mm256_i64gather_pd(
+    powers.data(), _mm256_sub_epi64(_mm256_set1_epi64x(largest_k - least_k), place), 8);
+  const __m256d product = _mm256_mul_pd(x, power);
+  const __m256d whole = _mm256_round_pd(product, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+  const __m256d off = _mm256_and_pd(_mm256_sub_pd(product, whole), magnitude);
+  const __m256d found =
+    _mm256_andnot_pd(_mm256_cmp_pd(off, _mm256_set1_pd(0.5), _CMP_EQ_OQ), usual);
+  const __m256d carries = _mm256_cmp_pd(whole, _mm256_set1_pd(end), _CMP_EQ_OQ);
+  const __m256d six = _mm256_blendv_pd(whole, _mm256_set1_pd(end / 10), carries);
+  const __m256i eight =
+    _mm256_cvtepu32_epi64(_mm256_cvtpd_epi32(_mm256_mul_pd(six, _mm256_set1_pd(100))));
+  const __m256i k = _mm256_add_epi64(
+    _mm256_sub_epi64(place, _mm256_castpd_si256(carries)), _mm256_set1_epi64x(least_k));
+  const __m256i none = _mm256_set1_epi64x(SixDigits::not_found);
+  _mm256_store_si256(reinterpret_cast<__m256i*>(&numbers.digits[at]), eight_digits(eight));
+  _mm256_store_si256(reinterpret_cast<__m256i*>(&numbers.k[at]),
+    _mm256_blendv_epi8(none, k, _mm256_castpd_si256(found)));
+}
+
+/// As eight_digits, of eight numbers.
+GRANULAR_AVX512 inline __m512i eight_digits(__m512i x) noexcept
+{
+  const __m512i high = _mm512_srli_epi64(_mm512_mul_epu32(x, _mm512_set1_epi64(3518437209)), 45);
+  const __m512i low = _mm512_sub_epi64(x, _mm512_mul_epu32(high, _mm512_set1_epi64(10000)));
+  const __m512i halves = _mm512_or_si512(_mm512_slli_epi64(low, 32), high);
+  const __m512i hundreds =
+    _mm512_srli_epi32(_mm512_mullo_epi32(halves, _mm512_set1_epi32(10486)), 20);
+  const __m512i pairs = _mm512_sub_epi32(_mm512_slli_epi32(halves, 16),
+    _mm512_mullo_epi32(hundreds, _mm512_set1_epi32((100 << 16) - 1)));
+  const __m512i tens = _mm512_mulhi_epu16(pairs, _mm512_set1_epi16(103 << 6));
+  return _mm512_sub_epi16(
+    _mm512_slli_epi16(pairs, 8), _mm512_mullo_epi16(tens, _mm512_set1_epi16((10 << 8) - 1)));
+}
+
+/// As find_by_avx2; its tables are in registers.
+GRANULAR_AVX512 void find_by_avx512(SixDigits& numbers, std::size_t at) noexcept
+{
+  const __m512i one = _mm512_set1_epi64(1);
+  const __m512d any = _mm512_abs_pd(_mm512_load_pd(&numbers.values[at]));
+  const __mmask8 usual =
+    _mm512_mask_cmp_pd_mask(_mm512_cmp_pd_mask(any, _mm512_set1_pd(least), _CMP_GE_OQ), any,
+      _mm512_set1_pd(end), _CMP_LT_OQ);
+  const __m512d x = _mm512_mask_mov_pd(_mm512_set1_pd(1), usual, any);
+  const __m512i exponent = _mm512_srli_epi64(_mm512_castpd_si512(x), 52);
+  const __m512i bias =
+    _mm512_set1_epi64(exponent_bias * log_of_two + least_k * (std::int64_t{ 1 } << log_bits));
+  const __m512i at_least = _mm512_srli_epi64(
+    _mm512_sub_epi64(_mm512_mul_epu32(exponent, _mm512_set1_epi64(log_of_two)), bias), log_bits);
+  const __m512d next = _mm512_permutex2var_pd(
+    _mm512_load_pd(&next_powers[0]), at_least, _mm512_load_pd(&next_powers[8]));
+  const __m512i place =
+    _mm512_mask_add_epi64(at_least, _mm512_cmp_pd_mask(x, next, _CMP_GE_OQ), at_least, one);
+  const __m512d power = _mm512_permutex2var_pd(_mm512_load_pd(&powers[0]),
+    _mm512_sub_epi64(_mm512_set1_epi64(largest_k - least_k), place), _mm512_load_pd(&powers[8]));
+  const __m512d product = _mm512_mul_pd(x, power);
+  const __m512d whole =
+    _mm512_roundscale_pd(product, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+  const __m512d off = _mm512_abs_pd(_mm512_sub_pd(product, whole));
+  const __mmask8 found = _mm512_mask_cmp_pd_mask(usual, off, _mm512_set1_pd(0.5), _CMP_NEQ_UQ);
+  const __mmask8 carries = _mm512_cmp_pd_mask(whole, _mm512_set1_pd(end), _CMP_EQ_OQ);
+  const __m512d six = _mm512_mask_mov_pd(whole, carries, _mm512_set1_pd(end / 10));
+  const __m512i eight =
+    _mm512_cvtepu32_epi64(_mm512_cvtpd_epi32(_mm512_mul_pd(six, _mm512_set1_pd(100))));
+  const __m512i k =
+    _mm512_add_epi64(_mm512_mask_add_epi64(place, carries, place, one), _mm512_set1_epi64(least_k));
+  _mm512_store_si512(&numbers.digits[at], eight_digits(eight));
+  _mm512_store_si512(
+    &numbers.k[at], _mm512_mask_mov_epi64(_mm512_set1_epi64(SixDigits::not_found), found, k));
+}
+}
+
+void find_six_digits(SixDigits& numbers, std::size_t count, Simd simd) noexcept
+{
+  const bool wide = simd == Simd::Avx512;
+  const std::size_t lanes = wide ? 8 : 4;
+  while (count % lanes != 0)
+  {
+    numbers.values[count++] = 0;
+  }
+  for (std::size_t at = 0; at < count; at += lanes)
+  {
+    (wide ? find_by_avx512 : find_by_avx2)(numbers, at);
+  }
+}
+}
+#else
+namespace granular::number_print
+{
+void find_six_digits(SixDigits& numbers, std::size_t, Simd) noexcept
+{
+  numbers.k.fill(SixDigits::not_found);
+}
+}
+#endif
