@@ -63,7 +63,7 @@ GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
   const __m256d usual = _mm256_and_pd(_mm256_cmp_pd(any, _mm256_set1_pd(least), _CMP_GE_OQ),
     _mm256_cmp_pd(any, _mm256_set1_pd(end), _CMP_LT_OQ));
   const __m256d x =
-    _mm256_blendv_pd(_mm256_set1_pd(1), any, usual); // no place outside of the tables
+    _mm256_blendv_pd(_mm256_set1_pd(1), any, usual); // no place outside of the tables; 0 has k = 0
   const __m256i exponent = _mm256_srli_epi64(_mm256_castpd_si256(x), 52);
   const __m256i bias =
     _mm256_set1_epi64x(exponent_bias * log_of_two + least_k * (std::int64_t{ 1 } << log_bits));
@@ -77,8 +77,9 @@ GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
   const __m256d product = _mm256_mul_pd(x, power);
   const __m256d whole = _mm256_round_pd(product, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
   const __m256d off = _mm256_and_pd(_mm256_sub_pd(product, whole), magnitude);
-  const __m256d found =
-    _mm256_andnot_pd(_mm256_cmp_pd(off, _mm256_set1_pd(0.5), _CMP_EQ_OQ), usual);
+  const __m256d zero = _mm256_cmp_pd(any, _mm256_setzero_pd(), _CMP_EQ_OQ);
+  const __m256d found = _mm256_or_pd(
+    _mm256_andnot_pd(_mm256_cmp_pd(off, _mm256_set1_pd(0.5), _CMP_EQ_OQ), usual), zero);
   const __m256d carries = _mm256_cmp_pd(whole, _mm256_set1_pd(end), _CMP_EQ_OQ);
   const __m256d six = _mm256_blendv_pd(whole, _mm256_set1_pd(end / 10), carries);
   const __m256i eight =
@@ -86,7 +87,8 @@ GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
   const __m256i k = _mm256_add_epi64(
     _mm256_sub_epi64(place, _mm256_castpd_si256(carries)), _mm256_set1_epi64x(least_k));
   const __m256i none = _mm256_set1_epi64x(SixDigits::not_found);
-  _mm256_store_si256(reinterpret_cast<__m256i*>(&numbers.digits[at]), eight_digits(eight));
+  _mm256_store_si256(reinterpret_cast<__m256i*>(&numbers.digits[at]),
+    _mm256_andnot_si256(_mm256_castpd_si256(zero), eight_digits(eight)));
   _mm256_store_si256(reinterpret_cast<__m256i*>(&numbers.k[at]),
     _mm256_blendv_epi8(none, k, _mm256_castpd_si256(found)));
 }
@@ -130,14 +132,16 @@ GRANULAR_AVX512 void find_by_avx512(SixDigits& numbers, std::size_t at) noexcept
   const __m512d whole =
     _mm512_roundscale_pd(product, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
   const __m512d off = _mm512_abs_pd(_mm512_sub_pd(product, whole));
-  const __mmask8 found = _mm512_mask_cmp_pd_mask(usual, off, _mm512_set1_pd(0.5), _CMP_NEQ_UQ);
+  const __mmask8 other = _mm512_cmp_pd_mask(any, _mm512_setzero_pd(), _CMP_NEQ_UQ);
+  const __mmask8 found = static_cast<__mmask8>(
+    _mm512_mask_cmp_pd_mask(usual, off, _mm512_set1_pd(0.5), _CMP_NEQ_UQ) | ~other);
   const __mmask8 carries = _mm512_cmp_pd_mask(whole, _mm512_set1_pd(end), _CMP_EQ_OQ);
   const __m512d six = _mm512_mask_mov_pd(whole, carries, _mm512_set1_pd(end / 10));
   const __m512i eight =
     _mm512_cvtepu32_epi64(_mm512_cvtpd_epi32(_mm512_mul_pd(six, _mm512_set1_pd(100))));
   const __m512i k =
     _mm512_add_epi64(_mm512_mask_add_epi64(place, carries, place, one), _mm512_set1_epi64(least_k));
-  _mm512_store_si512(&numbers.digits[at], eight_digits(eight));
+  _mm512_store_si512(&numbers.digits[at], _mm512_maskz_mov_epi64(other, eight_digits(eight)));
   _mm512_store_si512(
     &numbers.k[at], _mm512_mask_mov_epi64(_mm512_set1_epi64(SixDigits::not_found), found, k));
 }

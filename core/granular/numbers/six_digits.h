@@ -13,22 +13,20 @@
 
 namespace granular::number_print
 {
-/// Numbers, and their six digits.
-struct SixDigits
+/// Numbers and their digits. Digits are one per byte, the first in the lowest, and then two zeros; the first one has the weight
+/// 10^k.
+struct alignas(64) SixDigits
 {
   static constexpr std::size_t most = 64;
-  static constexpr std::int64_t not_found = std::numeric_limits<std::int64_t>::min();
+  static constexpr std::int64_t not_found = std::numeric_limits<std::int64_t>::min(); ///< as k
 
-  alignas(64) std::array<double, most> values;
-  alignas(64) std::array<std::uint64_t,
-    most> digits; ///< one per byte, the first in the lowest; and two zeros
-  alignas(
-    64) std::array<std::int64_t, most> k; ///< the first digit has the weight 10^k; or not_found
+  std::array<double, most> values;
+  std::array<std::uint64_t, most> digits;
+  std::array<std::int64_t, most> k;
 };
 
-/// Finds the digits of the first `count` values, rounded as by printf's %.6g. Those of numbers that are not between 2^-33 and
-/// 10^6, or look like halfway between two, are not found. simd must
-/// not be Portable.
+/// Finds the digits of the first `count` values, rounded as by printf's %.6g. It leaves out numbers that are neither 0 nor between
+/// 2^-33 and 10^6, and those that look like halfway between two: their k is not_found. simd must not be Portable.
 void find_six_digits(SixDigits& numbers, std::size_t count, Simd simd) noexcept;
 }
 #endif
