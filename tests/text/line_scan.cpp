@@ -36,12 +36,12 @@ std::ostream& operator<<(std::ostream& to, const Found& found)
 }
 
 /// What scan_lines has to find, byte by byte.
-Found naive(std::string_view text, LineState state)
+Found naive(std::string_view text, LineState state, char mark)
 {
   Found found{ static_cast<std::ptrdiff_t>(text.size()), 0, 0, -1, state.start, state.blank };
   for (std::size_t i = 0; i < text.size(); ++i)
   {
-    if (found.start && text[i] == 'I')
+    if (found.start && text[i] == mark)
     {
       found.stopped_at = static_cast<std::ptrdiff_t>(i);
       break;
@@ -58,25 +58,26 @@ Found naive(std::string_view text, LineState state)
   return found;
 }
 
-Found scan(std::string_view text, LineState state, granular::Simd simd, std::size_t offset)
+Found scan(
+  std::string_view text, LineState state, granular::Simd simd, std::size_t offset, char mark = 'I')
 {
   granular::PaddedBuffer buffer(offset + text.size());
   text.copy(buffer.data() + offset, text.size());
   std::memset(buffer.data() + buffer.size(), '\n', 3); // must not be counted
-  std::memset(buffer.data() + buffer.size() + 3, 'I', granular::PaddedBuffer::padding - 3);
+  std::memset(buffer.data() + buffer.size() + 3, mark, granular::PaddedBuffer::padding - 3);
   const char* const first = buffer.data() + offset;
   const granular::LineScan scan =
-    granular::scan_lines(first, first + text.size(), 'I', state, simd);
+    granular::scan_lines(first, first + text.size(), mark, state, simd);
   return { scan.ptr - first, scan.feeds, scan.blank_lines,
     scan.after_last_feed ? scan.after_last_feed - first : -1, scan.state.start, scan.state.blank };
 }
 
-void expect_all(std::string_view text, LineState state, std::size_t offset = 0)
+void expect_all(std::string_view text, LineState state, std::size_t offset = 0, char mark = 'I')
 {
-  const Found expected = naive(text, state);
+  const Found expected = naive(text, state, mark);
   for (const granular::Simd simd : instruction_sets())
   {
-    EXPECT_EQ(scan(text, state, simd, offset), expected)
+    EXPECT_EQ(scan(text, state, simd, offset, mark), expected)
       << name_of(simd) << " of " << text.size() << " bytes:\n"
       << text;
   }
@@ -144,5 +145,26 @@ TEST(ScanLines, RandomTextsAreTheSameOnAllPaths)
     }
     const LineState states[] = { new_line, in_a_word, behind_blanks };
     expect_all(text, states[random() % 3], random() % 64);
+  }
+}
+
+/// Most lines begin with a digit, or a sign; other bytes come at the borders of what numbers begin with.
+TEST(ScanLines, RowsOfNumbersWithFewOtherBytes)
+{
+  std::mt19937_64 random(4);
+  const std::string_view rare = " \r\t\nIA@!-";
+  for (int i = 0; i < 20'000 && !HasFailure(); ++i)
+  {
+    const std::uint64_t length = 1 + random() % 150;
+    const std::uint64_t others = 1 + random() % 400;
+    std::string text(random() % 1000, '0');
+    for (char& c : text)
+    {
+      const bool between = random() % 8 == 0;
+      c = random() % length == 0 ? '\n' : between ? ' ' : c;
+      c = random() % others == 0 ? rare[random() % rare.size()] : c;
+    }
+    const LineState states[] = { new_line, in_a_word, behind_blanks };
+    expect_all(text, states[random() % 3], random() % 64, "I@!-A\0"[random() % 6]);
   }
 }

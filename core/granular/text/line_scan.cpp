@@ -48,6 +48,16 @@ struct Block64
   std::uint64_t marks;
 };
 
+/// What rows of numbers need of it: numbers begin with usual bytes, so that their lines are not blank.
+struct RowEnds
+{
+  std::uint64_t feeds;
+  std::uint64_t unusual; ///< bytes outside first_usual to last_usual
+};
+
+constexpr char first_usual = '!';
+constexpr char last_usual = '@';
+
 #define GRANULAR_TARGET __attribute__((target("avx2,bmi,popcnt")))
 
 GRANULAR_TARGET inline std::uint64_t joined(__m256i low, __m256i high) noexcept
@@ -56,16 +66,36 @@ GRANULAR_TARGET inline std::uint64_t joined(__m256i low, __m256i high) noexcept
     static_cast<std::uint32_t>(_mm256_movemask_epi8(low));
 }
 
+GRANULAR_TARGET inline __m256i is_word(__m256i bytes) noexcept
+{
+  return _mm256_cmpeq_epi8(_mm256_max_epu8(bytes, _mm256_set1_epi8(' ' + 1)), bytes);
+}
+
+GRANULAR_TARGET inline __m256i is_unusual(__m256i bytes) noexcept
+{
+  constexpr int smallest = -128; // comparisons are of signed bytes
+  return _mm256_cmpgt_epi8(
+    _mm256_sub_epi8(bytes, _mm256_set1_epi8(static_cast<char>(first_usual - smallest))),
+    _mm256_set1_epi8(static_cast<char>(smallest + last_usual - first_usual)));
+}
+
+GRANULAR_TARGET inline RowEnds load_ends(const char* block) noexcept
+{
+  const __m256i low = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(block));
+  const __m256i high = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(block + 32));
+  const __m256i feed = _mm256_set1_epi8('\n');
+  return { joined(_mm256_cmpeq_epi8(low, feed), _mm256_cmpeq_epi8(high, feed)),
+    joined(is_unusual(low), is_unusual(high)) };
+}
+
 GRANULAR_TARGET inline Block64 load(const char* block, char mark) noexcept
 {
   const __m256i low = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(block));
   const __m256i high = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(block + 32));
   const __m256i feed = _mm256_set1_epi8('\n');
   const __m256i marks = _mm256_set1_epi8(mark);
-  const __m256i word = _mm256_set1_epi8(' ' + 1);
   return { joined(_mm256_cmpeq_epi8(low, feed), _mm256_cmpeq_epi8(high, feed)),
-    joined(_mm256_cmpeq_epi8(_mm256_max_epu8(low, word), low),
-      _mm256_cmpeq_epi8(_mm256_max_epu8(high, word), high)),
+    joined(is_word(low), is_word(high)),
     joined(_mm256_cmpeq_epi8(low, marks), _mm256_cmpeq_epi8(high, marks)) };
 }
 
@@ -75,8 +105,25 @@ GRANULAR_TARGET LineScan scan_avx2(
   std::uint64_t start = state.start ? 1 : 0;
   std::uint64_t blank = state.blank ? 1 : 0;
   LineScan scan{ last };
+  std::uint64_t last_feeds = 0;
+  const char* block_of_last = first;
+  const bool usual_mark = mark >= first_usual && mark <= last_usual;
   for (const char* block = first; block < last; block += 64)
   {
+    if (last - block >= 64 && !usual_mark)
+    {
+      // Nearly always: all lines that begin here have words, and so has the one at hand.
+      const RowEnds ends = load_ends(block);
+      const std::uint64_t starts = ends.feeds << 1 | start;
+      if (((starts & ends.unusual) | (blank & ~start)) == 0)
+      {
+        scan.feeds += std::popcount(ends.feeds);
+        block_of_last = ends.feeds != 0 ? block : block_of_last;
+        last_feeds = ends.feeds != 0 ? ends.feeds : last_feeds;
+        start = blank = ends.feeds >> 63;
+        continue;
+      }
+    }
     Block64 bytes = load(block, mark);
     const bool whole = last - block >= 64;
     const std::uint64_t inside =
@@ -95,18 +142,26 @@ GRANULAR_TARGET LineScan scan_avx2(
     {
       scan.feeds += std::popcount(feeds);
       scan.blank_lines += std::popcount(still_blank & feeds);
-      scan.after_last_feed = block + 64 - std::countl_zero(feeds);
+      block_of_last = block;
+      last_feeds = feeds;
     }
     if (found != 0)
     {
       scan.ptr = block + std::countr_zero(found);
-      return scan;
+      break;
     }
     start = whole ? bytes.feeds >> 63 : (bytes.feeds << 1) >> (last - block) & 1;
     blank =
       whole ? bytes.feeds >> 63 | (carried < blanks ? 1 : 0) : still_blank >> (last - block) & 1;
   }
-  scan.state = { start != 0, blank != 0 };
+  if (scan.ptr == last)
+  {
+    scan.state = { start != 0, blank != 0 };
+  }
+  if (last_feeds != 0)
+  {
+    scan.after_last_feed = block_of_last + 64 - std::countl_zero(last_feeds);
+  }
   return scan;
 }
 #undef GRANULAR_TARGET
