@@ -3,6 +3,7 @@
 // bytes as a text are a format to parse, too.
 #include "granular/common/error.h"
 #include "granular/numbers/number.h"
+#include "granular/numbers/number_cells.h"
 #include "granular/numbers/number_print.h"
 
 #include <array>
@@ -115,6 +116,28 @@ void check_integer(std::int64_t value)
     "another integer", static_cast<double>(value), printed);
 }
 
+/// Numbers of six digits, which are found together where the processor can.
+void check_cells(double value)
+{
+  const std::array<double, 5> values = { value, value / 3, 0, -value, 1e5 * value };
+  std::array<char, values.size() * most_number_chars> text;
+  std::array<std::uint8_t, values.size()> lengths;
+  for (const Simd simd : { Simd::Portable, Simd::Avx2, Simd::Avx512 })
+  {
+    if (simd <= best_simd())
+    {
+      print_numbers(values.data(), 1, values.size(), { 6 }, false,
+        { text.data(), lengths.data(), 1, {}, 0 }, simd);
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        const std::string cell(text.data() + i * most_number_chars, lengths[i]);
+        require(
+          cell == with_printf(values[i], 6), "cell: not what snprintf gives", values[i], cell);
+      }
+    }
+  }
+}
+
 void check(double value)
 {
   for (int digits = 1; digits <= most_digits; ++digits)
@@ -123,6 +146,7 @@ void check(double value)
   }
   check_shortest(value);
   check_fixed(value);
+  check_cells(value);
 }
 
 void check_format(std::string_view text)
