@@ -10,7 +10,7 @@
 
 namespace granular
 {
-/// Instruction sets for decoding text; the results are the same for all.
+/// Instruction sets for text and sums; the results are the same for all.
 enum class Simd : std::uint8_t
 {
   Portable,

@@ -55,6 +55,7 @@ struct PairExtremes
   }
 };
 
+/// Two values side by side, as doubles.
 __m128d load_pair(const double* values) noexcept
 {
   return _mm_loadu_pd(values);
@@ -62,7 +63,7 @@ __m128d load_pair(const double* values) noexcept
 
 __m128d load_pair(const float* values) noexcept
 {
-  return _mm_set_pd(values[1], values[0]);
+  return _mm_set_pd(static_cast<double>(values[1]), static_cast<double>(values[0]));
 }
 
 __m128d load_pair(const std::int32_t* values) noexcept

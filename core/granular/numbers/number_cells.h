@@ -23,7 +23,7 @@ struct NumberCells
 };
 
 /// Prints `count` numbers that are `step` apart as print_number does. whole: integral ones below 2^53 have all their digits,
-/// as print_integer prints them.
+/// as print_integer prints them. The text is the same for all instruction sets; simd must be one of this processor.
 void print_numbers(const double* from, std::int64_t step, std::size_t count, NumberFormat format,
   bool whole, const NumberCells& to, Simd simd = best_simd()) noexcept;
 

@@ -97,12 +97,13 @@ inline Rounded round_few(std::uint64_t magnitude, int digits)
     fraction + doubt - (std::uint64_t{ 1 } << 63) >= 2 * doubt };
 }
 
-/// Lays out six digits with a sign; the first has the weight 10^k.
-inline char* lay_out_six(char* to, double value, std::uint64_t digits, int k, int most = 6)
+/// Lays out the sign of value and six digits, one per byte as of six_digits; the first has the weight 10^k. The precision of %g
+/// decides whether an exponent is printed.
+inline char* lay_out_six(char* to, double value, std::uint64_t digits, int k, int precision = 6)
 {
   *to = '-';
   return lay_out_eight(
-    to + (std::bit_cast<std::uint64_t>(value) >> 63), digits, place_of_digits(k, most));
+    to + (std::bit_cast<std::uint64_t>(value) >> 63), digits, place_of_digits(k, precision));
 }
 
 inline char* lay_out_few(char* to, double value, const Rounded& rounded, int digits)

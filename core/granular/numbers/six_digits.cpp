@@ -19,29 +19,36 @@ namespace granular::number_print
 {
 namespace
 {
-// A number x with the first digit at 10^k, -10 <= k <= 5, has six digits before the point as x * 10^(5 - k). That power is
-// exact, so the product is rounded once: by less than it is away from a half, unless it looks like one. And k is that of the
-// power of two below the number, by log10(2) = 78913 / 2^18, or one more. A number just below a power of ten may pass for it:
-// both have the digits 100000.
+// How the six digits of x are found, for 2^-33 <= |x| < 10^6:
+// 1. k is the exponent of the first digit: 10^k <= |x| < 10^(k + 1), here -10 <= k <= 5. With 2^e the largest power of two up to
+//    |x|, k is floor(e * log10(2)) or one more; a comparison with 10^(k + 1) decides. 78913 / 2^18 gives the same floor as
+//    log10(2) for all these e. Below 2^-33 the floor is -11, outside of the tables.
+// 2. |x| * 10^(5 - k) has six digits before the point. The power is at most 10^15, an exact double, so the product is rounded
+//    only once.
+// 3. The halves between integers below 10^6 are doubles, too. Rounding is monotonic: it can move the product onto a half, but
+//    not across. A product that is exactly a half is left to the caller. Every other one has the nearest integer of the exact
+//    product.
+// 4. A product from 999999.5 on gives 10^6: the digits are 100000, with k + 1. Negative powers of ten are rounded, so the
+//    comparison may take a number just below one for the power itself; the digits are 100000 either way.
 constexpr double least = 0x1p-33;
 constexpr double end = 1e6;
-constexpr int largest_k = 5;
 constexpr int least_k = -10;
 constexpr std::int64_t log_of_two = 78913;
 constexpr int log_bits = 18;
 constexpr std::int64_t exponent_bias = 1023;
 
-alignas(64) constexpr std::array<double, 16> powers = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8,
-  1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15 };
-
 /// 10^(k + 1), by k - least_k.
 alignas(64) constexpr std::array<double, 16> next_powers = { 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4,
   1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6 };
 
+/// 10^(5 - k), by k - least_k.
+alignas(64) constexpr std::array<double, 16> powers = { 1e15, 1e14, 1e13, 1e12, 1e11, 1e10, 1e9,
+  1e8, 1e7, 1e6, 1e5, 1e4, 1e3, 1e2, 1e1, 1e0 };
+
 #define GRANULAR_AVX2 __attribute__((target("avx2")))
 #define GRANULAR_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq")))
 
-/// As eight_digits, of four numbers.
+/// As eight_digits of number_print_layout.h, for four numbers.
 GRANULAR_AVX2 inline __m256i eight_digits(__m256i x) noexcept
 {
   const __m256i high = _mm256_srli_epi64(_mm256_mul_epu32(x, _mm256_set1_epi64x(3518437209)), 45);
@@ -62,8 +69,8 @@ GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
   const __m256d any = _mm256_and_pd(_mm256_load_pd(&numbers.values[at]), magnitude);
   const __m256d usual = _mm256_and_pd(_mm256_cmp_pd(any, _mm256_set1_pd(least), _CMP_GE_OQ),
     _mm256_cmp_pd(any, _mm256_set1_pd(end), _CMP_LT_OQ));
-  const __m256d x =
-    _mm256_blendv_pd(_mm256_set1_pd(1), any, usual); // no place outside of the tables; 0 has k = 0
+  // 1 stands for all other numbers: it keeps the places inside the tables, and gives 0 k = 0
+  const __m256d x = _mm256_blendv_pd(_mm256_set1_pd(1), any, usual);
   const __m256i exponent = _mm256_srli_epi64(_mm256_castpd_si256(x), 52);
   const __m256i bias =
     _mm256_set1_epi64x(exponent_bias * log_of_two + least_k * (std::int64_t{ 1 } << log_bits));
@@ -72,9 +79,7 @@ GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
   const __m256d next = _mm256_i64gather_pd(next_powers.data(), at_least, 8);
   const __m256i place =
     _mm256_sub_epi64(at_least, _mm256_castpd_si256(_mm256_cmp_pd(x, next, _CMP_GE_OQ)));
-  const __m256d power = _mm256_i64gather_pd(
-    powers.data(), _mm256_sub_epi64(_mm256_set1_epi64x(largest_k - least_k), place), 8);
-  const __m256d product = _mm256_mul_pd(x, power);
+  const __m256d product = _mm256_mul_pd(x, _mm256_i64gather_pd(powers.data(), place, 8));
   const __m256d whole = _mm256_round_pd(product, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
   const __m256d off = _mm256_and_pd(_mm256_sub_pd(product, whole), magnitude);
   const __m256d zero = _mm256_cmp_pd(any, _mm256_setzero_pd(), _CMP_EQ_OQ);
@@ -93,7 +98,7 @@ GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
     _mm256_blendv_epi8(none, k, _mm256_castpd_si256(found)));
 }
 
-/// As eight_digits, of eight numbers.
+/// The same for eight numbers.
 GRANULAR_AVX512 inline __m512i eight_digits(__m512i x) noexcept
 {
   const __m512i high = _mm512_srli_epi64(_mm512_mul_epu32(x, _mm512_set1_epi64(3518437209)), 45);
@@ -126,22 +131,22 @@ GRANULAR_AVX512 void find_by_avx512(SixDigits& numbers, std::size_t at) noexcept
     _mm512_load_pd(&next_powers[0]), at_least, _mm512_load_pd(&next_powers[8]));
   const __m512i place =
     _mm512_mask_add_epi64(at_least, _mm512_cmp_pd_mask(x, next, _CMP_GE_OQ), at_least, one);
-  const __m512d power = _mm512_permutex2var_pd(_mm512_load_pd(&powers[0]),
-    _mm512_sub_epi64(_mm512_set1_epi64(largest_k - least_k), place), _mm512_load_pd(&powers[8]));
+  const __m512d power =
+    _mm512_permutex2var_pd(_mm512_load_pd(&powers[0]), place, _mm512_load_pd(&powers[8]));
   const __m512d product = _mm512_mul_pd(x, power);
   const __m512d whole =
     _mm512_roundscale_pd(product, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
   const __m512d off = _mm512_abs_pd(_mm512_sub_pd(product, whole));
-  const __mmask8 other = _mm512_cmp_pd_mask(any, _mm512_setzero_pd(), _CMP_NEQ_UQ);
+  const __mmask8 not_zero = _mm512_cmp_pd_mask(any, _mm512_setzero_pd(), _CMP_NEQ_UQ);
   const __mmask8 found = static_cast<__mmask8>(
-    _mm512_mask_cmp_pd_mask(usual, off, _mm512_set1_pd(0.5), _CMP_NEQ_UQ) | ~other);
+    _mm512_mask_cmp_pd_mask(usual, off, _mm512_set1_pd(0.5), _CMP_NEQ_UQ) | ~not_zero);
   const __mmask8 carries = _mm512_cmp_pd_mask(whole, _mm512_set1_pd(end), _CMP_EQ_OQ);
   const __m512d six = _mm512_mask_mov_pd(whole, carries, _mm512_set1_pd(end / 10));
   const __m512i eight =
     _mm512_cvtepu32_epi64(_mm512_cvtpd_epi32(_mm512_mul_pd(six, _mm512_set1_pd(100))));
   const __m512i k =
     _mm512_add_epi64(_mm512_mask_add_epi64(place, carries, place, one), _mm512_set1_epi64(least_k));
-  _mm512_store_si512(&numbers.digits[at], _mm512_maskz_mov_epi64(other, eight_digits(eight)));
+  _mm512_store_si512(&numbers.digits[at], _mm512_maskz_mov_epi64(not_zero, eight_digits(eight)));
   _mm512_store_si512(
     &numbers.k[at], _mm512_mask_mov_epi64(_mm512_set1_epi64(SixDigits::not_found), found, k));
 }
@@ -149,6 +154,7 @@ GRANULAR_AVX512 void find_by_avx512(SixDigits& numbers, std::size_t at) noexcept
 
 void find_six_digits(SixDigits& numbers, std::size_t count, Simd simd) noexcept
 {
+  static_assert(SixDigits::most % 8 == 0); // so the last lanes stay in the arrays
   const bool wide = simd == Simd::Avx512;
   const std::size_t lanes = wide ? 8 : 4;
   while (count % lanes != 0)

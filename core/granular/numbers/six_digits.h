@@ -25,8 +25,9 @@ struct alignas(64) SixDigits
   std::array<std::int64_t, most> k;
 };
 
-/// Finds the digits of the first `count` values, rounded as by printf's %.6g. It leaves out numbers that are neither 0 nor between
-/// 2^-33 and 10^6, and those that look like halfway between two: their k is not_found. simd must not be Portable.
+/// Finds six digits of the first `count` values, rounded as by printf's %.6g, without signs; 0 has six zeros and k = 0. k is
+/// not_found for nan, for other magnitudes below 2^-33 or from 10^6 on, and where the value times a power of ten rounds to
+/// exactly half. Values from `count` up to a multiple of eight may be overwritten. simd must not be Portable.
 void find_six_digits(SixDigits& numbers, std::size_t count, Simd simd) noexcept;
 }
 #endif

@@ -48,13 +48,14 @@ struct Block64
   std::uint64_t marks;
 };
 
-/// What rows of numbers need of it: numbers begin with usual bytes, so that their lines are not blank.
-struct RowEnds
+/// Masks for blocks of number rows. A line that begins with a usual byte has a word.
+struct UsualBlock64
 {
   std::uint64_t feeds;
   std::uint64_t unusual; ///< bytes outside first_usual to last_usual
 };
 
+// From the first byte above ' ' to the last before the letters: digits, signs and the point are usual, the I of ITEM is not.
 constexpr char first_usual = '!';
 constexpr char last_usual = '@';
 
@@ -73,13 +74,13 @@ GRANULAR_TARGET inline __m256i is_word(__m256i bytes) noexcept
 
 GRANULAR_TARGET inline __m256i is_unusual(__m256i bytes) noexcept
 {
-  constexpr int smallest = -128; // comparisons are of signed bytes
+  constexpr int smallest = -128; // AVX2 compares signed bytes, so first_usual is moved here
   return _mm256_cmpgt_epi8(
     _mm256_sub_epi8(bytes, _mm256_set1_epi8(static_cast<char>(first_usual - smallest))),
     _mm256_set1_epi8(static_cast<char>(smallest + last_usual - first_usual)));
 }
 
-GRANULAR_TARGET inline RowEnds load_ends(const char* block) noexcept
+GRANULAR_TARGET inline UsualBlock64 load_usual(const char* block) noexcept
 {
   const __m256i low = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(block));
   const __m256i high = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(block + 32));
@@ -105,27 +106,28 @@ GRANULAR_TARGET LineScan scan_avx2(
   std::uint64_t start = state.start ? 1 : 0;
   std::uint64_t blank = state.blank ? 1 : 0;
   LineScan scan{ last };
-  std::uint64_t last_feeds = 0;
+  std::uint64_t last_feeds = 0; // from which after_last_feed is made at the end
   const char* block_of_last = first;
   const bool usual_mark = mark >= first_usual && mark <= last_usual;
   for (const char* block = first; block < last; block += 64)
   {
-    if (last - block >= 64 && !usual_mark)
+    const bool whole = last - block >= 64;
+    if (whole && !usual_mark)
     {
-      // Nearly always: all lines that begin here have words, and so has the one at hand.
-      const RowEnds ends = load_ends(block);
-      const std::uint64_t starts = ends.feeds << 1 | start;
-      if (((starts & ends.unusual) | (blank & ~start)) == 0)
+      // In nearly all blocks of rows each line that begins here starts with a usual byte, and the line at hand has a word or begins
+      // here. So no line that ends here is blank, and none begins with the mark.
+      const UsualBlock64 bytes = load_usual(block);
+      const std::uint64_t starts = bytes.feeds << 1 | start;
+      if (((starts & bytes.unusual) | (blank & ~start)) == 0)
       {
-        scan.feeds += std::popcount(ends.feeds);
-        block_of_last = ends.feeds != 0 ? block : block_of_last;
-        last_feeds = ends.feeds != 0 ? ends.feeds : last_feeds;
-        start = blank = ends.feeds >> 63;
+        scan.feeds += std::popcount(bytes.feeds);
+        block_of_last = bytes.feeds != 0 ? block : block_of_last;
+        last_feeds = bytes.feeds != 0 ? bytes.feeds : last_feeds;
+        start = blank = bytes.feeds >> 63;
         continue;
       }
     }
     Block64 bytes = load(block, mark);
-    const bool whole = last - block >= 64;
     const std::uint64_t inside =
       whole ? ~std::uint64_t{} : (std::uint64_t{ 1 } << (last - block)) - 1;
     bytes.feeds &= inside;
