@@ -179,6 +179,7 @@ LineScan scan_lines(
     return scan_avx2(first, last, mark, state);
   }
 #endif
+  static_cast<void>(simd);
   return scan_portable(first, last, mark, state);
 }
 
