@@ -43,7 +43,7 @@ SYSTEM_HEADERS = (
     (r"(zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source_zstd|compression)\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
     (r"sys/mman\.h", r"core/granular/memory/mapping\.cpp"),
-    (r"immintrin\.h", r"core/granular/(memory|numbers|text)/(line_scan|row_text|six_digits|value_range)\w*\.(cpp|h|inc)"),
+    (r"immintrin\.h", r"core/granular/(common/intrinsics\.h|memory/value_range\.cpp|text/line_scan\.cpp)"),
     (r"mpi\.h", r"core/granular/mpi/.*"),
 )
 

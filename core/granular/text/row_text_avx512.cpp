@@ -3,19 +3,8 @@
 
 #if GRANULAR_X86
 
-// GCC 12 takes the deliberately undefined operands inside its own intrinsics for a mistake of the
-// caller (GCC bug 105593).
-#if !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-// Without optimisation its intrinsics are macros, so the conversions inside them stand here.
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#endif
-
+#include "granular/common/intrinsics.h"
 #include "granular/text/row_text_tables.h"
-
-#include <immintrin.h>
 
 namespace granular::row_text::avx512
 {
