@@ -174,15 +174,6 @@ const Samples& Rounds::of(std::string_view name) const
 }
 }
 
-namespace
-{
-const char* to_string(granular::Simd simd)
-{
-  constexpr const char* names[] = { "Portable", "AVX2", "AVX-512" };
-  return names[static_cast<std::size_t>(simd)];
-}
-}
-
 /// program [--full | --large] [flags of Google Benchmark]: fails on wrong results, never on time.
 int main(int argc, char** argv)
 try

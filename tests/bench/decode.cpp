@@ -18,21 +18,6 @@ using granular::Simd;
 /// A few milliseconds a round. The text as a whole is larger than the caches.
 constexpr std::size_t slice_bytes = std::size_t{ 1 } << 21;
 
-struct Set
-{
-  Simd simd;
-  const char* name;
-};
-
-/// Those that this processor has.
-std::vector<Set> instruction_sets()
-{
-  std::vector<Set> sets = { { Simd::Portable, "portable" }, { Simd::Avx2, "AVX2" },
-    { Simd::Avx512, "AVX-512" } };
-  std::erase_if(sets, [](const Set& set) { return set.simd > granular::best_simd(); });
-  return sets;
-}
-
 /// A text, its true values, and memory for those of the contenders.
 struct Work
 {
@@ -136,24 +121,25 @@ void speed(benchmark::State& state, Form form, std::int64_t count)
     fail(state, "from_chars: values differ from strtod's");
     return;
   }
-  for (const Set& set : instruction_sets())
+  for (const Simd simd : granular::instruction_sets())
   {
-    rounds.add(set.name, [&work, set] { return work.decode(set.simd); });
-    if (!work.check([&work, set] { return work.decode(set.simd); }))
+    rounds.add(to_string(simd), [&work, simd] { return work.decode(simd); });
+    if (!work.check([&work, simd] { return work.decode(simd); }))
     {
-      fail(state, std::string(set.name) + ": values differ from strtod's");
+      fail(state, std::string(to_string(simd)) + ": values differ from strtod's");
       return;
     }
   }
-  const std::string judged = instruction_sets().back().name;
+  const std::string judged = to_string(granular::best_simd());
   run_rounds(state, work, rounds, judged);
   const Samples& plain = rounds.of("from_chars");
   tell(state, "from_chars", 1e-9 / median(plain), "GB/s");
-  for (const Set& set : instruction_sets())
+  for (const Simd simd : granular::instruction_sets())
   {
-    const Samples& ours = rounds.of(set.name);
-    tell(state, set.name, 1e-9 / median(ours), "GB/s");
-    tell(state, std::string(set.name) + " ratio", median_ratio(plain, ours), "1");
+    const std::string name = to_string(simd);
+    const Samples& ours = rounds.of(name);
+    tell(state, name, 1e-9 / median(ours), "GB/s");
+    tell(state, name + " ratio", median_ratio(plain, ours), "1");
   }
   const Samples& ours = rounds.of(judged);
   tell(state, "ratio", median_ratio(plain, ours), "1");

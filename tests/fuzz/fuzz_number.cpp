@@ -90,13 +90,8 @@ RowStatus decode(const std::string& word, granular::ValueType kind, granular::Si
 void check_rows(
   const std::string& word, bool is_number, double number, bool is_integer, std::int64_t integer)
 {
-  for (const granular::Simd simd :
-    { granular::Simd::Portable, granular::Simd::Avx2, granular::Simd::Avx512 })
+  for (const granular::Simd simd : granular::instruction_sets())
   {
-    if (simd > granular::best_simd())
-    {
-      continue;
-    }
     double d = 0;
     const RowStatus as_double = decode(word, granular::ValueType::Float64, simd, d);
     require((as_double == RowStatus::Done) == is_number, "row: status of a double", word);

@@ -26,14 +26,6 @@ using namespace granular;
 
 namespace
 {
-std::vector<Simd> instruction_sets()
-{
-  std::vector<Simd> sets = { Simd::Portable, Simd::Avx2, Simd::Avx512 };
-  sets.erase(
-    std::remove_if(sets.begin(), sets.end(), [](Simd s) { return s > best_simd(); }), sets.end());
-  return sets;
-}
-
 /// All columns as doubles, or as texts.
 RowResult decode(const char* first, const char* last, std::size_t columns, bool texts, Simd simd,
   std::vector<char>& memory)

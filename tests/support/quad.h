@@ -8,7 +8,11 @@
 #include <limits>
 
 /// 113 bits: what results are compared with.
+#if __LDBL_MANT_DIG__ == 113
+using Quad = long double; // ARM has these, and no others
+#else
 __extension__ using Quad = __float128;
+#endif
 
 inline Quad absolute(Quad value)
 {

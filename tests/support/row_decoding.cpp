@@ -23,24 +23,6 @@ std::size_t width(ValueType type)
 }
 }
 
-std::vector<Simd> instruction_sets()
-{
-  std::vector<Simd> sets;
-  for (const Simd simd : { Simd::Portable, Simd::Avx2, Simd::Avx512 })
-  {
-    if (simd <= granular::best_simd())
-    {
-      sets.push_back(simd);
-    }
-  }
-  return sets;
-}
-
-const char* name_of(Simd simd)
-{
-  return simd == Simd::Portable ? "Portable" : simd == Simd::Avx2 ? "Avx2" : "Avx512";
-}
-
 std::string to_string(const Decoded& decoded)
 {
   constexpr const char* names[] = { "Done", "TooFew", "NotANumber", "NotExact" };

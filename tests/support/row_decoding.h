@@ -10,8 +10,6 @@
 #include <vector>
 
 /// The instruction sets of this processor, the portable path first.
-std::vector<granular::Simd> instruction_sets();
-const char* name_of(granular::Simd simd);
 
 /// A column that is wanted.
 struct Wanted

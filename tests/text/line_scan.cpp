@@ -75,10 +75,10 @@ Found scan(
 void expect_all(std::string_view text, LineState state, std::size_t offset = 0, char mark = 'I')
 {
   const Found expected = naive(text, state, mark);
-  for (const granular::Simd simd : instruction_sets())
+  for (const granular::Simd simd : granular::instruction_sets())
   {
     EXPECT_EQ(scan(text, state, simd, offset, mark), expected)
-      << name_of(simd) << " of " << text.size() << " bytes:\n"
+      << to_string(simd) << " of " << text.size() << " bytes:\n"
       << text;
   }
 }

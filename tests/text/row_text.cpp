@@ -53,11 +53,11 @@ void expect_word(std::string_view word, ValueType kind, Simd simd)
   const Word expected = kind == ValueType::Float64 ? as_double(word) : as_int64(word);
   const Decoded got = decode(std::string(word) + '\n', 1, { { 0, kind } }, all_rows, simd);
   const bool good = expected.status == RowStatus::Done;
-  ASSERT_EQ(got.status, expected.status) << '"' << word << "\" " << name_of(simd);
+  ASSERT_EQ(got.status, expected.status) << '"' << word << "\" " << to_string(simd);
   ASSERT_EQ(got.rows, good ? 1 : 0) << word;
   if (good)
   {
-    ASSERT_EQ(got.bits[0][0], expected.bits) << '"' << word << "\" " << name_of(simd);
+    ASSERT_EQ(got.bits[0][0], expected.bits) << '"' << word << "\" " << to_string(simd);
   }
 }
 
@@ -65,10 +65,10 @@ Decoded decode_all(std::string_view text, std::uint32_t columns, const std::vect
   std::int64_t max_rows = all_rows)
 {
   const Decoded plain = decode(text, columns, wanted, max_rows, Simd::Portable);
-  for (const Simd simd : instruction_sets())
+  for (const Simd simd : granular::instruction_sets())
   {
     const Decoded other = decode(text, columns, wanted, max_rows, simd);
-    EXPECT_EQ(other, plain) << name_of(simd) << ": " << to_string(other)
+    EXPECT_EQ(other, plain) << to_string(simd) << ": " << to_string(other)
                             << "\nPortable: " << to_string(plain) << "\ncolumns " << columns
                             << ", text:\n"
                             << text.substr(0, 2000);
@@ -114,13 +114,14 @@ TEST(DecodeRows, NumbersAsByParseDoubleToTheBit)
       text += word + separators[random() % std::size(separators)];
     }
     text += '\n';
-    for (const Simd simd : instruction_sets())
+    for (const Simd simd : granular::instruction_sets())
     {
       const Decoded got = decode(text, columns, wanted, all_rows, simd);
-      ASSERT_EQ(got.rows, 1) << to_string(got) << " " << name_of(simd) << "\n" << text;
+      ASSERT_EQ(got.rows, 1) << to_string(got) << " " << to_string(simd) << "\n" << text;
       for (std::uint32_t i = 0; i < columns; ++i)
       {
-        ASSERT_EQ(got.bits[i][0], expected[i]) << "column " << i << " of " << text << name_of(simd);
+        ASSERT_EQ(got.bits[i][0], expected[i])
+          << "column " << i << " of " << text << to_string(simd);
       }
     }
   }
@@ -142,7 +143,7 @@ void expect_alike(const std::vector<std::string>& words, const std::string& what
   {
     text += words[i] + (i % columns + 1 == columns ? "\n" : " ");
   }
-  for (const Simd simd : instruction_sets())
+  for (const Simd simd : granular::instruction_sets())
   {
     const Decoded got = decode(text, columns, wanted, all_rows, simd);
     ASSERT_EQ(static_cast<std::size_t>(got.rows), words.size() / columns) << what;
@@ -150,7 +151,7 @@ void expect_alike(const std::vector<std::string>& words, const std::string& what
     {
       const double expected = std::strtod(words[i].c_str(), nullptr);
       ASSERT_EQ(got.bits[i % columns][i / columns], std::bit_cast<std::uint64_t>(expected))
-        << words[i] << ' ' << name_of(simd) << ' ' << what;
+        << words[i] << ' ' << to_string(simd) << ' ' << what;
     }
   }
 }
@@ -291,7 +292,7 @@ TEST(DecodeRows, IntegersOfEveryLengthAmongTheirLike)
 TEST(DecodeRows, EveryShortWord)
 {
   constexpr std::string_view alphabet = "059.-+eE/";
-  const std::vector<Simd> sets = instruction_sets();
+  const std::span<const Simd> sets = granular::instruction_sets();
   for (std::size_t length = 1; length <= 5; ++length)
   {
     std::string word(length, alphabet.front());
@@ -322,7 +323,7 @@ TEST(DecodeRows, RandomWords)
   std::mt19937_64 random(11);
   constexpr std::string_view digits = "0123456789";
   constexpr std::string_view others = "..--++eEe:/,x\x7f\x80\xff#nai";
-  const std::vector<Simd> sets = instruction_sets();
+  const std::span<const Simd> sets = granular::instruction_sets();
   for (int i = 0; i < 100'000 && !HasFailure(); ++i)
   {
     const std::size_t length = 1 + random() % 24;

@@ -3,9 +3,12 @@
 #define granular_common_simd_h
 
 #include <cstdint>
+#include <span>
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define GRANULAR_X86 1
+#elif defined(__aarch64__) && defined(__AARCH64EL__) && defined(__GNUC__)
+#define GRANULAR_NEON 1
 #endif
 
 namespace granular
@@ -15,10 +18,17 @@ enum class Simd : std::uint8_t
 {
   Portable,
   Avx2,
-  Avx512
+  Avx512,
+  Neon
 };
+
+/// Returns those of this processor, the best one last.
+std::span<const Simd> instruction_sets() noexcept;
 
 /// Returns the best one of this processor.
 Simd best_simd() noexcept;
+
+/// Returns its name: "portable", "AVX2", "AVX-512" or "NEON".
+const char* to_string(Simd simd) noexcept;
 }
 #endif

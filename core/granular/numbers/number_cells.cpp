@@ -103,7 +103,7 @@ void print_numbers(const double* from, std::int64_t step, std::size_t count, Num
     print_all(from, step, count, to,
       [format](char* cell, double value) { return print_number(cell, value, format); });
   }
-  else if (simd == Simd::Portable || count < many)
+  else if ((simd != Simd::Avx2 && simd != Simd::Avx512) || count < many)
   {
     print_all(from, step, count, to, print_few);
   }

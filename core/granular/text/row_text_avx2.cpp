@@ -44,24 +44,6 @@ GRANULAR_TARGET inline void append(
   }
 }
 
-/// The places of the bits of a byte, in order.
-alignas(64) constexpr auto bit_places = []
-{
-  std::array<std::array<std::uint8_t, 8>, 256> places{};
-  for (std::size_t byte = 0; byte < places.size(); ++byte)
-  {
-    std::size_t count = 0;
-    for (std::uint8_t bit = 0; bit < 8; ++bit)
-    {
-      if ((byte >> bit & 1) != 0)
-      {
-        places[byte][count++] = bit;
-      }
-    }
-  }
-  return places;
-}();
-
 /// Byte by byte: a table takes less time than to look for each bit.
 GRANULAR_TARGET inline void append_edges(
   std::uint64_t bits, std::uint32_t base, Edges& edges) noexcept
@@ -272,6 +254,8 @@ GRANULAR_TARGET inline bool parse_integers(const char* base, const std::uint16_t
 }
 
 #include "granular/text/row_text_avx2_word.inc"
+
+#include "granular/text/row_text_word.inc"
 
 #include "granular/text/row_text_avx2_doubles.inc"
 

@@ -2,7 +2,7 @@
 #ifndef granular_text_row_text_tables_h
 #define granular_text_row_text_tables_h
 
-// Batches and tables of the decoders for x86. Only for row_text_*.cpp.
+// Batches and tables of the decoders with vector instructions. Only for row_text_*.cpp.
 
 #include "granular/numbers/decimal.h"
 #include "granular/numbers/number.h"
@@ -63,6 +63,24 @@ struct Batch
   Rows rows;
   Words words;
 };
+
+/// The places of the bits of a byte, in order.
+alignas(64) inline constexpr auto bit_places = []
+{
+  std::array<std::array<std::uint8_t, 8>, 256> places{};
+  for (std::size_t byte = 0; byte < places.size(); ++byte)
+  {
+    std::size_t count = 0;
+    for (std::uint8_t bit = 0; bit < 8; ++bit)
+    {
+      if ((byte >> bit & 1) != 0)
+      {
+        places[byte][count++] = bit;
+      }
+    }
+  }
+  return places;
+}();
 
 struct BlockMarks
 {

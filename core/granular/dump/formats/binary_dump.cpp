@@ -314,7 +314,7 @@ bool holds_binary(std::string_view first_bytes) noexcept
 {
   constexpr std::size_t enough = 64;
   return std::ranges::any_of(
-    first_bytes.substr(0, enough), [](char c) { return c >= 0 && c < '\b'; });
+    first_bytes.substr(0, enough), [](char c) { return static_cast<unsigned char>(c) < '\b'; });
 }
 
 bool is_binary_dump(std::string_view first_bytes)
