@@ -19,10 +19,12 @@ constexpr bool is_id_value(std::int64_t id) noexcept
 constexpr bool is_id_value(double number) noexcept
 {
   constexpr auto largest = static_cast<double>(largest_id_value);
-  // the comparison is false of what is not a number, and the conversion then never done
+  constexpr auto minus_zero = std::uint64_t{ 1 } << 63;
+  // The comparison is false of what is not a number, and the conversion then never done. With -fno-trapping-math GCC may make one
+  // rounding of both conversions, which keeps the sign of -0.0: it is looked for by its bits.
   return number >= -largest && number <= largest &&
-    std::bit_cast<std::uint64_t>(static_cast<double>(static_cast<std::int64_t>(number))) ==
-    std::bit_cast<std::uint64_t>(number);
+    static_cast<double>(static_cast<std::int64_t>(number)) == number &&
+    std::bit_cast<std::uint64_t>(number) != minus_zero;
 }
 
 /// Returns an id as a double for a buffer: up to 2^53 as its value, as codes with 32-bit ids send it; beyond as its bits.
