@@ -9,8 +9,6 @@
 #include <string_view>
 #include <vector>
 
-/// The instruction sets of this processor, the portable path first.
-
 /// A column that is wanted.
 struct Wanted
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/text/line_scan.h"
 
-#include "../support/row_decoding.h"
 #include "granular/bytes/byte_source.h"
+#include "granular/common/simd.h"
 
 #include <gtest/gtest.h>
 

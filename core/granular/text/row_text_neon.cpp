@@ -75,12 +75,13 @@ inline uint8x16_t find_points(uint8x16_t digits) noexcept
   return vceqq_u8(digits, vdupq_n_u8(static_cast<std::uint8_t>('.' - '0')));
 }
 
-/// Four words, and for each a byte: the characters it has, the place of its point, from 1, and 128 for a minus.
+/// Four words.
 struct FourWords
 {
-  uint8x16_t digits[4]; ///< without signs and points, right-aligned
-  uint8x8_t lengths;
-  uint8x8_t marks;
+  uint8x16_t digits[4];   ///< without signs and points, right-aligned
+  uint8x8_t lengths;      ///< a byte for each word: its characters
+  uint8x8_t marks;        ///< the same: the place of its point, from 1, and 128 for a minus
+  std::uint8_t points[8]; ///< without the minus; only of doubles
 };
 
 /// Four words of up to 16 characters. False if one has more.
@@ -118,11 +119,10 @@ inline bool read_words(const char* base, const std::uint16_t* edges, FourWords& 
   if constexpr (Points)
   {
     // bytes up to the point come from one place before; a second point would stay, and be found
-    alignas(8) std::uint8_t points[8];
-    vst1_u8(points, vand_u8(words.marks, vdup_n_u8(127)));
+    vst1_u8(words.points, vand_u8(words.marks, vdup_n_u8(127)));
     for (int i = 0; i < 4; ++i)
     {
-      const uint8x16_t shift = vcltq_u8(places, vld1q_dup_u8(points + i));
+      const uint8x16_t shift = vcltq_u8(places, vld1q_dup_u8(words.points + i));
       words.digits[i] = vqtbl1q_u8(words.digits[i], vaddq_u8(places, shift));
     }
   }
@@ -203,21 +203,18 @@ inline bool parse_doubles(
   {
     return false;
   }
-  const uint8x8_t point = vand_u8(words.marks, vdup_n_u8(127));
-  const uint8x8_t has_point = vmin_u8(point, vdup_n_u8(1));
+  const uint8x8_t has_point = vmin_u8(vld1_u8(words.points), vdup_n_u8(1));
   if (!are_digits(words, vadd_u8(vshr_n_u8(words.marks, 7), has_point)))
   {
     return false;
   }
-  alignas(8) std::uint8_t points[8];
-  vst1_u8(points, point);
   const uint64x2x2_t marks = spread(words.marks);
   for (int i = 0; i < 2; ++i)
   {
     // fewer than 2^53 if there is a point; else there is one rounding, too
     const float64x2_t whole = vcvtq_f64_u64(combine(words.digits[2 * i], words.digits[2 * i + 1]));
-    const float64x2_t power = { powers_by_point[points[2 * i]],
-      powers_by_point[points[2 * i + 1]] };
+    const float64x2_t power = { powers_by_point[words.points[2 * i]],
+      powers_by_point[words.points[2 * i + 1]] };
     const uint64x2_t sign = vandq_u64(marks.val[i], vdupq_n_u64(std::uint64_t{ 1 } << 63));
     vst1q_u64(values + 2 * i, vorrq_u64(vreinterpretq_u64_f64(vdivq_f64(whole, power)), sign));
   }
