@@ -10,6 +10,8 @@
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include "granular/frames/shared_indexes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,6 +19,18 @@
 #include <vector>
 
 using namespace vtkGranularPrivate;
+
+namespace
+{
+/**
+ * Returns what the readers of this process know of their files. A second reader of a run does not look through it again.
+ */
+granular::SharedIndexes& IndexesOfProcess()
+{
+  static granular::SharedIndexes indexes;
+  return indexes;
+}
+}
 
 //------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::Update(Self* self)
@@ -44,6 +58,7 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
   options.keep_index = static_cast<granular::KeepIndex>(self->IndexFile);
   options.threads = ChooseThreads(self->Threads, ranks);
   options.largest_expansion = self->LargestExpansion;
+  options.shared = &IndexesOfProcess();
   granular::Notices notices;
   AlgorithmProgress progress(self);
   granular::update_run_index(this->Index, ranks, this->FileNames, options, notices, progress);

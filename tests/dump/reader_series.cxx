@@ -510,6 +510,29 @@ struct Kept
 const std::vector<double> KeptTimes = { 1000, 2000, 3000, 4000, 5000, 6000, 7000, 8000 };
 }
 
+TEST(ReaderSeries, ASecondReaderDoesNotLookThroughTheFile)
+{
+  const std::string file = WriteFile("twice.dump", Grain(100) + Grain(200));
+  const auto time = fs::last_write_time(file) - std::chrono::seconds(100);
+  fs::last_write_time(file, time);
+  Reader second;
+  {
+    Reader first({ file });
+    EXPECT_EQ(first.Times(), (std::vector<double>{ 100, 200 }));
+    // other bytes behind the same stamp: only who looks through the file sees them
+    WriteFile("twice.dump", Grain(300) + Grain(400));
+    fs::last_write_time(file, time);
+    second.Open(file);
+    EXPECT_EQ(second.Times(), (std::vector<double>{ 100, 200 }));
+  }
+  // and not even then is anything shown that is not there
+  second->Update();
+  ASSERT_EQ(second.Said->Errors.size(), 1u);
+  EXPECT_NE(second.Said->Errors[0].find("changed since it was indexed"), std::string::npos)
+    << second.Said->Errors[0];
+  EXPECT_EQ(second.Particles()->GetNumberOfPoints(), 0);
+}
+
 TEST(ReaderSeries, AnIndexFileBesideTheFirstFile)
 {
   const Kept kept("a.dump");

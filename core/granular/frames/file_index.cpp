@@ -216,6 +216,10 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index.points = std::make_shared<SeekPoints>();
   }
+  else if (index.points.use_count() > 1)
+  {
+    index.points = std::make_shared<SeekPoints>(*index.points); // others read by them
+  }
   const std::unique_ptr<ByteSource> source =
     unpack(std::move(packed), index.points, index.largest_expansion);
   const std::size_t known = index.notices.size();

@@ -3,11 +3,13 @@
 
 #include "granular/common/hash.h"
 #include "granular/frames/file_series.h"
+#include "granular/frames/shared_indexes.h"
 #include "granular/frames/update_files.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -65,6 +67,12 @@ bool keeps_limit(const FileIndex& file, std::int64_t largest_expansion)
     (!file.compressed && !file.error);
 }
 
+FramePiece piece_at(const std::vector<FileIndex>& files, const FileSeries::Place& place)
+{
+  const FileIndex& file = files[place.file];
+  return { file, file.frames[place.frame] };
+}
+
 /// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
 /// is kept of the index.
 bool is_beside(const std::string& path)
@@ -111,48 +119,63 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
     std::erase_if(dumps, is_beside);
   }
   series_ = {};
-  this->update_files(dumps, options, notices, progress);
+  std::vector<FileIndex> updated = this->update_files(dumps, options, notices, progress);
   Notices found;
   if (options.format->complete)
   {
-    options.format->complete(files_, found);
+    options.format->complete(updated, found);
   }
-  series_ = std::make_shared<const FileSeries>(order_frames(files_, options.repeated_steps, found));
+  files_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
+  series_ =
+    std::make_shared<const FileSeries>(order_frames(*files_, options.repeated_steps, found));
   if (this->size() == 0)
   {
     this->fail(found);
+  }
+  if (options.shared != nullptr)
+  {
+    options.shared->add(files_);
   }
   notices.insert(notices.end(), found.begin(), found.end());
   this->note_files(notices);
   this->note_times(notices);
 }
 
-void RunIndex::update_files(const std::vector<std::string>& files, const IndexOptions& options,
-  Notices& notices, Progress& progress)
+std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& files,
+  const IndexOptions& options, Notices& notices, Progress& progress)
 {
-  std::map<std::string, FileIndex> known;
-  const auto kinds = files_.empty() ? std::make_shared<FrameKinds>() : files_.front().kinds;
+  std::vector<FileIndex> before = *files_; // a copy, as another run may have them too
+  // if this is left by an exception, what is known so far is gone and will be read anew
+  files_ = std::make_shared<const std::vector<FileIndex>>();
+  const auto kinds = before.empty() ? std::make_shared<FrameKinds>() : before.front().kinds;
   const std::string kept = files.empty() ? "" : index_file_path(options.keep_index, files.front());
-  if (files_.empty() && !kept.empty())
+  if (before.empty() && !kept.empty())
   {
-    files_ = load_index(kept, files.front(), kinds, notices);
-    kept_ = files_.empty() ? "" : kept;
+    before = load_index(kept, files.front(), kinds, notices);
+    kept_ = before.empty() ? "" : kept;
   }
-  for (FileIndex& file : files_)
+  std::map<std::string, FileIndex> known;
+  for (FileIndex& file : before)
   {
     known[file.path] = std::move(file);
   }
-  // if this is left by an exception, what is known so far is gone and will be read anew
-  files_.clear();
   bool changed = known.size() != files.size() || kept != kept_;
   kept_ = kept;
   std::vector<FileIndex> updated(files.size());
   for (std::size_t i = 0; i < files.size(); ++i)
   {
-    const auto found = known.find(files[i]);
-    if (found != known.end() && keeps_limit(found->second, options.largest_expansion))
+    std::optional<FileIndex> found;
+    if (const auto own = known.find(files[i]); own != known.end())
     {
-      updated[i] = std::move(found->second);
+      found = std::move(own->second);
+    }
+    else if (options.shared != nullptr)
+    {
+      found = options.shared->find(files[i], options.format);
+    }
+    if (found && keeps_limit(*found, options.largest_expansion))
+    {
+      updated[i] = std::move(*found);
     }
     updated[i].path = files[i];
     updated[i].kinds = kinds;
@@ -161,8 +184,7 @@ void RunIndex::update_files(const std::vector<std::string>& files, const IndexOp
   }
   changed =
     granular::update_files(updated, options.column_names, options.threads, progress) || changed;
-  files_ = std::move(updated);
-  for (FileIndex& file : files_)
+  for (FileIndex& file : updated)
   {
     notices.insert(notices.end(), file.notices.begin() + static_cast<std::ptrdiff_t>(file.told),
       file.notices.end());
@@ -170,13 +192,14 @@ void RunIndex::update_files(const std::vector<std::string>& files, const IndexOp
   }
   if (changed && !kept.empty())
   {
-    save_index(kept, files_, notices);
+    save_index(kept, updated, notices);
   }
+  return updated;
 }
 
 bool RunIndex::changed() const
 {
-  return std::ranges::any_of(files_, [](const FileIndex& file) { return is_changed(file); });
+  return std::ranges::any_of(*files_, [](const FileIndex& file) { return is_changed(file); });
 }
 
 std::size_t RunIndex::size() const noexcept
@@ -186,8 +209,7 @@ std::size_t RunIndex::size() const noexcept
 
 FramePiece RunIndex::first_piece(std::size_t frame) const
 {
-  const FileSeries::Place place = series_->pieces(frame).front();
-  return { files_[place.file], files_[place.file].frames[place.frame] };
+  return piece_at(*files_, series_->pieces(frame).front());
 }
 
 std::vector<FramePiece> RunIndex::pieces(std::size_t frame) const
@@ -195,7 +217,7 @@ std::vector<FramePiece> RunIndex::pieces(std::size_t frame) const
   std::vector<FramePiece> pieces;
   for (const FileSeries::Place place : series_->pieces(frame))
   {
-    pieces.push_back({ files_[place.file], files_[place.file].frames[place.frame] });
+    pieces.push_back(piece_at(*files_, place));
   }
   return pieces;
 }
@@ -203,7 +225,7 @@ std::vector<FramePiece> RunIndex::pieces(std::size_t frame) const
 /// Says which files cannot be read or checked, and, once, that columns have names that are not in the file.
 void RunIndex::note_files(Notices& notices) const
 {
-  for (const FileIndex& file : files_)
+  for (const FileIndex& file : *files_)
   {
     if (file.error)
     {
@@ -214,10 +236,10 @@ void RunIndex::note_files(Notices& notices) const
       notices.push_back({ { file.path }, file.unchecked });
     }
   }
-  const auto guessed = std::ranges::find_if(files_,
+  const auto guessed = std::ranges::find_if(*files_,
     [](const FileIndex& file)
     { return !file.frames.empty() && file.frames.front().kind->guessed; });
-  if (guessed != files_.end())
+  if (guessed != files_->end())
   {
     notices.push_back({ { guessed->path },
       "set ColumnNames if the columns, which the file does not name, are others than " +
@@ -241,26 +263,26 @@ void RunIndex::note_times(Notices& notices) const
 
 void RunIndex::fail(const Notices& notices) const
 {
-  if (files_.empty())
+  if (files_->empty())
   {
     throw IoError("expected the name of a file, got none");
   }
-  if (files_.front().error)
+  if (files_->front().error)
   {
-    std::rethrow_exception(files_.front().error);
+    std::rethrow_exception(files_->front().error);
   }
   if (!notices.empty()) // pieces are missing, perhaps because a file cannot be read
   {
     const auto unread =
-      std::ranges::find_if(files_, [](const FileIndex& file) { return file.error != nullptr; });
-    if (unread != files_.end())
+      std::ranges::find_if(*files_, [](const FileIndex& file) { return file.error != nullptr; });
+    if (unread != files_->end())
     {
       std::rethrow_exception(unread->error);
     }
     throw FormatError(notices.front().text, notices.front().where);
   }
-  const Notice defect = files_.front().defect.value_or(Notice{ { files_.front().path },
-    std::string("expected ") + files_.front().format->name + ", got no complete frame" });
+  const Notice defect = files_->front().defect.value_or(Notice{ { files_->front().path },
+    std::string("expected ") + files_->front().format->name + ", got no complete frame" });
   throw FormatError(defect.text, defect.where);
 }
 
@@ -301,8 +323,8 @@ std::size_t RunIndex::find(const std::vector<double>& times, double time) noexce
 std::string RunIndex::encode() const
 {
   ArchiveWriter out;
-  out.text(encode_files(files_));
-  out.number(files_.empty() ? usual_expansion : files_.front().largest_expansion);
+  out.text(encode_files(*files_));
+  out.number(files_->empty() ? usual_expansion : files_->front().largest_expansion);
   write_series(out, series_ ? *series_ : FileSeries());
   return std::move(out.bytes);
 }
@@ -311,17 +333,18 @@ void RunIndex::decode(std::string_view bytes)
 {
   ArchiveReader in(bytes);
   RunIndex index;
-  std::string files;
-  in.text(files);
-  index.files_ = decode_index(files, "", std::make_shared<FrameKinds>());
+  std::string bytes_of_files;
+  in.text(bytes_of_files);
+  std::vector<FileIndex> files = decode_index(bytes_of_files, "", std::make_shared<FrameKinds>());
   std::int64_t largest_expansion = 0;
   in.number(largest_expansion);
   require(largest_expansion >= 1, "a limit of content");
-  for (FileIndex& file : index.files_)
+  for (FileIndex& file : files)
   {
     file.largest_expansion = largest_expansion;
   }
-  index.series_ = std::make_shared<const FileSeries>(read_series(in, index.files_));
+  index.series_ = std::make_shared<const FileSeries>(read_series(in, files));
+  index.files_ = std::make_shared<const std::vector<FileIndex>>(std::move(files));
   require(in.ended(), "the end of the index");
   *this = std::move(index);
 }

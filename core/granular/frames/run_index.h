@@ -19,6 +19,7 @@
 namespace granular
 {
 struct FileSeries;
+class SharedIndexes;
 
 /// Meaning of several frames with the same timestep in different files.
 ///
@@ -47,6 +48,7 @@ struct IndexOptions
   KeepIndex keep_index = KeepIndex::Never;
   int threads = 1;                                  ///< at least 1; does not change the result
   std::int64_t largest_expansion = usual_expansion; ///< of compressed files, at least 1: see unpack
+  SharedIndexes* shared = nullptr; ///< with other runs of the process; null: with none
 };
 
 /// A piece of a frame: the whole frame, or the part of one rank.
@@ -75,8 +77,8 @@ class RunIndex
 {
 public:
   /// Updates the index to the current contents of the files. Files that grew are read from the end of the last complete
-  /// frame, unchanged files are not read, and other files are read again. Appends notices about the files that were read now
-  /// and about unreadable files. Throws IoError or FormatError with the error of the first file if no file yields a frame;
+  /// frame, unchanged files are not read, nor those that another run has in options.shared, and other files are read again.
+  /// Appends notices about the files that are new here or were read now, and about unreadable files. Throws IoError or FormatError with the error of the first file if no file yields a frame;
   /// Cancelled.
   void update(const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
@@ -85,7 +87,7 @@ public:
   bool changed() const;
 
   std::size_t size() const noexcept;
-  const std::vector<FileIndex>& files() const noexcept { return files_; }
+  const std::vector<FileIndex>& files() const noexcept { return *files_; }
 
   /// Returns the pieces of a frame, at least one. Valid until the next update.
   std::vector<FramePiece> pieces(std::size_t frame) const;
@@ -113,17 +115,18 @@ private:
     const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
 
-  void update_files(const std::vector<std::string>& files, const IndexOptions& options,
-    Notices& notices, Progress& progress);
+  std::vector<FileIndex> update_files(const std::vector<std::string>& files,
+    const IndexOptions& options, Notices& notices, Progress& progress);
   void note_files(Notices& notices) const;
   void note_times(Notices& notices) const;
   std::vector<FrameInstant> instants() const;
   [[noreturn]] void fail(const Notices& notices) const;
 
-  std::vector<FileIndex> files_;
-  std::string kept_;                         ///< path of the index file
-  std::shared_ptr<const FileSeries> series_; ///< null: no frames
-  std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
+  std::shared_ptr<const std::vector<FileIndex>> files_ =
+    std::make_shared<const std::vector<FileIndex>>(); ///< never null
+  std::string kept_;                                  ///< path of the index file
+  std::shared_ptr<const FileSeries> series_;          ///< null: no frames
+  std::uint64_t shared_ = 0; ///< hash of the bytes that all ranks have, 0: none
 };
 
 /// Updates the index on rank 0, which alone looks at files, has notices and reports progress; then all ranks have the same

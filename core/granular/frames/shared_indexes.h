@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_frames_shared_indexes_h
+#define granular_frames_shared_indexes_h
+
+#include "granular/frames/file_index.h"
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+/// The indexes of files that the runs of a process have at present, so that another run of a file need not look through it.
+/// An index goes with the last run that has it. Several threads may share this.
+class SharedIndexes
+{
+public:
+  using Files = std::vector<FileIndex>;
+
+  /// Adds the files of a run, in place of others of the same path and format. Files with an error are left out, and files that
+  /// were written within two seconds before: written again in the same tick of the clock they could look the same.
+  void add(const std::shared_ptr<const Files>& files);
+
+  /// Returns a copy of the index of a file; update_file_index compares it with the file. Returns nothing if no run has one.
+  std::optional<FileIndex> find(const std::string& path, const FileFormat* format) const;
+
+private:
+  struct Place
+  {
+    std::weak_ptr<const Files> files;
+    std::size_t number = 0;
+  };
+
+  mutable std::mutex mutex_;
+  std::map<std::pair<std::string, const FileFormat*>, Place> places_;
+};
+}
+#endif
