@@ -87,7 +87,8 @@ IdFinder::IdFinder(std::span<const std::int64_t> ids, const unsigned char* ghost
     return;
   }
   const std::uint64_t last = distance(range.lowest, range.highest);
-  if (last < 4 * range.count + 64)
+  // places of 32 bits: twice as many fit into the caches, and no rank has more particles
+  if (last < 4 * range.count + 64 && ids.size() <= std::numeric_limits<std::int32_t>::max())
   {
     lowest_ = range.lowest;
     direct_.assign(last + 1, nowhere);
@@ -109,9 +110,9 @@ IdFinder::IdFinder(std::span<const std::int64_t> ids, const unsigned char* ghost
       repeated_ += table_.add(ids[i], place) ? 0 : 1;
       continue;
     }
-    std::int64_t& found = direct_[distance(lowest_, ids[i])];
+    std::int32_t& found = direct_[distance(lowest_, ids[i])];
     repeated_ += found == nowhere ? 0 : 1;
-    found = found == nowhere ? place : found;
+    found = found == nowhere ? static_cast<std::int32_t>(place) : found;
   }
 }
 
@@ -123,7 +124,7 @@ void IdFinder::find(std::span<const std::int64_t> ids, std::int64_t* places) con
       [&](std::int64_t id)
       {
         const std::uint64_t at = distance(lowest_, id); // below the lowest: more than there are
-        return at < direct_.size() ? direct_[at] : nowhere;
+        return at < direct_.size() ? std::int64_t{ direct_[at] } : nowhere;
       });
     return;
   }

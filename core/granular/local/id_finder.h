@@ -90,7 +90,7 @@ public:
 
 private:
   std::int64_t lowest_ = 0;
-  std::vector<std::int64_t>
+  std::vector<std::int32_t>
     direct_; ///< the places of lowest and those that follow; empty: not used
   IdTable table_;
   std::int64_t repeated_ = 0;
