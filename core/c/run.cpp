@@ -5,6 +5,7 @@
 
 #include "granular/bytes/find_files.h"
 #include "granular/common/words.h"
+#include "granular/frames/shared_indexes.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 
@@ -40,6 +41,13 @@ const Kind& find_kind(granular_kind wanted, const std::string& path)
   return kinds().front(); // which says what it expected
 }
 
+/// What the runs of this process know of their files.
+SharedIndexes& indexes_of_process()
+{
+  static SharedIndexes indexes;
+  return indexes;
+}
+
 IndexOptions index_options(const granular_open_options& options, const Kind& kind)
 {
   IndexOptions made;
@@ -70,6 +78,7 @@ IndexOptions index_options(const granular_open_options& options, const Kind& kin
     made.column_names.emplace_back(name);
   }
   made.threads = options.threads > 0 ? options.threads : available_cores();
+  made.shared = &indexes_of_process();
   return made;
 }
 }
