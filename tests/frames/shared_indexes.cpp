@@ -2,6 +2,7 @@
 // Runs of one process that take from each other what they know of their files.
 #include "granular/frames/shared_indexes.h"
 #include "granular/frames/run_index.h"
+#include "granular/frames/saved_index.h"
 #include "granular/local/local_file.h"
 
 #include "../support/byte_source_packing.h"
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -87,6 +89,21 @@ TEST_F(SharedIndexesTest, AnIndexGoesWithTheLastRunThatHasIt)
   EXPECT_EQ(third.steps(), (Steps{ 300, 400 }));
 }
 
+TEST_F(SharedIndexesTest, AnIndexStaysWhileAnyRunHasIt)
+{
+  const std::string path = this->rested("a.dump", two);
+  Series first = this->run();
+  first.update({ path });
+  {
+    Series second = this->run();
+    second.update({ path });
+  }
+  this->hide(path, others);
+  Series third = this->run();
+  third.update({ path });
+  EXPECT_EQ(third.steps(), (Steps{ 100, 200 })); // of the first
+}
+
 TEST_F(SharedIndexesTest, AFileThatChangedIsLookedThrough)
 {
   const std::string path = this->rested("a.dump", two);
@@ -111,6 +128,82 @@ TEST_F(SharedIndexesTest, AFileJustWrittenIsLookedThrough)
   Series second = this->run();
   second.update({ path });
   EXPECT_EQ(second.steps(), (Steps{ 300, 400 }));
+}
+
+TEST_F(SharedIndexesTest, AFileJustWrittenIsNeverSharedWhateverTimePasses)
+{
+  const std::string path = this->write("a.dump", two);
+  Series first = this->run();
+  first.update({ path });
+  this->hide(path, others);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+  first.update({ path }); // which finds the stamp as it was
+  EXPECT_EQ(first.steps(), (Steps{ 100, 200 }));
+  Series second = this->run();
+  second.update({ path });
+  EXPECT_EQ(second.steps(), (Steps{ 300, 400 }));
+}
+
+TEST_F(SharedIndexesTest, WhatAnIndexFileSaysStaysWithItsReader)
+{
+  const auto frames = [](std::int64_t third)
+  {
+    std::string text;
+    for (const std::int64_t step :
+      { std::int64_t{ 100 }, std::int64_t{ 200 }, third, std::int64_t{ 400 } })
+    {
+      text += grains(step, ids_from(1, 500));
+    }
+    return text;
+  };
+  const std::string path = this->rested("a.dump", frames(300));
+  {
+    Series writer;
+    writer.options.keep_index = granular::KeepIndex::Beside;
+    writer.update({ path });
+  }
+  this->hide(path, frames(333));
+  Series first = this->run();
+  first.options.keep_index = granular::KeepIndex::Beside;
+  first.update({ path });
+  EXPECT_EQ(first.steps(), (Steps{ 100, 200, 300, 400 })); // of the index file
+  Series second = this->run();
+  second.update({ path });
+  EXPECT_EQ(second.steps(), (Steps{ 100, 200, 333, 400 }));
+}
+
+TEST_F(SharedIndexesTest, AnIndexFileListsFilesThatWereKnown)
+{
+  const std::string a = this->rested("a.dump", grains(100, { 1, 2 }));
+  const std::string b = this->rested("b.dump", grains(200, { 1, 2 }));
+  const std::string c = this->rested("c.dump", grains(300, { 1, 2 }));
+  Series other = this->run();
+  other.update({ c });
+  Series run = this->run();
+  run.options.keep_index = granular::KeepIndex::Beside;
+  run.update({ a, b });
+  run.update({ a, c });
+  granular::Notices notices;
+  const auto listed = granular::load_index(a + std::string(granular::index_file_suffix), a,
+    std::make_shared<granular::FrameKinds>(), notices);
+  ASSERT_EQ(listed.size(), 2u);
+  EXPECT_EQ(listed[1].path, c);
+}
+
+TEST_F(SharedIndexesTest, SeekPointsThatAreNotKeptAreNotMissedByOthers)
+{
+  auto files = std::make_shared<SharedIndexes::Files>(1);
+  granular::FileIndex& file = files->front();
+  file.path = "a.dump.gz";
+  file.format = &granular::dump_format();
+  file.frames.resize(2);
+  file.compressed = true;
+  file.shareable = true;
+  indexes.add(files);
+  EXPECT_FALSE(indexes.find(file.path, file.format));
+  file.points = std::make_shared<granular::SeekPoints>();
+  indexes.add(files);
+  EXPECT_TRUE(indexes.find(file.path, file.format));
 }
 
 TEST_F(SharedIndexesTest, SomeOfTheFilesAreKnown)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 namespace granular
@@ -125,6 +126,16 @@ void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
   }
 }
 
+/// Whether a file, and those beside it, had not been written for two seconds at a time [nanoseconds since the epoch]: had they,
+/// they could be written again in the same tick of the clock, and look the same.
+bool had_rested(const FileIndex& index, std::int64_t time)
+{
+  constexpr std::int64_t while_fresh = 2'000'000'000;
+  const auto rested = [&](const FileStamp& stamp) { return stamp.modified < time - while_fresh; };
+  return rested(index.stamp) &&
+    std::ranges::all_of(index.beside, [&](const KnownFile& file) { return rested(file.stamp); });
+}
+
 /// A file that was not indexed yet, of the same name and run.
 FileIndex blank(const FileIndex& index)
 {
@@ -186,6 +197,9 @@ bool has_free_points(const FileIndex& index)
 bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
   const ScanAhead& ahead)
 {
+  using namespace std::chrono;
+  const std::int64_t now =
+    duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
   std::unique_ptr<ByteSource> packed = open_file(index.path);
   const FileStamp stamp = packed->stamp();
   if (index.loaded)
@@ -202,6 +216,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index = blank(index);
   }
+  const bool only_looked = index.frames.empty() || index.shareable; // nothing is of an index file
   std::erase_if(
     index.frames, [&](const FrameEntry& frame) { return frame.offset >= index.resume_offset; });
   index.stamp = stamp;
@@ -239,6 +254,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
     index.points.reset();
   }
   index.frames.shrink_to_fit();
+  index.shareable = only_looked && had_rested(index, now);
   if (index.frames.empty() || stamp.size == 0)
   {
     set_defect(index,

@@ -46,6 +46,7 @@ struct FileIndex
   bool unnamed = false;         ///< binary, without the names of its columns
   bool compressed = false;      ///< gzip or Zstandard
   bool loaded = false;          ///< from an index file: to be compared with the file first
+  bool shareable = false;       ///< see SharedIndexes
   std::vector<std::string> column_names;            ///< of the user, for such a file
   std::shared_ptr<SeekPoints> points;               ///< of a compressed file
   std::shared_ptr<FrameKinds> kinds;                ///< may be shared by files; made if missing

@@ -80,10 +80,7 @@ bool is_beside(const std::string& path)
   return path.find("boundingBox", path.rfind('/') + 1) != path.npos ||
     path.ends_with(index_file_suffix);
 }
-}
 
-namespace
-{
 /// The source of a piece, if it is open already.
 std::shared_ptr<const ByteSource> lent_by(const FramePiece& piece)
 {
@@ -121,11 +118,14 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   series_ = {};
   std::vector<FileIndex> updated = this->update_files(dumps, options, notices, progress);
   Notices found;
+  looked_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
+  files_ = looked_;
   if (options.format->complete)
   {
+    updated = *looked_;
     options.format->complete(updated, found);
+    files_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
   }
-  files_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
   series_ =
     std::make_shared<const FileSeries>(order_frames(*files_, options.repeated_steps, found));
   if (this->size() == 0)
@@ -134,7 +134,7 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   }
   if (options.shared != nullptr)
   {
-    options.shared->add(files_);
+    options.shared->add(looked_);
   }
   notices.insert(notices.end(), found.begin(), found.end());
   this->note_files(notices);
@@ -144,9 +144,9 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
 std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& files,
   const IndexOptions& options, Notices& notices, Progress& progress)
 {
-  std::vector<FileIndex> before = *files_; // a copy, as another run may have them too
+  std::vector<FileIndex> before = *looked_; // a copy, as another run may have them too
   // if this is left by an exception, what is known so far is gone and will be read anew
-  files_ = std::make_shared<const std::vector<FileIndex>>();
+  files_ = looked_ = std::make_shared<const std::vector<FileIndex>>();
   const auto kinds = before.empty() ? std::make_shared<FrameKinds>() : before.front().kinds;
   const std::string kept = files.empty() ? "" : index_file_path(options.keep_index, files.front());
   if (before.empty() && !kept.empty())
@@ -172,6 +172,7 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
     else if (options.shared != nullptr)
     {
       found = options.shared->find(files[i], options.format);
+      changed = changed || found;
     }
     if (found && keeps_limit(*found, options.largest_expansion))
     {
@@ -345,6 +346,7 @@ void RunIndex::decode(std::string_view bytes)
   }
   index.series_ = std::make_shared<const FileSeries>(read_series(in, files));
   index.files_ = std::make_shared<const std::vector<FileIndex>>(std::move(files));
+  index.looked_ = index.files_;
   require(in.ended(), "the end of the index");
   *this = std::move(index);
 }

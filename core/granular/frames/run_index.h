@@ -122,11 +122,13 @@ private:
   std::vector<FrameInstant> instants() const;
   [[noreturn]] void fail(const Notices& notices) const;
 
-  std::shared_ptr<const std::vector<FileIndex>> files_ =
-    std::make_shared<const std::vector<FileIndex>>(); ///< never null
-  std::string kept_;                                  ///< path of the index file
-  std::shared_ptr<const FileSeries> series_;          ///< null: no frames
-  std::uint64_t shared_ = 0; ///< hash of the bytes that all ranks have, 0: none
+  using Files = std::shared_ptr<const std::vector<FileIndex>>;
+
+  Files files_ = std::make_shared<const std::vector<FileIndex>>(); ///< null only after a move
+  Files looked_ = files_;                    ///< the same as they were before FileFormat::complete
+  std::string kept_;                         ///< path of the index file
+  std::shared_ptr<const FileSeries> series_; ///< null: no frames
+  std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
 };
 
 /// Updates the index on rank 0, which alone looks at files, has notices and reports progress; then all ranks have the same

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/shared_indexes.h"
 
-#include <chrono>
+#include <ranges>
 
 namespace granular
 {
+namespace
+{
+bool may_be_shared(const FileIndex& file) noexcept
+{
+  // too many seek points for one run are few enough for another, which finds them anew
+  const bool lacks_points = file.compressed && file.frames.size() > 1 && !file.points;
+  return file.shareable && !lacks_points;
+}
+}
+
 void SharedIndexes::add(const std::shared_ptr<const Files>& files)
 {
-  using namespace std::chrono;
-  const std::int64_t settled =
-    duration_cast<nanoseconds>((system_clock::now() - seconds(2)).time_since_epoch()).count();
   const std::lock_guard lock(mutex_);
   std::erase_if(places_, [](const auto& entry) { return entry.second.files.expired(); });
   for (std::size_t i = 0; i < files->size(); ++i)
   {
     const FileIndex& file = (*files)[i];
-    if (!file.error && file.stamp.modified < settled)
+    if (may_be_shared(file))
     {
-      places_[{ file.path, file.format }] = { files, i };
+      places_.emplace(std::pair(file.path, file.format), Place{ files, i });
     }
   }
 }
@@ -26,14 +33,16 @@ std::optional<FileIndex> SharedIndexes::find(
   const std::string& path, const FileFormat* format) const
 {
   const std::lock_guard lock(mutex_);
-  const auto found = places_.find({ path, format });
-  const auto files = found == places_.end() ? nullptr : found->second.files.lock();
-  if (!files)
+  const auto [first, last] = places_.equal_range({ path, format });
+  for (const auto& [key, place] : std::ranges::subrange(first, last) | std::views::reverse)
   {
-    return {};
+    if (const auto files = place.files.lock())
+    {
+      FileIndex file = (*files)[place.number];
+      file.told = 0; // to the user of the other run
+      return file;
+    }
   }
-  FileIndex file = (*files)[found->second.number];
-  file.told = 0; // to the user of the other run
-  return file;
+  return {};
 }
 }

@@ -17,16 +17,19 @@ namespace granular
 {
 /// The indexes of files that the runs of a process have at present, so that another run of a file need not look through it.
 /// An index goes with the last run that has it. Several threads may share this.
+///
+/// Only what was seen in a file is shared, not what an index file says; and only of files that had not been written, nor files
+/// beside them, for two seconds before they were looked at. Others are looked through by each run.
 class SharedIndexes
 {
 public:
   using Files = std::vector<FileIndex>;
 
-  /// Adds the files of a run, in place of others of the same path and format. Files with an error are left out, and files that
-  /// were written within two seconds before: written again in the same tick of the clock they could look the same.
+  /// Adds the files of a run, as they were before FileFormat::complete.
   void add(const std::shared_ptr<const Files>& files);
 
-  /// Returns a copy of the index of a file; update_file_index compares it with the file. Returns nothing if no run has one.
+  /// Returns a copy of the newest index of a file; update_file_index compares it with the file. Returns nothing if no run has
+  /// one.
   std::optional<FileIndex> find(const std::string& path, const FileFormat* format) const;
 
 private:
@@ -37,7 +40,7 @@ private:
   };
 
   mutable std::mutex mutex_;
-  std::map<std::pair<std::string, const FileFormat*>, Place> places_;
+  std::multimap<std::pair<std::string, const FileFormat*>, Place> places_; ///< equal ones by age
 };
 }
 #endif
