@@ -142,7 +142,8 @@ void gather_points(const ParticleValues& particles, Places places, double* to) n
     const std::int64_t soon = places[std::min(i + ahead, places.size() - 1)];
     __builtin_prefetch(particles.points + soon * particles.point_step);
     // two moves; std::copy_n would call memmove
-    std::memcpy(to + 3 * i, particles.points + places[i] * particles.point_step, 3 * sizeof(double));
+    std::memcpy(
+      to + 3 * i, particles.points + places[i] * particles.point_step, 3 * sizeof(double));
   }
 }
 
