@@ -17,6 +17,7 @@
 
 namespace
 {
+namespace fs = std::filesystem;
 using granular::Communicator;
 using granular::IndexOptions;
 using granular::Notices;
@@ -35,8 +36,13 @@ struct Rank
   std::string update(
     const Files& files, const IndexOptions& options = { .format = &granular::dump_format() })
   {
-    Notices notices;
     Progress progress;
+    return this->update(files, options, progress);
+  }
+
+  std::string update(const Files& files, const IndexOptions& options, Progress& progress)
+  {
+    Notices notices;
     granular::update_run_index(index, ranks, files, options, notices, progress);
     return lines_of(notices);
   }
@@ -69,6 +75,21 @@ struct Rank
 
   Communicator& ranks;
   RunIndex index;
+};
+
+/// Counts what a rank is told of its progress.
+class Counting final : public Progress
+{
+public:
+  bool report(double fraction) override
+  {
+    ++reports;
+    last = fraction;
+    return true;
+  }
+
+  int reports = 0;
+  double last = 0;
 };
 
 constexpr int ranks_of_tests = 3;
@@ -110,6 +131,128 @@ TEST(IndexRanks, AllReadEveryFrame)
       EXPECT_EQ(rank.frames(), other.frames());
       EXPECT_EQ(rank.frames().substr(0, 8), "0: 1 2 3");
     });
+}
+
+TEST(IndexRanks, FilesThatHaveRestedAreLookedThroughByAll)
+{
+  const Folder folder;
+  const Files files = mixed_run(folder);
+  for (const std::string& path : files)
+  {
+    if (fs::exists(path))
+    {
+      touch(path, -100);
+    }
+  }
+  Series alone;
+  alone.update(files);
+  run_ranks(ranks_of_tests,
+    [&](Communicator& communicator)
+    {
+      Rank rank(communicator);
+      Counting progress;
+      EXPECT_EQ(rank.update(files, { .format = &granular::dump_format() }, progress),
+        communicator.rank() == 0 ? alone.said : "");
+      EXPECT_GT(progress.reports, 0);
+      if (communicator.rank() == 0)
+      {
+        EXPECT_EQ(progress.last, 1);
+      }
+      EXPECT_TRUE(rank.index.encode() == alone.index.encode());
+      Rank other(communicator);
+      other.index.decode(alone.index.encode());
+      EXPECT_EQ(rank.frames(), other.frames());
+      // what is known is looked through by none
+      Counting quiet;
+      rank.update(files, { .format = &granular::dump_format() }, quiet);
+      EXPECT_EQ(quiet.reports > 0, communicator.rank() == 0);
+      // files that come are looked through by all, others stay
+      Files more = files;
+      for (int i = 0; i < ranks_of_tests; ++i)
+      {
+        more.push_back(folder.path("more" + std::to_string(i)));
+        if (communicator.rank() == 0)
+        {
+          folder.write("more" + std::to_string(i), grains(1000 + i, ids_from(1, 5)));
+          touch(more.back(), -100);
+        }
+      }
+      communicator.agree({});
+      Counting again;
+      rank.update(more, { .format = &granular::dump_format() }, again);
+      EXPECT_GT(again.reports, 0);
+      EXPECT_EQ(rank.index.size(), 44u + ranks_of_tests);
+      EXPECT_NE(rank.frames().find("\n1002: 1 2 3 4 5\n"), std::string::npos);
+    });
+}
+
+TEST(IndexRanks, AFileThatARankSeesOtherwiseIsLookedThroughByRank0)
+{
+  /// Writes a file again while its rank looks.
+  class Writing final : public Progress
+  {
+  public:
+    Writing(const Folder& folder, bool writes)
+      : folder_(folder)
+      , writes_(writes)
+    {
+    }
+
+    bool report(double) override
+    {
+      if (writes_)
+      {
+        folder_.write("b.dump", grains(300, { 3, 4 }));
+        touch(folder_.path("b.dump"), -50);
+      }
+      return true;
+    }
+
+  private:
+    const Folder& folder_;
+    bool writes_;
+  };
+  const Folder folder;
+  Files files;
+  for (const char* const name : { "a.dump", "b.dump", "c.dump" })
+  {
+    files.push_back(folder.write(name, grains(100 * (name[0] - 'a'), { 1, 2 })));
+    touch(files.back(), -100);
+  }
+  run_ranks(ranks_of_tests,
+    [&](Communicator& communicator)
+    {
+      Rank rank(communicator);
+      Writing progress(folder, communicator.rank() == 1);
+      rank.update(files, { .format = &granular::dump_format() }, progress);
+      EXPECT_EQ(rank.frames(), "0: 1 2\n200: 1 2\n300: 3 4\n");
+    });
+}
+
+TEST(IndexRanks, AnIndexFileSavesAllRanksTheLook)
+{
+  const Folder folder;
+  Files files;
+  for (const char* const name : { "a.dump", "b.dump", "c.dump" })
+  {
+    files.push_back(folder.write(name, grains(100 * (name[0] - 'a'), { 1, 2 })));
+    touch(files.back(), -100);
+  }
+  IndexOptions options = { .format = &granular::dump_format() };
+  options.keep_index = granular::KeepIndex::Beside;
+  for (const bool first : { true, false })
+  {
+    run_ranks(ranks_of_tests,
+      [&](Communicator& communicator)
+      {
+        Rank rank(communicator);
+        Counting progress;
+        rank.update(files, options, progress);
+        EXPECT_EQ(progress.reports > 0, first || communicator.rank() == 0);
+        EXPECT_EQ(rank.frames(), "0: 1 2\n100: 1 2\n200: 1 2\n");
+      });
+    EXPECT_TRUE(fs::exists(files[0] + ".granular.idx"));
+  }
 }
 
 TEST(IndexRanks, PiecesAreThoseOfRank0)

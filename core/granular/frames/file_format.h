@@ -56,6 +56,9 @@ struct FileFormat
   /// Throws IoError.
   FirstRows (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
 
+  bool large_runs =
+    false; ///< of so many or large files that several ranks look through them together
+
   int layouts = 0; ///< how many FrameKind::layout there are that are no text
 };
 }

@@ -44,8 +44,16 @@ std::string first_row_of(const FileIndex& file)
   }
 }
 
-/// The names in their order; of one that occurs again the last counts.
-std::vector<std::string> distinct(const std::vector<std::string>& names)
+/// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
+/// is kept of the index.
+bool is_beside(const std::string& path)
+{
+  return path.find("boundingBox", path.rfind('/') + 1) != path.npos ||
+    path.ends_with(index_file_suffix);
+}
+
+/// The files that are looked at, in their order; of one that occurs again the last counts.
+std::vector<std::string> distinct_dumps(const std::vector<std::string>& names)
 {
   std::set<std::string_view> seen;
   std::vector<std::string> kept;
@@ -57,7 +65,23 @@ std::vector<std::string> distinct(const std::vector<std::string>& names)
     }
   }
   std::ranges::reverse(kept);
+  if (!std::ranges::all_of(kept, is_beside))
+  {
+    std::erase_if(kept, is_beside);
+  }
   return kept;
+}
+
+/// Gives frames of another run the kinds of this one, which are stored once.
+void share_kinds(FileIndex& file, FrameKinds& kinds)
+{
+  std::map<const FrameKind*, std::shared_ptr<const FrameKind>> own;
+  for (FrameEntry& frame : file.frames)
+  {
+    std::shared_ptr<const FrameKind>& kind = own[frame.kind.get()];
+    kind = kind ? kind : kinds.share(*frame.kind);
+    frame.kind = kind;
+  }
 }
 
 /// Whether what is known of a file is so with another limit of its content, too.
@@ -71,14 +95,6 @@ FramePiece piece_at(const std::vector<FileIndex>& files, const FileSeries::Place
 {
   const FileIndex& file = files[place.file];
   return { file, file.frames[place.frame] };
-}
-
-/// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
-/// is kept of the index.
-bool is_beside(const std::string& path)
-{
-  return path.find("boundingBox", path.rfind('/') + 1) != path.npos ||
-    path.ends_with(index_file_suffix);
 }
 
 /// The source of a piece, if it is open already.
@@ -110,13 +126,9 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   {
     throw Error("expected the format of the files in the options, got none");
   }
-  std::vector<std::string> dumps = distinct(files);
-  if (!std::ranges::all_of(dumps, is_beside))
-  {
-    std::erase_if(dumps, is_beside);
-  }
   series_ = {};
-  std::vector<FileIndex> updated = this->update_files(dumps, options, notices, progress);
+  std::vector<FileIndex> updated =
+    this->update_files(distinct_dumps(files), options, notices, progress);
   Notices found;
   looked_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
   files_ = looked_;
@@ -139,6 +151,30 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   notices.insert(notices.end(), found.begin(), found.end());
   this->note_files(notices);
   this->note_times(notices);
+}
+
+std::vector<std::string> RunIndex::unknown_files(
+  const std::vector<std::string>& files, const IndexOptions& options) const
+{
+  std::vector<std::string> unknown = distinct_dumps(files);
+  const std::string kept =
+    unknown.empty() ? "" : index_file_path(options.keep_index, unknown.front());
+  if (looked_->empty() && !kept.empty() && stamp_of(kept).size > 0)
+  {
+    return {};
+  }
+  std::set<std::string_view> known;
+  for (const FileIndex& file : *looked_)
+  {
+    known.insert(file.path);
+  }
+  std::erase_if(unknown,
+    [&](const std::string& path)
+    {
+      return known.contains(path) ||
+        (options.shared != nullptr && options.shared->find(path, options.format));
+    });
+  return unknown;
 }
 
 std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& files,
@@ -169,10 +205,11 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
     {
       found = std::move(own->second);
     }
-    else if (options.shared != nullptr)
+    else if (options.shared != nullptr &&
+      (found = options.shared->find(files[i], options.format)).has_value())
     {
-      found = options.shared->find(files[i], options.format);
-      changed = changed || found;
+      share_kinds(*found, *kinds);
+      changed = true;
     }
     if (found && keeps_limit(*found, options.largest_expansion))
     {
@@ -349,50 +386,5 @@ void RunIndex::decode(std::string_view bytes)
   index.looked_ = index.files_;
   require(in.ended(), "the end of the index");
   *this = std::move(index);
-}
-
-void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
-  const IndexOptions& options, Notices& notices, Progress& progress)
-{
-  const bool looks = ranks.rank() == 0;
-  try
-  {
-    do_together(ranks, // or rank 0 would believe that all have it
-      [&]
-      {
-        std::string bytes; // empty: nothing is new
-        if (looks)
-        {
-          index.update(files, options, notices, progress);
-          bytes = ranks.size() > 1 ? index.encode() : "";
-          Hash hash;
-          hash.add(bytes.data(), bytes.size());
-          bytes = hash.value() == index.shared_ ? "" : std::move(bytes);
-          index.shared_ = hash.value();
-        }
-        ranks.broadcast(bytes, 0);
-        if (!looks && !bytes.empty())
-        {
-          index.decode(bytes);
-        }
-      });
-  }
-  catch (...)
-  {
-    index.series_ = {};
-    index.shared_ = 0;
-    throw;
-  }
-}
-
-bool is_changed(const RunIndex& index, Communicator& ranks)
-{
-  return do_together(ranks,
-    [&]
-    {
-      std::int64_t changed = ranks.rank() == 0 && index.changed() ? 1 : 0;
-      ranks.sum({ &changed, 1 });
-      return changed != 0;
-    });
 }
 }

@@ -115,6 +115,8 @@ private:
     const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
 
+  std::vector<std::string> unknown_files(
+    const std::vector<std::string>& files, const IndexOptions& options) const;
   std::vector<FileIndex> update_files(const std::vector<std::string>& files,
     const IndexOptions& options, Notices& notices, Progress& progress);
   void note_files(Notices& notices) const;
@@ -131,8 +133,9 @@ private:
   std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
 };
 
-/// Updates the index on rank 0, which alone looks at files, has notices and reports progress; then all ranks have the same
-/// index. Collective. Throws the same error on all ranks, whose indexes then have no frames.
+/// Updates the index on rank 0, which alone has notices; then all ranks have the same index. Files of large runs that are new
+/// are looked through by all ranks, each some of them: see FileFormat::large_runs. Rank 0 looks through what another rank
+/// cannot read, or sees otherwise. Options but shared, and files, must be the same on all ranks. Collective. Throws the same error on all ranks, whose indexes then have no frames.
 void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
   const IndexOptions& options, Notices& notices, Progress& progress);
 

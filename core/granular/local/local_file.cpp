@@ -293,7 +293,8 @@ const FileFormat& local_format() noexcept
     .index = index_local,
     .complete = complete_pieces,
     .fits = local_fits,
-    .first_rows = find_first_rows };
+    .first_rows = find_first_rows,
+    .large_runs = true };
   return format;
 }
 

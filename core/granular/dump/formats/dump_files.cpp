@@ -38,6 +38,7 @@ const FileFormat& dump_format() noexcept
     .fits = dump_fits,
     .describe = describe_first,
     .first_rows = find_first_ids,
+    .large_runs = true,
     .layouts = static_cast<int>(binary_layouts().size()) };
   return format;
 }
