@@ -126,14 +126,16 @@ void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
   }
 }
 
-/// Whether a file, and those beside it, had not been written for two seconds at a time [nanoseconds since the epoch]: had they,
-/// they could be written again in the same tick of the clock, and look the same.
-bool had_rested(const FileIndex& index, std::int64_t time)
+/// An index of another rank is good for a file of the same size, time and ends. Devices and inodes may have other numbers here.
+void adopt_elsewhere(FileIndex& index, const ByteSource& packed, const FileStamp& now)
 {
-  constexpr std::int64_t while_fresh = 2'000'000'000;
-  const auto rested = [&](const FileStamp& stamp) { return stamp.modified < time - while_fresh; };
-  return rested(index.stamp) &&
-    std::ranges::all_of(index.beside, [&](const KnownFile& file) { return rested(file.stamp); });
+  index.elsewhere = false;
+  const FileStamp& there = index.stamp;
+  if (!(there == now) && there.size == now.size && there.modified == now.modified &&
+    hash_ends(packed, now.size) == index.ends_hash)
+  {
+    index.stamp = now;
+  }
 }
 
 /// A file that was not indexed yet, of the same name and run.
@@ -197,14 +199,16 @@ bool has_free_points(const FileIndex& index)
 bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
   const ScanAhead& ahead)
 {
-  using namespace std::chrono;
-  const std::int64_t now =
-    duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+  const std::int64_t now = clock_time();
   std::unique_ptr<ByteSource> packed = open_file(index.path);
   const FileStamp stamp = packed->stamp();
   if (index.loaded)
   {
     adopt(index, *packed, stamp);
+  }
+  if (index.elsewhere)
+  {
+    adopt_elsewhere(index, *packed, stamp);
   }
   const bool renamed = (index.unnamed || index.error) && index.column_names != column_names;
   const bool anew = renamed || others_changed(index);
@@ -308,6 +312,20 @@ bool update_file_index(FileIndex& index, const std::vector<std::string>& column_
     index = blank(index); // half of it would pass for all
     throw;
   }
+}
+
+bool had_rested(const FileIndex& index, std::int64_t time)
+{
+  constexpr std::int64_t while_fresh = 2'000'000'000;
+  const auto rested = [&](const FileStamp& stamp) { return stamp.modified < time - while_fresh; };
+  return rested(index.stamp) &&
+    std::ranges::all_of(index.beside, [&](const KnownFile& file) { return rested(file.stamp); });
+}
+
+std::int64_t clock_time()
+{
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
 }
 
 bool is_changed(const FileIndex& index)

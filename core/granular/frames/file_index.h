@@ -46,6 +46,7 @@ struct FileIndex
   bool unnamed = false;         ///< binary, without the names of its columns
   bool compressed = false;      ///< gzip or Zstandard
   bool loaded = false;          ///< from an index file: to be compared with the file first
+  bool elsewhere = false;       ///< from another rank: the same, but for devices and inodes
   bool shareable = false;       ///< see SharedIndexes
   std::vector<std::string> column_names;            ///< of the user, for such a file
   std::shared_ptr<SeekPoints> points;               ///< of a compressed file
@@ -79,6 +80,13 @@ bool looks_so(const std::string& path, const Look& look) noexcept
 /// Returns true if anything was read. Throws Cancelled.
 bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
   Progress& progress, const ScanAhead& ahead = {});
+
+/// Returns true if a file, and those beside it, had not been written for two seconds at a time of the system's clock
+/// [nanoseconds since the epoch]. Otherwise they could be written again in the same tick of the clock, and look the same.
+bool had_rested(const FileIndex& index, std::int64_t time);
+
+/// Returns the time of the system's clock [nanoseconds since the epoch].
+std::int64_t clock_time();
 
 /// Returns true if the file, or one beside it, has changed since it was indexed.
 bool is_changed(const FileIndex& index);

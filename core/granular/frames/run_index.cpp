@@ -122,13 +122,19 @@ Where where_of(const FramePiece& piece)
 void RunIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
   Notices& notices, Progress& progress)
 {
+  this->update(files, options, {}, notices, progress);
+}
+
+void RunIndex::update(const std::vector<std::string>& files, const IndexOptions& options,
+  std::vector<FileIndex>&& of_ranks, Notices& notices, Progress& progress)
+{
   if (options.format == nullptr)
   {
     throw Error("expected the format of the files in the options, got none");
   }
   series_ = {};
   std::vector<FileIndex> updated =
-    this->update_files(distinct_dumps(files), options, notices, progress);
+    this->update_files(distinct_dumps(files), options, std::move(of_ranks), notices, progress);
   Notices found;
   looked_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
   files_ = looked_;
@@ -154,14 +160,17 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
 }
 
 std::vector<std::string> RunIndex::unknown_files(
-  const std::vector<std::string>& files, const IndexOptions& options) const
+  const std::vector<std::string>& files, const IndexOptions& options)
 {
   std::vector<std::string> unknown = distinct_dumps(files);
   const std::string kept =
     unknown.empty() ? "" : index_file_path(options.keep_index, unknown.front());
-  if (looked_->empty() && !kept.empty() && stamp_of(kept).size > 0)
+  if (looked_->empty() && !kept.empty())
   {
-    return {};
+    Notices told_by_update; // which reads the file again if it lists nothing
+    looked_ = std::make_shared<const std::vector<FileIndex>>(
+      load_index(kept, unknown.front(), std::make_shared<FrameKinds>(), told_by_update));
+    kept_ = looked_->empty() ? "" : kept;
   }
   std::set<std::string_view> known;
   for (const FileIndex& file : *looked_)
@@ -172,13 +181,14 @@ std::vector<std::string> RunIndex::unknown_files(
     [&](const std::string& path)
     {
       return known.contains(path) ||
-        (options.shared != nullptr && options.shared->find(path, options.format));
+        (options.shared != nullptr && options.shared->has(path, options.format));
     });
   return unknown;
 }
 
 std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& files,
-  const IndexOptions& options, Notices& notices, Progress& progress)
+  const IndexOptions& options, std::vector<FileIndex>&& of_ranks, Notices& notices,
+  Progress& progress)
 {
   std::vector<FileIndex> before = *looked_; // a copy, as another run may have them too
   // if this is left by an exception, what is known so far is gone and will be read anew
@@ -195,7 +205,12 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
   {
     known[file.path] = std::move(file);
   }
-  bool changed = known.size() != files.size() || kept != kept_;
+  bool changed = known.size() != files.size() || kept != kept_ || !of_ranks.empty();
+  for (FileIndex& file : of_ranks)
+  {
+    share_kinds(file, *kinds);
+    known.try_emplace(file.path, std::move(file));
+  }
   kept_ = kept;
   std::vector<FileIndex> updated(files.size());
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -356,35 +371,5 @@ std::size_t RunIndex::find(const std::vector<double>& times, double time) noexce
   const bool nearly =
     next > 0 && after != times.end() && *after - time <= tolerance * (*after - times[next - 1]);
   return next == 0 || nearly ? next : next - 1;
-}
-
-std::string RunIndex::encode() const
-{
-  ArchiveWriter out;
-  out.text(encode_files(*files_));
-  out.number(files_->empty() ? usual_expansion : files_->front().largest_expansion);
-  write_series(out, series_ ? *series_ : FileSeries());
-  return std::move(out.bytes);
-}
-
-void RunIndex::decode(std::string_view bytes)
-{
-  ArchiveReader in(bytes);
-  RunIndex index;
-  std::string bytes_of_files;
-  in.text(bytes_of_files);
-  std::vector<FileIndex> files = decode_index(bytes_of_files, "", std::make_shared<FrameKinds>());
-  std::int64_t largest_expansion = 0;
-  in.number(largest_expansion);
-  require(largest_expansion >= 1, "a limit of content");
-  for (FileIndex& file : files)
-  {
-    file.largest_expansion = largest_expansion;
-  }
-  index.series_ = std::make_shared<const FileSeries>(read_series(in, files));
-  index.files_ = std::make_shared<const std::vector<FileIndex>>(std::move(files));
-  index.looked_ = index.files_;
-  require(in.ended(), "the end of the index");
-  *this = std::move(index);
 }
 }

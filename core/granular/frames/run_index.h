@@ -115,10 +115,15 @@ private:
     const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
 
+  /// Returns the files that neither this nor another run of the process knows, nor an index file.
   std::vector<std::string> unknown_files(
-    const std::vector<std::string>& files, const IndexOptions& options) const;
+    const std::vector<std::string>& files, const IndexOptions& options);
+  /// As update, with what other ranks know of files.
+  void update(const std::vector<std::string>& files, const IndexOptions& options,
+    std::vector<FileIndex>&& of_ranks, Notices& notices, Progress& progress);
   std::vector<FileIndex> update_files(const std::vector<std::string>& files,
-    const IndexOptions& options, Notices& notices, Progress& progress);
+    const IndexOptions& options, std::vector<FileIndex>&& of_ranks, Notices& notices,
+    Progress& progress);
   void note_files(Notices& notices) const;
   void note_times(Notices& notices) const;
   std::vector<FrameInstant> instants() const;
@@ -133,9 +138,10 @@ private:
   std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
 };
 
-/// Updates the index on rank 0, which alone has notices; then all ranks have the same index. Files of large runs that are new
-/// are looked through by all ranks, each some of them: see FileFormat::large_runs. Rank 0 looks through what another rank
-/// cannot read, or sees otherwise. Options but shared, and files, must be the same on all ranks. Collective. Throws the same error on all ranks, whose indexes then have no frames.
+/// Updates the index on rank 0, which alone has notices; then all ranks have the same index. If the format has large runs, files
+/// that are new are looked through by all ranks, each some of them, with its own threads and progress. Rank 0 looks through what
+/// has changed, and what another rank cannot read or sees otherwise. Other options than threads and shared must be the same on
+/// all ranks. Collective. Throws the same error on all ranks, whose indexes then have no frames.
 void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
   const IndexOptions& options, Notices& notices, Progress& progress);
 

@@ -2,8 +2,9 @@
 // One index for all ranks.
 #include "granular/common/archive.h"
 #include "granular/common/hash.h"
+#include "granular/frames/file_series.h"
 #include "granular/frames/run_index.h"
-#include "granular/frames/shared_indexes.h"
+#include "granular/frames/saved_index.h"
 #include "granular/frames/update_files.h"
 #include "granular/parallel/trade.h"
 
@@ -30,29 +31,10 @@ std::vector<std::string> unpack_names(std::string_view bytes)
   return names;
 }
 
-/// Whether all that is known of a file can be sent, and nothing is wrong with it that rank 0 should say.
+/// Whether all that is known of a file can be sent.
 bool may_be_sent(const FileIndex& file)
 {
-  return file.shareable && !file.error && !file.defect && !file.layout && file.beside.empty() &&
-    !file.frames.empty();
-}
-
-/// Whether rank 0 sees the file as the rank that looked through it. Devices and inodes may have other numbers there.
-bool is_same_here(FileIndex& file)
-{
-  try
-  {
-    const std::unique_ptr<ByteSource> packed = open_file(file.path);
-    const FileStamp here = packed->stamp();
-    const bool same = here.size == file.stamp.size && here.modified == file.stamp.modified &&
-      hash_ends(*packed, here.size) == file.ends_hash;
-    file.stamp = here;
-    return same;
-  }
-  catch (const IoError&)
-  {
-    return false;
-  }
+  return !file.error && !file.layout && file.beside.empty();
 }
 
 /// Looks through every so many of the files. Returns, on rank 0, what all ranks have found.
@@ -61,48 +43,84 @@ std::vector<FileIndex> look_together(const std::vector<std::string>& names,
 {
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const auto size = static_cast<std::size_t>(ranks.size());
+  const std::int64_t start = clock_time();
   const auto kinds = std::make_shared<FrameKinds>();
-  std::vector<FileIndex> files;
-  for (std::size_t i = rank; i < names.size(); i += size)
+  const auto complete = [&](FileIndex& file)
   {
-    FileIndex& file = files.emplace_back();
-    file.path = names[i];
     file.kinds = kinds;
     file.format = options.format;
     file.largest_expansion = options.largest_expansion;
+  };
+  std::vector<FileIndex> files;
+  for (std::size_t i = rank; i < names.size(); i += size)
+  {
+    files.emplace_back().path = names[i];
+    complete(files.back());
   }
   constexpr std::size_t most_seek_bytes = std::size_t{ 1 } << 28; // of all ranks
-  update_files(files, options.column_names, options.threads, progress, most_seek_bytes / size);
-  std::erase_if(files, [](const FileIndex& file) { return !may_be_sent(file); });
-  const std::string sent = rank == 0 ? "" : encode_files(files);
+  update_files(files, options.column_names, options.threads, progress,
+    most_seek_bytes / std::min(size, names.size()));
+  std::string sent;
+  if (rank > 0)
+  {
+    std::erase_if(files, [](const FileIndex& file) { return !may_be_sent(file); });
+    sent = encode_files(files);
+  }
   std::vector<std::int64_t> counts(size);
   counts[0] = static_cast<std::int64_t>(sent.size());
   const std::vector<std::int64_t> come = swap_numbers(counts, ranks);
   const std::vector<char> parts = trade(sent, counts, come, ranks);
-  const char* part = parts.data();
+  std::string_view rest(parts.data(), parts.size());
   for (const std::int64_t bytes : come)
   {
     const auto length = static_cast<std::size_t>(bytes);
     std::vector<FileIndex> of_rank;
     if (length > 0)
     {
-      of_rank = decode_index({ part, length }, "", kinds);
+      of_rank = decode_index(rest.substr(0, length), "", kinds);
     }
     for (FileIndex& file : of_rank)
     {
+      complete(file);
       file.loaded = false;
-      file.shareable = true;
-      file.format = options.format;
-      file.largest_expansion = options.largest_expansion;
-      if (is_same_here(file))
-      {
-        files.push_back(std::move(file));
-      }
+      file.elsewhere = true;
+      file.shareable = had_rested(file, start);
+      files.push_back(std::move(file));
     }
-    part += length;
+    rest.remove_prefix(length);
   }
   return files;
 }
+}
+
+std::string RunIndex::encode() const
+{
+  ArchiveWriter out;
+  out.text(encode_files(*files_));
+  out.number(files_->empty() ? usual_expansion : files_->front().largest_expansion);
+  write_series(out, series_ ? *series_ : FileSeries());
+  return std::move(out.bytes);
+}
+
+void RunIndex::decode(std::string_view bytes)
+{
+  ArchiveReader in(bytes);
+  RunIndex index;
+  std::string bytes_of_files;
+  in.text(bytes_of_files);
+  std::vector<FileIndex> files = decode_index(bytes_of_files, "", std::make_shared<FrameKinds>());
+  std::int64_t largest_expansion = 0;
+  in.number(largest_expansion);
+  require(largest_expansion >= 1, "a limit of content");
+  for (FileIndex& file : files)
+  {
+    file.largest_expansion = largest_expansion;
+  }
+  index.series_ = std::make_shared<const FileSeries>(read_series(in, files));
+  index.files_ = std::make_shared<const std::vector<FileIndex>>(std::move(files));
+  index.looked_ = index.files_;
+  require(in.ended(), "the end of the index");
+  *this = std::move(index);
 }
 
 void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
@@ -116,29 +134,27 @@ void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<st
       {
         SharedProgress shared(progress, ranks);
         PartialProgress parts(shared);
-        SharedIndexes of_ranks;
-        std::shared_ptr<const std::vector<FileIndex>> looked;
-        IndexOptions own = options;
-        own.shared = options.shared ? options.shared : &of_ranks;
+        std::vector<FileIndex> of_ranks;
         if (ranks.size() > 1 && options.format != nullptr && options.format->large_runs)
         {
-          std::vector<std::string> names = looks ? index.unknown_files(files, options) : files;
-          std::string bytes =
-            looks && names.size() > 1 ? pack(names) : ""; // one is nothing to share
+          std::vector<std::string> names;
+          if (looks)
+          {
+            names = index.unknown_files(files, options);
+          }
+          std::string bytes = names.size() > 1 ? pack(names) : ""; // one is nothing to share
           ranks.broadcast(bytes, 0);
           if (!bytes.empty())
           {
-            parts.set_part(0, 0.95);
-            looked = std::make_shared<const std::vector<FileIndex>>(
-              look_together(unpack_names(bytes), options, ranks, parts));
-            own.shared->add(looked);
-            parts.set_part(0.95, 1);
+            parts.set_part(0, 0.9);
+            of_ranks = look_together(unpack_names(bytes), options, ranks, parts);
+            parts.set_part(0.9, 1);
           }
         }
         std::string bytes; // empty: nothing is new
         if (looks)
         {
-          index.update(files, own, notices, parts);
+          index.update(files, options, std::move(of_ranks), notices, parts);
           bytes = ranks.size() > 1 ? index.encode() : "";
           Hash hash;
           hash.add(bytes.data(), bytes.size());

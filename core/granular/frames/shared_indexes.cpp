@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/shared_indexes.h"
 
-#include <ranges>
-
 namespace granular
 {
 namespace
@@ -29,20 +27,39 @@ void SharedIndexes::add(const std::shared_ptr<const Files>& files)
   }
 }
 
-std::optional<FileIndex> SharedIndexes::find(
-  const std::string& path, const FileFormat* format) const
+template <class Visit>
+void SharedIndexes::visit_newest(
+  const std::string& path, const FileFormat* format, const Visit& visit) const
 {
   const std::lock_guard lock(mutex_);
   const auto [first, last] = places_.equal_range({ path, format });
-  for (const auto& [key, place] : std::ranges::subrange(first, last) | std::views::reverse)
+  for (auto newest = last; newest != first;)
   {
+    const Place& place = (--newest)->second;
     if (const auto files = place.files.lock())
     {
-      FileIndex file = (*files)[place.number];
-      file.told = 0; // to the user of the other run
-      return file;
+      visit((*files)[place.number]);
+      return;
     }
   }
-  return {};
+}
+
+std::optional<FileIndex> SharedIndexes::find(
+  const std::string& path, const FileFormat* format) const
+{
+  std::optional<FileIndex> found;
+  this->visit_newest(path, format, [&](const FileIndex& file) { found = file; });
+  if (found)
+  {
+    found->told = 0; // to the user of the other run
+  }
+  return found;
+}
+
+bool SharedIndexes::has(const std::string& path, const FileFormat* format) const
+{
+  bool has = false;
+  this->visit_newest(path, format, [&](const FileIndex&) { has = true; });
+  return has;
 }
 }

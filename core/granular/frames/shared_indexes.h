@@ -18,8 +18,9 @@ namespace granular
 /// The indexes of files that the runs of a process have at present, so that another run of a file need not look through it.
 /// An index goes with the last run that has it. Several threads may share this.
 ///
-/// Only what was seen in a file is shared, not what an index file says; and only of files that had not been written, nor files
-/// beside them, for two seconds before they were looked at. Others are looked through by each run.
+/// Only what was seen in a file is shared, not what an index file says; and only of files that had rested when they were looked at:
+/// see had_rested. A compressed file is not shared by a run that had no room for its seek points. Other files are looked through by
+/// each run.
 class SharedIndexes
 {
 public:
@@ -32,12 +33,19 @@ public:
   /// one.
   std::optional<FileIndex> find(const std::string& path, const FileFormat* format) const;
 
+  /// Returns true if find would return an index.
+  bool has(const std::string& path, const FileFormat* format) const;
+
 private:
   struct Place
   {
     std::weak_ptr<const Files> files;
     std::size_t number = 0;
   };
+
+  /// Calls visit(index) for the newest index of a file, if there is one.
+  template <class Visit>
+  void visit_newest(const std::string& path, const FileFormat* format, const Visit& visit) const;
 
   mutable std::mutex mutex_;
   std::multimap<std::pair<std::string, const FileFormat*>, Place> places_; ///< equal ones by age
