@@ -78,8 +78,8 @@ class RunIndex
 public:
   /// Updates the index to the current contents of the files. Files that grew are read from the end of the last complete
   /// frame, unchanged files are not read, nor those that another run has in options.shared, and other files are read again.
-  /// Appends notices about the files that are new here or were read now, and about unreadable files. Throws IoError or FormatError with the error of the first file if no file yields a frame;
-  /// Cancelled.
+  /// Appends notices about the files that are new here or were read now, and about unreadable files. Throws IoError or
+  /// FormatError with the error of the first file if no file yields a frame; Cancelled.
   void update(const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
 
