@@ -71,18 +71,20 @@ granular_need()
 }
 
 # granular_need_plugin [package...]: where Debian's ParaView uses Debian's VTK, the development files of VTK are another
-# package. The help of ParaView's window needs Qt's driver for SQLite (0.3 MB), which Debian only recommends.
+# package. ParaView's window needs what Debian only recommends: Qt's driver for SQLite (0.3 MB) for its help, and Qt 6's plugin for
+# SVG (0.2 MB) for its icons.
 granular_need_plugin()
 {
   granular_need "${granular_core_packages[@]}" "${granular_plugin_packages[@]}" "$@"
   command -v dpkg-query >/dev/null || return 0
-  local more=() sql
+  local more=() library
   if dpkg-query --show --showformat='${Depends}' paraview | grep -q libvtk9; then
     more+=("${granular_vtk_packages[@]}")
   fi
-  for sql in libqt5sql5 libqt6sql6; do
-    if [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$sql" 2>/dev/null)" = installed ]; then
-      more+=("$sql-sqlite")
+  local -A plugins=([libqt5sql5]=libqt5sql5-sqlite [libqt6sql6]=libqt6sql6-sqlite [libqt6svg6]=qt6-svg-plugins)
+  for library in "${!plugins[@]}"; do
+    if [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$library" 2>/dev/null)" = installed ]; then
+      more+=("${plugins[$library]}")
     fi
   done
   [ "${#more[@]}" -eq 0 ] || granular_need "${more[@]}"
