@@ -11,11 +11,9 @@ path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains
 
 reader = granular.reader(path, dt=2e-5)  # seconds, the timestep of the input script
 
-LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
 view.ViewSize = [760, 680]
 view.OrientationAxesVisibility = 0
-GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 GetAnimationScene().GoToLast()
 
 # The first output holds the particles. Their colour is the length of the velocity v.
@@ -38,7 +36,7 @@ Show(AnnotateTimeFilter(reader, Format="t = {time:.2f} s"), view,
 
 granular.set_properties(view, CameraPosition=[0.22, -0.30, 0.19], CameraFocalPoint=[0.02, 0.01, 0.069],
                         CameraViewUp=[0, 0, 1])
-SaveScreenshot("grains.png", view, CompressionLevel="9")
+SaveScreenshot("grains.png", view, CompressionLevel="9", OverrideColorPalette="WhiteBackground")
 
 # Compare with the text of the last frame, without ParaView.
 header, *rows = Path(path).read_text().split("ITEM: ATOMS ")[-1].splitlines()

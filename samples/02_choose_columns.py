@@ -10,9 +10,7 @@ from paraview.simple import *
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
 reader = granular.reader(path)
-LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
-GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 GetAnimationScene().GoToLast()
 
 
@@ -47,7 +45,7 @@ colors.RescaleTransferFunction(0, 1.5)
 granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="",
                         **granular.label_format("%.1f"),
                         WindowLocation="Any Location", Position=[0.84, 0.3])
-SaveScreenshot("slice.png", view)
+SaveScreenshot("slice.png", view, OverrideColorPalette="WhiteBackground")
 
 # Compare with the text of the last frame, and with the file that was written.
 header, *rows = Path(path).read_text().split("ITEM: ATOMS ")[-1].splitlines()

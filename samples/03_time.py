@@ -38,7 +38,6 @@ lid = OpenDataFile(granular.write_series([f"lid_{step}.stl" for step in steps[-4
 assert list(lid.TimestepValues) == times[-4:]
 print("lid.stl.series puts the lid on the same clock; see strip.png")
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 for place in 0, 1, 2:  # halves, and the halves of these: places 3 to 6
     strip.SplitHorizontal(place, 0.5)
@@ -57,4 +56,4 @@ colors.ApplyPreset(granular.preset("Plasma"))
 granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
                         Orientation="Horizontal", WindowLocation="Lower Center", **granular.label_format("%.1f"))
 strip.SetSize(1200, 480)
-SaveScreenshot("strip.png", strip, SeparatorWidth=0)
+SaveScreenshot("strip.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")

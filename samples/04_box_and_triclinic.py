@@ -16,7 +16,6 @@ def points_of(source):
 
 
 # One file, three forms of its coordinates. Orange atoms have left the box through a periodic face.
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
@@ -33,7 +32,7 @@ for place, form, radius in (1, "Scaled", 0.036), (5, "Absolute", 0.3), (6, "Unwr
     ResetCamera(view)
 GetColorTransferFunction("image").RGBPoints = [0, 0.55, 0.66, 0.78, 1, 0.93, 0.45, 0.1]
 strip.SetSize(1200, 420)
-SaveScreenshot("forms.png", strip, SeparatorWidth=0)
+SaveScreenshot("forms.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # The same by hand. Bounds are "lo hi tilt" of what encloses the box, a row is id type s image.
 text = Path(path).read_text()

@@ -21,7 +21,6 @@ assert list(binary.TimestepValues) == list(text.TimestepValues)
 # 0.1 micrometres, that of 0.100000 m ten times as much.
 shift = PythonCalculator(Input=[binary, text], ArrayName="shift",
                          Expression="mag(inputs[0].Points - inputs[1].Points) * 1e9")
-LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
 granular.set_properties(view, ViewSize=[640, 680], OrientationAxesVisibility=0, ViewTime=2000,
                         CameraPosition=[0.014, -0.36, 0.13], CameraFocalPoint=[0.014, 0, 0.073],
@@ -35,7 +34,7 @@ colors.RescaleTransferFunction(0, 500)
 granular.set_properties(GetScalarBar(colors, view), Title="lost by the text [nm]", ComponentTitle="",
                         **granular.label_format("%.0f"),
                         WindowLocation="Any Location", Position=[0.83, 0.3])
-SaveScreenshot("lost.png", view, CompressionLevel="9")
+SaveScreenshot("lost.png", view, CompressionLevel="9", OverrideColorPalette="WhiteBackground")
 
 
 def rounded(numbers, digits):

@@ -22,7 +22,6 @@ times = list(reader.TimestepValues)
 assert times == [0, 0.25, 0.5]
 
 # A crystal melts. Each atom keeps the colour of its first layer, because ids increase with z.
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
@@ -39,7 +38,7 @@ colors = GetColorTransferFunction("id")
 colors.ApplyPreset(granular.preset("Viridis"))
 colors.RescaleTransferFunction(1, 500)
 strip.SetSize(1200, 440)
-SaveScreenshot("melting.png", strip, SeparatorWidth=0)
+SaveScreenshot("melting.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # The same from the text, unpacked by Python: "id type xs ys zs", coordinates in units of the box.
 for time, file in zip(times, packed):

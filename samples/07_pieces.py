@@ -29,7 +29,6 @@ counts = {counts}[int(inputs[0].FieldData["timestep"][0])]
 output.PointData.append(numpy.repeat(numpy.arange(4), counts), "process")
 """)
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 for place in 0, 1, 2:  # halves, and the halves of these: places 3 to 6
     strip.SplitHorizontal(place, 0.5)
@@ -49,7 +48,7 @@ granular.set_properties(colors, InterpretValuesAsCategories=1,
 granular.set_properties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1,
                         Orientation="Horizontal", WindowLocation="Lower Center")
 strip.SetSize(1200, 480)
-SaveScreenshot("pieces.png", strip, SeparatorWidth=0)
+SaveScreenshot("pieces.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # Compare with the text: the last frame equals that of the run in one file, in the order of the pieces.
 names = "id", "type", "x", "y", "z", "radius"

@@ -48,7 +48,6 @@ if lmp and " pour " in subprocess.run([lmp, "-h"], capture_output=True, text=Tru
 else:
     command = ["python3", "-c", COPY, str(Path(__file__).parent / "data/grains.dump")]
 
-LoadPalette("WhiteBackground")
 view = GetActiveViewOrCreate("RenderView")
 Render(view)  # the first picture takes longest, and moves the camera
 camera = dict(CameraPosition=[0.25, -0.41, 0.21], CameraFocalPoint=[0, 0, 0.063],
@@ -83,7 +82,7 @@ try:
         looks += 1
         GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
         GetAnimationScene().GoToLast()
-        SaveScreenshot("newest.png", view)
+        SaveScreenshot("newest.png", view, OverrideColorPalette="WhiteBackground")
         frame, frames = FetchData(reader)[0], len(reader.TimestepValues)
         step = frame.GetFieldData().GetArray("timestep").GetValue(0)
         points = np.array(frame.GetPoints().GetData()).reshape(-1, 3)
@@ -111,7 +110,7 @@ colors.RescaleTransferFunction(0, 1.5)
 granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
                         Orientation="Horizontal", WindowLocation="Lower Center", **granular.label_format("%.1f"))
 strip.SetSize(1200, 480)
-SaveScreenshot("looks.png", strip, SeparatorWidth=0)
+SaveScreenshot("looks.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # Compare with the text: no frame is missing, and every frame seen on the way was complete.
 written = {}

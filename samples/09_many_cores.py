@@ -43,14 +43,13 @@ def look(file, threads, picture):
     particles = reader.GetDataInformation().GetNumberOfPoints()
     fastest = reader.PointData["v"].GetRange(-1)[1]
 
-    LoadPalette("WhiteBackground")
     view = GetActiveViewOrCreate("RenderView")
     granular.set_properties(view, ViewSize=[640, 360], ViewTime=times[-1], OrientationAxesVisibility=0)
     granular.show(reader, view, color="v")
     GetColorTransferFunction("v").RescaleTransferFunction(0, 1.5)
     Render(view)  # the first picture moves the camera
     granular.set_properties(view, CameraPosition=[0.35, -0.75, 0.65], CameraFocalPoint=[0.35, 0.25, 0])
-    SaveScreenshot(picture, view)
+    SaveScreenshot(picture, view, OverrideColorPalette="WhiteBackground")
     print(f"{particles} particles, the fastest at {fastest:.17g} m/s: {len(times)} frames in {took:.2f} s")
 
 

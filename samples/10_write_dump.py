@@ -26,7 +26,6 @@ granular.save(large, "large.dump.gz", WriteTimeSteps=1, Dialect="LIGGGHTS")
 faster = Calculator(Input=large, Function="mag(v)", ResultArrayName="speed")
 granular.save(faster, "large.bin", WriteTimeSteps=1, Columns="id type x y z v radius speed")
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 0.5)
 for place, file, color in (1, path, "v"), (2, "large.bin", "speed"):
@@ -45,7 +44,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", Compone
                         **granular.label_format("%.1f"),
                         WindowLocation="Any Location", Position=[0.86, 0.3])
 strip.SetSize(1000, 560)
-SaveScreenshot("before_and_after.png", strip, SeparatorWidth=0)
+SaveScreenshot("before_and_after.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # Compare with the text: its lines, without the lines of small particles.
 expected = ""

@@ -26,7 +26,6 @@ for (name, source), dialect in itertools.product(sources.items(), ("LIGGGHTS", "
     granular.save(source, f"{name}.{dialect}", Dialect=dialect, NumberFormat="%.17g",
                   Columns="id type x y z vx vy vz radius")
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 0.5)
 for place, (name, source) in zip((1, 2), sources.items()):
@@ -39,7 +38,7 @@ for place, (name, source) in zip((1, 2), sources.items()):
     Show(Text(Text=name), view, WindowLocation="Upper Center", FontSize=18)
 GetColorTransferFunction("radius").RGBPoints = [0.0025, 0.27, 0.45, 0.7, 0.004, 0.95, 0.6, 0.2]
 strip.SetSize(1000, 600)
-SaveScreenshot("packings.png", strip, SeparatorWidth=0)
+SaveScreenshot("packings.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # Check the text: no particles overlap in either file, not even across the periodic faces.
 for name, dialect in itertools.product(sources, ("LIGGGHTS", "LAMMPS")):

@@ -19,7 +19,6 @@ def write(name):
         granular.save(small, f"{name}_{mode}.dump", WriteTimeSteps=1, Dialect="LIGGGHTS",
                       ParallelMode=mode)
 
-    LoadPalette("WhiteBackground")
     view = GetActiveViewOrCreate("RenderView")
     granular.set_properties(view, ViewSize=[560, 600], ViewTime=3000, OrientationAxesVisibility=0)
     with_ranks, rank = granular.process_ids(small)
@@ -33,7 +32,7 @@ def write(name):
     Render(view)  # the first picture moves the camera
     granular.set_properties(view, CameraPosition=[0.20, -0.33, 0.19], CameraFocalPoint=[0.008, 0, 0.07],
                             CameraViewUp=[0, 0, 1])
-    SaveScreenshot(f"{name}.png", view)
+    SaveScreenshot(f"{name}.png", view, OverrideColorPalette="WhiteBackground")
 
 
 if len(sys.argv) > 1:

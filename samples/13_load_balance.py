@@ -12,7 +12,6 @@ particles = granular.reader(data / "grains.dump")
 # The run had four ranks, `processors 2 1 2`. Each subdomain is a voxel.
 domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 for place, part in ((0, 1 / 4), (2, 1 / 3), (6, 1 / 2)):
     strip.SplitHorizontal(place, part)
@@ -34,7 +33,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="particles per rank", 
                         **granular.label_format("%.0f"))
 voxels.SetScalarBarVisibility(view, True)
 strip.SetSize(1400, 520)
-SaveScreenshot("load_balance.png", strip, SeparatorWidth=0)
+SaveScreenshot("load_balance.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 
 def count(**properties):

@@ -17,7 +17,6 @@ def show(name):
     near = D3(Input=particles)
     shares = {"as they are read": (particles, GranularDecomposition(Input=particles, Mode="Ranks")),
               "redistributed": (near, GranularDecomposition(Input=near, Mode="Ranks"))}
-    LoadPalette("WhiteBackground")
     strip = CreateLayout()
     strip.SplitHorizontal(0, 0.5)
     for place, (text, (inside, boxes)) in zip((1, 2), shares.items()):
@@ -39,7 +38,7 @@ def show(name):
                                 IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
     HideScalarBarIfNotNeeded(colors, view)
     strip.SetSize(1000, 560)
-    SaveScreenshot(f"{name}.png", strip, SeparatorWidth=0)
+    SaveScreenshot(f"{name}.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
     for text, (_, boxes) in shares.items():
         boxes.UpdatePipeline(2000)
         SaveData("shares.csv", boxes, FieldAssociation="Cell Data")  # of all processes

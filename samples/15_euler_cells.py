@@ -16,7 +16,6 @@ middle = Slice(Input=fields, SliceType="Plane")
 granular.set_properties(middle.SliceType, Origin=[0, 0, 0.075], Normal=[0, 1, 0])
 surface = Contour(Input=fields, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.3])
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
@@ -46,7 +45,7 @@ for view in views:
     granular.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
                             CameraViewUp=[0, 0, 1])
 strip.SetSize(1200, 480)
-SaveScreenshot("euler_cells.png", strip, SeparatorWidth=0)
+SaveScreenshot("euler_cells.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 
 def fetch(**properties):

@@ -60,7 +60,6 @@ for step in (1000, 2000, 3000, 4000):
     assert apart["v_avg"][~shared].max() < 5e-6 + 5e-7, step
     assert (apart["v_avg"] <= 5.5e-6 + 3.5e-5 * abs(theirs["v_avg"])).all(), step
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 0.5)
 for place, (text, proxy) in zip((1, 2), {"LIGGGHTS": files, "from the dump": averages}.items()):
@@ -83,4 +82,4 @@ granular.set_properties(GetScalarBar(colors, view), Title="volume fraction", Com
                         **granular.label_format("%.2f"))
 shown.SetScalarBarVisibility(view, True)
 strip.SetSize(1000, 560)
-SaveScreenshot("euler_files.png", strip, SeparatorWidth=0)
+SaveScreenshot("euler_files.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")

@@ -17,7 +17,6 @@ thickness = Calculator(Input=strength, AttributeType="Cell Data", ResultArrayNam
 chains = Tube(Input=CellDatatoPointData(Input=thickness), Scalars=["POINTS", "thickness"],
               VaryRadius="By Absolute Scalar", NumberofSides=12)
 
-LoadPalette("WhiteBackground")
 view = CreateRenderView(ViewSize=[1000, 500], OrientationAxesVisibility=0)
 grey = granular.show(particles, view)
 granular.set_properties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
@@ -30,7 +29,7 @@ Show(OutputPort(particles, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] 
 Render(view)
 granular.set_properties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoint=[0.004, 0, 0.006],
                         CameraViewUp=[0, 0, 1])
-SaveScreenshot("force_chains.png", view)
+SaveScreenshot("force_chains.png", view, OverrideColorPalette="WhiteBackground")
 
 # The forces on a particle that does not touch the ground: its weight and its contacts, opposite at both ends.
 rows = servermanager.Fetch(contacts, 0).GetCellData()

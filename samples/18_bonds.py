@@ -12,7 +12,6 @@ beads = granular.reader(data / "chain.dump", dt=0.004)
 bonds = granular.reader(data / "chain_bonds.dump", dt=0.004, Preset="BondTypeIdsForce")
 lines = GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1), Averages="v", EquilibriumLength=1.05)
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitVertical(0, 1 / 3)
 strip.SplitVertical(2, 1 / 2)
@@ -32,7 +31,7 @@ for place, periodic in ((1, "AsWritten"), (5, "MinimumImage"), (6, "Split")):
     granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
                             CameraViewUp=[0, 0, 1], CameraParallelScale=8.5)
 strip.SetSize(900, 900)
-SaveScreenshot("bonds.png", strip, SeparatorWidth=0)
+SaveScreenshot("bonds.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # The simulation wrote the length of its bonds; the lines have the same lengths in all three frames.
 for step in 0, 500, 1000:

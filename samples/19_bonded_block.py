@@ -19,7 +19,6 @@ bent = Calculator(Input=sided, CoordinateResults=1,
 before = GranularLocalJoin(Input=sided, Lines=bonds)
 after = GranularLocalJoin(Input=bent, Lines=kept)
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 0.5)
 for place, particles, lines, text in ((1, sided, before, "whole"), (2, bent, after, "cut and bent")):
@@ -35,7 +34,7 @@ for place, particles, lines, text in ((1, sided, before, "whole"), (2, bent, aft
     granular.set_properties(view, CameraPosition=[0.13, -0.3, 0.14], CameraFocalPoint=[0.08, 0.025, 0.02],
                             CameraViewUp=[0, 0, 1])
 strip.SetSize(1200, 480)
-SaveScreenshot("bonded_block.png", strip, SeparatorWidth=0)
+SaveScreenshot("bonded_block.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 
 def fetch(proxy, *names):

@@ -10,7 +10,6 @@ data = Path(__file__).parent / "data" / "restart"
 fibres = granular.reader([data / f"fibres.{step}.restart" for step in (10000, 20000, 40000)], dt=1e-6)
 bonds = OutputPort(fibres, 1)
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 2)
 views = []
@@ -35,7 +34,7 @@ for place, time in ((1, 0.01), (2, 0.04)):
 colours = GetColorTransferFunction("bending moment [N m]")
 colours.RescaleTransferFunction(0, 8e-6)
 strip.SetSize(1200, 500)
-SaveScreenshot("restart_file.png", strip, SeparatorWidth=0)
+SaveScreenshot("restart_file.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 for time in 0.01, 0.02, 0.04:
     fibres.UpdatePipeline(time)

@@ -11,7 +11,6 @@ data = Path(__file__).parent / "data" / "bonds"
 chains = granular.reader(data / "chain.data", AtomStyle="bond")
 bonds = OutputPort(chains, 1)
 
-LoadPalette("WhiteBackground")
 view = CreateRenderView(OrientationAxesVisibility=0, ViewSize=[1000, 500])
 beads = Show(chains, view, Representation="Grains", GrainScale=0.3, GrainRadiusArray="")
 ColorBy(beads, ("POINTS", "mol"))
@@ -21,7 +20,7 @@ Show(OutputPort(chains, 2), view, AmbientColor=[0.4] * 3, DiffuseColor=[0.4] * 3
 Render(view)
 granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
                         CameraViewUp=[0, 0, 1], CameraParallelScale=9)
-SaveScreenshot("data_file.png", view)
+SaveScreenshot("data_file.png", view, OverrideColorPalette="WhiteBackground")
 
 particles, lines = (servermanager.Fetch(chains, idx=port) for port in (0, 1))
 lengths = np.array(lines.GetCellData().GetArray("length"))

@@ -14,7 +14,6 @@ tails = GranularTrajectories(Input=grains, NumberOfSamples=40, Tail=8)
 # Three grains from the first frame to the last. The box is periodic in x and y, and paths go on outside.
 whole = GranularTrajectories(Input=grains, Ids="17 100 200")
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
@@ -38,7 +37,7 @@ for place, moment in zip((1, 5, 6), moments):
     Render(view)
     granular.set_properties(view, CameraPosition=[0.16, -0.32, 0.16], CameraFocalPoint=[0, 0, 0.072], CameraViewUp=[0, 0, 1])
 strip.SetSize(1200, 600)
-SaveScreenshot("tails.png", strip, SeparatorWidth=0)
+SaveScreenshot("tails.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # A tail is the end of the whole path: nine places, eight steps.
 paths = servermanager.Fetch(whole)

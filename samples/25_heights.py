@@ -17,7 +17,6 @@ log = granular.read_log(data / "falling_log.txt")
 np.savetxt("energy.csv", np.column_stack((log.times, 1000 * log["KinEng"])), delimiter=",", header="time,energy [mJ]", comments="")
 energy = CSVReader(FileName=["energy.csv"])
 
-LoadPalette("WhiteBackground")
 chart = CreateView("XYChartView")
 heights = Show(history, chart, "XYChartRepresentation")
 names = [f"position (id {number})_Z" for number in ids]
@@ -38,7 +37,7 @@ granular.set_properties(other, UseIndexForXAxis=0, XArrayName="time", SeriesVisi
                         SeriesLineThickness=["energy [mJ]", "2"])
 granular.set_properties(chart, LeftAxisTitle="height [m]", BottomAxisTitle="time [s]", RightAxisTitle="kinetic energy [mJ]",
                         LegendLocation="TopRight", ViewSize=[900, 500])
-SaveScreenshot("heights.png", chart, ImageResolution=[900, 500])
+SaveScreenshot("heights.png", chart, ImageResolution=[900, 500], OverrideColorPalette="WhiteBackground")
 
 # The same as numpy arrays.
 found = granular.history(grains, ids=ids)

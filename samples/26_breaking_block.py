@@ -19,7 +19,6 @@ since_last = GranularCompare(Input=beads, Lines=bonds, Reference="Previous")
 broken = Threshold(Input=OutputPort(since_last, 1), Scalars=["CELLS", "change"], LowerThreshold=2, UpperThreshold=2)
 cracks = Tube(Input=ExtractSurface(Input=broken), Radius=0.15)
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 2)
 times = beads.TimestepValues
@@ -37,7 +36,7 @@ for place, moment in ((1, times[4]), (2, times[9])):
     Render(view)
     granular.set_properties(view, CameraPosition=[18, -53, 17], CameraFocalPoint=[1.5, 0, 9], CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("fragment_size")
-colors.ApplyPreset("Viridis (matplotlib)", True)
+colors.ApplyPreset(granular.preset("Viridis"), True)
 colors.RescaleTransferFunction(1, 742)
 colors.MapControlPointsToLogSpace()
 colors.UseLogScale = 1
@@ -45,7 +44,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="particles of the frag
                         WindowLocation="Lower Center", ScalarBarLength=0.5, **granular.label_format("%.0f"))
 shown.SetScalarBarVisibility(view, True)
 strip.SetSize(1200, 600)
-SaveScreenshot("breaking_block.png", strip, SeparatorWidth=0)
+SaveScreenshot("breaking_block.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 for moment in times[::3]:
     arrays = granular.fetch(since_start, time=moment)

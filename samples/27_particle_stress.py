@@ -34,13 +34,12 @@ def tubes(lines, least):
 
 mean = np.linalg.norm(np.vstack([granular.fetch(lines)["force"] for lines in (contacts, walls)]), axis=1).mean()
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 2)
 box = Outline(Input=Box(XLength=0.03, YLength=0.03, ZLength=0.036, Center=[0, 0, 0.018]))
 colors = GetColorTransferFunction("compression")
 colors.AutomaticRescaleRangeMode = "Never"
-colors.ApplyPreset("RdOrYl", True)
+colors.ApplyPreset(granular.preset("RdOrYl"), True)
 colors.InvertTransferFunction()
 colors.RescaleTransferFunction(40, 4000)
 colors.MapControlPointsToLogSpace()
@@ -64,7 +63,7 @@ granular.set_properties(GetScalarBar(colors, view), Title="pressure [Pa]", Compo
                         UseCustomLabels=1, CustomLabels=[40, 100, 200, 500, 1000, 2000, 4000], **granular.label_format("%g"))
 shown.SetScalarBarVisibility(view, True)
 strip.SetSize(1200, 600)
-SaveScreenshot("particle_stress.png", strip, SeparatorWidth=0)
+SaveScreenshot("particle_stress.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 
 # At rest the contacts of a particle bear its weight.

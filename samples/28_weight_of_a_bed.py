@@ -54,7 +54,6 @@ for name, (of_contacts, of_walls) in BEDS.items():
     print(f"{name}: weight {total:.3f} mN, floor {floor:.3f} mN, side walls {sides:.3f} mN; "
           f"balance at any height to {error:.0e} of the largest pressure")
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
@@ -97,4 +96,4 @@ for place, title, shown in (
                                 SeriesLineStyle=["height", "0" if points else "1"], SeriesMarkerSize=["height", "7"],
                                 SeriesMarkerStyle=["height", "4" if points else "0"])
 strip.SetSize(1200, 500)
-SaveScreenshot("weight_of_a_bed.png", strip, SeparatorWidth=0)
+SaveScreenshot("weight_of_a_bed.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")

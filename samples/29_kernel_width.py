@@ -26,7 +26,6 @@ circles = Slice(Input=spheres)
 granular.set_properties(circles.SliceType, Origin=[0, 0, 0], Normal=[0, 1, 0])
 box = Outline(Input=Box(XLength=SIDE, YLength=SIDE, ZLength=0.036, Center=[0, 0, 0.018]))
 
-LoadPalette("WhiteBackground")
 strip = CreateLayout()
 strip.SplitVertical(0, 1 / 2)
 for half in range(1, 7):
@@ -35,7 +34,7 @@ for row, (name, title, scheme, labels) in enumerate((("volumefraction", "volume 
                                                      ("pressure", "pressure [Pa]", "RdOr", [0, 100, 200, 300, 400]))):
     colors = GetColorTransferFunction(name)
     colors.AutomaticRescaleRangeMode = "Never"
-    colors.ApplyPreset(scheme, True)
+    colors.ApplyPreset(granular.preset(scheme), True)
     colors.InvertTransferFunction()
     colors.RGBPoints = [*colors.RGBPoints[:1], 1, 1, 1, *colors.RGBPoints[4:]]  # nothing is white
     colors.NumberOfTableValues = 16
@@ -58,7 +57,7 @@ for row, (name, title, scheme, labels) in enumerate((("volumefraction", "volume 
             shown.SetScalarBarVisibility(view, True)
     colors.RescaleTransferFunction(0, labels[-1])
 strip.SetSize(1200, 800)
-SaveScreenshot("kernel_width.png", strip, SeparatorWidth=0)
+SaveScreenshot("kernel_width.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 # Inside the bed the volume fraction should be one number. At the surface it should fall at once.
 variations, falls = [], []

@@ -324,6 +324,10 @@ class Style(unittest.TestCase):
                 "core/a.cpp:11", "core/a.cpp:4", "core/a.cpp:5", "core/a.cpp:8", "core/a.cpp:9",
                 "plugin/vtk/a.cxx:4"])
 
+    def test_scripts(self):
+        text = '# SPDX-License-Identifier: BSD-3-Clause\nc.ApplyPreset("Plasma")\nc.ApplyPreset(granular.preset("Plasma"))\nLoadPalette("White")\n'
+        self.assertEqual(found(style.check, samples__a_dot_py=text, tests__a_dot_py=text), ["samples/a.py:2", "samples/a.py:4"])
+
 
 class TypeNames(unittest.TestCase):
     def test_two_of_a_name(self):
@@ -385,6 +389,11 @@ class vtkGranularA : public vtkPolyDataAlgorithm
                           self.property('name="d"')))
         self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)),
                          ["xml/a.xml:3", "xml/a.xml:4", "xml/a.xml:5"])
+
+    def test_names_of_times(self):
+        body = "\n".join(self.property(f'name="{name}"') for name in (
+            'TimeRange', 'TimestepValues" information_only="1', 'TimeWindow', 'TimestepValues'))
+        self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)), ["xml/a.xml:3", "xml/a.xml:6"])
 
     def test_times(self):
         size, other = (self.property(f'name="{name}"') for name in ("TimestepSize", "b"))

@@ -23,6 +23,11 @@ BANNED = (
      r"sto(?:f|d|ld|i|l|ll|ul|ull))\s*\(",
      "depends on the locale: use granular/numbers/number.h"),
 )
+# The same in scripts of users: samples, the guide, README.
+SCRIPTS = (
+    (r"\bApplyPreset\((?!granular\.preset\()", "names a preset that another ParaView may call otherwise: use granular.preset"),
+    (r"\bLoadPalette\(", "stays in the user's own settings: use OverrideColorPalette of SaveScreenshot"),
+)
 # Words that mean "not finished"; spelled so that this file does not hold them.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
 
@@ -67,6 +72,14 @@ def check_banned(path, text):
             yield path, tree.line_of(code, match.start()), f"{name} {why}"
 
 
+def check_script(path, text):
+    if not re.match(r"samples/|docs/|README", path):
+        return
+    for what, why in SCRIPTS:
+        for match in re.finditer(what, text):
+            yield path, tree.line_of(text, match.start()), f"{match.group()} {why}"
+
+
 def check(root):
     for path in tree.files(root):
         if NOT_TEXT.search(path):
@@ -75,6 +88,7 @@ def check(root):
         yield from check_text(path, text)
         yield from check_licence(path, text)
         yield from check_banned(path, text)
+        yield from check_script(path, text)
 
 
 if __name__ == "__main__":
