@@ -39,7 +39,7 @@ void vtkGranularPathAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << bound;
   }
   os << "\n" << indent << "SelectionFrame: " << this->SelectionFrame << "\n";
-  os << indent << "TimeRange: " << this->TimeRange[0] << " " << this->TimeRange[1] << "\n";
+  os << indent << "TimeWindow: " << this->TimeWindow[0] << " " << this->TimeWindow[1] << "\n";
   os << indent << "FrameStride: " << this->FrameStride << "\n";
   os << indent << "Arrays: " << TextOf(this->Arrays) << "\n";
 }

@@ -8,7 +8,7 @@
  * requests one time after the other. Ghost duplicates are left out. An id that repeats in a frame is an error.
  *
  * Selected are the particles that fulfil all of SetIds, SetEveryNth, SetRegionOfInterest and SetNumberOfSamples. Frames are those in
- * the TimeRange, of which FrameStride leaves every n-th.
+ * the TimeWindow, of which FrameStride leaves every n-th.
  *
  * Places are unwrapped: each path begins where the input shows the particle, and goes on by the image counts `image` (ix iy iz) where
  * the frames have them, otherwise to the nearest image of the place before; a warning counts steps longer than a quarter of a period.
@@ -80,13 +80,13 @@ public:
   /**
    * Sets the first and last time of the frames. (1, -1), the default, or any others with first > last: all.
    */
-  vtkSetVector2Macro(TimeRange, double);
-  vtkGetVector2Macro(TimeRange, double);
+  vtkSetVector2Macro(TimeWindow, double);
+  vtkGetVector2Macro(TimeWindow, double);
   ///@}
 
   ///@{
   /**
-   * Sets n of every n-th frame in the TimeRange, from its first on; at least 1. 1 by default: all.
+   * Sets n of every n-th frame in the TimeWindow, from its first on; at least 1. 1 by default: all.
    */
   vtkSetClampMacro(FrameStride, int, 1, VTK_INT_MAX);
   vtkGetMacro(FrameStride, int);
@@ -112,7 +112,7 @@ protected:
   int Seed = 0;
   double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
   int SelectionFrame = -1;
-  double TimeRange[2] = { 1, -1 };
+  double TimeWindow[2] = { 1, -1 };
   int FrameStride = 1;
   char* Arrays = nullptr;
 

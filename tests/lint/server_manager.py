@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The XML of the server manager against the classes it speaks of: every command is a method of the
 class, an element of our own has its proxy class, every property says what it is, no property has a
-label (a label would become its name in Python), no two proxies of a kind claim one file
-extension, but readers that look into files, and the panel of a reader with times begins with them."""
+label (a label would become its name in Python) or a name that ParaView takes for the times of the
+data, no two proxies of a kind claim one file extension, but readers that look into files, and the
+panel of a reader with times begins with them."""
 import os
 import re
 from xml.parsers import expat
@@ -14,6 +15,8 @@ INHERITED = {
     "AddInputConnection", "AddInputData", "Modified", "RemoveAllInputs", "SetInputConnection",
     "SetInputData", "Update", "Write",
 }
+# ParaView's time keeper asks each source for these, so a setting of such a name would change the animation.
+TIMES = {"TimestepValues", "TimeRange", "TimeLabelAnnotation"}
 COMMANDS = ("command", "clean_command", "set_number_command")
 SHORTEST_DOCUMENTATION = 20
 
@@ -85,6 +88,8 @@ def check_property(path, prop, known, proxies_class):
             yield path, prop.line, f"{name}: {attribute} {command} is not a method of {proxies_class}"
     if "label" in prop.attributes:
         yield path, prop.line, f"{name}: a label becomes the property's name in Python: leave it out"
+    if name in TIMES and not prop.get("information_only"):
+        yield path, prop.line, f"{name}: ParaView takes it for the times of the data: choose another name, or information_only"
     text = " ".join(" ".join(child.text for child in prop.children
                              if child.tag == "Documentation").split())
     if len(text) < SHORTEST_DOCUMENTATION:

@@ -117,7 +117,7 @@ assert history(grains, "expected at most 1000 particles for columns of their own
 assert len(both(grains, EveryNth=2)) == 2 + len({int(i) for frame in frames if frame.rows for i in frame.columns["id"]
                                                  if int(i) % 2 == 0})
 assert list(both(grains, Ids="-5")) == ["time", "timestep"]
-assert len(both(grains, TimeRange=(500, 1500), Ids="5")["time"]) == 1
+assert len(both(grains, TimeWindow=(500, 1500), Ids="5")["time"]) == 1
 assert both(walk, FrameStride=7, Ids="5")["timestep"].tolist() == list(range(0, 601, 140))
 
 # the time that is shown does not matter

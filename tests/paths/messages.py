@@ -83,7 +83,7 @@ for kind in ("Trajectories", "History"):
                 ({"Ids": "1;2"}, {"Ids": "1"}, "got '1;2'"),
                 ({"SelectionFrame": 31, "NumberOfSamples": 1}, {"SelectionFrame": 30}, "expected a SelectionFrame from -31 to 30, got 31"),
                 ({"SelectionFrame": -32}, {"SelectionFrame": -31}, "got -32"),
-                ({"TimeRange": (5, 6)}, {"TimeRange": (1, -1)}, "expected a TimeRange with frames, got none from 5.000000 to 6.000000"),
+                ({"TimeWindow": (5, 6)}, {"TimeWindow": (1, -1)}, "expected a TimeWindow with frames, got none from 5.000000 to 6.000000"),
                 ({"Arrays": "v nothing"}, {"Arrays": "v"}, "expected an array 'nothing' of the particles, got none in any frame")):
             set_all(filter_, **bad)
             fails(filter_, *parts)
@@ -154,7 +154,7 @@ for through in (False, True):
             filter_.SetIds(ids)
             works(filter_) if ids == "1 2 4" else fails(filter_, "got id 3")
         filter_.SetIds("")
-        filter_.SetTimeRange(150, 250)
+        filter_.SetTimeWindow(150, 250)
         works(filter_)
 
 # no ids
@@ -185,7 +185,7 @@ for kind in ("Trajectories", "History"):
     elevation.SetInputConnection(reader.GetOutputPort())
     filter_ = filter_of(kind, elevation)
     fails(filter_, "the input could not be made: see the messages before")
-    filter_.SetTimeRange(150, 250)
+    filter_.SetTimeWindow(150, 250)
     works(filter_, 200)
 
 # ---- inputs that are none ------------------------------------------------------------------------------------------
@@ -312,7 +312,7 @@ trajectories = filter_of("Trajectories", reader_of(walk))
 set_all(trajectories, Ids="5-9", Arrays="v", Tail=3)
 text = str(trajectories)
 for line in ("Ids: 5-9", "EveryNth: 1", "NumberOfSamples: 0", "Seed: 0", "RegionOfInterest: 1 -1 1 -1 1 -1", "SelectionFrame: -1",
-             "TimeRange: 1 -1", "FrameStride: 1", "Arrays: v", "PeriodicLines: 0", "Tail: 3", "Threads: 0"):
+             "TimeWindow: 1 -1", "FrameStride: 1", "Arrays: v", "PeriodicLines: 0", "Tail: 3", "Threads: 0"):
     assert f"  {line}\n" in text, line
 text = str(filter_of("History", reader_of(walk)))
 for line in ("OutputType: 0", "Quantiles: 0.5", "MeanSquareDisplacement: Off"):

@@ -185,20 +185,20 @@ for frame in (3, -4):
     assert both(NumberOfSamples=3, SelectionFrame=frame, said=f"expected a SelectionFrame from -3 to 2, got {frame}") == {}
 
 # frames
-assert {line["time"][0] for lines in both(TimeRange=[500, 1500]).values() for line in lines} == {1000.}
-alone = both(TimeRange=[1000, 1000])
+assert {line["time"][0] for lines in both(TimeWindow=[500, 1500]).values() for line in lines} == {1000.}
+alone = both(TimeWindow=[1000, 1000])
 assert len(alone) == frames[1].rows and all(len(lines) == 1 and len(lines[0]["points"]) == 1 and lines[0]["speed"][0] == 0
                                             and lines[0]["length"] == 0 for lines in alone.values())
-proxy = GranularTrajectories(Input=grains, TimeRange=[1000, 1000])
+proxy = GranularTrajectories(Input=grains, TimeWindow=[1000, 1000])
 proxy.UpdatePipeline(0)
 output = proxy.GetClientSideObject().GetOutput()
 assert output.GetNumberOfVerts() == frames[1].rows and output.GetNumberOfLines() == 0
 Delete(proxy)
 assert sorted({t for lines in both(FrameStride=2).values() for line in lines for t in line["time"]}) == [2000.]
-assert sorted({t for lines in both(FrameStride=2, TimeRange=[1, 1e9]).values() for line in lines for t in line["time"]}) == [1000.]
-assert both(TimeRange=[1, 2], said="expected a TimeRange with frames, got none from 1.000000 to 2.000000") == {}
+assert sorted({t for lines in both(FrameStride=2, TimeWindow=[1, 1e9]).values() for line in lines for t in line["time"]}) == [1000.]
+assert both(TimeWindow=[1, 2], said="expected a TimeWindow with frames, got none from 1.000000 to 2.000000") == {}
 for first_time, last_time in ((5, 4), (1, -1)):
-    assert plain_paths.same(both(TimeRange=[first_time, last_time]), everything)
+    assert plain_paths.same(both(TimeWindow=[first_time, last_time]), everything)
 
 # arrays
 names = {"type", "image", "v", "f", "omega", "radius", "mass"}
@@ -260,7 +260,7 @@ for source in (walkers, hidden):
         shown = sorted({t for each in lines.values() for line in each for t in line["time"]})
         wanted = times[max(0, number - 4):number + 1]
         assert shown == [t for t in wanted if source is walkers or t != times[5]], (number, shown)
-        fresh = draw(source, times[number], TimeRange=[wanted[0], wanted[-1]], Arrays="*")
+        fresh = draw(source, times[number], TimeWindow=[wanted[0], wanted[-1]], Arrays="*")
         assert plain_paths.same(lines, fresh), number
     # in between, before and after
     for time, number in ((times[7] + 0.01, 7), (-5, 0), (1e9, 30)):
@@ -289,7 +289,7 @@ tail = GranularTrajectories(Input=grains, Tail=1, Arrays="*")
 for time in (0, 1000, 2000, 0, 1000, 2000, 1000, 0):
     lines, messages = update(tail, time)
     assert messages == []
-    fresh = draw(grains, time, TimeRange=[time - 1000, time], Arrays="*") if time else {}
+    fresh = draw(grains, time, TimeWindow=[time - 1000, time], Arrays="*") if time else {}
     assert plain_paths.same(lines, fresh), time
 Delete(tail)
 
@@ -305,7 +305,7 @@ for source in (changing, beside(changing)):
     for time in (0, 1, 2, 3, 4, 3, 2, 1, 0, 4, 0, 2):
         lines, messages = update(tail, time)
         assert messages == [], messages
-        fresh = draw(source, time, TimeRange=[time - 2, time], Arrays="*")
+        fresh = draw(source, time, TimeWindow=[time - 2, time], Arrays="*")
         assert plain_paths.same(lines, fresh), time
     Delete(tail)
     lines = draw(source, 2, Arrays="*")

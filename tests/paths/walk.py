@@ -107,7 +107,7 @@ if all_ranks.ranks.GetNumberOfProcesses() == 1:
 
     # what cannot be
     for properties, said in (({"Arrays": "nothing"}, "got none in any frame"), ({"Ids": "5-"}, "got '5-'"),
-                             ({"TimeRange": [1e6, 2e6]}, "TimeRange"), ({"SelectionFrame": 31, "NumberOfSamples": 1}, "got 31")):
+                             ({"TimeWindow": [1e6, 2e6]}, "TimeWindow"), ({"SelectionFrame": 31, "NumberOfSamples": 1}, "got 31")):
         try:
             granular.update(GranularTrajectories(Input=walk, **properties))
         except RuntimeError as error:

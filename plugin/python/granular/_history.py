@@ -20,7 +20,7 @@ def history(reader: Any, ids: str | int | Iterable[int] = "", arrays: str | Iter
     reader      a source or filter of paraview.simple with particles, such as granular.reader returns
     ids         ids of at most 1000 particles: a number, a list, or a text like "5 10-20 100-900:50". Empty: all
     arrays      names of point arrays, as one text or a list
-    properties  others of GranularHistory: EveryNth, NumberOfSamples, RegionOfInterest, TimeRange, FrameStride, ...
+    properties  others of GranularHistory: EveryNth, NumberOfSamples, RegionOfInterest, TimeWindow, FrameStride, ...
 
     "time", "timestep"  of the frames, shape (frames,)
     "id"                of the particles, ascending, shape (particles,)

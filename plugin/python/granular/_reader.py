@@ -48,6 +48,8 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
            **properties: Any) -> Any:
     """Returns the ParaView reader that fits a file, updated to its frames and arrays.
 
+    The first reader with times sets the animation: it plays these times, and SaveAnimation writes a picture for each.
+
     paths       a file, a pattern as the `dump` command has it (see granular.files), or a list of these: the files of one
                 run. Particle dumps, contacts and bonds, restart files, data files, decompositions and Euler cells are told
                 apart by their contents.
@@ -84,5 +86,8 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
             setattr(made, name, value)
         controller.PostInitializeProxy(made)
         made.UpdatePipelineInformation()
+    first = not simple.GetTimeKeeper().TimestepValues
     controller.RegisterPipelineProxy(made, os.path.basename(names[0]))
+    if first:  # as the window does; a film then has a picture for each frame
+        simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     return made

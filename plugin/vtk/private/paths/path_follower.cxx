@@ -63,7 +63,7 @@ void vtkGranularPathAlgorithm::Follower::ReadInput()
 void vtkGranularPathAlgorithm::Follower::ChooseFrames()
 {
   const std::vector<double>& times = this->Frames.GetTimes();
-  const auto [first, last] = this->Self->TimeRange;
+  const auto [first, last] = this->Self->TimeWindow;
   std::size_t count = 0; // in the range
   for (std::size_t i = 0; i < this->Frames.GetSize(); ++i)
   {
@@ -77,7 +77,7 @@ void vtkGranularPathAlgorithm::Follower::ChooseFrames()
   }
   if (this->Numbers.empty())
   {
-    throw granular::Error("expected a TimeRange with frames, got none from " +
+    throw granular::Error("expected a TimeWindow with frames, got none from " +
       std::to_string(first) + " to " + std::to_string(last));
   }
 }

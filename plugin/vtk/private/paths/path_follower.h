@@ -31,7 +31,7 @@ public:
 
 protected:
   /**
-   * Chooses the particles, and the frames among those of the TimeRange. Throws Error if a frame does not exist.
+   * Chooses the particles, and the frames among those of the TimeWindow. Throws Error if a frame does not exist.
    */
   void Choose();
 
