@@ -36,7 +36,7 @@ assert film(grains, "reader") == 2
 
 contacts = granular.reader(os.path.join(data, "moving_contacts.dump.gz"), dt=0.5, ColumnMap="pos vel id force delta")
 inputs = {"Input": grains, "Lines": contacts, "Points": grains}
-names = sorted(name for group in ("sources", "filters") for name in dir(getattr(servermanager, group)) 
+names = sorted(name for group in ("sources", "filters") for name in dir(getattr(servermanager, group))
                if name.startswith("Granular") and not name.endswith("Reader"))
 assert len(names) >= 10, names
 for name in names:
