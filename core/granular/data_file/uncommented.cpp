@@ -28,11 +28,13 @@ std::size_t Uncommented::read(std::int64_t offset, char* buffer, std::size_t byt
   const bool begins_inside = this->is_comment(offset);
   const std::size_t got = source_.read(offset, buffer, bytes);
   char* const end = buffer + got;
-  for (char* at = begins_inside ? buffer : std::find(buffer, end, '#'); at != end;)
+  for (char* at = begins_inside ? buffer : std::find(buffer, end, '#'); at != end;
+       at = std::find(at, end, '#'))
   {
-    char* const feed = std::find(at, end, '\n');
-    std::fill(at, feed, ' ');
-    at = std::find(feed, end, '#');
+    while (at != end && *at != '\n')
+    {
+      *at++ = ' ';
+    }
   }
   return got;
 }

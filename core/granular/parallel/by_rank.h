@@ -31,8 +31,9 @@ ByRank sort_by_rank(std::size_t count, std::size_t ranks, const RankOf& rank_of)
   }
   std::vector<std::int64_t> next(ranks + 1);
   std::exclusive_scan(sorted.counts.begin(), sorted.counts.end(), next.begin(), std::int64_t{ 0 });
+  const std::int64_t left_out = sorted.counts[ranks];
   sorted.counts.pop_back();
-  sorted.places.resize(static_cast<std::size_t>(next.back()));
+  sorted.places.resize(count - static_cast<std::size_t>(left_out));
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::size_t rank = rank_of(i);
