@@ -168,7 +168,7 @@ void take_lines(granular_frame& frame, LocalFrame&& local)
   take_rows(frame, std::move(local.table), local_known_columns());
 }
 
-const FrameArray& find_array(const granular_frame& frame, const std::string& name)
+const FrameArray& find_array(const granular_frame& frame, std::string_view name)
 {
   const FrameArray* const found = frame.find(name);
   if (found != nullptr)
@@ -180,7 +180,7 @@ const FrameArray& find_array(const granular_frame& frame, const std::string& nam
   {
     list += (list.empty() ? "" : ", ") + array.name;
   }
-  throw BadArgument("expected an array of " + list + ", got '" + name + "'");
+  throw BadArgument("expected an array of " + list + ", got '" + std::string(name) + "'");
 }
 
 Box make_box(const granular_box& box)

@@ -83,7 +83,7 @@ const granular::KnownColumn* find_known(
   std::string_view array, std::span<const granular::KnownColumn> table) noexcept;
 
 /// Returns an array by its name. Throws BadArgument that lists those there are.
-const FrameArray& find_array(const granular_frame& frame, const std::string& name);
+const FrameArray& find_array(const granular_frame& frame, std::string_view name);
 
 /// Copies an array into memory of the caller. Throws BadArgument if there is too little room, or a number does not fit the
 /// type.
