@@ -42,9 +42,20 @@ assert "usage" in granular("--help")[0]
 for command in ("info", "check", "convert", "stats", "show"):
     assert command in granular("--help")[0] and "exit status" in granular(command, "--help")[0]
 
-# head leaves before all is told
-shell = subprocess.run(f"{sys.executable} {os.environ['GRANULAR_COMMAND']} stats {source} | head -1", shell=True, capture_output=True, text=True)
-assert shell.returncode == 0 and not shell.stderr and shell.stdout.startswith("step 0"), shell
+# head leaves before all is told, or before anything is; a full disk is an error
+buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+for _ in range(10):
+    shell = subprocess.run(f"{sys.executable} {os.environ['GRANULAR_COMMAND']} stats {source} | head -1", shell=True, capture_output=True,
+                           text=True, env=buffered)
+    assert shell.returncode == 0 and not shell.stderr and shell.stdout.startswith("step 0"), shell
+for arguments in (("info", source), ("stats", source), ("stats", "--csv", "--quiet", source), ("check", source), ("--help",), ("info", "--help")):
+    reader, writer = os.pipe()
+    os.close(reader)
+    for out, expected in ((writer, (0, "")), (os.open("/dev/full", os.O_WRONLY), (1, "granular: [Errno 28] No space left on device\n"))):
+        done = subprocess.run([sys.executable, os.environ["GRANULAR_COMMAND"], *arguments], stdout=out, stderr=subprocess.PIPE, text=True,
+                              env=buffered)
+        os.close(out)
+        assert (done.returncode, done.stderr) == expected, (arguments, done)
 
 # the manual page is made of the options, and troff understands it; bash completes commands, options and choices
 for kind in ("man", "bash"):

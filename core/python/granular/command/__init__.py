@@ -118,29 +118,39 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
+def _flush() -> None:
+    """Writes out what was printed: at Python's own end it is too late for an error. After an error the rest is dropped."""
+    try:
+        if sys.stdout:  # it may be closed
+            sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command and returns its exit status."""
-    from .. import Cancelled
+    from .. import Cancelled, Error
 
     words = list(sys.argv[1:] if arguments is None else arguments)
     for i in range(len(words) - 1, 0, -1):
         if words[i - 1] in ("--frames", "--frame") and re.match(r"-\d", words[i]):  # argparse takes -2: for an option
             words[i - 1:i + 1] = [f"{words[i - 1]}={words[i]}"]
-    given = parser().parse_args(words)
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("once")
-            warnings.showwarning = lambda message, *_: say(str(message))  # type: ignore[assignment]
-            return given.run(given) or 0
+        try:
+            given = parser().parse_args(words)
+            with warnings.catch_warnings():
+                warnings.simplefilter("once")
+                warnings.showwarning = lambda message, *_: say(str(message))  # type: ignore[assignment]
+                return given.run(given) or 0
+        finally:
+            _flush()
     except (KeyboardInterrupt, Cancelled):
         say("interrupted; files that were there are as they were")
         return INTERRUPTED
     except BrokenPipeError:  # the reader of a pipe, such as head, has left
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except (ValueError, ImportError) as error:
-        from .. import Error
-
         say(str(error))
         return USAGE if not isinstance(error, Error) and isinstance(error, ValueError) else WRONG
     except (RuntimeError, OSError, MemoryError) as error:
