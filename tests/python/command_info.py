@@ -68,8 +68,17 @@ complete_words() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _granular; echo "$
 complete_words granular c
 complete_words granular info --js
 complete_words granular convert a.dump --style e
-touch some_file.dump; complete_words granular info some_f
 """
 done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True)
-assert done.stdout.split("\n")[:4] == ["check convert", "--json", "euler", "some_file.dump"], (done.stdout, done.stderr)
+assert done.stdout.split("\n") == ["check convert", "--json", "euler", ""], (done.stdout, done.stderr)
+
+# a user who types: names of files with blanks are one word
+terminal, keyboard = os.openpty()
+with open("a file of mine.dump", "w"), subprocess.Popen(["bash", "--norc", "--noprofile", "-i"], stdin=keyboard, stdout=keyboard, stderr=keyboard,
+                                                       start_new_session=True, env={**os.environ, "TERM": "dumb"}):
+    os.close(keyboard)
+    os.write(terminal, b"source ./bash; granular() { printf '<%s>' \"$@\"; }\ngranular info a\\ fi\t\nexit\n")
+    seen = b""
+    while b"<a file of mine.dump>" not in seen:
+        seen += os.read(terminal, 1000)  # an error when the shell has gone
 print("info")

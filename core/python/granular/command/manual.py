@@ -60,7 +60,7 @@ def manual() -> str:
 
 
 def bash() -> str:
-    """Returns the completion of bash: commands, options, the words that options take, else names of files."""
+    """Returns the completion of bash: commands, options, and the words that options take; bash itself adds names of files."""
     commands = _commands()
     lines = ["# bash completion of granular; made from its options", "_granular()", "{",
              "  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\" words=",
@@ -77,8 +77,7 @@ def bash() -> str:
     for name, command in commands.items():
         options = " ".join(option for names, _, _ in _options(command) for option in names)
         lines.append(f"      {name}) words='{options}' ;;")
-    lines += ["    esac", "  fi", "  if [ -n \"$words\" ]; then", "    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))", "  else",
-              "    COMPREPLY=($(compgen -f -- \"$word\"))", "  fi", "}", "complete -o filenames -F _granular granular"]
+    lines += ["    esac", "  fi", "  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))", "}", "complete -o default -F _granular granular"]
     return "\n".join(lines) + "\n"
 
 

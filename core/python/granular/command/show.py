@@ -63,11 +63,10 @@ def run(arguments: argparse.Namespace) -> None:
         raise ImportError("expected VTK or ParaView to draw with, got neither (Debian: python3-vtk9 or python3-paraview; pip: vtk)")
     picture = os.path.abspath(picture)
     given = {"files": files, "options": options, "frame": number, "color": arguments.color, "size": list(map(int, parts))}
-    package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py")
     with whole_file(picture, ".png") as temporary:
-        done = subprocess.run(_with_display([python, "-m", "granular.command.draw"]), input=json.dumps({**given, "picture": temporary}),
-                              capture_output=True, text=True, env={**os.environ, "PYTHONPATH": path})
+        # a path, because with -m Python looks for modules in the current folder, too
+        done = subprocess.run(_with_display([python, program]), input=json.dumps({**given, "picture": temporary}), capture_output=True, text=True)
         if done.returncode or not os.path.getsize(temporary):
             raise RuntimeError((done.stdout + done.stderr).strip() or f"{picture}: it was not drawn")
     print(arguments.output or os.path.basename(picture))
