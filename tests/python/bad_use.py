@@ -88,6 +88,32 @@ changing[0].read()
 os.remove("changing.dump")
 raises(FileNotFoundError, lambda: changing.refresh(), "changing.dump")
 
+# frames that are kept while files change, here or on the way to another process, are never of two files, nor of another timestep
+def write_step(step, speed):
+    arrays = {"points": numpy.zeros((2, 3)), "id": [1, 2], "type": [1, 1], "speed": [speed, speed]}
+    granular.write(f"kept_{step}.dump", arrays, box=granular.Box([0] * 3, [2] * 3, boundary="pp pp pp"), step=step)
+
+
+for step in (100, 200, 300):
+    write_step(step, step // 100)
+kept = granular.open("kept_*.dump")
+whole, part, unread, pickled, first = kept[1].read(), kept[1], kept[1], pickle.dumps(kept[1]), kept[0]
+assert part["id"].tolist() == first["id"].tolist() == [1, 2] and pickle.loads(pickled)["speed"].tolist() == [2, 2]
+write_step(200, 7)
+kept.refresh()
+raises(granular.ArgumentError, lambda: part["speed"], "kept_200.dump", "timestep 200", "take the frame anew")
+assert part["id"].tolist() == [1, 2] and whole["speed"].tolist() == [2, 2] and kept[1]["speed"].tolist() == [7, 7]
+assert unread["speed"].tolist() == [7, 7] and pickle.loads(pickled)["speed"].tolist() == [7, 7]
+os.remove("kept_100.dump")
+kept.refresh()
+for frame in (pickle.loads(pickled), unread):
+    raises(granular.ArgumentError, lambda: frame.points, "kept_200.dump: expected frame 1 to be timestep 200", "got timestep 300")  # noqa: B023
+    assert frame.step == 200
+raises(granular.ArgumentError, lambda: first["speed"], "timestep 100")
+assert whole.step == 200 and whole.points.tolist() == [[0, 0, 0]] * 2 and kept[0]["speed"].tolist() == [7, 7]
+assert [(frame["id"].sum(), frame["speed"].sum(), len(kept.refresh())) for frame in kept] == [(3, 14, 2), (3, 6, 2)]
+frame = run[-1]
+
 # a run that is closed: arrays stay, the rest says so
 velocity, other = frame["v"], run[1]
 expected = velocity.copy()

@@ -153,10 +153,15 @@ class Frame(Mapping[str, Any]):
     Arrays are read-only views of the memory that the file was decoded into; they keep it, also after the run is closed. Copy an
     array to change it. The file is read when the first array is asked for, and only this column is converted; a second
     column reads all that are left.
+
+    A frame belongs to one timestep of one file, also if it is pickled. Reading raises ArgumentError if the run has another frame at
+    its number by now, or if a part of the frame was read before the run was refreshed: take the frame anew.
     """
 
-    def __init__(self, run: Run, number: int, request: dict[str, Any] | None = None, bonds: bool = False):
+    def __init__(self, run: Run, number: int, request: dict[str, Any] | None = None, bonds: bool = False,
+                 place: tuple[int, str] | None = None):
         self._run, self._number, self._bonds, self._kind = run, number, bonds, run.kind
+        self._state, self._place = (None, place) if place else run._place_of(number)
         self._offered: Any = None
         self._request = dict(request or {})
         wanted = self._request.pop("columns", None)
@@ -169,9 +174,24 @@ class Frame(Mapping[str, Any]):
         self._lock = threading.RLock()  # a function for progress may ask the frame something
 
     # ---- reading ----
+    def _current(self) -> int:
+        """Returns the number of the frame. Raises ArgumentError if the run has another frame there, or may have since a part was read."""
+        if self._state is not self._run._state:
+            state, place = self._run._place_of(self._number) if self._number < len(self._run) else (None, None)
+            if place != self._place or self._header is not None:
+                step, path = self._place
+                found = "no such frame" if place is None else f"timestep {place[0]} of {c.shown(place[1])}" if place != self._place else \
+                    "files that were looked through again"
+                raise c.ArgumentError(f"{c.shown(path)}: expected frame {self._number} to be timestep {step} as it was, got {found}: take the "
+                                      "frame anew", path)
+            self._state, self._offered = state, None
+        return self._number
+
     def _load(self, names: list[str] | None, progress: Any = None, warn: Any = _warn) -> _Handle:
         """Reads arrays, or all usual ones and the points."""
-        handle = self._run._read(self._number, names, self._bonds, self._request, progress, warn)
+        handle = self._run._read(self._current(), names, self._bonds, self._request, progress, warn)
+        if self._header is not None:
+            self._current()  # another thread may have refreshed the run
         library = c.library()
         header = c.FrameHeader()
         library.granular_header(handle, c.byref(header))
@@ -218,7 +238,7 @@ class Frame(Mapping[str, Any]):
     def _columns(self) -> tuple[list[Column], list[Column]]:
         """The usual columns and the others; they stay when the run is closed."""
         if self._offered is None:
-            self._offered = self._run._columns(self._number, self._bonds)
+            self._offered = self._run._columns(self._current(), self._bonds)
         return self._offered
 
     def _get(self, name: str) -> Any:
@@ -255,7 +275,7 @@ class Frame(Mapping[str, Any]):
         usual, others = self._columns()
         names = [column.name for column in (*usual, *others)]
         ends = [] if {"position1", "position2"} <= set(names) else ["ends"]
-        return self._run._read(self._number, [*names, *ends], self._bonds, self._request, None)
+        return self._run._read(self._current(), [*names, *ends], self._bonds, self._request, None)
 
     def _is_array(self, name: object) -> bool:
         usual, others = self._columns()
@@ -305,16 +325,14 @@ class Frame(Mapping[str, Any]):
     @property
     def step(self) -> int:
         """The timestep."""
-        if self._header is not None:
-            return self._header["step"]
-        return self._run.steps[self._number].item()
+        return self._place[0]
 
     @property
     def time(self) -> float:
         """ITEM: TIME of the file, or timestep x dt."""
         if self._header is not None:
             return self._header["time"]
-        return self._run.times[self._number].item()
+        return self._run.times[self._current()].item()
 
     @property
     def rows(self) -> int:
@@ -363,7 +381,7 @@ class Frame(Mapping[str, Any]):
         """The bonds of a restart or data file. Raises ValueError for other files."""
         if self._kind not in ("restart", "data"):
             raise c.ArgumentError(f"expected a restart or data file, got a {self._kind} file: open the file of its bonds")
-        return Frame(self._run, self._number, {}, bonds=True)
+        return Frame(self._run, self._current(), {}, bonds=True)
 
     def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
         """Reads all that is wanted at once, and returns the frame itself."""
@@ -390,7 +408,7 @@ class Frame(Mapping[str, Any]):
 
     def __reduce__(self) -> Any:
         request = dict(self._request) if self._wanted is None else {**self._request, "columns": self._wanted}
-        return Frame, (self._run, self._number, request, self._bonds)
+        return Frame, (self._run, self._number, request, self._bonds, self._place)
 
     def __repr__(self) -> str:
         return f"<frame {self._number} of {self._run!r}: step {self.step}, columns {' '.join(self)}>"
@@ -485,7 +503,8 @@ class _Frames(Sequence[Frame]):
             names, whole = (frame._asked, frame._whole is not None) if frame else ([], False)
             if thread:
                 thread.join()
-            frame, following, thread = following or self[i], None, None
+            is_current = following is not None and following._state is following._run._state
+            frame, following, thread = following if is_current else self[i], None, None  # type: ignore[assignment]
             if i + 1 < len(self) and (names or whole):
                 following = self[i + 1]
                 # Python waits for it at the end: it calls functions of ours
@@ -544,6 +563,7 @@ class Run(_Frames):
     def __init__(self, paths: list[str], options: dict[str, Any], progress: Callable[[float], Any] | None = None):
         self._paths, self._options = paths, options
         self._handle = None
+        self._state = object()  # another one after each refresh
         self._known: dict[Any, Any] = {}
         self._lock = threading.RLock()  # strings of the library stay until the run is refreshed
         library = c.library()
@@ -581,6 +601,13 @@ class Run(_Frames):
         facts = c.RunFacts()
         c.library().granular_run_info(self._open(), c.byref(facts))
         return facts
+
+    def _place_of(self, number: int) -> tuple[object, tuple[int, str]]:
+        """Returns the state of the run, and timestep and file of a frame."""
+        with self._lock:
+            facts = c.FrameFacts()
+            c.library().granular_frame_info(self._open(), number, c.byref(facts))
+            return self._state, (facts.timestep, c.text(facts.path))
 
     def _facts(self) -> Any:
         """Timesteps, times and rows of all frames."""
@@ -717,9 +744,17 @@ class Run(_Frames):
         return made
 
     def refresh(self, progress: Callable[[float], Any] | None = None) -> Run:
-        """Looks for frames that were added and for files that changed, and returns the run itself. After an error the run is as it was."""
+        """Looks for frames that were added and for files that changed, and returns the run itself. After an error the run is as it was.
+
+        A frame that was read in part before cannot read its rest: take it anew.
+        """
         with self._lock, c.Calls(progress, _warn) as calls:
-            c.library().granular_refresh(self._open(), calls.progress, calls.notice, None)
+            before, self._state = self._state, object()  # before the library changes the run for other threads
+            try:
+                c.library().granular_refresh(self._open(), calls.progress, calls.notice, None)
+            except BaseException:
+                self._state = before
+                raise
             self._known.clear()
         return self
 
