@@ -6,6 +6,7 @@
 #include "bad_argument.h"
 #include "granular.h"
 
+#include "granular/common/caught_exception.h"
 #include "granular/common/progress.h"
 
 #include <cstring>
@@ -20,9 +21,9 @@ namespace granular_c
 granular_status keep_error(const granular::Error& error) noexcept;
 granular_status keep_error(granular_status status, const char* text) noexcept;
 
-/// Runs the body of a function.
+/// Runs the body of a function. Nothing is thrown, but a thread may end in a function of the caller.
 template <class Body>
-granular_status guarded(Body&& body) noexcept
+granular_status guarded(Body&& body)
 {
   try
   {
@@ -47,6 +48,7 @@ granular_status guarded(Body&& body) noexcept
   }
   catch (...)
   {
+    granular::caught_exception();
     return keep_error(GRANULAR_OTHER_ERROR, "unknown error");
   }
 }

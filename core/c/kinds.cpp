@@ -379,9 +379,9 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
 }
 }
 
-const std::vector<Kind>& kinds()
+std::span<const Kind> kinds()
 {
-  static const std::vector<Kind> all = {
+  static constexpr Kind all[] = {
     { GRANULAR_KIND_DUMP, is_dump_file, dump_format, false, true, true, dump_arrays,
       read_dump_frame },
     { GRANULAR_KIND_LOCAL, is_local_file, local_format, false, true, false, local_arrays,

@@ -44,8 +44,9 @@ const Kind& find_kind(granular_kind wanted, const std::string& path)
 /// What the runs of this process know of their files.
 SharedIndexes& indexes_of_process()
 {
-  static SharedIndexes indexes;
-  return indexes;
+  static auto* const indexes =
+    new SharedIndexes; // for ever: threads may read when the process ends
+  return *indexes;
 }
 
 IndexOptions index_options(const granular_open_options& options, const Kind& kind)
@@ -144,6 +145,18 @@ std::int64_t count_repeated(const FileIndex& file)
   std::ranges::sort(steps);
   return steps.end() - std::unique(steps.begin(), steps.end());
 }
+
+/// The runs that this thread reads or refreshes. A function for progress must not refresh them: it would wait for itself.
+thread_local std::vector<const granular_run*> runs_at_work;
+
+class AtWork
+{
+public:
+  explicit AtWork(const granular_run& run) { runs_at_work.push_back(&run); }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+  ~AtWork() { runs_at_work.pop_back(); }
+};
 }
 
 granular_run::granular_run(std::vector<std::string> patterns, const granular_open_options& options)
@@ -165,6 +178,13 @@ granular_run::granular_run(std::vector<std::string> patterns, const granular_ope
 
 void granular_run::refresh(Caller& caller)
 {
+  if (std::ranges::find(runs_at_work, this) != runs_at_work.end())
+  {
+    throw BadArgument(
+      "expected a refresh between the other calls of a run, got one from a function "
+      "for progress or notices of the same run");
+  }
+  const AtWork at_work(*this);
   const std::unique_lock lock(mutex);
   Notices notices;
   RunIndex updated = index; // after an error the run is as it was
@@ -221,6 +241,7 @@ const std::vector<OfferedArray>& granular_run::arrays(std::size_t frame, int tab
 std::unique_ptr<granular_frame> granular_run::read(
   std::size_t frame, const Wanted& wanted, Caller& caller)
 {
+  const AtWork at_work(*this);
   const std::vector<OfferedArray>& there = this->arrays(frame, wanted.request.table);
   for (const std::string& name : wanted.names)
   {

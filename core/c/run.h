@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <shared_mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -139,6 +140,6 @@ struct Kind
     granular::Notices& notices, granular::Progress& progress, granular_frame& to);
 };
 
-const std::vector<Kind>& kinds();
+std::span<const Kind> kinds();
 }
 #endif

@@ -8,6 +8,9 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <thread>
+
+#include <pthread.h>
 
 namespace
 {
@@ -209,6 +212,86 @@ TEST(CMisuse, ArraysThatCannotBeWritten)
   EXPECT_EQ(granular_write(writer, &nowhere), GRANULAR_BAD_ARGUMENT);
   EXPECT_NE(message().find("'points'"), std::string::npos) << message();
   granular_abandon(writer);
+}
+
+// As the threads of Python do when Python ends: no lock stays, and the run can be used.
+TEST(CMisuse, AThreadThatEndsInTheProgress)
+{
+  const auto end = [](double, void*) -> int { ::pthread_exit(nullptr); };
+  const auto ends = [](auto work)
+  {
+    bool is_through = false;
+    std::thread(
+      [&]
+      {
+        work();
+        is_through = true;
+      })
+      .join();
+    return !is_through;
+  };
+  for (const std::string name : { "grains.dump", "ortho_000000.dump.gz", "grains.bin",
+         "data_file/full.data", "local/contacts.dump", "restart/fibres.restart" })
+  {
+    granular_open_options options;
+    granular_open_options_init(&options);
+    options.column_names = "id type x y z ix iy iz vx vy vz radius";
+    const RunHandle run = open_run(good(name), &options);
+    const std::string path = good(name);
+    const char* const paths = path.c_str();
+    options.progress = end;
+    granular_run* opened = nullptr;
+    ends(
+      [&] { granular_open(&paths, 1, &options, &opened); }); // some are known, and need no progress
+    granular_close(opened);
+    granular_request request;
+    granular_request_init(&request);
+    request.threads = 3;
+    request.progress = end;
+    granular_frame* frame = nullptr;
+    EXPECT_TRUE(ends([&] { granular_read(run.get(), -1, &request, &frame); })) << name;
+    EXPECT_EQ(granular_refresh(run.get(), nullptr, nullptr, nullptr), GRANULAR_OK) << message();
+    const FrameHandle whole = read_frame(run, -1);
+
+    granular_format format;
+    granular_format_init(&format);
+    format.progress = end;
+    const std::string to = std::string(GRANULAR_OUTPUT) + "/ended.dump";
+    granular_writer* writer = nullptr;
+    ASSERT_EQ(granular_create(to.c_str(), &format, &writer), GRANULAR_OK) << message();
+    EXPECT_TRUE(ends([&] { granular_write_frame(writer, whole.get()); }) ||
+      name.find(".dump") == name.npos || name.find("local") == 0)
+      << name;
+    granular_abandon(writer);
+  }
+}
+
+TEST(CMisuse, ARefreshInTheProgressOfTheSameRun)
+{
+  const RunHandle run = open_run(good("grains.dump"));
+  const RunHandle other = open_run(good("grains_1000.dump"));
+  struct Seen
+  {
+    granular_run* run;
+    granular_run* other;
+    granular_status status;
+    std::string message;
+  } seen{ run.get(), other.get(), GRANULAR_OK, "" };
+  granular_request request;
+  granular_request_init(&request);
+  request.user = &seen;
+  request.progress = [](double, void* user)
+  {
+    auto& told = *static_cast<Seen*>(user);
+    told.status = granular_refresh(told.run, nullptr, nullptr, nullptr);
+    told.message = message();
+    return granular_refresh(told.other, nullptr, nullptr, nullptr) == GRANULAR_OK ? 0 : 1;
+  };
+  const FrameHandle frame = read_frame(run, -1, &request);
+  EXPECT_EQ(seen.status, GRANULAR_BAD_ARGUMENT);
+  EXPECT_NE(seen.message.find("from a function for progress"), std::string::npos) << seen.message;
+  EXPECT_EQ(granular_refresh(run.get(), request.progress, nullptr, &seen), GRANULAR_OK);
+  EXPECT_EQ(granular_refresh(run.get(), nullptr, nullptr, nullptr), GRANULAR_OK) << message();
 }
 
 // Numbers at random, of which most cannot be: nothing crashes, each error has a message, and the run stays as it was.

@@ -101,4 +101,21 @@ assert single.points.dtype == numpy.float32
 assert numpy.array_equal(single.points, (whole.points - [0.01, 0.02, 0.03]).astype(numpy.float32))
 for threads in (1, 3):
     assert numpy.array_equal(granular.open(SOURCE, threads=threads).read(threads=threads).points, whole.points)
+
+
+def count_calls(columns):
+    """The calls of Python's functions that it takes to make a dict of a frame."""
+    names = [f"c_{i}" for i in range(columns)]
+    with open("wide.dump", "w") as out:
+        out.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z "
+                  f"{' '.join(names)}\n1 0 0 0 {' '.join(map(str, range(columns)))}\n")
+    frame, calls = granular.open("wide.dump")[0], []
+    sys.setprofile(lambda _, event, __: calls.append(event))
+    found = dict(frame)
+    sys.setprofile(None)
+    assert list(found) == ["id", *names] and [found[name].item() for name in names] == list(range(columns))
+    return len(calls)
+
+
+assert count_calls(2000) < 6 * count_calls(500)  # in proportion to the columns
 print("arrays are the numbers of the files")

@@ -2,6 +2,8 @@
 """Runs and frames in threads and processes: pickled by their files, forked with the file open, iterated with reading ahead."""
 import multiprocessing
 import os
+import subprocess
+import sys
 import threading
 
 import numpy
@@ -9,6 +11,23 @@ import numpy
 import granular
 
 SOURCE = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
+# Python ends while threads read, one of them in a function for progress
+ENDING = """
+import sys, threading, time, granular
+run, inside = granular.open(sys.argv[1], threads=2), threading.Event()
+
+def slow(fraction):
+    inside.set()
+    time.sleep(0.01)
+
+def read(progress):
+    while True:
+        run.read(progress=progress)
+
+for progress in (None, None, slow):
+    threading.Thread(target=read, args=(progress,), daemon=True).start()
+inside.wait()
+"""
 
 
 def total(frame):
@@ -76,6 +95,17 @@ def main():
     for thread in threads:
         thread.join()
     assert len(looked) == 3
+
+    try:
+        run.read(progress=lambda fraction: run.refresh())  # which would wait for the end of the reading
+        raise AssertionError("refreshed")
+    except granular.ArgumentError as error:
+        assert "function for progress" in str(error)
+    assert total(run[-1]) == expected[-1] and len(run.refresh()) == len(expected)
+
+    for _ in range(8):
+        done = subprocess.run([sys.executable, "-c", ENDING, SOURCE], capture_output=True, text=True)
+        assert done.returncode == 0 and not done.stderr, done
 
     results = []
 

@@ -3,6 +3,7 @@
 #define granular_parallel_communicator_h
 
 #include "granular/bytes/byte_sink.h"
+#include "granular/common/caught_exception.h"
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 
@@ -155,7 +156,7 @@ auto do_together(Communicator& ranks, const Work& work)
   }
   catch (...)
   {
-    failure = std::current_exception();
+    failure = caught_exception();
   }
   agree(ranks, failure);
   if constexpr (gives)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/parallel/executor.h"
 
+#include "granular/common/caught_exception.h"
+
 #include <algorithm>
 #include <exception>
 #include <limits>
@@ -38,7 +40,7 @@ struct Work
     }
     catch (...)
     {
-      this->fail(chunk, std::current_exception());
+      this->fail(chunk, caught_exception());
     }
     return true;
   }
@@ -122,7 +124,8 @@ void Executor::parallel_for(std::size_t chunks,
     catch (...)
     {
       // of the progress itself: it must not pass by threads that use what the caller owns
-      work.fail(0, std::current_exception());
+      work.next = chunks;
+      work.fail(0, caught_exception());
     }
   }
   if (work.exception)

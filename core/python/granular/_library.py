@@ -250,7 +250,9 @@ class Calls:
         def tell(notice: bytes, _: Any) -> None:
             self.notices.append(message_of(notice))
 
-        self.progress, self.notice, self._warn = PROGRESS(report), NOTICE(tell), warn
+        # the main thread takes Ctrl-C in this function; others do without, because Python's end would end them in it
+        is_called = progress is not None or threading.current_thread() is threading.main_thread()
+        self.progress, self.notice, self._warn = PROGRESS(report) if is_called else PROGRESS(), NOTICE(tell), warn
 
     def _interrupt(self, *_: Any) -> None:
         """Takes Ctrl-C while the library works: an exception at any place of a callback would be lost in C."""

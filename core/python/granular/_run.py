@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 #: meaning.
 Column = namedtuple("Column", "name type components unit meaning")
 
+#: What a file offers: its usual columns and the others, the components of each array, and for each word that names an array or a
+#: component, the array and its place there, or None for the whole array.
+_Columns = namedtuple("_Columns", "usual others sizes words")
+
 _COORDINATES = ("absolute", "unwrapped", "scaled")
 _STEPS = ("auto", "merge", "last")
 _INDEX = ("never", "cache", "beside")
@@ -169,7 +173,7 @@ class Frame(Mapping[str, Any]):
         self._arrays: dict[str, Any] = {}
         self._header: Any = None
         self._whole: _Handle | None = None
-        self._asked: list[str] = []
+        self._asked: dict[str, None] = {}
         self._notices: list[str] = []
         self._lock = threading.RLock()  # a function for progress may ask the frame something
 
@@ -235,8 +239,8 @@ class Frame(Mapping[str, Any]):
     def _is_lines(self) -> bool:
         return self._bonds or self._kind == "local"
 
-    def _columns(self) -> tuple[list[Column], list[Column]]:
-        """The usual columns and the others; they stay when the run is closed."""
+    def _columns(self) -> _Columns:
+        """The columns of the file; they stay when the run is closed."""
         if self._offered is None:
             self._offered = self._run._columns(self._current(), self._bonds)
         return self._offered
@@ -253,14 +257,12 @@ class Frame(Mapping[str, Any]):
                     self._load([name])
         if name not in self._arrays:
             raise c.ColumnError(f"expected a file with positions, got one with {', '.join(self)}")
-        if name not in self._asked:
-            self._asked.append(name)
+        self._asked[name] = None
         self._tell()
         return self._arrays[name]
 
     def _raise_no_column(self, name: str) -> NoReturn:
-        usual, others = self._columns()
-        raise c.ColumnError(f"expected a column of {', '.join(column.name for column in (*usual, *others))}, got {name!r}")
+        raise c.ColumnError(f"expected a column of {', '.join(self._columns().sizes)}, got {name!r}")
 
     def _head(self, name: str) -> Any:
         if self._header is None:
@@ -272,27 +274,16 @@ class Frame(Mapping[str, Any]):
         """The frame as it is written: of contacts and bonds, the ends as the file has them."""
         if not self._is_lines() or self._wanted is not None:
             return self._load_all()
-        usual, others = self._columns()
-        names = [column.name for column in (*usual, *others)]
+        names = list(self._columns().sizes)
         ends = [] if {"position1", "position2"} <= set(names) else ["ends"]
         return self._run._read(self._current(), [*names, *ends], self._bonds, self._request, None)
 
     def _is_array(self, name: object) -> bool:
-        usual, others = self._columns()
-        return any(column.name == name for column in (*usual, *others))
+        return name in self._columns().sizes
 
     def _find(self, word: str) -> tuple[str, int | None]:
         """The array that a column is in, and its place there, or None for a whole array: "vx" is the first of "v"."""
-        points = self._points_name()
-        if word in (parts := _COMPONENTS[points].split()):
-            return points, parts.index(word)
-        sizes = {column.name: column.components for kind in self._columns() for column in kind}
-        if word == points or word in sizes:
-            return word, None
-        for name, count in sizes.items():
-            if count > 1 and word in (parts := _component_names(name, count)):
-                return name, parts.index(word)
-        self._raise_no_column(word)
+        return self._columns().words.get(word) or self._raise_no_column(word)
 
     # ---- the mapping ----
     def __getitem__(self, name: str) -> numpy.ndarray:
@@ -303,14 +294,11 @@ class Frame(Mapping[str, Any]):
 
     def __iter__(self) -> Iterator[str]:
         if self._wanted is None:
-            return iter([column.name for column in self._columns()[0]])
+            return iter([column.name for column in self._columns().usual])
         return iter([name for name in self._wanted if self._is_array(name)])
 
     def __contains__(self, name: object) -> bool:
-        try:
-            return isinstance(name, str) and self._find(name) is not None
-        except c.ColumnError:
-            return False
+        return name in self._columns().words
 
     def __len__(self) -> int:
         """The number of columns; rows are frame.rows."""
@@ -428,6 +416,17 @@ def _component_names(name: str, count: int) -> list[str]:
     return [f"{name}{i}" if name == "quat" else f"{name}[{i}]" for i in range(1, count + 1)]
 
 
+def _columns_of(usual: list[Column], others: list[Column], points: str) -> _Columns:
+    sizes = {column.name: column.components for column in (*usual, *others)}
+    words: dict[str, tuple[str, int | None]] = {part: (points, i) for i, part in enumerate(_COMPONENTS[points].split())}
+    words |= {name: (name, None) for name in (points, *sizes) if name not in words}
+    for name, count in sizes.items():
+        if count > 1:
+            for i, part in enumerate(_component_names(name, count)):
+                words.setdefault(part, (name, i))
+    return _Columns(usual, others, sizes, words)
+
+
 def component_columns(frame: Frame) -> dict[str, Any]:
     """Returns what a frame holds as arrays of shape (rows,): points as x y z, vectors by components, in the order of the frame."""
     frame.read()
@@ -443,12 +442,11 @@ def component_columns(frame: Frame) -> dict[str, Any]:
 
 def arrays_of(frame: Frame, words: list[str]) -> tuple[list[str], list[str]]:
     """Returns the arrays that columns named by words are in, and the columns: "vx" is in "v", and "v" has vx vy vz."""
-    sizes = {column.name: column.components for kind in frame._columns() for column in kind}
     arrays, columns = [], []
     for word in words:
         array, place = frame._find(word)
         arrays.append(array)
-        whole = _component_names(array, sizes.get(array, len(_COMPONENTS.get(array, "").split())))
+        whole = _component_names(array, frame._columns().sizes.get(array, len(_COMPONENTS.get(array, "").split())))
         columns += [word] if place is not None else whole
     return list(dict.fromkeys(arrays)), columns
 
@@ -500,7 +498,7 @@ class _Frames(Sequence[Frame]):
         following: Frame | None = None
         thread: threading.Thread | None = None
         for i in range(len(self)):
-            names, whole = (frame._asked, frame._whole is not None) if frame else ([], False)
+            names, whole = (list(frame._asked), frame._whole is not None) if frame else ([], False)
             if thread:
                 thread.join()
             is_current = following is not None and following._state is following._run._state
@@ -526,7 +524,7 @@ def _read_ahead(frame: Frame, names: list[str], whole: bool) -> None:
     """Reads a part of a frame. An error is raised again, and a notice told, when the frame itself is asked."""
     try:
         with frame._lock:
-            handle = frame._load(frame._names() if whole else list(names), warn=frame._notices.append)
+            handle = frame._load(frame._names() if whole else names, warn=frame._notices.append)
             if whole:
                 frame._whole = handle
     except Exception:  # noqa: BLE001
@@ -639,8 +637,8 @@ class Run(_Frames):
                 self._known["files"] = found
             return self._known["files"]
 
-    def _columns(self, number: int, bonds: bool = False) -> tuple[list[Column], list[Column]]:
-        """The usual columns of a frame, and the others."""
+    def _columns(self, number: int, bonds: bool = False) -> _Columns:
+        """The columns of a frame."""
         key = number, bonds
         with self._lock:
             if key not in self._known:
@@ -653,7 +651,7 @@ class Run(_Frames):
                     kinds[0 if fact.is_usual else 1].append(
                         Column(c.text(fact.name), "str" if fact.type == c.TEXT else c.TYPES[fact.type], fact.components,
                                c.text(fact.unit), c.text(fact.meaning)))
-                self._known[key] = kinds
+                self._known[key] = _columns_of(*kinds, "ends" if bonds or self.kind == "local" else "points")
             return self._known[key]
 
     def _read(self, number: int, names: list[str] | None, bonds: bool, request: dict[str, Any], progress: Any, warn: Any = _warn) -> _Handle:
@@ -702,7 +700,7 @@ class Run(_Frames):
     def columns(self) -> list[Column]:
         """The columns of the first frame that has rows, but for coordinates, which are frame.points."""
         with_rows = self.rows.nonzero()[0]
-        return list(self._columns(int(with_rows[0]) if len(with_rows) else 0)[0]) if len(self) else []
+        return list(self._columns(int(with_rows[0]) if len(with_rows) else 0).usual) if len(self) else []
 
     def find(self, time: float) -> Frame:
         """Returns the last frame at or before a time, or the first one."""

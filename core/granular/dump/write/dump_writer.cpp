@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/dump_writer.h"
 
+#include "granular/common/caught_exception.h"
 #include "granular/dump/write/frame_plan.h"
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/sorted_rows.h"
@@ -106,7 +107,7 @@ void DumpWriter::File::gather_rows(std::string_view header, RowBatches& rows, Pr
     }
     catch (...)
     {
-      failure = std::current_exception();
+      failure = caught_exception();
       ranks.call_off();
     }
   };
