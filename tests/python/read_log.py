@@ -6,6 +6,7 @@ import os
 import pickle
 import re
 import sys
+import tracemalloc
 import warnings
 
 import granular
@@ -212,6 +213,7 @@ for name in ("lammps.txt", "liggghts.txt"):
             assert 0 < len(part) <= len(rows)
             for column in part:
                 same(part[column], rows[column][:len(part)])
+MEMORY = "Memory usage per processor = 4 Mbytes\n"
 TABLE = "Step Temp Press \n       0 1 2 \n      10 3 4 \n      20 5 6 \n"
 log = read(written(TABLE[:-4]), "made.txt:4: the last line ends early and is left out")
 assert log.steps.tolist() == [0, 10] and log.times.tolist() == [0, 10]
@@ -260,6 +262,19 @@ text = TABLE + "Loop time of 1\nStep Temp\n20 7\nLoop time of 1\nStep Temp\n20 8
 log = read(written(text))
 same(numpy.column_stack([log[name] for name in log]), [[0, 1, 2], [10, 3, 4], [20, 8, 6], [30, 9, numpy.nan]])
 same(read(written(text + "Step Temp\n10 1\n20 2\n"))["Press"], [2, numpy.nan, numpy.nan, numpy.nan])
+# names that repeat, and tables with columns of their own: memory for the numbers of the log, and not for rows times columns
+log = read(written(MEMORY + "Step a a#2" + " a" * 6000 + "\n0" + " 1" * 6002 + "\n"))
+assert log.columns == ["Step", "a", "a#2", *(f"a#{i}" for i in range(3, 6003))] and log["a#6002"].tolist() == [1]
+OWN = "------------ Step {0:14} ----- CPU = {1:12} (sec) -------------\nboth = 1.5 own{1} = {1}\n"
+for text in ("".join(OWN.format(10 * i, i) for i in range(3000)),
+             "".join(f"Step both own{i}\n{10 * i} 1.5 {i}\n{10 * i + 10} 1.5 {i}\nLoop time of 1\n" for i in range(3000)),
+             "".join(f"Step both own{i}\n10 1.5 {i}\nLoop time of 1\n" for i in range(3000))):
+    tracemalloc.start()
+    log = read(written(text))
+    assert tracemalloc.get_traced_memory()[1] < 30e6
+    tracemalloc.stop()
+    assert numpy.nansum(log["own2998"]) in (2998, 2 * 2998) and (log["both"] == 1.5).all() and "own2999" in log.columns
+same(log["own7"], [7])  # of the last row of a timestep, with the columns of the runs that end there
 # a column Time counts where the timestep is changed within a run
 text = "units si\nfix 1 all dt/reset 1 1e-9 1e-3 0.01\nStep Time \n 0 0 \n 10 1e-7 \n 20 1.5e-7 \n"
 assert read(written(text)).times.tolist() == [0, 1e-7, 1.5e-7] and read(written(text), dt=2e-8).times.tolist() == [0, 2e-7, 4e-7]
@@ -277,7 +292,6 @@ assert (error.path, error.line, error.column) == (os.path.abspath("made.txt"), 3
 assert str(error).startswith(f"{error.path}:3: column 'Press': ")
 error = raises(granular.Error, lambda: granular.read_log(written(TABLE.replace("10 3 4", "1x 3 4"))), "'1x'")
 assert (error.line, error.column) == (3, "Step")
-MEMORY = "Memory usage per processor = 4 Mbytes\n"
 error = raises(granular.Error, lambda: granular.read_log(written(MEMORY + TABLE.replace("0 1 2", "0 one 2"))), "made.txt:3", "'one'")
 assert error.column == "Temp"
 raises(granular.Error, lambda: granular.read_log(written(TABLE.replace("0 1 2", "0 one 2"))), "made.txt:1: expected rows of numbers")
@@ -295,6 +309,11 @@ raises(granular.Error, lambda: granular.read_log(written(TABLE[:22])), "made.txt
 raises(granular.Error, lambda: granular.read_log(written("units si\nrun 10\n")), "expected a thermo table", "Step", "got 2 lines")
 raises(granular.Error, lambda: granular.read_log(written("Memory usage per processor = 4\nTemp \n 1 \n")), "made.txt:2", "column Step")
 raises(granular.Error, lambda: granular.read_log(written("Step Temp\n9223372036854775808 1\n")), "made.txt:2", "9223372036854775808")
+DIGITS = "9" * 5000  # more than Python turns into a number
+error = raises(granular.Error, lambda: granular.read_log(written(f"Step Temp\n0 1\n{DIGITS} 1\n")), "made.txt:3", "got 5000 digits")
+assert error.column == "Step"
+raises(granular.Error, lambda: granular.read_log(written(BLOCKS.replace("10 -", f"{DIGITS} -"))), "made.txt:3", "got 5000 digits")
+raises(granular.Error, lambda: granular.read_log(written(BLOCKS.replace("10 -", "-9223372036854775809 -"))), "made.txt:3", "got -922337203685477580")
 binary = os.path.join(DATA, "..", "grains.bin")
 error = raises(granular.Error, lambda: granular.read_log(binary), "grains.bin: expected the text of a log, got a binary file")
 assert error.byte >= 0

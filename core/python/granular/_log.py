@@ -26,15 +26,40 @@ _DEFAULTS = {b"lj": b"0.005", b"real": b"1.0", b"metal": b"0.001", b"si": b"1e-8
 # The first line of a block of `thermo_style multi`.
 _BLOCK = re.compile(rb"\s*-{4,}\s*Step\s+(-?\d+)\s+-{2,}\s*CPU\s*=\s*(\S+)")
 _LARGEST = (1 << 63) - 1
+_MOST_DIGITS = 100
+
+
+class _Column:
+    """A column that becomes an array when it is asked for: the tables of a log may have more columns together than rows with values.
+
+    parts  rows and their values, of `rows` rows; the others are nan
+    kept   the rows of these that stay, in their order; None: all
+    ends   rows of these, and their values
+    """
+
+    def __init__(self, rows: int, parts: list[tuple[Any, Any]], kept: Any = None):
+        self.rows, self.parts, self.kept = rows, parts, kept
+        self.ends: list[tuple[int, float]] = []
+
+    def to_array(self) -> numpy.ndarray:
+        """Returns the values, nan where there are none."""
+        import numpy
+
+        values = numpy.full(self.rows, math.nan)
+        for rows, known in self.parts:
+            values[rows] = known
+        values = values if self.kept is None else values[self.kept]
+        for row, value in self.ends:
+            values[row] = value
+        return values
 
 
 class _Table:
-    """Columns of equal length by their names."""
+    """Columns of equal length by their names: arrays, and _Columns that become arrays."""
 
     def __init__(self, arrays: dict[str, Any], times: Any):
         self._arrays, self._times = arrays, times
-        for each in (*arrays.values(), times):
-            each.flags.writeable = False
+        times.flags.writeable = False
 
     @property
     def columns(self) -> list[str]:
@@ -44,7 +69,7 @@ class _Table:
     @property
     def steps(self) -> numpy.ndarray:
         """The timesteps, shape (rows,), int64."""
-        return self._arrays["Step"]
+        return self["Step"]
 
     @property
     def times(self) -> numpy.ndarray:
@@ -54,7 +79,11 @@ class _Table:
     def __getitem__(self, name: str) -> numpy.ndarray:
         if name not in self._arrays:
             raise c.ColumnError(f"expected a column of {', '.join(self._arrays)}, got {name!r}")
-        return self._arrays[name]
+        values = self._arrays[name]
+        if isinstance(values, _Column):
+            values = self._arrays[name] = values.to_array()
+        values.flags.writeable = False
+        return values
 
     def __contains__(self, name: object) -> bool:
         return name in self._arrays
@@ -69,7 +98,7 @@ class _Table:
         """Returns the rows as a pandas.DataFrame with the same columns."""
         import pandas
 
-        return pandas.DataFrame(self._arrays)
+        return pandas.DataFrame(dict(self))
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -125,20 +154,23 @@ def _numbers(words: list[bytes]) -> list[float] | None:
         return None
 
 
+def _whole(word: bytes) -> int:
+    """Returns the whole number that a word spells, or one beyond all timesteps: Python refuses thousands of digits. Raises ValueError."""
+    is_long = len(word) > _MOST_DIGITS and word.lstrip(b"-").isdigit()
+    return _LARGEST + 1 if is_long else int(word)
+
+
 def _unique(names: list[str]) -> list[str]:
     """Returns the names of columns, of which each occurs once."""
-    seen: dict[str, int] = {}
+    made: dict[str, None] = {}
+    counts: dict[str, int] = {}
     for name in names:
-        seen[name] = seen.get(name, 0) + 1
-    if len(seen) == len(names):
-        return names
-    made: list[str] = []
-    for name in names:
-        count = 1
-        while (name if count == 1 else f"{name}#{count}") in made:
+        unique, count = name, counts.get(name, 1)
+        while unique in made:
             count += 1
-        made.append(name if count == 1 else f"{name}#{count}")
-    return made
+            unique = f"{name}#{count}"
+        made[unique], counts[name] = None, count
+    return list(made)
 
 
 class _Rows:
@@ -149,6 +181,7 @@ class _Rows:
         self.width, self.at = len(names), names.index("Step")
         self.steps, self.values, self.last = array("q"), array("d"), -1
         self.blocks: list[dict[str, float]] | None = None
+        self.known = {"CPU"}  # names in the blocks
         #: Where the first word of the first row begins and ends; 0: anywhere
         self.blanks = self.edge = 0
 
@@ -166,8 +199,14 @@ class _Rows:
 
         steps = numpy.frombuffer(self.steps, dtype=numpy.int64)
         if self.blocks is not None:
-            names = dict.fromkeys(name for block in self.blocks for name in block)
-            return {"Step": steps, **{name: numpy.array([block.get(name, math.nan) for block in self.blocks]) for name in names}}
+            parts: dict[str, tuple[list[int], list[float]]] = {}
+            for row, block in enumerate(self.blocks):
+                for name, value in block.items():
+                    rows, known = parts.setdefault(name, ([], []))
+                    rows.append(row)
+                    known.append(value)
+            return {"Step": steps, **{name: _Column(len(steps), [(numpy.array(rows), numpy.array(known))])
+                                      for name, (rows, known) in parts.items()}}
         values = numpy.ascontiguousarray(numpy.frombuffer(self.values).reshape(-1, self.width).T)
         return {"Step": steps, **{name: values[i] for i, name in enumerate(self.columns) if i != self.at}}
 
@@ -209,7 +248,7 @@ class _Reader:
         self._run: _Rows | None = None
         self._width = -1  # of rows that are expected now
         self._names: list[str] | None = None  # of a table whose first row may follow
-        self._names_line, self._is_sure, self._is_yaml = 0, False, False
+        self._names_line, self._names_at, self._is_sure, self._is_yaml = 0, 0, False, False
         self._after_memory, self._knows_memory, self._in_block = False, False, False
         self._dt: bytes | None = None
         self._left_out, self._first_left_out, self._without_step = 0, "", 0
@@ -321,18 +360,22 @@ class _Reader:
         run = self._run
         assert run is not None
         try:
-            step = int(words[run.at])
+            step = _whole(words[run.at])
             values = list(map(float, words))
         except ValueError:
             return False
         if step <= run.last or b"_" in line or (run.edge and not self._fits(line, words)):
             return False
-        if step > _LARGEST:
-            self._fail(number, f"column 'Step': expected at most {_LARGEST}, got {step}", "Step")
+        self._check_step(step, words[run.at], number)
         run.last = step
         run.steps.append(step)
         run.values.extend(values)
         return True
+
+    def _check_step(self, step: int, word: bytes, number: int) -> None:
+        if abs(step) > _LARGEST:
+            got = os.fsdecode(word) if len(word) <= _MOST_DIGITS else f"{len(word)} digits"
+            self._fail(number, f"column 'Step': expected at most {_LARGEST}, got {got}", "Step")
 
     def _fits(self, line: bytes, words: list[bytes]) -> bool:
         """Returns true if a line begins as the first row does. Lines that `fix print` writes begin elsewhere."""
@@ -364,15 +407,15 @@ class _Reader:
                 return True
             self._run = before
         if self._is_sure:
-            self._judge(line, words, number, names)
+            self._judge(line, words, number, names, self._names_at)
             return False
         self._note_empty()
         self._names, self._width = None, self._run.width if self._run and self._run.blocks is None else -1
         return len(words) == self._width and self._row(line, words, number)
 
-    def _judge(self, line: bytes, words: list[bytes], number: int, names: list[str]) -> None:
+    def _judge(self, line: bytes, words: list[bytes], number: int, names: list[str], at: int) -> None:
         """Judges a line among the rows: other output, a damaged row, which is an error, or a line of numbers, which is counted."""
-        run, at = self._run, names.index("Step") if "Step" in names else len(words)
+        run = self._run
         if not line.endswith(b"\n") or len(words) <= at or not words[at][:1].isdigit():
             return
         bad = [i for i, word in enumerate(words) if _numbers([word]) is None]
@@ -412,13 +455,14 @@ class _Reader:
         if self._names and self._begin(line, words, number):
             return True
         if self._run and self._run.blocks is None:
-            self._judge(line, words, number, self._run.columns)
+            self._judge(line, words, number, self._run.columns, self._run.at)
         return False
 
     def _expect(self, names: list[str], number: int, is_sure: bool, is_yaml: bool = False) -> None:
         """Expects the first row of a table."""
         self._note_empty()
         self._names, self._names_line, self._is_sure, self._is_yaml, self._width = names, number, is_sure, is_yaml, -1
+        self._names_at = names.index("Step") if "Step" in names else _LARGEST
 
     def _note_empty(self) -> None:
         if self._names and self._empty_table is None:
@@ -465,7 +509,7 @@ class _Reader:
         if self._run and self._run.edge == 0 and self._run.blocks is None:
             if len(words) == self._run.width and self._row(line, words, number):
                 return True
-            self._judge(line, words, number, self._run.columns)
+            self._judge(line, words, number, self._run.columns, self._run.at)
         return False
 
     def _timestep(self, words: list[bytes], *_: Any) -> bool:
@@ -487,9 +531,8 @@ class _Reader:
         found = _BLOCK.match(line)
         if not found:
             return False
-        step, seconds = int(found.group(1)), _numbers([found.group(2)])
-        if step > _LARGEST:
-            self._fail(number, f"column 'Step': expected at most {_LARGEST}, got {step}", "Step")
+        step, seconds = _whole(found.group(1)), _numbers([found.group(2)])
+        self._check_step(step, found.group(1), number)
         run = self._run
         if run is None or run.blocks is None or step <= run.steps[-1]:
             self._end()
@@ -511,10 +554,12 @@ class _Reader:
         names, values = [os.fsdecode(word) for word in words[::3]], _numbers(words[2::3])
         if values is None:
             name, word = next((name, word) for name, word in zip(names, words[2::3]) if _numbers([word]) is None)
-            if not any(name in block for block in run.blocks):
+            if name not in run.known:
                 return False
             self._fail(number, f"column {name!r}: expected a number, got {os.fsdecode(word)!r}", name)
-        run.blocks[-1].update({name: value for name, value in zip(names, values) if name != "Step"})
+        pairs = {name: value for name, value in zip(names, values) if name != "Step"}
+        run.blocks[-1].update(pairs)
+        run.known.update(pairs)
         return True
 
 
@@ -532,14 +577,18 @@ def _clocks(runs: list[_Rows], dt: float | None) -> list[tuple[Fraction, Fractio
 
     sizes = [repr(float(dt)) if dt is not None else run.dt and repr(float(run.dt)) for run in runs]
     made: list[tuple[Fraction, Fraction]] = []
+    earlier: list[int] = []  # the runs before that a later one may follow, by their first timesteps
     for number, (run, text) in enumerate(zip(runs, sizes)):
         if text is None:
             return None
         size, offset, start = Fraction(text), Fraction(0), run.steps[0]
-        before = next((i for i in range(number - 1, -1, -1) if runs[i].steps[0] <= start), None)
-        if before is not None:
-            offset = made[before][1] + (made[before][0] - size) * start
+        while earlier and runs[earlier[-1]].steps[0] > start:
+            earlier.pop()
+        if earlier:
+            before = made[earlier[-1]]
+            offset = before[1] + (before[0] - size) * start
         made.append((size, offset))
+        earlier.append(number)
     return made
 
 
@@ -564,13 +613,14 @@ def _times(runs: list[_Rows], everything: dict[str, Any], dt: float | None) -> A
     """The times of all rows."""
     import numpy
 
-    times, printed = _step_times(runs, dt), everything.get("Time")
-    if dt is None and printed is not None:
+    times = _step_times(runs, dt)
+    if dt is None and "Time" in everything:
+        printed = everything["Time"].to_array()
         is_known = numpy.isfinite(printed)
         if times is not None:
             return numpy.where(is_known & (abs(times - printed) > 1e-5 * abs(printed)), printed, times)
         if is_known.all():
-            return printed.copy()
+            return printed
     return everything["Step"].astype(float) if times is None else times
 
 
@@ -582,22 +632,29 @@ def _merged(runs: list[dict[str, Any]], starts: list[int], everything: dict[str,
     order = numpy.argsort(steps, kind="stable")
     ordered = steps[order]
     kept = order[numpy.append(ordered[1:] != ordered[:-1], True)]
-    merged = {name: values[kept] for name, values in everything.items()}
+    merged = {name: values[kept] if name == "Step" else _Column(len(steps), values.parts, kept) for name, values in everything.items()}
     # the first row of a run is of the state in which the run before ended
-    carried: dict[str, Any] = {}
-    for number in range(1, len(runs)):
-        row = starts[number]
-        if steps[row] != steps[row - 1]:
-            carried = {}
-            continue
-        before = runs[number - 1]
-        ended = {name: values[-1] for name, values in before.items()}
-        carried = {**(carried if len(before["Step"]) == 1 else {}), **ended}
+    for number, row in enumerate(starts[:-1]):
         place = int(numpy.searchsorted(merged["Step"], steps[row]))
-        if kept[place] == row:
-            for name in carried.keys() - runs[number].keys():
-                merged[name][place] = carried[name]
+        if kept[place] != row:
+            continue
+        seen = set(runs[number])
+        while number > 0 and steps[starts[number]] == steps[starts[number] - 1]:
+            number -= 1
+            for name in runs[number].keys() - seen:
+                merged[name].ends.append((place, _last(runs[number][name])))
+            seen.update(runs[number])
+            if len(runs[number]["Step"]) > 1:
+                break
     return merged, kept
+
+
+def _last(values: Any) -> float:
+    """The value in the last row."""
+    if not isinstance(values, _Column):
+        return values[-1]
+    rows, known = values.parts[-1]
+    return known[-1] if rows[-1] == values.rows - 1 else math.nan
 
 
 def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None,
@@ -638,11 +695,13 @@ def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], d
     starts = [0]
     for size in sizes:
         starts.append(starts[-1] + size)
-    columns = list(dict.fromkeys(name for table in tables for name in table))
-    everything = {name: numpy.empty(starts[-1], numpy.int64) if name == "Step" else numpy.full(starts[-1], math.nan) for name in columns}
+    everything: dict[str, Any] = {"Step": numpy.concatenate([table["Step"] for table in tables])}
     for table, start, size in zip(tables, starts, sizes):
         for name, values in table.items():
-            everything[name][start:start + size] = values
+            if name != "Step":
+                is_whole = not isinstance(values, _Column)
+                parts = [(slice(start, start + size), values)] if is_whole else [(rows + start, known) for rows, known in values.parts]
+                everything.setdefault(name, _Column(starts[-1], [])).parts.extend(parts)
     times = _times(rows, everything, dt)
     merged, kept = _merged(tables, starts, everything)
     runs = [LogTable(table, times[start:start + size], run.path, run.line) for table, run, start, size in zip(tables, rows, starts, sizes)]
