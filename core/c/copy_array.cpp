@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -98,6 +99,11 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
     throw BadArgument("array '" + array.name + "': expected room for " + std::to_string(values) +
       " values, got " + std::to_string(to.data == nullptr ? 0 : to.values));
   }
+  if (to.type < GRANULAR_INT8 || to.type > GRANULAR_TEXT)
+  {
+    throw BadArgument("array '" + array.name + "': expected a type of granular_type, got " +
+      std::to_string(to.type));
+  }
   if (array.type == ValueType::Text && to.type != GRANULAR_TEXT)
   {
     throw BadArgument("array '" + array.name + "': expected the type GRANULAR_TEXT for words");
@@ -111,15 +117,16 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
           using To = std::remove_pointer_t<decltype(target_type)>;
           using From = std::remove_pointer_t<decltype(source_type)>;
           const auto* const from = static_cast<const From*>(array.data);
-          auto* const target = static_cast<To*>(to.data);
+          auto* const target = static_cast<char*>(to.data); // at any address
           for (std::size_t i = 0; i < values; ++i)
           {
-            target[i] = convert<To>(from[i]);
-            if (!fits<To>(from[i], target[i]))
+            const To value = convert<To>(from[i]);
+            if (!fits<To>(from[i], value))
             {
               throw BadArgument("array '" + array.name + "', value " + std::to_string(i) +
                 ": expected a number of the wanted type, got " + std::to_string(from[i]));
             }
+            std::memcpy(target + i * sizeof(To), &value, sizeof(To));
           }
         });
     });

@@ -39,7 +39,14 @@ void check_array(const granular_array& array, std::int64_t rows)
   expect(!name.empty(), "a name");
   expect(array.type >= GRANULAR_INT8 && array.type <= GRANULAR_TEXT, "a type of granular_type");
   expect(array.components >= 1, "at least one component");
+  expect(array.rows == 0 || array.rows >= rows,
+    "at least " + std::to_string(rows) + " rows, got " + std::to_string(array.rows));
+  const auto value = static_cast<std::int64_t>(size_of(static_cast<ValueType>(array.type)));
+  expect(rows <= std::numeric_limits<std::int64_t>::max() / value / array.components,
+    "rows that can be in memory, got " + std::to_string(rows));
   expect(array.data != nullptr || rows == 0, "data, got null");
+  expect(reinterpret_cast<std::uintptr_t>(array.data) % static_cast<std::uintptr_t>(value) == 0,
+    "data at a multiple of " + std::to_string(value) + " bytes");
   expect(
     array.type != GRANULAR_TEXT || (array.words != nullptr && array.components == 1) || rows == 0,
     "words and one component for text");

@@ -37,6 +37,13 @@ extern "C"
 #define GRANULAR_VERSION_MINOR 1
 #define GRANULAR_VERSION_PATCH 0
 
+/* An enum of the caller. In C++ any int is a value of it, so that the library may look at one that is none of its names. */
+#ifdef __cplusplus
+#define GRANULAR_ENUM(name) enum name : int
+#else
+#define GRANULAR_ENUM(name) enum name
+#endif
+
 /* ---- errors ---------------------------------------------------------------------------------- */
 
 /* The result of a function. */
@@ -85,7 +92,7 @@ typedef void (*granular_notice)(const char* text, void* user);
 typedef struct granular_run granular_run;
 
 /* The kind of the files of a run. */
-typedef enum granular_kind
+typedef GRANULAR_ENUM(granular_kind)
 {
   GRANULAR_KIND_AUTOMATIC = -1,
   GRANULAR_KIND_DUMP = 0,         /* dump atom, dump custom: particles */
@@ -173,7 +180,7 @@ GRANULAR_API granular_status granular_file_info(
 GRANULAR_API granular_status granular_find_frame(granular_run* run, double time, int64_t* frame);
 
 /* Types of values. */
-typedef enum granular_type
+typedef GRANULAR_ENUM(granular_type)
 {
   GRANULAR_INT8 = 0,
   GRANULAR_UINT8 = 1,
@@ -209,7 +216,7 @@ GRANULAR_API granular_status granular_arrays(granular_run* run, int64_t frame, i
 typedef struct granular_frame granular_frame;
 
 /* The coordinates of points. */
-typedef enum granular_coordinates
+typedef GRANULAR_ENUM(granular_coordinates)
 {
   GRANULAR_ABSOLUTE = 0,
   GRANULAR_UNWRAPPED = 1, /* moved by whole boxes, by the image counts */
@@ -247,7 +254,7 @@ typedef struct granular_destination
 {
   const char* array;  /* its name, or "points" */
   granular_type type; /* numbers are converted to it; a number that does not fit is an error */
-  void* data;
+  void* data;         /* at any address */
   size_t values; /* for so many values there is room */
 } granular_destination;
 
@@ -369,8 +376,9 @@ typedef struct granular_content
   const char* units;
   const granular_box* box; /* null: made from the bounds of the particles */
   int64_t rows;
-  /* name, type, components, data and words count. "points" has the positions of particles and cells, "ends" those of lines;
-     subdomains have "lo", "hi" and, if known, "nlocal" and "proc" */
+  /* name, type, components, data and words count; fewer rows than those above are an error, unless they are 0. Data are aligned
+     as their type needs. "points" has the positions of particles and cells, "ends" those of lines; subdomains have "lo", "hi" and,
+     if known, "nlocal" and "proc" */
   const granular_array* arrays;
   size_t array_count;
 } granular_content;

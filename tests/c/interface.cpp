@@ -341,6 +341,15 @@ TEST(CInterface, MemoryOfTheCaller)
   }
   EXPECT_EQ(ids.back(), static_cast<const std::int64_t*>(array_of(frame, "id").data)[1199]);
 
+  std::vector<char> packed(1 + 3600 * sizeof(double)); // at an address that doubles do not have
+  to[0] = { "points", GRANULAR_FLOAT64, packed.data() + 1, 3600 };
+  ASSERT_EQ(granular_read_into(run.get(), -1, nullptr, to, 1, &rows), GRANULAR_OK) << message();
+  EXPECT_EQ(std::memcmp(packed.data() + 1, points.data(), 3600 * sizeof(double)), 0);
+  to[0].type = static_cast<granular_type>(256 + GRANULAR_FLOAT64);
+  EXPECT_EQ(granular_read_into(run.get(), -1, nullptr, to, 1, &rows), GRANULAR_BAD_ARGUMENT);
+  EXPECT_EQ(message(), "array 'points': expected a type of granular_type, got 265");
+  to[0] = { "points", GRANULAR_FLOAT32, x.data(), x.size() };
+
   std::vector<std::int8_t> small(1200);
   to[1] = { "id", GRANULAR_INT8, small.data(), small.size() };
   EXPECT_EQ(granular_read_into(run.get(), -1, nullptr, to, 2, &rows), GRANULAR_BAD_ARGUMENT);

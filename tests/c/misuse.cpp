@@ -135,7 +135,7 @@ TEST(CMisuse, ChoicesThatThereAreNot)
     EXPECT_NE(message().find(words), std::string::npos) << message();
   };
   refused(
-    [](auto& options) { options.kind = static_cast<granular_kind>(6); }, "granular_kind, got 6");
+    [](auto& options) { options.kind = static_cast<granular_kind>(77); }, "granular_kind, got 77");
   refused([](auto& options) { options.timestep_size = 0; }, "timestep_size greater than 0");
   refused([](auto& options) { options.repeated_steps = 3; }, "repeated_steps from 0 to 2, got 3");
   refused([](auto& options) { options.keep_index = -1; }, "keep_index from 0 to 2, got -1");
@@ -152,8 +152,9 @@ TEST(CMisuse, ChoicesThatThereAreNot)
   };
   refused_request([](auto& request) { request.stride = 0; }, "stride of at least 1, got 0");
   refused_request([](auto& request) { request.table = 1; }, "expected table 0, got 1");
-  refused_request([](auto& request) { request.coordinates = static_cast<granular_coordinates>(3); },
-    "coordinates from 0 to 2, got 3");
+  refused_request([](auto& request)
+    { request.coordinates = static_cast<granular_coordinates>(-77); },
+    "coordinates from 0 to 2, got -77");
   refused_request([](auto& request) { request.array_count = 1; }, "names of arrays, got null");
 
   const auto refused_format = [&](auto change, const std::string& words)
@@ -202,6 +203,25 @@ TEST(CMisuse, ArraysThatCannotBeWritten)
   refused({ "a", GRANULAR_TEXT, 1, 1, &word, nullptr, 0, "", "" }, "words");
   refused({ "a", GRANULAR_TEXT, 1, 1, &word, words, 1, "", "" }, "indices of 1 words, got 3");
   refused({ "points", GRANULAR_FLOAT64, 2, 1, x, nullptr, 0, "", "" }, "three components");
+  const void* const between = reinterpret_cast<const char*>(x) + 1;
+  refused({ "a", GRANULAR_FLOAT64, 1, 1, between, nullptr, 0, "", "" }, "a multiple of 8 bytes");
+
+  // a claim of rows that the arrays, or the memory of any machine, do not have
+  for (const std::int64_t rows : { std::int64_t{ 0 }, std::int64_t{ 1 } })
+  {
+    const granular_array array = { "points", GRANULAR_FLOAT64, 3, rows, x, nullptr, 0, "", "" };
+    granular_content content;
+    granular_content_init(&content);
+    content.rows = INT64_MAX;
+    content.arrays = &array;
+    content.array_count = 1;
+    granular_writer* writer = nullptr;
+    const std::string path = std::string(GRANULAR_OUTPUT) + "/rows.dump";
+    ASSERT_EQ(granular_create(path.c_str(), nullptr, &writer), GRANULAR_OK);
+    EXPECT_EQ(granular_write(writer, &content), GRANULAR_BAD_ARGUMENT);
+    EXPECT_NE(message().find("9223372036854775807"), std::string::npos) << message();
+    granular_abandon(writer);
+  }
 
   granular_content nowhere;
   granular_content_init(&nowhere);

@@ -54,7 +54,7 @@ def _c_arrays(arrays: Mapping[str, Any]) -> tuple[Any, int, list[Any]]:
             values = values.astype(numpy.int32)
             array.words, array.word_count = encoded, len(words)
             kept.append(encoded)
-        values = numpy.ascontiguousarray(values, dtype=numpy.uint8 if values.dtype.kind == "b" else values.dtype.newbyteorder("="))
+        values = numpy.require(values, numpy.uint8 if values.dtype.kind == "b" else values.dtype.newbyteorder("="), ["C", "A"])
         array.data = values.ctypes.data
         kept.append(values)
         made.append(array)
