@@ -3,6 +3,8 @@
 #include "bad_argument.h"
 #include "frame.h"
 
+#include "granular/numbers/number_print.h"
+
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -45,6 +47,20 @@ void with_type(ValueType type, Use&& use)
       return use(static_cast<double*>(nullptr));
     default:
       throw BadArgument("expected a type of granular_type");
+  }
+}
+
+/// Returns a number with all its digits.
+template <class Number>
+std::string digits_of(Number number)
+{
+  if constexpr (std::is_floating_point_v<Number>)
+  {
+    return to_text(static_cast<double>(number));
+  }
+  else
+  {
+    return std::to_string(number);
   }
 }
 
@@ -124,7 +140,7 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
             if (!fits<To>(from[i], value))
             {
               throw BadArgument("array '" + array.name + "', value " + std::to_string(i) +
-                ": expected a number of the wanted type, got " + std::to_string(from[i]));
+                ": expected a number of the wanted type, got " + digits_of(from[i]));
             }
             std::memcpy(target + i * sizeof(To), &value, sizeof(To));
           }

@@ -510,7 +510,7 @@ TEST(CInterface, TheLargestNumbersOfATypeFit)
   const std::string path = std::string(GRANULAR_OUTPUT) + "/limits.dump";
   std::ofstream(path)
     << "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
-       "ITEM: ATOMS id x y z c_a c_b c_c\n1 0 0 0 127 2147483647 1e300\n";
+       "ITEM: ATOMS id x y z c_a c_b c_c c_d\n1 0 0 0 127 2147483647 1e300 1.0000000596\n";
   const RunHandle run = open_run(path);
   std::int8_t a = 0;
   std::int32_t b = 0;
@@ -523,6 +523,9 @@ TEST(CInterface, TheLargestNumbersOfATypeFit)
   EXPECT_EQ(b, 2147483647);
   const granular_destination large[] = { { "c_c", GRANULAR_FLOAT32, &c, 1 } };
   EXPECT_EQ(granular_read_into(run.get(), 0, nullptr, large, 1, nullptr), GRANULAR_BAD_ARGUMENT);
+  const granular_destination whole[] = { { "c_d", GRANULAR_INT32, &b, 1 } };
+  EXPECT_EQ(granular_read_into(run.get(), 0, nullptr, whole, 1, nullptr), GRANULAR_BAD_ARGUMENT);
+  EXPECT_NE(message().find("got 1.0000000596"), std::string::npos) << message();
 }
 
 TEST(CInterface, ABoxIsCompletedFromItsBounds)

@@ -25,6 +25,9 @@ TEST(Error, WhatIsPlaceAndText)
   EXPECT_EQ(error.where().line, 3);
   EXPECT_EQ(to_string(granular::Notice{ { "a.dump", 7 }, "a text" }), "a.dump:7: a text");
   EXPECT_EQ(to_string(granular::Notice{ {}, "a text" }), "a text");
+  const granular::Error broken("got 'a\nb'", { "a.dump", 0, -1, "c\x1b" }); // on one line
+  EXPECT_STREQ(broken.what(), "a.dump: column 'c\\x1b': got 'a\\nb'");
+  EXPECT_EQ(broken.text(), "got 'a\\nb'");
 }
 
 TEST(Error, KindsAreErrors)

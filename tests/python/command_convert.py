@@ -2,6 +2,7 @@
 """granular convert: between the forms of dumps, to numpy, tables and VTK, whole or in part; the old file until all is there."""
 import csv
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -123,6 +124,20 @@ with open("cut.dump", "wb") as stream:
     stream.write(content(SOURCE)[:400000].replace(b" 0.0025 ", b" 0.0025x ", 1))
 granular("convert", "cut.dump", "old.dump", status=1)
 assert content("old.dump") == content("old.csv") == b"old"
+
+# a disk that is full, a standard error that is closed or that nobody reads, and names that begin with a dash
+for out in ("old.dump", "old.csv", "last.npz"):
+    said = granular("convert", SOURCE, out, "--frames", "-1", status=1, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000)))[1]
+    assert said.count("\n") == 1 and out in said and "File too large" in said, said
+assert content("old.dump") == content("old.csv") == b"old" and not os.path.exists("last.npz")
+with open("odd.dump", "wb") as stream:
+    stream.write(content(SOURCE)[:-5])
+for number, end in enumerate(("2>&-", ">&- 2>&-", "2>&1 | true")):
+    command = f"{sys.executable} {os.environ['GRANULAR_COMMAND']} convert -- odd.dump -out_{number}.dump {end}"
+    assert subprocess.run(["bash", "-o", "pipefail", "-c", command]).returncode == 0, command
+    assert len(plain_dump.read(f"-out_{number}.dump")) == 4
+    os.remove(f"-out_{number}.dump")
+os.remove("odd.dump")
 
 # Ctrl-C in the middle of a large one
 with open("large.dump", "wb") as out:

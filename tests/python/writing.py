@@ -161,4 +161,8 @@ with warnings.catch_warnings(record=True) as caught:
     assert "boundaries" in str(caught[-1].message) and granular.open("bounds.dump")[0].box.hi.tolist() == [3, 4, 5]
     granular.write("no_box.dump", {"id": [1, 2], "type": [1, 1], "points": [[0.0, 0, 0], [1, 1, 1]]})
 assert caught and all(each.filename == __file__ for each in caught), [str(each) for each in caught]
+# words that would break a line are refused, in one line
+arrays["element"] = ["Fe", "H\nx"]
+raises(granular.Error, lambda: granular.write("broken.dump", arrays, box=box), r"got 'H\nx'")
+raises(granular.ArgumentError, lambda: granular.write("broken.dump", run[1], dialect="a\nb"), r"got 'a\nb'")
 print("written")

@@ -12,7 +12,7 @@ namespace
 std::string message(const std::string& text, const Where& where)
 {
   const std::string place = to_string(where);
-  return place.empty() ? text : place + ": " + text;
+  return place.empty() ? shown_path(text) : place + ": " + shown_path(text);
 }
 }
 
@@ -30,14 +30,14 @@ std::string to_string(const Where& where)
   if (!where.column.empty())
   {
     text += text.empty() ? "" : ": ";
-    text += "column '" + where.column + "'";
+    text += "column '" + shown_path(where.column) + "'";
   }
   return text;
 }
 
 Error::Error(const std::string& text, Where where)
   : std::runtime_error(message(text, where))
-  , text_(text)
+  , text_(shown_path(text))
   , where_(std::move(where))
 {
 }

@@ -96,8 +96,11 @@ def chosen(run: Any, text: str | None) -> Any:
 
 
 def say(text: str) -> None:
-    """Prints a remark where it does not mix with results."""
-    print(f"granular: {text}", file=sys.stderr)
+    """Prints a remark on one line, where it does not mix with results. Work goes on if nobody hears it."""
+    from .._library import shown
+
+    with contextlib.suppress(OSError):
+        print(f"granular: {shown(text)}", file=sys.stderr)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -121,8 +124,7 @@ def parser() -> argparse.ArgumentParser:
 def _flush() -> None:
     """Writes out what was printed: at Python's own end it is too late for an error. After an error the rest is dropped."""
     try:
-        if sys.stdout:  # it may be closed
-            sys.stdout.flush()
+        sys.stdout.flush()
     except OSError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise
@@ -132,6 +134,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command and returns its exit status."""
     from .. import Cancelled, Error
 
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # it was closed: a file that is written must not get its number
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))
     words = list(sys.argv[1:] if arguments is None else arguments)
     for i in range(len(words) - 1, 0, -1):
         if words[i - 1] in ("--frames", "--frame") and re.match(r"-\d", words[i]):  # argparse takes -2: for an option

@@ -66,6 +66,8 @@ def _region(text: str | None) -> list[float | None] | None:
 
 
 def _write_npz(frame: Any, stream: Any, columns: list[str] | None) -> None:
+    import zipfile
+
     import numpy
 
     box = frame.box
@@ -74,7 +76,11 @@ def _write_npz(frame: Any, stream: Any, columns: list[str] | None) -> None:
         facts |= {"box_origin": box.origin, "box_vectors": box.vectors}
     wanted = frame._has_points() and (columns is None or {"x", "y", "z", "x1"} & set(columns))
     points = {"points": frame.points} if wanted else {}
-    numpy.savez(stream, **{**facts, **points, **dict(frame)})
+    # numpy.savez leaves the archive open after an error, and Python prints a traceback when it closes it
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, values in {**facts, **points, **dict(frame)}.items():
+            with archive.open(name + ".npy", "w", force_zip64=True) as member:
+                numpy.lib.format.write_array(member, numpy.asanyarray(values), allow_pickle=False)
 
 
 def _write_csv(frame: Any, stream: Any, columns: list[str] | None) -> None:

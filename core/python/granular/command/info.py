@@ -131,7 +131,7 @@ def print_facts(found: dict[str, Any], name: str) -> None:
     lines += [("odd" if i == 0 else "", text) for i, text in enumerate(found["odd"])]
     print(name)
     for word, text in lines:
-        print(f"  {word:9}{text}")
+        print(f"  {word:9}{shown(text)}")
 
 
 def run(arguments: argparse.Namespace) -> None:

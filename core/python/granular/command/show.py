@@ -68,5 +68,5 @@ def run(arguments: argparse.Namespace) -> None:
         # a path, because with -m Python looks for modules in the current folder, too
         done = subprocess.run(_with_display([python, program]), input=json.dumps({**given, "picture": temporary}), capture_output=True, text=True)
         if done.returncode or not os.path.getsize(temporary):
-            raise RuntimeError((done.stdout + done.stderr).strip() or f"{picture}: it was not drawn")
+            raise RuntimeError(" ".join((done.stdout + done.stderr).split()) or f"{picture}: it was not drawn")
     print(arguments.output or os.path.basename(picture))
