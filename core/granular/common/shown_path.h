@@ -7,8 +7,8 @@
 
 namespace granular
 {
-/// Returns a file name, or a text with words of a user, for a message: on one line and in UTF-8: control characters become \n, \t or \x1b, and bytes that are
-/// not UTF-8 become \xff.
+/// Returns a file name, or a text with words of a user, for a message. It is on one line and in UTF-8: control characters become
+/// \n, \t or \x1b, and bytes that are not UTF-8 become \xff.
 std::string shown_path(std::string_view path);
 }
 #endif
