@@ -161,10 +161,11 @@ TEST(WriteColumns, names)
   EXPECT_EQ(write(grains.frame, {}).body,
     "id type x y z heat_flux my_pair_of_numbers[1] my_pair_of_numbers[2]\n1 1 1 2 3 1.5 1 2\n"
     "2 1 4 5 6 2.5 3 4\n");
-  for (const char* const name : { "heat flux", "", " id", "id\n" })
+  for (const auto& [name, shown] : { std::pair("heat flux", "heat flux"), std::pair("", ""),
+         std::pair(" id", " id"), std::pair("id\n", "id\\n") })
   {
     EXPECT_EQ(write(grains.frame, { "id", name }).error,
-      std::string("expected the name of a column as one word, got '") + name + "'");
+      std::string("expected the name of a column as one word, got '") + shown + "'");
   }
 }
 
@@ -316,13 +317,14 @@ TEST(WriteColumns, elements)
   std::string error;
   write_binary(grains.frame, { "state" }, &error);
   EXPECT_EQ(error, "column 'state': expected numbers for a binary dump, got texts");
-  for (const char* const bad : { "two words", "", " x", "line\n", "tab\t" })
+  for (const auto& [bad, shown] : { std::pair("two words", "two words"), std::pair("", ""),
+         std::pair(" x", " x"), std::pair("line\n", "line\\n"), std::pair("tab\t", "tab\\t") })
   {
     const std::vector<std::string> texts = { "good", bad };
     grains.frame.arrays = {};
     grains.add("state", ValueType::Text, texts);
     EXPECT_EQ(write(grains.frame, { "state" }).error,
-      std::string("column 'state': expected a word, got '") + bad + "'");
+      std::string("column 'state': expected a word, got '") + shown + "'");
   }
 }
 

@@ -294,8 +294,7 @@ TEST(WriteValues, units_time_and_label)
   frame.header.label = "";
   frame.header.box.boundary = "pp\n";
   EXPECT_EQ(write({ frame }).error,
-    "expected boundaries as in 'pp pp ff' or 'p p f', of p, f, s and m, got '" +
-      frame.header.box.boundary + "'");
+    "expected boundaries as in 'pp pp ff' or 'p p f', of p, f, s and m, got 'pp\\n'");
 }
 
 TEST(WriteValues, unknown_boundaries)

@@ -391,14 +391,16 @@ TEST(WriteLocal, ManyRows)
 TEST(WriteLocal, WhatRowsAreCalled)
 {
   const Made made;
-  for (const char* word : { "MY BONDS", "BONDS ", "B\nC", "B\x7f", "ATOMS", "TIMESTEP", "BOX" })
+  for (const auto& [word, shown] : { std::pair("MY BONDS", "MY BONDS"),
+         std::pair("BONDS ", "BONDS "), std::pair("B\nC", "B\\nC"), std::pair("B\x7f", "B\\x7f"),
+         std::pair("ATOMS", "ATOMS"), std::pair("TIMESTEP", "TIMESTEP"), std::pair("BOX", "BOX") })
   {
     const Written written = write(made.view(), local(Dialect::Lammps, word));
     EXPECT_EQ(written.error,
       "local: expected one word for what the rows are called, as ENTRIES, CONTACTS or BONDS, and "
       "not "
       "that of another section, got '" +
-        std::string(word) + "'");
+        std::string(shown) + "'");
     EXPECT_EQ(written.bytes, "");
   }
   // unless one is given: the word of the file that they are from
