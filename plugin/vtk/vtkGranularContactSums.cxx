@@ -356,7 +356,10 @@ private:
       "output of the reader");
     tell(this->Sums.missing > 0, "missing",
       std::to_string(this->Sums.missing) + ofAll +
-        "name a particle that is not there: they count for the other one alone");
+        "name a particle that is not there: they count for the other one alone" +
+        (this->Sums.unplaced > 0 ? "; " + std::to_string(this->Sums.unplaced) +
+              " of these have no line, and count for coordination and force alone"
+                                 : ""));
     tell(this->Sums.broken > 0, "broken",
       std::to_string(this->Sums.broken) + ofAll +
         "are left out: a number of theirs is no number, infinite or too large");

@@ -213,6 +213,7 @@ private:
       granular::average_contacts(found.GetEnds(), view.has_box ? &box : nullptr, request, ranks,
         executor, progress, averages);
       this->Missing += found.CountMissing();
+      this->Unplaced += found.CountUnplaced();
       this->BrokenContacts += found.CountBroken();
     }
     return averages;
@@ -310,6 +311,8 @@ private:
       "number, infinite or too large, or a mass or radius is negative");
     count(this->Missing,
       " contacts name a particle that is not there: their stress counts as far as it is known");
+    count(this->Unplaced,
+      " contacts name a particle that is not there, and have no line: they are left out");
     count(this->BrokenContacts,
       " contacts are left out: a number of theirs is no number, infinite or too large");
     for (const std::string& text : this->Notices)
@@ -374,7 +377,8 @@ private:
   granular::EulerFields Fields;
   vtkTypeInt64 Outside = 0; ///< particles, of all frames
   vtkTypeInt64 Broken = 0;
-  vtkTypeInt64 Missing = 0; ///< contacts
+  vtkTypeInt64 Missing = 0; ///< contacts: see FoundContacts
+  vtkTypeInt64 Unplaced = 0;
   vtkTypeInt64 BrokenContacts = 0;
   std::set<std::string> Notices;
 };

@@ -128,7 +128,7 @@ private:
       this->Progress.set_part(0, 0.3);
       found.emplace(std::array{ this->Inputs[1], this->Inputs[2] }, *this->Inputs[0], view,
         request.tensors, ranks, executor, notices, this->Progress);
-      this->Counts = { found->CountMissing(), found->CountBroken() };
+      this->Counts = { found->CountMissing(), found->CountUnplaced(), found->CountBroken() };
     }
     this->Progress.set_part(contacts ? 0.3 : 0, 0.95);
     granular::EulerAverages averages = granular::average_at_points(view, places,
@@ -187,8 +187,11 @@ private:
     tell(this->Counts[0] > 0, "missing",
       std::to_string(this->Counts[0]) +
         " contacts name a particle that is not there: their stress counts as far as it is known");
-    tell(this->Counts[1] > 0, "broken contacts",
+    tell(this->Counts[1] > 0, "unplaced",
       std::to_string(this->Counts[1]) +
+        " contacts name a particle that is not there, and have no line: they are left out");
+    tell(this->Counts[2] > 0, "broken contacts",
+      std::to_string(this->Counts[2]) +
         " contacts are left out: a number of theirs is no number, infinite or too large");
     for (const std::string& text : this->Notices)
     {
@@ -209,7 +212,7 @@ private:
   std::optional<Particles> Grains;
   granular::EulerFrame Frame;
   std::int64_t Broken = 0;
-  std::array<std::int64_t, 2> Counts = {}; ///< contacts with a missing particle, and broken ones
+  std::array<std::int64_t, 3> Counts = {}; ///< contacts: see FoundContacts
   std::vector<std::string> Notices;
 };
 

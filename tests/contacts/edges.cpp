@@ -56,7 +56,7 @@ TEST(Edges, NothingAtAll)
   EXPECT_EQ(sum_all(scene).counts, (Counts{ 0, 0, 0, 0, 1, 0, 0 }));
 }
 
-/// The other one gets its part, if the line says where that is.
+/// The other one gets its part, and without a line the force alone.
 TEST(Edges, MissingParticles)
 {
   for (const std::size_t missing : { 0U, 1U })
@@ -71,9 +71,11 @@ TEST(Edges, MissingParticles)
     EXPECT_EQ(found.grains[0].stress, (Six{ -4, 0, 0, 1, 0, 0 })); // half the line
     EXPECT_EQ(found.friction[0], (std::vector<double>{ 0.25 }));
     scene.known.ends = false;
+    scene.known.torque = true;
     found = sum_all(scene);
-    EXPECT_EQ(count_different(found.grains, { { .rattler = 1 } }), 0);
-    EXPECT_EQ(found.counts, (Counts{ 1, 0, 1, 0, 1, 0, 0 }));
+    const Sums alone = { .coordination = 1, .force = { -4 * sign, sign, 0 }, .rattler = 1 };
+    EXPECT_EQ(count_different(found.grains, { alone }), 0);
+    EXPECT_EQ(found.counts, (Counts{ 1, 1, 1, 0, 1, 0, 0 }));
     EXPECT_TRUE(std::isnan(found.friction[0][0]));
   }
   // of a wall

@@ -219,7 +219,13 @@ made = made_of(lines=pairs(id2=[9, 3]), walls=walls())
 works(made, MISSING.format(1, 3))
 assert array(made, "contact_force").tolist() == [[-4, 1, 3], [-6, 0, 0], [6, 0, 0]]
 works(made_of(lines=pairs(), walls=walls(id2=[8])), MISSING.format(1, 3))
-works(made_of(lines=table_of({**ROWS, "id1": [9, 9]})), MISSING.format(2, 2))
+# a particle that is not in the dump, as of a group: the other one has its contact, and no part in what needs a line
+made = made_of(lines=table_of({**ROWS, "id1": [9, 9]}))
+works(made, MISSING.format(2, 2) + "; 2 of these have no line, and count for coordination and force alone")
+assert array(made, "coordination").tolist() == [0, 1, 1]
+assert array(made, "contact_force").tolist() == [[0, 0, 0], [4, -1, 0], [6, 0, 0]]
+for name in ("contact_torque", "fabric", "contact_stress"):
+    assert not array(made, name).any(), name
 for wrong in (NAN, INFINITY, -INFINITY, 1e300):
     made = made_of(lines=pairs(force=[[-4.0, 1, 0], [wrong, 0, 0]]), walls=walls())
     works(made, BROKEN.format(1, 3))

@@ -211,7 +211,8 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
   {
     const auto first = grain_of.find(touch.id1);
     const auto second = grain_of.find(touch.id2);
-    const Vector3 branch = minus(touch.to, touch.from);
+    const bool line = scene.known.ends || (first != grain_of.end() && second != grain_of.end());
+    const Vector3 branch = line ? minus(touch.to, touch.from) : Vector3{};
     double part = 0.5;
     if (lever == LeverArm::ContactPoint && first != grain_of.end() && second != grain_of.end())
     {
@@ -223,16 +224,19 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
     };
     if (first != grain_of.end())
     {
-      const Vector3 arm = use_point ? seen_from(touch.from, touch.point, scene) : share(part);
+      const Vector3 arm =
+        use_point && line ? seen_from(touch.from, touch.point, scene) : share(part);
       add_end(sums[first->second], arm, branch, touch.force,
-        scene.known.torque ? touch.torque : moment(arm, touch.force), counts(touch));
+        scene.known.torque && line ? touch.torque : moment(arm, touch.force), counts(touch));
     }
     if (second != grain_of.end())
     {
-      const Vector3 arm = use_point ? seen_from(touch.to, touch.point, scene) : share(part - 1);
+      const Vector3 arm =
+        use_point && line ? seen_from(touch.to, touch.point, scene) : share(part - 1);
       const Vector3 force = turned_round(touch.force);
       add_end(sums[second->second], arm, branch, force,
-        scene.known.torque ? minus(moment(branch, touch.force), touch.torque) : moment(arm, force),
+        scene.known.torque && line ? minus(moment(branch, touch.force), touch.torque)
+                                   : moment(arm, force),
         counts(touch));
     }
   }

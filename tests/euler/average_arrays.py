@@ -7,7 +7,7 @@ from contact_averages import (ALL, CENTRE, GAUSSIAN, HEAVISIDE, IMAGE, INSIDE, L
                               Averages, Run, change, kernel, tables_of)
 from contact_sums import arrays_of, local_of, reader_of
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 
 import granular
 import plain_contacts as plain
@@ -229,6 +229,16 @@ inner = (numpy.arange(SIZE) // (COUNTS[0] * COUNTS[1]) > 0) & (numpy.arange(SIZE
     numpy.arange(SIZE) // COUNTS[0] % COUNTS[1] % (COUNTS[1] - 1) > 0)
 assert abs(near["sigma_contact"] - found["sigma_contact"])[inner].max() < 1e-10 * abs(found["sigma_contact"]).max()
 tables.filter.SetPeriodic(0)
+without_one = []
+for name, value, said in (("force", float("nan"), "1 contacts are left out"),
+                          ("id1", 12345, "1 contacts name a particle that is not there, and have no line: they are left out")):
+    rows = vtkTable()
+    rows.DeepCopy(tables.lines.GetOutputDataObject(1))
+    rows.GetColumnByName(name).SetTuple(5, [value] * rows.GetColumnByName(name).GetNumberOfComponents())
+    tables.filter.SetInputDataObject(1, rows)
+    without_one.append(warns(tables, [said]))
+assert all(without_one[0][name].tobytes() == without_one[1][name].tobytes() for name in ALL)
+tables.filter.SetLinesConnection(tables.lines.GetOutputPort(1))
 tables.filter.SetLinesConnection(None)
 walls = local_of("periodic_bed_walls")  # whom a port does not keep alive
 tables.filter.SetWallsConnection(walls.GetOutputPort(1))

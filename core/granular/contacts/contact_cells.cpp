@@ -118,11 +118,7 @@ private:
   Line load(std::int64_t contact) const noexcept
   {
     const auto [ends, row] = contacts_.at(contact);
-    if (ends.place(row, 0) < 0 && ends.place(row, 1) < 0)
-    {
-      return {};
-    }
-    return { ends.first(row), ends.branch(row), true };
+    return ends.has_line(row) ? Line{ ends.first(row), ends.branch(row), true } : Line{};
   }
 
   void scan()

@@ -19,18 +19,15 @@ double ContactEnds::is_enough(std::size_t row) const noexcept
     {
       overlap = rows_.overlap[row];
     }
+    else if (this->place(row, 1) == nowhere || (this->place(row, 0) == nowhere && !kinds_.walls))
+    {
+      return 1; // with a particle that is not there: nobody knows
+    }
     else
     {
       overlap = -length_of(this->branch(row));
-      for (std::size_t end = 0; end < 2; ++end)
-      {
-        const std::int64_t place = this->place(row, end);
-        if (place == nowhere && !(kinds_.walls && end == 0))
-        {
-          return 1; // with a particle that is not there: nobody knows
-        }
-        overlap += place == nowhere ? 0 : particles_.radius(place);
-      }
+      overlap += kinds_.walls ? 0 : particles_.radius(this->place(row, 0));
+      overlap += particles_.radius(this->place(row, 1));
     }
     return overlap >= options_.least_overlap ? 1 : 0;
   }

@@ -67,7 +67,15 @@ public:
     return places_[2 * row + end];
   }
 
-  /// Returns where the first end is.
+  /// Returns true for a contact of a particle known here that has two known ends. Without them only its force is known.
+  bool has_line(std::size_t row) const noexcept
+  {
+    const bool first = this->place(row, 0) != nowhere;
+    const bool second = this->place(row, 1) != nowhere;
+    return kinds_.ends ? first || second : second && (first || kinds_.walls);
+  }
+
+  /// Returns where the first end is, of a contact that has a line; here and below.
   Vector3 first(std::size_t row) const noexcept
   {
     return kinds_.walls && !kinds_.ends ? of(rows_.contact_point, row) : this->centre(row, 0);

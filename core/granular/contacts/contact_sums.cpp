@@ -203,9 +203,8 @@ std::vector<Block> find_friction(const FoundEnds& found, std::span<const Contact
         for (std::size_t row = first; row < first + count; ++row)
         {
           const auto [ends, at] = found.at(static_cast<std::int64_t>(begin + row));
-          to[row] = ends.place(at, 0) < 0 && ends.place(at, 1) < 0
-            ? std::numeric_limits<double>::quiet_NaN()
-            : ends.friction(at);
+          to[row] =
+            ends.has_line(at) ? ends.friction(at) : std::numeric_limits<double>::quiet_NaN();
         }
       },
       progress);
@@ -287,11 +286,11 @@ ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows
       {
         add_rattlers(found, particles, request, ranks, parts, sums);
       }
-      std::array<std::int64_t, 7> all = { sums.particles, sums.contacts, sums.rattling,
-        sums.bearing, found.missing(), found.broken(), found.repeated() };
+      std::array<std::int64_t, 8> all = { sums.particles, sums.contacts, sums.rattling,
+        sums.bearing, found.missing(), found.unplaced(), found.broken(), found.repeated() };
       ranks.sum(all);
       std::tie(sums.particles, sums.contacts, sums.rattling, sums.bearing, sums.missing,
-        sums.broken, sums.repeated) = std::tuple_cat(all);
+        sums.unplaced, sums.broken, sums.repeated) = std::tuple_cat(all);
       return sums;
     });
 }

@@ -59,6 +59,8 @@ struct ContactSums
   std::int64_t bearing = 0;   ///< contacts as above, without rattlers
   std::int64_t missing =
     0; ///< rows of all ranks with a particle that is not there; the other one gets its part
+  std::int64_t unplaced =
+    0; ///< of these, rows without ends: the other one gets the force alone, and counts the contact
   std::int64_t broken =
     0; ///< rows of all ranks that are left out: a number of theirs, or of their particles, is not usable
   std::int64_t repeated = 0; ///< particles with the id of an earlier one, which is taken

@@ -56,11 +56,12 @@ struct ContactTerms
         });
       return;
     }
-    const Vector3 branch = torque || fabric || stress ? ends.branch(row) : Vector3{};
+    const bool line = (torque || fabric || stress) && ends.has_line(row);
+    const Vector3 branch = line ? ends.branch(row) : Vector3{};
     const Vector3 normal = fabric ? ContactEnds::normal(branch) : Vector3{};
     const Counted counted = { counts != 0 ? 1 : 0, counts != 0 && normal != Vector3{} ? 1 : 0 };
-    const Feel first = to[0] ? this->feel(ends, row, 0, branch) : Feel{};
-    const Feel second = to[1] ? this->feel(ends, row, 1, branch) : Feel{};
+    const Feel first = to[0] ? this->feel(ends, row, 0, line, branch) : Feel{};
+    const Feel second = to[1] ? this->feel(ends, row, 1, line, branch) : Feel{};
     if (to[0])
     {
       this->write(counted, counts, normal, first, *to[0]);
@@ -86,12 +87,12 @@ private:
     Vector3 torque;
   };
 
-  Feel feel(
-    const ContactEnds& ends, std::size_t row, std::size_t end, const Vector3& branch) const noexcept
+  Feel feel(const ContactEnds& ends, std::size_t row, std::size_t end, bool line,
+    const Vector3& branch) const noexcept
   {
-    const Vector3 arm = torque || stress ? ends.arm(row, end, branch) : Vector3{};
+    const Vector3 arm = line && (torque || stress) ? ends.arm(row, end, branch) : Vector3{};
     return { force || stress ? ends.force(row, end) : Vector3{}, arm,
-      torque ? ends.torque(row, end, branch, arm) : Vector3{} };
+      line && torque ? ends.torque(row, end, branch, arm) : Vector3{} };
   }
 
   void write(const Counted& counted, double counts, const Vector3& normal, const Feel& feel,

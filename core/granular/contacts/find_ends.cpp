@@ -256,6 +256,7 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
     const bool sound = !is_broken(rows, first, count);
     std::int64_t lost = 0;
     std::int64_t bad = 0;
+  std::atomic<std::int64_t> unplaced = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
       auto [one, other] = std::array{ found[0][i], found[1][i] };
@@ -264,9 +265,8 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
         is_broken(particles, one, needs) || is_broken(particles, other, needs);
       lost += lacks ? 1 : 0;
       bad += breaks ? 1 : 0;
-      const bool out = breaks || (lacks && !kinds.ends); // or else it is not known where it is
-      places[2 * (first + i)] = out ? IdFinder::nowhere : one;
-      places[2 * (first + i) + 1] = out ? IdFinder::nowhere : other;
+      places[2 * (first + i)] = breaks ? IdFinder::nowhere : one;
+      places[2 * (first + i) + 1] = breaks ? IdFinder::nowhere : other;
     }
     missing += lost;
     broken += bad;
@@ -281,6 +281,7 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
       }
     },
     progress);
+    unplaced += kinds.ends ? 0 : lost;
   missing_ += missing;
   broken_ += broken;
 }
@@ -294,6 +295,7 @@ std::vector<ParticleHome> FoundEnds::homes() const
   std::vector<ParticleHome> own(static_cast<std::size_t>(own_rows_));
   for (std::size_t row = 0; row < own.size(); ++row)
   {
+  unplaced_ += unplaced;
     own[row] = { 0, static_cast<std::int64_t>(row) };
   }
   return own;

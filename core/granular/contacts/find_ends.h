@@ -69,8 +69,10 @@ public:
   /// Returns true if contacts have forces, or if there are none.
   bool have_forces() const noexcept { return forces_; }
 
-  std::int64_t missing() const noexcept { return missing_; }   ///< rows of this rank
-  std::int64_t broken() const noexcept { return broken_; }     ///< rows of this rank
+  // rows of this rank: see ContactSums
+  std::int64_t missing() const noexcept { return missing_; }
+  std::int64_t unplaced() const noexcept { return unplaced_; }
+  std::int64_t broken() const noexcept { return broken_; }
   std::int64_t repeated() const noexcept { return repeated_; } ///< particles known here
 
 private:
@@ -89,6 +91,7 @@ private:
   std::size_t rows_ = 0;
   bool forces_ = true;
   std::int64_t missing_ = 0;
+  std::int64_t unplaced_ = 0;
   std::int64_t broken_ = 0;
   std::int64_t repeated_ = 0;
 };

@@ -136,7 +136,7 @@ private:
     for (std::size_t i = 0; i < contacts.rows(); ++i)
     {
       const auto [ends, row] = contacts.at(static_cast<std::int64_t>(i));
-      if (ends.place(row, 0) >= 0 || ends.place(row, 1) >= 0)
+      if (ends.has_line(row))
       {
         for (const double component : ends.branch(row))
         {
@@ -159,7 +159,7 @@ private:
         progress_.step(static_cast<double>(i) / static_cast<double>(contacts->rows()));
       }
       const auto [ends, row] = contacts->at(static_cast<std::int64_t>(i));
-      if (ends.place(row, 0) < 0 && ends.place(row, 1) < 0)
+      if (!ends.has_line(row))
       {
         continue;
       }

@@ -41,7 +41,8 @@ FoundContacts::FoundContacts(const std::array<vtkDataObject*, 2>& inputs, vtkDat
                   "pressure lack their part";
     notices.push_back(notice);
   }
-  this->Left = { this->Ends->missing(), this->Ends->broken() };
+  const std::int64_t unplaced = this->Ends->unplaced();
+  this->Left = { this->Ends->missing() - unplaced, unplaced, this->Ends->broken() };
   ranks.sum(this->Left);
 }
 }
