@@ -4,7 +4,7 @@
  * @brief   Sums the contacts of each particle: coordination, force, torque, fabric, stress.
  *
  * Port 0 has the particles, a vtkPointSet with the point array `id`. Port 1 has contacts between particles, port 2 contacts with
- * walls; at least one of them. Contacts are lines, or rows of a vtkTable, which then lie at the particles' shortest distance.
+ * walls; at least one of them. Contacts are lines, or rows of a vtkTable.
  * Rows of port 1 name two particles in `id1` and `id2`, rows of port 2 one in `id2`; there a line goes from the point that is touched
  * to the centre, as compute wall/gran/local of LIGGGHTS has it. Cell arrays that count: `force` on the first particle, of walls on the
  * particle (without it `force_normal` and `force_tangential`), `torque` on the same particle, `contact_point`, `delta` (overlap).
@@ -25,8 +25,9 @@
  *
  * Sums are correctly rounded: the results are the same, bit for bit, for any order of particles and contacts, threads and ranks.
  * Particles and contacts may be on different ranks. Contacts that name a particle which is not there count for the other one, and are
- * counted in a warning; contacts with a number that is not finite are left out, with a warning. Lines must be the shortest, as
- * PeriodicLines MinimumImage or Split of the reader draws them.
+ * counted in a warning; rows without lines count for its coordination and force alone. Contacts with a number that is not finite are
+ * left out, with a warning. Lines go from particle to particle by the shortest way through the periodic faces of the particles' box, as
+ * rows do, however they are drawn. Without that box they are as drawn, and the shortest in their own box.
  */
 
 #ifndef vtkGranularContactSums_h

@@ -96,7 +96,50 @@ TEST(Edges, OverlapWithMissingParticles)
   request.options.least_overlap = 1e9;
   EXPECT_EQ(sum_all(scene, request).grains[0].coordination, 0);
   scene.grains.pop_back();
-  EXPECT_EQ(sum_all(scene, request).grains[0].coordination, 1);
+  for (const bool ends : { true, false })
+  {
+    scene.known.ends = ends;
+    EXPECT_EQ(sum_all(scene, request).grains[0].coordination, 1);
+  }
+}
+
+/// Lines that readers leave as they are written go through the box; those that they draw end where doubles are far apart.
+TEST(Edges, LinesAcrossPeriodicFaces)
+{
+  Scene scene = two();
+  scene.box = made::periodic_box({ 0, 0, 0 }, { 5, 5, 5 });
+  scene.grains[0].x = { 0.25, 0, 0 };
+  scene.grains[1].x = { 4.5, 0, 0 };
+  scene.pairs[0].from = scene.grains[0].x;
+  scene.pairs[0].force = { 1, 0.5, 0 };
+  for (const double drawn : { 4.5, -0.5, 9.5 })
+  {
+    scene.pairs[0].to = { drawn, 0, 0 };
+    for (const Sums& grain : sum_all(scene).grains)
+    {
+      EXPECT_EQ(grain.stress, (Six{ -0.375, 0, 0, -0.1875, 0, 0 })); // half of -0.75 by the force
+      EXPECT_EQ(grain.fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
+    }
+    for (const std::size_t missing : { 0U, 1U }) // the line and the box tell the same
+    {
+      Scene one = scene;
+      one.grains.erase(one.grains.begin() + static_cast<std::ptrdiff_t>(missing));
+      EXPECT_EQ(sum_all(one).grains[0].stress, (Six{ -0.375, 0, 0, -0.1875, 0, 0 }));
+    }
+  }
+  // a drawn end at 10^6 has ten digits behind the point
+  scene.box = made::periodic_box({ 0, 0, 0 }, { 1e6, 5, 5 });
+  scene.grains[0].x[0] = 1e6 - 1e-3;
+  scene.grains[1].x[0] = 1e-3;
+  scene.pairs[0].from = scene.grains[0].x;
+  scene.pairs[0].to = { 1e-3 + 1e6, 0, 0 };
+  const double branch = (1e6 - scene.grains[0].x[0]) + 1e-3; // the difference is exact
+  EXPECT_NE(branch, scene.pairs[0].to[0] - scene.pairs[0].from[0]);
+  EXPECT_EQ(sum_all(scene).grains[0].stress, (Six{ branch / 2, 0, 0, branch / 4, 0, 0 }));
+  // with a wall, whose place is written on the other side
+  scene.pairs.clear();
+  scene.walls = { { 0, 1, { 0, 0, 0 }, scene.grains[0].x, { -1, 0, 0 } } };
+  EXPECT_EQ(sum_all(scene).grains[0].stress[0], scene.grains[0].x[0] - 1e6);
 }
 
 /// The normal of a contact with a wall is that of its line, wherever the force acts.

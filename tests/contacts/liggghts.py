@@ -75,8 +75,8 @@ for name, step in BEDS:
             grains.radius[grains.rows(ids)] for ids in contacts.ids))[:, None]
         second_arm = first_arm - branch
         if "contactPoint" in contacts.named:
-            first_arm, second_arm = (plain.nearest(contacts.named["contactPoint"] - contacts.ends[:, end], grains.vectors,
-                                                   contacts.periodic)[0] for end in (0, 1))
+            first_arm, second_arm = (plain.nearest(contacts.named["contactPoint"] - grains.x[grains.rows(ids)], grains.vectors,
+                                                   contacts.periodic)[0] for ids in contacts.ids)
         first, second = numpy.cross(first_arm, contacts.force), numpy.cross(second_arm, -contacts.force)
         of_walls = numpy.cross(rows.ends[:, 0] - rows.ends[:, 1], rows.force)
     expected = plain.add_up(grains, contacts, first, second) + plain.add_up(grains, rows, None, of_walls)

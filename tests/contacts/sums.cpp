@@ -187,7 +187,9 @@ TEST(ContactSums, AMillionContactsOfOneParticle)
   Scene scene = make_scene(form, 21);
   for (Touch& touch : scene.pairs)
   {
-    touch.id1 = scene.grains[0].id; // its lines begin anywhere
+    touch.id1 = scene.grains[0].id;
+    const made::Vector3 branch = made::seen_from(scene.grains[0].x, touch.to, scene);
+    touch.from = made::minus(touch.to, branch);
   }
   scene.pairs[777].force[0] += 0x1p-20;
   const made::Found found = sum_all(scene, plain_request(LeverArm::ContactPoint, 2));

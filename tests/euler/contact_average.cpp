@@ -176,7 +176,7 @@ TEST(ContactAverage, CellsTogetherHaveTheStressOfAllContacts)
   HardCase hard("contact averages",
     "sum of stress times volume over all cells, by branch times force: relative error", "1", 1e-13);
   Box box = Box::from_bounds(lo, hi);
-  const Scene scene = random_scene(50, 60, 15, lo, hi, 3);
+  const Scene scene = with_ends(random_scene(50, 60, 15, lo, hi, 3));
   for (const char* const boundary : { "ff ff ff", "pp ff pp", "pp pp pp" })
   {
     box.boundary = boundary;

@@ -188,4 +188,23 @@ inline Scene random_scene(std::size_t grains, std::size_t pairs, std::size_t wal
   }
   return scene;
 }
+
+/// The scene with small grains at the ends of its lines, which a periodic box does not leave as they are drawn.
+inline Scene with_ends(Scene scene)
+{
+  const auto grain_at = [&](const granular::Vector3& end)
+  {
+    scene.grains.push_back({ end, {}, 1e-3, 1e-3 });
+    return scene.ids.emplace_back(static_cast<std::int64_t>(scene.grains.size()));
+  };
+  for (std::vector<Touch>* const touches : { &scene.pairs, &scene.walls })
+  {
+    for (Touch& touch : *touches)
+    {
+      touch.id1 = grain_at(touch.from);
+      touch.id2 = grain_at(touch.to);
+    }
+  }
+  return scene;
+}
 #endif

@@ -249,8 +249,9 @@ TEST(PointRows, TooManyImagesAreAnErrorOnAllRanks)
   const Scene scene = random_scene(60, 90, 10, lo, hi, 13, 0.2);
   const std::vector<double> far = { 1e9, 0, 0, -1e9, 0, 0 };
   EXPECT_THROW(average_points_of(scene, far, &box, some_request()), LimitError);
-  // a line as long as many boxes
+  // a line from a particle to an image of it, as far as many boxes
   Scene long_line = scene;
+  long_line.pairs[5].id2 = long_line.pairs[5].id1;
   long_line.pairs[5].to[0] += 1e9;
   const std::vector<double> points = random_points(10, lo, hi, 14);
   EXPECT_THROW(average_points_of(long_line, points, &box, some_request()), LimitError);

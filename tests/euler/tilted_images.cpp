@@ -58,7 +58,7 @@ const Tilted boxes[] = {
 /// Particles and contacts all over a box, and a box length beyond it.
 Scene scene_in(const Tilted& tilted, unsigned seed)
 {
-  Scene scene = random_scene(30, 30, 10, { 0, 0, 0 }, { 1, 1, 1 }, seed);
+  Scene scene = random_scene(30, 30, 10, { 0, 0, 0 }, { 1, 1, 1 }, seed, 0.25);
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> part(-0.5, 1.5);
   const auto place = [&] {
@@ -78,7 +78,7 @@ Scene scene_in(const Tilted& tilted, unsigned seed)
         touch.from[2] + branch[2] };
     }
   }
-  return scene;
+  return with_ends(scene);
 }
 
 /// The scene with all images that are less than `reach` from the bounds, without a box. Lines are short.

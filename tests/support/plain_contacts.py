@@ -100,11 +100,8 @@ def nearest(difference, vectors, periodic):
 
 
 def branches(particles, contacts):
-    """From the first to the second end, and the sum of box vectors in it."""
-    if hasattr(contacts, "ends"):
-        first, second = contacts.ends[:, 0], contacts.ends[:, 1]
-    else:
-        first, second = (particles.x[particles.rows(ids)] for ids in contacts.ids)
+    """From the first to the second particle, and the sum of box vectors in it."""
+    first, second = (particles.x[particles.rows(ids)] for ids in contacts.ids)
     return nearest(second - first, particles.vectors, contacts.periodic)
 
 

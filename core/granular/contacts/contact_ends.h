@@ -30,7 +30,7 @@ struct ContactOptions
 /// The particles at the ends of contacts.
 struct ContactParticles
 {
-  const double* points = nullptr; ///< x y z of the first
+  const double* points = nullptr; ///< x y z of the first; null: the ends of lines count
   std::int64_t point_step = 3;    ///< numbers from one to the next
   const double* radii = nullptr;  ///< of the first; null: not known
   std::int64_t radius_step = 1;
@@ -81,13 +81,17 @@ public:
     return kinds_.walls && !kinds_.ends ? of(rows_.contact_point, row) : this->centre(row, 0);
   }
 
-  /// Returns the vector from the first to the second end: with a wall from the point that is touched to the centre.
+  /// Returns the shortest vector from the first to the second end: with a wall from the point that is touched to the centre.
+  /// A particle that touches its own image is as far from it as the line is long.
   Vector3 branch(std::size_t row) const noexcept
   {
+    if (kinds_.ends && this->place(row, 0) == this->place(row, 1))
+    {
+      return minus(this->drawn(row, 1), this->drawn(row, 0));
+    }
     const Vector3 first = this->first(row);
     const Vector3 second = this->centre(row, 1);
-    const Vector3 direct = minus(second, first);
-    return kinds_.ends ? direct : images_.moved(second, images_.find(direct), first);
+    return images_.moved(second, images_.find(minus(second, first)), first);
   }
 
   /// Returns 1, or 0 for a contact below the least force or overlap.
@@ -165,11 +169,20 @@ private:
     return this->is_other(end) ? minus(a) : a;
   }
 
+  Vector3 drawn(std::size_t row, std::size_t end) const noexcept
+  {
+    const double* const from = rows_.ends.data() + 6 * row + 3 * end;
+    return { from[0], from[1], from[2] };
+  }
+
   Vector3 centre(std::size_t row, std::size_t end) const noexcept
   {
-    const double* const from = kinds_.ends
-      ? rows_.ends.data() + 6 * row + 3 * end
-      : particles_.points + this->place(row, end) * particles_.point_step;
+    const std::int64_t place = this->place(row, end);
+    if (kinds_.ends && (!particles_.points || place == nowhere))
+    {
+      return this->drawn(row, end);
+    }
+    const double* const from = particles_.points + place * particles_.point_step;
     return { from[0], from[1], from[2] };
   }
 

@@ -2,11 +2,13 @@
 #ifndef granular_contacts_contact_rows_h
 #define granular_contacts_contact_rows_h
 
+#include "granular/geometry/box.h"
 #include "granular/parallel/communicator.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -19,13 +21,14 @@ struct ContactRows
   std::span<const std::int64_t> id1; ///< particle at the first end; empty: a wall
   std::span<const std::int64_t> id2; ///< particle at the second end
   std::span<const double>
-    ends; ///< x y z of the first and the second end: centres of particles, or the point of a wall that is touched; the
-          ///< nearest images. Without them ends are at the particles
+    ends; ///< x y z of the first and the second end: centres of particles, or the point of a wall that is touched. Particles
+          ///< that are known, and whose box is, are where they are themselves
   std::span<const double> force;         ///< three on the first particle, of walls on the particle
   std::span<const double> tangential;    ///< three: the part of the force across the branch vector
   std::span<const double> torque;        ///< three on the same particle
   std::span<const double> contact_point; ///< x y z, of any image
   std::span<const double> overlap;       ///< one a row
+  std::optional<Box> box = {};           ///< counts where the particles have none
 };
 
 /// What all ranks know of the contacts of one input.

@@ -27,15 +27,16 @@ struct Needs
   bool must_radii = false; ///< or else nothing tells the overlap
 };
 
-Needs find_needs(const ContactKinds& kind, const ContactOptions& options)
+Needs find_needs(const ContactKinds& kind, const ContactOptions& options, bool has_box)
 {
-  return { !kind.ends, !kind.walls && !kind.contact_point && options.arm == LeverArm::ContactPoint,
+  return { !kind.ends || has_box,
+    !kind.walls && !kind.contact_point && options.arm == LeverArm::ContactPoint,
     options.least_overlap > 0 && !kind.overlap };
 }
 
 /// What all contacts need together.
 Needs find_needs(std::span<const ContactKinds> kinds, std::span<const std::int64_t> counts,
-  const ContactOptions& options)
+  const ContactOptions& options, bool has_box)
 {
   Needs all;
   for (std::size_t i = 0; i < kinds.size(); ++i)
@@ -48,12 +49,21 @@ Needs find_needs(std::span<const ContactKinds> kinds, std::span<const std::int64
     {
       throw Error("expected lines or an array 'contact_point' of contacts with walls, got neither");
     }
-    const Needs needs = find_needs(kinds[i], options);
+    const Needs needs = find_needs(kinds[i], options, has_box);
     all.points = all.points || needs.points;
     all.radii = all.radii || needs.radii;
     all.must_radii = all.must_radii || needs.must_radii;
   }
   return all;
+}
+
+/// Returns the box whose periods the contacts cross.
+Box box_of(const FrameView& particles, std::span<const ContactRows> inputs)
+{
+  const auto known =
+    std::ranges::find_if(inputs, [](const ContactRows& rows) { return rows.box.has_value(); });
+  const bool tells = particles.has_box && !particles.header.box.boundary.empty();
+  return tells ? particles.header.box : known != inputs.end() ? *known->box : Box{};
 }
 
 /// Returns true if a needed number of a particle, or of none, is not usable.
@@ -161,7 +171,7 @@ std::vector<double> load_radii(const FrameView& particles, const std::string& na
 FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> inputs,
   const std::string& radius, const ContactOptions& options, Communicator& ranks,
   const Executor& executor, Progress& progress, const std::shared_ptr<BlockPool>& pool)
-  : images_(particles.has_box ? particles.header.box : Box{})
+  : images_(box_of(particles, inputs))
 {
   std::vector<ContactKinds> kinds;
   for (const ContactRows& rows : inputs)
@@ -171,7 +181,7 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
   }
   const std::vector<std::int64_t> counts = count_all(inputs, ranks);
   forces_ = check_forces(kinds, counts, options);
-  const Needs needs = find_needs(kinds, counts, options);
+  const Needs needs = find_needs(kinds, counts, options, particles.has_box);
   PartialProgress parts(progress);
   parts.set_part(0, 0.3);
   const Ids ids = find_ids(particles, executor, parts);
@@ -229,8 +239,10 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
     const auto all = static_cast<double>(std::max<std::size_t>(all_places.size(), 1));
     parts.set_part(0.4 + 0.6 * static_cast<double>(begin) / all,
       0.4 + 0.6 * static_cast<double>(begin + places.size()) / all);
-    this->find_places(finder, inputs[i], kinds[i], ends, options, places, executor, parts);
-    inputs_.emplace_back(inputs[i], kinds[i], ends, places, images_, options);
+    ContactParticles own = ends;
+    own.points = kinds[i].ends && !particles.has_box ? nullptr : ends.points;
+    this->find_places(finder, inputs[i], kinds[i], own, options, places, executor, parts);
+    inputs_.emplace_back(inputs[i], kinds[i], own, places, images_, options);
     begin += places.size();
   }
 }
@@ -241,9 +253,10 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
   std::span<std::int64_t> places, const Executor& executor, Progress& progress)
 {
   constexpr std::size_t at_once = 1024;
-  const Needs needs = find_needs(kinds, options);
+  const Needs needs = find_needs(kinds, options, particles.points != nullptr);
   std::atomic<std::int64_t> missing = 0;
   std::atomic<std::int64_t> broken = 0;
+  std::atomic<std::int64_t> unplaced = 0;
   const auto find = [&](std::size_t first, std::size_t count)
   {
     std::array<std::array<std::int64_t, at_once>, 2> found;
@@ -256,7 +269,6 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
     const bool sound = !is_broken(rows, first, count);
     std::int64_t lost = 0;
     std::int64_t bad = 0;
-  std::atomic<std::int64_t> unplaced = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
       auto [one, other] = std::array{ found[0][i], found[1][i] };
@@ -269,6 +281,7 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
       places[2 * (first + i) + 1] = breaks ? IdFinder::nowhere : other;
     }
     missing += lost;
+    unplaced += kinds.ends ? 0 : lost;
     broken += bad;
   };
   executor.for_each_stretch(
@@ -281,8 +294,8 @@ void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
       }
     },
     progress);
-    unplaced += kinds.ends ? 0 : lost;
   missing_ += missing;
+  unplaced_ += unplaced;
   broken_ += broken;
 }
 
@@ -295,7 +308,6 @@ std::vector<ParticleHome> FoundEnds::homes() const
   std::vector<ParticleHome> own(static_cast<std::size_t>(own_rows_));
   for (std::size_t row = 0; row < own.size(); ++row)
   {
-  unplaced_ += unplaced;
     own[row] = { 0, static_cast<std::int64_t>(row) };
   }
   return own;

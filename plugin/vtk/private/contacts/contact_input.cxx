@@ -87,6 +87,7 @@ ContactInput::ContactInput(
   : Rows(input)
 {
   this->View.count = static_cast<std::size_t>(this->Rows.Count());
+  this->View.box = FindBox(input->GetFieldData());
   if (this->View.count == 0)
   {
     return;
