@@ -204,7 +204,7 @@ private:
     frames.End(this->Self->Reference == PREVIOUS);
   }
 
-  std::size_t FindReference(const KeptFrames& frames) const
+  std::size_t FindReference(KeptFrames& frames)
   {
     const std::vector<double>& times = frames.GetTimes();
     const std::size_t shown = frames.GetShownNumber();
@@ -215,7 +215,7 @@ private:
     }
     if (this->Self->Reference == FIRST)
     {
-      return 0;
+      return this->FindFirst(frames);
     }
     if (!std::isfinite(time))
     {
@@ -223,6 +223,19 @@ private:
     }
     const auto after = std::ranges::upper_bound(times, time) - times.begin();
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0));
+  }
+
+  /**
+   * Returns the first frame; for particles the first one that has any.
+   */
+  std::size_t FindFirst(KeptFrames& frames)
+  {
+    auto* shown = vtkDataSet::SafeDownCast(this->Current[0]);
+    std::int64_t particles = shown && HasArray(shown->GetPointData(), "id") ? 1 : 0;
+    this->Ranks.sum({ &particles, 1 });
+    const std::size_t first = particles > 0 ? frames.FindFirst(this->Self, this->Ranks) : 0;
+    this->LateFirst = first > 0 ? granular::to_text(frames.GetTimes()[first]) : "";
+    return first;
   }
 
   void Compare(granular::Communicator& ranks)
@@ -454,6 +467,8 @@ private:
     tell(this->All.Unconnected > 0, "unconnected",
       std::to_string(this->All.Unconnected) + " of " + std::to_string(this->All.Lines) +
         " lines name a particle that is not there: they connect no fragments");
+    tell(!this->LateFirst.empty() && this->All.Kept > 0, "first frame",
+      "the first frame has no particles: the reference is the frame of time " + this->LateFirst);
     tell(this->LackPlaces, "no places",
       "the input Lines has no lines, as its file does not say where these are: draw the rows, the "
       "second output of the reader, with GranularLocalJoin");
@@ -477,6 +492,7 @@ private:
   std::array<std::array<std::vector<std::int64_t>, 2>, 2> Ends; ///< of the lines of both frames
   std::vector<vtkSmartPointer<vtkAbstractArray>> Made;          ///< of fragments
   bool LackPlaces = false;
+  std::string LateFirst; ///< time of the reference, if frames before it have no particles
   Counts All;
 };
 

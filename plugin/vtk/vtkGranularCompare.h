@@ -86,9 +86,9 @@ public:
 
   ///@{
   /**
-   * Sets the frame that the current one is compared with. FIRST, the default: the first frame. PREVIOUS: the frame before
-   * the current one; the first frame is compared with itself. TIME: the last frame at or before ReferenceTime, or the first
-   * one. Inputs with one time or none are compared with themselves: all is kept.
+   * Sets the frame that the current one is compared with. FIRST, the default: the first frame, and of particles the first one that
+   * has any. PREVIOUS: the frame before the current one; the first frame is compared with itself. TIME: the last frame at or before
+   * ReferenceTime, or the first one. Inputs with one time or none are compared with themselves: all is kept.
    */
   vtkSetClampMacro(Reference, int, FIRST, TIME);
   vtkGetMacro(Reference, int);

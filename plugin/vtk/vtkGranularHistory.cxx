@@ -265,6 +265,12 @@ private:
     }
     std::ranges::transform(series, std::back_inserter(columns), &Maker::Flatten);
     this->TakeTimesteps(headers);
+    if (const std::size_t empty = squares.empty_frames(); empty > 0 && empty < headers.size())
+    {
+      this->Notices.push_back({ {},
+        "frames before timestep " + std::to_string(headers[empty].timestep) +
+          " have no particles: msd begins there" });
+    }
     const std::int64_t longSteps = squares.count_long_steps();
     if (longSteps > 0)
     {

@@ -12,8 +12,8 @@
  * STATISTICS: over all selected particles of the frame. `particles`: their number; for each component of each chosen array A `A_mean`,
  * `A_min`, `A_max` and `A_Q` for each quantile Q, such as `A_0.5`. nan and infinite numbers are left out.
  *
- * With MeanSquareDisplacement: `msd` and its parts `msd_xyz` (3 components) over the selected particles that are in the first frame,
- * too, and `msd_particles`, their number: the definition of compute msd of LAMMPS, unwrapped.
+ * With MeanSquareDisplacement: `msd` and its parts `msd_xyz` (3 components) over the selected particles that are in the first frame
+ * that has any, too, and `msd_particles`, their number: the definition of compute msd of LAMMPS, unwrapped.
  *
  * Sums are correctly rounded, so results are the same for any order of particles, threads and ranks. Rank 0 has the table.
  */

@@ -253,6 +253,31 @@ for kind, properties in (("Trajectories", {}), ("History", {}), ("History", {"Ou
         filter_.SetIds("1")
         filter_.Update()
         assert len(filter_.said) == 1 and "2" + WARNING in filter_.said[0]
+# a run begins with an empty box: what counts from the first frame counts from the first one with particles, and says which
+write("late.dump", "id x y z", [], ["1 0.1 0.5 0.5"], ["1 0.2 0.5 0.5", "2 0.5 0.5 0.5"], ["2 0.5 0.5 0.5", "1 0.3 0.5 0.5"])
+for through in (False, True):
+    reader = reader_of("late.dump")
+    source = vtkElevationFilter() if through else reader
+    if through:
+        source.SetInputConnection(reader.GetOutputPort())
+    filter_ = filter_of("History", source)
+    set_all(filter_, OutputType=1, MeanSquareDisplacement=True)
+    filter_.Update()
+    assert len(filter_.said) == 1 and "frames before timestep 100 have no particles: msd begins there" in filter_.said[0], filter_.said
+    msd = vtk_to_numpy(filter_.GetOutput().GetColumnByName("msd"))
+    assert numpy.isnan(msd[0]) and numpy.allclose(msd[1:], [0, 0.01, 0.04], rtol=1e-14), msd
+    compare = filter_of("Compare", source)
+    for time, length in ((300, 0.2), (200, 0.1), (100, 0), (0, None), (300, 0.2)):
+        compare.said.clear()
+        compare.UpdateTimeStep(time)
+        late = "the first frame has no particles: the reference is the frame of time 100"
+        if time == 0:
+            assert compare.GetOutput().GetNumberOfPoints() == 0 and compare.said == []
+            continue
+        moved = vtk_to_numpy(compare.GetOutput().GetPointData().GetArray("displacement"))[:, 0]
+        ids = vtk_to_numpy(compare.GetOutput().GetPointData().GetArray("id"))
+        assert numpy.allclose(moved[ids == 1], length, rtol=1e-14) and numpy.isnan(moved[ids == 2]).all(), moved
+        assert len(compare.said) == (time == 300) and all(late in text for text in compare.said), compare.said  # told once
 # both tables of History follow the particles, and tell the same once
 filter_ = filter_of("History", reader_of("far.dump"))
 filter_.SetMeanSquareDisplacement(True)

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -147,19 +148,25 @@ TEST(SquareDisplacements, ManyParticles)
   }
 }
 
-TEST(SquareDisplacements, NothingInTheFirstFrame)
+/// A run that inserts its particles: they are followed from the first frame that has any.
+TEST(SquareDisplacements, NothingInTheFirstFrames)
 {
-  walks::Run run = walks::make_run({ walks::tilted_box() }, { .frames = 3 }, 67);
-  run.frames[0].clear();
-  const std::vector<PathFrame> frames = walks::frames_of(run, {});
+  const std::vector<PathFrame> all = walks::frames_of(
+    walks::make_run({ walks::tilted_box() }, { .frames = 5 }, 67), { .arrays = false });
+  std::vector<PathFrame> late = all;
+  std::ranges::fill(late.begin(), late.begin() + 2, frame_at({}, {}));
+  const std::vector<PathFrame> rest(all.begin() + 2, all.end());
   on_ranks(
     [&](Communicator& ranks)
     {
-      for (const Means& means : add_all(dealt(frames, by_rows, ranks), ranks, 1))
+      std::vector<Means> means = add_all(dealt(late, by_rows, ranks), ranks, 1);
+      for (const std::size_t frame : { 0U, 1U })
       {
-        EXPECT_EQ(means.count, 0);
-        EXPECT_TRUE(std::isnan(means.total) && std::isnan(means.axes[2]));
+        EXPECT_EQ(means[frame].count, 0);
+        EXPECT_TRUE(std::isnan(means[frame].total) && std::isnan(means[frame].axes[2]));
       }
+      means.erase(means.begin(), means.begin() + 2);
+      expect_means(means, add_all(dealt(rest, by_rows, ranks), ranks, 1));
     });
 }
 

@@ -190,6 +190,16 @@ SquareDisplacements::Means SquareDisplacements::add(
       frames[0] = std::move(frame);
       expect_none(share_kinds(frames, ranks_));
       const bool first = unwrapper_.frames() == 0;
+      Means means;
+      means.count = std::ssize(frames[0].ids);
+      ranks_.sum({ &means.count, 1 });
+      if (first && means.count == 0)
+      {
+        ++empty_frames_;
+        frame = std::move(frames[0]);
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+        return Means{ 0, { nothing, nothing, nothing }, nothing };
+      }
       first_ids_ = first ? share_out(frames, ranks_) : std::move(first_ids_);
       exchange_frames(frames, first_ids_, ranks_);
       const PathFrame& own = frames[0];
@@ -200,7 +210,6 @@ SquareDisplacements::Means SquareDisplacements::add(
       }
       unwrapper_.add_box(own.header.box);
       this->find_places(own, name_rows, progress);
-      Means means;
       means.count = std::ranges::count_if(
         places_, [](std::int64_t place) { return place != IdFinder::nowhere; });
       ranks_.sum({ &means.count, 1 });

@@ -19,7 +19,7 @@
 
 namespace granular
 {
-/// The mean square displacement of particles from the first frame to each later one, in memory for two frames.
+/// The mean square displacement of particles from the first frame that has any to each later one, in memory for two frames.
 class SquareDisplacements
 {
 public:
@@ -42,6 +42,9 @@ public:
   /// ranks if an id repeats; Cancelled. Collective.
   Means add(
     PathFrame& frame, const std::function<void(std::int64_t id)>& name_rows, Progress& progress);
+
+  /// Returns the number of frames before the first one that has particles.
+  std::size_t empty_frames() const noexcept { return empty_frames_; }
 
   /// Returns the number of steps that are longer than a quarter of a period, without image counts, on all ranks. Collective.
   std::int64_t count_long_steps() const;
@@ -82,6 +85,7 @@ private:
   std::vector<std::int64_t> rows_;   ///< of each particle: its row, or -1
   std::vector<SumScale::Terms> terms_;
   std::int64_t long_steps_ = 0;
+  std::size_t empty_frames_ = 0;
 };
 }
 #endif

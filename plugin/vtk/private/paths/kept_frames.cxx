@@ -6,6 +6,7 @@
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkPointSet.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -63,6 +64,7 @@ void KeptFrames::Begin(
   if (others > 0)
   {
     this->Kept.clear();
+    this->Empty = 0;
   }
   this->Changed = changed;
   this->Part = part;
@@ -90,11 +92,31 @@ FrameData KeptFrames::Get(vtkAlgorithm* consumer, std::size_t number, granular::
     return this->Shown.Data;
   }
   const double time = this->Times[number];
+  if (this->Last && this->Last->Time == time)
+  {
+    return this->Last->Data;
+  }
   const auto found = std::ranges::find(this->Kept, time, &Frame::Time);
   std::int64_t missing = found == this->Kept.end() ? 1 : 0;
   ranks.sum({ &missing, 1 });
   this->Last = missing == 0 ? *found : this->Read(consumer, time, ranks);
   return this->Last->Data;
+}
+
+std::size_t KeptFrames::FindFirst(vtkAlgorithm* consumer, granular::Communicator& ranks)
+{
+  for (; this->Empty < this->ShownNumber; ++this->Empty)
+  {
+    const FrameData data = this->Get(consumer, this->Empty, ranks);
+    auto* points = vtkPointSet::SafeDownCast(data[0]);
+    std::int64_t count = points ? points->GetNumberOfPoints() : 1; // others are refused later
+    ranks.sum({ &count, 1 });
+    if (count > 0)
+    {
+      break;
+    }
+  }
+  return std::min(this->Empty, this->ShownNumber);
 }
 
 KeptFrames::Frame KeptFrames::Read(

@@ -52,6 +52,11 @@ public:
   FrameData Get(vtkAlgorithm* consumer, std::size_t number, granular::Communicator& ranks);
 
   /**
+   * Returns the number of the first frame whose first input has points; that of the shown one, if none has before. Collective.
+   */
+  std::size_t FindFirst(vtkAlgorithm* consumer, granular::Communicator& ranks);
+
+  /**
    * Ends an update: keeps the frame that was returned last, and on request the shown frame, too.
    */
   void End(bool keepShown);
@@ -69,6 +74,7 @@ private:
   std::vector<vtkMTimeType> Changed; ///< of the pipelines of the inputs
   std::vector<double> Times;
   std::size_t ShownNumber = 0;
+  std::size_t Empty = 0; ///< so many frames at the beginning have no points, or more
   Frame Shown;
   std::optional<Frame> Last; ///< returned by Get
   std::vector<Frame> Kept;
