@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -198,6 +199,45 @@ TEST(EulerAverageHard, ParticlesOfOneVelocityHaveNoPressure)
   const EulerCells cells =
     average(Grains(grains).frame(), request_for(unit_cell, CellWeights::Centre)).cells;
   EXPECT_GT(cells.pressure[0], 0);
+}
+
+/// A particle that has exploded spoils its own cell alone, by its speed, its mass or its stress.
+TEST(EulerAverageHard, HugeNumbersElsewhereTakeNoDigits)
+{
+  const EulerGrid grid = { { 0, 0, 0 }, { 2, 1, 1 }, { 2, 1, 1 } };
+  std::vector<Grain> grains =
+    random_grains(50, { 0.2, 0.2, 0.2 }, { 0.8, 0.8, 0.8 }, 0.1, 3); // in the first cell
+  HardCase hard("sums",
+    "speeds, masses and stresses of 1e20 to 1e85 in another cell: pressure, stress and temperature "
+    "that are not as without them",
+    "cells", 0);
+  for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
+  {
+    for (const char* stress : { "", "c_stress" })
+    {
+      EulerAverageRequest request = request_for(grid, weights);
+      request.arrays.stress = stress;
+      request.tensors = true;
+      request.fields.temperature = true;
+      const auto first_cell = [&]
+      {
+        const EulerAverages found = average(Grains(grains).frame(), request, 2);
+        return std::array{ found.cells.pressure[0], found.cells.normal_stress[1],
+          found.cells.shear_stress[2], found.fields.temperature[0] };
+      };
+      const auto expected = first_cell();
+      for (const double huge : { 1e20, 1e28, 1e60, 1e85 })
+      {
+        Grain grain = { { 1.5, 0.5, 0.5 }, { 1, 1, 1 }, 0.1, 1e-3 };
+        grain.v[1] = huge;
+        grains.push_back(grain);
+        hard.add(first_cell() == expected ? 0 : 1);
+        grains.back() = { { 1.5, 0.5, 0.5 }, { 1, 1, 1 }, 0.1, *stress == 0 ? huge : 1, { huge } };
+        hard.add(first_cell() == expected ? 0 : 1);
+        grains.pop_back();
+      }
+    }
+  }
 }
 
 TEST(EulerAverageHard, RowsThatAreNoNumbersAreLeftOutAndCounted)

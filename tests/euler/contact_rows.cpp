@@ -280,6 +280,29 @@ TEST(ContactRows, SmallForcesDoNotCountAsContacts)
   EXPECT_EQ(found.fabric, average_contacts_of(strong, nullptr, request).fields.fabric);
 }
 
+TEST(ContactRows, HugeForcesElsewhereTakeNoDigits)
+{
+  const EulerGrid grid = { { 0, 0, 0 }, { 2, 1, 1 }, { 2, 1, 1 } };
+  for (const CellWeights weights : { CellWeights::Overlap, CellWeights::Kernel })
+  {
+    const EulerAverageRequest request = request_of_contacts(grid, weights, KernelShape::Lucy, 0.1);
+    Scene scene = random_scene(30, 40, 10, { 0, 0, 0 }, { 1, 1, 1 }, 11);
+    const auto first_cell = [&]
+    {
+      const EulerFields fields = average_contacts_of(scene, nullptr, request).fields;
+      return std::array{ fields.contact_normal[0], fields.contact_normal[2],
+        fields.contact_shear[1] };
+    };
+    const auto expected = first_cell();
+    scene.pairs.push_back({ 1, 2, { 1.5, 0.5, 0.5 }, { 1.7, 0.5, 0.5 }, {} });
+    for (const double huge : { 1e30, 1e50, 1e85 })
+    {
+      scene.pairs.back().force = { huge, -huge, 1 };
+      EXPECT_EQ(first_cell(), expected) << huge;
+    }
+  }
+}
+
 TEST(ContactRows, EndsThatCoincideHaveNoNormal)
 {
   const EulerAverageRequest request =

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,13 +21,18 @@ namespace
 {
 constexpr std::size_t rows_of_chunk = 65536;
 
-/// How far below the largest possible term its terms still count, and shares below 1.
+/// How far below the largest possible term its terms still count, at least, and shares below 1.
 constexpr int stress_bits = 192;
 constexpr int share_bits = 64;
 
 /// Where the sums beside those of stresses are.
 constexpr std::size_t ends_lane = 6;
 constexpr std::size_t contacts_lane = 7;
+
+double largest_of(const Vector3& vector) noexcept
+{
+  return std::max({ std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2]) });
+}
 
 /// What is summed of a contact.
 struct Line
@@ -112,6 +119,7 @@ private:
   {
     double force = 0;
     double branch = 0;
+    double weakest = std::numeric_limits<double>::infinity(); ///< force times branch above 0
     std::int64_t rows = 0;
   };
 
@@ -134,12 +142,16 @@ private:
         {
           const Line line = this->load(static_cast<std::int64_t>(i));
           const auto [ends, row] = contacts_.at(static_cast<std::int64_t>(i));
-          for (std::size_t axis = 0; line.usable && axis < 3; ++axis)
+          if (line.usable)
           {
-            own.force = std::max(own.force, std::abs(ends.force(row)[axis]));
-            own.branch = std::max(own.branch, std::abs(line.branch[axis]));
+            const double force = largest_of(ends.force(row));
+            const double branch = largest_of(line.branch);
+            const double product = force * branch;
+            own.force = std::max(own.force, force);
+            own.branch = std::max(own.branch, branch);
+            own.weakest = product > 0 ? std::min(own.weakest, product) : own.weakest;
+            ++own.rows;
           }
-          own.rows += line.usable ? 1 : 0;
         }
       },
       progress_);
@@ -148,6 +160,7 @@ private:
     {
       all.force = std::max(all.force, one.force);
       all.branch = std::max(all.branch, one.branch);
+      all.weakest = std::min(all.weakest, one.weakest);
       all.rows += one.rows;
     };
     for (const Largest& one : largest)
@@ -165,7 +178,9 @@ private:
     products.add(&product, 1);
     const int top = product > 0 ? products.range(0).top + 1 : 0;
     std::array<SumScale::Range, SumScale::lanes> ranges;
-    ranges.fill({ top, top - stress_bits });
+    // the weakest contact has all digits, also where a share of it is all there is
+    const int least = std::isfinite(all.weakest) ? std::ilogb(all.weakest) - 53 - share_bits : top;
+    ranges.fill({ top, std::min(top - stress_bits, least) });
     ranges[ends_lane] = { 2, -share_bits };
     ranges[contacts_lane] = { 1, -share_bits };
     stresses_ = SumScale(ranges, terms);

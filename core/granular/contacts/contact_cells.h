@@ -18,7 +18,9 @@ namespace granular
 /// product of normals of these contacts, trace 1. With sums if the request keeps them, which coordination needs. Contacts without
 /// forces have no stress: the fields are empty. What averages know of particles stays: see add_contact_stress.
 ///
-/// contacts: of this rank; may be anywhere. Sums as average_in_cells has them. Throws Error, LimitError, Cancelled. Collective.
+/// contacts: of this rank; may be anywhere. Those without a line (see ContactEnds::has_line) are left out. Sums as
+/// average_in_cells has them; terms of stresses are rounded to 2^-117 of the weakest contact, or less. Throws Error,
+/// LimitError, Cancelled. Collective.
 void average_contacts(const FoundEnds& contacts, const Box* box, const EulerAverageRequest& request,
   Communicator& ranks, const Executor& executor, Progress& progress, EulerAverages& averages);
 

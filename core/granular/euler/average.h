@@ -93,8 +93,9 @@ inline double deviation(double v, double mean) noexcept
 ///
 /// Cells are lo <= x < hi; the last along an axis has x <= hi. Positions and images: see AbsolutePositions and GrainCells;
 /// an image is on that side of a face on which the exact image of its position in the box is, which is less than an ulp off.
-/// Sums are those of exact arithmetic, rounded once, of terms that are rounded doubles (of stresses: to 2^-192 of the largest
-/// there can be): the results are the same, bit for bit, for any order of rows, threads and ranks.
+/// Sums are those of exact arithmetic, rounded once, of terms that are rounded doubles (of stresses: to 2^-192 of the term of
+/// a particle as heavy and as fast as all in the cell together): the results are the same, bit for bit, for any order of rows,
+/// threads and ranks.
 ///
 /// The ranks have a part of the grains each; share_header has been called. Throws, on all: Error: rows without
 /// points, overlap without radii, arrays of other sizes; LimitError where the memory that is available does not

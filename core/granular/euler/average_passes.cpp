@@ -4,6 +4,7 @@
 #include "granular/grid/sphere_box.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -26,7 +27,8 @@ enum Lane : std::size_t
   MomentumY,
   MomentumZ,
   Radius,
-  Volume
+  Volume,
+  Speed
 };
 }
 
@@ -98,7 +100,7 @@ EulerAverages AveragePasses::run()
 void AveragePasses::sum_group(const Group& group)
 {
   this->add_grains(Pass::Means, group,
-    [](Batch& batch, const double*)
+    [this](Batch& batch, const Mean*)
     {
       const GrainBlock& grains = batch.grains;
       for (std::size_t n = 0; n < batch.size; ++n)
@@ -107,7 +109,7 @@ void AveragePasses::sum_group(const Group& group)
         const double* const v = grains.velocities + 3 * i;
         const double mass = grains.mass[i] * batch.share[n];
         batch.terms[n] = { batch.share[n], mass, mass * v[0], mass * v[1], mass * v[2],
-          grains.radius[i] * batch.share[n], batch.volume[n], 0 };
+          grains.radius[i] * batch.share[n], batch.volume[n], grains.speed(i, largest_mass_) };
       }
     });
   if (blocks_.blocks().size() == 1) // nobody looked where grains are
@@ -121,14 +123,14 @@ void AveragePasses::sum_group(const Group& group)
     return;
   }
   this->add_grains(Pass::Stress, group,
-    [](Batch& batch, const double* means)
+    [](Batch& batch, const Mean* means)
     {
       const GrainBlock& grains = batch.grains;
       for (std::size_t n = 0; n < batch.size; ++n)
       {
         const std::size_t i = batch.grain[n];
         const double* const v = grains.velocities + 3 * i;
-        const double* const mean = means + 3 * batch.cell[n];
+        const auto& [mean, scale] = means[batch.cell[n]];
         const double mass = grains.mass[i] * batch.share[n];
         const double x = deviation(v[0], mean[0]);
         const double y = deviation(v[1], mean[1]);
@@ -138,6 +140,10 @@ void AveragePasses::sum_group(const Group& group)
         for (std::size_t k = 0; grains.stresses && k < 6; ++k)
         {
           batch.terms[n][k] += grains.stresses[6 * i + k] * batch.share[n];
+        }
+        for (double& term : batch.terms[n])
+        {
+          term *= scale;
         }
       }
     });
@@ -253,7 +259,7 @@ void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& m
       this->each_batch(pass, part, batch, kept_[task],
         [&]
         {
-          make_terms(batch, means_.data() + 3 * part.place * cells);
+          make_terms(batch, means_.data() + part.place * cells);
           scale.add(std::span(batch.terms).first(batch.size), batch.cell.data(), sums);
         });
     });
@@ -266,15 +272,16 @@ void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& m
 
 void AveragePasses::finish_means(const Group& group)
 {
-  means_.resize(static_cast<std::size_t>(3 * group.blocks() * blocks_.blocks().largest()));
-  masses_.resize(request_.fields.temperature ? means_.size() / 3 : 0);
+  means_.resize(static_cast<std::size_t>(group.blocks() * blocks_.blocks().largest()));
+  masses_.resize(request_.fields.temperature ? means_.size() : 0);
   EulerCells& cells = result_.cells;
   blocks_.each_cell(group, sums_,
     [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume,
       const SumScale::Terms& sums)
     {
       const std::int64_t place = request_.wanted.place(request_.grid, x);
-      double* const mean = means_.data() + 3 * cell;
+      auto& [mean, scale] = means_[cell];
+      scale = this->stress_scale(sums);
       if (request_.fields.temperature)
       {
         masses_[cell] = sums[Mass];
@@ -288,7 +295,7 @@ void AveragePasses::finish_means(const Group& group)
         return;
       }
       const auto to = static_cast<std::size_t>(place);
-      std::copy_n(mean, 3, cells.velocities.begin() + 3 * place);
+      std::ranges::copy(mean, cells.velocities.begin() + 3 * place);
       cells.radius[to] = sums[Share] > 0 ? sums[Radius] / sums[Share] : 0;
       cells.volume_fraction[to] = sums[Volume] / volume;
       if (request_.fields.density)
@@ -308,17 +315,31 @@ void AveragePasses::finish_means(const Group& group)
     });
 }
 
+/// Returns the scale of a cell, by its own sums where these are less than what there is anywhere.
+double AveragePasses::stress_scale(const SumScale::Terms& sums) const noexcept
+{
+  const auto top_of = [](double sum, int largest)
+  { return sum > 0 ? std::min(std::ilogb(sum) + 1, largest) : largest; };
+  const int mass = stress_ ? mass_top_ : top_of(sums[Mass], mass_top_);
+  const int difference = top_of(sums[Speed], speed_top_) + 1; // of two speeds
+  constexpr int least = -900;                                 // for a scale that is a number
+  return std::ldexp(1, -std::max(mass + 2 * difference + 1, least));
+}
+
 void AveragePasses::finish_stress(const Group& group)
 {
   EulerCells& cells = result_.cells;
   blocks_.each_cell(group, stresses_,
-    [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume,
-      const SumScale::Terms& sums)
+    [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume, SumScale::Terms sums)
     {
       const std::int64_t place = request_.wanted.place(request_.grid, x);
       if (place < 0)
       {
         return;
+      }
+      for (double& sum : sums)
+      {
+        sum /= means_[cell].scale;
       }
       const auto to = static_cast<std::size_t>(place);
       if (request_.fields.temperature)

@@ -78,6 +78,7 @@ private:
   void each_batch(Pass pass, const Part& part, Batch& batch, KeptShares& kept, const Take& take);
   bool find_cells(std::int64_t place, const CellRange& range, Pass pass, Batch& batch);
   void finish_means(const Group& group);
+  double stress_scale(const SumScale::Terms& sums) const noexcept;
   void finish_stress(const Group& group);
   const FrameView& frame_;
   const std::int64_t rows_;
@@ -92,14 +93,24 @@ private:
   bool tensors_; ///< are wanted
 
   GrainValues::Scan scanned_;
+  double largest_mass_ = 1; ///< or 1, if all are 0
+  int mass_top_ = 0;        ///< all masses are below 2^mass_top
+  int speed_top_ = 0;       ///< see GrainBlock::speed
   std::vector<std::int16_t>
     found_; ///< cells of the rows of all blocks, where each has one; else empty
   SumScale sums_{ {}, 1 };
   SumScale stresses_{ {}, 1 };
   std::vector<KeptShares> kept_; ///< of each part of a group
-  std::vector<double> means_;    ///< velocities of the cells of a group
-  std::vector<double> masses_;   ///< of these, for temperatures
-  std::int64_t outside_ = 0;     ///< grains without a share in the last pass over this rank's
+  /// The mean velocity of a cell, and the power of two that makes the terms of its stress less than 1.
+  struct Mean
+  {
+    Vector3 velocity;
+    double scale;
+  };
+
+  std::vector<Mean> means_;
+  std::vector<double> masses_; ///< of these, for temperatures
+  std::int64_t outside_ = 0;   ///< grains without a share in the last pass over this rank's
   EulerAverages result_;
 };
 }

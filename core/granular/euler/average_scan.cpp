@@ -5,6 +5,7 @@
 #include "granular/parallel/gather.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -21,7 +22,7 @@ using Rows = std::span<const std::int64_t>;
 constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
 constexpr std::int64_t rows_of_chunk = 65536;
 
-/// How far below the largest possible term of a stress its terms still count.
+/// How far below the largest possible term of a stress in a cell its terms still count.
 constexpr int stress_bits = 192;
 }
 
@@ -117,16 +118,22 @@ void AveragePasses::plan()
   const SumScale::Range mass = scanned_.mass.range(quantum);
   const SumScale::Range speed = scanned_.speed.range(0);
   const SumScale::Range momentum = { mass.top + speed.top, mass.bottom + speed.bottom };
+  largest_mass_ = scanned_.mass.largest() > 0 ? scanned_.mass.largest() : 1;
+  Magnitudes speeds = scanned_.speed; // see GrainBlock::speed
+  const double stressed[] = { std::sqrt(scanned_.stress.largest()) / std::sqrt(largest_mass_),
+    std::sqrt(scanned_.stress.smallest()) / std::sqrt(largest_mass_) };
+  speeds.add(stressed, 2);
+  mass_top_ = std::ilogb(largest_mass_) + 1;
+  speed_top_ = speeds.range(0).top;
   Magnitudes volumes; // that of the smallest one may be less than any number
   const double volume[] = { sphere_volume(radius), sphere_volume(scanned_.radius.smallest()) };
   volumes.add(volume, 2);
   sums_ = SumScale({ { { 1, quantum }, mass, momentum, momentum, momentum,
-                     scanned_.radius.range(quantum), volumes.range(quantum), {} } },
+                     scanned_.radius.range(quantum), volumes.range(quantum), speeds.range(0) } },
     terms);
-  const int largest = std::max(mass.top + 2 * (speed.top + 1), scanned_.stress.range(0).top) + 1;
   std::array<SumScale::Range, SumScale::lanes> ranges;
-  ranges.fill({ largest, largest - stress_bits });
-  ranges[6] = { largest + 1, largest + 1 - stress_bits }; // of all three squares
+  ranges.fill({ 0, -stress_bits });   // see stress_scale
+  ranges[6] = { 1, 1 - stress_bits }; // of all three squares
   stresses_ = SumScale(ranges, terms);
 
   this->make_cells();

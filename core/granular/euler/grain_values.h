@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -90,6 +91,19 @@ struct GrainBlock
   const unsigned char* usable = nullptr; ///< 0: the particle is left out; null: all are usable
 
   bool uses(std::size_t i) const noexcept { return !usable || usable[i] != 0; }
+
+  /// Returns the largest component of the velocity, or the speed with which a mass would have the stress, if that is larger.
+  double speed(std::size_t i, double mass) const noexcept
+  {
+    double stress = 0;
+    for (std::size_t k = 6 * i; stresses && k < 6 * i + 6; ++k)
+    {
+      stress = std::max(stress, std::abs(stresses[k]));
+    }
+    const double* const v = velocities + 3 * i;
+    return std::max({ std::abs(v[0]), std::abs(v[1]), std::abs(v[2]),
+      stress > 0 ? std::sqrt(stress) / std::sqrt(mass) : 0 });
+  }
 
   // what is not in memory of others as it should be
   std::array<double, 3 * most_rows> positions_buffer;
