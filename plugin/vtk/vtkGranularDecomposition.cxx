@@ -173,6 +173,10 @@ private:
     this->Found.subdomains = granular::join_by_process(own.subdomains, this->Ranks);
     this->Processes = this->Ranks.size();
     this->SetOutside(own.outside);
+    granular::SubdomainChecks checks;
+    checks.overlap = granular::Answer::Notice;
+    checks.gap = granular::Answer::None;
+    granular::check_subdomains(this->Found.subdomains, checks, {}, this->Notices, this->Progress);
   }
 
   /**

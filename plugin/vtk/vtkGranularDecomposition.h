@@ -40,8 +40,8 @@ public:
    * Sets which subdomains are used. PROCESSOR_GRID, the default: the grid of ProcessorGrid, NumberOfProcesses and the
    * cuts, in the box of the field data, or in Bounds. PROCESS_ARRAY: the bounds of the particles of each rank in the point
    * array ProcessArray (`proc` of a dump). SUBDOMAINS: the voxels of the second input, such as a decomposition file.
-   * RANKS: the bounds of the particles that each rank of the Controller (of ParaView) holds now, if any. The first three
-   * do not depend on the ranks of the Controller.
+   * RANKS: the bounds of the particles that each rank of the Controller (of ParaView) holds now, if any; a warning tells which
+   * overlap. The first three do not depend on the ranks of the Controller.
    */
   vtkSetClampMacro(Mode, int, PROCESSOR_GRID, RANKS);
   vtkGetMacro(Mode, int);

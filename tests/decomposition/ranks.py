@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Any number of ranks count the same, each shows a part of the subdomains, and all of them together the whole."""
 import hashlib
+import itertools
 import os
 
 import numpy
@@ -9,6 +10,7 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 import all_ranks
 import granular
+from said import said_by
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 
@@ -81,6 +83,7 @@ for proxy, algorithm, inputs in (
 
 # the ranks of this program: a voxel each, with what it has
 here = GranularDecomposition(Input=grains, Mode="Ranks")
+told = said_by(here.GetClientSideObject())
 grid = whole(here, 0)
 size = all_ranks.ranks.GetNumberOfProcesses()
 cells = {name: vtk_to_numpy(grid.GetCellData().GetArray(name)) for name in ("nlocal", "proc")}
@@ -88,6 +91,11 @@ assert (cells["proc"] == numpy.arange(size)).all(), cells
 assert cells["nlocal"].sum() == 1200 and cells["nlocal"].max() < 1.2 * 1200 / size, cells
 imbalance = grid.GetFieldData().GetArray("imbalance").GetValue(0)
 assert imbalance == cells["nlocal"].max() * size / 1200
+# a dump holds particles in any order: those of the ranks are all over the box, which the first rank tells
+boxes = [numpy.array(grid.GetCell(i).GetBounds()).reshape(3, 2) for i in range(size)]
+pairs = sum((a[:, 0] < b[:, 1]).all() and (b[:, 0] < a[:, 1]).all() for a, b in itertools.combinations(boxes, 2))
+assert (pairs > 0) == (size > 1) and len(told) == (pairs > 0 and all_ranks.ranks.GetLocalProcessId() == 0), told
+assert all(f"share no more than faces, got {pairs} pair" in text for text in told), told
 
 # fewer particles than ranks, and none
 Delete(here)

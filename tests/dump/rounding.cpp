@@ -194,6 +194,28 @@ TEST(RoundingInWriting, WithoutRadiiTheBoxCounts)
   }
 }
 
+/// Scaled coordinates help where they are off, and by the setting that turns them on.
+TEST(RoundingInWriting, ScaledCoordinatesAreAdvisedWhereTheyAreOff)
+{
+  const Folder folder;
+  const Cube cube(1e6, 1e-2, 1e-4);
+  const auto said = [&](DumpStyle style, bool scaled, const std::vector<std::string>& columns)
+  {
+    DumpFormat format = format_with(3, columns, Dialect::Lammps);
+    format.style = style;
+    format.atom.scaled = scaled;
+    const std::string text = write_dump(folder.path("a"), Frames{ cube.view() }, format).said;
+    return text.substr(std::min(text.find("; "), text.size()));
+  };
+  const std::string digits = "; NumberFormat=%.17g keeps all digits";
+  const std::string far = ") need fewer far from the origin\n";
+  EXPECT_EQ(
+    said(DumpStyle::Custom, false, places), digits + "; scaled coordinates (Style=Atom" + far);
+  EXPECT_EQ(said(DumpStyle::Atom, false, {}), digits + "; scaled coordinates (Scaled=1" + far);
+  EXPECT_EQ(said(DumpStyle::Atom, true, {}), digits + "\n");
+  EXPECT_EQ(said(DumpStyle::Custom, false, scaled_places), digits + "\n");
+}
+
 /// Numbers that the digits hold are as they were, however far away.
 TEST(RoundingInWriting, WhatLosesNothingIsNotTold)
 {

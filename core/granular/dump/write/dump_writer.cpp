@@ -364,7 +364,7 @@ void DumpWriter::write_rows(
   }
   file_->first = false;
   const RoundingLoss loss = add_ranks(rows.loss(), ranks_);
-  told_loss_ = told_loss_ || note_print_loss(loss, limit, format_, names, notices);
+  told_loss_ = told_loss_ || note_print_loss(loss, limit, format_, plan.columns, notices);
 }
 
 void DumpWriter::finish()

@@ -97,10 +97,13 @@ NumberFormat box_numbers(const Box& box, Dialect dialect, const RoundingLimit& l
 }
 
 bool note_print_loss(const RoundingLoss& loss, const RoundingLimit& limit, const DumpFormat& format,
-  const std::vector<std::string>& names, Notices& notices)
+  const ColumnPlan& plan, Notices& notices)
 {
   const bool local = format.style == DumpStyle::Local;
-  const std::string text = loss.text(limit, local ? "ends of lines" : "particles", names);
+  const bool scaled = std::ranges::any_of(
+    plan.columns, [](const ColumnSource& source) { return is_scaled(source.role); });
+  const char* const setting = format.style == DumpStyle::Atom ? "Scaled=1" : "Style=Atom";
+  const std::string text = loss.text(limit, local ? "ends of lines" : "particles", plan.names());
   if (text.empty())
   {
     return false;
@@ -110,7 +113,9 @@ bool note_print_loss(const RoundingLoss& loss, const RoundingLimit& limit, const
   notice.text = std::string("rounding to ") +
     (format.binary ? "doubles " : to_text(format.numbers) + " ") + text +
     (format.binary ? "" : "; NumberFormat=%.17g keeps all digits") +
-    (local ? "" : "; scaled coordinates (Style=Atom) need fewer far from the origin");
+    (local || scaled
+        ? ""
+        : std::string("; scaled coordinates (") + setting + ") need fewer far from the origin");
   return true;
 }
 

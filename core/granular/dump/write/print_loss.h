@@ -21,10 +21,9 @@ double smallest_radius(const FrameView& frame);
 /// dumps reads any number.
 NumberFormat box_numbers(const Box& box, Dialect dialect, const RoundingLimit& limit);
 
-/// Adds a notice about the loss in the rows of all ranks if it exceeds the limit. Returns true if it does. names: of the
-/// columns.
+/// Adds a notice about the loss in the rows of all ranks if it exceeds the limit. Returns true if it does.
 bool note_print_loss(const RoundingLoss& loss, const RoundingLimit& limit, const DumpFormat& format,
-  const std::vector<std::string>& names, Notices& notices);
+  const ColumnPlan& plan, Notices& notices);
 
 /// Measures the loss that the format of a dump causes. A column costs a comparison per value; if the printed digits may be
 /// too few for its largest values, these are printed and read back.
