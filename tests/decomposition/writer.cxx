@@ -253,6 +253,7 @@ TEST(DecompositionWriter, Xml)
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
   EXPECT_EQ(text.find("appended"), std::string::npos);
+  EXPECT_LT(text.find("Name=\"nlocal\""), text.find("Name=\"proc\"")); // as in .vtk
   AddCells<vtkTypeInt64Array>(grid, "nlocal", { 5, vtkTypeInt64(1) << 40 });
   const std::string many = CellWriter(NewName("a.vtu"), grid).Bytes();
   EXPECT_NE(many.find("<DataArray type=\"Int64\" Name=\"nlocal\""), std::string::npos) << many;

@@ -292,7 +292,7 @@ TEST(WritePositions, moved_points)
   EXPECT_NE(exact.find(" 0.799999999"), exact.npos) << exact;
 }
 
-/// A grain that was lost stays lost, and takes no other coordinate with it.
+/// A grain that was lost stays lost, and takes no other coordinate with it. -0 is that of printf, as in (x - lo) / length.
 TEST(WritePositions, not_finite)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -308,5 +308,5 @@ TEST(WritePositions, not_finite)
   const Folder folder;
   const std::string bytes = write_dump(folder.path("a"), Frames{ frame }, format).bytes;
   EXPECT_EQ(bytes.substr(bytes.find("zs\n") + 3),
-    "nan 1 2 nan 0.25 0.5\n3 -inf 4 0.75 -inf 1\n-0 0 -0 0 0 0\n");
+    "nan 1 2 nan 0.25 0.5\n3 -inf 4 0.75 -inf 1\n-0 0 -0 -0 0 -0\n");
 }

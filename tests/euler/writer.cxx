@@ -265,6 +265,8 @@ TEST(EulerWriter, MissingArrays)
     CellWriter writer(WriteFile("a.euler", "old"), points);
     const std::string what =
       "column '" + std::string(name) + "': expected the array in the data of the ";
+    writer.ExpectUnsupported(what + "points, got none");
+    AddValues(points->GetCellData(), name, 1, {});
     writer.ExpectUnsupported(
       what + "points, got none: the filter CellCenters makes points of cells");
     auto image = MakeImage();

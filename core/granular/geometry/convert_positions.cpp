@@ -279,7 +279,8 @@ bool places_scaled(const Conversion& c) noexcept
     const double rest = (x - (offset - part)) + (low.hi - part) + low.lo;
     const double quotient = offset / length.hi;
     const double left = std::fma(-quotient, length.hi, offset) + rest - quotient * length.lo;
-    x = std::abs(quotient) <= largest ? quotient + left / length.hi : quotient;
+    // a sum with 0 would lose the sign of -0, which simulations print
+    x = std::abs(quotient) <= largest && left != 0 ? quotient + left / length.hi : quotient;
   }
 }
 

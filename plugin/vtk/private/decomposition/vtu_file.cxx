@@ -65,7 +65,7 @@ void ShortenCounts(vtkUnstructuredGrid* grid)
   }
   vtkNew<vtkTypeInt32Array> shorter;
   shorter->DeepCopy(counts);
-  grid->GetCellData()->SetScalars(shorter);
+  grid->GetCellData()->AddArray(shorter); // in the place of the other
 }
 
 /**

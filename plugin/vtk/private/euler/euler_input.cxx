@@ -102,7 +102,8 @@ struct Source
   vtkSmartPointer<vtkPointSet> Points;
   vtkDataSetAttributes* Data = nullptr;
   vtkUnsignedCharArray* Ghosts = nullptr;
-  std::vector<CellRun> Lines; ///< of a grid: all its cells along x
+  std::vector<CellRun> Lines;   ///< of a grid: all its cells along x
+  vtkCellData* Cells = nullptr; ///< of points: what CellCenters would take
 };
 
 Source MakeGridSource(vtkDataSet* grid, const Middles& middles)
@@ -139,6 +140,7 @@ Source MakeSource(vtkDataObject* input)
     source.Points.TakeReference(points->NewInstance());
     source.Points->CopyStructure(points);
     source.Data = points->GetPointData();
+    source.Cells = points->GetCellData();
     source.Ghosts = points->GetPointGhostArray();
     return source;
   }
@@ -172,7 +174,9 @@ void ReadArray(const Source& source, const std::vector<vtkIdType>& kept,
   {
     throw granular::UnsupportedError("expected the array in the data of the " +
         std::string(cells ? "cells" : "points") + ", got none" +
-        (cells ? "" : ": the filter CellCenters makes points of cells"),
+        (source.Cells && source.Cells->HasArray(name.c_str())
+            ? ": the filter CellCenters makes points of cells"
+            : ""),
       { .column = name });
   }
   if (data->GetNumberOfComponents() != array.components ||
