@@ -393,8 +393,8 @@ GRANULAR_API granular_status granular_write(
 GRANULAR_API granular_status granular_write_frame(
   granular_writer* writer, const granular_frame* frame);
 
-/* Gives the file its name and ends the writer. An error if a frame failed. After an error, the old file is untouched; the
- * writer is gone in any case. */
+/* Gives the file its name and ends the writer. An error if a frame failed, whatever the reason, or if there was none. After an
+ * error, the old file is untouched; the writer is gone in any case. */
 GRANULAR_API granular_status granular_finish(granular_writer* writer);
 
 /* Ends the writer without the file; the old one is untouched. Null does nothing. */

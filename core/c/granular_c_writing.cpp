@@ -19,9 +19,20 @@ namespace
 void write_frame(granular_writer& writer, const granular::FrameView& view)
 {
   granular::Notices notices;
+  ++writer.frames;
   writer.caller.begin();
   writer.write(view, notices, writer.caller);
   writer.caller.tell(notices);
+}
+
+/// Returns the outcome of a frame. Whatever failed, the file would lack a frame that the program wanted in it.
+granular_status noted(granular_writer* writer, granular_status status) noexcept
+{
+  if (writer != nullptr && status != GRANULAR_OK)
+  {
+    writer->failed = true;
+  }
+  return status;
 }
 }
 
@@ -64,31 +75,33 @@ extern "C"
 
   granular_status granular_write(granular_writer* writer, const granular_content* content)
   {
-    return guarded(
-      [&]
-      {
-        const granular_content given = taken(&needed(content, "content"), granular_content_init);
-        const WriteView frame(given, needed(writer, "writer").kind);
-        write_frame(*writer, frame.view);
-      });
+    return noted(writer,
+      guarded(
+        [&]
+        {
+          const granular_content given = taken(&needed(content, "content"), granular_content_init);
+          const WriteView frame(given, needed(writer, "writer").kind);
+          write_frame(*writer, frame.view);
+        }));
   }
 
   granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame)
   {
-    return guarded(
-      [&]
-      {
-        const WriteView view(needed(frame, "frame"));
-        if (needed(writer, "writer").kind != frame->kind)
+    return noted(writer,
+      guarded(
+        [&]
         {
-          constexpr std::array<const char*, 4> names = { "particles", "lines", "cells",
-            "subdomains" };
-          throw BadArgument(std::string("expected a frame of ") +
-            names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
-            names[static_cast<std::size_t>(frame->kind)]);
-        }
-        write_frame(*writer, view.view);
-      });
+          const WriteView view(needed(frame, "frame"));
+          if (needed(writer, "writer").kind != frame->kind)
+          {
+            constexpr std::array<const char*, 4> names = { "particles", "lines", "cells",
+              "subdomains" };
+            throw BadArgument(std::string("expected a frame of ") +
+              names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
+              names[static_cast<std::size_t>(frame->kind)]);
+          }
+          write_frame(*writer, view.view);
+        }));
   }
 
   granular_status granular_finish(granular_writer* writer)
@@ -97,6 +110,7 @@ extern "C"
       [&]
       {
         const std::unique_ptr<granular_writer> own(&needed(writer, "writer"));
+        own->expect_frames();
         own->finish();
       });
   }

@@ -65,9 +65,9 @@ Durability durability_of(const granular_format& format)
 class RowsWriter final : public granular_writer
 {
 public:
-  RowsWriter(RowKind of, std::string path, DumpFormat form, const granular_format& format)
-    : granular_writer(of, format)
-    , writer_(std::move(path), std::move(form),
+  RowsWriter(RowKind of, const std::string& to, DumpFormat form, const granular_format& format)
+    : granular_writer(of, to, format)
+    , writer_(to, std::move(form),
         { .threads = format.threads > 0 ? format.threads : available_cores(),
           .durable = durability_of(format) },
         alone_)
@@ -110,11 +110,10 @@ std::vector<double> doubles_of(const FrameView& frame, std::string_view name, in
 class WholeWriter : public granular_writer
 {
 public:
-  WholeWriter(RowKind of, std::string path, bool holds_many, const granular_format& format)
-    : granular_writer(of, format)
-    , path_(std::move(path))
+  WholeWriter(RowKind of, const std::string& to, bool holds_many, const granular_format& format)
+    : granular_writer(of, to, format)
     , holds_many_(holds_many)
-    , durable_(is_durable(durability_of(format), path_))
+    , durable_(is_durable(durability_of(format), to))
   {
   }
 
@@ -124,29 +123,28 @@ public:
     std::string text = this->encode(frame, own, progress);
     for (Notice& notice : own)
     {
-      notice.where.path = path_;
+      notice.where.path = path;
       notices.push_back(std::move(notice));
     }
-    if (is_name_of_steps(path_))
+    if (is_name_of_steps(path))
     {
-      this->save(name_of_step(path_, frame.header.timestep), text);
+      this->save(name_of_step(path, frame.header.timestep), text);
       return;
     }
-    if (frames_ > 0 && !holds_many_)
+    if (frames > 1 && !holds_many_)
     {
       throw UnsupportedError(
         "expected a '*' in the name, which gives each time step its file: this file holds one",
-        { path_ });
+        { path });
     }
     text_ += text;
-    ++frames_;
   }
 
   void finish() override
   {
-    if (!is_name_of_steps(path_))
+    if (!is_name_of_steps(path))
     {
-      this->save(path_, text_);
+      this->save(path, text_);
     }
   }
 
@@ -154,24 +152,22 @@ protected:
   virtual std::string encode(const FrameView& frame, Notices& notices, Progress& progress) = 0;
 
 private:
-  void save(const std::string& path, const std::string& text) const
+  void save(const std::string& to, const std::string& text) const
   {
-    const Compression how = compression_of_name(path);
-    write_file(path, how == Compression::None ? text : compress(text, how), durable_);
+    const Compression how = compression_of_name(to);
+    write_file(to, how == Compression::None ? text : compress(text, how), durable_);
   }
 
-  std::string path_;
   bool holds_many_;
   bool durable_;
   std::string text_;
-  std::int64_t frames_ = 0;
 };
 
 class CellsWriter final : public WholeWriter
 {
 public:
-  CellsWriter(std::string path, EulerDialect dialect, const granular_format& format)
-    : WholeWriter(RowKind::Cells, std::move(path), false, format)
+  CellsWriter(const std::string& to, EulerDialect dialect, const granular_format& format)
+    : WholeWriter(RowKind::Cells, to, false, format)
     , dialect_(dialect)
   {
   }
@@ -207,8 +203,8 @@ enum class VoxelDialect : std::uint8_t
 class SubdomainsWriter final : public WholeWriter
 {
 public:
-  SubdomainsWriter(std::string path, VoxelDialect dialect, const granular_format& format)
-    : WholeWriter(RowKind::Subdomains, std::move(path), dialect == VoxelDialect::Public, format)
+  SubdomainsWriter(const std::string& to, VoxelDialect dialect, const granular_format& format)
+    : WholeWriter(RowKind::Subdomains, to, dialect == VoxelDialect::Public, format)
     , dialect_(dialect)
   {
   }
@@ -351,4 +347,15 @@ std::unique_ptr<granular_writer> create_writer(
 {
   return find_style(path, text_of(format.style)).create(path, format);
 }
+}
+
+void granular_writer::expect_frames() const
+{
+  if (failed || frames == 0)
+  {
+    throw granular_c::BadArgument(failed
+        ? "expected a writer whose frames are whole, got one that failed in a frame before"
+        : "expected at least one frame, got none",
+      { path });
+  }
 }

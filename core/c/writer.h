@@ -7,8 +7,10 @@
 
 #include "granular/common/progress.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
 /// A file that is being written. It appears when finish() is done; without it the old file is untouched.
 struct granular_writer
@@ -19,14 +21,21 @@ struct granular_writer
 
   virtual void write(
     const granular::FrameView& frame, granular::Notices& notices, granular::Progress& progress) = 0;
+
+  /// Throws BadArgument unless at least one frame was written, and all of them whole.
+  void expect_frames() const;
   virtual void finish() = 0;
 
   const granular_c::RowKind kind;
+  const std::string path;
   granular_c::Caller caller;
+  std::int64_t frames = 0; ///< that were begun
+  bool failed = false;     ///< in one of them
 
 protected:
-  granular_writer(granular_c::RowKind of, const granular_format& format)
+  granular_writer(granular_c::RowKind of, std::string to, const granular_format& format)
     : kind(of)
+    , path(std::move(to))
     , caller(format.progress, format.notice, format.user)
   {
   }

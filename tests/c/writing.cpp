@@ -213,18 +213,39 @@ TEST(CWriting, AFrameOfAnotherKind)
   granular_abandon(writer);
 }
 
+// Also where the program does not look at what a frame returned.
 TEST(CWriting, AnErrorLeavesTheOldFile)
 {
-  const std::string path = output("old.dump");
-  std::ofstream(path) << "the old file";
   granular_writer* writer = nullptr;
-  ASSERT_EQ(granular_create(path.c_str(), nullptr, &writer), GRANULAR_OK);
-  granular_content nothing;
-  granular_content_init(&nothing);
-  nothing.rows = 3;
-  EXPECT_EQ(granular_write(writer, &nothing), GRANULAR_BAD_ARGUMENT);
-  granular_abandon(writer);
-  EXPECT_EQ(content(path), "the old file");
+  for (const std::string name : { "old.dump", "old.bonds", "old.euler", "old.decomposition" })
+  {
+    const std::string path = output(name);
+    std::ofstream(path) << "the old file";
+    granular_content nothing;
+    granular_content_init(&nothing);
+    nothing.rows = 3;
+    for (const bool ends : { false, true })
+    {
+      ASSERT_EQ(granular_create(path.c_str(), nullptr, &writer), GRANULAR_OK);
+      EXPECT_NE(granular_write(writer, &nothing), GRANULAR_OK) << name;
+      if (ends)
+      {
+        EXPECT_EQ(granular_finish(writer), GRANULAR_BAD_ARGUMENT) << name;
+        EXPECT_EQ(message(),
+          path +
+            ": expected a writer whose frames are whole, got one that failed in a frame before");
+      }
+      else
+      {
+        granular_abandon(writer);
+      }
+      EXPECT_EQ(content(path), "the old file") << name;
+    }
+    ASSERT_EQ(granular_create(path.c_str(), nullptr, &writer), GRANULAR_OK);
+    EXPECT_EQ(granular_finish(writer), GRANULAR_BAD_ARGUMENT) << name;
+    EXPECT_EQ(message(), path + ": expected at least one frame, got none");
+    EXPECT_EQ(content(path), "the old file") << name;
+  }
   EXPECT_EQ(granular_create(output("gone/a.dump").c_str(), nullptr, &writer), GRANULAR_IO_ERROR);
   EXPECT_EQ(writer, nullptr);
   for (const auto& entry : fs::directory_iterator(GRANULAR_OUTPUT))
