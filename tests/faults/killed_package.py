@@ -113,10 +113,26 @@ def two_at_once():
     assert not [each for each in os.listdir(".") if each.startswith(".granular-")]
 
 
+def child_leaves():
+    """A child that leaves the block has no part in the file."""
+    try:
+        with whole_file("one.csv") as name:
+            child = os.fork()
+            if child == 0:
+                raise KeyboardInterrupt
+            assert os.waitpid(child, 0)[1] == 0
+            with open(name, "r+") as file:
+                file.write("parent")
+    except KeyboardInterrupt:
+        os._exit(0)
+    assert content("one.csv") == b"parent"
+
+
 shutil.rmtree("killed", ignore_errors=True)
 os.mkdir("killed")
 os.chdir("killed")
 two_at_once()
+child_leaves()
 kills = int(sys.argv[1])
 chosen = random.Random(int(os.environ.get("GRANULAR_SEED", "1")))
 for i in range(200):

@@ -71,6 +71,28 @@ def main():
             os._exit(0 if total(run[-1]) == expected[-1] and [total(each) for each in run] == expected else 1)
         assert os.waitpid(child, 0)[1] == 0
 
+    # a child does not touch the file that its parent is writing, whatever ends it
+    if os.path.exists("parent.dump"):
+        os.remove("parent.dump")
+    writer = granular.Writer("parent.dump")
+    writer.write(run[0])
+    for leave in (writer.abandon, writer.finish, lambda: writer.write(run[1]), lambda: writer.__del__()):
+        child = os.fork()
+        if child == 0:
+            try:
+                leave()
+            except OSError as error:
+                assert "a child" in str(error) and "parent.dump" in str(error), error
+            finally:
+                writer.abandon()
+                os._exit(0 if "parent.dump" not in os.listdir() else 1)
+        assert os.waitpid(child, 0)[1] == 0
+    writer.write(run[1])
+    writer.finish()
+    granular.write("alone.dump", run[:2])
+    with open("parent.dump", "rb") as mine, open("alone.dump", "rb") as alone:
+        assert mine.read() == alone.read()
+
     # one run, one frame, several threads; closed while others read
     found, frame = [], run[-1]
     threads = [threading.Thread(target=lambda: found.append((total(frame), [total(each) for each in run]))) for _ in range(6)]

@@ -197,11 +197,20 @@ void NewFile::create(Locking locking)
 
 NewFile::~NewFile()
 {
-  if (file_ >= 0 && file_ != locked_->descriptor())
+  if (file_ >= 0 && file_ != locked_->descriptor() && locked_->is_own())
   {
     ::unlink(name_.c_str());
   }
   this->close();
+}
+
+void NewFile::expect_own() const
+{
+  if (!locked_->is_own())
+  {
+    throw IoError("cannot write: expected the process that began the file, got a child of it",
+      { path_ }, std::errc::operation_not_permitted);
+  }
 }
 
 /// The lock last: until then the data are this object's.
@@ -217,6 +226,7 @@ void NewFile::close() noexcept
 
 void NewFile::write_at(std::int64_t offset, std::string_view bytes)
 {
+  this->expect_own();
   pwrite_all(file_, offset, bytes, path_);
 }
 
@@ -244,6 +254,7 @@ void NewFile::expect_written() const
 
 void NewFile::finish(bool durable)
 {
+  this->expect_own();
   this->set_permissions();
   check(durable ? sync(file_) : 0, path_);
   this->expect_written();

@@ -50,7 +50,7 @@ enum class Locking : std::uint8_t
 /// are those of the old file, or what the umask leaves. Something at the path that is not a regular file is an error.
 ///
 /// A program that is killed leaves its temporary file behind. The next NewFile of the same path on the same machine removes
-/// it: see LockedFile.
+/// it: see LockedFile. A child of the process, which has a copy of this object, cannot touch the file.
 class NewFile final : public OutputFile
 {
 public:
@@ -68,6 +68,7 @@ public:
 
 private:
   void create(Locking locking);
+  void expect_own() const;
   void set_permissions() const;
   void expect_written() const;
   void close() noexcept;

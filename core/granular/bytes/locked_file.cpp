@@ -114,6 +114,7 @@ bool remove_left(const std::string& name)
 }
 
 LockedFile::LockedFile(const std::string& target, unsigned permissions)
+  : process_(::getpid())
 {
   constexpr int most_free = 8; // names in a row: writers that ended have left gaps between others
   const std::string begin = begin_of_names(target);
@@ -160,11 +161,16 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
 
 LockedFile::~LockedFile()
 {
-  if (this->has_name())
+  if (this->is_own() && this->has_name())
   {
     ::unlink(name_.c_str());
   }
   ::close(file_);
+}
+
+bool LockedFile::is_own() const noexcept
+{
+  return ::getpid() == process_;
 }
 
 bool LockedFile::has_name() const noexcept

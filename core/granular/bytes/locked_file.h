@@ -22,7 +22,7 @@ public:
   LockedFile(const LockedFile&) = delete;
   LockedFile& operator=(const LockedFile&) = delete;
 
-  /// Closes the file, and removes it if it still has its name.
+  /// Closes the file, and removes it if it still has its name. A child of the process leaves it to its parent.
   ~LockedFile();
 
   int descriptor() const noexcept { return file_; }
@@ -31,9 +31,13 @@ public:
   /// Returns true if the name still is that of this file.
   bool has_name() const noexcept;
 
+  /// Returns true in the process that created the file, and false in its children, which have a copy of this object.
+  bool is_own() const noexcept;
+
 private:
   std::string name_;
   int file_ = -1;
+  int process_ = 0; ///< that created the file
 };
 }
 #endif

@@ -179,12 +179,14 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
     except OSError as error:  # the user knows the path, and not the name of the hidden file
         raise OSError(error.errno, error.strerror, path) from None
     temporary = name + ending
-    folder = os.path.dirname(target) or "."
+    folder, process = os.path.dirname(target) or ".", os.getpid()
     try:
         _remove(temporary)
         # who may not read the old file may not read along either
         _close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if old is None else 0o600))
         yield temporary
+        if os.getpid() != process:
+            raise PermissionError(errno.EPERM, "expected the process that began the file, got a child of it", path)
         if old is not None:
             os.chmod(temporary, stat.S_IMODE(old) & 0o777)
         if durable:
@@ -197,7 +199,8 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
             raise  # of another file
         raise OSError(error.errno, error.strerror, path) from error
     finally:
-        _remove(temporary)
-        _remove_own(name, lock)
+        if os.getpid() == process:  # a child has a copy of all this
+            _remove(temporary)
+            _remove_own(name, lock)
     if durable:
         _sync_folder(folder, path)
