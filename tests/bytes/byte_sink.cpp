@@ -21,11 +21,13 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace
 {
 namespace fs = std::filesystem;
+using granular::Locking;
 using granular::NewFile;
 using granular::write_file;
 
@@ -279,6 +281,52 @@ TEST_F(WriteFile, PermissionsStay)
     }
     EXPECT_EQ(fs::status(this->path("a")).permissions(), fs::perms(mode));
     EXPECT_EQ(this->content("a"), "");
+  }
+}
+
+TEST_F(WriteFile, OwnerAndGroupStayOrTheFileIsRefused)
+{
+  if (::geteuid() != 0)
+  {
+    GTEST_SKIP() << "only root may give files away";
+  }
+  constexpr unsigned user = 1234;
+  constexpr unsigned group = 2345;
+  fs::permissions(this->folder(), fs::perms::all);
+  for (const Locking locking : { Locking::Own, Locking::Others })
+  {
+    write_file(this->path("a"), "old");
+    ASSERT_EQ(::chmod(this->path("a").c_str(), 0666), 0);
+    ASSERT_EQ(::chown(this->path("a").c_str(), user, group), 0);
+    {
+      NewFile file(this->path("a"), locking);
+      file.finish(false);
+    }
+    struct stat now = {};
+    ASSERT_EQ(::stat(this->path("a").c_str(), &now), 0);
+    EXPECT_EQ(now.st_uid, user);
+    EXPECT_EQ(now.st_gid, group);
+    EXPECT_EQ(now.st_mode & 0777, 0666u);
+
+    const pid_t child = ::fork(); // as another user, who may write the file and its folder
+    if (child == 0)
+    {
+      fs::current_path(this->folder()); // that user may not pass the folders before
+      const bool other = ::setresgid(group, group, group) == 0 && ::setresuid(77, 77, 77) == 0;
+      try
+      {
+        const NewFile file("a", locking);
+        ::_exit(1);
+      }
+      catch (const granular::IoError& error)
+      {
+        ::_exit(other && error.code() == std::errc::operation_not_permitted ? 0 : 2);
+      }
+    }
+    int status = -1;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(this->names(), Names{ "a" });
   }
 }
 

@@ -149,6 +149,16 @@ raises(granular.ArgumentError, lambda: granular.write("own_*.dump", granular.ope
 assert [text_of(f"own_{step}.dump") for step in (0, 1)] == before
 raises(PermissionError if os.getuid() else OSError, lambda: granular.write("/proc/new.dump", arrays, box=box), "/proc/new.dump")
 
+# root leaves a user's file the user's
+if os.getuid() == 0:
+    for name, write in (("user.dump", lambda: granular.write("user.dump", run[1])),
+                        ("user.series", lambda: granular.write_series("step_1000.dump.gz", 1, "user.series"))):
+        with open(name, "w"):
+            pass
+        os.chown(name, 1234, 2345)
+        write()
+        assert (os.stat(name).st_uid, os.stat(name).st_gid) == (1234, 2345) and os.path.getsize(name) > 0, name
+
 # time and units of a file are kept
 granular.write("units.dump", {"id": [1], "type": [1], "points": point}, box=box, units="si", time=0.25)
 granular.write("kept.dump", granular.open("units.dump"))

@@ -161,12 +161,26 @@ NewFile::NewFile(const std::string& path, Locking locking)
       fail(path_, errno); // who may not write it may not replace it either
     }
     permissions_ = static_cast<int>(old.st_mode & permission_bits);
+    owner_ = old.st_uid;
+    group_ = old.st_gid;
   }
   else if (errno != ENOENT || path.empty())
   {
     fail(path_, errno);
   }
   this->create(locking);
+  if (permissions_ >= 0 && ::geteuid() != 0) // root's file is root's until the end: see LockedFile
+  {
+    try
+    {
+      this->keep_owner(); // before the first byte
+    }
+    catch (const IoError&)
+    {
+      this->remove();
+      throw;
+    }
+  }
 }
 
 void NewFile::create(Locking locking)
@@ -195,7 +209,26 @@ void NewFile::create(Locking locking)
   }
 }
 
+/// Some file systems give all files one owner, so only the new file tells whether its owner differs.
+void NewFile::keep_owner() const
+{
+  struct stat now = {};
+  check(::fstat(file_, &now) != 0 ? errno : 0, path_);
+  if ((now.st_uid != owner_ || now.st_gid != group_) && ::fchown(file_, owner_, group_) != 0)
+  {
+    const int error = errno;
+    throw IoError("cannot write: the new file would not keep the owner and group of the old one: " +
+        std::generic_category().message(error),
+      { path_ }, static_cast<std::errc>(error));
+  }
+}
+
 NewFile::~NewFile()
+{
+  this->remove();
+}
+
+void NewFile::remove() noexcept
 {
   if (file_ >= 0 && file_ != locked_->descriptor() && locked_->is_own())
   {
@@ -234,6 +267,7 @@ void NewFile::set_permissions() const
 {
   if (permissions_ >= 0)
   {
+    this->keep_owner();
     // a file system without permissions gives all files the same, and may refuse to set them
     const auto wanted = static_cast<mode_t>(permissions_);
     struct stat now = {};

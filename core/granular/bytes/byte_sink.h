@@ -46,8 +46,9 @@ enum class Locking : std::uint8_t
   Others ///< who writes by the temporary name, in its own ways: the lock is then on a file beside it
 };
 
-/// An output file that one rank writes. A symbolic link stays, and the file that it points to is replaced. Permissions
-/// are those of the old file, or what the umask leaves. Something at the path that is not a regular file is an error.
+/// An output file that one rank writes. A symbolic link stays, and the file that it points to is replaced. Permissions,
+/// owner and group are those of the old file, or what the umask leaves. An old file whose owner or group cannot be kept, and
+/// something at the path that is not a regular file, are errors.
 ///
 /// A program that is killed leaves its temporary file behind. The next NewFile of the same path on the same machine removes
 /// it: see LockedFile. A child of the process, which has a copy of this object, cannot touch the file.
@@ -68,9 +69,11 @@ public:
 
 private:
   void create(Locking locking);
+  void keep_owner() const;
   void expect_own() const;
   void set_permissions() const;
   void expect_written() const;
+  void remove() noexcept;
   void close() noexcept;
 
   std::string path_;   ///< as it was given
@@ -79,6 +82,8 @@ private:
   std::string name_;     ///< of the data
   int file_ = -1;        ///< the data: that of locked_, or one beside it
   int permissions_ = -1; ///< of the old file; -1: there is none
+  unsigned owner_ = 0;   ///< of the old file
+  unsigned group_ = 0;   ///< of the old file
 };
 
 /// Writes into the existing file `name` at an offset, also beyond its end. Throws IoError that names path.

@@ -154,11 +154,23 @@ def _remove_own(name: str, lock: int) -> None:
     _close(lock)
 
 
+def _keep_owner(name: str, old: os.stat_result, path: str) -> None:
+    """Gives a new file the owner and group of the file that it will replace."""
+    now = os.stat(name)
+    if (now.st_uid, now.st_gid) != (old.st_uid, old.st_gid):
+        try:
+            os.chown(name, old.st_uid, old.st_gid)
+        except OSError as error:
+            raise OSError(error.errno, "cannot write: the new file would not keep the owner and group of the old one: "
+                          f"{error.strerror}", path) from None
+
+
 @contextlib.contextmanager
 def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[str]:
     """Yields the name of a temporary file beside a path. It replaces the old file at the end, and is removed after an error.
 
-    A symbolic link stays, and so do the permissions of the old file. Raises OSError for what is not a regular file.
+    A symbolic link stays, and so do the permissions, owner and group of the old file. Raises OSError where they cannot, and for what
+    is not a regular file.
 
     ending   of the temporary name, for programs that look at it
     durable  the file is on the disk before it gets its name
@@ -169,8 +181,8 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
     target = _behind_links(path)
     old = None
     with contextlib.suppress(FileNotFoundError):
-        old = os.lstat(target).st_mode
-        expect_file(path, old)
+        old = os.lstat(target)
+        expect_file(path, old.st_mode)
         if not os.access(target, os.W_OK):  # who may not write a file may not replace it either
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
     ending = ".data" + ending
@@ -184,11 +196,14 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
         _remove(temporary)
         # who may not read the old file may not read along either
         _close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if old is None else 0o600))
+        if old is not None and os.geteuid() != 0:  # before the first byte; until the end, a file of root is root's
+            _keep_owner(temporary, old, path)
         yield temporary
         if os.getpid() != process:
             raise PermissionError(errno.EPERM, "expected the process that began the file, got a child of it", path)
         if old is not None:
-            os.chmod(temporary, stat.S_IMODE(old) & 0o777)
+            _keep_owner(temporary, old, path)
+            os.chmod(temporary, stat.S_IMODE(old.st_mode) & 0o777)
         if durable:
             _sync(temporary)
         if not _is_name_of(name, lock):  # somebody has removed it, and another may have the name
