@@ -2,6 +2,7 @@
 """granular.save chooses the writer by the data, then by the ending; numbers are exact unless told otherwise."""
 import filecmp
 import os
+import xml.etree.ElementTree
 
 import granular
 import numpy
@@ -64,6 +65,12 @@ for name in ("a.euler", "a_cells.vtk"):
 granular.save(cells, "a.vti")
 begins("a.vti", b"<")
 granular.save(Tube(Input=contacts), "a_tubes.vtp")
+granular.save(GroupDatasets(Input=[particles, cells]), "a_group.vtm")
+for name in ("a.vtp", "a.vti", "a_tubes.vtp", "a_group/a_group_0.vtp"):  # all versions of libexpat read what is XML for Python's
+    xml.etree.ElementTree.parse(name)
+granular.save(particles, "chosen.vtp", DataMode="Ascii")
+with open("chosen.vtp") as file:
+    assert 'format="ascii"' in file.read()
 
 # all frames by ParaView's writers, which call WriteTimeSteps by several names and number the files themselves
 for ending in ("vtp", "csv"):

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree
 
 import numpy
 
@@ -91,6 +92,7 @@ except ImportError:
 else:
     for ending, kind in ((".vtp", vtkXMLPolyDataReader), (".vtu", vtkXMLUnstructuredGridReader)):
         granular("convert", SOURCE, "last" + ending, "--frames", "-1")
+        xml.etree.ElementTree.parse("last" + ending)  # appended data are no XML, which some versions of libexpat refuse
         reader = kind()
         reader.SetFileName("last" + ending)
         reader.Update()

@@ -90,8 +90,10 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
 
     if "*" in path:
         raise ValueError(f"expected a name without *, got '{shown(path)}': ParaView's writers number the files of WriteTimeSteps themselves")
+    known = simple.CreateWriter(path, output).ListProperties()
+    if "DataMode" in known:  # appended data are no XML for some versions of libexpat
+        properties = {"DataMode": "Binary", **properties}
     if "WriteTimeSteps" in properties:  # which ParaView's writers call by several names
-        known = simple.CreateWriter(path, output).ListProperties()
         names = [name for name in known if re.fullmatch("Write(all)?timestepsasfileseries|WriteTimeSteps",
                                                         name, re.IGNORECASE)]
         if not names:
@@ -119,7 +121,7 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 subdomains     .decomposition, .vtk, .vtu
                 cells          .euler, .vtk
                 All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .csv, .stl and .ply, go to
-                ParaView's writers. Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*`
+                ParaView's writers, VTK's XML with DataMode Binary, which all versions of libexpat read. Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*`
                 stands for the timestep, and in those of dumps `%` for the rank.
     time        the time to write, as for granular.update
     writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter, which take
