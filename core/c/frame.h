@@ -5,6 +5,7 @@
 
 #include "granular.h"
 
+#include "granular/frames/run_index.h"
 #include "granular/local/local_reader.h"
 #include "granular/particles/dump_frame.h"
 #include "granular/particles/frame_view.h"
@@ -53,6 +54,7 @@ struct granular_frame
   std::vector<std::string> columns; ///< of the file
   std::string column_text;          ///< the same, separated by blanks
   std::vector<granular_c::FrameArray> arrays;
+  std::shared_ptr<const granular::RunIndex> index; ///< of the run that it was read from
 
   const granular_c::FrameArray* find(std::string_view name) const noexcept;
 };

@@ -362,7 +362,10 @@ typedef struct granular_format
 GRANULAR_API void granular_format_init(granular_format* format);
 
 /* Begins a file under a temporary name. A name with `*` makes a file for each frame. Text is compressed if the name ends in
- * .gz or .zst; .bin and .lammpsbin are binary. format may be null. Sets *writer. */
+ * .gz or .zst; .bin and .lammpsbin are binary. format may be null. Sets *writer.
+ *
+ * A file of the run that a frame comes from, under any name, is replaced by granular_finish. A frame for it is an error if a
+ * frame of that file is not complete, because a simulation may be writing it, or if other files have pieces of its frames. */
 GRANULAR_API granular_status granular_create(
   const char* path, const granular_format* format, granular_writer** writer);
 

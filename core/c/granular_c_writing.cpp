@@ -100,6 +100,7 @@ extern "C"
               names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
               names[static_cast<std::size_t>(frame->kind)]);
           }
+          writer->add_inputs(*frame);
           write_frame(*writer, view.view);
         }));
   }

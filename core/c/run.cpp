@@ -195,6 +195,7 @@ void granular_run::refresh(Caller& caller)
   {
     new_rests.push_back({ file.defect ? to_string(*file.defect) : "", count_repeated(file) });
   }
+  shared_index = std::make_shared<const RunIndex>(updated);
   index = std::move(updated);
   times = std::move(new_times);
   rests = std::move(new_rests);
@@ -277,6 +278,7 @@ std::unique_ptr<granular_frame> granular_run::read(
   Notices notices;
   kind_->read(*this, frame, wanted, notices, caller, *made);
   made->time = times[frame];
+  made->index = shared_index;
   caller.tell(notices);
   return made;
 }

@@ -93,6 +93,7 @@ struct granular_run
 
   std::shared_mutex mutex;
   granular::RunIndex index;
+  std::shared_ptr<const granular::RunIndex> shared_index; ///< the same, for frames
 
   /// Memory of frames that were released, for the next ones: at most 256 MiB.
   std::shared_ptr<granular::BlockPool> pool =

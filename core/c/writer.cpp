@@ -69,7 +69,8 @@ public:
     : granular_writer(of, to, format)
     , writer_(to, std::move(form),
         { .threads = format.threads > 0 ? format.threads : available_cores(),
-          .durable = durability_of(format) },
+          .durable = durability_of(format),
+          .inputs = &inputs },
         alone_)
   {
   }
@@ -120,15 +121,18 @@ public:
   void write(const FrameView& frame, Notices& notices, Progress& progress) override
   {
     Notices own;
+    const bool alone = is_name_of_steps(path);
+    const std::string to = alone ? name_of_step(path, frame.header.timestep) : path;
+    inputs.has(to); // throws for a file that may not be replaced
     std::string text = this->encode(frame, own, progress);
     for (Notice& notice : own)
     {
       notice.where.path = path;
       notices.push_back(std::move(notice));
     }
-    if (is_name_of_steps(path))
+    if (alone)
     {
-      this->save(name_of_step(path, frame.header.timestep), text);
+      this->save(to, text);
       return;
     }
     if (frames > 1 && !holds_many_)
@@ -146,21 +150,25 @@ public:
     {
       this->save(path, text_);
     }
+    held_.finish_all(durable_);
   }
 
 protected:
   virtual std::string encode(const FrameView& frame, Notices& notices, Progress& progress) = 0;
 
 private:
-  void save(const std::string& to, const std::string& text) const
+  void save(const std::string& to, const std::string& text)
   {
     const Compression how = compression_of_name(to);
-    write_file(to, how == Compression::None ? text : compress(text, how), durable_);
+    auto file = std::make_unique<NewFile>(to);
+    file->write_at(0, how == Compression::None ? text : compress(text, how));
+    held_.finish(std::move(file), durable_);
   }
 
   bool holds_many_;
   bool durable_;
   std::string text_;
+  HeldFiles held_{ &inputs };
 };
 
 class CellsWriter final : public WholeWriter
@@ -347,6 +355,15 @@ std::unique_ptr<granular_writer> create_writer(
 {
   return find_style(path, text_of(format.style)).create(path, format);
 }
+}
+
+void granular_writer::add_inputs(const granular_frame& frame)
+{
+  if (frame.index && frame.index != index_)
+  {
+    inputs.add(*frame.index);
+    index_ = frame.index;
+  }
 }
 
 void granular_writer::expect_frames() const

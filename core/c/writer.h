@@ -6,6 +6,7 @@
 #include "run.h"
 
 #include "granular/common/progress.h"
+#include "granular/frames/input_files.h"
 
 #include <cstdint>
 #include <memory>
@@ -26,6 +27,9 @@ struct granular_writer
   void expect_frames() const;
   virtual void finish() = 0;
 
+  /// Adds the files that a frame comes from to those that are read meanwhile.
+  void add_inputs(const granular_frame& frame);
+
   const granular_c::RowKind kind;
   const std::string path;
   granular_c::Caller caller;
@@ -39,6 +43,11 @@ protected:
     , caller(format.progress, format.notice, format.user)
   {
   }
+
+  granular::InputFiles inputs;
+
+private:
+  std::shared_ptr<const granular::RunIndex> index_; ///< that was added last
 };
 
 namespace granular_c

@@ -71,7 +71,7 @@ public:
   File(vtkGranularDecompositionWriter* self, Internals& internals)
     : WholeFile({ self->FileName, static_cast<granular::Durability>(self->Durable), "subdomains",
                   self->Dialect == PUBLIC ? "PUBLIC" : "", self->Dialect == PUBLIC },
-        internals.GetRanks(), *self->Past, internals.Notices)
+        internals.GetRanks(), internals.Inputs, *self->Past, internals.Notices)
     , Self(self)
     , Kind(KindOf(self->FileName))
   {

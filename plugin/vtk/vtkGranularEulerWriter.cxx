@@ -41,7 +41,7 @@ public:
   File(vtkGranularEulerWriter* self, Internals& internals)
     : WholeFile({ self->FileName, static_cast<granular::Durability>(self->Durable), "cells",
                   Names.begin()[self->Dialect] },
-        internals.GetRanks(), *self->Past, internals.Notices)
+        internals.GetRanks(), internals.Inputs, *self->Past, internals.Notices)
     , Dialect(static_cast<granular::EulerDialect>(self->Dialect))
   {
   }

@@ -184,6 +184,8 @@ protected:
   std::unique_ptr<Internals> Series;
 
 private:
+  friend class vtkGranularWriter; ///< does not replace files that are still read
+
   vtkGranularSeriesReader(const vtkGranularSeriesReader&) = delete;
   void operator=(const vtkGranularSeriesReader&) = delete;
 };

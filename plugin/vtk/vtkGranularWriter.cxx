@@ -4,6 +4,7 @@
 #include "private/dump/input_frames.h"
 #include "private/request/abort.h"
 #include "private/request/guard.h"
+#include "private/request/series_reader.h"
 #include "private/writing/writer.h"
 
 #include "vtkCommand.h"
@@ -59,7 +60,33 @@ granular::WriteOptions vtkGranularWriter::Internals::MakeOptions(const vtkGranul
   return { self->ParallelMode == MPI_IO ? granular::ParallelMode::MpiIo
                                         : granular::ParallelMode::Gather,
     vtkGranularPrivate::ChooseThreads(self->Threads, this->GetRanks()),
-    static_cast<granular::Durability>(self->Durable) };
+    static_cast<granular::Durability>(self->Durable), &this->Inputs };
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularWriter::Internals::FindInputs(vtkGranularWriter* self)
+{
+  this->Inputs = {};
+  std::vector<vtkAlgorithm*> upstream = { self };
+  for (std::size_t next = 0; next < upstream.size(); ++next)
+  {
+    vtkAlgorithm* algorithm = upstream[next];
+    if (auto* reader = vtkGranularSeriesReader::SafeDownCast(algorithm))
+    {
+      this->Inputs.add(reader->Series->Index);
+    }
+    for (int port = 0; port < algorithm->GetNumberOfInputPorts(); ++port)
+    {
+      for (int input = 0; input < algorithm->GetNumberOfInputConnections(port); ++input)
+      {
+        vtkAlgorithm* before = algorithm->GetInputAlgorithm(port, input);
+        if (std::find(upstream.begin(), upstream.end(), before) == upstream.end())
+        {
+          upstream.push_back(before);
+        }
+      }
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -209,6 +236,7 @@ void vtkGranularWriter::WriteFrames()
       controller ? controller->GetNumberOfProcesses() : 1, this->GhostLevel });
   const std::vector<double> times = this->WriteTimeSteps ? input.GetTimes() : std::vector<double>();
   CheckTimes(times, ranks);
+  shared.FindInputs(this);
   shared.File = this->OpenFile(shared);
   AlgorithmProgress progress(this);
   granular::PartialProgress part(progress);

@@ -9,6 +9,9 @@
  * Files are written under a temporary name and renamed when complete. After an error the old file is untouched, Write() returns 0, and
  * GetErrorCode() is not vtkErrorCode::NoError. A killed program leaves the old file or the new one, and a hidden temporary file, which
  * the next Write() of the same file on the same machine removes.
+ *
+ * A file that a reader of this plugin upstream reads, under any name, is replaced after the last frame. Replacing a file with an
+ * incomplete frame, which a simulation may be writing, or with pieces of frames is an error.
  */
 
 #ifndef vtkGranularWriter_h

@@ -109,6 +109,16 @@ kept = content("step_4000.dump")
 granular("convert", "step_3000.dump", "step_4000.dump", "step_4000.dump", status=2)
 assert content("step_4000.dump") == kept
 
+# a file of the run, under another name, does not become a table: its frames would be lost
+clean()
+granular("convert", SOURCE, "run.dump")
+for ending in ("csv", "npz", "vtu"):
+    os.symlink("run.dump", f"link_4000.{ending}")
+    said = granular("convert", "run.dump", f"link_*.{ending}", "--frames", "-2:", status=2)[1]
+    assert f"link_4000.{ending}: expected another file to write, got one that is read" in said, said
+assert content("run.dump") == content(SOURCE)
+only_files("link_4000.csv", "link_4000.npz", "link_4000.vtu", "run.dump")
+
 # what cannot be, and the old file
 clean()
 with open("old.dump", "w") as stream:

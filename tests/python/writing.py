@@ -2,6 +2,7 @@
 """Arrays and frames as files: the text that a simulation code would print, all digits, whole files or the old ones."""
 import gzip
 import os
+import shutil
 import warnings
 
 import numpy
@@ -145,8 +146,36 @@ granular.write("any.name", run[1], style="custom")
 for step in (0, 1):
     granular.write(f"own_{step}.dump", arrays, box=box, step=step)
 before = [text_of(f"own_{step}.dump") for step in (0, 1)]
-raises(granular.ArgumentError, lambda: granular.write("own_*.dump", granular.open("own_*.dump")), "own_0.dump", "that is read")
+granular.write("own_*.dump", granular.open("own_*.dump"))
 assert [text_of(f"own_{step}.dump") for step in (0, 1)] == before
+
+# files that are read are replaced last, under any of their names: each frame is there afterwards
+shutil.rmtree("inputs", ignore_errors=True)
+os.makedirs("inputs/post")
+os.chdir("inputs")
+os.symlink("post", "link")
+for steps in ((0, 1, 2), (3, 4)):
+    with granular.Writer(f"post/run_{steps[0]}.dump") as writer:
+        for step in steps:
+            writer.write(arrays, box=box, step=step)
+granular.write("link/run_*.dump", granular.open("post/run_*.dump"))
+names = [f"run_{step}.dump" for step in range(5)]
+assert sorted(os.listdir("post")) == names
+assert [granular.open(f"post/{name}").steps.tolist() for name in names] == [[0], [1], [2], [3], [4]]
+
+# one whose last frame a simulation is writing, and pieces of frames, are not replaced
+with open("post/run_4.dump", "a") as stream:
+    stream.write("ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n")
+for rank in range(4):
+    shutil.copy(os.path.join(GOOD, f"pieces_1000.{rank}.dump"), f"post/piece.{rank}.dump")
+os.symlink("post/run_4.dump", "four.dump")
+before = {name: text_of(f"post/{name}") for name in os.listdir("post")}
+for pattern, name, why in (("post/run_*.dump", "link/run_*.dump", "not complete"), ("post/run_*.dump", "four.dump", "not complete"),
+                           ("post/piece.%.dump", "link/piece.%.dump", "rest of its frames"),
+                           ("post/piece.%.dump", "link/piece.3.dump", "rest of its frames")):
+    raises(granular.ArgumentError, lambda: granular.write(name, granular.open(pattern)), "one that is read", why)  # noqa: B023
+    assert {name: text_of(f"post/{name}") for name in os.listdir("post")} == before, name
+os.chdir("..")
 raises(PermissionError if os.getuid() else OSError, lambda: granular.write("/proc/new.dump", arrays, box=box), "/proc/new.dump")
 
 # root leaves a user's file the user's

@@ -65,12 +65,61 @@ def check(kind, sources, name, attributes, adds, **form):
     wipe("other_", begin)
 
 
+def lay(name, *sources, end=b""):
+    """Makes a file of others, one behind the other."""
+    if RANK == 0:
+        with open(name, "wb") as out:
+            for source in sources:
+                with open(good(source), "rb") as file:
+                    out.write(file.read())
+            out.write(end)
+    all_ranks.wait()
+
+
+def check_shared(**form):
+    """Files that hold several frames of the run, or a part of one, are still read when the first frame is written."""
+    lay("a_0.dump", "grains_0.dump", "grains_1000.dump")
+    lay("a_2000.dump", "grains_2000.dump")
+    if RANK == 0:
+        os.symlink(".", "a_link")
+    all_ranks.wait()
+    reader = GranularDumpReader(FileNames=[os.path.abspath(f"a_{step}.dump") for step in (0, 2000)])
+    shown = Calculator(Input=reader, ResultArrayName="added", Function="7")
+    granular.save(shown, "other_a_*.dump", WriteTimeSteps=1, **form)
+    granular.save(shown, "a_link/a_*.dump", WriteTimeSteps=1, **form)
+    for step in (0, 1000, 2000):
+        assert content(f"a_{step}.dump") == content(f"other_a_{step}.dump"), step
+    Delete(shown)
+    Delete(reader)
+
+    # a frame that a simulation is writing
+    lay("a_2000.dump", "grains_2000.dump", end=b"ITEM: TIMESTEP\n3000\n")
+    for rank in range(4):
+        lay(f"a_piece.{rank}.dump", f"pieces_1000.{rank}.dump")
+    before = {name: content(name) for name in sorted(os.listdir(".")) if name.endswith(".dump")}
+    refused = {("a_0.dump", "a_2000.dump"): ("a_link/a_*.dump", "a_link/a_2000.dump"),
+               tuple(f"a_piece.{rank}.dump" for rank in range(4)): ("a_link/a_piece.%.dump", "a_piece.0.dump")}
+    for names, outputs in refused.items():
+        reader = GranularDumpReader(FileNames=[os.path.abspath(name) for name in names])
+        for output in outputs:
+            try:
+                granular.save(Calculator(Input=reader, Function="7"), output, time=2000, **form)
+                raise AssertionError(output)
+            except RuntimeError as error:
+                assert "one that is read" in str(error) and ("not complete" in str(error)) == ("piece" not in output), error
+            all_ranks.wait()
+            assert {name: content(name) for name in sorted(os.listdir(".")) if name.endswith(".dump")} == before, output
+        Delete(reader)
+    wipe("other_", "a_")
+
+
 wipe("a", "other_")
 ALL = {"WriteTimeSteps": 1}
 few = all_ranks.ranks.GetNumberOfProcesses() > 1  # ranks wait for each other
 for mode, names in (("Gather", ("a.dump", "a.dump.gz", "a.bin", "a.dump.zst", "a_*.dump", "a_*.dump.gz")), ("MPI-IO", ("a.dump", "a.bin"))):
     for name in names[:2] if few else names:
         check(GranularDumpReader, ["grains.dump"], name, "Point Data", True, ParallelMode=mode, **ALL)
+    check_shared(ParallelMode=mode)
 for name in ("a.bonds",) if few else ("a.bonds", "a.bonds.gz", "a_*.bonds"):
     check(GranularLocalReader, ["local/contacts.dump"], name, "Cell Data", True, **ALL)
 check(GranularEulerReader, [f"euler_{step}.vtk" for step in (1000, 2000)], "a_*.euler", "Point Data", False, **ALL)

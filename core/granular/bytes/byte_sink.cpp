@@ -286,12 +286,28 @@ void NewFile::expect_written() const
   check(second.get() < 0 ? errno : second.close(), path_);
 }
 
-void NewFile::finish(bool durable)
+void NewFile::complete(bool durable) const
 {
-  this->expect_own();
   this->set_permissions();
   check(durable ? sync(file_) : 0, path_);
   this->expect_written();
+}
+
+void NewFile::hold(bool durable)
+{
+  this->expect_own();
+  this->complete(durable);
+  locked_->close();
+  file_ = -1;
+}
+
+void NewFile::finish(bool durable)
+{
+  this->expect_own();
+  if (file_ >= 0)
+  {
+    this->complete(durable);
+  }
   Descriptor folder(-1);
   if (durable)
   {

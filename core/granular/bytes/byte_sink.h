@@ -61,8 +61,14 @@ public:
 
   void write_at(std::int64_t offset, std::string_view bytes) override;
 
+  /// Completes a file of Locking::Own and closes it, so that many can wait for their names. Only finish() may follow. durable:
+  /// as for finish(). Throws IoError.
+  void hold(bool durable);
+
   /// Throws IoError also if the folder cannot be synchronised; the new file has its name then.
   void finish(bool durable) override;
+
+  const std::string& path() const noexcept { return path_; }
 
   /// Returns the temporary name, which is in the same folder.
   const std::string& temporary_name() const noexcept { return name_; }
@@ -71,6 +77,7 @@ private:
   void create(Locking locking);
   void keep_owner() const;
   void expect_own() const;
+  void complete(bool durable) const;
   void set_permissions() const;
   void expect_written() const;
   void remove() noexcept;
@@ -80,7 +87,7 @@ private:
   std::string target_; ///< behind all links
   std::optional<LockedFile> locked_;
   std::string name_;     ///< of the data
-  int file_ = -1;        ///< the data: that of locked_, or one beside it
+  int file_ = -1;        ///< the data: that of locked_, or one beside it; -1: complete
   int permissions_ = -1; ///< of the old file; -1: there is none
   unsigned owner_ = 0;   ///< of the old file
   unsigned group_ = 0;   ///< of the old file

@@ -10,6 +10,7 @@
 #include <new>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -165,7 +166,19 @@ LockedFile::~LockedFile()
   {
     ::unlink(name_.c_str());
   }
-  ::close(file_);
+  if (file_ >= 0)
+  {
+    ::close(file_);
+  }
+}
+
+void LockedFile::close() noexcept
+{
+  struct stat open = {};
+  ::fstat(file_, &open);
+  inode_ = open.st_ino;
+  device_ = open.st_dev;
+  ::close(std::exchange(file_, -1));
 }
 
 bool LockedFile::is_own() const noexcept
@@ -175,6 +188,9 @@ bool LockedFile::is_own() const noexcept
 
 bool LockedFile::has_name() const noexcept
 {
-  return compare_name(name_, file_) == 0;
+  struct stat there = {};
+  return file_ >= 0
+    ? compare_name(name_, file_) == 0
+    : ::lstat(name_.c_str(), &there) == 0 && there.st_ino == inode_ && there.st_dev == device_;
 }
 }

@@ -2,6 +2,7 @@
 #ifndef granular_bytes_locked_file_h
 #define granular_bytes_locked_file_h
 
+#include <cstdint>
 #include <string>
 
 namespace granular
@@ -31,13 +32,19 @@ public:
   /// Returns true if the name still is that of this file.
   bool has_name() const noexcept;
 
+  /// Closes the file, which stays: many may wait for their names, and a process may have few files open. Another program that
+  /// writes the same target may now take it for a file that was left behind; has_name() then returns false.
+  void close() noexcept;
+
   /// Returns true in the process that created the file, and false in its children, which have a copy of this object.
   bool is_own() const noexcept;
 
 private:
   std::string name_;
-  int file_ = -1;
-  int process_ = 0; ///< that created the file
+  int file_ = -1;            ///< -1: closed
+  int process_ = 0;          ///< that created the file
+  std::uint64_t inode_ = 0;  ///< of a closed file
+  std::uint64_t device_ = 0; ///< of a closed file
 };
 }
 #endif

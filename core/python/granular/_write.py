@@ -135,7 +135,6 @@ class Writer:
         library = c.library()
         with self._calls:
             if isinstance(data, Frame):
-                self._expect_no_input(data)
                 if not self._pointer:
                     self._create(data, False, "")
                 library.granular_write_frame(self._pointer, data._to_write())
@@ -154,14 +153,6 @@ class Writer:
                 self._create(None, time is not None, units)
             library.granular_write(self._pointer, c.byref(content))
             del kept
-
-    def _expect_no_input(self, frame: Frame) -> None:
-        """A file for each frame replaces files before others are read."""
-        if "*" not in os.path.basename(self.path) or frame._run._handle is None:
-            return
-        path = os.path.abspath(self.path.replace("*", str(frame.step)))
-        if path in frame._run.files:
-            raise c.ArgumentError(f"{c.shown(path)}: expected the name of another file, got that of a file that is read")
 
     def finish(self) -> None:
         """Gives the file its name. Raises ArgumentError if there is no frame."""
@@ -217,8 +208,11 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
               it likes, and a file that is written in a loop takes less time; None (default): True for one file, False with `*`
 
     A file appears when it is complete; after an error the old file is untouched. With `*`, that holds for each file: those of earlier
-    frames are there. Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, for a
-    name that says nothing of the format, and if there is no frame.
+    frames are there. A file of the run that a frame comes from, under any name, is replaced after the last frame.
+
+    Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, for a name that says
+    nothing of the format, if there is no frame, and for a file of the run that has an incomplete frame, because a simulation may be
+    writing it, or pieces of frames.
     """
     is_arrays = isinstance(data, Mapping) and not isinstance(data, Frame)
     frames = [data] if is_arrays or isinstance(data, Frame) else data

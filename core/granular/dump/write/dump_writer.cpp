@@ -24,7 +24,6 @@ std::int64_t sum_of(std::span<const std::int64_t> counts) noexcept
 {
   return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
-
 }
 
 /// The file, as this rank knows it.
@@ -38,7 +37,7 @@ struct DumpWriter::File
   };
 
   File(const std::string& path, const DumpFormat& format, const WriteOptions& options,
-    Communicator& all)
+    Communicator& all, bool may_share)
     : executor(options.threads)
     , ranks(all)
   {
@@ -47,7 +46,7 @@ struct DumpWriter::File
       way = Way::Own;
     }
     else if (options.mode == ParallelMode::MpiIo && all.size() > 1 &&
-      format.compression == Compression::None)
+      format.compression == Compression::None && may_share)
     {
       shared = all.open_together(path);
       way = shared ? Way::Shared : Way::Gather;
@@ -70,7 +69,7 @@ struct DumpWriter::File
   Executor executor;
   Communicator& ranks;
   Way way = Way::Gather;
-  std::unique_ptr<OutputFile> own;
+  std::unique_ptr<NewFile> own;
   std::optional<FileAppender> appender; ///< to own
   std::unique_ptr<OutputFile> shared;
   std::int64_t shared_size = 0;
@@ -248,6 +247,7 @@ DumpWriter::DumpWriter(
   , format_(std::move(format))
   , options_(options)
   , ranks_(ranks)
+  , held_(options.inputs)
 {
   do_together(ranks_,
     [&]
@@ -255,7 +255,7 @@ DumpWriter::DumpWriter(
       check_format(format_, path_);
       if (!is_name_of_steps(path_))
       {
-        file_ = std::make_unique<File>(path_, format_, options_, ranks_);
+        file_ = std::make_unique<File>(path_, format_, options_, ranks_, true);
       }
     });
 }
@@ -276,10 +276,11 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
       FramePlan plan = plan_frame(frame, format_, ranks_, notices);
       format_.dialect = plan.header.dialect; // later frames have the same
       this->check_step(plan.header.timestep, notices);
+      const std::string path = name_of_step(path_, plan.header.timestep);
+      const bool is_read = held_.is_read(name_of_rank(path, ranks_.rank()), ranks_);
       if (is_name_of_steps(path_))
       {
-        file_ = std::make_unique<File>(
-          name_of_step(path_, plan.header.timestep), format_, options_, ranks_);
+        file_ = std::make_unique<File>(path, format_, options_, ranks_, !is_read);
       }
       this->write_rows(frame, plan, notices, progress);
       if (is_name_of_steps(path_))
@@ -371,6 +372,7 @@ void DumpWriter::finish()
 {
   this->expect_whole();
   this->close();
+  do_together(ranks_, [&] { held_.finish_all(is_durable(options_.durable, path_)); });
 }
 
 void DumpWriter::close()
@@ -387,7 +389,7 @@ void DumpWriter::close()
       {
         if (file_->own)
         {
-          file_->own->finish(durable);
+          held_.finish(std::move(file_->own), durable);
         }
       });
   }

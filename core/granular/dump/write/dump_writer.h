@@ -4,6 +4,7 @@
 
 #include "granular/common/progress.h"
 #include "granular/dump/write/dump_format.h"
+#include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/frame_view.h"
 
@@ -29,13 +30,16 @@ struct WriteOptions
   ParallelMode mode = ParallelMode::Gather;
   int threads = 1; ///< at least 1, of each rank
   Durability durable = Durability::Automatic;
+  const InputFiles* inputs =
+    nullptr; ///< files that are read meanwhile, the same on all ranks; null: none
 };
 
 /// Writes a dump of one or more frames, from the rows of all ranks in rank order. The bytes do not depend on the number of
 /// ranks or threads. The file appears when finish() is done; until then, and if the writer ends without it, the old file is
 /// untouched. As in the dump command, a name with '%' gives each rank a file with its number for the '%' and its own number
-/// of atoms. A name with '*' gives each frame a file with its timestep for the '*', which appears when write() is done. With
-/// '%', each file of local data has a header, which programs write only to the first one.
+/// of atoms. A name with '*' gives each frame a file with its timestep for the '*', which appears when write() is done, or with
+/// finish() if it replaces a file that is read. With '%', each file of local data has a header, which programs write only to
+/// the first one.
 ///
 /// All functions, also the destructor, are collective. An error on one rank is thrown on all (see agree). After a frame that
 /// failed the others refuse to go on, so that no file with a part of a frame gets its name. Memory beside the rows: about 64 MiB; sorting copies the rows.
@@ -69,6 +73,7 @@ private:
   WriteOptions options_;
   Communicator& ranks_;
   std::unique_ptr<File> file_;
+  HeldFiles held_;
   std::set<std::int64_t> steps_; ///< that were written
   bool told_loss_ = false;
   bool failed_ = false; ///< in a frame

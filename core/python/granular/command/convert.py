@@ -16,7 +16,7 @@ from .info import tell_faults
 MORE = """The ending of OUT chooses: .npz (numpy), .csv, .vtp, .vtu and .vtkhdf (VTK) hold one frame a file; .bonds, .euler and \
 .decomposition are those of contacts, cells and subdomains; .bin is a binary dump; .dump, .lammpstrj and the like are text dumps, compressed where .gz or \
 .zst follows. `*` in OUT stands for the timestep and makes a file a frame. Each file appears when it is complete; until then, and after \
-an error, an old one is as it was."""
+an error, an old one is as it was. A file of the run is replaced last, and only by the same kind of file."""
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -51,6 +51,15 @@ def _expect_output(out: str, files: list[str]) -> None:
 
     if os.path.exists(out) and len(files) > 1 and shape(out) in map(shape, files):
         raise ValueError(f"{shown(out)}: expected the name of a new file after those to read, got one like theirs")
+
+
+def _expect_no_input(paths: list[str], files: list[str]) -> None:
+    """Refuses a file that is read, under any name: as a file of another kind it would be lost to the run."""
+    read = {(state.st_dev, state.st_ino) for state in map(os.stat, files)}
+    for path in filter(os.path.exists, paths):
+        state = os.stat(path)
+        if (state.st_dev, state.st_ino) in read:
+            raise ValueError(f"{shown(path)}: expected another file to write, got one that is read")
 
 
 def _region(text: str | None) -> list[float | None] | None:
@@ -141,16 +150,16 @@ def _to_stream(write: Callable[[Any, Any, Any], None], frame: Any, path: str, co
         write(frame, stream, columns)
 
 
-def _write_frames(frames: Iterable[Any], count: int, columns: list[str] | None, out: str, ending: str, bar: Bar, durable: bool | None) -> None:
+def _write_frames(frames: Iterable[Any], paths: list[str], columns: list[str] | None, out: str, ending: str, bar: Bar, durable: bool | None) -> None:
     """Writes each frame to a file of its own, under a name that is replaced when the file is complete."""
+    count = len(paths)
     if count != 1 and "*" not in os.path.basename(out):
         raise ValueError(f"{shown(out)}: expected * for the timestep in the name, or one frame (--frames -1): {ending} holds one frame a file, and "
                          f"there are {count}")
     if durable is None:
         durable = "*" not in os.path.basename(out)
-    for i, frame in enumerate(frames):
+    for i, (frame, path) in enumerate(zip(frames, paths)):
         frame.read(bar.within(i, count))
-        path = os.path.join(os.path.dirname(out), os.path.basename(out).replace("*", str(frame.step)))
         with whole_file(path, ending, durable) as temporary:
             _FRAME_WRITERS[ending](frame, temporary, columns)
 
@@ -172,7 +181,10 @@ def run(arguments: argparse.Namespace) -> None:
         if ending in _FRAME_WRITERS:
             columns = arrays_of(numbers[0], words)[1] if words and len(numbers) else None
             frames = (opened._part(number, columns=words or None, **asked) for number in numbers._numbers())
-            _write_frames(frames, len(numbers), columns, arguments.out, ending, bar, durable)
+            folder, name = os.path.split(arguments.out)
+            paths = [os.path.join(folder, name.replace("*", str(step))) for step in numbers.steps]
+            _expect_no_input(paths, opened.files)
+            _write_frames(frames, paths, columns, arguments.out, ending, bar, durable)
             return
         if arguments.coordinates:
             raise ValueError(f"{shown(arguments.out)}: --coordinates is for .npz, .csv and files of VTK; dumps say by --columns which they have: xs xu x")

@@ -75,7 +75,7 @@ FrameFacts MakeFacts(
 }
 
 void WrittenFiles::Write(const std::string& path, const std::string& text, const std::string& keys,
-  const std::string& things, bool durable, granular::Notices& notices)
+  const std::string& things, bool durable, granular::HeldFiles& held, granular::Notices& notices)
 {
   granular::Hash hash;
   hash.add(text.data(), text.size());
@@ -99,14 +99,20 @@ void WrittenFiles::Write(const std::string& path, const std::string& text, const
   Entry now = { keys, hash.value(), durable };
   Entry& then = this->Files[path]; // nothing may fail once the file is there
   then = {};                       // an error may come when the new file has its name already
-  granular::write_file(path, text, durable);
-  then = std::move(now);
+  auto file = std::make_unique<granular::NewFile>(path);
+  file->write_at(0, text);
+  if (held.finish(std::move(file), durable))
+  {
+    then = std::move(now);
+  }
 }
 
-WholeFile::WholeFile(
-  WholeFileForm form, granular::Communicator& ranks, WrittenFiles& past, granular::Notices& ofFile)
+WholeFile::WholeFile(WholeFileForm form, granular::Communicator& ranks,
+  const granular::InputFiles& inputs, WrittenFiles& past, granular::Notices& ofFile)
   : Form(std::move(form))
   , Ranks(ranks)
+  , Inputs(inputs)
+  , Held(&inputs)
   , Past(past)
   , OfFile(ofFile)
   , OneFileAStep(granular::is_name_of_steps(this->Form.Path))
@@ -143,11 +149,12 @@ void WholeFile::WriteFrame(
 {
   const std::string key =
     facts.Key + (this->Form.Dialect.empty() ? "" : " as " + this->Form.Dialect);
+  const std::string path = granular::name_of_step(this->Form.Path, facts.Timestep);
+  this->Inputs.has(path); // throws for a file that may not be replaced
   if (this->OneFileAStep)
   {
-    const std::string path = granular::name_of_step(this->Form.Path, facts.Timestep);
     this->Past.Write(path, this->Encode(facts, notices, progress), key, this->Form.Things,
-      this->IsDurable(), notices);
+      this->IsDurable(), this->Held, notices);
     return;
   }
   if (this->LastKey == key)
@@ -178,8 +185,9 @@ void WholeFile::Finish()
       if (this->Ranks.rank() == 0 && !this->OneFileAStep)
       {
         this->Past.Write(this->Form.Path, this->Text, this->Keys, this->Form.Things,
-          this->IsDurable(), this->OfFile);
+          this->IsDurable(), this->Held, this->OfFile);
       }
+      this->Held.finish_all(this->IsDurable());
     });
 }
 }

@@ -5,6 +5,7 @@
 #include "private/writing/writer.h"
 
 #include "granular/bytes/byte_sink.h"
+#include "granular/frames/input_files.h"
 
 #include <cstdint>
 #include <map>
@@ -51,7 +52,7 @@ public:
    * Writes a file, or leaves it if it exists and has the frames with these keys; a notice reports different contents.
    */
   void Write(const std::string& path, const std::string& text, const std::string& keys,
-    const std::string& things, bool durable, granular::Notices& notices);
+    const std::string& things, bool durable, granular::HeldFiles& held, granular::Notices& notices);
 
 private:
   struct Entry
@@ -83,8 +84,8 @@ struct WholeFileForm
 class WholeFile : public FrameWriter
 {
 public:
-  WholeFile(WholeFileForm form, granular::Communicator& ranks, WrittenFiles& past,
-    granular::Notices& ofFile);
+  WholeFile(WholeFileForm form, granular::Communicator& ranks, const granular::InputFiles& inputs,
+    WrittenFiles& past, granular::Notices& ofFile);
 
   void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
     granular::Progress& progress) final;
@@ -116,6 +117,8 @@ private:
     const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress);
   bool IsDurable() const;
 
+  const granular::InputFiles& Inputs;
+  granular::HeldFiles Held;
   WrittenFiles& Past;
   granular::Notices& OfFile;
   const bool OneFileAStep;

@@ -9,6 +9,7 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/dump/write/dump_writer.h"
+#include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
 
 #include <memory>
@@ -52,13 +53,19 @@ struct vtkGranularWriter::Internals
 {
   vtkGranularPrivate::Processes Ranks;
   std::unique_ptr<vtkGranularPrivate::FrameWriter> File;
-  granular::Notices Notices;  ///< that the user has not had yet
-  std::set<std::string> Told; ///< topics, or texts, of this file that the user has had
+  granular::Notices Notices;   ///< that the user has not had yet
+  std::set<std::string> Told;  ///< topics, or texts, of this file that the user has had
+  granular::InputFiles Inputs; ///< of all readers upstream
 
   /**
    * Returns the ranks that write together. The first call is collective.
    */
   granular::Communicator& GetRanks() { return this->Ranks.Get(); }
+
+  /**
+   * Finds the files that the readers upstream read, which must have looked at them.
+   */
+  void FindInputs(vtkGranularWriter* self);
 
   /**
    * Returns the format of the rows of dumps, from the properties.

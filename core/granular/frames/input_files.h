@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_frames_input_files_h
+#define granular_frames_input_files_h
+
+#include "granular/bytes/byte_sink.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace granular
+{
+class Communicator;
+class RunIndex;
+
+/// The files that are read while others are written. Device and inode tell them apart: links and spellings give a file many
+/// names.
+class InputFiles
+{
+public:
+  /// Adds the files of a run.
+  void add(const RunIndex& index);
+
+  /// Returns true if a name leads to one of the files. Throws Error if that file may not be replaced: a frame of it is not
+  /// complete, so a simulation may be writing it, or other files have the rest of its frames.
+  bool has(const std::string& path) const;
+
+private:
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::string>
+    files_; ///< with the reason why one may not be replaced; empty: it may
+};
+
+/// New files that replace files that are still read: they get their names last. Without a call of finish_all() they are
+/// removed.
+class HeldFiles
+{
+public:
+  /// inputs: null for none, on all ranks; must outlive this object.
+  explicit HeldFiles(const InputFiles* inputs)
+    : inputs_(inputs)
+  {
+  }
+
+  /// Returns true, on all ranks, if the file that one of them is to write is one that is read. Throws what InputFiles::has
+  /// throws. Collective.
+  bool is_read(const std::string& path, Communicator& ranks) const;
+
+  /// Gives a file its name, now or in finish_all(). Returns true if the file has its name. Throws IoError, and the errors of
+  /// InputFiles::has.
+  bool finish(std::unique_ptr<NewFile> file, bool durable);
+
+  /// Gives all files their names. Throws IoError.
+  void finish_all(bool durable);
+
+private:
+  const InputFiles* inputs_;
+  std::vector<std::unique_ptr<NewFile>> held_;
+};
+}
+#endif
