@@ -11,7 +11,7 @@ import time
 import granular
 from granular.command import main
 from granular import _whole_file
-from granular._whole_file import whole_file
+from granular._whole_file import whole_file, whole_files
 
 GRAINS = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 OLD = b"old" * 50_000
@@ -28,6 +28,15 @@ def convert(name):
 
 def series(name):
     granular.write_series([f"step_{i}.vtk" for i in range(200)], 1, name)
+
+
+def several(name):
+    """As a writer of ParaView, which makes files in a folder of the same name, too."""
+    with whole_files(name, lambda file, old: None) as temporary:
+        os.mkdir(os.path.splitext(temporary)[0])
+        for file in (temporary, os.path.join(os.path.splitext(temporary)[0], "part")):
+            with open(file, "w") as out:
+                out.write("new")
 
 
 def die_at_call(number):
@@ -139,6 +148,8 @@ for i in range(200):
     with open(f"step_{i}.vtk", "w"):
         pass
 Killed(series, "a.series").at_each_call()
+os.mkdir("b")
+Killed(several, "b.pvd").at_each_call()
 files = [Killed(convert, "a.npz"), Killed(convert, "a.csv"), Killed(series, "a.series")]
 for file in files:
     file.all = sorted(os.listdir("."))

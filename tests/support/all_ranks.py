@@ -2,7 +2,8 @@
 """What the ranks of a script have together."""
 import os
 
-from paraview.simple import SaveData, servermanager
+import granular
+from paraview.simple import servermanager
 from vtkmodules.vtkIOXML import vtkXMLPImageDataReader, vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
@@ -24,7 +25,7 @@ def whole(proxy, time=None, kind="vtkPolyData"):
     proxy.UpdatePipeline(*([] if time is None else [time]))
     ending, reader = _FILES[kind]
     name = os.path.abspath("whole" + ending)
-    SaveData(name, proxy, DataMode="Binary")
+    granular.save(proxy, name)
     wait()
     file = reader()
     file.SetFileName(name)

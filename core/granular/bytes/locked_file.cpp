@@ -69,7 +69,7 @@ int lock(int file)
   return 0;
 }
 
-/// Removes the files of a folder whose names begin like this, as far as the system tells them.
+/// Removes the files and folders in a folder whose names begin like this, as far as the system tells them.
 void remove_all(const std::string& folder, std::string_view begin) noexcept
 {
   try
@@ -80,7 +80,8 @@ void remove_all(const std::string& folder, std::string_view begin) noexcept
     {
       if (std::string_view(entry->path().filename().native()).starts_with(begin))
       {
-        ::unlink(entry->path().c_str());
+        std::error_code ignored;
+        std::filesystem::remove_all(entry->path(), ignored);
       }
     }
   }
@@ -105,8 +106,9 @@ bool remove_left(const std::string& name)
   if (::fstat(file, &state) == 0 && S_ISREG(state.st_mode) && state.st_uid == ::geteuid() &&
     lock(file) == 0 && compare_name(name, file) == 0)
   {
-    ::unlink(data.c_str());                                   // first: they are found by the last
-    remove_all(folder, std::string_view(data).substr(begin)); // of Open MPI
+    ::unlink(data.c_str()); // first: they are found by the last
+    remove_all(
+      folder, std::string_view(data).substr(begin)); // of Open MPI, and folders of the package
     ::unlink(name.c_str());
   }
   ::close(file);

@@ -7,9 +7,10 @@ import errno
 import fcntl
 import hashlib
 import os
+import shutil
 import socket
 import stat
-from typing import Iterator
+from typing import Callable, Iterator
 
 from ._library import shown
 
@@ -50,9 +51,13 @@ def _close(file: int) -> None:
 
 
 def _remove(name: str) -> None:
-    """Removes a hidden file, if that can be done: the next program that writes the same file tries it again."""
-    with contextlib.suppress(OSError):
+    """Removes a hidden file or folder, if that can be done: the next program that writes the same file tries it again."""
+    try:
         os.unlink(name)
+    except IsADirectoryError:
+        shutil.rmtree(name, ignore_errors=True)
+    except OSError:
+        pass
 
 
 def _lock(file: int) -> bool:
@@ -154,6 +159,18 @@ def _remove_own(name: str, lock: int) -> None:
     _close(lock)
 
 
+def _old_file(target: str, path: str) -> os.stat_result | None:
+    """The state of the file that a new one will replace, or None. Raises OSError for what may not be replaced."""
+    try:
+        old = os.lstat(target)
+    except FileNotFoundError:
+        return None
+    expect_file(path, old.st_mode)
+    if not os.access(target, os.W_OK):  # who may not write a file may not replace it either
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
+    return old
+
+
 def _keep_owner(name: str, old: os.stat_result, path: str) -> None:
     """Gives a new file the owner and group of the file that it will replace."""
     now = os.stat(name)
@@ -163,6 +180,44 @@ def _keep_owner(name: str, old: os.stat_result, path: str) -> None:
         except OSError as error:
             raise OSError(error.errno, "cannot write: the new file would not keep the owner and group of the old one: "
                           f"{error.strerror}", path) from None
+
+
+def _complete(name: str, path: str, old: os.stat_result | None, durable: bool) -> None:
+    """Makes a new file ready for its name."""
+    if old is not None:
+        _keep_owner(name, old, path)
+        os.chmod(name, stat.S_IMODE(old.st_mode) & 0o777)
+    if durable:
+        _sync(name)
+
+
+@contextlib.contextmanager
+def _hidden(path: str, target: str, ending: str) -> Iterator[tuple[str, Callable[[], None]]]:
+    """Yields a name beside a target that nobody else uses, and what raises OSError if that is no longer so. Removes at the end what
+    has the name. Errors name the path."""
+    try:
+        name, lock = _create_locked(target, ending)
+    except OSError as error:  # the user knows the path, and not the name of the hidden file
+        raise OSError(error.errno, error.strerror, path) from None
+    temporary, process = name + ending, os.getpid()
+
+    def expect_own() -> None:
+        if os.getpid() != process:
+            raise PermissionError(errno.EPERM, "expected the process that began the file, got a child of it", path)
+        if not _is_name_of(name, lock):  # somebody has removed it, and another may have the name
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
+
+    try:
+        _remove(temporary)
+        yield temporary, expect_own
+    except OSError as error:
+        if error.errno is None or error.filename not in (None, temporary, name):
+            raise  # of another file
+        raise OSError(error.errno, error.strerror, path) from error
+    finally:
+        if os.getpid() == process:  # a child has a copy of all this
+            _remove(temporary)
+            _remove_own(name, lock)
 
 
 @contextlib.contextmanager
@@ -179,43 +234,47 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
     because other libraries lock the files that they write in their ways.
     """
     target = _behind_links(path)
-    old = None
-    with contextlib.suppress(FileNotFoundError):
-        old = os.lstat(target)
-        expect_file(path, old.st_mode)
-        if not os.access(target, os.W_OK):  # who may not write a file may not replace it either
-            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
-    ending = ".data" + ending
-    try:
-        name, lock = _create_locked(target, ending)
-    except OSError as error:  # the user knows the path, and not the name of the hidden file
-        raise OSError(error.errno, error.strerror, path) from None
-    temporary = name + ending
-    folder, process = os.path.dirname(target) or ".", os.getpid()
-    try:
-        _remove(temporary)
+    old = _old_file(target, path)
+    with _hidden(path, target, ".data" + ending) as (temporary, expect_own):
         # who may not read the old file may not read along either
         _close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666 if old is None else 0o600))
         if old is not None and os.geteuid() != 0:  # before the first byte; until the end, a file of root is root's
             _keep_owner(temporary, old, path)
         yield temporary
-        if os.getpid() != process:
-            raise PermissionError(errno.EPERM, "expected the process that began the file, got a child of it", path)
-        if old is not None:
-            _keep_owner(temporary, old, path)
-            os.chmod(temporary, stat.S_IMODE(old.st_mode) & 0o777)
-        if durable:
-            _sync(temporary)
-        if not _is_name_of(name, lock):  # somebody has removed it, and another may have the name
-            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
+        expect_own()
+        _complete(temporary, path, old, durable)
+        expect_own()
         os.replace(temporary, target)
-    except OSError as error:
-        if error.errno is None or error.filename not in (None, temporary, name):
-            raise  # of another file
-        raise OSError(error.errno, error.strerror, path) from error
-    finally:
-        if os.getpid() == process:  # a child has a copy of all this
-            _remove(temporary)
-            _remove_own(name, lock)
     if durable:
-        _sync_folder(folder, path)
+        _sync_folder(os.path.dirname(target) or ".", path)
+
+
+@contextlib.contextmanager
+def whole_files(path: str, expect: Callable[[str, str], None]) -> Iterator[str]:
+    """Yields a name for a path in a temporary folder beside it, for programs that write several files. At the end, what is in the
+    folder replaces the files of the same names beside the path, the path's own file last. After an error the old files stay.
+
+    expect  is called with each new file, and the file that it will replace, before the first one is replaced; it may raise
+
+    Links, permissions and owners stay as in whole_file. One file is on the disk before it gets its name.
+    """
+    target = _behind_links(path)
+    _old_file(target, path)
+    beside, own = os.path.split(target)
+    with _hidden(path, target, ".data") as (folder, expect_own):
+        os.mkdir(folder, 0o700)
+        yield os.path.join(folder, own)
+        expect_own()
+        names = [os.path.relpath(os.path.join(place, name), folder) for place, _, inside in os.walk(folder) for name in inside]
+        new = []
+        for name in sorted(names, key=lambda name: (name == own, name)):
+            file, to = os.path.join(folder, name), _behind_links(os.path.join(beside, name))
+            expect(file, to)
+            _complete(file, to, _old_file(to, to), len(names) == 1)
+            new.append((file, to))
+        expect_own()
+        for file, to in new:
+            os.makedirs(os.path.dirname(to) or ".", exist_ok=True)
+            os.replace(file, to)
+    if len(names) == 1:
+        _sync_folder(beside or ".", path)

@@ -2,13 +2,17 @@
 """Files of any name."""
 from __future__ import annotations
 
+import contextlib
 import glob
+import html
 import os
 import re
-from typing import Any
+from typing import Any, Callable, Iterator
 
 from ._errors import expect_utf8, output_names, raised, update, upstream
+from ._inline import put_inline
 from ._library import shown
+from ._whole_file import whole_files
 from ._write import BINARIES, DUMPS, ending_of
 
 # For each kind of data its writer, and the endings that are this writer's.
@@ -85,29 +89,136 @@ def _choose(output: Any, path: str) -> str | None:
                      "a writer of your choice takes any name: writer=\"GranularDumpWriter\"")
 
 
+def _identity(path: str) -> tuple[int, int]:
+    state = os.stat(path)
+    return state.st_dev, state.st_ino
+
+
+def _inputs(output: Any, ours: bool) -> set[tuple[int, int]]:
+    """Returns the files that the readers of this plugin, or all others, read for an output."""
+    found = set()
+    for source in upstream(output):
+        for name in ("FileNames", "FileName"):
+            if source.GetXMLName().startswith("Granular") == ours and source.SMProxy.GetProperty(name):
+                value = source.GetPropertyValue(name)
+                for file in [value] if isinstance(value, str) else value or []:
+                    with contextlib.suppress(OSError):
+                        found.add(_identity(file))
+    return found
+
+
+def _expect_whole(file: str) -> None:
+    """Raises OSError or RuntimeError for a file that a writer of ParaView has not finished: some of them tell nobody."""
+    with open(file, "r+b") as stream:
+        size = stream.seek(0, os.SEEK_END)
+        # Where a write has failed there is no room for more: those that do not look write a few KiB at a time.
+        os.posix_fallocate(stream.fileno(), size, 1 << 16)
+        stream.truncate(size)
+        stream.seek(0)
+        is_whole = b"<VTKFile" not in stream.read(1000)
+        stream.seek(max(0, size - 100))
+        is_whole = is_whole or stream.read().rstrip().endswith(b"</VTKFile>")
+    if is_whole and re.search(r"\.(pv\w+|vt(m|mb|pc|pd|h|hb))$", file):  # which names others
+        with open(file, encoding="utf-8", errors="surrogateescape") as text:
+            others = re.findall(r'<(?:Piece|DataSet)\b[^>]*? (?:Source|file)="([^"]*)"', text.read())
+        is_whole = all(os.path.exists(os.path.join(os.path.dirname(file), html.unescape(other))) for other in others)
+    if not is_whole:
+        raise RuntimeError("expected a whole file, got a part of one: ParaView's writer has failed")
+
+
+@contextlib.contextmanager
+def _told_errors() -> Iterator[list[str]]:
+    """Yields a list that gets the errors that VTK prints meanwhile."""
+    from vtkmodules.vtkCommonCore import vtkOutputWindow
+
+    errors: list[str] = []
+
+    def take(window: Any, event: str, text: str) -> None:
+        if text.startswith("ERROR: In "):  # a place in VTK's sources; Python's warnings come here, too
+            errors.append(re.sub(r"^\w+ \(0x[0-9a-f]+\): ", "", text.split("\n")[1]))
+
+    take.CallDataType = "string0"  # type: ignore[attr-defined]
+    window = vtkOutputWindow.GetInstance()
+    tag = window.AddObserver("ErrorEvent", take)
+    try:
+        yield errors
+    finally:
+        window.RemoveObserver(tag)
+
+
+def _on_first(path: str, work: Callable[[], str]) -> str:
+    """Returns the text that work() returns on the first rank, on all that run this script. Raises its error on all."""
+    from paraview import servermanager
+    from vtkmodules.vtkCommonCore import vtkStringArray
+    from vtkmodules.vtkCommonDataModel import vtkTable
+    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+    ranks = vtkMultiProcessController.GetGlobalController()
+    together = servermanager.vtkProcessModule.GetProcessModule().GetSymmetricMPIMode()
+    told = vtkStringArray()
+    if together:
+        ranks.Barrier()  # until all have written
+    if not together or ranks.GetLocalProcessId() == 0:
+        try:
+            told.InsertNextValue(work())
+        except OSError as error:
+            told.InsertNextValue("")
+            told.InsertNextValue(f"cannot write: {error.strerror or error}")
+        except RuntimeError as error:
+            told.InsertNextValue("")
+            told.InsertNextValue(str(error))
+    if together:
+        table = vtkTable()
+        table.GetFieldData().AddArray(told)
+        ranks.Broadcast(table, 0)
+        told = table.GetFieldData().GetAbstractArray(0)
+    if told.GetNumberOfValues() > 1:
+        raise RuntimeError(f"{shown(path)}: {told.GetValue(1)}")
+    return told.GetValue(0)
+
+
 def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> None:
     from paraview import servermanager, simple
 
     if "*" in path:
         raise ValueError(f"expected a name without *, got '{shown(path)}': ParaView's writers number the files of WriteTimeSteps themselves")
-    known = simple.CreateWriter(path, output).ListProperties()
-    if "DataMode" in known:  # appended data are no XML for some versions of libexpat
-        properties = {"DataMode": "Binary", **properties}
     if "WriteTimeSteps" in properties:  # which ParaView's writers call by several names
+        known = simple.CreateWriter(path, output).ListProperties()
         names = [name for name in known if re.fullmatch("Write(all)?timestepsasfileseries|WriteTimeSteps",
                                                         name, re.IGNORECASE)]
         if not names:
             raise AttributeError(f"{shown(path)}: ParaView's writer of this format has no WriteTimeSteps")
         properties = {names[0] if name == "WriteTimeSteps" else name: value for name, value in properties.items()}
+    if servermanager.ActiveConnection.IsRemote():  # the files are the server's
+        if "DataMode" in simple.CreateWriter(path, output).ListProperties():
+            properties = {"DataMode": "Binary", **properties}
+        simple.SaveData(path, output, **properties)
+        return
+    inputs = _inputs(output, ours=True)
+    errors: list[str] = []
 
-    def written() -> dict[str, int]:
-        stem, ending = os.path.splitext(path)
-        return {name: os.stat(name).st_mtime_ns for name in glob.glob(glob.escape(stem) + "*" + glob.escape(ending))}
+    def expect(file: str, old: str) -> None:
+        _expect_whole(file)
+        if errors:
+            raise RuntimeError(errors[0])
+        if "DataMode" not in properties:
+            put_inline(file)
+        if os.path.exists(old) and _identity(old) in inputs:
+            raise RuntimeError(f"expected other files to write, got one that is read: {shown(old)}")
 
-    before = written()
-    simple.SaveData(path, output, **properties)
-    if not servermanager.ActiveConnection.IsRemote() and written() == before:
-        raise RuntimeError(f"{shown(path)}: ParaView wrote no file; its messages say why")
+    def finish() -> str:
+        if not os.listdir(os.path.dirname(temporary)):
+            raise RuntimeError(errors[0] if errors else "ParaView wrote no file; its messages say why")
+        stack.close()
+        return ""
+
+    with contextlib.ExitStack() as stack:
+        # absolute: other ranks may be in other folders
+        temporary = _on_first(path, lambda: stack.enter_context(whole_files(os.path.abspath(path), expect)))
+        with _told_errors() as told:
+            simple.SaveData(temporary, output, **properties)
+        errors += [error.replace(temporary, path) for error in told]
+        _on_first(path, finish)
 
 
 def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, writer: str | None = None,
@@ -121,16 +232,21 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 subdomains     .decomposition, .vtk, .vtu
                 cells          .euler, .vtk
                 All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .csv, .stl and .ply, go to
-                ParaView's writers, VTK's XML with DataMode Binary, which all versions of libexpat read. Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*`
-                stands for the timestep, and in those of dumps `%` for the rank.
+                ParaView's writers. VTK's XML gets inline data, as with DataMode Binary, which all versions of libexpat read.
+                Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*` stands for the
+                timestep, and in those of dumps `%` for the rank.
     time        the time to write, as for granular.update
     writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter, which take
                 files of any name. None: see path.
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Label, Columns, NumberFormat, ...
 
-    A file of this plugin is there when it is complete; after an error the old one is untouched. Raises ValueError for a name
-    that is not UTF-8, and for an ending that no writer has for such data, and lists those that are known; AttributeError for a
-    property, or a writer, that there is not; RuntimeError with the message if the file could not be written.
+    Files are written under a temporary name and renamed when all are complete; after an error the old ones are untouched. On a
+    pvserver, ParaView's own writers write in place. A file that is read is replaced after the last frame, and only in a format of
+    this plugin.
+
+    Raises ValueError for a name that is not UTF-8, and for an ending that no writer has for such data, and lists those that are
+    known; AttributeError for a property, or a writer, that there is not; RuntimeError with the message if the file could not be
+    written.
     """
     from paraview import servermanager
 
@@ -140,6 +256,12 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
     if writer is None:
         _save_by_paraview(proxy, path, properties)
         return
+    if "*" in os.path.basename(path):  # the writer knows the readers of this plugin alone
+        folder, name = os.path.split(path)
+        foreign = _inputs(proxy, ours=False)
+        for old in glob.glob(os.path.join(glob.escape(folder), "*".join(map(glob.escape, name.split("*", 1))))):
+            if _identity(old) in foreign:
+                raise ValueError(f"{shown(old)}: expected other files to write, got one that is read")
     written = getattr(servermanager.writers, writer)(Input=proxy, FileName=path)
     for name, value in properties.items():
         words = name == "Columns" and not isinstance(value, str)
