@@ -4,11 +4,13 @@
 #include "bad_argument.h"
 
 #include "granular/local/local_columns.h"
+#include "granular/particles/column_arrays.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -54,6 +56,36 @@ void check_array(const granular_array& array, std::int64_t rows)
     "three components, got " + std::to_string(array.components));
   expect(name != ends_name || (array.components == 6 && array.type == GRANULAR_FLOAT64),
     "six components of doubles");
+}
+
+/// Expects that no value is lost because another array, or the points, have a column of the same name.
+void expect_own_columns(const FrameView& view, RowKind kind)
+{
+  std::map<std::string, std::string> taken; // the array of each column
+  for (const ArrayView& array : view.arrays)
+  {
+    std::vector<std::string> names = kind == RowKind::Particles ? columns_of(array) : array.columns;
+    for (int i = static_cast<int>(names.size()) + 1; i <= array.size(); ++i)
+    {
+      names.push_back(array.size() == 1 ? array.name : array.name + "[" + std::to_string(i) + "]");
+    }
+    for (const std::string& name : names)
+    {
+      const KnownColumn* const known = find_known_column(name);
+      if (view.points && known != nullptr && is_position(known->role))
+      {
+        throw BadArgument("array '" + array.name +
+          "': expected no coordinates beside 'points', from which they are made, got '" + name +
+          "'");
+      }
+      const auto [other, fresh] = taken.try_emplace(name, array.name);
+      if (!fresh)
+      {
+        throw BadArgument("array '" + array.name + "': expected columns of its own, got '" + name +
+          "', which array '" + other->second + "' has, too");
+      }
+    }
+  }
 }
 
 /// The ends of lines as arrays position1 and position2, which local data are written from.
@@ -276,7 +308,15 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
   {
     throw BadArgument("expected an array 'points' with the positions of the particles, got none");
   }
+  if (ends_ && (view.find("position1") != nullptr || view.find("position2") != nullptr))
+  {
+    throw BadArgument("expected 'ends', or 'position1' and 'position2', got both");
+  }
   this->finish(kind);
+  if (kind == RowKind::Particles || kind == RowKind::Lines)
+  {
+    expect_own_columns(view, kind);
+  }
 }
 
 /// Names the columns of local data, whose ends are arrays like others.

@@ -381,7 +381,8 @@ typedef struct granular_content
   int64_t rows;
   /* name, type, components, data and words count; fewer rows than those above are an error, unless they are 0. Data are aligned
      as their type needs. "points" has the positions of particles and cells, "ends" those of lines; subdomains have "lo", "hi" and,
-     if known, "nlocal" and "proc" */
+     if known, "nlocal" and "proc". Two arrays of particles or lines with the same column, as c and c[1], are an error, and so are
+     coordinates beside "points" */
   const granular_array* arrays;
   size_t array_count;
 } granular_content;

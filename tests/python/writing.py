@@ -46,6 +46,30 @@ big = numpy.array([2 ** 62 + 1, -2 ** 63])
 granular.write("types.dump", {"id": big, "type": [1, 1], "points": numpy.eye(3)[:2]}, box=box)
 assert granular.open("types.dump")[0]["id"].tolist() == big.tolist()
 
+# integers that no double holds come back, wherever they stand; others are doubles, as in files of any program
+rows = 30000
+ids, eye = numpy.arange(1, rows + 1), numpy.zeros((rows, 3))
+long = {"type": numpy.full(rows, 2 ** 31), "c_a": numpy.arange(rows), "c_n": numpy.zeros((rows, 2), int), "c_b": numpy.arange(rows)}
+long["c_a"][-1], long["c_n"][7, 1], long["c_n"][rows // 2, 0] = 2 ** 53 + 1, -2 ** 53 - 1, 2 ** 63 - 1
+for threads in (1, 3):
+    for path in ("long.dump", "long.dump.gz"):
+        granular.write(path, {"id": ids, "points": eye, **long}, box=box)
+        frame = granular.open(path, threads=threads)[0]
+        assert all(numpy.array_equal(frame[name], long[name]) for name in long), path
+        assert [frame[name].dtype.name for name in long] == ["int64", "int64", "int64", "float64"]
+        half = granular.open(path).read(0, stride=2, threads=threads)
+        assert all(numpy.array_equal(half[name], long[name][1::2]) for name in long), path
+for name in ("type", "c_a"):
+    raises(granular.Error, lambda: granular.write("long.bin", {"id": [1], "points": [[0, 0, 0]], name: [2 ** 53 + 1]}, box=box),  # noqa: B023
+           name, "a double can hold")
+with open("mixed.dump", "w") as stream:
+    stream.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z c_a\n"
+                 "1 0 0 0 9007199254740993\n2 0 0 0 1\n3 0 0 0 0.5\n")
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter("always")
+    assert granular.open("mixed.dump")[0]["c_a"].tolist() == [2.0 ** 53, 1, 0.5]
+    assert "column 'c_a': expected an integer, got '0.5'; the column is kept as doubles" in str(caught[0].message)
+
 # memory as numpy has it: not contiguous, of the other byte order, of Fortran's order
 spread = numpy.random.default_rng(1).random((20, 6))[::2, ::2]
 granular.write("memory.dump", {"id": numpy.arange(1, 11)[::-1], "type": [1] * 10, "points": numpy.asfortranarray(spread),
@@ -95,7 +119,14 @@ for data, kind, words in (
         ({"points": numpy.zeros((1, 2, 2, 2))}, granular.ArgumentError, ("'points'", "shape")),
         ({"points": point, "v": numpy.array([1j])}, granular.ArgumentError, ("'v'", "complex128")),
         ({"points": [[0.0, 0]]}, granular.ArgumentError, ("'points'", "three", "got 2")),
-        ({"v": [[1.0, 2, 3]]}, granular.Error, ("points",))):
+        ({"v": [[1.0, 2, 3]]}, granular.Error, ("points",)),
+        ({"points": point, "x": [7.0]}, granular.ArgumentError, ("'x'", "beside 'points'")),
+        ({"points": point, "xu": [7.0]}, granular.ArgumentError, ("'xu'", "beside 'points'")),
+        ({"points": point, "c": [[1.0, 2]], "c[1]": [3.0]}, granular.ArgumentError, ("'c[1]'", "columns of its own", "'c'")),
+        ({"points": point, "vx": [1.0], "v": [[1.0, 2, 3]]}, granular.ArgumentError, ("'v'", "'vx'")),
+        ({"points": point, "m": numpy.ma.array([1.0], mask=[True])}, granular.ArgumentError, ("'m'", "masked")),
+        ({"points": point, "id": [1.5]}, granular.Error, ("'id'", "whole numbers", "1.5")),
+        ({"points": point, "id": [numpy.nan]}, granular.Error, ("'id'", "whole numbers", "nan"))):
     raises(kind, lambda: granular.write("old.dump", data, box=box), *words)  # noqa: B023
     assert text_of("old.dump") == "old", data
 raises(granular.Error, lambda: granular.write("old.dump", {"id": [1], "type": [1], "points": point}, box=box, columns="id radius"), "radius")

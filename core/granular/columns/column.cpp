@@ -54,8 +54,10 @@ ColumnInfo describe(const std::string& name, std::span<const KnownColumn> table)
 {
   ColumnInfo column;
   column.name = name;
+  column.open = true;
   if (const KnownColumn* known = find_known_column(name, table))
   {
+    column.open = known->name.ends_with('*') && known->type == ValueType::Float64;
     column.type = known->type;
     column.role = known->role;
     column.component = known->component;
@@ -281,7 +283,9 @@ void ColumnSchema::set_types(std::span<const TypeChange> changes)
     {
       for (const int member : arrays_[static_cast<std::size_t>(array)].columns)
       {
-        columns_[static_cast<std::size_t>(member)].type = type;
+        ColumnInfo& own = columns_[static_cast<std::size_t>(member)];
+        own.type = type;
+        own.open = own.open && type != ValueType::Float64;
       }
     }
   }

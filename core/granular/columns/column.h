@@ -62,6 +62,7 @@ struct ColumnInfo
   ColumnRole role = ColumnRole::Other;
   int component = 0; ///< axis of a position or image; end of a line
   bool known = false;
+  bool open = false; ///< holds what the user decides: integers that no double holds make it Int64
 };
 
 /// One array made from columns: a scalar, or a vector of several columns.
@@ -119,9 +120,10 @@ public:
   /// Returns the names, separated by blanks, in the file's order and spelling.
   std::string text() const;
 
-  /// Changes the types of columns. An integer column with other numbers becomes Float64, together with the other
-  /// columns of its array. An unknown column with words becomes Text by itself, which may split an array. Ids that are
-  /// not integers lose the role Id. Time is proportional to the number of columns, however many change.
+  /// Changes the types of columns. An integer column with other numbers becomes Float64 and is no longer open, together with
+  /// the other columns of its array; so does one of Int32 or Float64 that becomes Int64, which stays open. An unknown column
+  /// with words becomes Text by itself, which may split an array. Ids that are not integers lose the role Id. Time is
+  /// proportional to the number of columns, however many change.
   void set_types(std::span<const TypeChange> changes);
 
   /// Changes the type of one column. Changing n columns one by one takes time proportional to n^2.

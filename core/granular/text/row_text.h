@@ -24,6 +24,7 @@ struct ColumnSink
     ValueType::Float64; ///< Int32, Int64, Float64, or Text: std::string_view into the text
   char* data = nullptr;
   std::ptrdiff_t stride = 0; ///< bytes from one row's value to the next's
+  bool open = false; ///< Float64: integers that it cannot hold are NotDouble, to readers of dumps
 };
 
 enum class RowStatus : std::uint8_t
@@ -32,6 +33,7 @@ enum class RowStatus : std::uint8_t
   TooFew,     ///< a row has fewer words than there are columns
   NotANumber, ///< a word that should be a number is none
   NotExact,   ///< a number that an integer column cannot hold
+  NotDouble,  ///< an integer that a column of doubles cannot hold; not given by decode_rows
   TooMany     ///< more rows than there is room for
 };
 

@@ -30,6 +30,8 @@ def _c_arrays(arrays: Mapping[str, Any]) -> tuple[Any, int, list[Any]]:
 
     made, kept, rows = [], [], None
     for name, given in arrays.items():
+        if numpy.ma.is_masked(given):
+            raise c.ArgumentError(f"array {name!r}: expected a value for each of {len(given)} rows, got masked ones")
         values = numpy.asarray(given)
         if values.dtype.kind in "OS":
             values = values.astype(str)
@@ -210,9 +212,9 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
     A file appears when it is complete; after an error the old file is untouched. With `*`, that holds for each file: those of earlier
     frames are there. A file of the run that a frame comes from, under any name, is replaced after the last frame.
 
-    Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, for a name that says
-    nothing of the format, if there is no frame, and for a file of the run that has an incomplete frame, because a simulation may be
-    writing it, or pieces of frames.
+    Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, masked values, two arrays
+    with the same column, coordinates beside "points", a name that says nothing of the format, and if there is no frame. It is an
+    error to replace a file of the run that has an incomplete frame, because a simulation may be writing it, or pieces of frames.
     """
     is_arrays = isinstance(data, Mapping) and not isinstance(data, Frame)
     frames = [data] if is_arrays or isinstance(data, Frame) else data

@@ -21,7 +21,7 @@ namespace granular
 struct Misfit
 {
   RowStatus
-    status; ///< NotExact: a number that an integer column cannot hold; NotANumber; TooFew; TooMany
+    status; ///< NotExact: a number that an integer column cannot hold; NotDouble; NotANumber; TooFew; TooMany
   int column;              ///< -1: of TooFew and TooMany
   std::string word;        ///< or the row
   std::int64_t offset = 0; ///< of the word in the content of the file

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/formats/text_reader.h"
 
+#include "granular/numbers/number.h"
 #include "granular/text/line_scan.h"
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <string>
@@ -28,6 +30,34 @@ const char* skip_rows(const char* at, const char* last, std::size_t rows) noexce
     at = end + 1;
   }
   return at;
+}
+
+/// Returns true if rows that were decoded may hold integers of 64 bits that no double holds, in a column where these count.
+bool may_be_long(std::span<const ColumnSink> sinks, std::int64_t rows) noexcept
+{
+  bool found = false;
+  for (const ColumnSink& sink : sinks)
+  {
+    const char* from = sink.data - rows * sink.stride;
+    for (std::int64_t row = sink.open ? 0 : rows; row < rows; ++row, from += sink.stride)
+    {
+      double value = 0;
+      std::memcpy(&value, from, sizeof value);
+      found |= std::abs(value) >= 0x1p53 && std::abs(value) <= 0x1p63; // without a branch for each
+    }
+  }
+  return found;
+}
+
+/// Returns true if a word is an integer of 64 bits that no double holds.
+bool is_long(std::string_view word) noexcept
+{
+  std::int64_t whole = 0;
+  const bool is_integer =
+    word.find_first_not_of("0123456789", word.front() == '-' ? 1 : 0) == word.npos &&
+    parse_int64(word.data(), word.data() + word.size(), whole);
+  const auto number = static_cast<double>(whole);
+  return is_integer && !(number < 0x1p63 && static_cast<std::int64_t>(number) == whole);
 }
 }
 
@@ -141,6 +171,7 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
   const RowResult result =
     decode_rows(buffer_.data() + at_, last, this->columns(), sinks, max_rows, memory_);
   this->check(result, last, sinks);
+  this->check_doubles(buffer_.data() + at_, result.ptr, sinks, result.rows);
   at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
   surplus_ = surplus_ || result.surplus;
   return result.rows;
@@ -156,7 +187,8 @@ bool TextReader::decode_numbers(
   const auto chosen_by = std::ranges::find(before, choice.column, &ColumnSink::column);
   const RowResult result = decode_rows(
     buffer_.data() + at_, buffer_.data() + end_, this->columns(), sinks, max_rows, memory_);
-  if (result.status != RowStatus::Done || chosen_by == before.end())
+  if (result.status != RowStatus::Done || chosen_by == before.end() ||
+    may_be_long(sinks, result.rows))
   {
     std::ranges::copy(before, sinks.begin());
     return false;
@@ -218,6 +250,7 @@ RowCounts TextReader::decode_chosen(
     const char* const behind = skip_rows(at, last, passed - first);
     const RowResult some = decode_rows(at, behind, this->columns(), sinks, max_rows, memory_);
     this->check(some, behind, sinks);
+    this->check_doubles(at, behind, sinks, some.rows);
     counts.decoded += some.rows;
     at = behind;
     ++stretches;
@@ -234,8 +267,26 @@ std::uint32_t TextReader::columns() const noexcept
   return static_cast<std::uint32_t>(of_.entry_.kind->schema.columns().size());
 }
 
-/// Adds to the first misfit those behind its word, which ends at `from`. A column that must change is looked at as what it
-/// becomes.
+/// Throws Misfits if decoded rows, whose text is [first, last), hold integers that their columns of doubles do not.
+void TextReader::check_doubles(
+  const char* first, const char* last, std::span<const ColumnSink> sinks, std::int64_t rows) const
+{
+  if (!may_be_long(sinks, rows))
+  {
+    return;
+  }
+  Misfits misfits;
+  this->find_misfits(first, last, sinks, misfits);
+  if (!misfits.empty())
+  {
+    const std::int64_t lines = misfits.front().lines;
+    std::ranges::for_each(misfits, [&](Misfit& misfit) { misfit.lines -= lines; });
+    throw misfits;
+  }
+}
+
+/// Adds to the first misfit, if there is one, those behind its word, which ends at `from`. A column that must change is looked at
+/// as what it becomes.
 void TextReader::find_misfits(
   const char* from, const char* last, std::span<const ColumnSink> sinks, Misfits& misfits) const
 {
@@ -243,10 +294,14 @@ void TextReader::find_misfits(
   std::ranges::transform(sinks, std::back_inserter(types), &ColumnSink::type);
   const auto change = [&](std::size_t sink, RowStatus status)
   { types[sink] = status == RowStatus::NotExact ? ValueType::Float64 : ValueType::Text; };
-  int column = misfits.front().column; // that of the last word that was taken
-  const auto first = std::ranges::find_if(
-    sinks, [&](const ColumnSink& sink) { return static_cast<int>(sink.column) == column; });
-  change(static_cast<std::size_t>(first - sinks.begin()), misfits.front().status);
+  int column = -1; // that of the last word that was taken
+  if (!misfits.empty())
+  {
+    column = misfits.front().column;
+    const auto first = std::ranges::find_if(
+      sinks, [&](const ColumnSink& sink) { return static_cast<int>(sink.column) == column; });
+    change(static_cast<std::size_t>(first - sinks.begin()), misfits.front().status);
+  }
   for (std::int64_t line = 0; from < last; ++line, column = -1)
   {
     const char* const end = std::find(from, last, '\n');
@@ -266,7 +321,8 @@ void TextReader::find_misfits(
       {
         break; // a row of fewer words, or a blank line
       }
-      const RowStatus status = check_word(word, types[sink]);
+      const bool lost = sinks[sink].open && types[sink] == ValueType::Float64 && is_long(word);
+      const RowStatus status = lost ? RowStatus::NotDouble : check_word(word, types[sink]);
       if (status != RowStatus::Done)
       {
         misfits.push_back(

@@ -127,7 +127,7 @@ std::unique_ptr<RowReader> TextRows::reader() const
 /// Whether another type of the column holds the word.
 bool TextRows::is_mended(const Misfit& misfit) const
 {
-  return misfit.status == RowStatus::NotExact ||
+  return misfit.status == RowStatus::NotExact || misfit.status == RowStatus::NotDouble ||
     (misfit.status == RowStatus::NotANumber &&
       !entry_.kind->schema.columns()[static_cast<std::size_t>(misfit.column)].known);
 }

@@ -62,7 +62,8 @@ ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
 {
   for (const auto& [column, wire] : layout.wires)
   {
-    sinks_.push_back({ static_cast<std::uint32_t>(column), wire.type, nullptr, wire.first.stride });
+    sinks_.push_back(
+      { static_cast<std::uint32_t>(column), wire.type, nullptr, wire.first.stride, wire.open });
   }
   if (request.stride > 1 || request.keep_id || layout.region)
   {

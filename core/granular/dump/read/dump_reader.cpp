@@ -74,8 +74,19 @@ void check_misfit(const Misfit& misfit, const FrameKind& kind, const ColumnSchem
   }
 }
 
-/// Integer columns that hold other numbers are read again as doubles, columns that the table does
-/// not know and that hold a word as texts. What must be what it is taken for is left to the next pass, unless it is first.
+/// The type with which a column is read again.
+ValueType wider(const Misfit& misfit, const ColumnInfo& column) noexcept
+{
+  const bool whole = misfit.status == RowStatus::NotDouble ||
+    (column.type == ValueType::Int32 && column.role == ColumnRole::Other &&
+      check_word(misfit.word, ValueType::Int64) == RowStatus::Done);
+  return misfit.status == RowStatus::NotANumber ? ValueType::Text
+    : whole                                     ? ValueType::Int64
+                                                : ValueType::Float64;
+}
+
+/// Integer columns that hold other numbers are read again as longer integers or as doubles, columns that the table does
+/// not know and that hold a word as texts. Nobody is told of longer integers, which lose nothing. What must be what it is taken for is left to the next pass, unless it is first.
 void widen(const Misfits& misfits, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
 {
   std::vector<ColumnSchema::TypeChange> changes;
@@ -87,12 +98,18 @@ void widen(const Misfits& misfits, const FrameKind& kind, ColumnSchema& schema, 
     {
       break;
     }
-    const bool number = misfit.status == RowStatus::NotExact;
-    if (!number || done.insert(arrays[static_cast<std::size_t>(misfit.column)]).second)
+    const auto column = static_cast<std::size_t>(misfit.column);
+    const ValueType type = wider(misfit, schema.columns()[column]);
+    const bool is_new = type == ValueType::Text || done.insert(arrays[column]).second;
+    if (is_new)
+    {
+      changes.push_back({ misfit.column, type });
+    }
+    if (is_new && type != ValueType::Int64)
     {
       notices.push_back({ misfit.where,
-        text_of(misfit) + "; the column is kept as " + (number ? "doubles" : "texts") });
-      changes.push_back({ misfit.column, number ? ValueType::Float64 : ValueType::Text });
+        text_of(misfit) + "; the column is kept as " +
+          (type == ValueType::Float64 ? "doubles" : "texts") });
     }
   }
   schema.set_types(changes);

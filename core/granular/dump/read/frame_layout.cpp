@@ -68,7 +68,8 @@ void FrameLayout::want(int column, ValueType type, Destination to, double scale)
   }
   else if (scale == 1)
   {
-    wires[column] = { type, to, {} };
+    const bool open = schema_.columns()[static_cast<std::size_t>(column)].open;
+    wires[column] = { type, to, {}, open && type == ValueType::Float64 };
   }
   else
   {

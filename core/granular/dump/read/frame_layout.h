@@ -41,6 +41,7 @@ struct Wire
   ValueType type;
   Destination first;
   std::vector<Copy> copies;
+  bool open = false; ///< see ColumnSink
 };
 
 /// Points: three doubles per row, made from columns.

@@ -51,6 +51,7 @@ std::optional<ColumnSource> find_source(
     source.axis = known->component;
     return source;
   }
+  source.role = role == ColumnRole::Id ? role : ColumnRole::Other;
   if (values)
   {
     source.values = *values;

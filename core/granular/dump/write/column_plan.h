@@ -32,7 +32,7 @@ struct ColumnSource
   Kind kind = Kind::Array;
   ValueSource values = {}; ///< of Kind::Array
   bool own = false;        ///< for Kind::Coordinate: values also holds the file's own numbers
-  ColumnRole role = ColumnRole::Other; ///< of coordinates, also those in arrays
+  ColumnRole role = ColumnRole::Other; ///< of ids and coordinates, also those in arrays
   int axis = 0;                        ///< of coordinates and Kind::Image
   bool whole = false;        ///< text shows integral numbers with all their digits, for any type
   NumberFormat numbers = {}; ///< of real numbers in text

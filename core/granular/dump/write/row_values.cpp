@@ -34,6 +34,20 @@ void check_unsigned(const ColumnSource& source, Rows rows)
   }
 }
 
+/// Programs read no text whose ids are other numbers. In binary dumps all are doubles.
+void check_ids(const RowValues::Column& column, std::size_t rows, const std::string& name)
+{
+  for (std::size_t row = 0; column.type == ValueType::Float64 && row < rows; ++row)
+  {
+    const auto id = column.at<double>(row);
+    if (std::trunc(id) != id || !(std::abs(id) < 0x1p63))
+    {
+      throw LimitError(
+        "expected ids of whole numbers below 2^63, got " + to_text(id), { .column = name });
+    }
+  }
+}
+
 std::int64_t as_image(double count, const std::string& name)
 {
   constexpr double most = std::numeric_limits<std::int32_t>::max();
@@ -274,6 +288,10 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
     {
       case Kind::Array:
         this->load_array(source, i, plan.binary);
+        if (source.role == ColumnRole::Id && !plan.binary)
+        {
+          check_ids(columns_[i], rows_, source.name);
+        }
         break;
       case Kind::Coordinate:
         if (scales_alone(source, frame, box))
