@@ -970,8 +970,8 @@ TEST_F(IndexFileTest, ADamagedIndexIsSaidAndWrittenAnew)
   const std::string kept = path + ".granular.idx";
   const Opened first({ path });
   const std::string good = content(kept);
-  for (const std::string& bad : { good.substr(0, good.size() / 2), std::string("not an index"),
-         std::string(), good.substr(0, 100) + "x" + good.substr(101) })
+  for (const std::string& bad :
+    { good.substr(0, good.size() / 2), good.substr(0, 100) + "x" + good.substr(101) })
   {
     std::ofstream(kept, std::ios::binary | std::ios::trunc) << bad;
     const Opened second({ path });
@@ -979,6 +979,26 @@ TEST_F(IndexFileTest, ADamagedIndexIsSaidAndWrittenAnew)
     EXPECT_TRUE(second.said.starts_with(kept + ": the index file is damaged: ")) << second.said;
     EXPECT_EQ(content(kept), good);
     EXPECT_EQ(Opened({ path }).said, "");
+  }
+}
+
+// A stranger's archive may hold anything under the name of an index, and links to files of the user.
+TEST_F(IndexFileTest, NoLinkAndNoOtherFileIsReplaced)
+{
+  const std::string path = this->write("a.dump", frames(0, 20));
+  const std::string kept = path + ".granular.idx";
+  const std::string other = this->write("other", "of the user");
+  for (const bool is_link : { true, false })
+  {
+    fs::remove(kept);
+    is_link ? fs::create_symlink(other, kept) : fs::rename(other, kept);
+    const Opened opened({ path });
+    EXPECT_EQ(opened.steps(), steps_from(0, 20));
+    EXPECT_TRUE(opened.said.ends_with(
+      kept + ": cannot write the index file: File exists; the index is not kept\n"))
+      << opened.said;
+    EXPECT_EQ(content(kept), "of the user");
+    EXPECT_EQ(fs::is_symlink(kept), is_link);
   }
 }
 

@@ -52,6 +52,19 @@ std::string path_in_cache(const std::string& first_file)
   const std::string name = absolute.substr(absolute.rfind('/') + 1, longest_name);
   return folder + digits + "-" + name + std::string(index_file_suffix);
 }
+
+/// Returns true if a link, or a file that is no index, has the name: it may be anything that comes with a dump.
+bool is_foreign(const std::string& path)
+{
+  std::error_code missing;
+  const std::filesystem::file_status there = std::filesystem::symlink_status(path, missing);
+  if (!std::filesystem::is_regular_file(there))
+  {
+    return std::filesystem::is_symlink(there);
+  }
+  char first[16];
+  return !begins_as_index({ first, open_file(path)->read(0, first, sizeof first) });
+}
 }
 
 std::string index_file_path(KeepIndex where, const std::string& first_file)
@@ -127,6 +140,10 @@ void save_index(const std::string& path, const std::vector<FileIndex>& files, No
   }
   try
   {
+    if (is_foreign(path))
+    {
+      throw IoError("a link, or another file", { path }, std::errc::file_exists);
+    }
     write_file(path, encode_index(files), false); // it can be made again
   }
   catch (const IoError& error)

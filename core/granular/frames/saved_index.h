@@ -35,9 +35,12 @@ std::string index_file_path(KeepIndex where, const std::string& first_file);
 std::vector<FileIndex> load_index(const std::string& path, const std::string& first_file,
   const std::shared_ptr<FrameKinds>& kinds, Notices& notices);
 
-/// Writes the index file completely or not at all; a failure is a notice. Creates the cache folder. If no file has a
-/// frame, nothing is written. Files with an error are left out: they are read again next time.
+/// Writes the index file completely or not at all; a failure is a notice. Replaces an index, but no link and no other file. Creates
+/// the cache folder. If no file has a frame, nothing is written. Files with an error are left out: they are read again next time.
 void save_index(const std::string& path, const std::vector<FileIndex>& files, Notices& notices);
+
+/// Returns true if bytes begin as those of an index file, of any version.
+bool begins_as_index(std::string_view bytes) noexcept;
 
 /// Returns the content of an index file: all files except those with an error, which are read again next time.
 std::string encode_index(const std::vector<FileIndex>& files);

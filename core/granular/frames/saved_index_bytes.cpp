@@ -245,7 +245,7 @@ std::string_view body_of(std::string_view bytes)
       " bytes, got " + std::to_string(bytes.size()));
   }
   std::memcpy(&head, bytes.data(), sizeof head);
-  if (std::memcmp(head.magic, Head().magic, sizeof head.magic) != 0)
+  if (!begins_as_index(bytes))
   {
     throw FormatError("expected the first bytes of an index file, got others");
   }
@@ -282,6 +282,12 @@ std::string encode(const std::vector<const FileIndex*>& files, const std::string
   out.number(hash_of(out.bytes));
   return std::move(out.bytes);
 }
+}
+
+bool begins_as_index(std::string_view bytes) noexcept
+{
+  const Head head;
+  return bytes.starts_with(std::string_view(head.magic, sizeof head.magic));
 }
 
 std::string encode_index(const std::vector<FileIndex>& files)
