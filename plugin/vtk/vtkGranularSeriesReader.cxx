@@ -3,6 +3,7 @@
 
 #include "private/arrays/pool.h"
 #include "private/request/guard.h"
+#include "private/request/kept_pieces.h"
 #include "private/request/series_reader.h"
 
 #include "vtkDataObject.h"
@@ -393,6 +394,7 @@ int vtkGranularSeriesReader::RequestInformation(vtkInformation* vtkNotUsed(reque
           info->Set(Pipeline::TIME_STEPS(), times.data(), count);
           info->Set(Pipeline::TIME_RANGE(), range, 2);
         });
+      KeepPieces(this, outputVector);
       this->InspectFrames(outputVector);
     });
   if (outcome != Outcome::Done)
