@@ -257,6 +257,10 @@ granular_box box_of(const FrameHeader& header)
       bounds.hi[2], bounds.xy, bounds.xz, bounds.yz };
     std::ranges::copy(numbers, made.bounds);
     made.has_bounds = 1;
+    const Box again = make_box(made);
+    const bool same = values_of(again.origin) == origin &&
+      std::ranges::equal(again.vectors, header.box.vectors, {}, values_of, values_of);
+    made.has_bounds = same || !header.box.tilted ? 1 : 0; // around a tilted box they may be rounded
   }
   made.boundary = header.box.boundary.c_str();
   return made;

@@ -273,7 +273,7 @@ GRANULAR_API void granular_release(granular_frame* frame);
 typedef struct granular_box
 {
   double bounds[9];
-  int has_bounds; /* 1: bounds count, and nothing is rounded twice; 0: origin and vectors count */
+  int has_bounds; /* 1: bounds count, and nothing is rounded twice; 0: origin and vectors count, and bounds are rounded, or all 0 */
   double origin[3];
   double vectors[9];
   const char* boundary; /* "pp pp ff"; empty: not known */

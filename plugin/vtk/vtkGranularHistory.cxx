@@ -220,7 +220,7 @@ private:
       request.arrays.clear();
     }
     const granular::Executor executor(this->Threads);
-    granular::SquareDisplacements squares(this->Frames.GetRanks(), executor);
+    granular::SquareDisplacements squares(this->Frames.GetRanks(), executor, this->Origin);
     std::vector<granular::FrameHeader> headers;
     std::vector<Series> series;
     this->Lacking = request.arrays;

@@ -114,6 +114,15 @@ def made():
     compare.SetDifferences("*")
     compare.SetMassArray("mol")
     yield "Compare", names_of(outputs(particles)[0]) | names_of(outputs(whole)[0]), compare
+    paths = granular.vtkGranularTrajectories()
+    history = granular.vtkGranularHistory()
+    history.SetMeanSquareDisplacement(True)
+    history.SetOutputType(history.STATISTICS)
+    for name, algorithm in (("Trajectories", paths), ("History", history)):
+        algorithm.SetInputConnection(dump.GetOutputPort())
+        algorithm.SetIds("1 2")
+        algorithm.SetArrays("")
+        yield name, set(), algorithm
     yield "RestartReader", set(), open_with("RestartReader", SAMPLES, "restart", "fibres.40000.restart")
     yield "DataFileReader", set(), open_with("DataFileReader", SAMPLES, "bonds", "chain.data")
     yield "EulerReader", set(), open_with("EulerReader", SAMPLES, "euler_4000.vtk")

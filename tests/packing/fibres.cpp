@@ -144,7 +144,7 @@ TEST(PackingFibres, BundlesAreInClosestPacking)
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
-      EXPECT_NEAR(grains.points[20 * fibre][k], expected[fibre][k], 1e-13) << fibre;
+      EXPECT_NEAR(grains.points[20 * fibre][k], expected[fibre][k], 1e-12) << fibre;
     }
   }
   EXPECT_NEAR(grains.least_gap(), 0, 1e-12);

@@ -2,6 +2,7 @@
 """Each kind of data can be opened and written: particles, cells, subdomains, contacts and bonds, bonded particles of restart and data
 files. What is read is what plain readings of the files say."""
 import os
+from fractions import Fraction
 
 import numpy
 
@@ -102,6 +103,18 @@ assert run.kind == "data" and frame.rows == len(atoms)
 for number, point in zip(frame["id"].tolist(), frame.points.tolist()):
     assert all(value in atoms[number] for value in point), (number, point)
 assert len(frame.bonds["id1"]) == len(plain_data.Data(path).rows("Bonds"))
+
+# a tilted box: the file has its own bounds, not those around it, and corner and edges are rounded once
+bounds, tilts = (("1000.1", "1000.4"), ("-0.3", "0.4"), ("7", "7.7")), ("-0.07", "0.05", "-0.03")
+with open("tilted.data", "w") as stream:
+    stream.write("title\n\n1 atoms\n1 atom types\n")
+    stream.writelines(f"{lo} {hi} {axis}lo {axis}hi\n" for (lo, hi), axis in zip(bounds, "xyz"))
+    stream.write(f"{' '.join(tilts)} xy xz yz\n\nAtoms # atomic\n\n1 1 1000.2 0 7.1\n")
+box = granular.open("tilted.data")[0].box
+xy, xz, yz = map(float, tilts)
+edge = [float(Fraction(float(hi)) - Fraction(float(lo))) for lo, hi in bounds]
+assert box.origin.tolist() == [float(lo) for lo, _ in bounds]
+assert box.vectors.tolist() == [[edge[0], 0, 0], [xy, edge[1], 0], [xz, yz, edge[2]]]
 
 
 def bytes_read():

@@ -217,8 +217,8 @@ GrainBonds fibre_bonds(const PackingPlan& plan, const RowRange& rows, Progress& 
       {
         if (row + 1 < plan.grains && fibres.is_inside(row + 1))
         {
-          const Vector3 point = plan.shape.point(fibres.scaled(row));
-          const Vector3 next = plan.shape.point(fibres.scaled(row + 1));
+          const Vector3 point = fibres.point(row, plan.shape);
+          const Vector3 next = fibres.point(row + 1, plan.shape);
           set_bond(bonds, bonds_before(row) - first, { row, point }, { row + 1, next },
             distance(point, next));
         }

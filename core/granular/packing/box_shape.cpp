@@ -30,6 +30,7 @@ BoxShape::BoxShape(const Box& box)
   : origin(rounded(box.origin))
   , vectors{ rounded(box.vectors[0]), rounded(box.vectors[1]), rounded(box.vectors[2]) }
   , periodic{ box.boundary[0] == 'p', box.boundary[3] == 'p', box.boundary[6] == 'p' }
+  , aligned(true)
 {
   volume = std::abs(dot(vectors[0], cross(vectors[1], vectors[2])));
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -44,6 +45,12 @@ BoxShape::BoxShape(const Box& box)
       most += std::max(vector[axis], 0.0);
     }
     reach = std::max({ reach, -least, most });
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Twofold& edge = box.vectors[axis][k];
+      aligned = aligned && edge.lo == 0 && (k == axis ? edge.hi > 0 : edge.hi == 0);
+    }
+    aligned = aligned && box.origin[axis].lo == 0;
     // nan fails as well
     if (!(heights[axis] > 0) || !std::isfinite(heights[axis]) || !std::isfinite(origin[axis]))
     {
@@ -63,6 +70,13 @@ Vector3 BoxShape::point(const Vector3& scaled) const noexcept
 double BoxShape::rounding() const noexcept
 {
   return 8 * std::numeric_limits<double>::epsilon() * reach;
+}
+
+bool BoxShape::adds(std::initializer_list<double> numbers) const noexcept
+{
+  const double unit = std::ldexp(std::numeric_limits<double>::epsilon(), std::ilogb(reach));
+  return aligned &&
+    std::ranges::all_of(numbers, [unit](double number) { return std::fmod(number, unit) == 0; });
 }
 
 Vector3 count_cells(const Vector3& widths, double radius, std::int64_t grains) noexcept

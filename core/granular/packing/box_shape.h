@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 
 namespace granular
 {
@@ -21,9 +22,13 @@ struct BoxShape
   Vector3 heights; ///< distance of the two faces that a vector leads between
   double volume = 0;
   double reach = 0; ///< the largest magnitude of a coordinate of a corner
+  bool aligned;     ///< with the axes, and corner and lengths are doubles
 
   /// Returns how much nearer than in exact arithmetic two points may be because of rounding.
   double rounding() const noexcept;
+
+  /// Returns true if the box is aligned, and coordinates that are sums of these numbers are exact in it.
+  bool adds(std::initializer_list<double> numbers) const noexcept;
 
   /// Returns a position in space, always rounded in the same way.
   Vector3 point(const Vector3& scaled) const noexcept;

@@ -50,6 +50,7 @@ Fibres::Fibres(
   : grains_a_fibre_(grains_a_fibre)
   , first_(radius / box.heights[0])
   , step_(distance / std::sqrt(dot(box.vectors[0], box.vectors[0])))
+  , nearest_(distance)
 {
   const std::int64_t room = room_along(box, distance, radius);
   if (grains_a_fibre > room)
@@ -62,6 +63,37 @@ Fibres::Fibres(
   if (kind == Kind::Bundle)
   {
     across_.emplace(LatticeKind::FibreBundle, cross_section(box, 2 * radius), distance, radius);
+    nearest_ = across_->nearest();
+  }
+  this->settle(box, distance, radius);
+}
+
+/// Finds out how near grains of a fibre are to each other, and to the images of a fibre that is alone.
+void Fibres::settle(const BoxShape& box, double distance, double radius)
+{
+  const double rounding = 2 * box.rounding();
+  const double length = std::sqrt(dot(box.vectors[0], box.vectors[0]));
+  const auto steps = static_cast<double>(grains_a_fibre_ - 1);
+  const double rest = length - steps * distance; // at its ends
+  if (box.adds({ box.origin[0], length, distance, radius }) && rest >= 2 * radius)
+  {
+    exact_first_ = box.origin[0] + radius;
+    exact_step_ = distance;
+  }
+  else if (rest - steps * rounding >= length * 2 * radius / box.heights[0] + rounding)
+  {
+    step_ = (distance + rounding) / length;
+  }
+  else
+  {
+    nearest_ = std::min({ nearest_, distance, rest }) - rounding;
+  }
+  for (std::size_t axis = 1; axis < 3 && !across_; ++axis)
+  {
+    if (box.periodic[axis])
+    {
+      nearest_ = std::min(nearest_, box.heights[axis] - (box.aligned ? 0 : rounding));
+    }
   }
 }
 
@@ -83,6 +115,22 @@ Vector3 Fibres::scaled(std::int64_t row) const noexcept
   }
   place[0] = first_ + static_cast<double>(row % grains_a_fibre_) * step_;
   return place;
+}
+
+Vector3 Fibres::point(std::int64_t row, const BoxShape& box) const noexcept
+{
+  const Vector3 place = this->scaled(row);
+  Vector3 point = box.point(place);
+  if (across_ && box.aligned)
+  {
+    const Vector3 across = across_->point(this->fibre(row), box);
+    std::copy(across.begin() + 1, across.end(), point.begin() + 1);
+  }
+  if (exact_step_ > 0)
+  {
+    point[0] = exact_first_ + static_cast<double>(row % grains_a_fibre_) * exact_step_;
+  }
+  return point;
 }
 
 Vector3 Fibres::lengths_for(Kind kind, const std::array<bool, 3>& periodic, double distance,

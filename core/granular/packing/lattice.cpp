@@ -68,6 +68,7 @@ std::int64_t count_cells(const LatticeCell& cell, std::size_t axis, double heigh
 
 Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double radius)
   : cell_(cell_of(kind))
+  , nearest_(distance)
 {
   const double clear = distance + 2 * box.rounding(); // no rounding brings such grains too near
   double lacking = this->lay(box, distance, radius, clear);
@@ -77,12 +78,8 @@ Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double 
   }
   if (lacking <= 1 + tolerance + 4 * box.rounding() / distance)
   {
-    const double larger = distance * (lacking + tolerance);
-    const bool fits = cells_ == this->cells_for(box, larger, radius);
-    if (!fits || this->lay(box, larger, radius, clear) > 1)
-    {
-      this->lay(box, distance, radius); // the box holds these cells and no larger ones
-    }
+    this->spread(box, distance * (lacking + tolerance), radius);
+    this->settle(box, distance, clear);
     return;
   }
   // cells are sheared, and their grains too near: the least length at which they are not
@@ -121,19 +118,68 @@ void Lattice::lay(const BoxShape& box, double length, double radius)
   cells_ = this->cells_for(box, length, radius);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double height = box.heights[axis];
     const double cell = cell_.lengths[axis] * length;
     if (cells_[axis] == 0)
     {
       throw LimitError(std::string("expected a box that holds a cell of the ") + cell_.name +
-        ", got one of height " + std::to_string(height) + " along vector " +
+        ", got one of height " + std::to_string(box.heights[axis]) + " along vector " +
         std::to_string(axis + 1) + ", where a cell needs " +
         std::to_string(box.periodic[axis] ? cell : last_place(cell_, axis) * cell + 2 * radius));
     }
-    const auto count = static_cast<double>(cells_[axis]);
-    step_[axis] = box.periodic[axis] ? 1 / count : cell / height;
-    first_[axis] = (1 - (count - 1 + last_place(cell_, axis)) * step_[axis]) / 2;
+    this->lay_axis(box, axis, length);
   }
+}
+
+void Lattice::lay_axis(const BoxShape& box, std::size_t axis, double length)
+{
+  const auto count = static_cast<double>(cells_[axis]);
+  step_[axis] = box.periodic[axis] ? 1 / count : cell_.lengths[axis] * length / box.heights[axis];
+  first_[axis] = (1 - (count - 1 + last_place(cell_, axis)) * step_[axis]) / 2;
+}
+
+/// Lays larger cells along the axes that have room for as many of them.
+void Lattice::spread(const BoxShape& box, double length, double radius)
+{
+  const std::array<std::int64_t, 3> larger = this->cells_for(box, length, radius);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (larger[axis] == cells_[axis])
+    {
+      this->lay_axis(box, axis, length);
+    }
+  }
+}
+
+/// Finds out how near grains are where the box holds its cells, and along some axes no larger ones.
+void Lattice::settle(const BoxShape& box, double distance, double clear)
+{
+  const double least = this->nearest(box, 2 * clear);
+  if (least >= clear)
+  {
+    return;
+  }
+  std::array<bool, 3> exact = {};
+  bool all = cell_.grains.size() == 1; // neighbours are along the axes, and others far away
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    exact[axis] = step_[axis] * box.heights[axis] < clear;
+    all = all && (!exact[axis] || this->is_exact(box, axis, distance));
+  }
+  if (all)
+  {
+    exact_ = exact;
+    return;
+  }
+  nearest_ = least - (clear - distance);
+}
+
+/// Whether the coordinates of grains at the distance are doubles, and the first one's image is no nearer to the last one.
+bool Lattice::is_exact(const BoxShape& box, std::size_t axis, double distance) const noexcept
+{
+  const double length = box.vectors[axis][axis];
+  const double steps = static_cast<double>(cells_[axis] - 1) * distance;
+  return box.adds({ box.origin[axis], length, distance, (length - steps) / 2 }) &&
+    (!box.periodic[axis] || length - steps == distance);
 }
 
 /// Gives by how much grains are nearer than they may.
@@ -171,19 +217,39 @@ std::int64_t Lattice::capacity() const noexcept
   return cells_[0] * cells_[1] * cells_[2] * static_cast<std::int64_t>(cell_.grains.size());
 }
 
+std::array<std::int64_t, 3> Lattice::place_of(std::int64_t row) const noexcept
+{
+  const std::int64_t cell = row / static_cast<std::int64_t>(cell_.grains.size());
+  const std::int64_t line = cell / cells_[0];
+  return { cell % cells_[0], line % cells_[1], line / cells_[1] };
+}
+
 Vector3 Lattice::scaled(std::int64_t row) const noexcept
 {
-  const auto grains = static_cast<std::int64_t>(cell_.grains.size());
-  const Vector3& grain = cell_.grains[static_cast<std::size_t>(row % grains)];
-  const std::int64_t cell = row / grains;
-  const std::int64_t line = cell / cells_[0];
-  const std::int64_t index[] = { cell % cells_[0], line % cells_[1], line / cells_[1] };
+  const std::array<std::int64_t, 3> index = this->place_of(row);
+  const Vector3& grain = cell_.grains[static_cast<std::size_t>(row) % cell_.grains.size()];
   Vector3 place;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     place[axis] = first_[axis] + (static_cast<double>(index[axis]) + grain[axis]) * step_[axis];
   }
   return place;
+}
+
+Vector3 Lattice::point(std::int64_t row, const BoxShape& box) const noexcept
+{
+  Vector3 point = box.point(this->scaled(row));
+  const std::array<std::int64_t, 3> index = this->place_of(row);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (exact_[axis])
+    {
+      const double length = box.vectors[axis][axis];
+      const double rest = length - static_cast<double>(cells_[axis] - 1) * nearest_;
+      point[axis] = box.origin[axis] + rest / 2 + static_cast<double>(index[axis]) * nearest_;
+    }
+  }
+  return point;
 }
 
 std::vector<RowRange> Lattice::rows_near(

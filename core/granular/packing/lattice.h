@@ -33,7 +33,7 @@ enum class LatticeKind : std::uint8_t
 /// Whole cells of a lattice along the vectors of a box, in its middle, sheared with the box. Neighbours are
 /// nowhere nearer than the distance asked for, also after their coordinates are rounded: across a periodic axis
 /// cells are stretched, and in a sheared box all are, as much as needed. Only in a box that holds its cells exactly,
-/// neighbours are at the distance as well as rounding allows. Across other axes grains lie wholly inside.
+/// neighbours may be nearer by the rounding of coordinates: see nearest. Across other axes grains lie wholly inside.
 class Lattice
 {
 public:
@@ -46,6 +46,12 @@ public:
   /// Returns the position of a particle in units of the box vectors, x fastest, then y, then z.
   Vector3 scaled(std::int64_t row) const noexcept;
 
+  /// Returns the position of a particle in the box of the constructor.
+  Vector3 point(std::int64_t row, const BoxShape& box) const noexcept;
+
+  /// Returns a distance that no two particles and images are nearer than, in exact arithmetic.
+  double nearest() const noexcept { return nearest_; }
+
   /// Returns ranges of later rows that contain every particle within a distance of a particle in `rows`: whole layers across
   /// z, up to the next cells and through a periodic face.
   std::vector<RowRange> rows_near(const RowRange& rows, const BoxShape& box, double distance) const;
@@ -57,14 +63,22 @@ public:
 private:
   std::array<std::int64_t, 3> cells_for(
     const BoxShape& box, double length, double radius) const noexcept;
+  std::array<std::int64_t, 3> place_of(std::int64_t row) const noexcept;
+  void lay_axis(const BoxShape& box, std::size_t axis, double length);
   void lay(const BoxShape& box, double length, double radius);
   double lay(const BoxShape& box, double length, double radius, double clear);
+  void spread(const BoxShape& box, double length, double radius);
+  void settle(const BoxShape& box, double distance, double clear);
+  bool is_exact(const BoxShape& box, std::size_t axis, double distance) const noexcept;
   double nearest(const BoxShape& box, double enough) const noexcept;
 
   const LatticeCell& cell_;
   std::array<std::int64_t, 3> cells_ = {};
   Vector3 first_ = {}; ///< scaled coordinate of a grain at 0 of the first cell
   Vector3 step_ = {};  ///< from cell to cell
+  double nearest_;
+  std::array<bool, 3>
+    exact_ = {}; ///< axes along which coordinates are whole steps of nearest_ from the first one
 };
 }
 #endif

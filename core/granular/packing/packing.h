@@ -55,8 +55,9 @@ class PackingPlan;
 /// with the room of its largest particle. Random particles are numbered along the highest axis of the box.
 ///
 /// Particles are entirely inside the box; along periodic axes only centres are, and images do not overlap particles either.
-/// Random particles do not touch; neighbours of a lattice of spacing 1 touch within the rounding of coordinates. A fibre
-/// begins one radius inside the face and is never stretched; a fibre longer than the box is an error.
+/// Random particles do not touch; neighbours of a lattice of spacing 1 touch within the rounding of coordinates. In a box that
+/// holds a lattice or fibres only just, radii are less than asked for by that rounding. A fibre begins one radius inside the
+/// face and is stretched by no more than rounding; a fibre longer than the box is an error.
 ///
 /// Throws LimitError for impossible requests: values out of bounds, a box without room, random particles without a position;
 /// Cancelled; std::bad_alloc.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -109,11 +110,10 @@ double made_edge(const PackingRequest& request, bool walls)
   return std::max(std::cbrt(volume / request.solid_fraction), (diameter + room) * apart);
 }
 
-/// The box for the grains.
-Box made_box(const PackingRequest& request, const std::string& boundary)
+/// The box for grains that are so far apart.
+Box made_box(const PackingRequest& request, const std::string& boundary, double distance)
 {
   const double radius = request.radii.largest();
-  const double distance = distance_of(request);
   const std::array<bool, 3> periodic = { boundary[0] == 'p', boundary[3] == 'p',
     boundary[6] == 'p' };
   const Making& making = making_of(request);
@@ -137,7 +137,32 @@ Box made_box(const PackingRequest& request, const std::string& boundary)
   {
     box.origin[axis] = { request.corner[axis], 0 };
   }
+  box.boundary = boundary;
   return box;
+}
+
+/// The distance that no two grains are nearer than in a box: see Lattice and Fibres.
+double nearest_in(const BoxShape& box, const PackingRequest& request)
+{
+  const Making& making = making_of(request);
+  const double distance = distance_of(request);
+  const double radius = request.radii.largest();
+  return making.way == Way::Random ? HUGE_VAL
+    : making.way == Way::Lattice
+    ? Lattice(making.lattice, box, distance, radius).nearest()
+    : Fibres(making.fibres, box, distance, radius, grains_a_fibre(request)).nearest();
+}
+
+/// The box for the grains, with room for the rounding of coordinates where that could make them overlap.
+Box made_box(const PackingRequest& request, const std::string& boundary)
+{
+  const double distance = distance_of(request);
+  const Box box = made_box(request, boundary, distance);
+  const BoxShape shape(box);
+  constexpr double some = 64 * std::numeric_limits<double>::epsilon();
+  return nearest_in(shape, request) >= 2 * request.radii.largest()
+    ? box
+    : made_box(request, boundary, distance * (1 + some) + 8 * shape.rounding());
 }
 
 /// The box, when all numbers of the request were checked.
@@ -216,10 +241,12 @@ PackingPlan::PackingPlan(const PackingRequest& wanted, Communicator& ranks, Prog
       break;
     case Way::Lattice:
       lattice_.emplace(making.lattice, shape, distance_of(request), radius);
+      nearest = lattice_->nearest();
       grains = count_of(request, lattice_->capacity(), "this lattice");
       break;
     case Way::Fibres:
       fibres.emplace(making.fibres, shape, distance_of(request), radius, grains_a_fibre(request));
+      nearest = fibres->nearest();
       grains = count_of(request, fibres->capacity(), "these fibres");
       break;
   }
@@ -249,9 +276,9 @@ void PackingPlan::place_rows(const GrainRows& rows, Progress& progress) const
       for (std::int64_t i = begin; i < end; ++i)
       {
         const std::int64_t row = rows.first + i;
-        const Vector3 place = shape.point(lattice_ ? lattice_->scaled(row) : fibres->scaled(row));
+        const Vector3 place = lattice_ ? lattice_->point(row, shape) : fibres->point(row, shape);
         std::copy(place.begin(), place.end(), rows.points + 3 * i);
-        rows.radius[i] = radii.radius(row);
+        rows.radius[i] = std::min(radii.radius(row), nearest / 2);
         rows.type[i] = radii.type(row);
       }
     });

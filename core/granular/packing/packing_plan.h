@@ -11,6 +11,7 @@
 #include "granular/packing/random_grains.h"
 #include "granular/parallel/communicator.h"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -35,6 +36,8 @@ public:
   std::optional<Fibres> fibres; ///< of a chain or a bundle
   std::int64_t grains = 0;
   Radii radii;
+  double nearest =
+    HUGE_VAL; ///< no two particles of a lattice or of fibres are nearer: larger radii are cut to half of it
 
   /// Returns the rows of the piece.
   RowRange rows() const noexcept;

@@ -13,7 +13,7 @@
 
 namespace granular
 {
-AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
+AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap, const Vector3& less)
   : frame_(frame)
 {
   const Box& box = frame.header.box;
@@ -26,7 +26,9 @@ AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
   plan_ = plan_form(frame.coordinates, ColumnRole::Position);
   box_ = frame.has_box ? box_of_points(frame, box) : Box{};
   const auto& [x, y, z] = frame.point_origin;
-  less_ = frame.coordinates == Coordinates::Scaled ? Vector3{} : Vector3{ -x, -y, -z };
+  less_ = frame.coordinates == Coordinates::Scaled
+    ? less
+    : Vector3{ less[0] - x, less[1] - y, less[2] - z };
   bool counted = false;
   if (frame.coordinates == Coordinates::Unwrapped)
   {
@@ -51,8 +53,8 @@ AbsolutePositions::AbsolutePositions(const FrameView& frame, bool wrap)
   }
   crosses_ = crosses_ &&
     std::ranges::any_of(plan_.axes, [](const PositionPlan::Axis& axis) { return axis.shift != 0; });
-  plain_ = frame.points && frame.points->are_triples() && frame.points->step == 3 &&
-    frame.point_origin == Vector3{} && frame.coordinates == Coordinates::Absolute;
+  same_ = frame.coordinates == Coordinates::Absolute && less_ == Vector3{};
+  plain_ = same_ && frame.points && frame.points->are_triples() && frame.points->step == 3;
 }
 
 const double* AbsolutePositions::load(std::int64_t first, std::size_t count, double* buffer) const
@@ -177,7 +179,7 @@ void AbsolutePositions::convert(std::span<const std::int64_t> rows, double* buff
 {
   const std::size_t count = rows.size();
   load_point_rows(frame_, rows, buffer);
-  if (frame_.coordinates == Coordinates::Absolute && frame_.point_origin == Vector3{})
+  if (same_)
   {
     return;
   }

@@ -16,8 +16,8 @@
 
 namespace granular
 {
-/// The positions of the particles of a frame in any form of its points: absolute, with the subtracted origin added again,
-/// each coordinate rounded once, to the nearest double.
+/// The positions of the particles of a frame in any form of its points: absolute, with the subtracted origin added again, or
+/// less an origin of one's own; each coordinate rounded once, to the nearest double.
 class AbsolutePositions
 {
 public:
@@ -28,8 +28,8 @@ public:
   /// double, such as a face or a cut. A coordinate 2^52 periods away, where no bit gives the position in one, stays there.
   /// Other unwrapped points lose their image counts; without counts they are moved into the box along periodic axes, tilted
   /// or not: see count_crossings. Throws Error if points are scaled or unwrapped and there is no box. The frame must outlive
-  /// this.
-  AbsolutePositions(const FrameView& frame, bool wrap);
+  /// this. less: subtracted from positions that are not wrapped; those of a frame that has the same origin stay as they are.
+  AbsolutePositions(const FrameView& frame, bool wrap, const Vector3& less = {});
 
   /// Returns x y z of rows [first, first + count), count <= most_rows: in the array of the points itself if it needs no
   /// conversion and all are finite, otherwise in buffer, which has room for most_rows * 3 numbers. May be called from any
@@ -56,7 +56,8 @@ private:
   ExactCoordinate exact(std::size_t axis, std::int64_t row) const;
 
   const FrameView& frame_;
-  bool plain_ = false; ///< the array has what is wanted, but for wrapping
+  bool same_ = false;  ///< the points are what is wanted, but for wrapping
+  bool plain_ = false; ///< and they are an array of rows
   Box box_;            ///< in the coordinates of the points
   PositionPlan plan_;
   Vector3 less_ = {};

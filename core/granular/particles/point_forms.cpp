@@ -185,18 +185,31 @@ PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept
   return plan;
 }
 
-Box box_of_points(const FrameView& frame, const Box& box)
+Box less_origin(const Box& box, const Vector3& origin)
 {
   Box moved = box;
   for (std::size_t k = 0; k < 3; ++k)
   {
     CompensatedSum sum;
     sum.add(box.origin[k]);
-    if (frame.coordinates != Coordinates::Scaled)
-    {
-      sum.add(-frame.point_origin[k]);
-    }
-    for (std::size_t j = 0; frame.coordinates == Coordinates::Scaled && j < 3; ++j)
+    sum.add(-origin[k]);
+    moved.origin[k] = sum.twofold();
+  }
+  return moved;
+}
+
+Box box_of_points(const FrameView& frame, const Box& box)
+{
+  if (frame.coordinates != Coordinates::Scaled)
+  {
+    return less_origin(box, frame.point_origin);
+  }
+  Box moved = box;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    CompensatedSum sum;
+    sum.add(box.origin[k]);
+    for (std::size_t j = 0; j < 3; ++j)
     {
       sum.add_product(frame.point_origin[j], box.vectors[j][k]);
     }

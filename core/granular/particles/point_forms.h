@@ -46,6 +46,9 @@ void load_image_rows(const std::array<std::optional<ValueSource>, 3>& images,
 /// Returns the conversion from the points to a column of this role.
 PositionPlan plan_form(Coordinates from, ColumnRole to) noexcept;
 
+/// Returns the box in coordinates from which an origin was subtracted.
+Box less_origin(const Box& box, const Vector3& origin);
+
 /// Returns the box in the coordinates of points from which an origin was subtracted, so that adding it to them loses no
 /// digit.
 Box box_of_points(const FrameView& frame, const Box& box);

@@ -3,12 +3,14 @@
 #include "granular/local/box_vectors.h"
 #include "granular/local/minimum_image.h"
 #include "granular/local/split_line.h"
+#include "granular/particles/point_forms.h"
 #include "granular/paths/paths.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 
 namespace granular
@@ -89,8 +91,8 @@ class Drawer
 public:
   Drawer(const Paths& paths, const Vector3& origin)
     : paths_(paths)
-    , origin_(origin)
   {
+    std::ranges::transform(origin, paths.shown_origin, origin_.begin(), std::minus<>());
     lines_.begins.push_back(0);
   }
 
@@ -139,7 +141,8 @@ private:
     const auto frame = static_cast<std::size_t>(paths_.frames[static_cast<std::size_t>(place)]);
     if (!lattice_ || frame_ != frame)
     {
-      lattice_.emplace(paths_.headers[frame].box);
+      box_ = granular::less_origin(paths_.headers[frame].box, paths_.shown_origin);
+      lattice_.emplace(box_);
       frame_ = frame;
     }
     std::int64_t most = 0;
@@ -253,11 +256,12 @@ private:
   }
 
   const Paths& paths_;
-  Vector3 origin_;
+  Vector3 origin_; ///< still to be subtracted
   PathLines lines_;
   std::int64_t path_ = 0;
   double length_ = 0;
   std::size_t frame_ = 0; ///< that the lattice is of
+  Box box_;
   std::optional<Lattice> lattice_;
 };
 }

@@ -106,10 +106,10 @@ void check_numbers(const FrameView& frame, const std::vector<std::string>& names
   }
 }
 
-void load_points(const FrameView& frame, std::span<const std::int64_t> rows,
+void load_points(const FrameView& frame, std::span<const std::int64_t> rows, const Vector3& origin,
   std::vector<double>& points, const Executor& executor, Progress& progress)
 {
-  const AbsolutePositions positions(frame, false);
+  const AbsolutePositions positions(frame, false, origin);
   const bool all = is_consecutive(rows); // then they may need no conversion
   points.resize(3 * rows.size());
   executor.for_each_stretch(
@@ -123,8 +123,8 @@ void load_points(const FrameView& frame, std::span<const std::int64_t> rows,
     progress);
 }
 
-void pick_points(const FrameView& frame, bool absolute, PathFrame& picked, const Executor& executor,
-  Progress& progress)
+void pick_points(const FrameView& frame, const PathRequest& request, PathFrame& picked,
+  const Executor& executor, Progress& progress)
 {
   if (!frame.points)
   {
@@ -133,11 +133,11 @@ void pick_points(const FrameView& frame, bool absolute, PathFrame& picked, const
   FrameView wanted = frame;
   if (picked.coordinates == Coordinates::Unwrapped)
   {
-    picked.coordinates = absolute ? Coordinates::Absolute : Coordinates::Unwrapped;
+    picked.coordinates = request.absolute ? Coordinates::Absolute : Coordinates::Unwrapped;
     // taken for absolute ones, unwrapped points stay as they are
-    wanted.coordinates = absolute ? Coordinates::Unwrapped : Coordinates::Absolute;
+    wanted.coordinates = request.absolute ? Coordinates::Unwrapped : Coordinates::Absolute;
   }
-  load_points(wanted, picked.rows, picked.points, executor, progress);
+  load_points(wanted, picked.rows, request.origin, picked.points, executor, progress);
   const ArrayView* const images = frame.find(image_array);
   if (picked.coordinates == Coordinates::Absolute && images && images->size() == 3 &&
     is_integer(images->type) && images->type != ValueType::UInt64)
@@ -200,7 +200,7 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   {
     picked.points = std::move(spent.points);
     picked.images = std::move(spent.images);
-    pick_points(frame, request.absolute, picked, executor, progress);
+    pick_points(frame, request, picked, executor, progress);
   }
   for (std::int64_t& row : picked.rows)
   {
@@ -215,7 +215,7 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
   DumpRequest wanted = base;
   wanted.points = request.points;
   wanted.single_precision = false;
-  wanted.point_origin = {};
+  wanted.point_origin = request.origin;
   wanted.ranges = false;
   wanted.sort_by_id = false;
   const bool images = request.points && base.coordinates == Coordinates::Absolute;
@@ -245,8 +245,10 @@ PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathReques
       refuse_texts(array.info.name, where_of(pieces.front()));
     }
   }
-  PathFrame picked = pick_particles(
-    view_frame(frame), request, 0, Executor(wanted.threads), progress, std::move(spent));
+  FrameView view = view_frame(frame);
+  view.point_origin = request.origin;
+  PathFrame picked =
+    pick_particles(view, request, 0, Executor(wanted.threads), progress, std::move(spent));
   if (wanted.keep_id || base.pieces > 1 || frame.rows != frame.header.rows)
   {
     // those of the rows that were kept

@@ -30,6 +30,7 @@ struct PathRequest
   std::vector<std::string> arrays = {}; ///< names of arrays of numbers; frames may lack them
   bool points = true;                   ///< positions, too
   bool absolute = false; ///< positions in the box also where a frame in memory has unwrapped ones
+  Vector3 origin = {};   ///< subtracted from the positions
 };
 
 /// An array of selected particles: 64-bit integers, or doubles by their bits.
@@ -50,7 +51,7 @@ struct PathFrame
   std::vector<std::int64_t> ids = {};
   bool has_rows = false;                 ///< the rows are known
   std::vector<std::int64_t> rows = {};   ///< of each particle in its frame, from 0
-  std::vector<double> points = {};       ///< x y z a particle
+  std::vector<double> points = {};       ///< x y z a particle, less the origin of the request
   bool has_images = false;               ///< the image counts of absolute points are known
   std::vector<std::int64_t> images = {}; ///< three a particle
   std::vector<PathArray> arrays = {};    ///< in the order of the request

@@ -34,7 +34,7 @@ public:
     {
       progress_.step(static_cast<double>(f) / static_cast<double>(frames_.size()));
       paths_.headers.push_back(frames_[f].header);
-      unwrapper_.add_box(frames_[f].header.box);
+      unwrapper_.add_box(less_origin(frames_[f].header.box, join_.frames_origin));
       this->add_frame(f);
       frames_[f] = {};
     }
@@ -89,6 +89,7 @@ private:
     paths_.points.resize(3 * places);
     if (join_.crossings)
     {
+      paths_.shown_origin = join_.frames_origin;
       paths_.shown.resize(3 * places);
       paths_.crossings.resize(3 * places);
     }
@@ -133,8 +134,10 @@ private:
           paths_.shown.begin() + 3 * place);
       }
     }
+    Vector3 less;
+    std::ranges::transform(join_.origin, join_.frames_origin, less.begin(), std::minus<>());
     convert_positions(plan_form(Coordinates::Absolute, ColumnRole::UnwrappedPosition),
-      frame.header.box, join_.origin, counts, frame.points);
+      frame.header.box, less, counts, frame.points);
     std::ranges::transform(frame.points, drifts, frame.points.begin(), std::plus<>());
     scatter(frame.points, 3, to, paths_.points);
     for (std::size_t a = 0; a < frame.arrays.size(); ++a)

@@ -28,6 +28,7 @@ struct Paths
   std::vector<double> points;       ///< x y z of each place: unwrapped, minus the origin
   std::vector<PathArray> arrays; ///< words of each place; integers only if all frames have integers
   std::vector<double> shown;     ///< on request: x y z of each place as its frame has it
+  Vector3 shown_origin = {};     ///< that was subtracted from these
   std::vector<std::int64_t>
     crossings; ///< on request: box vectors that bring each place, as shown, next to the one before
 
@@ -41,6 +42,7 @@ struct PathJoin
   bool crossings = false; ///< fill Paths::shown and Paths::crossings
   /// Called for an id that repeats in a frame; throws if it can name the file and the rows. May be empty.
   std::function<void(std::int64_t id, std::size_t frame)> name_rows = {};
+  Vector3 frames_origin = {}; ///< that was subtracted from the points of the frames
 };
 
 /// Joins the frames that this rank has loaded: as many on all ranks, of which each has some particles; a frame that is whole

@@ -208,7 +208,7 @@ SquareDisplacements::Means SquareDisplacements::add(
         finder_ = IdFinder(own.ids);
         particles_.resize(own.ids.size());
       }
-      unwrapper_.add_box(own.header.box);
+      unwrapper_.add_box(less_origin(own.header.box, origin_));
       this->find_places(own, name_rows, progress);
       means.count = std::ranges::count_if(
         places_, [](std::int64_t place) { return place != IdFinder::nowhere; });

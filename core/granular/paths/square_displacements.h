@@ -31,9 +31,11 @@ public:
     double total = 0;  ///< of the squares of the length
   };
 
-  SquareDisplacements(Communicator& ranks, const Executor& executor)
+  /// origin: that was subtracted from the points of the frames.
+  SquareDisplacements(Communicator& ranks, const Executor& executor, const Vector3& origin = {})
     : ranks_(ranks)
     , executor_(executor)
+    , origin_(origin)
   {
   }
 
@@ -76,6 +78,7 @@ private:
 
   Communicator& ranks_;
   const Executor& executor_;
+  Vector3 origin_;
   std::vector<std::int64_t> first_ids_; ///< of ranks: see share_out
   IdFinder finder_;                     ///< of the particles of the first frame
   std::vector<Particle> particles_;

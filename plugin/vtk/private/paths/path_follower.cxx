@@ -55,6 +55,7 @@ void vtkGranularPathAlgorithm::Follower::ReadInput()
   if (view.coordinates != granular::Coordinates::Scaled)
   {
     this->Origin = view.point_origin;
+    this->Request.origin = this->Origin;
   }
   this->Request.arrays = ShareNames(this->Self->Arrays, view, this->Ranks);
 }
@@ -133,6 +134,7 @@ granular::Paths vtkGranularPathAlgorithm::Follower::Join(
 {
   granular::PathJoin join;
   join.origin = this->Origin;
+  join.frames_origin = this->Origin;
   join.crossings = crossings;
   join.name_rows = [this](std::int64_t id, std::size_t frame)
   { this->Frames.NameRows(id, this->Numbers[frame]); };
