@@ -76,8 +76,8 @@ public:
   ///@{
   /**
    * Sets the names of all columns, separated by blanks or commas, for binary files without names (LIGGGHTS, and LAMMPS
-   * before 2020). Empty, the default: 5 or 8 columns are those of dump atom, scaled; frames with other numbers of columns
-   * cannot be read.
+   * before 2020). Empty, the default: 5 or 8 columns are those of dump atom, and the box tells scaled from absolute
+   * coordinates; frames where it does not, and those with other numbers of columns, cannot be read.
    */
   void SetColumnNames(const char* names);
   const char* GetColumnNames();

@@ -257,13 +257,13 @@ TEST(BinaryDump, ByHand)
 
   for (const std::string& text : { plain_little, old_big, magic_little })
   {
-    const Dump dump(bytes_of(text));
+    const Dump dump(bytes_of(text), "id type xs ys zs");
     ASSERT_EQ(dump.steps(), Integers{ 258 }) << text;
     const Decoded got = dump.read();
     EXPECT_EQ(got.said(), "");
     EXPECT_EQ(got.integers("id"), Integers{ 3 });
     EXPECT_EQ(got.integers("type"), Integers{ 2 });
-    EXPECT_EQ(got.points(), (Doubles{ 0, -0.5, -4 })) << "scaled, the default of dump atom";
+    EXPECT_EQ(got.points(), (Doubles{ 0, -0.5, -4 }));
     EXPECT_EQ(got.frame.header.box.boundary, text == old_big ? "" : "pp ff sm");
   }
 }
@@ -364,7 +364,7 @@ TEST(BinaryDump, CoordinatesInBoxesOfEveryKind)
       frame.size_one = 8;
       frame.columns = form.named() ? "id type xs ys zs ix iy iz" : "";
       frame.chunks = { row };
-      const Dump dump(binary::write(form, { frame }).bytes);
+      const Dump dump(binary::write(form, { frame }).bytes, "id type xs ys zs ix iy iz");
       const granular::Vector3 origin = corner_of(frame, 0, 0, 0);
       const std::array<granular::Vector3, 3> ends = { corner_of(frame, 1, 0, 0),
         corner_of(frame, 0, 1, 0), corner_of(frame, 0, 0, 1) };

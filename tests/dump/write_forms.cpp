@@ -84,6 +84,27 @@ TEST(WriteForms, all)
   }
 }
 
+/// The box tells which coordinates a plain binary holds, which does not name its columns.
+TEST(WriteForms, read_back_without_names)
+{
+  for (const Form& form : all_forms())
+  {
+    for (std::size_t i = 0; form.binary && i < boxes(form.tilted).size(); ++i)
+    {
+      const ReferenceBox box = boxes(form.tilted)[i];
+      const MadeRows rows(500, box_of(box));
+      const Decoded got =
+        Dump(written_atoms(rows, true, atom_format(form, Dialect::Liggghts))).read();
+      ASSERT_EQ(got.rows(), 500) << form.name();
+      const std::vector<double> points = got.points();
+      for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        ASSERT_NEAR(points[k], rows.points[k], 1e-9) << form.name() << ", x " << box.lo[0];
+      }
+    }
+  }
+}
+
 /// Atoms without counts of images have crossed no face.
 TEST(WriteForms, without_images)
 {

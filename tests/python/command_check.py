@@ -52,6 +52,14 @@ for what, frames, bounds, words in (
     remarks = check(dump("remarkable.dump", *frames, bounds=bounds), status=0)["remarks"]
     assert any(words in remark for remark in remarks), (what, remarks)
 
+# scaled coordinates, and a far box that LIGGGHTS prints with six digits: half of the last one is 5 radii
+with open("far.dump", "w", encoding="ascii") as out:
+    out.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n" + 3 * "1000.12 1000.32\n"
+              + "ITEM: ATOMS id type xs ys zs radius \n1 1 0.512345 0.5 0.123456 0.001 \n")
+(remark,) = check("far.dump", status=0)["remarks"]
+assert "moves points by up to 0.005 along x, where the smallest radius is 0.001" in remark, remark
+assert 'dump_modify ID format "%d %d %.12g ..."' in remark, remark  # LIGGGHTS knows no `format float`
+
 # files that end early, also compressed; timesteps that repeat; pieces that are missing or cut; no file of the kind
 text = content(SOURCE)
 with open("cut.dump", "wb") as out:

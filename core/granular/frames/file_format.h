@@ -44,6 +44,9 @@ struct FileFormat
   /// with files that it has completed.
   void (*complete)(std::vector<FileIndex>& files, Notices& notices) = nullptr;
 
+  /// Returns true if frames lack what complete gives them; null: they always do.
+  bool (*lacks)(const std::vector<FileIndex>& files) = nullptr;
+
   /// Returns true if the contents of an index file can be true for a file with frames, as far as reading a frame would
   /// not show it. Reads little of the source. May throw Error, which also means false. May be null.
   bool (*fits)(const ByteSource& source, const FileIndex& index) = nullptr;

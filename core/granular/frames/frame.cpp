@@ -23,7 +23,8 @@ void mix(Hash& hash, const Twofold3& vector)
 
 std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
 {
-  const std::string names = kind.schema.text();
+  const std::string names =
+    kind.guessed ? std::to_string(kind.schema.columns().size()) : kind.schema.text();
   Hash hash;
   hash.add(names.data(), names.size());
   kind.names_hash = hash.value();

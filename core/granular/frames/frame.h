@@ -32,6 +32,8 @@ struct FrameHeader
   std::string units; ///< ITEM: UNITS of this frame or an earlier one of the file
   std::int64_t rows = 0;
   Box box;
+  Vector3
+    box_rounding = {}; ///< how far bounds may be off along each axis by the digits of a text; round numbers are not
   std::string counted = "ATOMS";       ///< name of rows: ITEM: NUMBER OF ...
   bool has_box = true;                 ///< false: there is no box, and its size is 0
   std::optional<Dialect> dialect = {}; ///< of the header, if known
@@ -50,7 +52,8 @@ struct FrameKind
   int layout = text;    ///< below FileFormat::layouts: which of them; or text, or bare
   bool named = true;    ///< false: the columns of a binary file have no names, only stand-ins
   bool guessed = false; ///< the columns have no names and are taken for those of dump atom
-  std::uint64_t names_hash = 0; ///< of the columns; set where the kind is shared
+  std::uint64_t names_hash =
+    0; ///< of the columns, of guessed ones of their number; set where the kind is shared
 
   bool is_text() const noexcept { return layout < 0; }
   bool operator==(const FrameKind&) const = default;

@@ -138,7 +138,7 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   Notices found;
   looked_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
   files_ = looked_;
-  if (options.format->complete)
+  if (options.format->complete && (!options.format->lacks || options.format->lacks(*looked_)))
   {
     updated = *looked_;
     options.format->complete(updated, found);
@@ -291,7 +291,10 @@ void RunIndex::note_files(Notices& notices) const
   }
   const auto guessed = std::ranges::find_if(*files_,
     [](const FileIndex& file)
-    { return !file.frames.empty() && file.frames.front().kind->guessed; });
+    {
+      return !file.frames.empty() && file.frames.front().kind->guessed &&
+        file.frames.front().kind->named;
+    });
   if (guessed != files_->end())
   {
     notices.push_back({ { guessed->path },

@@ -24,7 +24,7 @@ struct Head
   std::uint32_t byte_order = 0x01020304;
   /// To be raised with every change of what is written here, or of what it means: of the hashes, of
   /// how frames are found, of how columns become arrays.
-  std::uint32_t version = 3;
+  std::uint32_t version = 4;
 };
 
 /// A frame as it is kept.

@@ -37,4 +37,22 @@ void note_point_loss(const RoundingLoss& loss, const Box& box, const Vector3& or
       (single ? ", or PointPrecision=Double" : ""),
     topic });
 }
+
+void note_box_loss(const FrameHeader& header, double radius, const Where& where, Notices& notices)
+{
+  RoundingLoss loss;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    loss.move(axis, header.box_rounding[axis]);
+  }
+  const std::string text = loss.text(RoundingLimit(header.box, radius), "points", {});
+  if (!text.empty())
+  {
+    notices.push_back({ where,
+      "the last digit of the bounds of the box, which scale the coordinates, " + text +
+        "; dump x y z with more digits (dump_modify ID format \"%d %d %.12g ...\", a format for "
+        "each column), or a binary file",
+      "digits of the box" });
+  }
+}
 }

@@ -3,6 +3,7 @@
 #define granular_particles_point_loss_h
 
 #include "granular/common/error.h"
+#include "granular/frames/frame.h"
 #include "granular/particles/rounding_loss.h"
 
 #include <cstdint>
@@ -17,5 +18,9 @@ void add_rounding(
 /// subtracted from the points; single: they are floats.
 void note_point_loss(const RoundingLoss& loss, const Box& box, const Vector3& origin, bool single,
   const Where& where, Notices& notices);
+
+/// Adds a notice about points that the box of a header scales, if the digits of its bounds move them by more than a
+/// RoundingLimit: once per file. radius: the smallest one, or HUGE_VAL.
+void note_box_loss(const FrameHeader& header, double radius, const Where& where, Notices& notices);
 }
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/formats/binary_dump.h"
 
+#include "granular/dump/formats/atom_fit.h"
 #include "granular/dump/formats/binary_header.h"
 #include "granular/dump/formats/unnamed_columns.h"
 
@@ -182,6 +183,7 @@ private:
   int layout_ = 0;
   std::shared_ptr<const FrameKind> kind_; ///< of the frame before: most have the same
   std::vector<std::string> columns_;      ///< as its header names them
+  AtomFit fit_;                           ///< if it does not, nor does the user
 };
 
 void Indexer::run()
@@ -251,19 +253,23 @@ bool Indexer::next_frame()
 
 std::shared_ptr<const FrameKind> Indexer::kind(const BinaryHeader& header)
 {
+  const bool unnamed = header.columns.empty();
+  const AtomFit fit = unnamed && index_.column_names.empty()
+    ? fit_atom(source_, header, binary_layouts()[static_cast<std::size_t>(layout_)])
+    : AtomFit{};
   const bool same = kind_ && kind_->units == index_.units && columns_ == header.columns &&
-    kind_->schema.columns().size() == static_cast<std::size_t>(header.size_one);
+    fit_ == fit && kind_->schema.columns().size() == static_cast<std::size_t>(header.size_one);
   if (!same)
   {
-    const bool unnamed = header.columns.empty();
     index_.unnamed = index_.unnamed || unnamed;
     const UnnamedColumns columns = unnamed
-      ? name_columns(static_cast<std::size_t>(header.size_one), index_.column_names)
+      ? name_columns(static_cast<std::size_t>(header.size_one), index_.column_names, fit)
       : UnnamedColumns{ header.columns };
     ColumnSchema schema = this->schema(columns.names, header);
     kind_ = index_.kinds->share(
       { std::move(schema), index_.units, layout_, columns.named, columns.guessed });
     columns_ = header.columns;
+    fit_ = fit;
   }
   return kind_;
 }

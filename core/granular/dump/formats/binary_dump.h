@@ -30,8 +30,8 @@ bool binary_dump_fits(const ByteSource& source, const FileIndex& index);
 /// Indexes a binary file: see index_dump. index.kinds must be set. Skips the values from chunk to chunk.
 ///
 /// Files without magic, and those of revision 1, do not name their columns; index.column_names must name all of them. If it
-/// is empty, frames of 5 or 8 columns are taken for dump atom with its default of scaled coordinates, and others cannot be
-/// read. A frame that contradicts its header is left out, with all that follow.
+/// is empty, frames of 5 or 8 columns are taken for dump atom, and the box tells which coordinates they hold: see fit_atom.
+/// Others, and those where it does not tell, cannot be read. A frame that contradicts its header is left out, with all that follow.
 void index_binary_dump(const ByteSource& source, FileIndex& index, Progress& progress);
 }
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/formats/binary_rows.h"
 
+#include "granular/dump/formats/atom_fit.h"
 #include "granular/dump/formats/binary_dump.h"
 #include "granular/dump/formats/binary_header.h"
 
@@ -81,6 +82,14 @@ constexpr ConvertColumn convert_columns[][2] = {
   { convert_column<double, false>, convert_column<double, true> },
 };
 
+/// Returns why the columns of dump atom are none.
+std::string describe_fit(std::size_t columns, AtomFit fit)
+{
+  return !is_atom(columns) ? ""
+    : fit.scaled ? "; its rows lie in the box both as id type x y z and as id type xs ys zs"
+                 : "; its rows lie in the box neither as id type x y z nor as id type xs ys zs";
+}
+
 constexpr std::size_t place_of(ValueType type) noexcept
 {
   return type == ValueType::Int32 ? 0 : type == ValueType::Int64 ? 1 : 2;
@@ -96,6 +105,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
   swapped_ = layout.swapped;
   std::vector<std::string> names;
   std::int64_t chunks_offset = 0;
+  AtomFit fit;
   header_.rows = -1; // what is no header is not the one that was there
   try
   {
@@ -104,6 +114,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
     {
       header_ = header->frame;
       names = header->columns;
+      fit = entry.kind->named ? AtomFit{} : fit_atom(source, *header, layout);
       chunks_offset = header->chunks_offset;
     }
   }
@@ -119,7 +130,7 @@ BinaryRows::BinaryRows(const ByteSource& source, const FrameEntry& entry)
   {
     throw FormatError("expected " + std::to_string(columns) +
         " names in ColumnNames, because the file does not name its columns, got none" +
-        describe_first_row(source, entry.offset, layout),
+        describe_first_row(source, entry.offset, layout) + describe_fit(columns, fit),
       where_of(source.path(), entry));
   }
   header_.units = entry.kind->units;

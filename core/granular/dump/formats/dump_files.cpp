@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/formats/dump_files.h"
 
+#include "granular/dump/formats/atom_fit.h"
 #include "granular/dump/formats/binary_dump.h"
 #include "granular/dump/formats/binary_header.h"
 #include "granular/dump/formats/first_rows.h"
@@ -35,6 +36,8 @@ const FileFormat& dump_format() noexcept
 {
   static const FileFormat format = { .name = "a dump",
     .index = index_dump,
+    .complete = complete_atom_names,
+    .lacks = lack_atom_names,
     .fits = dump_fits,
     .describe = describe_first,
     .first_rows = find_first_ids,

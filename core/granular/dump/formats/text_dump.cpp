@@ -26,7 +26,7 @@ std::vector<std::string> unnamed_columns(std::size_t words, const Where& where)
         std::to_string(words),
       where);
   }
-  return name_columns(words == 8 ? 8 : 5, {}).names;
+  return name_columns(words == 8 ? 8 : 5, {}, { .scaled = true }).names;
 }
 
 bool is_number(std::string_view word)

@@ -2,6 +2,7 @@
 #include "granular/dump/formats/text_header.h"
 
 #include "granular/numbers/number.h"
+#include "granular/numbers/printed_digits.h"
 
 #include <algorithm>
 #include <array>
@@ -297,15 +298,18 @@ bool TextHeader::parse_box(Words words)
   const bool tilted = begins_with(rest, "xy xz yz");
   const bool general = begins_with(rest, "abc origin");
   rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
-  constexpr std::size_t lammps = 22; // characters of its %.16e
-  std::size_t shortest = lammps;
+  Spelling spelling;
   std::array<std::array<double, 4>, 3> n = {};
-  for (auto& numbers : n)
+  header_.box_rounding = {};
+  for (std::size_t line = 0; line < n.size(); ++line)
   {
-    if (!this->read_numbers(general ? 4 : tilted ? 3 : 2, numbers.data(), &shortest))
+    if (!this->read_numbers(general ? 4 : tilted ? 3 : 2, n[line].data(), &spelling))
     {
       return false;
     }
+    const auto& [lo, hi, tilt, none] = spelling.rounding;
+    header_.box_rounding[line] += std::max(lo, hi);
+    header_.box_rounding[line == 2 ? 1 : 0] += tilt; // xy and xz, then yz
   }
   if (general)
   {
@@ -321,12 +325,13 @@ bool TextHeader::parse_box(Words words)
                          : Box::from_bounds(lo, hi);
   }
   header_.box.boundary = join_words(rest);
-  header_.dialect = shortest >= lammps ? Dialect::Lammps : Dialect::Liggghts;
+  constexpr std::size_t lammps = 22; // characters of its %.16e
+  header_.dialect = spelling.shortest >= lammps ? Dialect::Lammps : Dialect::Liggghts;
   has_box_ = true;
   return true;
 }
 
-bool TextHeader::read_numbers(std::size_t count, double* numbers, std::size_t* shortest)
+bool TextHeader::read_numbers(std::size_t count, double* numbers, Spelling* spelling)
 {
   std::string_view line;
   if (!this->value_line(line))
@@ -350,9 +355,10 @@ bool TextHeader::read_numbers(std::size_t count, double* numbers, std::size_t* s
     {
       this->fail("a number", words[i]);
     }
-    if (shortest)
+    if (spelling)
     {
-      *shortest = std::min(*shortest, words[i].size());
+      spelling->shortest = std::min(spelling->shortest, words[i].size());
+      spelling->rounding[i] = rounding_of(words[i], numbers[i]);
     }
   }
   return true;

@@ -68,6 +68,13 @@ private:
     Parse parse;           ///< false at the end of the text
   };
 
+  /// The spelling of numbers on a line.
+  struct Spelling
+  {
+    std::size_t shortest = std::string_view::npos; ///< of all words so far
+    std::array<double, 4> rounding = {};           ///< of each number
+  };
+
   static const Section sections[];
 
   static const Section& find_section(Words words) noexcept;
@@ -83,7 +90,7 @@ private:
   bool parse_box(Words words);
   bool parse_columns(Words words);
   bool skip_section(Words words);
-  bool read_numbers(std::size_t count, double* numbers, std::size_t* shortest = nullptr);
+  bool read_numbers(std::size_t count, double* numbers, Spelling* spelling = nullptr);
   std::int64_t integer(std::string_view word, const char* what) const;
   void require(bool seen, const char* section) const;
   std::string columns_section() const;

@@ -4,6 +4,7 @@
 #include "granular/dump/formats/text_dump.h"
 #include "granular/dump/formats/text_header.h"
 #include "granular/dump/formats/text_reader.h"
+#include "granular/numbers/printed_digits.h"
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
@@ -12,27 +13,6 @@
 
 namespace granular
 {
-namespace
-{
-/// Significant digits of a real number, as they are written; 0 of an integer, or what is no number.
-int digits_of(std::string_view word) noexcept
-{
-  bool is_real = false;
-  int digits = 0;
-  for (const char c : word)
-  {
-    if (c == 'e' || c == 'E')
-    {
-      is_real = true;
-      break;
-    }
-    is_real = is_real || c == '.';
-    digits += c >= '0' && c <= '9' && (digits > 0 || c != '0') ? 1 : 0;
-  }
-  return is_real ? digits : 0;
-}
-}
-
 TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   : source_(source)
   , entry_(entry)
@@ -112,7 +92,7 @@ std::vector<int> TextRows::digits() const
     append_words(rest.substr(0, end), words);
     for (std::size_t i = 0; i < std::min(words.size(), digits.size()); ++i)
     {
-      digits[i] = std::max(digits[i], std::min(digits_of(words[i]), most));
+      digits[i] = std::max(digits[i], std::min(digits_of_real(words[i]), most));
     }
     rest.remove_prefix(end + 1);
   }

@@ -10,30 +10,42 @@ namespace granular
 {
 namespace
 {
-/// The columns of dump atom, scaled or not only the user knows: by default they are.
-constexpr std::string_view columns_of_atom = "id type xs ys zs ix iy iz";
+constexpr std::string_view scaled_atom = "id type xs ys zs ix iy iz";
+constexpr std::string_view absolute_atom = "id type x y z ix iy iz";
 }
 
-UnnamedColumns name_columns(std::size_t columns, const std::vector<std::string>& of_user)
+bool is_atom(std::size_t columns) noexcept
+{
+  return columns == 5 || columns == 8;
+}
+
+UnnamedColumns name_columns(
+  std::size_t columns, const std::vector<std::string>& of_user, AtomFit fit)
 {
   if (!of_user.empty())
   {
     return { of_user };
   }
-  const std::vector<std::string_view> atom = split_words(columns_of_atom);
-  const bool guessed = columns == 5 || columns == atom.size();
-  UnnamedColumns found = { {}, guessed, guessed };
+  const bool guessed = is_atom(columns);
+  const bool named = guessed && fit.scaled != fit.absolute;
+  const std::vector<std::string_view> atom = split_words(fit.scaled ? scaled_atom : absolute_atom);
+  UnnamedColumns found = { {}, named, guessed };
   for (std::size_t i = 0; i < columns; ++i)
   {
-    found.names.push_back(guessed ? std::string(atom[i]) : "column" + std::to_string(i + 1));
+    found.names.push_back(named ? std::string(atom[i]) : "column" + std::to_string(i + 1));
   }
   return found;
 }
 
 bool is_named_so(const FrameKind& kind, const std::vector<std::string>& of_user)
 {
-  const UnnamedColumns columns = name_columns(kind.schema.columns().size(), of_user);
-  return columns.named == kind.named && columns.guessed == kind.guessed &&
-    std::ranges::equal(columns.names, kind.schema.columns(), {}, {}, &ColumnInfo::name);
+  constexpr AtomFit fits[] = { { .scaled = true }, { .absolute = true }, {} };
+  return std::ranges::any_of(fits,
+    [&](AtomFit fit)
+    {
+      const UnnamedColumns columns = name_columns(kind.schema.columns().size(), of_user, fit);
+      return columns.named == kind.named && columns.guessed == kind.guessed &&
+        std::ranges::equal(columns.names, kind.schema.columns(), {}, {}, &ColumnInfo::name);
+    });
 }
 }

@@ -18,11 +18,24 @@ struct UnnamedColumns
   bool guessed = false;
 };
 
-/// Returns the names that the user gave. Without names, and if the columns cannot be those of dump atom, returns
-/// placeholders: frames can be listed, and reading one is an error.
-UnnamedColumns name_columns(std::size_t columns, const std::vector<std::string>& of_user);
+/// The coordinates that the columns of dump atom may hold in a frame: see fit_atom.
+struct AtomFit
+{
+  bool scaled = false;   ///< xs ys zs
+  bool absolute = false; ///< x y z
 
-/// Returns true if the columns of a kind of frames have these names.
+  bool operator==(const AtomFit&) const = default;
+};
+
+/// Returns true if dump atom writes so many columns.
+bool is_atom(std::size_t columns) noexcept;
+
+/// Returns the names that the user gave. Without these, returns the names of dump atom if one kind of coordinates fits.
+/// Otherwise returns placeholders: frames can be listed, and reading one is an error.
+UnnamedColumns name_columns(
+  std::size_t columns, const std::vector<std::string>& of_user, AtomFit fit);
+
+/// Returns true if the columns of a kind of frames may have these names, whatever the rows are.
 bool is_named_so(const FrameKind& kind, const std::vector<std::string>& of_user);
 }
 #endif

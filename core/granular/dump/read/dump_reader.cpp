@@ -134,9 +134,9 @@ ColumnSchema join_schemas(const FramePieces& pieces, const DumpRequest& request)
     const FrameEntry& entry = pieces[i].entry;
     const ColumnSchema& other = entry.kind->schema;
     const bool same_form = entry.kind->is_text() == first.kind->is_text();
-    if (!same_form || entry.shape != first.shape)
+    const bool same_columns = other.text() == first.kind->schema.text();
+    if (!same_form || !same_columns || entry.shape != first.shape)
     {
-      const bool same_columns = other.text() == schema.text();
       throw FormatError("expected a piece of the same frame, got one with " +
           std::string(!same_form ? "text where others are binary"
               : same_columns     ? "another box"
@@ -230,6 +230,20 @@ void check_counts(Communicator& ranks, const FramePieces& pieces, DumpPart& part
   }
 }
 
+/// Whether the box scales coordinates to the points.
+bool is_scaled(const DumpFrame& frame, const DumpRequest& request)
+{
+  if (!request.points || frame.header.rows == 0)
+  {
+    return false;
+  }
+  Notices known; // the layout has said what there is to say
+  const PositionPlan plan =
+    plan_positions(frame.schema, frame.header.box, request.coordinates, {}, known);
+  return plan.coordinates != Coordinates::Scaled &&
+    std::ranges::any_of(plan.axes, [&](const auto& axis) { return is_rescaled(plan, axis); });
+}
+
 /// Sorts the rows if that is asked for. Collective.
 void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const Where& where)
 {
@@ -287,6 +301,10 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
       notices.insert(notices.end(), part.notices.begin(), part.notices.end());
       note_point_loss(part.loss, part.frame.header.box, request.point_origin,
         request.single_precision, where, notices);
+      if (is_scaled(part.frame, request))
+      {
+        note_box_loss(part.frame.header, part.loss.radius(), where, notices);
+      }
       return std::move(part.frame);
     });
 }

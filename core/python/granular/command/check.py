@@ -145,7 +145,7 @@ class Checker:
         if self._few:
             part, digits, step = self._few
             self.remarks.append(f"positions have {digits} digits: each is wrong by up to {100 * part:.2g} % of the smallest radius (step "
-                                f"{step}); `dump_modify ID format float %.12g` keeps more")
+                                f"{step}); `dump_modify ID format \"%d %d %.12g ...\"`, a format for each column, keeps more")
 
 
 def run(arguments: argparse.Namespace) -> int:
