@@ -94,6 +94,11 @@ def store_words(figures):
         "programs read the file.", "",
         f"Binary dumps are written plain, because no other program reads compressed ones. Compressed afterwards by zstd, they take "
         f"{packed[0] / binary[0]:.0%} of the bytes, and {packed[2] / binary[2]:.1f} times the time to read.", "",
+        "Scaled coordinates need all digits of the box, as LAMMPS and this library print them. LIGGGHTS prints six. With its bounds, the "
+        "largest error of `scaled %g` at 1e3 is "
+        f"{error(figures, 'scaled %g, box of LIGGGHTS; box at 1e3', 'position', 'radius')} radii, and more digits of `xs ys zs` do not help "
+        f"({error(figures, 'scaled %.9g, box of LIGGGHTS; box at 1e3', 'position', 'radius')} radii). At 1e6, both bounds are the same "
+        "number.", "",
         "Never right, because another way of the same kind, text or binary, is as good or better in bytes, writing, reading and error "
         f"wherever the box is: {'; '.join(never) if never else 'none'}.", ""]
 
@@ -150,7 +155,7 @@ def plot_store(pyplot, figures):
     axes = panels[1][2]
     digits = [("%g", 6), ("%.9g", 9), ("%.12g", 12), ("%.17g", 17)]
     lines = [("custom", place, "o-", color, f"x y z, box at {place}") for place, color in zip(PLACES, ("C0", "C1", "C3"))]
-    lines.append(("scaled", "1e6", "s--", "k", "xs ys zs, box anywhere"))
+    lines.append(("scaled", "1e6", "s--", "k", "xs ys zs, all digits of the box"))
     for form, place, style, color, label in lines:
         points = [(count, figures.get(f"{form} {text}; box at {place}", "strain, largest:1"))
                   for text, count in digits if f"{form} {text}; box at {place}" in figures.cases]
@@ -200,8 +205,8 @@ def plot_look(pyplot, figures):
     for way, style in zip(LOOKS, ("o-", "s--", "v-", "^--")):
         values = [figures.get(f"{way}; box at {place_name(power)}", "position, largest:radius") for power in range(13)]
         axes.plot([10.0 ** power for power in range(13)], [max(value, EXACT) for value in values], style, label=way)
-    axes.plot([10.0 ** power for power in range(13)], [2.0 ** -53 * 10 ** power / SMALLEST for power in range(13)], ":", color="0.5",
-              label="half a step of the doubles themselves")
+    axes.plot([10.0 ** power for power in range(13)], [3 ** 0.5 * 2.0 ** -53 * 10 ** power / SMALLEST for power in range(13)], ":",
+              color="0.5", label="half a step of the doubles along each axis")
     axes.axhline(1, color="0.4", linewidth=0.8)
     axes.text(1.2, 1.4, "one radius", fontsize=8, color="0.4")
     axes.text(1.2, 1.5 * EXACT, "exact", fontsize=8, color="0.4")

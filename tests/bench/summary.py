@@ -58,17 +58,20 @@ def ratio(store, index, way, other):
 DECIDE = (
     ("a picture, box near the origin", "custom %g", "0", "the default of most runs; `PointPrecision=\"Single\"` saves memory",
      "position", "nothing"),
-    ("a picture, box far away", "scaled %g", "1e3",
-     "`dump atom`, or `xs ys zs` in `dump custom`; `PointPrecision=\"Single\"` only with `PointOrigin`", "position",
-     "particles jump by a radius"),
+    ("a picture, box far away", "custom %.9g", "1e3",
+     "`dump_modify ID format \"%d %d %.9g ...\"`, a format for each column; `PointPrecision=\"Single\"` only with `PointOrigin`",
+     "position", "particles jump by two radii"),
+    ("the same by LAMMPS", "scaled %g", "1e3", "`xs ys zs`: LAMMPS prints all digits of the box, LIGGGHTS six", "position",
+     "particles jump by two radii"),
     ("a picture of many particles", "binary, LAMMPS", "1e3", "`PointArrayStatus` of what is shown, `Vertices=\"None\"`", "position",
      lambda store: f"text takes {ratio(store, 2, DEFAULT, 'binary, LAMMPS'):.0f} times as long to read"),
-    ("velocities to 1e-4, box anywhere", "scaled %g", "1e3", "", "velocity", "velocities are right, positions are not"),
-    ("averages in cells", "scaled %g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii: see [Cells](#cells)", "position",
+    ("velocities to 1e-4, box anywhere", "custom %.9g", "1e3", "`%g` for `vx vy vz` is enough", "velocity",
+     "velocities are right, positions are not"),
+    ("averages in cells", "custom %.9g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii: see [Cells](#cells)", "position",
      "particles are in wrong cells"),
     ("strain to 1e-4, box near the origin", "custom %.9g", "0", "", "strain", "the error is as large as the strain"),
-    ("strain to 1e-4, box far away", "scaled %.9g", "1e3", "", "strain", "nothing is right"),
-    ("forces of particles to 1e-4", "scaled %g", "1e3", "forces of contacts: `dump local`, six digits as well", "force",
+    ("strain to 1e-4, box far away", "custom %.12g", "1e3", "", "strain", "nothing is right"),
+    ("forces of particles to 1e-4", "custom %.9g", "1e3", "forces of contacts: `dump local`, six digits as well", "force",
      "forces are right, positions are not"),
     ("to go on with a run", "binary, LAMMPS", "1e3", "all columns of the atom style; contacts and bonds only in a restart file",
      "position", "particles overlap"),
@@ -76,9 +79,9 @@ DECIDE = (
      "digits are lost; `NumberFormat=\"Automatic\"` keeps them"),
     ("exchange with other programs", "custom shortest", "1e3", "", "position",
      lambda store: f"digits are lost; VTK's text is wrong by {error(store, 'VTK legacy, text; box at 1e3', 'position', 'radius')} radii"),
-    ("an archive", "scaled %.9g, zstd", "1e3", "`.zst` in the name", "position",
-     lambda store: f"digits are lost; gzip takes {ratio(store, 1, 'scaled %.9g, gzip', 'scaled %.9g, zstd'):.0f} times as long to write "
-     f"for {1 - ratio(store, 0, 'scaled %.9g, gzip', 'scaled %.9g, zstd'):.0%} fewer bytes"),
+    ("an archive", "custom %.12g, zstd", "1e3", "`.zst` in the name", "position",
+     lambda store: f"digits are lost; gzip takes {ratio(store, 1, 'custom %.12g, gzip', 'custom %.12g, zstd'):.0f} times as long to write "
+     f"for {1 - ratio(store, 0, 'custom %.12g, gzip', 'custom %.12g, zstd'):.0%} fewer bytes"),
 )
 UNITS = {"position": ("radius", "radii"), "velocity": ("rms", "of the rms velocity"), "force": ("1", "of a force"),
          "strain": ("1", "")}
@@ -101,10 +104,16 @@ def decide_table(store):
 
 
 def example(store, opening):
-    """The costs of the example below the table, and its errors by arithmetic: half a unit of the last digit."""
-    size, write, read = costs(store, "scaled %g")
+    """The costs of the example below the table, and its errors in the bytes of LIGGGHTS."""
+    size, write, read = costs(store, "custom %.9g")
     look = f", {opening / 1000:.2f} s to find the frame when the file is opened" if opening else ""
-    return [f"Costs for 10^6 particles with the 12 columns of the table, by this library and one core: {size:.0f} MB, {write / 1000:.2f} s to "
-            f"write, {read / 1000:.2f} s to read{look}. The error of velocities is {error(store, 'scaled %g; box at 1e3', 'velocity', 'rms')} "
-            "of their rms value. Text loses half a unit of the last digit. With `xs` below 1, that is 5e-7 box lengths: 1e-4 radii in a box of "
-            "0.2 m. With `x` of 1000 m, it is half a centimetre: 5 radii.", ""]
+
+    def far(columns, metric="position"):
+        return f"{store.get(f'far box of LIGGGHTS, {columns}; box at 1e3', f'{metric}, largest:radius'):.2g}"
+    return [f"Costs for 10^6 particles with the 12 columns of the table, all of nine digits, by this library and one core: {size:.0f} MB, "
+            f"{write / 1000:.2f} s to write, {read / 1000:.2f} s to read{look}. Text loses half a unit of the last digit along each axis. With "
+            f"`x y z` of `%g`, that is half a centimetre: {far('x y z of %g', 'coordinate')} radii along an axis, {far('x y z of %g')} radii as a "
+            f"distance. With `xs ys zs` of `%g`, the bounds 1000.12 and 1000.32 lose as much: particles are wrong by up to "
+            f"{far('xs ys zs of %g')} radii, and the packing is stretched by 5 %. With `x y z` of `%.9g`, the largest error is "
+            f"{far('x y z of %.9g')} radii; with `%.12g`, {far('x y z of %.12g')}. The error of velocities with six digits is "
+            f"{error(store, 'custom %g; box at 1e3', 'velocity', 'rms')} of their rms value.", ""]

@@ -169,7 +169,13 @@ def difference(points, truth, origin=(0.0, 0.0, 0.0)):
     return (points.astype(float) - high) - low
 
 
+def lengths(vectors):
+    return numpy.sqrt((numpy.asarray(vectors, dtype=numpy.longdouble) ** 2).sum(1))
+
+
 def tell_error(study, case, metric, error, scale, unit):
-    error = numpy.abs(numpy.asarray(error, dtype=numpy.longdouble)) / scale
+    """Of vectors, one in a row, the lengths are the errors."""
+    error = lengths(error) if numpy.ndim(error) == 2 else numpy.abs(numpy.asarray(error, dtype=numpy.longdouble))
+    error = error / scale
     study.tell(case, f"{metric}, largest", error.max(), unit)
     study.tell(case, f"{metric}, rms", numpy.sqrt((error ** 2).mean()), unit)

@@ -3,16 +3,17 @@
 import ctypes
 import gzip
 import os
+import shutil
 
 import numpy
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 import granular
-from scene import (COLUMNS, SMALLEST, Packing, Rounds, array_of, main, open_dump, points_of, read_again, tell_error)
+from scene import (COLUMNS, SMALLEST, Packing, Rounds, array_of, lengths, main, open_dump, points_of, read_again, tell_error)
 
 SCALED = "id type xs ys zs " + " ".join(COLUMNS[5:])
-PLACES = {"0": 0.0, "1e3": 1e3, "1e6": 1e6}
+PLACES = {"0": 0.0, "1e3": 1000.123456789, "1e6": 1000123.456789}  # far boxes have no round bounds
 BASELINE = "custom %g"
 
 # name: properties of the writer, ending. Without NumberFormat: six digits are not asked for.
@@ -144,15 +145,44 @@ def ways_of(study, data, place):
 def tell_errors(study, way, place, packing, data):
     points, case = points_of(data), f"{way.name}; box at {place}"
     tell_error(study, case, "position", points - packing.points, SMALLEST, "radius")
-    tell_error(study, case, "velocity", array_of(data, "v") - packing.v, numpy.sqrt((packing.v ** 2).mean()), "rms")
-    tell_error(study, case, "force", (array_of(data, "f") - packing.f) / packing.f, 1, "1")
+    tell_error(study, case, "velocity", array_of(data, "v") - packing.v, numpy.sqrt((lengths(packing.v) ** 2).mean()), "rms")
+    tell_error(study, case, "force", lengths(array_of(data, "f") - packing.f) / lengths(packing.f), 1, "1")
     tell_error(study, case, "strain", packing.strain_of(points) - packing.strain, 1, "1")
     exact = any(name in way.name for name in ("17g", "shortest", "binary", "VTP, raw", "VTP, zlib", "VTKHDF"))
     if exact:
         study.check((points == packing.points).all() and (array_of(data, "f") == packing.f).all(), case)
 
 
+def print_box_as_liggghts(path, packing):
+    """LIGGGHTS prints the bounds with six digits."""
+    with open(path, encoding="ascii") as stream:
+        text = stream.read()
+    head, mark, rest = text.partition("ITEM: BOX BOUNDS pp pp pp\n")
+    rows = rest.split("\n", 3)[3]
+    with open(path, "w", encoding="ascii") as out:
+        out.write(head + mark + 3 * ("%g %g\n" % (packing.lo, packing.hi)) + rows)
+
+
+def far_box_of_liggghts(study):
+    """The example of the page, in the bytes of LIGGGHTS: particles of radius 1 mm in a box of 0.19 m, 1 km away along all axes."""
+    lo, length, radius = 1000.1249, 0.1902, 1e-3
+    scaled = numpy.random.default_rng(1).random((study.pick(100_000, 1000), 3))
+    points = lo + length * scaled
+    head = (f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{len(points)}\nITEM: BOX BOUNDS ff ff ff\n"
+            + 3 * ("%g %g\n" % (lo, lo + length)) + "ITEM: ATOMS id type ")
+    for columns, values, form in (("xs ys zs", scaled, "%g"), ("x y z", points, "%g"), ("x y z", points, "%.9g"), ("x y z", points, "%.12g")):
+        path = study.folder / "far.dump"
+        with open(path, "w", encoding="ascii") as out:
+            out.write(head + f"{columns} \n")
+            numpy.savetxt(out, numpy.column_stack((numpy.arange(1, len(points) + 1), values)), f"%d 1 {form} {form} {form} ")
+        found = points_of(read_again(open_dump(path)))
+        case = f"far box of LIGGGHTS, {columns} of {form}"
+        tell_error(study, f"{case}; box at 1e3", "position", found - points, radius, "radius")
+        tell_error(study, f"{case}; box at 1e3", "coordinate", (found - points).ravel(), radius, "radius")
+
+
 def study_of(study):
+    far_box_of_liggghts(study)
     for place, lo in PLACES.items():
         timed = place == "1e3"
         packing = Packing(lo, layers=study.pick(4 if timed else 1, 1), lattice=study.pick(63, 8))
@@ -175,6 +205,11 @@ def study_of(study):
             readers[way.name] = (way, reader)
             tell_errors(study, way, place, packing, found)
             study.tell(f"{way.name}; box at {place}", "size", os.path.getsize(way.path) / packing.rows, "B/particle")
+            if way.name in ("scaled %g", "scaled %.9g") and place != "1e6":  # there, both bounds would be the same
+                liggghts = Way(f"{way.name}, box of LIGGGHTS", way.make_writer, None, way.path.replace(".dump", "_six.dump"))
+                shutil.copy(way.path, liggghts.path)
+                print_box_as_liggghts(liggghts.path, packing)
+                tell_errors(study, liggghts, place, packing, read_again(liggghts.reader()))
             writing.add(way.name, way.write, way.prepare)
             reading.add(way.name, lambda reader=reader: read_again(reader))
         rounds = study.pick(3, 1) if timed else 0
