@@ -83,6 +83,7 @@ TEST(BoxDigits, EnoughDigitsAndRoundNumbersAreNotTold)
   EXPECT_EQ(dump_of("%g", 1000, 1001).read().said(), "");
   EXPECT_EQ(dump_of("%g", 100000, 100100).read().said(), "");
   EXPECT_EQ(dump_of("%.17g", 1e9, 1e9 + 1).read().said(), "");
+  EXPECT_EQ(dump_of("%.12g", 999999.5, 1000008.4).read().said(), "");
   EXPECT_EQ(dump_of("%g", lo, hi, "xs ys zs radius", " 10").read().said(), "");
   const Dump empty(one_frame("xs ys zs radius", "", " pp pp pp\n1000.12 1000.32\n0 1\n0 1\n"));
   EXPECT_EQ(empty.read().said(), "");

@@ -619,7 +619,7 @@ TEST(ReaderSeries, AnIndexFileOfAFileThatGrewOrIsAnother)
 TEST(ReaderSeries, ADamagedIndexFileIsIgnoredWithAWarning)
 {
   const Kept kept("a.dump");
-  const std::string index = WriteFile("a.dump.granular.idx", "this is no index\n");
+  const std::string index = WriteFile("a.dump.granular.idx", "\x89GIDX\r\n\x1athis is no index\n");
   Reader reader({ kept.File });
   reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
   EXPECT_EQ(reader.Times(), KeptTimes);

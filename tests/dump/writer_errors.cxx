@@ -120,13 +120,14 @@ TEST(WriterErrors, PropertiesThatMakeNoSense)
   writer->SetColumns("id colour");
   expect("column 'colour': expected an array to make it from, got none: there are no arrays");
   writer->SetColumns("");
-  for (const char* boundary :
-    { "pp pp", "pp pp pq", "p p", "p p q", "pp pp pp pp", "pppppp", "pp\npp pp" })
+  for (const char* boundary : { "pp pp", "pp pp pq", "p p", "p p q", "pp pp pp pp", "pppppp" })
   {
     writer->SetBoundary(boundary);
     expect(std::string("expected boundaries as in 'pp pp ff' or 'p p f', of p, f, s and m, got '") +
       boundary + "'");
   }
+  writer->SetBoundary("pp\npp pp");
+  expect("expected boundaries as in 'pp pp ff' or 'p p f', of p, f, s and m, got 'pp\\npp pp'");
   writer->SetBoundary("");
   writer->WriteUnitsOn();
   writer->SetUnits("si units");

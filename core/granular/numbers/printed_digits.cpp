@@ -6,10 +6,7 @@
 
 namespace granular
 {
-namespace
-{
-/// Returns the digits before an exponent, from the first that is not 0.
-int count_digits(std::string_view word) noexcept
+int digits_of(std::string_view word) noexcept
 {
   word = word.substr(0, word.find_first_of("eE"));
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -17,21 +14,18 @@ int count_digits(std::string_view word) noexcept
   return first == word.npos ? 0
                             : static_cast<int>(std::ranges::count_if(word.substr(first), is_digit));
 }
-}
 
 int digits_of_real(std::string_view word) noexcept
 {
-  return word.find_first_of(".eE") == word.npos ? 0 : count_digits(word);
+  return word.find_first_of(".eE") == word.npos ? 0 : digits_of(word);
 }
 
 double rounding_of(std::string_view word, double value) noexcept
 {
-  constexpr int fewest = 6; // of %g
-  const int digits = count_digits(word);
   const bool whole = word.find_first_of(".eE") == word.npos;
-  const bool is_round = digits < fewest || (whole && (digits > fewest || word.ends_with('0')));
+  const bool is_round = digits_of(word) != fewest_digits || (whole && word.ends_with('0'));
   return is_round || !std::isfinite(value)
     ? 0
-    : 0.5 * std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
+    : 0.5 * std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - fewest_digits);
 }
 }

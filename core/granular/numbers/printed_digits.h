@@ -9,8 +9,14 @@ namespace granular
 /// Returns the significant digits of a real number as it is written; 0 of an integer, and of what is no number.
 int digits_of_real(std::string_view word) noexcept;
 
-/// Returns how far a number may be off because a program printed it with few digits: half a unit of the last one. Returns 0
-/// for round numbers: those of fewer than the six digits of %g, and whole ones that it does not print or that end in 0.
+/// Returns the digits of a number before an exponent, from the first that is not 0.
+int digits_of(std::string_view word) noexcept;
+
+/// The digits of %g, with which LIGGGHTS prints bounds.
+constexpr int fewest_digits = 6;
+
+/// Returns how far a number of six digits may be off because %g printed it: half a unit of the last one. Returns 0 for others,
+/// and for whole ones that end in 0.
 double rounding_of(std::string_view word, double value) noexcept;
 }
 #endif

@@ -173,7 +173,7 @@ void Lattice::settle(const BoxShape& box, double distance, double clear)
   nearest_ = least - (clear - distance);
 }
 
-/// Whether the coordinates of grains at the distance are doubles, and the first one's image is no nearer to the last one.
+/// Returns true if the coordinates of grains at the distance are doubles, and the first one's image is no nearer to the last one.
 bool Lattice::is_exact(const BoxShape& box, std::size_t axis, double distance) const noexcept
 {
   const double length = box.vectors[axis][axis];

@@ -311,6 +311,10 @@ bool TextHeader::parse_box(Words words)
     header_.box_rounding[line] += std::max(lo, hi);
     header_.box_rounding[line == 2 ? 1 : 0] += tilt; // xy and xz, then yz
   }
+  if (spelling.digits > fewest_digits) // not printed by %g, which leaves zeros out
+  {
+    header_.box_rounding = {};
+  }
   if (general)
   {
     header_.box = Box::from_vectors({ n[0][3], n[1][3], n[2][3] },
@@ -358,6 +362,7 @@ bool TextHeader::read_numbers(std::size_t count, double* numbers, Spelling* spel
     if (spelling)
     {
       spelling->shortest = std::min(spelling->shortest, words[i].size());
+      spelling->digits = std::max(spelling->digits, digits_of(words[i]));
       spelling->rounding[i] = rounding_of(words[i], numbers[i]);
     }
   }

@@ -72,6 +72,7 @@ private:
   struct Spelling
   {
     std::size_t shortest = std::string_view::npos; ///< of all words so far
+    int digits = 0;                                ///< at most, of all words so far
     std::array<double, 4> rounding = {};           ///< of each number
   };
 

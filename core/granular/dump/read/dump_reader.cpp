@@ -86,7 +86,8 @@ ValueType wider(const Misfit& misfit, const ColumnInfo& column) noexcept
 }
 
 /// Integer columns that hold other numbers are read again as longer integers or as doubles, columns that the table does
-/// not know and that hold a word as texts. Nobody is told of longer integers, which lose nothing. What must be what it is taken for is left to the next pass, unless it is first.
+/// not know and that hold a word as texts. Longer integers lose nothing, so no notice tells of them. What must be what it is
+/// taken for is left to the next pass, unless it is first.
 void widen(const Misfits& misfits, const FrameKind& kind, ColumnSchema& schema, Notices& notices)
 {
   std::vector<ColumnSchema::TypeChange> changes;
@@ -230,7 +231,7 @@ void check_counts(Communicator& ranks, const FramePieces& pieces, DumpPart& part
   }
 }
 
-/// Whether the box scales coordinates to the points.
+/// Returns true if the box scales coordinates to the points.
 bool is_scaled(const DumpFrame& frame, const DumpRequest& request)
 {
   if (!request.points || frame.header.rows == 0)
