@@ -97,7 +97,7 @@ TEST(PackingOverlap, NoneInAnyBox)
     "diameters", 0);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> part(0, 1);
-  for (int i = 0; i < 140; ++i)
+  for (std::size_t i = 0; i < 140; ++i)
   {
     const double radius = i % 3 == 0 ? 0.5 : i % 3 == 1 ? 0.1 : 0.05 + part(random);
     PackingRequest request = request_of(

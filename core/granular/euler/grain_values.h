@@ -93,7 +93,7 @@ struct GrainBlock
   bool uses(std::size_t i) const noexcept { return !usable || usable[i] != 0; }
 
   /// Returns the largest component of the velocity, or the speed with which a mass would have the stress, if that is larger.
-  double speed(std::size_t i, double mass) const noexcept
+  double speed(std::size_t i, double heaviest) const noexcept
   {
     double stress = 0;
     for (std::size_t k = 6 * i; stresses && k < 6 * i + 6; ++k)
@@ -102,7 +102,7 @@ struct GrainBlock
     }
     const double* const v = velocities + 3 * i;
     return std::max({ std::abs(v[0]), std::abs(v[1]), std::abs(v[2]),
-      stress > 0 ? std::sqrt(stress) / std::sqrt(mass) : 0 });
+      stress > 0 ? std::sqrt(stress) / std::sqrt(heaviest) : 0 });
   }
 
   // what is not in memory of others as it should be
