@@ -83,7 +83,9 @@ granular_need_plugin()
   fi
   local -A plugins=([libqt5sql5]=libqt5sql5-sqlite [libqt6sql6]=libqt6sql6-sqlite [libqt6svg6]=qt6-svg-plugins)
   for library in "${!plugins[@]}"; do
-    if [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$library" 2>/dev/null)" = installed ]; then
+    # Debian 12 has Qt 6's plugin for SVG in the library
+    if [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$library" 2>/dev/null)" = installed ] &&
+      apt-cache show "${plugins[$library]}" >/dev/null 2>&1; then
       more+=("${plugins[$library]}")
     fi
   done
