@@ -301,6 +301,12 @@ void NewFile::hold(bool durable)
   file_ = -1;
 }
 
+/// What has the name is not this file, if somebody has removed it.
+void NewFile::expect_name() const
+{
+  check(locked_->has_name() ? 0 : ENOENT, path_);
+}
+
 void NewFile::finish(bool durable)
 {
   this->expect_own();
@@ -315,8 +321,7 @@ void NewFile::finish(bool durable)
     // a folder that may not be read cannot be synchronised
     check(folder.get() < 0 && errno != EACCES ? errno : 0, path_);
   }
-  // what has the name now is not this file, if somebody has removed it
-  check(locked_->has_name() ? 0 : ENOENT, path_);
+  this->expect_name();
   if (std::rename(name_.c_str(), target_.c_str()) != 0)
   {
     fail(path_, errno);

@@ -68,7 +68,13 @@ public:
   /// Throws IoError also if the folder cannot be synchronised; the new file has its name then.
   void finish(bool durable) override;
 
+  /// Throws IoError if another writer has taken the temporary file away, as it may do with one that is held.
+  void expect_name() const;
+
   const std::string& path() const noexcept { return path_; }
+
+  /// Returns the path behind all symbolic links.
+  const std::string& target() const noexcept { return target_; }
 
   /// Returns the temporary name, which is in the same folder.
   const std::string& temporary_name() const noexcept { return name_; }

@@ -56,6 +56,19 @@ int compare_name(const std::string& name, int file) noexcept
   return there.st_ino == open.st_ino && there.st_dev == open.st_dev ? 0 : ESTALE;
 }
 
+/// Returns nothing if there is no such file.
+FileStamp look_at(const std::string& name) noexcept
+{
+  constexpr std::int64_t nanoseconds = 1'000'000'000; // of a second
+  struct stat there = {};
+  if (::lstat(name.c_str(), &there) != 0)
+  {
+    return {};
+  }
+  return { there.st_size, there.st_mtim.tv_sec * nanoseconds + there.st_mtim.tv_nsec, there.st_ino,
+    there.st_dev };
+}
+
 /// 0, or the reason. A lock is that of the open file: a thread keeps out the others of its program, too.
 int lock(int file)
 {
@@ -176,10 +189,7 @@ LockedFile::~LockedFile()
 
 void LockedFile::close() noexcept
 {
-  struct stat open = {};
-  ::fstat(file_, &open);
-  inode_ = open.st_ino;
-  device_ = open.st_dev;
+  closed_ = look_at(name_);
   ::close(std::exchange(file_, -1));
 }
 
@@ -190,9 +200,8 @@ bool LockedFile::is_own() const noexcept
 
 bool LockedFile::has_name() const noexcept
 {
-  struct stat there = {};
-  return file_ >= 0
-    ? compare_name(name_, file_) == 0
-    : ::lstat(name_.c_str(), &there) == 0 && there.st_ino == inode_ && there.st_dev == device_;
+  // a closed file by its time as well: numbers of files are given again
+  return file_ >= 0 ? compare_name(name_, file_) == 0
+                    : closed_ != FileStamp{} && look_at(name_) == closed_;
 }
 }

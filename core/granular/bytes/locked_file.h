@@ -2,7 +2,8 @@
 #ifndef granular_bytes_locked_file_h
 #define granular_bytes_locked_file_h
 
-#include <cstdint>
+#include "granular/bytes/byte_source.h"
+
 #include <string>
 
 namespace granular
@@ -41,10 +42,9 @@ public:
 
 private:
   std::string name_;
-  int file_ = -1;            ///< -1: closed
-  int process_ = 0;          ///< that created the file
-  std::uint64_t inode_ = 0;  ///< of a closed file
-  std::uint64_t device_ = 0; ///< of a closed file
+  int file_ = -1;    ///< -1: closed
+  int process_ = 0;  ///< that created the file
+  FileStamp closed_; ///< of a closed file
 };
 }
 #endif

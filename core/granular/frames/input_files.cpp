@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/input_files.h"
 
-#include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
 
-#include <set>
+#include <algorithm>
+#include <utility>
 
 namespace granular
 {
 namespace
 {
-std::pair<std::uint64_t, std::uint64_t> identity_of(const FileStamp& stamp)
+/// Returns true if a file of a run, which may have been looked at on another rank, is that of a stamp or a name.
+bool is_same(const FileIndex& file, const FileStamp& stamp, const std::string& path)
 {
-  return { stamp.device, stamp.inode };
+  const FileStamp own = file.elsewhere ? stamp_of(file.path) : file.stamp;
+  return file.path == path || (own.device == stamp.device && own.inode == stamp.inode);
 }
 
-/// The files whose frames have their other pieces in other files.
+/// Returns the files whose frames have their other pieces in other files.
 std::set<const FileIndex*> find_pieces(const RunIndex& index)
 {
   std::set<const FileIndex*> files;
@@ -36,31 +38,44 @@ std::set<const FileIndex*> find_pieces(const RunIndex& index)
 
 void InputFiles::add(const RunIndex& index)
 {
-  const std::set<const FileIndex*> pieces = find_pieces(index);
-  for (const FileIndex& file : index.files())
+  const bool known = std::ranges::any_of(
+    runs_, [&](const Run& run) { return &run.index.files() == &index.files(); });
+  if (!known)
   {
-    if (const FileStamp stamp = stamp_of(file.path); stamp != FileStamp{}) // it may be gone
-    {
-      files_[identity_of(stamp)] = file.defect
-        ? "a frame of it is not complete: " + to_string(*file.defect)
-        : std::string(pieces.contains(&file) ? "other files have the rest of its frames" : "");
-    }
+    runs_.push_back({ index, {} });
   }
 }
 
 bool InputFiles::has(const std::string& path) const
 {
-  if (files_.empty())
+  const FileStamp stamp = runs_.empty() ? FileStamp{} : stamp_of(path);
+  if (stamp == FileStamp{})
   {
     return false;
   }
-  const auto found = files_.find(identity_of(stamp_of(path)));
-  if (found != files_.end() && !found->second.empty())
+  bool found = false;
+  for (Run& run : runs_)
   {
-    throw Error(
-      "expected another file to write, got one that is read, and " + found->second, { path });
+    const auto file = std::ranges::find_if(
+      run.index.files(), [&](const FileIndex& each) { return is_same(each, stamp, path); });
+    if (file == run.index.files().end())
+    {
+      continue;
+    }
+    found = true;
+    if (!run.pieces)
+    {
+      run.pieces = find_pieces(run.index);
+    }
+    const std::string why = file->defect
+      ? "a frame of it is not complete: " + to_string(*file->defect)
+      : std::string(run.pieces->contains(&*file) ? "other files have the rest of its frames" : "");
+    if (!why.empty())
+    {
+      throw Error("expected another file to write, got one that is read, and " + why, { path });
+    }
   }
-  return found != files_.end();
+  return found;
 }
 
 bool HeldFiles::is_read(const std::string& path, Communicator& ranks) const
@@ -81,6 +96,8 @@ bool HeldFiles::finish(std::unique_ptr<NewFile> file, bool durable)
     file->finish(durable);
     return true;
   }
+  // a later frame of the same file takes the place of the one before
+  std::erase_if(held_, [&](const auto& other) { return other->target() == file->target(); });
   file->hold(durable);
   held_.push_back(std::move(file));
   return false;
@@ -88,6 +105,10 @@ bool HeldFiles::finish(std::unique_ptr<NewFile> file, bool durable)
 
 void HeldFiles::finish_all(bool durable)
 {
+  for (const std::unique_ptr<NewFile>& file : held_)
+  {
+    file->expect_name();
+  }
   for (const std::unique_ptr<NewFile>& file : held_)
   {
     file->finish(durable);

@@ -3,18 +3,17 @@
 #define granular_frames_input_files_h
 
 #include "granular/bytes/byte_sink.h"
+#include "granular/frames/run_index.h"
 
-#include <cstdint>
-#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace granular
 {
 class Communicator;
-class RunIndex;
 
 /// The files that are read while others are written. Device and inode tell them apart: links and spellings give a file many
 /// names.
@@ -29,8 +28,14 @@ public:
   bool has(const std::string& path) const;
 
 private:
-  std::map<std::pair<std::uint64_t, std::uint64_t>, std::string>
-    files_; ///< with the reason why one may not be replaced; empty: it may
+  struct Run
+  {
+    RunIndex index;
+    std::optional<std::set<const FileIndex*>>
+      pieces; ///< see find_pieces; found when they are needed
+  };
+
+  mutable std::vector<Run> runs_;
 };
 
 /// New files that replace files that are still read: they get their names last. Without a call of finish_all() they are
@@ -52,7 +57,7 @@ public:
   /// InputFiles::has.
   bool finish(std::unique_ptr<NewFile> file, bool durable);
 
-  /// Gives all files their names. Throws IoError.
+  /// Gives all files their names, or none if another writer has taken one of them away. Throws IoError.
   void finish_all(bool durable);
 
 private:
