@@ -80,8 +80,8 @@ GRANULAR_API const granular_error* granular_last_error(void);
 GRANULAR_API const char* granular_version(void);
 
 /* Called during long work with a fraction from 0 to 1, on the thread of the caller. Returns 0 to go on; any other value
- * stops the work with GRANULAR_CANCELLED. This function and the next one may end their thread, and may use any run; to refresh
- * the run at work is GRANULAR_BAD_ARGUMENT. */
+ * stops the work with GRANULAR_CANCELLED. This function and the next one may end their thread, and may use any run, which
+ * stays as it was until a refresh ends; to refresh the run at work is GRANULAR_BAD_ARGUMENT. */
 typedef int (*granular_progress)(double fraction, void* user);
 
 /* Called with each remark of a function that is not an error, such as a frame that was left out: "path:line: text". */

@@ -185,7 +185,8 @@ void granular_run::refresh(Caller& caller)
       "for progress or notices of the same run");
   }
   const AtWork at_work(*this);
-  const std::unique_lock lock(mutex);
+  const std::lock_guard refreshing(
+    refresh_mutex_); // others, and functions for progress, see the run as it was meanwhile
   Notices notices;
   RunIndex updated = index; // after an error the run is as it was
   updated.update(find_files(patterns_), options_, notices, caller);
@@ -195,11 +196,12 @@ void granular_run::refresh(Caller& caller)
   {
     new_rests.push_back({ file.defect ? to_string(*file.defect) : "", count_repeated(file) });
   }
-  shared_index = std::make_shared<const RunIndex>(updated);
-  index = std::move(updated);
-  times = std::move(new_times);
-  rests = std::move(new_rests);
   {
+    const std::unique_lock lock(mutex);
+    shared_index = std::make_shared<const RunIndex>(updated);
+    index = std::move(updated);
+    times = std::move(new_times);
+    rests = std::move(new_rests);
     const std::lock_guard guard(offers_mutex_);
     offers_.clear();
   }

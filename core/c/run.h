@@ -121,6 +121,7 @@ private:
   granular::IndexOptions options_;
   std::vector<std::string> column_names_;
   const granular_c::Kind* kind_ = nullptr;
+  std::mutex refresh_mutex_; ///< locked first
   std::mutex offers_mutex_;
   Offers offers_;
 };

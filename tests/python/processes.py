@@ -124,6 +124,9 @@ def main():
     except granular.ArgumentError as error:
         assert "function for progress" in str(error)
     assert total(run[-1]) == expected[-1] and len(run.refresh()) == len(expected)
+    seen = []
+    run.refresh(progress=lambda fraction: seen.append((len(run), run.steps[0], total(run[0]))))
+    assert set(seen) == {(len(expected), 0, expected[0])}, seen
 
     for _ in range(8):
         done = subprocess.run([sys.executable, "-c", ENDING, SOURCE], capture_output=True, text=True)

@@ -369,7 +369,7 @@ class Frame(Mapping[str, Any]):
         """The bonds of a restart or data file. Raises ValueError for other files."""
         if self._kind not in ("restart", "data"):
             raise c.ArgumentError(f"expected a restart or data file, got a {self._kind} file: open the file of its bonds")
-        return Frame(self._run, self._current(), {}, bonds=True)
+        return Frame(self._run, self._number, {}, bonds=True, place=self._place)
 
     def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
         """Reads all that is wanted at once, and returns the frame itself."""
@@ -753,6 +753,7 @@ class Run(_Frames):
             except BaseException:
                 self._state = before
                 raise
+            self._state = object()  # a function for progress may have taken frames meanwhile
             self._known.clear()
         return self
 
