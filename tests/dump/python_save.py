@@ -3,6 +3,7 @@
 import filecmp
 import glob
 import os
+import tempfile
 import xml.etree.ElementTree
 
 import granular
@@ -82,6 +83,16 @@ for name, kind in (("b.vtp", XMLPolyDataReader), ("b.vtu", XMLUnstructuredGridRe
     xml.etree.ElementTree.parse(name)
     again = granular.fetch(kind(FileName=[name]))
     assert all(numpy.array_equal(again[name], whole[name]) for name in ("points", "id", "v", "radius"))
+# a link to another name, on another disk where there is one: the ending is the user's
+with tempfile.TemporaryDirectory(dir="/dev/shm") as disk:
+    os.symlink(os.path.join(disk, "behind.txt"), "link.csv")
+    granular.save(particles, "link.csv", last)
+    begins("link.csv", b'"')
+    assert os.path.islink("link.csv") and os.listdir(disk) == ["behind.txt"]
+    os.remove("link.csv")
+os.symlink("nowhere", "numbered_0.dump")
+granular.save(particles, "numbered_*.dump", last)
+os.remove("numbered_0.dump")
 granular.save(particles, "chosen.vtp", DataMode="Ascii")
 with open("chosen.vtp") as file:
     assert 'format="ascii"' in file.read()

@@ -249,6 +249,17 @@ def whole_file(path: str, ending: str = "", durable: bool = True) -> Iterator[st
         _sync_folder(os.path.dirname(target) or ".", path)
 
 
+def _replace(file: str, to: str) -> None:
+    """Gives a new file its name, behind a link to another file system as well."""
+    try:
+        os.replace(file, to)
+    except OSError as error:
+        if error.errno != errno.EXDEV:
+            raise
+        with whole_file(to) as copy:
+            shutil.copyfile(file, copy)
+
+
 @contextlib.contextmanager
 def whole_files(path: str, expect: Callable[[str, str], None]) -> Iterator[str]:
     """Yields a name for a path in a temporary folder beside it, for programs that write several files. At the end, what is in the
@@ -260,7 +271,7 @@ def whole_files(path: str, expect: Callable[[str, str], None]) -> Iterator[str]:
     """
     target = _behind_links(path)
     _old_file(target, path)
-    beside, own = os.path.split(target)
+    beside, own = os.path.split(path)
     with _hidden(path, target, ".data") as (folder, expect_own):
         os.mkdir(folder, 0o700)
         yield os.path.join(folder, own)
@@ -275,6 +286,6 @@ def whole_files(path: str, expect: Callable[[str, str], None]) -> Iterator[str]:
         expect_own()
         for file, to in new:
             os.makedirs(os.path.dirname(to) or ".", exist_ok=True)
-            os.replace(file, to)
+            _replace(file, to)
     if len(names) == 1:
-        _sync_folder(beside or ".", path)
+        _sync_folder(os.path.dirname(target) or ".", path)

@@ -94,6 +94,13 @@ def _identity(path: str) -> tuple[int, int]:
     return state.st_dev, state.st_ino
 
 
+def _is_one_of(path: str, files: set[tuple[int, int]]) -> bool:
+    try:
+        return _identity(path) in files
+    except OSError:  # there is no file behind the name
+        return False
+
+
 def _inputs(output: Any, ours: bool) -> set[tuple[int, int]]:
     """Returns the files that the readers of this plugin, or all others, read for an output."""
     found = set()
@@ -111,13 +118,14 @@ def _expect_whole(file: str) -> None:
     """Raises OSError or RuntimeError for a file that a writer of ParaView has not finished: some of them tell nobody."""
     with open(file, "r+b") as stream:
         size = stream.seek(0, os.SEEK_END)
-        # Where a write has failed there is no room for more: those that do not look write a few KiB at a time.
-        os.posix_fallocate(stream.fileno(), size, 1 << 16)
-        stream.truncate(size)
         stream.seek(0)
-        is_whole = b"<VTKFile" not in stream.read(1000)
-        stream.seek(max(0, size - 100))
-        is_whole = is_whole or stream.read().rstrip().endswith(b"</VTKFile>")
+        if b"<VTKFile" in stream.read(1000):
+            stream.seek(max(0, size - 100))
+            is_whole = stream.read().rstrip().endswith(b"</VTKFile>")
+        else:  # where a write has failed there is no room for more: those that do not look write a few KiB at a time
+            os.posix_fallocate(stream.fileno(), size, 1 << 16)
+            stream.truncate(size)
+            is_whole = True
     if is_whole and re.search(r"\.(pv\w+|vt(m|mb|pc|pd|h|hb))$", file):  # which names others
         with open(file, encoding="utf-8", errors="surrogateescape") as text:
             others = re.findall(r'<(?:Piece|DataSet)\b[^>]*? (?:Source|file)="([^"]*)"', text.read())
@@ -161,12 +169,9 @@ def _on_first(path: str, work: Callable[[], str]) -> str:
     if not together or ranks.GetLocalProcessId() == 0:
         try:
             told.InsertNextValue(work())
-        except OSError as error:
+        except Exception as error:  # the other ranks wait for it
             told.InsertNextValue("")
-            told.InsertNextValue(f"cannot write: {error.strerror or error}")
-        except RuntimeError as error:
-            told.InsertNextValue("")
-            told.InsertNextValue(str(error))
+            told.InsertNextValue(f"cannot write: {error.strerror or error}" if isinstance(error, OSError) else str(error))
     if together:
         table = vtkTable()
         table.GetFieldData().AddArray(told)
@@ -203,7 +208,7 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
             raise RuntimeError(errors[0])
         if "DataMode" not in properties:
             put_inline(file)
-        if os.path.exists(old) and _identity(old) in inputs:
+        if _is_one_of(old, inputs):
             raise RuntimeError(f"expected other files to write, got one that is read: {shown(old)}")
 
     def finish() -> str:
@@ -259,8 +264,8 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
     if "*" in os.path.basename(path):  # the writer knows the readers of this plugin alone
         folder, name = os.path.split(path)
         foreign = _inputs(proxy, ours=False)
-        for old in glob.glob(os.path.join(glob.escape(folder), "*".join(map(glob.escape, name.split("*", 1))))):
-            if _identity(old) in foreign:
+        for old in glob.glob(os.path.join(glob.escape(folder), "*".join(map(glob.escape, name.split("*", 1))))) if foreign else ():
+            if _is_one_of(old, foreign):
                 raise ValueError(f"{shown(old)}: expected other files to write, got one that is read")
     written = getattr(servermanager.writers, writer)(Input=proxy, FileName=path)
     for name, value in properties.items():

@@ -141,20 +141,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for i in range(len(words) - 1, 0, -1):
         if words[i - 1] in ("--frames", "--frame") and re.match(r"-\d", words[i]):  # argparse takes -2: for an option
             words[i - 1:i + 1] = [f"{words[i - 1]}={words[i]}"]
+    status = 0
     try:
         try:
             given = parser().parse_args(words)
             with warnings.catch_warnings():
                 warnings.simplefilter("once")
                 warnings.showwarning = lambda message, *_: say(str(message))  # type: ignore[assignment]
-                return given.run(given) or 0
+                status = given.run(given) or 0
         finally:
             _flush()
+        return status
     except (KeyboardInterrupt, Cancelled):
         say("interrupted; files that were there are as they were")
         return INTERRUPTED
     except BrokenPipeError:  # the reader of a pipe, such as head, has left
-        return 0
+        return status
     except (ValueError, ImportError) as error:
         say(str(error))
         return USAGE if not isinstance(error, Error) and isinstance(error, ValueError) else WRONG

@@ -5,6 +5,7 @@ A fault makes the exit status 1; a remark does not."""
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 from typing import Any
 
@@ -165,16 +166,14 @@ def run(arguments: argparse.Namespace) -> int:
         except RuntimeError as error:
             checker.faults.append(str(error))
     checker.finish(said)
-    status = WRONG if checker.faults else 0
     if arguments.json:
-        print(json.dumps({"given": arguments.files, "frames": count, "rows": rows, "faults": checker.faults,
-                          "remarks": checker.remarks}, indent=2))
-        return status
-    for word, texts in (("fault: ", checker.faults), ("remark: ", checker.remarks)):
-        for text in texts:
-            if not arguments.quiet or status:
-                print(word + text)
-    if not arguments.quiet or status:
+        text = json.dumps({"given": arguments.files, "frames": count, "rows": rows, "faults": checker.faults, "remarks": checker.remarks},
+                          indent=2)
+    else:
         faults = {0: "nothing is wrong", 1: "1 fault"}.get(len(checker.faults), f"{len(checker.faults)} faults")
-        print(f"{shown(' '.join(arguments.files))}: {count} frames, {rows} rows, {faults}")
-    return status
+        text = "\n".join([*("fault: " + fault for fault in checker.faults), *("remark: " + remark for remark in checker.remarks),
+                          f"{shown(' '.join(arguments.files))}: {count} frames, {rows} rows, {faults}"])
+    if arguments.json or checker.faults or not arguments.quiet:
+        with contextlib.suppress(BrokenPipeError):  # the status tells of faults that nobody reads
+            print(text)
+    return WRONG if checker.faults else 0

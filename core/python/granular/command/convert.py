@@ -7,6 +7,7 @@ import os
 import re
 from typing import Any, Callable, Iterable
 
+from .._inline import put_inline
 from .._library import shown
 from .._whole_file import whole_file
 from . import add_frames, add_reading, chosen, open_run
@@ -128,16 +129,11 @@ def _write_vtk(frame: Any, path: str, ending: str) -> None:
         except ImportError as error:
             raise ImportError(f".vtkhdf needs VTK 9.4 or later: {error}") from error
         writer = vtkHDFWriter()
-    if is_xml := ending != ".vtkhdf":
-        writer.SetDataModeToBinary()  # appended data are no XML for some versions of libexpat
-        writer.WriteToOutputStringOn()  # with such data VTK ends the program when a disk is full
     writer.SetFileName(path)
     writer.SetInputData(data)
     if not writer.Write():
         raise OSError(f"{shown(path)}: VTK could not write it")
-    if is_xml:
-        with open(path, "w", encoding="utf-8") as stream:
-            stream.write(writer.GetOutputString())
+    put_inline(path)
 
 
 _FRAME_WRITERS: dict[str, Callable[[Any, str, Any], None]] = {
