@@ -8,6 +8,9 @@ import tempfile
 from pathlib import Path
 
 with tempfile.TemporaryDirectory(dir=".") as home:
-    subprocess.run(sys.argv[1:], env={**os.environ, "HOME": os.path.abspath(home)}, check=True)
-    for settings in Path(home).rglob("*.json"):
+    home = os.path.abspath(home)
+    subprocess.run(sys.argv[1:], env={**os.environ, "HOME": home, "XDG_CONFIG_HOME": f"{home}/.config"}, check=True)
+    found = list(Path(home).rglob("*.json"))
+    assert found, "expected settings of ParaView, got none: where are they?"
+    for settings in found:
         assert json.loads(settings.read_text()) == {}, f"{settings.name}: {settings.read_text()}"

@@ -21,6 +21,8 @@ def film(source, name):
     table = source.GetDataInformation().GetDataClassName() == "vtkTable"
     view = chart if table else render
     display = Show(source, view)
+    for old in glob.glob(f"{name}.*.png"):
+        os.remove(old)
     SaveAnimation(f"{name}.png", view, ImageResolution=[120, 100])
     Hide(source, view)
     pictures = glob.glob(f"{name}.*.png")
