@@ -139,4 +139,17 @@ try:
     raise AssertionError("particles were written as cells")
 except RuntimeError as error:
     assert "v_avg" in str(error) or "expected" in str(error), error
+# a writer of its own asks for the whole after others asked for pieces, also when a file was looked at again in between
+algorithm = third.GetClientSideObject()
+for touched in (False, True):
+    algorithm.UpdatePiece(1, 3, 0)
+    if touched:
+        particles.GetClientSideObject().Modified()
+    writer = granular.vtkGranularDumpWriter()
+    writer.SetController(None)
+    writer.SetInputConnection(algorithm.GetOutputPort())
+    writer.SetFileName("whole.dump")
+    assert writer.Write()
+    with open("whole.dump") as file:
+        assert int(file.read(100).split("\n")[3]) == len(whole["id"]), touched
 print("all was saved")

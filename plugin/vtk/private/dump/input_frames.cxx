@@ -2,6 +2,7 @@
 #include "private/dump/input_frames.h"
 
 #include "private/request/abort.h"
+#include "private/request/kept_pieces.h"
 
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
@@ -106,6 +107,8 @@ bool InputFrames::UpdateHere(std::optional<double> time)
   request->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Wanted.Piece);
   request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Wanted.Pieces);
   request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), this->Wanted.GhostLevels);
+  this->Source->UpdateInformation();
+  ForgetPieces(this->Info);
   return this->Source->Update(this->Port, requests) != 0;
 }
 

@@ -49,6 +49,21 @@ public:
     }
   }
 };
+
+PiecesKey* GetKey()
+{
+  static PiecesKey* const key = new PiecesKey; // of VTK, which deletes all keys
+  return key;
+}
+}
+
+void ForgetPieces(vtkInformation* output)
+{
+  const int none[] = { 0, 1, 0 };
+  if (output->Has(GetKey()))
+  {
+    output->Set(GetKey(), none, 3);
+  }
 }
 
 void KeepPieces(vtkAlgorithm* self, vtkInformationVector* outputs)
@@ -56,11 +71,10 @@ void KeepPieces(vtkAlgorithm* self, vtkInformationVector* outputs)
   // other programs say which piece they want after information is made
   if (self->GetExecutive()->IsA("vtkPVCompositeDataPipeline"))
   {
-    static PiecesKey* const key = new PiecesKey; // of VTK, which deletes all keys
     const int none[] = { 0, 1, 0 };
     for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
     {
-      outputs->GetInformationObject(port)->Set(key, none, 3);
+      outputs->GetInformationObject(port)->Set(GetKey(), none, 3);
     }
   }
 }

@@ -3,6 +3,7 @@
 #define vtkGranularKeptPieces_h
 
 class vtkAlgorithm;
+class vtkInformation;
 class vtkInformationVector;
 
 namespace vtkGranularPrivate
@@ -17,6 +18,11 @@ namespace vtkGranularPrivate
  * overwrites them, and sets them again when the time is requested, which is the next step.
  */
 void KeepPieces(vtkAlgorithm* self, vtkInformationVector* outputs);
+
+/**
+ * Forgets the pieces of earlier requests of an output. Call after UpdateInformation, before another piece is requested.
+ */
+void ForgetPieces(vtkInformation* output);
 }
 
 #endif
