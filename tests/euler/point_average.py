@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields at points: a real bed of LIGGGHTS against sums by numpy; arrays of the points; what is missing, or cannot be."""
+import functools
+
 import numpy
 from contact_averages import ALL, GAUSSIAN, HEAVISIDE, LUCY, Averages, Run
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -18,6 +20,7 @@ def value(kernel, r):
     return numpy.where(r < support * WIDTH, shape(r), 0)
 
 
+@functools.lru_cache(maxsize=None)
 def volume(kernel):
     r = (numpy.arange(200000) + 0.5) * (3 * WIDTH / 200000)
     return (4 * numpy.pi * r**2 * value(kernel, r)).sum() * (3 * WIDTH / 200000)

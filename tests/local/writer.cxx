@@ -504,10 +504,11 @@ TEST(LocalWriterErrors, Properties)
                            "or BONDS, and not that of another section, got '";
   const auto expect = [&](const std::string& text)
   { writer.ExpectError(vtkErrorCode::UnknownError, text); };
-  for (const char* label : { "MY BONDS", "ATOMS", "BONDS\n" })
+  for (const auto& [label, shown] :
+    { std::pair{ "MY BONDS", "MY BONDS" }, { "ATOMS", "ATOMS" }, { "BONDS\n", "BONDS\\n" } })
   {
     writer->SetLabel(label);
-    writer.ExpectUnsupported(word + label + "'");
+    writer.ExpectUnsupported(word + shown + "'");
   }
   writer->SetLabel("BONDS");
   writer->SetColumns("id1 id3");
