@@ -10,6 +10,9 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
+#include "vtkGranularGrainMapper.h"
+#include "vtkGranularPlaceInView.h"
+#include "vtkHardwareSelector.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
@@ -22,65 +25,21 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
-#include "vtkShaderProperty.h"
 #include "vtkVariant.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <vector>
 
 namespace
 {
-using Place = std::array<double, 3>;
-
-// Returns a place near what the camera looks at, from which points are counted before they become floats.
-// It depends on the camera alone, so that all ranks find the same one. It lies on a lattice with a spacing of
-// 32 to 256 times half the height of the view. So it seldom changes, and a float holds points in view, up to
-// 2^8 such halves away, to 2^-16 of a half: some hundredths of a pixel. The focal point counts only where it
-// is between the clipping planes: it may be anywhere on the line of sight.
-Place PlaceInView(vtkCamera* camera)
-{
-  Place position;
-  Place place;
-  camera->GetPosition(position.data());
-  camera->GetFocalPoint(place.data());
-  const double distance =
-    std::clamp(camera->GetDistance(), camera->GetClippingRange()[0], camera->GetClippingRange()[1]);
-  const double half = camera->GetParallelProjection()
-    ? camera->GetParallelScale()
-    : distance * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
-  int exponent = 0;
-  std::frexp(32.0 * half, &exponent);
-  const double spacing = std::ldexp(1.0, 3 * static_cast<int>(std::ceil(exponent / 3.0)));
-  const double along = distance / camera->GetDistance();
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    place[axis] = position[axis] + along * (place[axis] - position[axis]);
-    place[axis] = spacing * std::round(place[axis] / spacing);
-    if (!std::isfinite(place[axis]))
-    {
-      return Place{};
-    }
-  }
-  return place;
-}
-
-// Returns where a place is in the coordinates of the data that an actor moves.
-Place InData(const Place& place, vtkActor* actor)
-{
-  if (actor->vtkProp3D::GetIsIdentity())
-  {
-    return place;
-  }
-  vtkNew<vtkMatrix4x4> inverse;
-  vtkMatrix4x4::Invert(actor->GetMatrix(), inverse);
-  double moved[4] = { place[0], place[1], place[2], 1.0 };
-  inverse->MultiplyPoint(moved, moved);
-  return { moved[0], moved[1], moved[2] };
-}
+using namespace vtkGranularPlaceInView;
 
 vtkSmartPointer<vtkPolyData> CountedFrom(const Place& place, vtkPolyData* data)
 {
@@ -141,7 +100,8 @@ bool LackRadii(vtkDataObject* data, const char* name)
   }
   for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(data))
   {
-    if (block->GetPointData()->HasArray(name) && !AreScaled(block->GetFieldData()))
+    if ((block->GetPointData()->HasArray(name) || vtkGranularGrainMapper::GetShapes(block)) &&
+      !AreScaled(block->GetFieldData()))
     {
       return false;
     }
@@ -149,9 +109,19 @@ bool LackRadii(vtkDataObject* data, const char* name)
   return true;
 }
 
-// A mapper that is right where floats are not: vtkOpenGLPointGaussianMapper makes floats of coordinates as they
-// are, here they are first counted from a place in view, in doubles. The actor adds the place again. It draws points with the
-// property's size where there are no radii, as it does for a factor of 0.
+// Returns the box around the centres of particles.
+vtkBoundingBox CentreBounds(vtkDataObject* data)
+{
+  vtkBoundingBox bounds;
+  for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(data))
+  {
+    bounds.AddBounds(block->GetBounds());
+  }
+  return bounds;
+}
+
+// A mapper that draws the surfaces of particles. Where there are no radii, the superclass draws points with the property's size, as it
+// does for a factor of 0. It makes floats of coordinates as they are: they are first counted from a place, in doubles.
 class GrainsMapper : public vtkOpenGLPointGaussianMapper
 {
 public:
@@ -166,6 +136,7 @@ public:
       this->Grains = data;
       this->Time = data ? data->GetMTime() : 0;
       this->Superclass::SetInputDataObject(port, CountedFrom(this->From, data));
+      this->SetBlocks();
     }
   }
 
@@ -177,7 +148,12 @@ public:
       this->AreDots = dots;
       this->Modified();
     }
-    const Place place = InData(PlaceInView(renderer->GetActiveCamera()), actor);
+    const Place place = this->ChoosePlace(renderer->GetActiveCamera(), actor);
+    if (!dots)
+    {
+      this->DrawBlocks(renderer, actor, place);
+      return;
+    }
     if (place != this->From)
     {
       this->From = place;
@@ -191,13 +167,120 @@ public:
     return this->AreDots ? 0.0 : this->Superclass::GetScaleFactor();
   }
 
+  double GetGivenFactor() { return this->Superclass::GetScaleFactor(); } // of others than dots
+
+  void ReleaseGraphicsResources(vtkWindow* window) override
+  {
+    for (const auto& block : this->Blocks)
+    {
+      block->ReleaseGraphicsResources(window);
+    }
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
+
+  void ProcessSelectorPixelBuffers(
+    vtkHardwareSelector* selector, std::vector<unsigned int>& pixels, vtkProp* prop) override
+  {
+    if (this->AreDots)
+    {
+      this->Superclass::ProcessSelectorPixelBuffers(selector, pixels, prop);
+      return;
+    }
+    const unsigned char* indices =
+      selector->GetRawPixelBuffer(vtkHardwareSelector::COMPOSITE_INDEX_PASS);
+    for (const auto& block : this->Blocks)
+    {
+      std::vector<unsigned int> own;
+      std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(own),
+        [&](unsigned int pixel)
+        {
+          const unsigned int index = !indices ? 0
+                                              : indices[pixel] | indices[pixel + 1] << 8 |
+              static_cast<unsigned int>(indices[pixel + 2]) << 16;
+          return indices && index == block->GetFlatIndex() + 1;
+        });
+      if (!own.empty())
+      {
+        block->ProcessSelectorPixelBuffers(selector, own, prop);
+      }
+    }
+  }
+
   vtkDataObject* GetGrains() { return this->Grains; } // where they are
-  const Place& GetFrom() { return this->From; }
+  const Place& GetDotsFrom() { return this->From; }
 
 private:
+  void SetBlocks()
+  {
+    this->Blocks.clear();
+    const auto add = [this](vtkPolyData* data, unsigned int index)
+    {
+      if (data && data->GetNumberOfPoints() > 0)
+      {
+        this->Blocks.push_back(vtkSmartPointer<vtkGranularGrainMapper>::New());
+        this->Blocks.back()->SetInputData(data);
+        this->Blocks.back()->SetFlatIndex(index);
+      }
+    };
+    if (auto* blocks = vtkCompositeDataSet::SafeDownCast(this->Grains))
+    {
+      auto each = vtk::TakeSmartPointer(blocks->NewIterator());
+      for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem())
+      {
+        add(vtkPolyData::SafeDownCast(each->GetCurrentDataObject()), each->GetCurrentFlatIndex());
+      }
+    }
+    else
+    {
+      add(vtkPolyData::SafeDownCast(this->Grains), 1);
+    }
+    this->Centres = CentreBounds(this->Grains);
+  }
+
+  // Depths are as exact as the coordinates: the middle of the particles serves all pictures but those of a small part.
+  Place ChoosePlace(vtkCamera* camera, vtkActor* actor)
+  {
+    Place middle{};
+    if (!this->AreDots && this->Centres.IsValid() &&
+      this->Centres.GetDiagonalLength() < MostSizes * HalfHeight(camera))
+    {
+      this->Centres.GetCenter(middle.data());
+      return middle;
+    }
+    return InData(PlaceInView(camera), actor);
+  }
+
+  void DrawBlocks(vtkRenderer* renderer, vtkActor* actor, const Place& place)
+  {
+    if (renderer->GetRenderWindow()->CheckAbortStatus())
+    {
+      return;
+    }
+    vtkHardwareSelector* selector = renderer->GetSelector();
+    if (selector)
+    {
+      selector->BeginRenderProp();
+    }
+    for (const auto& block : this->Blocks)
+    {
+      if (selector && selector->GetCurrentPass() == vtkHardwareSelector::COMPOSITE_INDEX_PASS)
+      {
+        selector->RenderCompositeIndex(block->GetFlatIndex());
+      }
+      block->Draw(renderer, actor, this, place);
+    }
+    if (selector)
+    {
+      selector->EndRenderProp();
+    }
+    this->UpdateProgress(1.0);
+  }
+
   vtkSmartPointer<vtkDataObject> Grains;
+  std::vector<vtkSmartPointer<vtkGranularGrainMapper>> Blocks;
+  vtkBoundingBox Centres;
   vtkMTimeType Time = 0;
-  Place From{};
+  Place From{}; // of dots
   bool AreDots = false;
 };
 vtkStandardNewMacro(GrainsMapper);
@@ -206,10 +289,13 @@ vtkStandardNewMacro(GrainsMapper);
 // must not show in where the camera is put.
 void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
 {
-  auto* mapper = vtkPointGaussianMapper::SafeDownCast(actor->GetMapper());
+  auto* mapper = static_cast<GrainsMapper*>(actor->GetMapper());
   const char* name = mapper->GetScaleArray();
   vtkDataArray* radii = name ? data->GetPointData()->GetArray(name) : nullptr;
-  const double factor = LackRadii(data, name) ? 0.0 : mapper->GetScaleFactor();
+  const double factor = LackRadii(data, name) ? 0.0 : mapper->GetGivenFactor();
+  vtkDataArray* shapes = vtkGranularGrainMapper::GetShapes(data);
+  const double half = vtkGranularGrainMapper::GetShapeFactor(data);
+  const double without = name && name[0] ? 0.0 : 1.0;
   vtkMatrix4x4* matrix = actor->vtkProp3D::GetIsIdentity() ? nullptr : actor->GetMatrix();
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
@@ -219,7 +305,13 @@ void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
     {
       matrix->MultiplyPoint(centre, centre);
     }
-    double radius = factor * (radii ? radii->GetComponent(i, 0) : 1.0);
+    double radius = radii ? radii->GetComponent(i, 0) : without;
+    if (shapes)
+    {
+      const double* axes = shapes->GetTuple3(i);
+      radius = std::max(radius, half * vtkMath::Norm(axes)); // of a box around it
+    }
+    radius *= factor;
     if (!(radius > 0.0 && std::isfinite(radius)))
     {
       radius = 0.0; // nothing is drawn of it
@@ -333,14 +425,14 @@ public:
 
   int GetIsIdentity() override
   {
-    return this->GetGrainsMapper()->GetFrom() == Place{} && this->Superclass::GetIsIdentity();
+    return this->GetGrainsMapper()->GetDotsFrom() == Place{} && this->Superclass::GetIsIdentity();
   }
 
   // The matrices of OpenGL: they are applied to rows.
   void GetKeyMatrices(vtkMatrix4x4*& matrix, vtkMatrix3x3*& normals) override
   {
     this->Superclass::GetKeyMatrices(matrix, normals);
-    const Place& from = this->GetGrainsMapper()->GetFrom();
+    const Place& from = this->GetGrainsMapper()->GetDotsFrom();
     const double place[4] = { from[0], from[1], from[2], 1.0 };
     this->FromPlace->DeepCopy(matrix);
     this->FromPlace->Transpose();
@@ -371,13 +463,6 @@ vtkGranularGrainsRepresentation::vtkGranularGrainsRepresentation()
   this->Mapper = vtkSmartPointer<GrainsMapper>::New();
   this->Actor = vtkSmartPointer<GrainsActor>::New();
   this->Actor->SetMapper(this->Mapper);
-  // From VTK 9.4 on spheres are projected as if they were small, which would stretch one beside the camera over all
-  // of the picture. So the mapper leaves out every sphere whose centre is outside the view by a third. Only those more
-  // than 60 degrees off the line of sight have to go; where the shader has no such line, nothing is replaced.
-  const std::string outside = "posDC.x < -1.3*posDC.w || posDC.x > 1.3*posDC.w || posDC.y < "
-                              "-1.3*posDC.w || posDC.y > 1.3*posDC.w";
-  this->Actor->GetShaderProperty()->AddVertexShaderReplacement("if (" + outside + ")", true,
-    "if ((" + outside + ") && cameraParallel == 0 && length(posVC.xy) > -1.7 * posVC.z)", false);
 }
 
 vtkGranularGrainsRepresentation::~vtkGranularGrainsRepresentation() = default;
@@ -391,6 +476,36 @@ void vtkGranularGrainsRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 void vtkGranularGrainsRepresentation::SetRadiusArray(const char* name)
 {
   this->SelectScaleArray(0, 0, 0, 0, name);
+  this->MarkModified(); // the bounds are others
+}
+
+void vtkGranularGrainsRepresentation::SetSplatSize(double factor)
+{
+  if (factor != static_cast<GrainsMapper*>(this->Mapper.Get())->GetGivenFactor())
+  {
+    this->Superclass::SetSplatSize(factor);
+    this->MarkModified();
+  }
+}
+
+void vtkGranularGrainsRepresentation::SetAmbient(double part)
+{
+  this->Actor->GetProperty()->SetAmbient(part);
+}
+
+void vtkGranularGrainsRepresentation::SetDiffuse(double part)
+{
+  this->Actor->GetProperty()->SetDiffuse(part);
+}
+
+void vtkGranularGrainsRepresentation::SetSpecular(double brightness)
+{
+  this->Actor->GetProperty()->SetSpecular(brightness);
+}
+
+void vtkGranularGrainsRepresentation::SetSpecularPower(double sharpness)
+{
+  this->Actor->GetProperty()->SetSpecularPower(sharpness);
 }
 
 bool vtkGranularGrainsRepresentation::IsTranslucent()

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""On any number of ranks the picture is the one that arithmetic says: in each pixel the nearest disc,
-its colour and its shade. The grains are dealt to the ranks at random, in slabs, and to one alone."""
+"""On any number of ranks the picture is the one that arithmetic says: in each pixel the nearest surface. The grains are dealt to the ranks at random, in slabs, and to one alone."""
 import os
 
 import granular
 import numpy
-from discs import LEVELS, Camera, black_view, color_by_id, picture
+from discs import ROUNDED, Camera, black_view, color_by_id, picture
 from paraview.simple import *
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints, vtkTypeInt64Array
@@ -82,9 +81,8 @@ def expect_whole_if_translucent(name, display):
     display.Opacity = 0.5
     look()
     pixels = picture(view, name)
-    ids, shade, edge = CAMERA.discs(CENTRES, RADII, IDS, PIXELS)
-    assert not pixels[(ids == 0) & ~edge].any(), (name, "something where nothing is")
-    assert pixels[(ids > 0) & (shade > 0.1)].any(axis=1).all(), (name, "nothing where something is")
+    wrong = pixels.any(axis=2) != (CAMERA.seen(CENTRES, RADII, IDS, PIXELS) > 0)
+    assert wrong.sum() <= ROUNDED, (name, wrong.sum())
     display.Opacity = 1
 
 
@@ -139,6 +137,6 @@ Render(view)
 CAMERA.look(view, 2.5 * RIGHT)
 pixels = picture(view, "one")
 line = (numpy.arange(PIXELS) + 0.5) * 2 * SCALE / PIXELS - SCALE
-shade = 1 - ((line[None, :] + 2.5) ** 2 + line[:, None] ** 2) / 4.0 ** 2
-assert (shade < 0).any() and (shade > 0.5).any()
-assert abs(pixels.sum(axis=2) - 255 * numpy.maximum(shade, 0)).max() < 2 * LEVELS
+inside = (line[None, :] + 2.5)**2 + line[:, None]**2 < RADII[0]**2
+assert inside.any() and not inside.all()
+assert (pixels.any(axis=2) != inside).sum() <= ROUNDED

@@ -37,6 +37,7 @@ def radii(display, middle):
     """Radii of what is left and right of a place on both axes, from its width, height and area."""
     display.ColorArrayName = [None, ""]
     display.AmbientColor = display.DiffuseColor = [1, 1, 1]
+    display.Ambient, display.Diffuse, display.Specular = 1, 0, 0  # no side without light
     Render(view)  # the first one resets the camera
     view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [middle, middle, 50], [middle, middle, 0], [0, 1, 0]
     view.CameraParallelScale = 400 / PIXELS

@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of spheres, and what arithmetic in doubles says of them: in each pixel the nearest disc, its
-colour and its shade."""
-import math
-
+"""Pictures of spheres, and what arithmetic in doubles says of them: in each pixel the nearest surface."""
 import numpy
+import ray_caster
 from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, SaveScreenshot
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkRenderingCore import vtkCamera
 
-EDGE = 0.01  # pixels: within, rounding decides
-# From VTK 9.4 on a sphere in perspective is projected as if it were small, and lies in the picture's plane.
-PROJECTED = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion(), vtkVersion.GetVTKBuildVersion()) >= \
-    (9, 3, 20240101)
+ROUNDED = 3  # pixels of a picture where two surfaces, or a surface and nothing, meet within what floats hold
 LEVELS = 1.5  # of 255: the table of colours has 256, and each value is rounded
 
 
@@ -35,6 +30,7 @@ def color_by_id(display, view, last):
     colors.RGBPoints = [1, 1, 0, 0, last, 0, 0, 1]
     ColorBy(display, ("POINTS", "id"))
     display.RescaleTransferFunctionToDataRange(False)
+    display.Ambient, display.Diffuse, display.Specular = 1, 0, 0  # colours as they are
     display.LookupTable = colors
     display.SetScalarBarVisibility(view, False)
     colors.RescaleTransferFunction(1, last)
@@ -49,18 +45,6 @@ def picture(view, name):
     width, height = view.ViewSize
     pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())
     return pixels.reshape(height, width, -1)[:, :, :3].astype(float)
-
-
-def projected_distance(x, y, centre, radius, half):
-    """Returns how far x and y are from a sphere's centre, in units of the ellipse that the projection's derivative at
-    the centre makes of the sphere. The view's half height is `half` at distance 1."""
-    u, v = centre[:2] / -centre[2]
-    scale = (radius / centre[2]) ** 2
-    uu, vv, uv = scale * (1 + u * u), scale * (1 + v * v), scale * u * v
-    if abs(uv) <= 1e-6 * half ** 2:  # as the shader has it
-        uv = 0
-    along, across = x - u, y - v
-    return numpy.sqrt((vv * along ** 2 - 2 * uv * along * across + uu * across ** 2) / (uu * vv - uv * uv))
 
 
 class Camera:
@@ -82,58 +66,26 @@ class Camera:
         else:
             view.CameraViewAngle = self.angle
 
-    def discs(self, centres, radii, ids, pixels):
-        """Returns of each pixel the id of the nearest disc or 0, its shade, and True where an edge is near.
-        A disc faces the eye, and its shade falls with the square of the distance from the centre."""
-        normal = self.position - self.focal
-        normal /= numpy.linalg.norm(normal)
-        right = numpy.cross([0, 1, 0], normal)
-        right /= numpy.linalg.norm(right)
-        axes = numpy.stack([right, numpy.cross(normal, right), normal])
-        half = math.tan(math.radians(self.angle) / 2) if self.scale is None else self.scale
-        unit = 2 * half / pixels
-        line = (numpy.arange(pixels) + 0.5) * unit - half
-        shape = (pixels, pixels)
-        nearest = numpy.full(shape, -numpy.inf)
-        seen, shade, edge = numpy.zeros(shape, int), numpy.zeros(shape), numpy.zeros(shape, bool)
-        for centre, radius, identity in zip((centres - self.position) @ axes.T, radii, ids):
-            depth, pixel = (centre[2], unit) if self.scale is not None else (None, -centre[2] * unit)
-            # of the pixels only those around the disc
-            reach = radius + EDGE * abs(pixel)
-            ends = numpy.stack([centre[:2] - reach, centre[:2] + reach])
-            if self.scale is None:
-                ends = (numpy.concatenate([ends / (-centre[2] - reach), ends / (-centre[2] + reach)])
-                        if -centre[2] > reach and not PROJECTED else numpy.array([[-numpy.inf], [numpy.inf]]) * [1, 1])
-            columns, rows = (slice(*numpy.searchsorted(line, [ends[:, k].min(), ends[:, k].max()])) for k in (0, 1))
-            x, y = line[None, columns], line[rows, None]
-            if self.scale is not None:
-                distance = numpy.hypot(x - centre[0], y - centre[1])
-            elif PROJECTED:
-                u, v = abs(centre[:2] / centre[2])
-                if numpy.hypot(u, v) > 1.7 and max(u, v) > 1.3 * half:
-                    continue  # stretched too far, and left out
-                distance, depth = radius * projected_distance(x, y, centre, radius, half), centre[2]
-            else:
-                along = centre @ centre / (x * centre[0] + y * centre[1] - centre[2])
-                distance = numpy.sqrt((along * x - centre[0]) ** 2 + (along * y - centre[1]) ** 2
-                                      + (along + centre[2]) ** 2)
-                depth = -along
-            before = nearest[rows, columns]
-            inside = (distance < radius) & (depth > before) & (depth < 0)
-            before[...] = numpy.where(inside, depth, before)
-            seen[rows, columns][inside] = identity
-            shade[rows, columns][inside] = 1 - (distance[inside] / radius) ** 2
-            edge[rows, columns] |= abs(distance - radius) < EDGE * pixel
-        return seen, shade, edge
+    def seen(self, centres, radii, ids, pixels):
+        """Returns of each pixel the id of the particle whose surface is seen there, or 0."""
+        look = vtkCamera()
+        look.SetPosition(self.position)
+        look.SetFocalPoint(self.focal)
+        look.SetViewUp(0, 1, 0)
+        look.SetParallelProjection(self.scale is not None)
+        look.SetParallelScale(self.scale or 1)
+        look.SetViewAngle(self.angle or 30)
+        look.SetClippingRange(1e-6, 1e6)
+        number = ray_caster.cast(ray_caster.Camera(look, pixels, pixels), centres, numpy.repeat(numpy.c_[radii], 3, axis=1))[2]
+        return numpy.append(ids, 0)[number]
 
     def compare(self, pixels, centres, radii, ids, last):
-        """Raises AssertionError unless the pixels show these discs, coloured by id as color_by_id does."""
-        seen, shade, edge = self.discs(centres, radii, ids, len(pixels))
-        assert (seen > 0).sum() > 5000 and edge.mean() < 0.01, "the truth itself shows little"
-        wrong = pixels.any(axis=2) & (seen == 0) & ~edge
-        assert not wrong.any(), f"something where nothing is: {wrong.sum()} pixels"
-        inside = (seen > 0) & ~edge
-        blue = (seen[inside] - 1) / (last - 1)
-        exact = 255 * shade[inside][:, None] * numpy.stack([1 - blue, 0 * blue, blue], axis=1)
-        away = abs(pixels[inside] - exact).max(axis=1)
-        assert away.max() < LEVELS, f"{(away >= LEVELS).sum()} pixels of {inside.sum()}: {away.max()} levels"
+        """Raises AssertionError unless the pixels show these spheres, without light and coloured by id as color_by_id does."""
+        seen = self.seen(centres, radii, ids, len(pixels))
+        assert (seen > 0).sum() > 5000, "the truth itself shows little"
+        wrong = pixels.any(axis=2) != (seen > 0)
+        assert wrong.sum() <= ROUNDED, f"nothing, or something, where it is not: {wrong.sum()} pixels"
+        blue = (seen - 1) / (last - 1)
+        exact = 255 * numpy.stack([1 - blue, 0 * blue, blue], axis=2)
+        away = abs(pixels - exact).max(axis=2)[(seen > 0) & ~wrong] >= LEVELS
+        assert away.sum() <= ROUNDED, f"{away.sum()} pixels of {away.size} have another colour"

@@ -106,8 +106,7 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     legend  True: shows the colour bar of `color`, or the names of the types.
 
     The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the same on any number of
-    ranks. They are discs with the shading of spheres: where two overlap, one covers the other, and no line shows where they
-    meet. Colours of numbers span the values of the frame shown now or, if that has no particles, of the last frame.
+    ranks. Each pixel has the depth and the light of the surface that is seen there. Colours of numbers span the values of the frame shown now or, if that has no particles, of the last frame.
 
     Raises RuntimeError if the plugin was not loaded before, or if there is no display to draw on; ValueError if there is no
     array `color`, or no output for box or bonds.
@@ -122,7 +121,7 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     # ParaView does not know the arrays of a frame without particles: later ones will have them
     empty = reader.GetDataInformation().GetNumberOfPoints() == 0
     by_array = isinstance(radius, str) and not _is_scaled(reader) and \
-        (empty or radius in reader.PointData.keys())
+        (empty or bool({radius, "shape"} & set(reader.PointData.keys())))
     display.GrainRadiusArray = radius if by_array else ""
     if by_array:
         display.GrainScale = 1.0

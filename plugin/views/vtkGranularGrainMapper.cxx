@@ -1,0 +1,586 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGranularGrainMapper.h"
+
+#include "vtkDataArrayRange.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkGranularGrainFragments.h"
+#include "vtkGranularGrainShaders.h"
+#include "vtkHardwareSelector.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLCamera.h"
+#include "vtkOpenGLHelper.h"
+#include "vtkOpenGLIndexBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkOpenGLVertexArrayObject.h"
+#include "vtkOpenGLVertexBufferObjectGroup.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkPointData.h"
+#include "vtkPointGaussianMapper.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkShader.h"
+#include "vtkShaderProgram.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace
+{
+constexpr int MostClips = 6; // as VTK has it
+constexpr unsigned int ViewportOfOpenGL =
+  0x0BA2; // GL_VIEWPORT, whose header depends on VTK's version
+
+void Replace(vtkShader* shader, const char* mark, const std::string& text)
+{
+  std::string source = shader->GetSource();
+  vtkShaderProgram::Substitute(source, mark, text);
+  shader->SetSource(source);
+}
+
+// Returns a component of a tuple, or its magnitude if there is no such component.
+double Component(vtkDataArray* array, vtkIdType i, int component)
+{
+  const int components = array->GetNumberOfComponents();
+  if (components == 1 || (component >= 0 && component < components))
+  {
+    return array->GetComponent(i, components == 1 ? 0 : component);
+  }
+  double sum = 0.0;
+  for (int k = 0; k < components; ++k)
+  {
+    sum += array->GetComponent(i, k) * array->GetComponent(i, k);
+  }
+  return std::sqrt(sum);
+}
+
+vtkSmartPointer<vtkFloatArray> MakeFloats(vtkIdType tuples, int components)
+{
+  auto made = vtkSmartPointer<vtkFloatArray>::New();
+  made->SetNumberOfComponents(components);
+  made->SetNumberOfTuples(tuples);
+  return made;
+}
+
+vtkSmartPointer<vtkFloatArray> CountedFrom(const std::array<double, 3>& place, vtkDataArray* points)
+{
+  auto made = MakeFloats(points->GetNumberOfTuples(), 3);
+  for (vtkIdType i = 0; i < points->GetNumberOfTuples(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      made->SetTypedComponent(
+        i, axis, static_cast<float>(points->GetComponent(i, axis) - place[axis]));
+    }
+  }
+  return made;
+}
+
+// Returns an array of so many components, or nullptr.
+vtkDataArray* Find(vtkDataSet* data, const char* name, int components)
+{
+  vtkDataArray* array = name ? data->GetPointData()->GetArray(name) : nullptr;
+  return array && (components == 0 || array->GetNumberOfComponents() == components) ? array
+                                                                                    : nullptr;
+}
+
+// Numbers of each particle: an array of several components, or as many arrays.
+class Numbers
+{
+public:
+  // Looks for one set of arrays after another.
+  Numbers(vtkPolyData* data, const std::vector<std::vector<const char*>>& sets, int components)
+  {
+    for (const std::vector<const char*>& names : sets)
+    {
+      this->Arrays.clear();
+      for (const char* name : names)
+      {
+        vtkDataArray* array = Find(data, name, components / static_cast<int>(names.size()));
+        if (array)
+        {
+          this->Arrays.push_back(array);
+        }
+      }
+      if (this->Arrays.size() == names.size())
+      {
+        return;
+      }
+    }
+    this->Arrays.clear();
+  }
+
+  // Leaves the numbers as they are if there are none.
+  void Get(vtkIdType i, double* numbers) const
+  {
+    for (vtkDataArray* array : this->Arrays)
+    {
+      array->GetTuple(i, numbers);
+      numbers += array->GetNumberOfComponents();
+    }
+  }
+
+private:
+  std::vector<vtkDataArray*> Arrays;
+};
+
+// What leads from the buffers, which are counted from a place, to the picture.
+struct View
+{
+  View(vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& from)
+    : Camera(static_cast<vtkOpenGLCamera*>(renderer->GetActiveCamera()))
+    , Scale(static_cast<float>(std::cbrt(std::abs(actor->GetMatrix()->Determinant()))))
+    , Near(static_cast<float>(-this->Camera->GetClippingRange()[0]))
+  {
+    vtkMatrix4x4* worldToCamera;
+    vtkMatrix3x3* normals;
+    vtkMatrix4x4* worldToPicture;
+    this->Camera->GetKeyMatrices(
+      renderer, worldToCamera, normals, this->CameraToPicture, worldToPicture);
+    vtkMatrix4x4::Multiply4x4(
+      this->Camera->GetModelViewTransformMatrix(), actor->GetMatrix(), this->ToCamera);
+    double place[4] = { from[0], from[1], from[2], 1.0 };
+    this->ToCamera->MultiplyPoint(place, place);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->ToCamera->SetElement(axis, 3, place[axis]); // in doubles until here
+    }
+  }
+
+  // OpenGL's matrices are applied to rows.
+  double Element(int row, int column) const
+  {
+    return this->CameraToPicture->GetElement(column, row);
+  }
+
+  vtkGranularHiddenGrains::View ForHidden() const
+  {
+    vtkGranularHiddenGrains::View made;
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        made.ToCamera[i][k] = static_cast<float>(this->ToCamera->GetElement(i, k));
+      }
+    }
+    made.Parallel = this->Camera->GetParallelProjection() != 0;
+    for (int i = 0; i < 2; ++i)
+    {
+      made.Scale[i] = static_cast<float>(this->Element(i, i));
+      made.Middle[i] =
+        static_cast<float>(made.Parallel ? this->Element(i, 3) : -this->Element(i, 2));
+    }
+    made.Near = this->Near;
+    made.Radius = this->Scale;
+    return made;
+  }
+
+  vtkOpenGLCamera* Camera;
+  vtkMatrix4x4* CameraToPicture;
+  vtkNew<vtkMatrix4x4> ToCamera;
+  float Scale; // of lengths
+  float Near;  // z of the near plane
+};
+
+// Returns the length of the longest vector whose components, by lengths a and b, have powers n that sum up to 1, by Hoelder's inequality.
+double Longest(double a, double b, double n)
+{
+  const double most = std::max(a, b);
+  if (n <= 2.0 || most <= 0.0)
+  {
+    return most;
+  }
+  const double power = 2.0 * n / (n - 2.0);
+  return most * std::pow(1.0 + std::pow(std::min(a, b) / most, power), 1.0 / power);
+}
+}
+
+vtkStandardNewMacro(vtkGranularGrainMapper);
+
+vtkGranularGrainMapper::vtkGranularGrainMapper() = default;
+vtkGranularGrainMapper::~vtkGranularGrainMapper() = default;
+
+void vtkGranularGrainMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FlatIndex: " << this->FlatIndex << "\n";
+  os << indent << "HaveShapes: " << this->HaveShapes << "\n";
+}
+
+vtkDataArray* vtkGranularGrainMapper::GetShapes(vtkDataSet* data)
+{
+  return Find(data, "shape", 3);
+}
+
+double vtkGranularGrainMapper::GetShapeFactor(vtkDataSet* data)
+{
+  if (Find(data, "quat", 4))
+  {
+    return 1.0; // of LIGGGHTS
+  }
+  vtkAbstractArray* dialect = data->GetFieldData()->GetAbstractArray("Dialect");
+  const bool lammps = dialect && dialect->GetNumberOfValues() == 1 &&
+    dialect->GetVariantValue(0).ToString() == "LAMMPS";
+  return lammps || Find(data, "quatw", 1) ? 0.5 : 1.0;
+}
+
+void vtkGranularGrainMapper::Draw(
+  vtkRenderer* renderer, vtkActor* actor, vtkPointGaussianMapper* owner, const Place& from)
+{
+  if (this->CopyTime < owner->GetMTime())
+  {
+    const vtkSmartPointer<vtkPolyData> input = this->GetInput();
+    this->vtkPolyDataMapper::ShallowCopy(owner);
+    this->SetInputData(input);
+    this->CopyTime.Modified();
+  }
+  this->Owner = owner;
+  this->From = from;
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  const int pass = selector ? selector->GetCurrentPass() : vtkHardwareSelector::MIN_KNOWN_PASS - 1;
+  if (this->LastSelectionState != pass)
+  {
+    this->SelectionStateChanged.Modified();
+    this->LastSelectionState = pass;
+  }
+  this->LastBoundBO = nullptr;
+  this->CurrentInput = this->GetInput();
+  this->UpdateBufferObjects(renderer, actor);
+  if (!this->FindSeen(renderer, actor) && !this->HasAll)
+  {
+    this->Upload(renderer, nullptr);
+  }
+  this->RenderPieceDraw(renderer, actor);
+  if (this->LastBoundBO)
+  {
+    this->LastBoundBO->VAO->Release();
+  }
+}
+
+void vtkGranularGrainMapper::GetShaderTemplate(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->vtkOpenGLPolyDataMapper::GetShaderTemplate(shaders, renderer, actor);
+  shaders[vtkShader::Vertex]->SetSource(vtkGranularGrainShaders::Vertex);
+  shaders[vtkShader::Geometry]->SetSource(vtkGranularGrainShaders::Geometry);
+}
+
+void vtkGranularGrainMapper::ReplaceShaderValues(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->vtkOpenGLPolyDataMapper::ReplaceShaderValues(
+    shaders, renderer, actor); // not that of VTK's spheres
+  const int planes = this->CountClips();
+  const std::string clips = planes > 0 ? "#define CLIPS " + std::to_string(planes) : "";
+  for (const auto& [type, shader] : shaders)
+  {
+    Replace(
+      shader, "//GRANULAR::Shapes", (this->HaveShapes ? "#define HAVE_SHAPES\n" : "") + clips);
+  }
+}
+
+void vtkGranularGrainMapper::ReplaceShaderPositionVC(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*)
+{
+  vtkShader* fragment = shaders[vtkShader::Fragment];
+  Replace(fragment, "//VTK::PositionVC::Dec", vtkGranularGrainShaders::FragmentInputs);
+  Replace(fragment, "//VTK::PositionVC::Impl", "vec4 vertexVC = vec4(0.0);\n");
+}
+
+void vtkGranularGrainMapper::ReplaceShaderNormal(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*)
+{
+  Replace(
+    shaders[vtkShader::Fragment], "//VTK::Depth::Impl", vtkGranularGrainShaders::FragmentSurface);
+}
+
+void vtkGranularGrainMapper::ReplaceShaderClip(
+  std::map<vtkShader::Type, vtkShader*>, vtkRenderer*, vtkActor*)
+{
+  // the surface is clipped where a ray meets it
+}
+
+void vtkGranularGrainMapper::SetCameraShaderParameters(
+  vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
+{
+  const View view(renderer, actor, this->From);
+  vtkShaderProgram* program = helper.Program;
+  vtkNew<vtkMatrix4x4> toCamera;
+  vtkMatrix4x4::Transpose(view.ToCamera, toCamera);
+  program->SetUniformMatrix("MCVCMatrix", toCamera);
+  program->SetUniformf("scaleVC", view.Scale);
+  program->SetUniformi("cameraParallel", view.Camera->GetParallelProjection());
+  program->SetUniformf("nearVC", view.Near);
+  const vtkGranularHiddenGrains::View picture = view.ForHidden();
+  const float toPicture[4] = { picture.Scale[0], picture.Scale[1], picture.Middle[0],
+    picture.Middle[1] };
+  program->SetUniform4f("pictureVC", toPicture);
+  int viewport[4]; // also of passes that draw into pictures of their own
+  static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())
+    ->GetState()
+    ->vtkglGetIntegerv(ViewportOfOpenGL, viewport);
+  float fromPixels[4];
+  for (int i = 0; i < 2; ++i)
+  {
+    const double step = 2.0 / (viewport[i + 2] * picture.Scale[i]);
+    fromPixels[i] = static_cast<float>(step);
+    fromPixels[i + 2] =
+      static_cast<float>(-(1.0 + picture.Middle[i]) / picture.Scale[i] - viewport[i] * step);
+  }
+  program->SetUniform4f("pixelVC", fromPixels);
+
+  // depth = (1 + (a z + b) / (c z + d)) / 2
+  const double a = view.Element(2, 2);
+  const double b = view.Element(2, 3);
+  const double c = view.Element(3, 2);
+  const double d = view.Element(3, 3);
+  const double z = view.ToCamera->GetElement(2, 3);
+  const double w = c * z + d;
+  const float depth[3] = { static_cast<float>(0.5 * (1.0 + (a * z + b) / w)),
+    static_cast<float>(0.5 * (a * d - b * c) / (w * w)), static_cast<float>(c / w) };
+  program->SetUniform3f("depthVC", depth);
+  this->SetClips(program, view.Camera->GetModelViewTransformMatrix());
+}
+
+int vtkGranularGrainMapper::CountClips()
+{
+  vtkPlaneCollection* planes = this->GetClippingPlanes();
+  return planes ? std::min(planes->GetNumberOfItems(), MostClips) : 0;
+}
+
+void vtkGranularGrainMapper::SetClips(vtkShaderProgram* program, vtkMatrix4x4* worldToCamera)
+{
+  vtkPlaneCollection* planes = this->GetClippingPlanes();
+  const int clips = this->CountClips();
+  vtkNew<vtkMatrix4x4> cameraToWorld;
+  vtkMatrix4x4::Invert(worldToCamera, cameraToWorld);
+  cameraToWorld->Transpose();
+  float clip[MostClips][4] = {};
+  for (int i = 0; i < clips; ++i)
+  {
+    const double* normal = planes->GetItem(i)->GetNormal();
+    const double* origin = planes->GetItem(i)->GetOrigin();
+    double plane[4] = { normal[0], normal[1], normal[2],
+      -(normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2]) };
+    cameraToWorld->MultiplyPoint(plane, plane);
+    std::transform(plane, plane + 4, clip[i], [](double each) { return static_cast<float>(each); });
+  }
+  if (clips > 0)
+  {
+    program->SetUniform4fv("clipVC", clips, clip);
+  }
+}
+
+bool vtkGranularGrainMapper::GetNeedToRebuildBufferObjects(vtkRenderer*, vtkActor* actor)
+{
+  vtkPiecewiseFunction* opacities = this->Owner->GetScalarOpacityFunction();
+  const vtkMTimeType changed =
+    std::max({ this->GetMTime(), this->CurrentInput->GetMTime(), this->Owner->GetMTime(),
+      actor->GetProperty()->GetMTime(), opacities ? opacities->GetMTime() : 0 });
+  return this->VBOBuildTime < changed || this->Built != this->From;
+}
+
+void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
+{
+  vtkPolyData* data = this->CurrentInput;
+  const vtkIdType count = data->GetNumberOfPoints();
+  this->Values.clear();
+  this->Values["vertexMC"] = CountedFrom(this->From, data->GetPoints()->GetData());
+  auto radii = MakeFloats(count, 1);
+  const char* name = this->Owner->GetScaleArray();
+  vtkDataArray* given = Find(data, name, 0);
+  const double same = name && name[0] ? 0.0 : 1.0; // where there is no such array
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double radius = this->Owner->GetScaleFactor() *
+      (given ? Component(given, i, this->Owner->GetScaleArrayComponent()) : same);
+    radii->SetValue(i, static_cast<float>(std::isfinite(radius) ? radius : 0.0));
+  }
+  this->Inner = radii;
+  this->BuildShapes(radii);
+  this->Values["radiusMC"] = radii;
+  this->BuildColors(actor);
+  this->HasAll = false;
+  this->Built = this->From;
+  this->VBOBuildTime.Modified();
+}
+
+// Puts particles into the buffers, all or those that are seen.
+void vtkGranularGrainMapper::Upload(
+  vtkRenderer* renderer, const vtkGranularHiddenGrains::Seen* seen)
+{
+  for (const char* name : { "vertexMC", "radiusMC", "scalarColor", "axesMC", "turnMC", "powersMC" })
+  {
+    vtkSmartPointer<vtkDataArray> values = this->Values[name];
+    if (values && seen)
+    {
+      values = vtk::TakeSmartPointer(values->NewInstance());
+      values->SetNumberOfComponents(this->Values[name]->GetNumberOfComponents());
+      values->SetNumberOfTuples(static_cast<vtkIdType>(seen->Grains.size()));
+      const int size = values->GetNumberOfComponents() * values->GetDataTypeSize();
+      const auto* from = static_cast<const char*>(this->Values[name]->GetVoidPointer(0));
+      auto* to = static_cast<char*>(values->GetVoidPointer(0));
+      for (const vtkIdType i : seen->Grains)
+      {
+        to = std::copy_n(from + size * i, size, to);
+      }
+    }
+    this->VBOs->CacheDataArray(
+      name, values, renderer, std::string(name) == "scalarColor" ? VTK_UNSIGNED_CHAR : VTK_FLOAT);
+  }
+  vtkNew<vtkUnsignedCharArray> parts;
+  parts->SetNumberOfComponents(4);
+  parts->SetNumberOfTuples(
+    seen ? static_cast<vtkIdType>(seen->Grains.size()) : this->CurrentInput->GetNumberOfPoints());
+  auto* to = reinterpret_cast<std::array<unsigned char, 4>*>(parts->GetPointer(0));
+  if (seen)
+  {
+    std::copy(seen->Parts.begin(), seen->Parts.end(), to);
+  }
+  else
+  {
+    std::fill_n(to, parts->GetNumberOfTuples(), std::array<unsigned char, 4>{ 0, 0, 255, 255 });
+  }
+  this->VBOs->CacheDataArray("partMC", parts, renderer, VTK_UNSIGNED_CHAR);
+  this->VBOs->BuildAllVBOs(renderer);
+  for (int i = PrimitiveStart; i < PrimitiveEnd; ++i)
+  {
+    this->Primitives[i].IBO->IndexCount = 0;
+  }
+  this->Primitives[PrimitiveTris].IBO->IndexCount =
+    1; // the superclass draws the points, whatever the number
+  this->HasAll = seen == nullptr;
+}
+
+// Puts the particles into the buffers that others do not hide. Returns false where all are to be drawn.
+bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
+{
+  constexpr vtkIdType fewest = 10000; // fewer are drawn at once
+  const vtkIdType count = this->CurrentInput->GetNumberOfPoints();
+  if (count < fewest || renderer->GetSelector() || this->IsTranslucent ||
+    actor->GetProperty()->GetOpacity() < 1.0 || this->CountClips() > 0)
+  {
+    return false;
+  }
+  vtkGranularHiddenGrains::Grains grains;
+  grains.Points = static_cast<const float*>(this->Values["vertexMC"]->GetVoidPointer(0));
+  grains.Outer = static_cast<const float*>(this->Values["radiusMC"]->GetVoidPointer(0));
+  grains.Inner = this->Inner->GetPointer(0);
+  grains.Count = count;
+  const vtkGranularHiddenGrains::Seen& seen =
+    this->Hidden.Find(View(renderer, actor, this->From).ForHidden(), grains);
+  if (2 * static_cast<vtkIdType>(seen.Grains.size()) > count)
+  {
+    return false;
+  }
+  this->Upload(renderer, &seen);
+  return true;
+}
+
+// Where there are shapes, the radii become those of spheres around them.
+void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
+{
+  vtkPolyData* data = this->CurrentInput;
+  vtkDataArray* shapes = GetShapes(data);
+  if (this->HaveShapes != (shapes != nullptr))
+  {
+    this->HaveShapes = shapes != nullptr;
+    this->Modified(); // another program
+  }
+  const Numbers quaternions(data, { { "quat" }, { "quatw", "quati", "quatj", "quatk" } }, 4);
+  const Numbers blockiness(data, { { "blockiness1", "blockiness2" }, { "block1", "block2" } }, 2);
+  const vtkIdType count = shapes ? data->GetNumberOfPoints() : 0;
+  auto axes = MakeFloats(count, 3);
+  auto turns = MakeFloats(count, 4);
+  auto powers = MakeFloats(count, 2);
+  auto inner = MakeFloats(count, 1);
+  const double factor = this->Owner->GetScaleFactor() * GetShapeFactor(data);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double half[3];
+    double turn[4] = { 1.0, 0.0, 0.0, 0.0 };
+    double power[2] = { 2.0, 2.0 };
+    shapes->GetTuple(i, half);
+    std::transform(half, half + 3, half, [&](double axis) { return axis * factor; });
+    if (half[0] > 0.0 && half[1] > 0.0 && half[2] > 0.0 &&
+      std::isfinite(half[0] + half[1] + half[2]))
+    {
+      blockiness.Get(i, power);
+      quaternions.Get(i, turn);
+      power[0] = std::isfinite(power[0]) ? std::max(power[0], 2.0) : 2.0;
+      power[1] = std::isfinite(power[1]) ? std::max(power[1], 2.0) : 2.0;
+      radii->SetValue(
+        i, static_cast<float>(Longest(Longest(half[0], half[1], power[1]), half[2], power[0])));
+    }
+    else
+    {
+      std::fill(half, half + 3, radii->GetValue(i));
+    }
+    const double length =
+      std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
+    for (int k = 0; k < 4; ++k)
+    {
+      turns->SetTypedComponent(
+        i, k, length > 0.0 ? static_cast<float>(turn[k] / length) : (k == 0 ? 1.0f : 0.0f));
+    }
+    axes->SetTuple(i, half);
+    inner->SetValue(i, static_cast<float>(std::min({ half[0], half[1], half[2] })));
+    powers->SetTuple(i, power);
+  }
+  if (shapes)
+  {
+    this->Inner = inner;
+    this->Values["axesMC"] = axes;
+    this->Values["turnMC"] = turns;
+    this->Values["powersMC"] = powers;
+  }
+}
+
+void vtkGranularGrainMapper::BuildColors(vtkActor* actor)
+{
+  vtkPolyData* data = this->CurrentInput;
+  const vtkIdType count = data->GetNumberOfPoints();
+  vtkDataArray* opacities = Find(data, this->Owner->GetOpacityArray(), 0);
+  vtkPiecewiseFunction* function = this->Owner->GetScalarOpacityFunction();
+  this->IsTranslucent = false;
+  this->MapScalars(1.0);
+  vtkUnsignedCharArray* mapped =
+    this->Colors && this->Colors->GetNumberOfTuples() == count ? this->Colors : nullptr;
+  if (!mapped && !opacities)
+  {
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(4);
+  colors->SetNumberOfTuples(count);
+  const double* plain = actor->GetProperty()->GetColor();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      const double color = k < 3 ? 255.0 * plain[k] : 255.0;
+      colors->SetTypedComponent(i, k,
+        mapped && k < mapped->GetNumberOfComponents() ? mapped->GetTypedComponent(i, k)
+                                                      : static_cast<unsigned char>(color));
+    }
+    if (opacities)
+    {
+      double opacity = Component(opacities, i, this->Owner->GetOpacityArrayComponent());
+      opacity = function ? function->GetValue(opacity) : opacity;
+      colors->SetTypedComponent(
+        i, 3, static_cast<unsigned char>(255.0 * std::clamp(opacity, 0.0, 1.0)));
+    }
+    this->IsTranslucent = this->IsTranslucent || colors->GetTypedComponent(i, 3) < 255;
+  }
+  this->Values["scalarColor"] = colors;
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGranularGrainMapper
+ * @brief   Draws the surfaces of particles by rays.
+ *
+ * Each pixel has the depth, the normal and the light of the surface that its ray meets. A particle is one vertex of the buffers, with
+ * 16 bytes for its centre and its radius, and a square in the picture that covers all that can be seen of it.
+ *
+ * Where the near plane or a clipping plane cuts a particle open, its inside is seen. Of a translucent particle the side towards the
+ * camera is seen.
+ *
+ * Particles are spheres, or superquadrics where there is a point array `shape`:
+ * (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 = 1 in the particle's own axes. Arrays, as dumps of LIGGGHTS and LAMMPS have them:
+ * - shape, 3 components: the half axes a b c, or twice as much with quatw and where the field data Dialect is LAMMPS;
+ * - quat, 4 components, or quatw quati quatj quatk: w x y z, which turns the particle's axes into those of the points; without it
+ *   nothing is turned;
+ * - blockiness1 and blockiness2, or block1 and block2: n1 along the particle's z, and n2 across it, both at least 2; without them 2
+ *   and 2, an ellipsoid.
+ * A particle whose shape has an axis that is not greater than 0 is a sphere of its radius.
+ */
+
+#ifndef vtkGranularGrainMapper_h
+#define vtkGranularGrainMapper_h
+
+#include "vtkGranularHiddenGrains.h" // For a member
+#include "vtkOpenGLSphereMapper.h"
+#include "vtkSmartPointer.h" // For members
+
+#include <array>  // For places
+#include <map>    // For values
+#include <string> // For names
+#include <vector> // For lists
+
+class vtkDataArray;
+class vtkDataSet;
+class vtkFloatArray;
+class vtkPointGaussianMapper;
+
+class vtkGranularGrainMapper : public vtkOpenGLSphereMapper
+{
+public:
+  static vtkGranularGrainMapper* New();
+  vtkTypeMacro(vtkGranularGrainMapper, vtkOpenGLSphereMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  using Place = std::array<double, 3>;
+
+  /**
+   * Draws the input with the radii, colours and opacities that another mapper tells. Coordinates are counted from a place before they
+   * become floats.
+   */
+  void Draw(
+    vtkRenderer* renderer, vtkActor* actor, vtkPointGaussianMapper* owner, const Place& from);
+
+  /**
+   * Returns the array of the axes of particles, or nullptr if they are spheres.
+   */
+  static vtkDataArray* GetShapes(vtkDataSet* data);
+
+  /**
+   * Returns what makes half axes of those numbers: 1, or 0.5 for diameters.
+   */
+  static double GetShapeFactor(vtkDataSet* data);
+
+  ///@{
+  /**
+   * The flat index of the block of a composite dataset that the input is; 1 for a single dataset.
+   */
+  vtkSetMacro(FlatIndex, unsigned int);
+  vtkGetMacro(FlatIndex, unsigned int);
+  ///@}
+
+protected:
+  vtkGranularGrainMapper();
+  ~vtkGranularGrainMapper() override;
+
+  void GetShaderTemplate(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderValues(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderNormal(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderClip(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderPositionVC(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void SetCameraShaderParameters(
+    vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor) override;
+  bool GetNeedToRebuildBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
+  void BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
+
+private:
+  vtkGranularGrainMapper(const vtkGranularGrainMapper&) = delete;
+  void operator=(const vtkGranularGrainMapper&) = delete;
+
+  void SetClips(vtkShaderProgram* program, vtkMatrix4x4* worldToCamera);
+  void BuildShapes(vtkFloatArray* radii);
+  void BuildColors(vtkActor* actor);
+  void Upload(vtkRenderer* renderer, const vtkGranularHiddenGrains::Seen* seen);
+  int CountClips();
+  bool FindSeen(vtkRenderer* renderer, vtkActor* actor);
+
+  unsigned int FlatIndex = 1;
+  vtkPointGaussianMapper* Owner = nullptr; // while it draws
+  Place From{};                            // of the next picture
+  Place Built{};                           // of the buffers
+  bool HaveShapes = false;
+  std::map<std::string, vtkSmartPointer<vtkDataArray>>
+    Values; // of each particle, by the names that the programs have for them
+  vtkSmartPointer<vtkFloatArray> Inner; // radii of spheres inside the particles
+  vtkGranularHiddenGrains Hidden;
+  bool HasAll = false; // all particles are in the buffers
+  bool IsTranslucent = false;
+  vtkTimeStamp CopyTime; // of what the owner tells
+};
+
+#endif

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Particles are seen as rays in double precision see them: depth, side and number of each pixel, of spheres, ellipsoids and
+superquadrics, near and far, from outside and inside; other surfaces cut them where they meet; hidden ones change no pixel."""
+import granular
+import numpy
+import ray_caster
+from discs import ROUNDED, black_view, picture
+from paraview.simple import *
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+PIXELS = 160
+AXES = slice(0, 45)  # rows and columns where ParaView clears the depth for its axes
+random = numpy.random.default_rng(3)
+view = black_view(PIXELS)
+view.RemoteRenderThreshold = 1e9
+
+
+def made(points, **arrays):
+    """A source of particles."""
+    data, places = vtkPolyData(), vtkPoints()
+    places.SetData(numpy_to_vtk(numpy.asarray(points, float), deep=True))
+    data.SetPoints(places)
+    for name, values in {**arrays, "id": numpy.arange(1., len(points) + 1)}.items():
+        array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    source = TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
+def shown(source):
+    display = granular.show(source, view)
+    display.Ambient, display.Diffuse = 1, 0
+    display.AmbientColor = display.DiffuseColor = [1, 1, 1]
+    return display
+
+
+def seen():
+    """The camera, and the depths of the pixels, of what is shown."""
+    Render(view)
+    window, depths = view.GetRenderWindow(), vtkFloatArray()
+    window.GetZbufferData(0, 0, PIXELS - 1, PIXELS - 1, depths)
+    return ray_caster.Camera(view.GetActiveCamera(), PIXELS, PIXELS), vtk_to_numpy(depths).reshape(PIXELS, PIXELS).astype(float)
+
+
+def look(centre):
+    """A camera somewhere, sometimes among the particles."""
+    away = random.normal(size=3)
+    view.CameraFocalPoint, view.CameraPosition = list(centre), list(centre + away / numpy.linalg.norm(away) * 10**random.uniform(0, 1))
+    view.CameraViewUp = list(random.normal(size=3))
+    view.CameraParallelProjection = int(random.integers(2))
+    view.CameraParallelScale, view.CameraViewAngle = random.uniform(0.5, 3), random.uniform(15, 60)
+
+
+def check_depths(kind, scenes):
+    """A depth buffer has 2^24 units. Besides one of them, the depth is right to 2^-22 of the particles' extent, because floats hold the
+    coordinates; where the surface is steep, to as much as such a shift across the line of sight makes."""
+    seen_pixels, units, parts = 0, [], []
+    for _ in range(scenes):
+        count = int(random.integers(1, 30))
+        centre = random.choice([0, 0, 1e3, 2**20]) * numpy.array([1, -1, 0.5])
+        points, radius = random.uniform(-1, 1, (count, 3)) + centre, 10**random.uniform(-1.2, -0.2, count)
+        axes, arrays, powers, turns = numpy.repeat(radius[:, None], 3, axis=1), {}, None, None
+        if kind != "spheres":
+            axes, turns = radius[:, None] * 5**random.uniform(-0.5, 0.5, (count, 3)), random.normal(size=(count, 4))
+            arrays = {"shape": axes, "quat": turns}
+        if kind == "superquadrics":
+            powers = random.choice([2, 2.5, 4, 8, 20], (count, 2)).astype(float)
+            arrays.update(blockiness1=powers[:, 0], blockiness2=powers[:, 1])
+        source = made(points, radius=radius, **arrays)
+        shown(source)
+        look(centre)
+        camera, depths = seen()
+        truth, normals, numbers = ray_caster.cast(camera, points, axes, turns, powers)
+        depths[AXES, AXES], numbers[AXES, AXES] = 1, -1
+        assert ((depths < 1) == (numbers >= 0)).all(), (kind, ((depths < 1) != (numbers >= 0)).sum())
+        sight = [0, 0, 1] if camera.parallel else -camera.rays()[1]
+        steep = abs((normals * sight).sum(-1)) / numpy.linalg.norm(sight, axis=-1) < 0.5
+        both = (numbers >= 0) & ~steep
+        seen_pixels += both.sum()
+        units.append(abs(depths - truth)[both] * 2**24)
+        near, far = camera.near, camera.far
+        away = near + truth * (far - near) if camera.parallel else near * far / (far - truth * (far - near))
+        slope = 1 / (far - near) if camera.parallel else near * far / ((far - near) * away[both]**2)
+        parts.append(numpy.clip(units[-1] - 1, 0, None) / (2**24 * slope * numpy.sqrt(12)))
+        Delete(source)
+    units = numpy.concatenate(units)
+    parts = numpy.concatenate(parts)
+    print(f"{kind}: {seen_pixels} pixels, depth off by at most {units.max():.2f} units, {100 * (units > 1).mean():.1f} % by more than 1; "
+          f"beyond 1 by at most 2^{numpy.log2(parts.max()):.1f} of the extent")
+    assert seen_pixels > 5000 and parts.max() < 2**-22 and (units > 1).mean() < 0.1
+
+
+check_depths("spheres", 30)
+check_depths("ellipsoids", 30)
+check_depths("superquadrics", 6)
+
+# ---- one particle as LIGGGHTS and LAMMPS write it: half axes, and diameters without a radius -----------------------------
+HEADER = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS {}\n-1 1\n-1 1\n-1 1\nITEM: ATOMS id type x y z "
+points, turns = numpy.array([[0.3, 0, 0], [-0.5, 0.2, 0.1]]), numpy.array([[0.5, 0.1, -0.7, 0.2], [0.9, -0.3, 0.1, 0.4]])
+axes, powers = numpy.array([[0.4, 0.2, 0.1], [0.15, 0.3, 0.2]]), numpy.array([[8, 2.5], [4, 8]])
+for boundary, names, factor in (("ff ff ff", "radius shapex shapey shapez quat1 quat2 quat3 quat4 blockiness1 blockiness2", 1),
+                                ("pp pp pp", "quatw quati quatj quatk shapex shapey shapez block1 block2", 2)):
+    with open("shapes.dump", "w") as file:
+        file.write(("" if factor == 1 else "ITEM: UNITS\nlj\n") + HEADER.format(boundary) + names + "\n")
+        for i in range(2):
+            shape, turn, power = (" ".join(map(str, row)) for row in (factor * axes[i], turns[i], powers[i]))
+            file.write(f"{i + 1} 1 {' '.join(map(str, points[i]))} " + (f"0.4 {shape} {turn} {power}" if factor == 1 else f"{turn} {shape} {power}") + "\n")
+    source = granular.reader("shapes.dump")
+    shown(source)
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [1, 2, 5], [0, 0, 0], [0, 1, 0]
+    view.CameraParallelProjection, view.CameraViewAngle = 0, 20
+    camera, depths = seen()
+    numbers = ray_caster.cast(camera, points, axes, turns, powers)[2]
+    assert (numbers >= 0).sum() > 1000 and ((depths < 1) == (numbers >= 0)).all(), ((depths < 1) != (numbers >= 0)).sum()
+    Delete(source)
+
+# ---- where surfaces meet: a ball in a ball, a tube and a plane through one, from above ----------------------------------
+view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 5], [0, 0, 0], [0, 1, 0]
+view.CameraParallelProjection, view.CameraParallelScale = 1, 1.5
+x = ((numpy.arange(PIXELS) + 0.5) / PIXELS * 2 - 1) * 1.5
+x, y = x[None, :], x[:, None]
+balls = made([[0, 0, 0], [0, 0, 0.5], [0, 1.1, 0]], radius=[1, 0.3, 0.3])
+display = shown(balls)
+line = Line(Point1=[-1.4, 0, 0.6], Point2=[1.4, 0, 0.6])
+tube = Tube(Input=line, Radius=0.02, NumberofSides=200)
+plane = Plane(Origin=[-1.4, -1.4, 0.3], Point1=[1.4, -1.4, 0.3], Point2=[-1.4, 1.4, 0.3])
+for source, height in ((tube, lambda: numpy.where((abs(y) < 0.02) & (abs(x) < 1.4), 0.6 + numpy.sqrt(numpy.clip(0.0004 - y**2, 0, 1)), -9)),
+                       (plane, lambda: numpy.where((abs(x) < 1.4) & (abs(y) < 1.4), 0.3, -9))):
+    other = Show(source, view)
+    other.Ambient, other.Diffuse, other.AmbientColor, other.DiffuseColor = 1, 0, [1, 0, 0], [1, 0, 0]
+    with numpy.errstate(invalid="ignore"):
+        ball = numpy.fmax(numpy.sqrt(1 - x**2 - y**2), numpy.sqrt(0.09 - x**2 - (y - 1.1)**2))
+    in_front = numpy.nan_to_num(ball, nan=-9) > height()
+    pixels = picture(view, "meet")
+    wrong = (pixels[..., 2] > 128) != in_front  # white, not red or black
+    assert wrong.sum() <= ROUNDED, wrong.sum()
+    Hide(source, view)
+Delete(balls)
+
+# ---- many in a heap: those that are left out change nothing --------------------------------------------------------------
+side = 24
+grid = numpy.stack(numpy.meshgrid(*3 * [numpy.arange(side)], indexing="ij"), -1).reshape(-1, 3)
+points = grid + random.uniform(-0.2, 0.2, grid.shape)
+radius = random.uniform(0.3, 0.6, len(points))
+whole = made(points, radius=radius)
+halves = [made(points[part], radius=radius[part], number=1. + numpy.arange(len(points))[part]) for part in (slice(0, None, 2), slice(1, None, 2))]
+assert len(points) > 10000 > len(points) / 2  # of so many none is left out
+for parallel in (0, 1):
+    view.CameraPosition, view.CameraFocalPoint, view.CameraParallelProjection = [40, 30, 60], [side / 2, side / 2, side / 2], parallel
+    view.CameraParallelScale = 12
+    pictures, depths = [], []
+    for sources in ([whole], halves):
+        displays = [granular.show(source, view) for source in sources]
+        for display, name in zip(displays, ["id"] if len(sources) == 1 else ["number", "number"]):
+            ColorBy(display, ("POINTS", name))
+            colors = GetColorTransferFunction(name)
+            colors.RGBPoints = [1, 1, 0, 0, len(points), 0, 0, 1]
+            display.LookupTable = colors
+            display.SetScalarBarVisibility(view, False)
+        pictures.append(picture(view, f"heap_{len(sources)}"))
+        depths.append(seen()[1])
+        for display in displays:
+            display.Visibility = 0
+    assert pictures[0].any(axis=2).mean() > 0.3
+    assert abs(depths[0] - depths[1]).max() * 2**24 < 100, "a hole"
+    others = (pictures[0] != pictures[1]).any(axis=2).sum()  # where two have one depth
+    assert others < 0.001 * PIXELS**2, others
+print("all surfaces compared")
