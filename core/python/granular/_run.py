@@ -2,9 +2,11 @@
 """Runs and frames: files as numpy arrays, read when they are asked for."""
 from __future__ import annotations
 
+import _thread
 import os
 import sys
 import threading
+import time
 import warnings
 import weakref
 from collections import namedtuple
@@ -110,6 +112,11 @@ class Box:
         return f"Box(lo={self.lo.tolist()}, hi={self.hi.tolist()}, tilts={self.tilts.tolist()}, boundary={self.boundary!r})"
 
 
+def _interrupt_again() -> None:
+    time.sleep(0.01)
+    _thread.interrupt_main()
+
+
 class _Handle:
     """A run or a frame of the library, which is freed when nobody keeps it any longer: arrays keep their frame, and a thread that
     reads keeps the run that another one closes."""
@@ -118,7 +125,10 @@ class _Handle:
         self._as_parameter_, self._free = pointer, free
 
     def __del__(self) -> None:
-        self._free(self._as_parameter_)
+        try:
+            self._free(self._as_parameter_)
+        except KeyboardInterrupt:  # Python drops what is raised here: once more, when this has ended
+            _thread.start_new_thread(_interrupt_again, ())
 
 
 class _Memory:
