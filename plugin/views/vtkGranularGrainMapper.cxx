@@ -6,7 +6,6 @@
 #include "vtkFloatArray.h"
 #include "vtkGranularGrainFragments.h"
 #include "vtkGranularGrainShaders.h"
-#include "vtkHardwareSelector.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -15,8 +14,8 @@
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderer.h"
 #include "vtkOpenGLState.h"
-#include "vtkOpenGLVertexArrayObject.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPlane.h"
@@ -246,25 +245,23 @@ void vtkGranularGrainMapper::Draw(
   }
   this->Owner = owner;
   this->From = from;
-  vtkHardwareSelector* selector = renderer->GetSelector();
-  const int pass = selector ? selector->GetCurrentPass() : vtkHardwareSelector::MIN_KNOWN_PASS - 1;
-  if (this->LastSelectionState != pass)
+  this->PopulateSelectionSettings = 0; // of all blocks together
+  this->RenderPiece(renderer, actor);
+  this->PopulateSelectionSettings = 1;
+}
+
+void vtkGranularGrainMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
+{
+  if (renderer->GetSelector())
   {
-    this->SelectionStateChanged.Modified();
-    this->LastSelectionState = pass;
+    // off where points are selected; here they are surfaces, of which the nearest counts
+    static_cast<vtkOpenGLRenderer*>(renderer)->GetState()->vtkglDepthMask(1);
   }
-  this->LastBoundBO = nullptr;
-  this->CurrentInput = this->GetInput();
-  this->UpdateBufferObjects(renderer, actor);
   if (!this->FindSeen(renderer, actor) && !this->HasAll)
   {
     this->Upload(renderer, nullptr);
   }
-  this->RenderPieceDraw(renderer, actor);
-  if (this->LastBoundBO)
-  {
-    this->LastBoundBO->VAO->Release();
-  }
+  this->Superclass::RenderPieceDraw(renderer, actor);
 }
 
 void vtkGranularGrainMapper::GetShaderTemplate(

@@ -88,6 +88,7 @@ protected:
     vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor) override;
   bool GetNeedToRebuildBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
   void BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor) override;
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
   vtkGranularGrainMapper(const vtkGranularGrainMapper&) = delete;

@@ -296,6 +296,7 @@ void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
   vtkDataArray* shapes = vtkGranularGrainMapper::GetShapes(data);
   const double half = vtkGranularGrainMapper::GetShapeFactor(data);
   const double without = name && name[0] ? 0.0 : 1.0;
+  const double scale = std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
   vtkMatrix4x4* matrix = actor->vtkProp3D::GetIsIdentity() ? nullptr : actor->GetMatrix();
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
@@ -311,7 +312,7 @@ void AddSpheres(double (&bounds)[6], vtkActor* actor, vtkDataSet* data)
       const double* axes = shapes->GetTuple3(i);
       radius = std::max(radius, half * vtkMath::Norm(axes)); // of a box around it
     }
-    radius *= factor;
+    radius *= factor * scale;
     if (!(radius > 0.0 && std::isfinite(radius)))
     {
       radius = 0.0; // nothing is drawn of it

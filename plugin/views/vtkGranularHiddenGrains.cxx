@@ -8,10 +8,11 @@
 
 namespace
 {
-constexpr float InnerPart =
-  0.95F; // of the radius: a ray so near to the centre's meets the sphere in front of the centre
-constexpr float Widest =
-  1.5F; // tangent of the angle off the line of sight, up to which this was tried
+// Of the radius: rays so near to the centre's meet the sphere, and in front of its centre. In perspective a sphere beside the line of
+// sight is an ellipse that leans outwards, and its outer flank is behind the centre: up to a tangent of 0.75 with a part of 0.8.
+constexpr float InnerPart = 0.95F;
+constexpr float InnerPartInPerspective = 0.8F;
+constexpr float Widest = 0.7F;
 constexpr int MostCells = 2048;  // along an axis
 constexpr float CellPart = 0.4F; // of a radius that a cell is long
 constexpr int BlockSide = 4;     // cells
@@ -69,12 +70,12 @@ const vtkGranularHiddenGrains::Seen& vtkGranularHiddenGrains::Find(
   {
     const float radius = grains.Inner[i] * view.Radius;
     const Centre centre = CentreOf(view, grains.Points + 3 * i);
-    const bool narrow = view.Parallel ||
-      (centre.Away > 2.0F * radius && std::abs(centre.X) < Widest * centre.Away &&
-        std::abs(centre.Y) < Widest * centre.Away);
+    const bool narrow =
+      view.Parallel || std::hypot(centre.X, centre.Y) + radius < Widest * centre.Away;
     if (narrow && IsFinite(centre) && radius > 0.0F && radius - centre.Away <= view.Near)
     {
-      this->Cover(Square(view, centre, InnerPart * radius, centre.Away));
+      const float part = view.Parallel ? InnerPart : InnerPartInPerspective;
+      this->Cover(Square(view, centre, part * radius, centre.Away));
     }
   }
   this->MakeBlocks();
