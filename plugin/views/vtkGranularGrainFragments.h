@@ -110,7 +110,7 @@ bool meets(vec3 o, vec3 d, vec2 n, float side, inout float t, out vec3 gradient)
 #endif
 )";
 
-// Where the ray meets the surface: in front, or behind where the front is cut away.
+// Finds the point of the surface on the ray: in front, or behind if the front is cut away.
 constexpr const char* FragmentSurface = R"(
   // from the centre to a point of the ray near it, from where the numbers are small
   float radiusVC = radiusVCVSOutput;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularGrainMapper.h"
 
-#include "vtkDataArrayRange.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkGranularGrainFragments.h"
@@ -36,9 +35,8 @@
 
 namespace
 {
-constexpr int MostClips = 6; // as VTK has it
-constexpr unsigned int ViewportOfOpenGL =
-  0x0BA2; // GL_VIEWPORT, whose header depends on VTK's version
+constexpr int MostClips = 6;                      // as VTK has it
+constexpr unsigned int ViewportOfOpenGL = 0x0BA2; // the header of GL_VIEWPORT depends on VTK
 
 void Replace(vtkShader* shader, const char* mark, const std::string& text)
 {
@@ -133,7 +131,7 @@ private:
   std::vector<vtkDataArray*> Arrays;
 };
 
-// What leads from the buffers, which are counted from a place, to the picture.
+// The way from the buffers, which are counted from a place, to the picture.
 struct View
 {
   View(vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& from)
@@ -484,7 +482,7 @@ bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
   return true;
 }
 
-// Where there are shapes, the radii become those of spheres around them.
+// Loads the shapes, if there are any; the radii become those of spheres around them.
 void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
 {
   vtkPolyData* data = this->CurrentInput;
@@ -494,9 +492,13 @@ void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
     this->HaveShapes = shapes != nullptr;
     this->Modified(); // another program
   }
+  if (!shapes)
+  {
+    return;
+  }
   const Numbers quaternions(data, { { "quat" }, { "quatw", "quati", "quatj", "quatk" } }, 4);
   const Numbers blockiness(data, { { "blockiness1", "blockiness2" }, { "block1", "block2" } }, 2);
-  const vtkIdType count = shapes ? data->GetNumberOfPoints() : 0;
+  const vtkIdType count = data->GetNumberOfPoints();
   auto axes = MakeFloats(count, 3);
   auto turns = MakeFloats(count, 4);
   auto powers = MakeFloats(count, 2);
@@ -534,13 +536,10 @@ void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
     inner->SetValue(i, static_cast<float>(std::min({ half[0], half[1], half[2] })));
     powers->SetTuple(i, power);
   }
-  if (shapes)
-  {
-    this->Inner = inner;
-    this->Values["axesMC"] = axes;
-    this->Values["turnMC"] = turns;
-    this->Values["powersMC"] = powers;
-  }
+  this->Inner = inner;
+  this->Values["axesMC"] = axes;
+  this->Values["turnMC"] = turns;
+  this->Values["powersMC"] = powers;
 }
 
 void vtkGranularGrainMapper::BuildColors(vtkActor* actor)

@@ -8,7 +8,7 @@
 
 namespace
 {
-// Of the radius: rays so near to the centre's meet the sphere, and in front of its centre. In perspective a sphere beside the line of
+// Parts of a radius: rays so near to the centre's meet the sphere, and in front of its centre. In perspective a sphere beside the line of
 // sight is an ellipse that leans outwards, and its outer flank is behind the centre: up to a tangent of 0.75 with a part of 0.8.
 constexpr float InnerPart = 0.95F;
 constexpr float InnerPartInPerspective = 0.8F;

@@ -301,7 +301,7 @@ void NewFile::hold(bool durable)
   file_ = -1;
 }
 
-/// What has the name is not this file, if somebody has removed it.
+/// Another file may have the name if somebody has removed this one.
 void NewFile::expect_name() const
 {
   check(locked_->has_name() ? 0 : ENOENT, path_);
