@@ -79,6 +79,7 @@ void vtkGranularDataFileReader::Internals::Look(Self* self)
           this->AtomStyle, piece.file.path, notices);
       granular::pass(packer, columns.particles);
       granular::pass(packer, columns.velocities);
+      granular::pass(packer, columns.ellipsoids);
     }
   };
   const auto take = [&](granular::ArchiveReader& unpacker)
@@ -98,6 +99,7 @@ void vtkGranularDataFileReader::Internals::Look(Self* self)
       granular::DataColumns columns;
       granular::pass(unpacker, columns.particles);
       granular::pass(unpacker, columns.velocities);
+      granular::pass(unpacker, columns.ellipsoids);
       offer(this->Points, granular::make_particle_schema(columns));
     }
     this->Points.End();

@@ -126,9 +126,28 @@ TEST(ColumnSchema, VectorsOfTheTable)
   EXPECT_EQ(arrays_of("mux muy muz"), "mu(0,1,2)");
   EXPECT_EQ(arrays_of("shapex shapey shapez"), "shape(0,1,2)");
   EXPECT_EQ(arrays_of("quat1 quat2 quat3 quat4"), "quat(0,1,2,3)");
+  EXPECT_EQ(arrays_of("quatw quati quatj quatk"), "quat(0,1,2,3)");
+  for (const std::string name : { "blockiness", "block", "roundness" })
+  {
+    EXPECT_EQ(arrays_of(name + "2 " + name + "1"), "blockiness(1,0)");
+  }
   EXPECT_EQ(arrays_of("ix iy iz"), "image(0,1,2)");
   // named by the axis, so the order of the columns does not matter
   EXPECT_EQ(arrays_of("vz id vx vy"), "v(2,3,0) id(1)");
+}
+
+TEST(ColumnSchema, SizesOfShapesAreWhatTheProgramMeans)
+{
+  using granular::ShapeSizes;
+  const auto sizes = [](const std::string& columns, bool lammps = false)
+  { return granular::find_shape_sizes(schema_of(columns), lammps); };
+  EXPECT_EQ(sizes("id shapex shapey"), ShapeSizes::None);
+  EXPECT_EQ(sizes("id shapex shapey shapez"), ShapeSizes::HalfAxes);
+  EXPECT_EQ(sizes("id shapex shapey shapez", true), ShapeSizes::Diameters);
+  EXPECT_EQ(sizes("id shapex shapey shapez quatw"), ShapeSizes::Diameters);
+  EXPECT_EQ(sizes("block1 shapex shapey shapez"), ShapeSizes::Diameters);
+  EXPECT_EQ(sizes("id shapex shapey shapez quat1", true), ShapeSizes::HalfAxes);
+  EXPECT_EQ(sizes("id shapex shapey shapez blockiness1", true), ShapeSizes::HalfAxes);
 }
 
 TEST(ColumnSchema, IncompleteVectorsStayColumns)

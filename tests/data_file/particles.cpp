@@ -107,6 +107,41 @@ TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
   EXPECT_EQ(other.said(), "");
 }
 
+// A particle without a row is a point, as LAMMPS has it.
+TEST(DataParticles, Ellipsoids)
+{
+  const auto text = [](const std::string& shapes)
+  {
+    return "a title\n\n3 atoms\n2 ellipsoids\n0 10 xlo xhi\n0 10 ylo yhi\n0 10 zlo zhi\n\n"
+           "Atoms # ellipsoid\n\n3 1 1 2 3 0 0\n1 1 0 2 1 0 0\n2 2 1 2 2 0 0\n\nEllipsoids\n\n" +
+      shapes;
+  };
+  DataRun run(write_data(text("2 4 5 6 0.5 -0.5 0.5 -0.5 8 2.5\n3 1 2 3 1 0 0 0 2 20\n")));
+  const granular::DumpFrame frame = run.read().particles;
+  EXPECT_EQ(array_of(frame, "shape"), (Numbers{ 1, 2, 3, 0, 0, 0, 4, 5, 6 }));
+  EXPECT_EQ(array_of(frame, "quat"), (Numbers{ 1, 0, 0, 0, 1, 0, 0, 0, 0.5, -0.5, 0.5, -0.5 }));
+  EXPECT_EQ(array_of(frame, "blockiness"), (Numbers{ 2, 20, 2, 2, 8, 2.5 }));
+  EXPECT_EQ(frame.schema.text().substr(frame.schema.text().find("shapex")),
+    "shapex shapey shapez quatw quati quatj quatk block1 block2");
+  granular::DataRequest request;
+  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "quat"; };
+  EXPECT_EQ(names_of(run.read(request).particles), "quat");
+  EXPECT_EQ(run.said(), "");
+
+  const auto error = [&](const std::string& shapes) { return data_error(text(shapes)); };
+  EXPECT_EQ(error("3 1 2 3 1 0 0 0\n"),
+    ":15: expected 2 rows in the section Ellipsoids, got 1, then the end of the file");
+  EXPECT_EQ(error("3 1 2 3 1 0 0\n2 1 2 3 1 0 0\n"),
+    ":15: expected rows of 8 or 10 words in the section Ellipsoids, got 7");
+  EXPECT_EQ(error("3 1 2 3 1 0 0 0\n3 1 2 3 1 0 0 0\n"),
+    ":18: column 'id': expected one row of each particle in the section Ellipsoids, got another "
+    "one of particle 3; the first is in line 17");
+  DataRun stranger(write_data(text("2 4 5 6 1 0 0 0\n4 1 2 3 1 0 0 0\n")));
+  EXPECT_EQ(array_of(stranger.read().particles, "shape"), (Numbers{ 0, 0, 0, 0, 0, 0, 4, 5, 6 }));
+  EXPECT_EQ(stranger.said(),
+    "rows of the section Ellipsoids that are left out, as their particle is not there: 1\n");
+}
+
 TEST(DataParticles, FilesAreLookedThroughOnce)
 {
   const std::string row = "1 1 0.5 0 0\n";
@@ -183,10 +218,10 @@ TEST(DataParticles, Errors)
   const auto velocities = [](const std::string& text)
   { return data_error(three("atomic", rows, text)); };
   EXPECT_EQ(velocities("2 2 2 2\n4 3 3 3\n1 1 1 1\n"),
-    ":15: expected a velocity of particle 3 in the section Velocities, got none");
+    ":15: expected a row of particle 3 in the section Velocities, got none");
   EXPECT_EQ(velocities("2 2 2 2\n3 3 3 3\n\n2 1 1 1\n"),
-    ":20: column 'id': expected one velocity of each particle, got another one of particle 2; the "
-    "first is in line 17");
+    ":20: column 'id': expected one row of each particle in the section Velocities, got another "
+    "one of particle 2; the first is in line 17");
   EXPECT_EQ(velocities("2 2 2 2\n3 3 fast 3\n1 1 1 1\n"),
     ":18: column 'vy': expected a number, got 'fast'");
   EXPECT_EQ(velocities("2 2 2 2\n3 3 3\n1 1 1 1\n"), ":18: expected 4 words in a row, got 3");

@@ -15,10 +15,11 @@ def array(attributes, name):
     return vtk_to_numpy(attributes.GetArray(name))
 
 
-for style, name in (("bond", "local/chain.data"), ("full", "data_file/full.data"), ("sphere", "data_file/sphere.data")):
+for style, name in (("bond", "local/chain.data"), ("full", "data_file/full.data"), ("sphere", "data_file/sphere.data"),
+                    ("ellipsoid", "shapes/superellipsoids.data")):
     path = os.path.join(data, name)
     plain = plain_data.Data(path)
-    atoms, velocities = plain.rows("Atoms"), plain.rows("Velocities")
+    atoms, velocities, shapes = plain.rows("Atoms"), plain.rows("Velocities"), plain.rows("Ellipsoids")
     bonds = numpy.array(plain.sections.get("Bonds", []), dtype=int).reshape(-1, 4)
     for ordered in (0, 1):
         for periodic in ("MinimumImage", "Split", "AsWritten"):
@@ -31,6 +32,9 @@ for style, name in (("bond", "local/chain.data"), ("full", "data_file/full.data"
                 assert (array(points, "v") == [velocities[number][:3] for number in ids]).all()
             if style == "sphere":
                 assert (array(points, "omega") == [velocities[number][3:] for number in ids]).all()
+            if shapes:
+                found = numpy.concatenate([array(points, part) for part in ("shape", "quat", "blockiness")], axis=1)
+                assert (found == [shapes[number] for number in ids]).all()
             lines = all_ranks.whole(OutputPort(reader, 1))
             cells = lines.GetCellData()
             first = numpy.arange(lines.GetNumberOfCells())

@@ -315,4 +315,25 @@ bool ColumnSchema::operator==(const ColumnSchema& other) const
   return std::equal(columns_.begin(), columns_.end(), other.columns_.begin(), other.columns_.end(),
     [](const ColumnInfo& a, const ColumnInfo& b) { return a.name == b.name && a.type == b.type; });
 }
+
+ShapeSizes find_shape_sizes(const ColumnSchema& schema, bool lammps) noexcept
+{
+  const int shape = schema.find_array("shape");
+  if (shape < 0 || schema.arrays()[static_cast<std::size_t>(shape)].components() != 3)
+  {
+    return ShapeSizes::None;
+  }
+  for (const ColumnInfo& column : schema.columns())
+  {
+    if (column.name == "quatw" || column.name == "block1")
+    {
+      return ShapeSizes::Diameters;
+    }
+    if (column.name == "quat1" || column.name == "blockiness1")
+    {
+      return ShapeSizes::HalfAxes;
+    }
+  }
+  return lammps ? ShapeSizes::Diameters : ShapeSizes::HalfAxes;
+}
 }

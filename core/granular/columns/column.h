@@ -138,5 +138,18 @@ private:
   std::vector<ColumnInfo> columns_;
   std::vector<ArrayInfo> arrays_;
 };
+
+/// The sizes that an array `shape` holds.
+enum class ShapeSizes : std::uint8_t
+{
+  None, ///< there is no such array
+  HalfAxes,
+  Diameters
+};
+
+/// Returns the sizes that the columns shapex shapey shapez are: LIGGGHTS prints half axes, LAMMPS diameters (half axes before
+/// July 2020). The names of LAMMPS' other columns tell it, quatw and block1, and those of LIGGGHTS', quat1 and blockiness1; where
+/// there are neither, the program does, which `lammps` says.
+ShapeSizes find_shape_sizes(const ColumnSchema& schema, bool lammps) noexcept;
 }
 #endif

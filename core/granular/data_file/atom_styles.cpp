@@ -14,6 +14,9 @@ namespace
 using Words = std::vector<std::string_view>;
 
 constexpr std::string_view image_columns = "ix iy iz";
+constexpr std::string_view ellipsoids =
+  "id shapex shapey shapez quatw quati quatj quatk"; // LAMMPS since 2026: exponents may follow
+constexpr std::string_view exponents = "block1 block2";
 constexpr std::string_view spins = "id vx vy vz omegax omegay omegaz";
 
 constexpr AtomStyle styles[] = {
@@ -127,6 +130,28 @@ std::vector<std::string> to_strings(const Words& words)
 {
   return { words.begin(), words.end() };
 }
+
+/// The columns of the section Ellipsoids.
+std::vector<std::string> find_ellipsoid_columns(const DataLayout& layout, const std::string& path)
+{
+  if (!layout.ellipsoid_rows || layout.ellipsoid_rows->rows == 0)
+  {
+    return {};
+  }
+  Words columns = split_words(ellipsoids);
+  const std::size_t words = split_words(layout.ellipsoid_rows->first_row).size();
+  if (words == columns.size() + 2)
+  {
+    append_words(exponents, columns);
+  }
+  if (words != columns.size())
+  {
+    throw FormatError(
+      "expected rows of 8 or 10 words in the section Ellipsoids, got " + std::to_string(words),
+      { path, layout.ellipsoid_rows->name_line });
+  }
+  return to_strings(columns);
+}
 }
 
 std::span<const AtomStyle> atom_styles() noexcept
@@ -150,7 +175,7 @@ DataColumns find_data_columns(
   }
   if (!layout.particles)
   {
-    return { to_strings(split_words((known == std::end(styles) ? styles[0] : *known).columns)),
+    return { to_strings(split_words((known == std::end(styles) ? styles[0] : *known).columns)), {},
       {} };
   }
   const bool empty = layout.particles->rows == 0;
@@ -159,7 +184,8 @@ DataColumns find_data_columns(
                                                      : guess(layout, where, notices);
   const std::size_t usual = split_words(style.columns).size();
   const std::size_t words = empty ? usual : split_words(layout.particles->first_row).size();
-  DataColumns columns{ to_strings(columns_of(style, words)), {} };
+  DataColumns columns{ to_strings(columns_of(style, words)), {},
+    find_ellipsoid_columns(layout, path) };
   if (columns.particles.empty())
   {
     throw FormatError("expected rows of " + std::to_string(usual) + " or " +

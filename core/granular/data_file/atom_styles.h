@@ -30,11 +30,12 @@ struct DataColumns
 {
   std::vector<std::string> particles;
   std::vector<std::string> velocities; ///< the first is id; empty: the file has none
+  std::vector<std::string> ellipsoids; ///< likewise: diameters, quaternions and exponents
 };
 
 /// Finds the columns: of the style that the user names; otherwise of the one in the comment `Atoms # style`; otherwise of the
 /// only one that fits the first rows, with a notice. asked: empty or "automatic" leaves the choice to the file. Throws
-/// FormatError that lists the styles that would fit.
+/// FormatError that lists the styles that would fit, and for rows of Ellipsoids of other than 8 or 10 words.
 DataColumns find_data_columns(
   const DataLayout& layout, std::string_view asked, const std::string& path, Notices& notices);
 }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -30,6 +31,13 @@ constexpr KnownSection known_sections[] = {
   { "Atoms", &DataLayout::particles, &DataLayout::atoms, false },
   { "Velocities", &DataLayout::velocities, &DataLayout::atoms, true },
   { "Bonds", &DataLayout::bond_rows, &DataLayout::bonds, false },
+  { "Ellipsoids", &DataLayout::ellipsoid_rows, &DataLayout::ellipsoids, false },
+};
+
+/// What the header counts.
+constexpr std::pair<std::string_view, std::int64_t DataLayout::*> counted[] = {
+  { "atoms", &DataLayout::atoms }, { "bonds", &DataLayout::bonds },
+  { "ellipsoids", &DataLayout::ellipsoids }
 };
 
 /// A line of the header that describes the box, by the words behind its numbers.
@@ -106,15 +114,17 @@ public:
   void take(std::string_view line, const Where& where, DataLayout& layout)
   {
     const Words words = words_of(line);
-    if (words.size() == 2 && (words[1] == "atoms" || words[1] == "bonds"))
+    for (const auto& [name, place] : counted)
     {
-      std::int64_t& count = words[1] == "atoms" ? layout.atoms : layout.bonds;
-      if (!is_integer(words[0], count) || count < 0)
+      if (words.size() == 2 && words[1] == name)
       {
-        throw FormatError(
-          "expected a number of " + std::string(words[1]) + ", got " + quoted(words[0]), where);
+        if (!is_integer(words[0], layout.*place) || layout.*place < 0)
+        {
+          throw FormatError(
+            "expected a number of " + std::string(name) + ", got " + quoted(words[0]), where);
+        }
+        counts_atoms = counts_atoms || name == "atoms";
       }
-      counts_atoms = counts_atoms || words[1] == "atoms";
     }
     for (std::size_t i = 0; i < BoxLineCount; ++i)
     {

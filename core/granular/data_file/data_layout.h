@@ -35,10 +35,12 @@ struct DataLayout : FileLayout
   std::string units;         ///< likewise; may be empty
   std::int64_t atoms = 0;
   std::int64_t bonds = 0;
+  std::int64_t ellipsoids = 0;
   Box box; ///< -0.5 to 0.5 along axes that the header lacks; boundaries are not in the file
   std::optional<DataSection> particles; ///< section Atoms
   std::optional<DataSection> velocities;
-  std::optional<DataSection> bond_rows; ///< section Bonds
+  std::optional<DataSection> bond_rows;      ///< section Bonds
+  std::optional<DataSection> ellipsoid_rows; ///< section Ellipsoids
 };
 
 /// Returns true if the first bytes of a file are a title and a header that counts atoms.
@@ -47,8 +49,8 @@ bool starts_data_file(std::string_view first_bytes);
 /// Reads only the header. Throws FormatError.
 DataLayout read_data_header(const ByteSource& source);
 
-/// Reads the header and skips all sections, counting the rows of those in the layout. A section Atoms or Bonds without rows
-/// may be missing. Throws FormatError if rows are missing or too many; IoError; Cancelled.
+/// Reads the header and skips all sections, counting the rows of those in the layout. A section Atoms, Bonds or
+/// Ellipsoids without rows may be missing. Throws FormatError if rows are missing or too many; IoError; Cancelled.
 DataLayout read_data_layout(const ByteSource& source, Progress& progress);
 }
 #endif

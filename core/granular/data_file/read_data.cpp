@@ -3,8 +3,8 @@
 
 #include "granular/common/shares.h"
 #include "granular/data_file/data_file.h"
+#include "granular/data_file/section_join.h"
 #include "granular/data_file/section_rows.h"
-#include "granular/data_file/velocities.h"
 #include "granular/geometry/region.h"
 #include "granular/local/join.h"
 #include "granular/local/local_columns.h"
@@ -19,6 +19,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -152,8 +153,16 @@ private:
       this->find_boundary(frame);
     }
     frame.schema = join_schemas(columns_, frame.schema);
-    progress_.set_part(0.5, 0.7);
-    this->read_velocities(frame);
+    progress_.set_part(0.5, 0.6);
+    if (this->wants_velocities(frame.schema))
+    {
+      this->join(frame, "Velocities", layout_->velocities, columns_.velocities, true);
+    }
+    progress_.set_part(0.6, 0.7);
+    if (this->wants_any(frame.schema, this->first_ellipsoid(), frame.schema.columns().size()))
+    {
+      this->join(frame, "Ellipsoids", layout_->ellipsoid_rows, columns_.ellipsoids, false);
+    }
   }
 
   /// What the image counts show: where a particle has crossed a face, there are others beyond it.
@@ -177,26 +186,44 @@ private:
     }
   }
 
-  bool wants_velocities(const ColumnSchema& schema) const
+  /// The columns of the sections follow each other, without the ids of all but the first.
+  std::size_t first_ellipsoid() const
+  {
+    const std::size_t velocities = columns_.velocities.size();
+    return columns_.particles.size() + (velocities > 0 ? velocities - 1 : 0);
+  }
+
+  bool wants_any(const ColumnSchema& schema, std::size_t first, std::size_t end) const
   {
     return std::ranges::any_of(schema.arrays(),
       [&](const ArrayInfo& array)
       {
-        const auto own = static_cast<int>(columns_.particles.size());
-        return array.columns.front() >= own && this->is_wanted(array);
+        const auto column = static_cast<std::size_t>(array.columns.front());
+        return column >= first && column < end && this->is_wanted(array);
       });
   }
 
-  void read_velocities(DumpFrame& frame)
+  bool wants_velocities(const ColumnSchema& schema) const
   {
-    if (!this->wants_velocities(frame.schema))
-    {
-      return;
-    }
+    return this->wants_any(schema, columns_.particles.size(), this->first_ellipsoid());
+  }
+
+  void join(DumpFrame& frame, std::string_view name, const std::optional<DataSection>& section,
+    const std::vector<std::string>& columns, bool of_all)
+  {
     DumpRequest request = this->table_request();
     request.ranges = false;
-    const DumpFrame table = this->read_rows(layout_->velocities, columns_.velocities, request);
-    add_velocities(frame, table, frame.schema, *source_, *layout_->velocities, own_.pool, ranks_);
+    const DumpFrame table = this->read_rows(section, columns, request);
+    std::int64_t joined = join_section(
+      frame, table, frame.schema, *source_, { name, *section, of_all }, own_.pool, ranks_);
+    ranks_.sum({ &joined, 1 });
+    if (joined < section->rows && !this->is_filtered())
+    {
+      notices_.push_back({ { source_->path(), section->name_line },
+        "rows of the section " + std::string(name) +
+          " that are left out, as their particle is not there: " +
+          std::to_string(section->rows - joined) });
+    }
   }
 
   /// All rows of a section, or this rank's share of them.
@@ -342,9 +369,12 @@ private:
 ColumnSchema make_particle_schema(const DataColumns& columns)
 {
   std::vector<std::string> names = columns.particles;
-  if (!columns.velocities.empty())
+  for (const auto* const more : { &columns.velocities, &columns.ellipsoids })
   {
-    names.insert(names.end(), columns.velocities.begin() + 1, columns.velocities.end());
+    if (!more->empty())
+    {
+      names.insert(names.end(), more->begin() + 1, more->end());
+    }
   }
   return ColumnSchema(names);
 }

@@ -27,24 +27,24 @@ struct DataRequest
 /// A decoded data file.
 struct DataFrame
 {
-  DumpFrame particles; ///< with the velocities of the same ids, and the box
+  DumpFrame particles; ///< with the velocities and shapes of the same ids, and the box
   LocalFrame bonds;    ///< with lines between the particles
 };
 
-/// Returns the columns that particles have in the end: those of the section Atoms, and the velocities.
+/// Returns the columns that particles have in the end: those of the section Atoms, the velocities and the ellipsoids.
 ColumnSchema make_particle_schema(const DataColumns& columns);
 
 /// Returns the columns of the section Bonds: bond_id btype id1 id2.
 ColumnSchema make_data_bond_schema();
 
-/// Decodes a data file. Particles are decoded from the section Atoms, like read_dump; velocities join them by ids, in any
-/// order of rows. Bonds without one of their particles are left out, with a notice unless stride or region leave out
+/// Decodes a data file. Particles are decoded from the section Atoms, like read_dump; velocities and ellipsoids join
+/// them by ids, in any order of rows. Bonds without one of their particles are left out, with a notice unless stride or region leave out
 /// particles. Lines are in absolute coordinates if points are scaled.
 ///
 /// Collective: each rank decodes its share of the rows; particles.piece must be the rank, particles.pieces the number of
 /// ranks. A single rank that wants one of several pieces decodes all rows and keeps its piece.
 ///
-/// Throws FormatError with path, line and column, also for a particle without a velocity and an id with several; IoError;
+/// Throws FormatError with path, line and column, also for a particle without a velocity and an id with several rows; IoError;
 /// LimitError; Cancelled; std::bad_alloc.
 DataFrame read_data(const FramePiece& file, const DataRequest& request, Communicator& ranks,
   Notices& notices, Progress& progress);

@@ -138,7 +138,8 @@ std::vector<std::string> columns_of(const ArrayView& array)
   std::vector<std::string> names;
   for (const KnownColumn& known : known_columns())
   {
-    if (known.components > 1 && known.components == array.size() && known.array == array.name)
+    if (known.components > 1 && known.components == array.size() && known.array == array.name &&
+      known.component == static_cast<int>(names.size())) // of several spellings, the first
     {
       names.emplace_back(known.name);
     }

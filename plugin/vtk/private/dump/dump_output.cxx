@@ -196,6 +196,13 @@ void FillFieldData(
   vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin)
 {
   FillHeader(data, frame.header, frame.coordinates, pointOrigin);
+  const granular::ShapeSizes sizes =
+    granular::find_shape_sizes(frame.schema, frame.header.dialect == granular::Dialect::Lammps);
+  if (sizes != granular::ShapeSizes::None)
+  {
+    const bool half = sizes == granular::ShapeSizes::HalfAxes;
+    data->AddArray(MakeStrings("ShapeSizes", { half ? "HalfAxes" : "Diameters" }));
+  }
   std::vector<std::string> names;
   for (const granular::ColumnInfo& column : frame.schema.columns())
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/data_file/velocities.h"
+#include "granular/data_file/section_join.h"
 
 #include "granular/common/words.h"
 #include "granular/local/fetch_particles.h"
@@ -33,12 +33,14 @@ Ids ids_of(const DumpFrame& frame)
 }
 
 /// Says which row has the id of an earlier one: the text is looked at again.
-[[noreturn]] void fail_repeated(const ByteSource& source, const DataSection& section)
+[[noreturn]] void fail_repeated(const ByteSource& source, const ParticleSection& section)
 {
-  TextScanner scanner(source, section.offset, section.line);
+  const std::string wanted =
+    "expected one row of each particle in the section " + std::string(section.name) + ", got ";
+  TextScanner scanner(source, section.rows.offset, section.rows.line);
   IdTable lines;
   std::string_view line;
-  while (scanner.offset() < section.end && scanner.next(line))
+  while (scanner.offset() < section.rows.end && scanner.next(line))
   {
     const std::string_view word = take_word(line);
     std::int64_t id = 0;
@@ -47,23 +49,30 @@ Ids ids_of(const DumpFrame& frame)
     {
       Where where = scanner.where();
       where.column = "id";
-      throw FormatError("expected one velocity of each particle, got another one of particle " +
-          std::to_string(id) + "; the first is in line " + std::to_string(lines.find(id)),
+      throw FormatError(wanted + "another one of particle " + std::to_string(id) +
+          "; the first is in line " + std::to_string(lines.find(id)),
         where);
     }
   }
-  throw FormatError(
-    "expected one velocity of each particle, got several", { source.path(), section.name_line });
+  throw FormatError(wanted + "several", { source.path(), section.rows.name_line });
 }
 
-/// The values of the table, of which v is where the places of particles are otherwise.
+/// The array of the table that is fetched as the places of particles are otherwise.
+const DumpArray& vector_of(const DumpFrame& table)
+{
+  return *std::ranges::find_if(
+    table.arrays, [](const DumpArray& array) { return array.info.components() == 3; });
+}
+
+/// The values of the table, one vector of which is where the places of particles are otherwise.
 ParticleValues values_of(const DumpFrame& table)
 {
+  const DumpArray& vector = vector_of(table);
   ParticleValues values;
-  values.points = static_cast<const double*>(array_of(table, "v").block.data());
+  values.points = static_cast<const double*>(vector.block.data());
   for (const DumpArray& array : table.arrays)
   {
-    if (array.info.name != "id" && array.info.name != "v")
+    if (array.info.name != "id" && &array != &vector)
     {
       values.arrays.push_back(view_rows(array.info.name, ValueType::Float64,
         static_cast<const double*>(array.block.data()), array.info.components()));
@@ -71,10 +80,15 @@ ParticleValues values_of(const DumpFrame& table)
   }
   return values;
 }
+/// The values of a particle without a row: a point, as LAMMPS has them beside ellipsoids.
+double value_without_row(std::string_view array, std::size_t component) noexcept
+{
+  return array == "quat" && component == 0 ? 1 : array == "blockiness" ? 2 : 0;
+}
 }
 
-void add_velocities(DumpFrame& particles, const DumpFrame& table, const ColumnSchema& schema,
-  const ByteSource& source, const DataSection& section, const std::shared_ptr<BlockPool>& pool,
+std::int64_t join_section(DumpFrame& particles, const DumpFrame& table, const ColumnSchema& schema,
+  const ByteSource& source, const ParticleSection& section, const std::shared_ptr<BlockPool>& pool,
   Communicator& ranks)
 {
   const bool alone = ranks.size() == 1;
@@ -96,17 +110,28 @@ void add_velocities(DumpFrame& particles, const DumpFrame& table, const ColumnSc
   std::vector<std::int64_t> places(wanted.size());
   finder.find(wanted, places.data());
   const auto missing = std::ranges::find(places, IdFinder::nowhere);
-  if (missing != places.end())
+  if (section.of_all && missing != places.end())
   {
-    throw FormatError("expected a velocity of particle " +
+    throw FormatError("expected a row of particle " +
         std::to_string(wanted[static_cast<std::size_t>(missing - places.begin())]) +
-        " in the section Velocities, got none",
-      { source.path(), section.name_line });
+        " in the section " + std::string(section.name) + ", got none",
+      { source.path(), section.rows.name_line });
+  }
+  std::vector<std::size_t> rows; // of the particles that have a row, and the places of those
+  std::vector<std::int64_t> found;
+  for (std::size_t row = 0; row < places.size(); ++row)
+  {
+    if (places[row] != IdFinder::nowhere)
+    {
+      rows.push_back(row);
+      found.push_back(places[row]);
+    }
   }
   std::vector<ArrayView> views = values.arrays;
-  views.push_back(view_rows("v", ValueType::Float64, values.points, 3));
-  views.back().step = values.point_step;
-  std::vector<double> numbers(places.size());
+  views.insert(
+    views.begin(), view_rows(vector_of(table).info.name, ValueType::Float64, values.points, 3));
+  views.front().step = values.point_step;
+  std::vector<double> numbers(found.size());
   for (const ArrayView& view : views)
   {
     const auto size = static_cast<std::size_t>(view.size());
@@ -115,14 +140,19 @@ void add_velocities(DumpFrame& particles, const DumpFrame& table, const ColumnSc
     array.block = Block(size * places.size() * sizeof(double), pool);
     for (std::size_t i = 0; i < size; ++i)
     {
-      load_numbers(component_of(view, static_cast<int>(i)), places, numbers.data());
+      load_numbers(component_of(view, static_cast<int>(i)), found, numbers.data());
       auto* const to = static_cast<double*>(array.block.data()) + i;
-      for (std::size_t row = 0; row < numbers.size(); ++row)
+      for (std::size_t row = 0; found.size() < places.size() && row < places.size(); ++row)
       {
-        to[row * size] = numbers[row];
+        to[row * size] = value_without_row(view.name, i);
+      }
+      for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        to[rows[k] * size] = numbers[k];
       }
     }
     particles.arrays.push_back(std::move(array));
   }
+  return static_cast<std::int64_t>(found.size());
 }
 }
