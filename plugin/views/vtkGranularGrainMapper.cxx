@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularGrainMapper.h"
 
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkGranularGrainFragments.h"
 #include "vtkGranularGrainShaders.h"
+#include "vtkGranularGrainShapes.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -27,7 +27,6 @@
 #include "vtkShader.h"
 #include "vtkShaderProgram.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkVariant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,53 +82,11 @@ vtkSmartPointer<vtkFloatArray> CountedFrom(const std::array<double, 3>& place, v
   return made;
 }
 
-// Returns an array of so many components, or nullptr.
-vtkDataArray* Find(vtkDataSet* data, const char* name, int components)
+// Returns an array, or nullptr.
+vtkDataArray* Find(vtkPolyData* data, const char* name)
 {
-  vtkDataArray* array = name ? data->GetPointData()->GetArray(name) : nullptr;
-  return array && (components == 0 || array->GetNumberOfComponents() == components) ? array
-                                                                                    : nullptr;
+  return name ? data->GetPointData()->GetArray(name) : nullptr;
 }
-
-// Numbers of each particle: an array of several components, or as many arrays.
-class Numbers
-{
-public:
-  // Looks for one set of arrays after another.
-  Numbers(vtkPolyData* data, const std::vector<std::vector<const char*>>& sets, int components)
-  {
-    for (const std::vector<const char*>& names : sets)
-    {
-      this->Arrays.clear();
-      for (const char* name : names)
-      {
-        vtkDataArray* array = Find(data, name, components / static_cast<int>(names.size()));
-        if (array)
-        {
-          this->Arrays.push_back(array);
-        }
-      }
-      if (this->Arrays.size() == names.size())
-      {
-        return;
-      }
-    }
-    this->Arrays.clear();
-  }
-
-  // Leaves the numbers as they are if there are none.
-  void Get(vtkIdType i, double* numbers) const
-  {
-    for (vtkDataArray* array : this->Arrays)
-    {
-      array->GetTuple(i, numbers);
-      numbers += array->GetNumberOfComponents();
-    }
-  }
-
-private:
-  std::vector<vtkDataArray*> Arrays;
-};
 
 // The way from the buffers, which are counted from a place, to the picture.
 struct View
@@ -188,18 +145,6 @@ struct View
   float Scale; // of lengths
   float Near;  // z of the near plane
 };
-
-// Returns the length of the longest vector whose components, by lengths a and b, have powers n that sum up to 1, by Hoelder's inequality.
-double Longest(double a, double b, double n)
-{
-  const double most = std::max(a, b);
-  if (n <= 2.0 || most <= 0.0)
-  {
-    return most;
-  }
-  const double power = 2.0 * n / (n - 2.0);
-  return most * std::pow(1.0 + std::pow(std::min(a, b) / most, power), 1.0 / power);
-}
 }
 
 vtkStandardNewMacro(vtkGranularGrainMapper);
@@ -211,24 +156,9 @@ void vtkGranularGrainMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FlatIndex: " << this->FlatIndex << "\n";
+  os << indent << "Growth: " << this->Growth << "\n";
   os << indent << "HaveShapes: " << this->HaveShapes << "\n";
-}
-
-vtkDataArray* vtkGranularGrainMapper::GetShapes(vtkDataSet* data)
-{
-  return Find(data, "shape", 3);
-}
-
-double vtkGranularGrainMapper::GetShapeFactor(vtkDataSet* data)
-{
-  if (Find(data, "quat", 4))
-  {
-    return 1.0; // of LIGGGHTS
-  }
-  vtkAbstractArray* dialect = data->GetFieldData()->GetAbstractArray("Dialect");
-  const bool lammps = dialect && dialect->GetNumberOfValues() == 1 &&
-    dialect->GetVariantValue(0).ToString() == "LAMMPS";
-  return lammps || Find(data, "quatw", 1) ? 0.5 : 1.0;
+  os << indent << "ShapeSizes: " << this->ShapeSizes << "\n";
 }
 
 void vtkGranularGrainMapper::Draw(
@@ -393,11 +323,11 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   this->Values["vertexMC"] = CountedFrom(this->From, data->GetPoints()->GetData());
   auto radii = MakeFloats(count, 1);
   const char* name = this->Owner->GetScaleArray();
-  vtkDataArray* given = Find(data, name, 0);
+  vtkDataArray* given = Find(data, name);
   const double same = name && name[0] ? 0.0 : 1.0; // where there is no such array
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const double radius = this->Owner->GetScaleFactor() *
+    const double radius = this->Growth * this->Owner->GetScaleFactor() *
       (given ? Component(given, i, this->Owner->GetScaleArrayComponent()) : same);
     radii->SetValue(i, static_cast<float>(std::isfinite(radius) ? radius : 0.0));
   }
@@ -485,56 +415,35 @@ bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
 // Loads the shapes, if there are any; the radii become those of spheres around them.
 void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
 {
-  vtkPolyData* data = this->CurrentInput;
-  vtkDataArray* shapes = GetShapes(data);
-  if (this->HaveShapes != (shapes != nullptr))
+  const vtkGranularGrainShapes shapes(this->CurrentInput, this->ShapeSizes);
+  if (this->HaveShapes != shapes.Any())
   {
-    this->HaveShapes = shapes != nullptr;
+    this->HaveShapes = shapes.Any();
     this->Modified(); // another program
   }
-  if (!shapes)
+  if (!shapes.Any())
   {
     return;
   }
-  const Numbers quaternions(data, { { "quat" }, { "quatw", "quati", "quatj", "quatk" } }, 4);
-  const Numbers blockiness(data, { { "blockiness1", "blockiness2" }, { "block1", "block2" } }, 2);
-  const vtkIdType count = data->GetNumberOfPoints();
+  const vtkIdType count = radii->GetNumberOfTuples();
   auto axes = MakeFloats(count, 3);
   auto turns = MakeFloats(count, 4);
   auto powers = MakeFloats(count, 2);
   auto inner = MakeFloats(count, 1);
-  const double factor = this->Owner->GetScaleFactor() * GetShapeFactor(data);
+  const double factor = this->Growth * this->Owner->GetScaleFactor();
   for (vtkIdType i = 0; i < count; ++i)
   {
-    double half[3];
-    double turn[4] = { 1.0, 0.0, 0.0, 0.0 };
-    double power[2] = { 2.0, 2.0 };
-    shapes->GetTuple(i, half);
-    std::transform(half, half + 3, half, [&](double axis) { return axis * factor; });
-    if (half[0] > 0.0 && half[1] > 0.0 && half[2] > 0.0 &&
-      std::isfinite(half[0] + half[1] + half[2]))
+    const double radius = factor > 0.0 ? radii->GetValue(i) / factor : 0.0;
+    const vtkGranularGrainShapes::Shape shape = shapes.Get(i, radius);
+    for (int k = 0; k < 3; ++k)
     {
-      blockiness.Get(i, power);
-      quaternions.Get(i, turn);
-      power[0] = std::isfinite(power[0]) ? std::max(power[0], 2.0) : 2.0;
-      power[1] = std::isfinite(power[1]) ? std::max(power[1], 2.0) : 2.0;
-      radii->SetValue(
-        i, static_cast<float>(Longest(Longest(half[0], half[1], power[1]), half[2], power[0])));
+      axes->SetTypedComponent(
+        i, k, static_cast<float>(factor * shape.Axes[static_cast<std::size_t>(k)]));
     }
-    else
-    {
-      std::fill(half, half + 3, radii->GetValue(i));
-    }
-    const double length =
-      std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
-    for (int k = 0; k < 4; ++k)
-    {
-      turns->SetTypedComponent(
-        i, k, length > 0.0 ? static_cast<float>(turn[k] / length) : (k == 0 ? 1.0f : 0.0f));
-    }
-    axes->SetTuple(i, half);
-    inner->SetValue(i, static_cast<float>(std::min({ half[0], half[1], half[2] })));
-    powers->SetTuple(i, power);
+    turns->SetTuple(i, shape.Turn.data());
+    powers->SetTuple(i, shape.Powers.data());
+    radii->SetValue(i, static_cast<float>(factor * shape.Outer));
+    inner->SetValue(i, static_cast<float>(factor * shape.Inner));
   }
   this->Inner = inner;
   this->Values["axesMC"] = axes;
@@ -546,7 +455,7 @@ void vtkGranularGrainMapper::BuildColors(vtkActor* actor)
 {
   vtkPolyData* data = this->CurrentInput;
   const vtkIdType count = data->GetNumberOfPoints();
-  vtkDataArray* opacities = Find(data, this->Owner->GetOpacityArray(), 0);
+  vtkDataArray* opacities = Find(data, this->Owner->GetOpacityArray());
   vtkPiecewiseFunction* function = this->Owner->GetScalarOpacityFunction();
   this->IsTranslucent = false;
   this->MapScalars(1.0);

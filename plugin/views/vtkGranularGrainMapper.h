@@ -9,14 +9,8 @@
  * Where the near plane or a clipping plane cuts a particle open, its inside is seen. Of a translucent particle the side towards the
  * camera is seen.
  *
- * Particles are spheres, or superquadrics where there is a point array `shape`:
- * (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 = 1 in the particle's own axes. Arrays, as dumps of LIGGGHTS and LAMMPS have them:
- * - shape, 3 components: the half axes a b c, or twice as much with quatw and where the field data Dialect is LAMMPS;
- * - quat, 4 components, or quatw quati quatj quatk: w x y z, which turns the particle's axes into those of the points; without it
- *   nothing is turned;
- * - blockiness1 and blockiness2, or block1 and block2: n1 along the particle's z, and n2 across it, both at least 2; without them 2
- *   and 2, an ellipsoid.
- * A particle whose shape has an axis that is not greater than 0 is a sphere of its radius.
+ * Particles are spheres, or superquadrics (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 = 1 in the particle's own axes, where the data have
+ * the arrays of vtkGranularGrainShapes.
  */
 
 #ifndef vtkGranularGrainMapper_h
@@ -32,7 +26,6 @@
 #include <vector> // For lists
 
 class vtkDataArray;
-class vtkDataSet;
 class vtkFloatArray;
 class vtkPointGaussianMapper;
 
@@ -52,15 +45,21 @@ public:
   void Draw(
     vtkRenderer* renderer, vtkActor* actor, vtkPointGaussianMapper* owner, const Place& from);
 
+  ///@{
   /**
-   * Returns the array of the axes of particles, or nullptr if they are spheres.
+   * Meaning of the sizes of shapes: see vtkGranularGrainShapes.
    */
-  static vtkDataArray* GetShapes(vtkDataSet* data);
+  vtkSetMacro(ShapeSizes, int);
+  vtkGetMacro(ShapeSizes, int);
+  ///@}
 
+  ///@{
   /**
-   * Returns what makes half axes of those numbers: 1, or 0.5 for diameters.
+   * A factor on all sizes, beside that of the other mapper; 1 by default.
    */
-  static double GetShapeFactor(vtkDataSet* data);
+  vtkSetMacro(Growth, double);
+  vtkGetMacro(Growth, double);
+  ///@}
 
   ///@{
   /**
@@ -102,6 +101,8 @@ private:
   bool FindSeen(vtkRenderer* renderer, vtkActor* actor);
 
   unsigned int FlatIndex = 1;
+  int ShapeSizes = 0;
+  double Growth = 1.0;
   vtkPointGaussianMapper* Owner = nullptr; // while it draws
   Place From{};                            // of the next picture
   Place Built{};                           // of the buffers

@@ -23,6 +23,9 @@
  * Particles without radii are drawn as points with the size of the property PointSize, and so are those with scaled
  * coordinates, which radii do not fit.
  *
+ * While the user moves the camera over large data, when ParaView's settings ask for less detail, few particles are drawn: the same ones
+ * in each frame, larger, so that all of them would fill the same volume.
+ *
  * Made for radii without a transfer function, as the XML sets them.
  */
 
@@ -54,6 +57,11 @@ public:
    */
   void SetSplatSize(double factor) override;
 
+  /**
+   * Sets the meaning of the sizes of shapes: 0, as the data say; 1, half axes; 2, diameters.
+   */
+  void SetShapeSizes(int sizes);
+
   ///@{
   /**
    * How light shows on the particles, as of vtkProperty.
@@ -73,6 +81,9 @@ private:
   void operator=(const vtkGranularGrainsRepresentation&) = delete;
 
   bool IsTranslucent();
+
+  vtkIdType Grains = 0; // on all ranks where data are read
+  double MostWhileMoving = 1e5;
 };
 
 #endif

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Particles are seen as rays in double precision see them: depth, side and number of each pixel, of spheres, ellipsoids and
 superquadrics, near and far, from outside and inside; other surfaces cut them where they meet; hidden ones change no pixel."""
+import sys
+
 import granular
 import numpy
 import ray_caster
@@ -8,7 +10,7 @@ from discs import ROUNDED, black_view, picture
 from paraview.simple import *
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPolyData
 
 PIXELS = 160
 HAS_DEPTHS = paraview.simple.GetParaViewVersion() < (6, 0)
@@ -102,29 +104,10 @@ def check_depths(kind, scenes):
     assert seen_pixels > 5000 and (not HAS_DEPTHS or (parts.max() < 2**-22 and (units > 1).mean() < 0.1))
 
 
-check_depths("spheres", 30)
-check_depths("ellipsoids", 30)
-check_depths("superquadrics", 6)
-
-# ---- one particle as LIGGGHTS and LAMMPS write it: half axes, and diameters without a radius -----------------------------
-HEADER = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS {}\n-1 1\n-1 1\n-1 1\nITEM: ATOMS id type x y z "
-points, turns = numpy.array([[0.3, 0, 0], [-0.5, 0.2, 0.1]]), numpy.array([[0.5, 0.1, -0.7, 0.2], [0.9, -0.3, 0.1, 0.4]])
-axes, powers = numpy.array([[0.4, 0.2, 0.1], [0.15, 0.3, 0.2]]), numpy.array([[8, 2.5], [4, 8]])
-for boundary, names, factor in (("ff ff ff", "radius shapex shapey shapez quat1 quat2 quat3 quat4 blockiness1 blockiness2", 1),
-                                ("pp pp pp", "quatw quati quatj quatk shapex shapey shapez block1 block2", 2)):
-    with open("shapes.dump", "w") as file:
-        file.write(("" if factor == 1 else "ITEM: UNITS\nlj\n") + HEADER.format(boundary) + names + "\n")
-        for i in range(2):
-            shape, turn, power = (" ".join(map(str, row)) for row in (factor * axes[i], turns[i], powers[i]))
-            file.write(f"{i + 1} 1 {' '.join(map(str, points[i]))} " + (f"0.4 {shape} {turn} {power}" if factor == 1 else f"{turn} {shape} {power}") + "\n")
-    source = granular.reader("shapes.dump")
-    shown(source)
-    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [1, 2, 5], [0, 0, 0], [0, 1, 0]
-    view.CameraParallelProjection, view.CameraViewAngle = 0, 20
-    camera, depths = seen()
-    numbers = ray_caster.cast(camera, points, axes, turns, powers)[2]
-    assert (numbers >= 0).sum() > 1000 and ((depths < 1) == (numbers >= 0)).all(), ((depths < 1) != (numbers >= 0)).sum()
-    Delete(source)
+more = int(sys.argv[1]) if len(sys.argv) > 1 else 1  # 15: a thousand scenes, in about ten minutes
+check_depths("spheres", 30 * more)
+check_depths("ellipsoids", 30 * more)
+check_depths("superquadrics", 6 * more)
 
 # ---- where surfaces meet: a ball in a ball, a tube and a plane through one, from above ----------------------------------
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 5], [0, 0, 0], [0, 1, 0]
@@ -147,6 +130,25 @@ for source, height in ((tube, lambda: numpy.where((abs(y) < 0.02) & (abs(x) < 1.
     wrong = (pixels[..., 2] > 128) != in_front  # white, not red or black
     assert wrong.sum() <= ROUNDED, wrong.sum()
     Hide(source, view)
+
+# a clipping plane opens the ball: its inside is below the plane through its middle, and a ring of its outside above, as is the bottom of the ball inside it
+plane.Origin, plane.Point1, plane.Point2 = [-1.4, -1.4, 0], [1.4, -1.4, 0], [-1.4, 1.4, 0]
+Show(plane, view)
+cut = vtkPlane()
+cut.SetOrigin(0, 0, 0.3)
+cut.SetNormal(0, 0, -1)
+actors = view.GetRenderer().GetActors()
+mapper = next(actor.GetMapper() for actor in (actors.GetItemAsObject(i) for i in range(actors.GetNumberOfItems()))
+              if "Gaussian" in actor.GetMapper().GetClassName() or "Grain" in actor.GetMapper().GetClassName())
+mapper.AddClippingPlane(cut)
+pixels = picture(view, "clipped")
+mapper.RemoveAllClippingPlanes()
+beside = y < 0.7  # without the small ball
+ring = (x**2 + y**2 < 1) & (x**2 + y**2 > 1 - 0.3**2)
+bottom = x**2 + y**2 < 0.3**2 - 0.2**2  # of the ball inside
+wrong = ((pixels[..., 2] > 128) != (ring | bottom)) & beside
+assert (ring & beside).sum() > 500 and wrong.sum() <= ROUNDED, wrong.sum()
+Delete(plane)
 Delete(balls)
 
 # ---- many in a heap: those that are left out change nothing --------------------------------------------------------------

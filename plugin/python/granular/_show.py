@@ -15,6 +15,11 @@ _COLOURS = [(0.00, 0.45, 0.70), (0.90, 0.60, 0.00), (0.00, 0.62, 0.45), (0.80, 0
 
 _GREY = [0.35, 0.35, 0.35]
 
+# Arrays by which Grains draws shapes that are no spheres; those of computes only where there are rotations, too.
+_SHAPES = {"shape", "shapex"}
+_COMPUTED_SHAPES = {"c_shape", "c_s", "c_diameter"}
+_ROTATIONS = {"quat", "quatw", "quat1", "c_q", "c_quat"}
+
 
 def _spacing_radius(source: Any) -> float | None:
     """Half the mean distance of the points, or None if there are too few to tell."""
@@ -26,6 +31,12 @@ def _spacing_radius(source: Any) -> float | None:
     if points < 2 or not extents:
         return None
     return 0.5 * (math.prod(extents) / points) ** (1 / len(extents))
+
+
+def _has_sizes(source: Any, radius: str) -> bool:
+    """True if the particles have radii of this name, or shapes."""
+    names = set(source.PointData.keys())
+    return bool({radius, *_SHAPES} & names) or bool(_COMPUTED_SHAPES & names and _ROTATIONS & names)
 
 
 def _is_scaled(source: Any) -> bool:
@@ -97,6 +108,7 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     reader  a GranularDumpReader, or any source or filter whose first output has points.
     view    a render view; by default the active one, or a new one.
     radius  name of the point array with the radii, in the unit of the points, or one number for all.
+            Ellipsoids and superquadrics have the sizes of their own arrays instead.
             Where there is no such array, and where the points are scaled coordinates, spheres of
             half the mean distance of the points are shown.
     color   name of a point array to colour by; by default as ParaView decides. "type" gives each type a colour and a
@@ -121,7 +133,7 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     # ParaView does not know the arrays of a frame without particles: later ones will have them
     empty = reader.GetDataInformation().GetNumberOfPoints() == 0
     by_array = isinstance(radius, str) and not _is_scaled(reader) and \
-        (empty or bool({radius, "shape"} & set(reader.PointData.keys())))
+        (empty or _has_sizes(reader, radius))
     display.GrainRadiusArray = radius if by_array else ""
     if by_array:
         display.GrainScale = 1.0
