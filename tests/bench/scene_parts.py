@@ -551,6 +551,17 @@ SCENE_PARTS = (
          [Target(r"^double; ", "position, largest:radius", "<=", 0),
           Target(r"^single, PointOrigin; ", "position, largest:radius", "<=", 1e-5),
           Target(r"crossings", "position, largest:ulp", "<=", 0.501)], {"look": plot_look, "layer": plot_layer}, script=True),
+    Part("draw", "Drawing",
+         """A disturbed lattice that fills the window of 1000 x 800 pixels at zoom 1; the camera turns by two degrees a frame; time on the
+         wall. Glyphs of spheres have 96 triangles; those of superquadrics have as many sides as keep the outline of a typical
+         particle within a quarter of a pixel.""",
+         [cases_by_metrics(r" spheres", *columns(".2f", *(f"frames at zoom {zoom}:1/s" for zoom in (1, 4, 16))),
+                           *columns(".2f", *(f"against Point Gaussian at zoom {zoom}:1" for zoom in (1, 4, 16)))),
+          cases_by_metrics(r" superquadrics", *columns(".2f", *(f"frames at zoom {zoom}:1/s" for zoom in (1, 4, 16))),
+                           *columns(".2f", *(f"against glyphs at zoom {zoom}:1" for zoom in (1, 4, 16))),
+                           *columns(".0f", *(f"sides at zoom {zoom}:1" for zoom in (1, 4, 16))))],
+         [Target(r"1e6 spheres, Grains", f"against Point Gaussian at zoom {zoom}:1", ">=", 0.75) for zoom in (1, 4, 16)],
+         script=True, wants_cores=2),
     Part("choose", "Only what the scene needs",
          """333,396 particles as above, text of %g; and a file of 20 frames. kept: the part of the values, or of the particles, that
          is asked for. One thread, processor time.""",
