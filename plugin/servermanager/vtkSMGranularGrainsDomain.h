@@ -6,7 +6,7 @@
  * The readers' hints tell ParaView to show particles as Grains, and what filters make of them it shows as a surface: specks where
  * particles are. This domain, of a property that representations have for it, sets their property Representation to Grains when they are
  * made for data that still are particles: points of particles, as the field data of the readers tell (`Coordinates` and `PointOrigin`),
- * with radii or shapes, and with no cells but one of each point, or none.
+ * with radii or shapes, and with as many cells as points, or none; and so must be all data between the reader and these.
  *
  * Made for elements GranularGrainsDomain of the server manager's XML; the property Input is required.
  */

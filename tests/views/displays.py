@@ -32,7 +32,20 @@ for name, source in groups.items():
     assert 0 < source.GetDataInformation().GetNumberOfPoints() <= 1200, name
     assert Show(source, view).Representation == "Grains", name
     Hide(source, view)
-for name, source in {"glyphs": Glyph(Input=reader, GlyphType="Sphere"), "ball": Sphere(),
+view.ViewTime = 0  # a frame without particles
+early = Clip(Input=reader, ClipType="Box")
+early.UpdatePipeline(0)
+assert early.GetDataInformation().GetNumberOfPoints() == 0 and Show(early, view).Representation == "Grains"
+spheres = Glyph(Input=reader, GlyphType="Sphere")
+spheres.UpdatePipeline(0)
+assert Show(spheres, view).Representation == "Surface"
+Hide(early, view)
+Hide(spheres, view)
+view.ViewTime = 2000
+glyphs = Glyph(Input=reader, GlyphType="Sphere", ScaleArray=["POINTS", "radius"], ScaleFactor=2, GlyphMode="All Points")
+circles = Slice(Input=glyphs)
+circles.SliceType.Origin, circles.SliceType.Normal = middle, [0, 1, 0]
+for name, source in {"glyphs": glyphs, "circles": circles, "ball": Sphere(),
                      "contacts": granular.reader(os.path.join(GOOD, "local", "contacts.dump")),
                      "voxels": PointVolumeInterpolator(Input=reader)}.items():
     source.UpdatePipeline(2000)
