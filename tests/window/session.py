@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The window: open a run whose first frame is empty, Apply, last frame, save the state; load it in pvbatch.
 
-The camera is where arithmetic puts it, around the box. The first picture shows the box and nothing else, the last one
+Then a Clip, and Apply: its particles come up as particles. The camera is where arithmetic puts it, around the box. The first picture shows the box and nothing else, the last one
 the particles of the file, pixel by pixel; pvbatch shows the same from the state."""
 import math
 import os
@@ -24,6 +24,15 @@ from paraview.simple import *
 view = GetActiveView()
 view.OrientationAxesVisibility = 0
 SaveScreenshot({path!r}, view, ImageResolution=[{pixels}, {pixels}])
+"""
+CLIP = """
+from paraview.simple import *
+Clip(Input=GetActiveSource(), ClipType="Box")
+"""
+LOOK = """
+from paraview.simple import *
+with open("look.txt", "w") as file:
+    file.write(GetDisplayProperties().SMProxy.GetProperty("Representation").GetElement(0))
 """
 
 
@@ -48,9 +57,13 @@ def event(widget, command, arguments=""):
            f"arguments={quoteattr(arguments)}/>"
 
 
-def in_shell(name):
-    """Returns the event of a picture that the window's Python shell saves."""
-    return event("pythonShellDock/pythonShell/consoleWidget", "executeCommand", f"exec(open({script(name)!r}).read())")
+def in_shell(name, text=None):
+    """Returns the event of a script, or of a picture, that the window's Python shell runs or saves."""
+    if text:
+        with open(f"{name}.py", "w") as file:
+            file.write(text)
+    path = os.path.abspath(f"{name}.py") if text else script(name)
+    return event("pythonShellDock/pythonShell/consoleWidget", "executeCommand", f"exec(open({path!r}).read())")
 
 
 def read(name):
@@ -68,7 +81,7 @@ def drawn(pixels):
 
 
 # ---- in the window ----------------------------------------------------------------------------------
-for name in ("first.png", "last.png", "loaded.png", "session.pvsm"):
+for name in ("first.png", "last.png", "loaded.png", "look.txt", "session.pvsm"):
     if os.path.exists(name):
         os.remove(name)
 os.makedirs("home", exist_ok=True)
@@ -84,9 +97,15 @@ with open("events.xml", "w") as file:
         in_shell("last"),
         event("menubar/menu_File", "activate", "actionFileSaveServerState"),
         event("FileSaveServerStateDialog", "filesSelected", state),
+        in_shell("clip", CLIP),
+        event("propertiesDock/propertiesPanel/Accept", "activate"),
+        in_shell("look", LOOK),
         "</pqevents>\n"]))
 # --dr and a home of its own: whatever the user has set in the window counts for nothing
 run(WINDOW, "--dr", DUMP, "--test-script=" + os.path.abspath("events.xml"), "--exit", HOME=home, XDG_RUNTIME_DIR=home)
+
+with open("look.txt") as file:
+    assert file.read() == "Grains", "the clip is not shown as particles"
 
 # ---- in pvbatch -------------------------------------------------------------------------------------
 with open("load.py", "w") as file:
