@@ -71,16 +71,17 @@ granular.save(Tube(Input=contacts), "a_tubes.vtp")
 granular.save(GroupDatasets(Input=[particles, cells]), "a_group.vtm")
 for name in ("a.vtp", "a.vti", "a_tubes.vtp", *glob.glob("a_group/*")):  # all versions of libexpat read what is XML for Python's
     xml.etree.ElementTree.parse(name)
+    assert b"AppendedData" not in open(name, "rb").read(), name  # VTK's own parser refuses them with some versions of libexpat
 last = particles.TimestepValues[-1]
 whole = granular.fetch(particles, time=last)
 for compressor in ("None", "ZLib", "LZ4", "LZMA"):
     granular.save(particles, "packed.vtp", last, CompressorType=compressor)
-    xml.etree.ElementTree.parse("packed.vtp")
+    assert b"AppendedData" not in open("packed.vtp", "rb").read(), compressor
     again = granular.fetch(XMLPolyDataReader(FileName=["packed.vtp"]))
     assert all(numpy.array_equal(again[name], whole[name]) for name in whole), compressor
 for name, kind in (("b.vtp", XMLPolyDataReader), ("b.vtu", XMLUnstructuredGridReader)):
     assert main(["convert", grains, name, "--frames", "-1", "--quiet"]) == 0
-    xml.etree.ElementTree.parse(name)
+    assert b"AppendedData" not in open(name, "rb").read(), name
     again = granular.fetch(kind(FileName=[name]))
     assert all(numpy.array_equal(again[name], whole[name]) for name in ("points", "id", "v", "radius"))
 # a link to another name, on another disk where there is one: the ending is the user's
