@@ -190,7 +190,7 @@ NOBODY = 65534 if os.geteuid() == 0 else os.geteuid()
 
 
 def in_locked_folder():
-    if not os.access("locked/a.dump", os.R_OK):
+    if not os.access(os.path.abspath("locked/a.dump"), os.R_OK):
         return "out of reach"
     for index in ("never", "cache", "beside"):
         granular.open("locked/a.dump", index=index)[0].read()
