@@ -3,7 +3,6 @@
 
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
-#include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
@@ -12,29 +11,22 @@
 #include "vtkSMUncheckedPropertyHelper.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <iterator>
 #include <string>
 
 namespace
 {
-bool HasAny(vtkPVDataInformation* data, int association, std::initializer_list<const char*> names)
-{
-  return std::any_of(names.begin(), names.end(),
-    [=](const char* name) { return data->GetArrayInformation(name, association) != nullptr; });
-}
-
-bool AreParticles(vtkPVDataInformation* data)
+bool AreOurs(vtkPVDataInformation* data)
 {
   return (data->DataSetTypeIsA("vtkPolyData") || data->DataSetTypeIsA("vtkUnstructuredGrid")) &&
-    (data->GetNumberOfCells() == 0 || data->GetNumberOfCells() == data->GetNumberOfPoints()) &&
-    HasAny(data, vtkDataObject::FIELD, { "PointOrigin" }) &&
-    HasAny(data, vtkDataObject::FIELD, { "Coordinates" }) &&
-    HasAny(data, vtkDataObject::POINT, { "radius", "shape" });
+    data->GetArrayInformation("PointOrigin", vtkDataObject::FIELD) &&
+    data->GetArrayInformation("Coordinates", vtkDataObject::FIELD);
 }
 
-// Filters that make particles of particles, whatever there is: the first frame of most runs that insert particles is empty.
-constexpr const char* ParticleFilters[] = { "Calculator", "Clip", "ExtractSelection", "Threshold" };
+// Filters that keep particles. Data without cells tell nothing: the first frame of most runs that insert particles is empty.
+constexpr const char* ParticleFilters[] = { "Calculator", "Clip", "ExtractSelection", "ForceTime",
+  "PassArrays", "PythonCalculator", "TemporalInterpolator", "TemporalShiftScale", "Threshold",
+  "TransformFilter" };
 
 bool KeepsParticles(vtkSMSourceProxy* source, unsigned int port)
 {
@@ -55,8 +47,12 @@ bool IsParticlesFromTheReaderOn(vtkSMProperty* input)
     auto* source = vtkSMSourceProxy::SafeDownCast(helper.GetAsProxy(0));
     const unsigned int port = helper.GetOutputPort(0);
     vtkPVDataInformation* data = source ? source->GetDataInformation(port) : nullptr;
-    if (!data ||
-      !(data->GetNumberOfPoints() > 0 ? AreParticles(data) : KeepsParticles(source, port)))
+    if (!data || (data->GetNumberOfPoints() > 0 && !AreOurs(data)))
+    {
+      return false;
+    }
+    const vtkTypeInt64 cells = data->GetNumberOfCells(); // a vertex of each point, or none
+    if (cells > 0 ? cells != data->GetNumberOfPoints() : !KeepsParticles(source, port))
     {
       return false;
     }

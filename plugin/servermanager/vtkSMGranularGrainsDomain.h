@@ -3,10 +3,10 @@
  * @class   vtkSMGranularGrainsDomain
  * @brief   Makes particles come up as Grains.
  *
- * The readers' hints tell ParaView to show particles as Grains, and what filters make of them it shows as a surface: specks where
- * particles are. This domain, of a property that representations have for it, sets their property Representation to Grains when they are
- * made for data that still are particles: points of particles, as the field data of the readers tell (`Coordinates` and `PointOrigin`),
- * with radii or shapes, and with as many cells as points, or none; and so must be all data between the reader and these.
+ * The readers' hints tell ParaView to show particles as Grains. Without this domain, ParaView shows a filter's output as a surface: specks
+ * where particles are. The domain belongs to a property that representations have for it. It sets their property Representation to Grains
+ * when they are made for particles: data with the field data `Coordinates` and `PointOrigin` of the readers and as many cells as points,
+ * and so must be all data between the reader and these. Data without cells are particles if the reader or one of some filters made them.
  *
  * Made for elements GranularGrainsDomain of the server manager's XML; the property Input is required.
  */

@@ -98,7 +98,9 @@ TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
     write_data(three("atomic", "3 1 3 0 0\n2 1 1 0 0\n2 2 2 0 0\n", "2 2 2 2\n3 3 3 3\n1 1 1 1\n"));
   DataRun run(path);
   EXPECT_EQ(array_of(run.read().particles, "v"), (Numbers{ 3, 3, 3, 2, 2, 2, 2, 2, 2 }));
-  EXPECT_EQ(run.said(), "particles that have the id of another one, and its velocity: 1\n");
+  EXPECT_EQ(run.said(),
+    "rows of the section Velocities that are left out, as their particle is not there: 1\n"
+    "particles that have the id of another one, and its velocity: 1\n");
 
   DataRun other(path);
   granular::DataRequest request;
@@ -136,6 +138,9 @@ TEST(DataParticles, Ellipsoids)
   EXPECT_EQ(error("3 1 2 3 1 0 0 0\n3 1 2 3 1 0 0 0\n"),
     ":18: column 'id': expected one row of each particle in the section Ellipsoids, got another "
     "one of particle 3; the first is in line 17");
+  DataRun some(write_data(text("3 1 2 3 1 0 0 0 8 8\n2 1 2 3 1 0 0 0\n")));
+  EXPECT_EQ(array_of(some.read().particles, "shape"), (Numbers{ 1, 2, 3, 0, 0, 0, 1, 2, 3 }));
+  EXPECT_NE(some.said().find("got more in some rows"), std::string::npos) << some.said();
   DataRun stranger(write_data(text("2 4 5 6 1 0 0 0\n4 1 2 3 1 0 0 0\n")));
   EXPECT_EQ(array_of(stranger.read().particles, "shape"), (Numbers{ 0, 0, 0, 0, 0, 0, 4, 5, 6 }));
   EXPECT_EQ(stranger.said(),

@@ -118,4 +118,12 @@ def count_calls(columns):
 
 
 assert count_calls(2000) < 6 * count_calls(500)  # in proportion to the columns
+# ---- columns that programs spell in several ways -----------------------------------------------------------------------
+for name, turns, powers in (("superellipsoids.dump", "quatw quati quatj quatk", "block1 block2"),
+                            ("superellipsoids.data", "quatw quati quatj quatk", "block1 block2"),
+                            ("by_hand.dump", "quat1 quat2 quat3 quat4", "blockiness1 blockiness2")):
+    frame = granular.open(os.path.join(os.environ["GRANULAR_DATA"], "good", "shapes", name))[0]
+    for array, words in (("quat", turns), ("blockiness", powers)):
+        for i, word in enumerate(words.split()):
+            assert (frame[word] == frame[array][:, i]).all() and word in granular._run.component_columns(frame), (name, word)
 print("arrays are the numbers of the files")

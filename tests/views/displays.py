@@ -26,7 +26,9 @@ box = Clip(Input=reader, ClipType="Box")
 threshold = Threshold(Input=clip, Scalars=["POINTS", "type"], LowerThreshold=1, UpperThreshold=2)
 chosen = ExtractSelection(Input=reader, Selection=SelectionQuerySource(QueryString="id <= 300", ElementType="Point Data"))
 calculated = Calculator(Input=reader, Function="mag(v)", ResultArrayName="speed")
-groups = {"clip": clip, "box": box, "threshold": threshold, "selection": chosen, "calculator": calculated}
+alien = granular.reader(os.path.join(GOOD, "shapes", "computes.dump"))
+groups = {"dots": Clip(Input=granular.reader(os.path.join(GOOD, "ortho_plain.dump")), ClipType="Box"), "computes": Threshold(Input=alien, Scalars=["POINTS", "type"], LowerThreshold=1, UpperThreshold=1),
+          "clip": clip, "box": box, "threshold": threshold, "selection": chosen, "calculator": calculated}
 for name, source in groups.items():
     source.UpdatePipeline(2000)
     assert 0 < source.GetDataInformation().GetNumberOfPoints() <= 1200, name
@@ -46,7 +48,8 @@ glyphs = Glyph(Input=reader, GlyphType="Sphere", ScaleArray=["POINTS", "radius"]
 circles = Slice(Input=glyphs)
 circles.SliceType.Origin, circles.SliceType.Normal = middle, [0, 1, 0]
 for name, source in {"glyphs": glyphs, "circles": circles, "ball": Sphere(),
-                     "contacts": granular.reader(os.path.join(GOOD, "local", "contacts.dump")),
+                     "contacts": granular.reader(os.path.join(GOOD, "local", "contacts.dump"), ColumnMap="pos id force"),
+                     "paths": TemporalParticlesToPathlines(Input=reader, MaskPoints=1),
                      "voxels": PointVolumeInterpolator(Input=reader)}.items():
     source.UpdatePipeline(2000)
     assert Show(source, view).Representation != "Grains", name

@@ -91,4 +91,11 @@ for name in ("by_hand.dump", "ellipsoids.dump", "superellipsoids.dump", "compute
     with open(os.path.join(HERE, name)) as old, open("again.dump") as new:
         old, new = old.read(), new.read()
         assert old[old.index("ITEM: ATOMS"):].split() == new[new.index("ITEM: ATOMS"):].split(), name
+# and so have chosen arrays: half axes must not become diameters by a name
+for name in ("superellipsoids.data", "superellipsoids.dump", "by_hand.dump"):
+    source = granular.reader(os.path.join(HERE, name), **({"Boundary": "pp pp ff"} if name.endswith(".data") else {}))
+    granular.save(source, "chosen.dump", Columns=["id", "x", "y", "z", "shape", "quat", "blockiness"])
+    first, again = (granular.fetch(each) for each in (source, granular.reader("chosen.dump")))
+    said = [each.GetFieldDataInformation().GetArray("ShapeSizes").GetStringValue(0) for each in (source, GetActiveSource())]
+    assert all((first[array] == again[array]).all() for array in ("id", "shape", "quat", "blockiness")) and said[0] == said[1], name
 print("all shapes compared")

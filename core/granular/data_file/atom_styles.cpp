@@ -139,7 +139,7 @@ std::vector<std::string> find_ellipsoid_columns(const DataLayout& layout, const 
     return {};
   }
   Words columns = split_words(ellipsoids);
-  const std::size_t words = split_words(layout.ellipsoid_rows->first_row).size();
+  const std::size_t words = layout.ellipsoid_rows->fewest_words;
   if (words == columns.size() + 2)
   {
     append_words(exponents, columns);

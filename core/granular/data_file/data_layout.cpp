@@ -297,7 +297,7 @@ private:
     place->name_line = where.line;
     place->offset = place->end = scanner_.offset();
     place->line = scanner_.line();
-    this->pass_rows(*place);
+    this->pass_rows(*place, known.place == &DataLayout::ellipsoid_rows);
     const std::int64_t wanted = layout_.*known.rows;
     if (place->rows != wanted)
     {
@@ -307,7 +307,7 @@ private:
     }
   }
 
-  void pass_rows(DataSection& section)
+  void pass_rows(DataSection& section, bool counts_words)
   {
     bool comments = false;
     std::string_view line;
@@ -323,6 +323,11 @@ private:
       if (first == '\0' || first == '#')
       {
         continue;
+      }
+      if (counts_words)
+      {
+        const std::size_t words = words_of(line).size();
+        section.fewest_words = section.rows == 0 ? words : std::min(section.fewest_words, words);
       }
       section.first_row = section.rows == 0 ? line.substr(0, line.find('#')) : section.first_row;
       section.has_comments = comments; // those behind the last row do not matter

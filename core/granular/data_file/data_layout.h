@@ -24,8 +24,9 @@ struct DataSection
   std::int64_t line = 0;      ///< number of that line
   std::int64_t end = 0;       ///< byte behind the last row
   std::int64_t rows = 0;
-  std::string first_row;     ///< without its comment
-  bool has_comments = false; ///< some lines before the end have a #
+  std::string first_row;        ///< without its comment
+  std::size_t fewest_words = 0; ///< of a row of Ellipsoids: exponents may stand in some
+  bool has_comments = false;    ///< some lines before the end have a #
 };
 
 /// The positions of the parts of a data file of LAMMPS or LIGGGHTS (documentation of LAMMPS, read_data).

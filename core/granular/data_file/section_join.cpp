@@ -10,6 +10,7 @@
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -153,6 +154,7 @@ std::int64_t join_section(DumpFrame& particles, const DumpFrame& table, const Co
     }
     particles.arrays.push_back(std::move(array));
   }
-  return static_cast<std::int64_t>(found.size());
+  std::ranges::sort(found);
+  return std::distance(found.begin(), std::unique(found.begin(), found.end()));
 }
 }

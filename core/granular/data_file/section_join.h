@@ -23,7 +23,7 @@ struct ParticleSection
 
 /// Adds the arrays of the table of a section to the particles with the same ids. The frame must have the array id; rows and
 /// particles may be on different ranks. schema: the columns of both frames. The first array of the table behind its ids must
-/// have three components. Returns how many particles of this rank have a row. Throws FormatError if an id has several rows,
+/// have three components. Returns how many rows belong to particles of this rank. Throws FormatError if an id has several rows,
 /// or a particle none where all have one. Collective.
 std::int64_t join_section(DumpFrame& particles, const DumpFrame& table, const ColumnSchema& schema,
   const ByteSource& source, const ParticleSection& section, const std::shared_ptr<BlockPool>& pool,

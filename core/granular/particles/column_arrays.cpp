@@ -133,15 +133,21 @@ std::vector<std::optional<ValueSource>> find_all_values(
   return values;
 }
 
-std::vector<std::string> columns_of(const ArrayView& array)
+std::vector<std::string> columns_of(const ArrayView& array, const std::vector<std::string>& input)
 {
   std::vector<std::string> names;
+  std::vector<std::string> spelling;
   for (const KnownColumn& known : known_columns())
   {
-    if (known.components > 1 && known.components == array.size() && known.array == array.name &&
-      known.component == static_cast<int>(names.size())) // of several spellings, the first
+    if (known.components > 1 && known.components == array.size() && known.array == array.name)
     {
-      names.emplace_back(known.name);
+      spelling.emplace_back(known.name);
+      if (static_cast<int>(spelling.size()) == array.size())
+      {
+        const bool is_spelled = std::ranges::find(input, spelling.front()) != input.end();
+        names = names.empty() || is_spelled ? spelling : names;
+        spelling.clear();
+      }
     }
   }
   if (names.empty() && array.size() == 1)

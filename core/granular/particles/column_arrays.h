@@ -61,7 +61,9 @@ std::optional<ValueSource> find_values(const ArraysByName& arrays, std::string_v
 std::vector<std::optional<ValueSource>> find_all_values(
   const ArraysByName& arrays, const std::vector<std::string>& names);
 
-/// Returns the columns that an array becomes.
-std::vector<std::string> columns_of(const ArrayView& array);
+/// Returns the columns that an array becomes. Where programs spell them in several ways, as quat1 and quatw, those that are among
+/// the columns of the input, or else the first in the table of known columns.
+std::vector<std::string> columns_of(
+  const ArrayView& array, const std::vector<std::string>& input = {});
 }
 #endif

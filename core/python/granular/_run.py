@@ -415,15 +415,23 @@ class Frame(Mapping[str, Any]):
 _COMPONENTS = {"points": "x y z", "ends": "x1 y1 z1 x2 y2 z2", "image": "ix iy iz"}
 
 
-def _component_names(name: str, count: int) -> list[str]:
-    """Names of the columns that make an array, as dumps spell them."""
+# Columns that programs spell in several ways: LIGGGHTS, LAMMPS, LIGGGHTS of old.
+_SPELLINGS = {"quat": ("quat1 quat2 quat3 quat4", "quatw quati quatj quatk"),
+              "blockiness": ("blockiness1 blockiness2", "block1 block2", "roundness1 roundness2")}
+
+
+def _component_names(name: str, count: int, columns: Iterable[str] = ()) -> list[str]:
+    """Names of the columns that make an array, as dumps spell them: as these columns, where programs spell them in several ways."""
     if count == 1:
         return [name]
+    spellings = [each.split() for each in _SPELLINGS.get(name, ()) if len(each.split()) == count]
+    if spellings:
+        return next((names for names in spellings if names[0] in columns), spellings[0])
     if name in _COMPONENTS:
         return _COMPONENTS[name].split()
     if "_" not in name and count == 3:
         return [name + axis for axis in "xyz"]
-    return [f"{name}{i}" if name == "quat" else f"{name}[{i}]" for i in range(1, count + 1)]
+    return [f"{name}[{i}]" for i in range(1, count + 1)]
 
 
 def _columns_of(usual: list[Column], others: list[Column], points: str) -> _Columns:
@@ -432,8 +440,9 @@ def _columns_of(usual: list[Column], others: list[Column], points: str) -> _Colu
     words |= {name: (name, None) for name in (points, *sizes) if name not in words}
     for name, count in sizes.items():
         if count > 1:
-            for i, part in enumerate(_component_names(name, count)):
-                words.setdefault(part, (name, i))
+            for spelling in (" ".join(_component_names(name, count)), *_SPELLINGS.get(name, ())):
+                for i, part in enumerate(spelling.split()[:count]):
+                    words.setdefault(part, (name, i))
     return _Columns(usual, others, sizes, words)
 
 
@@ -445,7 +454,7 @@ def component_columns(frame: Frame) -> dict[str, Any]:
         if name in frame._arrays or name in frame:
             values = frame._get(name)
             parts = [values] if values.ndim == 1 else values.T
-            for part, component in zip(_component_names(name, len(parts) if values.ndim > 1 else 1), parts):
+            for part, component in zip(_component_names(name, len(parts) if values.ndim > 1 else 1, frame.columns), parts):
                 columns.setdefault(part, component)
     return columns
 
@@ -456,7 +465,7 @@ def arrays_of(frame: Frame, words: list[str]) -> tuple[list[str], list[str]]:
     for word in words:
         array, place = frame._find(word)
         arrays.append(array)
-        whole = _component_names(array, frame._columns().sizes.get(array, len(_COMPONENTS.get(array, "").split())))
+        whole = _component_names(array, frame._columns().sizes.get(array, len(_COMPONENTS.get(array, "").split())), frame.columns)
         columns += [word] if place is not None else whole
     return list(dict.fromkeys(arrays)), columns
 

@@ -227,7 +227,7 @@ std::vector<std::string> default_columns(const FrameView& frame, Notices& notice
     const auto of_input = known.find(array.name);
     if (of_input == known.end() || of_input->second != array.size())
     {
-      const std::vector<std::string> columns = columns_of(array);
+      const std::vector<std::string> columns = columns_of(array, frame.columns);
       const ValueSource values_of_it = component_of(array, 0);
       const bool other = arrays.find(as_word(array.name), array.size()) != &array;
       if (other || is_lost(array.name, values_of_it, binary))
@@ -259,7 +259,7 @@ std::vector<std::string> expand_columns(
       columns.push_back(name);
       continue;
     }
-    const std::vector<std::string> parts = columns_of(*array);
+    const std::vector<std::string> parts = columns_of(*array, frame.columns);
     columns.insert(columns.end(), parts.begin(), parts.end());
   }
   return columns;
