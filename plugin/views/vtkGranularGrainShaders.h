@@ -52,7 +52,8 @@ void main()
 )";
 
 // The smallest rectangle of the picture around the sphere that is around a particle, or a part of it. Its depth is in the middle, so
-// that neither plane cuts it off. From inside the sphere all rays may meet the particle.
+// that neither plane cuts it off. Where the plane of the camera cuts the sphere, its picture has no end on one side; from inside the
+// sphere all rays may meet the particle.
 constexpr const char* Geometry = R"(//VTK::System::Dec
 //GRANULAR::Shapes
 layout(points) in;
@@ -97,6 +98,24 @@ void main()
     vec2 size = radius / away * sqrt(1.0 + (cameraParallel != 0 ? vec2(0.0) : at * at - ratio * ratio)) * inverse;
     low = max(low, middle + (2.0 * partVSOutput[0].xy - 1.0) * size);
     high = min(high, middle + (2.0 * partVSOutput[0].zw - 1.0) * size);
+  }
+  else
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      // along an axis, the directions in which the sphere is seen, if the camera is not between its ends
+      float distance = length(vec2(center[axis], away));
+      float direction = atan(center[axis], away);
+      float half_angle = 1.001 * asin(min(radius / distance, 1.0)) + 0.001;
+      if (distance > 1.01 * radius && direction - half_angle > -1.569)
+      {
+        low[axis] = max(low[axis], tan(min(direction - half_angle, 1.569)));
+      }
+      if (distance > 1.01 * radius && direction + half_angle < 1.569)
+      {
+        high[axis] = min(high[axis], tan(max(direction + half_angle, -1.569)));
+      }
+    }
   }
   if (!(low.x < high.x && low.y < high.y))
   {

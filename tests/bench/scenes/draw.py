@@ -47,7 +47,7 @@ def polydata(count, shapes):
                       quat=turns / numpy.linalg.norm(turns, axis=1)[:, None])
         arrays["diameters"] = 2 * arrays["shape"]
     for name, values in arrays.items():
-        array = numpy_to_vtk(values, deep=True)
+        array = numpy_to_vtk(values.astype(numpy.float32), deep=True)  # VTK's sphere mapper takes no other radii
         array.SetName(name)
         data.GetPointData().AddArray(array)
     return side, data
@@ -68,7 +68,7 @@ class Camera:
 class InParaView:
     """Grains, or the representation of ParaView that plays a sphere."""
 
-    def __init__(self, data, discs):
+    def __init__(self, data, side, discs):
         import granular
         from paraview import simple
 
@@ -76,6 +76,7 @@ class InParaView:
         self.source.GetClientSideObject().SetOutput(data)
         self.view = simple.CreateView("RenderView", ViewSize=list(SIZE), OrientationAxesVisibility=0)
         self.view.LODThreshold = self.view.RemoteRenderThreshold = 1e9
+        Camera(self.view.GetActiveCamera(), side, 1)
         display = granular.show(self.source, self.view, color="v")
         if discs:
             display.SetRepresentationType("Point Gaussian")
@@ -167,7 +168,7 @@ def sides(side, zoom):
 
 def measure(count, shapes, names, rounds, frames):
     side, data = polydata(count, shapes)
-    makers = {"Grains": lambda zoom: InParaView(data, False), "Point Gaussian": lambda zoom: InParaView(data, True),
+    makers = {"Grains": lambda zoom: InParaView(data, side, False), "Point Gaussian": lambda zoom: InParaView(data, side, True),
               "VTK's sphere mapper": lambda zoom: InVTK(sphere_mapper(data)),
               "glyphs": lambda zoom: InVTK(glyph_mapper(data, sides(side, zoom) if shapes else 8, shapes))}
     for zoom in ZOOMS:
