@@ -7,7 +7,7 @@ from tables import (Column, Part, Target, cases_by_metrics, columns, contenders_
 
 # ---- plots ---------------------------------------------------------------------------------------
 def plot_decode(pyplot, figures):
-    sets = [name for name in ("from_chars", "portable", "NEON", "AVX2", "AVX-512")
+    sets = [name for name in ("from_chars", "portable", "AVX2", "AVX-512")
             if any(f"{name}:GB/s" in told for told in figures.cases.values())]
     cases = [case for case, told in figures.cases.items() if "from_chars:GB/s" in told]
     figure, axes = pyplot.subplots(figsize=(9, 1 + 0.6 * len(cases)), layout="constrained")

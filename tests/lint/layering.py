@@ -44,7 +44,6 @@ SYSTEM_HEADERS = (
     (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
     (r"sys/mman\.h", r"core/granular/memory/mapping\.cpp"),
     (r"immintrin\.h", r"core/granular/(common/intrinsics\.h|memory/value_range\.cpp|text/line_scan\.cpp)"),
-    (r"arm_neon\.h", r"core/granular/text/row_text_neon\.cpp"),
     (r"mpi\.h", r"core/granular/mpi/.*"),
 )
 

@@ -21,9 +21,6 @@ std::span<const Simd> instruction_sets() noexcept
     return std::size_t{ avx2 && avx512 ? 3U : avx2 ? 2U : 1U };
   }();
   return std::span(sets).first(count);
-#elif GRANULAR_NEON
-  static constexpr std::array sets{ Simd::Portable, Simd::Neon };
-  return sets;
 #else
   static constexpr std::array sets{ Simd::Portable };
   return sets;
@@ -37,7 +34,7 @@ Simd best_simd() noexcept
 
 const char* to_string(Simd simd) noexcept
 {
-  static constexpr std::array names{ "portable", "AVX2", "AVX-512", "NEON" };
+  static constexpr std::array names{ "portable", "AVX2", "AVX-512" };
   return names[static_cast<std::size_t>(simd)];
 }
 }

@@ -7,8 +7,6 @@
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define GRANULAR_X86 1
-#elif defined(__aarch64__) && defined(__AARCH64EL__) && defined(__GNUC__)
-#define GRANULAR_NEON 1
 #endif
 
 namespace granular
@@ -18,8 +16,7 @@ enum class Simd : std::uint8_t
 {
   Portable,
   Avx2,
-  Avx512,
-  Neon
+  Avx512
 };
 
 /// Returns those of this processor, the best one last.
@@ -28,7 +25,7 @@ std::span<const Simd> instruction_sets() noexcept;
 /// Returns the best one of this processor.
 Simd best_simd() noexcept;
 
-/// Returns its name: "portable", "AVX2", "AVX-512" or "NEON".
+/// Returns its name: "portable", "AVX2" or "AVX-512".
 const char* to_string(Simd simd) noexcept;
 }
 #endif

@@ -212,7 +212,6 @@ void SumScale::add(std::span<const Terms> terms, const std::int64_t* cells, std:
     case Simd::Avx2:
       return add_avx2(shifts_, terms, cells, sums);
     case Simd::Portable:
-    case Simd::Neon:
       break;
   }
 #endif

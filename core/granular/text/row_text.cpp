@@ -209,13 +209,7 @@ RowResult decode_rows(const char* first, const char* last, std::uint32_t columns
     case Simd::Avx2:
       return row_text::avx2::decode(first, last, plan, max_rows);
     case Simd::Portable:
-    case Simd::Neon:
       break;
-  }
-#elif GRANULAR_NEON
-  if (simd == Simd::Neon)
-  {
-    return row_text::neon::decode(first, last, plan, max_rows);
   }
 #endif
   RowResult result{ first };

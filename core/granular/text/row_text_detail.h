@@ -33,12 +33,6 @@ namespace avx512
 RowResult decode(
   const char* first, const char* last, RowPlan& plan, std::int64_t max_rows) noexcept;
 }
-#elif GRANULAR_NEON
-namespace neon
-{
-RowResult decode(
-  const char* first, const char* last, RowPlan& plan, std::int64_t max_rows) noexcept;
-}
 #endif
 }
 #endif
