@@ -146,7 +146,8 @@ with open("odd.dump", "wb") as stream:
     stream.write(content(SOURCE)[:-5])
 for number, end in enumerate(("2>&-", ">&- 2>&-", "2>&1 | true")):
     command = f"{sys.executable} {os.environ['GRANULAR_COMMAND']} convert -- odd.dump -out_{number}.dump {end}"
-    assert subprocess.run(["bash", "-o", "pipefail", "-c", command]).returncode == 0, command
+    status = subprocess.run(["bash", "-o", "pipefail", "-c", command]).returncode
+    assert status == 0, (command, status)
     assert len(plain_dump.read(f"-out_{number}.dump")) == 4
     os.remove(f"-out_{number}.dump")
 os.remove("odd.dump")
