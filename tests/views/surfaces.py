@@ -63,10 +63,17 @@ def look(centre):
     view.CameraParallelScale, view.CameraViewAngle = random.uniform(0.5, 3), random.uniform(15, 60)
 
 
+def within(pixels):
+    """The pixels that have eight neighbours of their kind."""
+    found = numpy.zeros_like(pixels)
+    found[1:-1, 1:-1] = numpy.logical_and.reduce([pixels[1 + j:PIXELS - 1 + j, 1 + i:PIXELS - 1 + i] for j in (-1, 0, 1) for i in (-1, 0, 1)])
+    return found
+
+
 def check_depths(kind, scenes):
     """A depth buffer has 2^24 units. Besides one of them, the depth is right to 2^-22 of the particles' extent, because floats hold the
     coordinates; where the surface is steep, to as much as such a shift across the line of sight makes."""
-    seen_pixels, units, parts = 0, [], []
+    seen_pixels, wrong, units, parts = 0, 0, [], []
     for _ in range(scenes):
         count = int(random.integers(1, 30))
         centre = random.choice([0, 0, 1e3, 2**20]) * numpy.array([1, -1, 0.5])
@@ -85,8 +92,9 @@ def check_depths(kind, scenes):
         truth, normals, numbers = ray_caster.cast(camera, points, axes, turns, powers)
         for corner in CORNERS:
             depths[corner, corner], numbers[corner, corner] = 1, -1
-        wrong = ((depths < 1) != (numbers >= 0)).sum()  # on the outline, of superquadrics with some drivers
-        assert wrong <= (0.001 * (numbers >= 0).sum() if kind == "superquadrics" else 0), (kind, wrong)
+        drawn, there = depths < 1, numbers >= 0
+        wrong += (drawn != there).sum()
+        assert not (within(there) & ~drawn).any() and not (within(~there) & drawn).any(), (kind, "a hole, or a speck")
         sight = [0, 0, 1] if camera.parallel else -camera.rays()[1]
         steep = abs((normals * sight).sum(-1)) / numpy.linalg.norm(sight, axis=-1) < 0.5
         both = (numbers >= 0) & ~steep
@@ -99,7 +107,8 @@ def check_depths(kind, scenes):
         Delete(source)
     units = numpy.concatenate(units)
     parts = numpy.concatenate(parts)
-    print(f"{kind}: {seen_pixels} pixels", f"depth off by at most {units.max():.2f} units, {100 * (units > 1).mean():.1f} % by more than 1; "
+    assert wrong <= 1e-4 * seen_pixels, (kind, wrong)
+    print(f"{kind}: {seen_pixels} pixels, {wrong} on outlines wrong;", f"depth off by at most {units.max():.2f} units, {100 * (units > 1).mean():.1f} % by more than 1; "
           f"beyond 1 by at most 2^{numpy.log2(parts.max()):.1f} of the extent" if HAS_DEPTHS else "")
     assert seen_pixels > 5000 and (not HAS_DEPTHS or (parts.max() < 2**-22 and (units > 1).mean() < 0.1))
 

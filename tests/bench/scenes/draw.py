@@ -166,12 +166,12 @@ def sides(side, zoom):
     return math.ceil(math.pi / math.acos(1 - 0.25 / max(radius, 0.5)))
 
 
-def measure(count, shapes, names, rounds, frames):
+def measure(count, shapes, names, rounds, frames, zooms=ZOOMS):
     side, data = polydata(count, shapes)
     makers = {"Grains": lambda zoom: InParaView(data, side, False), "Point Gaussian": lambda zoom: InParaView(data, side, True),
               "VTK's sphere mapper": lambda zoom: InVTK(sphere_mapper(data)),
               "glyphs": lambda zoom: InVTK(glyph_mapper(data, sides(side, zoom) if shapes else 8, shapes))}
-    for zoom in ZOOMS:
+    for zoom in zooms:
         seconds = {name: [] for name in names}
         for turn in range(rounds):
             for name in (*names[turn % len(names):], *names[:turn % len(names)]):
@@ -197,8 +197,8 @@ def measure(count, shapes, names, rounds, frames):
 
 
 SPHERES = ("Grains", "Point Gaussian", "VTK's sphere mapper", "glyphs")
-# particles, superquadrics, ways, rounds, frames
-SCENES = {"quick": [(1000, False, SPHERES, 1, 1), (1000, True, ("Grains", "glyphs"), 1, 1)],
+# particles, superquadrics, ways, rounds, frames, zooms
+SCENES = {"quick": [(1000, False, SPHERES, 1, 1, (1,)), (1000, True, ("Grains", "glyphs"), 1, 1, (1,))],
           "full": [(10**6, False, SPHERES[:3], 3, 3), (10**5, False, SPHERES, 3, 3), (10**5, True, ("Grains", "glyphs"), 3, 3)],
           "large": [(10**7, False, SPHERES[:3], 2, 2), (10**6, False, SPHERES, 1, 1)]}
 
@@ -206,8 +206,9 @@ SCENES = {"quick": [(1000, False, SPHERES, 1, 1), (1000, True, ("Grains", "glyph
 def study_of(study):
     kinds = ["large", "full"] if "--large" in sys.argv else ["full" if study.full else "quick"]
     for kind in kinds:
-        run = subprocess.run([ROOT / "cmake" / "with_display", "pvpython", "--dr", __file__, "--inside", kind], stdout=subprocess.PIPE,
-                             text=True, check=True)
+        build = Path(granular.__file__).resolve().parents[4]
+        run = subprocess.run(["sh", "-c", '. "$0/environment" && exec "$@"', build, ROOT / "cmake" / "with_display", "pvpython", "--dr",
+                              __file__, "--inside", kind], stdout=subprocess.PIPE, text=True, check=True)
         for line in run.stdout.splitlines():
             if line.startswith("TOLD "):
                 told = json.loads(line[5:])
@@ -221,6 +222,7 @@ if "--inside" in sys.argv:
     for scene in SCENES[sys.argv[sys.argv.index("--inside") + 1]]:
         measure(*scene)
 else:
+    import granular
     from scene import main
 
     main(study_of)
