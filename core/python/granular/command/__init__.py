@@ -99,8 +99,10 @@ def say(text: str) -> None:
     """Prints a remark on one line, where it does not mix with results. Work goes on if nobody hears it."""
     from .._library import shown
 
-    with contextlib.suppress(OSError):
-        print(f"granular: {shown(text)}", file=sys.stderr)
+    try:
+        print(f"granular: {shown(text)}", file=sys.stderr, flush=True)
+    except OSError:
+        _drop(sys.stderr)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -121,12 +123,21 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
+def _drop(stream: Any) -> None:
+    """Sends what is left of a stream nowhere: Python writes it out at its end, and would make an error of it the exit status 120."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
 def _flush() -> None:
     """Writes out what was printed: at Python's own end it is too late for an error. After an error the rest is dropped."""
     try:
+        sys.stderr.flush()
+    except OSError:
+        _drop(sys.stderr)
+    try:
         sys.stdout.flush()
     except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop(sys.stdout)
         raise
 
 
