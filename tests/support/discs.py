@@ -2,13 +2,30 @@
 """Pictures of spheres, and what arithmetic in doubles says of them: in each pixel the nearest surface."""
 import numpy
 import ray_caster
-from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, SaveScreenshot
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, SaveScreenshot, TrivialProducer
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 ROUNDED = 3  # pixels of a picture where two surfaces, or a surface and nothing, meet within what floats hold
 LEVELS = 1.5  # of 255: the table of colours has 256, and each value is rounded
+
+
+def made(points, **arrays):
+    """A source of particles."""
+    data, places = vtkPolyData(), vtkPoints()
+    places.SetData(numpy_to_vtk(numpy.asarray(points, float), deep=True))
+    data.SetPoints(places)
+    for name, values in {**arrays, "id": numpy.arange(1, len(points) + 1)}.items():
+        array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    source = TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
 
 
 def black_view(pixels):

@@ -6,11 +6,11 @@ import sys
 import granular
 import numpy
 import ray_caster
-from discs import ROUNDED, black_view, picture
+from discs import ROUNDED, black_view, made, picture
 from paraview.simple import *
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPolyData
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkFloatArray
+from vtkmodules.vtkCommonDataModel import vtkPlane
 
 PIXELS = 160
 HAS_DEPTHS = paraview.simple.GetParaViewVersion() < (6, 0)
@@ -18,21 +18,6 @@ CORNERS = slice(0, 45), slice(4 * PIXELS // 5, None)  # where ParaView clears th
 random = numpy.random.default_rng(3)
 view = black_view(PIXELS)
 view.RemoteRenderThreshold = 1e9
-
-
-def made(points, **arrays):
-    """A source of particles."""
-    data, places = vtkPolyData(), vtkPoints()
-    places.SetData(numpy_to_vtk(numpy.asarray(points, float), deep=True))
-    data.SetPoints(places)
-    for name, values in {**arrays, "id": numpy.arange(1., len(points) + 1)}.items():
-        array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
-        array.SetName(name)
-        data.GetPointData().AddArray(array)
-    source = TrivialProducer()
-    source.GetClientSideObject().SetOutput(data)
-    source.UpdatePipeline()
-    return source
 
 
 def shown(source):

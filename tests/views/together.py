@@ -4,30 +4,13 @@ a frustum selects the particles in it, and no hidden one is selected on the surf
 import granular
 import numpy
 import ray_caster
-from discs import black_view, picture
+from discs import black_view, made, picture
 from paraview.simple import *
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 PIXELS = 200
 view = black_view(PIXELS)
 view.RemoteRenderThreshold = 1e9
-
-
-def made(points, **arrays):
-    """A source of particles."""
-    data, places = vtkPolyData(), vtkPoints()
-    places.SetData(numpy_to_vtk(numpy.asarray(points, float), deep=True))
-    data.SetPoints(places)
-    for name, values in {**arrays, "id": numpy.arange(1, len(points) + 1)}.items():
-        array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
-        array.SetName(name)
-        data.GetPointData().AddArray(array)
-    source = TrivialProducer()
-    source.GetClientSideObject().SetOutput(data)
-    source.UpdatePipeline()
-    return source
 
 
 def compare(what, grains, mesh, outline):

@@ -34,7 +34,7 @@ constexpr KnownSection known_sections[] = {
   { "Ellipsoids", &DataLayout::ellipsoid_rows, &DataLayout::ellipsoids, false },
 };
 
-/// What the header counts.
+/// The things that the header counts.
 constexpr std::pair<std::string_view, std::int64_t DataLayout::*> counted[] = {
   { "atoms", &DataLayout::atoms }, { "bonds", &DataLayout::bonds },
   { "ellipsoids", &DataLayout::ellipsoids }

@@ -81,6 +81,7 @@ ParticleValues values_of(const DumpFrame& table)
   }
   return values;
 }
+
 /// The values of a particle without a row: a point, as LAMMPS has them beside ellipsoids.
 double value_without_row(std::string_view array, std::size_t component) noexcept
 {
