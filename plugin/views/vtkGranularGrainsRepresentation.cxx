@@ -17,16 +17,11 @@
 #include "vtkOpenGLActor.h"
 #include "vtkPVRenderView.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkScalarsToColors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-#include <string>
-#include <vector>
 
 namespace
 {

@@ -2,7 +2,7 @@
 """Pictures of spheres, and what arithmetic in doubles says of them: in each pixel the nearest surface."""
 import numpy
 import ray_caster
-from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, SaveScreenshot, TrivialProducer
+from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, SaveScreenshot
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -15,6 +15,8 @@ LEVELS = 1.5  # of 255: the table of colours has 256, and each value is rounded
 
 def made(points, **arrays):
     """A source of particles."""
+    from paraview.simple import TrivialProducer  # a proxy: there once ParaView is connected
+
     data, places = vtkPolyData(), vtkPoints()
     places.SetData(numpy_to_vtk(numpy.asarray(points, float), deep=True))
     data.SetPoints(places)
