@@ -66,18 +66,21 @@ float power(float x, float n)
   return result;
 }
 
-// (|x|^n2 + |y|^n2)^(n1/n2) + |z|^n1, which is 1 on the surface, and its gradient by n1
+// (|x|^n2 + |y|^n2)^(n1/n2) + |z|^n1, which is 1 on the surface, and its gradient by n1. x and y are taken in parts of the larger one:
+// near the axis of z their powers would be less than floats hold, but a root of them is not.
 float superquadric(vec3 p, vec2 n, out vec3 gradient)
 {
   vec3 a = abs(p);
-  vec3 b = vec3(power(a.x, n.y - 1.0), power(a.y, n.y - 1.0), power(a.z, n.x - 1.0));
-  float across = a.x * b.x + a.y * b.y;
-  float inner = across;
+  float most = n.x == n.y ? 1.0 : max(a.x, a.y);
+  vec2 part = most > 0.0 ? a.xy / most : vec2(0.0);
+  vec3 b = vec3(power(part.x, n.y - 1.0), power(part.y, n.y - 1.0), power(a.z, n.x - 1.0));
+  float inner = part.x * b.x + part.y * b.y;
   float outer = 1.0;
-  if (n.x != n.y)
+  if (n.x != n.y && most > 0.0)
   {
-    inner = power(across, n.x / n.y);
-    outer = across > 0.0 ? inner / across : 0.0;
+    float mosts = power(most, n.x - 1.0);
+    outer = power(inner, n.x / n.y) / inner * mosts;
+    inner *= outer * most;
   }
   gradient = sign(p) * b * vec3(outer, outer, 1.0);
   return inner + a.z * b.z;
@@ -131,18 +134,17 @@ constexpr const char* FragmentSurface = R"(
   if (powersVSOutput != vec2(2.0))
   {
     along = mix(along, vec3(1e-20), lessThan(abs(along), vec3(1e-20)));
-    vec3 low = (-1.0 - from) / along;
-    vec3 high = (1.0 - from) / along;
-    vec3 first = min(low, high);
-    vec3 last = max(low, high);
+    vec3 low = (-1.0 - from) / along, high = (1.0 - from) / along;
+    vec3 first = min(low, high), last = max(low, high);
+    float enter = max(first.x, max(first.y, first.z)), leave = min(last.x, min(last.y, last.z));
     vec3 gradient = vec3(0.0);
-    bool found = false;
-    for (float side = 1.0; side >= -1.0 && !found; side -= 2.0)
+    bool found = false; // nor beside the cube around the particle, where powers could be more than floats hold
+    for (float side = 1.0; side >= -1.0 && enter <= leave && !found; side -= 2.0)
     {
-      float t = side > 0.0 ? max(first.x, max(first.y, first.z)) : min(last.x, min(last.y, last.z));
+      float t = side > 0.0 ? enter : leave;
       if (!meets(from, along, powersVSOutput, side, t, gradient))
       {
-        discard;
+        break;
       }
       surfaceVC = offsetVC + t * rayVC;
       normalVCVSOutput = side * normalize(turnVCVSOutput * (gradient / axesVCVSOutput));

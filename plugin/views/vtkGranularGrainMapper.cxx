@@ -16,7 +16,6 @@
 #include "vtkOpenGLRenderer.h"
 #include "vtkOpenGLState.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
-#include "vtkPiecewiseFunction.h"
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
@@ -42,22 +41,6 @@ void Replace(vtkShader* shader, const char* mark, const std::string& text)
   std::string source = shader->GetSource();
   vtkShaderProgram::Substitute(source, mark, text);
   shader->SetSource(source);
-}
-
-// Returns a component of a tuple, or its magnitude if there is no such component.
-double Component(vtkDataArray* array, vtkIdType i, int component)
-{
-  const int components = array->GetNumberOfComponents();
-  if (components == 1 || (component >= 0 && component < components))
-  {
-    return array->GetComponent(i, components == 1 ? 0 : component);
-  }
-  double sum = 0.0;
-  for (int k = 0; k < components; ++k)
-  {
-    sum += array->GetComponent(i, k) * array->GetComponent(i, k);
-  }
-  return std::sqrt(sum);
 }
 
 vtkSmartPointer<vtkFloatArray> MakeFloats(vtkIdType tuples, int components)
@@ -308,10 +291,8 @@ void vtkGranularGrainMapper::SetClips(vtkShaderProgram* program, vtkMatrix4x4* w
 
 bool vtkGranularGrainMapper::GetNeedToRebuildBufferObjects(vtkRenderer*, vtkActor* actor)
 {
-  vtkPiecewiseFunction* opacities = this->Owner->GetScalarOpacityFunction();
-  const vtkMTimeType changed =
-    std::max({ this->GetMTime(), this->CurrentInput->GetMTime(), this->Owner->GetMTime(),
-      actor->GetProperty()->GetMTime(), opacities ? opacities->GetMTime() : 0 });
+  const vtkMTimeType changed = std::max({ this->GetMTime(), this->CurrentInput->GetMTime(),
+    this->Owner->GetMTime(), actor->GetProperty()->GetMTime() });
   return this->VBOBuildTime < changed || this->Built != this->From;
 }
 
@@ -327,8 +308,8 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   const double same = name && name[0] ? 0.0 : 1.0; // where there is no such array
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const double radius = this->Growth * this->Owner->GetScaleFactor() *
-      (given ? Component(given, i, this->Owner->GetScaleArrayComponent()) : same);
+    const double radius =
+      this->Growth * this->Owner->GetScaleFactor() * (given ? given->GetComponent(i, 0) : same);
     radii->SetValue(i, static_cast<float>(std::isfinite(radius) ? radius : 0.0));
   }
   this->Inner = radii;
@@ -456,7 +437,6 @@ void vtkGranularGrainMapper::BuildColors(vtkActor* actor)
   vtkPolyData* data = this->CurrentInput;
   const vtkIdType count = data->GetNumberOfPoints();
   vtkDataArray* opacities = Find(data, this->Owner->GetOpacityArray());
-  vtkPiecewiseFunction* function = this->Owner->GetScalarOpacityFunction();
   this->IsTranslucent = false;
   this->MapScalars(1.0);
   vtkUnsignedCharArray* mapped =
@@ -480,8 +460,7 @@ void vtkGranularGrainMapper::BuildColors(vtkActor* actor)
     }
     if (opacities)
     {
-      double opacity = Component(opacities, i, this->Owner->GetOpacityArrayComponent());
-      opacity = function ? function->GetValue(opacity) : opacity;
+      const double opacity = opacities->GetComponent(i, 0);
       colors->SetTypedComponent(
         i, 3, static_cast<unsigned char>(255.0 * std::clamp(opacity, 0.0, 1.0)));
     }

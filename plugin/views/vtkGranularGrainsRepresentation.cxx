@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace
 {
@@ -220,6 +221,11 @@ void vtkGranularGrainsRepresentation::SetRadiusArray(const char* name)
   this->MarkModified(); // the bounds are others
 }
 
+void vtkGranularGrainsRepresentation::SetOpacities(const char* name)
+{
+  this->Mapper->SetOpacityArray(name && std::string_view(name) != "None" ? name : nullptr);
+}
+
 void vtkGranularGrainsRepresentation::SetShapeSizes(int sizes)
 {
   static_cast<vtkGranularGrainBlocks*>(this->Mapper.Get())->SetShapeSizes(sizes);
@@ -257,7 +263,7 @@ void vtkGranularGrainsRepresentation::SetSpecularPower(double sharpness)
 
 bool vtkGranularGrainsRepresentation::IsTranslucent()
 {
-  if (this->Actor->GetProperty()->GetOpacity() < 1.0)
+  if (this->Actor->GetProperty()->GetOpacity() < 1.0 || this->Mapper->GetOpacityArray())
   {
     return true;
   }

@@ -62,6 +62,11 @@ public:
    */
   void SetShapeSizes(int sizes);
 
+  /**
+   * Name of the point array of the opacities, from 0 to 1; null or "None": all are as opaque as the property.
+   */
+  void SetOpacities(const char* name);
+
   ///@{
   /**
    * How light shows on the particles, as of vtkProperty.

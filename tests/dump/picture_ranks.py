@@ -20,7 +20,7 @@ CAMERA = Camera([3, 2, 5], [0, 0, 0], scale=SCALE)
 
 
 # ---- the same grains in files of pieces -----------------------------------------------------------
-def write_piece(path, rows):
+def write_piece(path, rows, arrays):
     data, points, vertices = vtkPolyData(), vtkPoints(), vtkCellArray()
     points.SetDataTypeToDouble()
     points.SetData(numpy_to_vtk(CENTRES[rows], deep=True))
@@ -28,9 +28,10 @@ def write_piece(path, rows):
     for i in range(len(rows)):
         vertices.InsertNextCell(1, [i])
     data.SetVerts(vertices)
-    radius = numpy_to_vtk(RADII[rows], deep=True)
-    radius.SetName("radius")
-    data.GetPointData().AddArray(radius)
+    for array, values in {"radius": RADII, **arrays}.items():
+        values = numpy_to_vtk(values[rows], deep=True)
+        values.SetName(array)
+        data.GetPointData().AddArray(values)
     identity = vtkTypeInt64Array()
     identity.SetName("id")
     for row in rows:
@@ -43,13 +44,15 @@ def write_piece(path, rows):
     assert writer.Write() == 1
 
 
-def write(name, pieces):
+def write(name, pieces, **arrays):
     for i, rows in enumerate(pieces):
-        write_piece(f"{name}_{i}.vtp", rows)
+        write_piece(f"{name}_{i}.vtp", rows, arrays)
     sources = "\n".join(f'<Piece Source="{name}_{i}.vtp"/>' for i in range(len(pieces)))
     with open(f"{name}.pvtp", "w") as file:
         file.write('<VTKFile type="PPolyData"><PPolyData GhostLevel="0"><PPointData>'
-                   '<PDataArray type="Float64" Name="radius"/><PDataArray type="Int64" Name="id"/>'
+                   '<PDataArray type="Float64" Name="radius"/>'
+                   + "".join(f'<PDataArray type="Float64" Name="{array}" NumberOfComponents="{values.shape[1]}"/>' for array, values in arrays.items())
+                   + '<PDataArray type="Int64" Name="id"/>'
                    '</PPointData><PPoints><PDataArray type="Float64" Name="Points" '
                    f'NumberOfComponents="3"/></PPoints>\n{sources}\n</PPolyData></VTKFile>\n')
     return os.path.abspath(f"{name}.pvtp")
@@ -70,10 +73,10 @@ def look():
     CAMERA.look(view)
 
 
-def expect(name, display, shown=slice(None), factor=1.0):
+def expect(name, display, shown=slice(None), factor=1.0, **shapes):
     color_by_id(display, view, 60)
     look()
-    CAMERA.compare(picture(view, name), CENTRES[shown], factor * RADII[shown], IDS[shown], 60)
+    CAMERA.compare(picture(view, name), CENTRES[shown], factor * RADII[shown], IDS[shown], 60, **shapes)
 
 
 def expect_whole_if_translucent(name, display):
@@ -113,6 +116,16 @@ some = Threshold(reader, Scalars=["POINTS", "id"], ThresholdMethod="Between",
 some.UpdatePipeline()
 expect("some", granular.show(some, view), slice(9, 40))
 Delete(some)
+
+# ---- ellipsoids and superquadrics -----------------------------------------------------------------
+AXES, TURNS = RADII[:, None] * 2**random.uniform(-1, 1, (60, 3)), random.normal(size=(60, 4))
+POWERS = random.choice([2, 2.5, 4, 8], (60, 2))
+for name, powers in {"ellipsoids": {}, "superquadrics": {"powers": POWERS}}.items():
+    reader = OpenDataFile(write(name, splits["random"], shape=AXES, quat=TURNS, **({"blockiness": POWERS} if powers else {})))
+    display = Show(reader, view)
+    display.SetRepresentationType("Grains")
+    expect(name, display, axes=AXES, turns=TURNS, **powers)
+    Delete(reader)
 
 # ---- our own reader, as a file is opened by default -----------------------------------------------
 with open("grains.dump", "w") as file:

@@ -85,7 +85,7 @@ class Camera:
         else:
             view.CameraViewAngle = self.angle
 
-    def seen(self, centres, radii, ids, pixels):
+    def seen(self, centres, radii, ids, pixels, axes=None, turns=None, powers=None):
         """Returns of each pixel the id of the particle whose surface is seen there, or 0."""
         look = vtkCamera()
         look.SetPosition(self.position)
@@ -95,12 +95,13 @@ class Camera:
         look.SetParallelScale(self.scale or 1)
         look.SetViewAngle(self.angle or 30)
         look.SetClippingRange(1e-6, 1e6)
-        number = ray_caster.cast(ray_caster.Camera(look, pixels, pixels), centres, numpy.repeat(numpy.c_[radii], 3, axis=1))[2]
+        axes = numpy.repeat(numpy.c_[radii], 3, axis=1) if axes is None else axes
+        number = ray_caster.cast(ray_caster.Camera(look, pixels, pixels), centres, axes, turns, powers)[2]
         return numpy.append(ids, 0)[number]
 
-    def compare(self, pixels, centres, radii, ids, last):
-        """Raises AssertionError unless the pixels show these spheres, without light and coloured by id as color_by_id does."""
-        seen = self.seen(centres, radii, ids, len(pixels))
+    def compare(self, pixels, centres, radii, ids, last, **shapes):
+        """Raises AssertionError unless the pixels show these particles, without light and coloured by id as color_by_id does."""
+        seen = self.seen(centres, radii, ids, len(pixels), **shapes)
         assert (seen > 0).sum() > 5000, "the truth itself shows little"
         wrong = pixels.any(axis=2) != (seen > 0)
         assert wrong.sum() <= ROUNDED, f"nothing, or something, where it is not: {wrong.sum()} pixels"

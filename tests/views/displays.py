@@ -27,7 +27,9 @@ threshold = Threshold(Input=clip, Scalars=["POINTS", "type"], LowerThreshold=1, 
 chosen = ExtractSelection(Input=reader, Selection=SelectionQuerySource(QueryString="id <= 300", ElementType="Point Data"))
 calculated = Calculator(Input=reader, Function="mag(v)", ResultArrayName="speed")
 alien = granular.reader(os.path.join(GOOD, "shapes", "computes.dump"))
-groups = {"dots": Clip(Input=granular.reader(os.path.join(GOOD, "ortho_plain.dump")), ClipType="Box"), "computes": Threshold(Input=alien, Scalars=["POINTS", "type"], LowerThreshold=1, UpperThreshold=1),
+dots = granular.reader(os.path.join(GOOD, "ortho_plain.dump"))
+dots.UpdatePipeline()  # a box of ParaView 6 is empty where nothing has been read
+groups = {"dots": Clip(Input=dots, ClipType="Box"), "computes": Threshold(Input=alien, Scalars=["POINTS", "type"], LowerThreshold=1, UpperThreshold=1),
           "clip": clip, "box": box, "threshold": threshold, "selection": chosen, "calculator": calculated}
 for name, source in groups.items():
     source.UpdatePipeline(2000)

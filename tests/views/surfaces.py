@@ -103,6 +103,19 @@ check_depths("spheres", 30 * more)
 check_depths("ellipsoids", 30 * more)
 check_depths("superquadrics", 6 * more)
 
+# ---- the pole of a superquadric, where powers of x and y are less than floats hold -------------------------------------
+pole = made([[0, 0, 0]], radius=[1.], shape=[[1., 1, 1]], quat=[[1., 0, 0, 0]], blockiness1=[2.], blockiness2=[20.])
+shown(pole)
+view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 5], [0, 0, 0], [0, 1, 0]
+view.CameraParallelProjection, view.CameraParallelScale = 1, 0.05
+camera, depths = seen()
+x = ((numpy.arange(PIXELS) + 0.5) / PIXELS * 2 - 1) * 0.05
+height = numpy.sqrt(1 - (x[None, :]**20 + x[:, None]**20)**0.1)
+middle = slice(45, 4 * PIXELS // 5)
+units = abs(depths - camera.depth(height - 5))[middle, middle] * 2**24
+assert not HAS_DEPTHS or units.max() < 1 + 2**-21 * 2**24 / (camera.far - camera.near) * numpy.sqrt(12), units.max()
+Delete(pole)
+
 # ---- where surfaces meet: a ball in a ball, a tube and a plane through one, from above ----------------------------------
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 5], [0, 0, 0], [0, 1, 0]
 view.CameraParallelProjection, view.CameraParallelScale = 1, 1.5

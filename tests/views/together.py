@@ -60,6 +60,22 @@ grey = picture(view, "translucent")[..., 0]
 assert abs(grey[PIXELS // 2, PIXELS // 2] - 255 * 0.75) <= 2 and set(numpy.unique(grey)) <= {0, *range(125, 131), *range(189, 194)}
 Delete(pair)
 
+# ---- colours and opacities of the particles themselves ------------------------------------------------------------------
+view.CameraPosition, view.CameraParallelProjection, view.CameraParallelScale = [0, 0, 20], 1, 4
+colors, opacities = numpy.array([[200, 0, 0], [0, 150, 0], [90, 0, 250]], numpy.uint8), [0.25, 0.5, 1.0]
+shapes = {"shape": numpy.full((3, 3), [1, 0.7, 0.8]), "quat": numpy.full((3, 4), [1, 0.1, 0.2, 0.3])}
+for arrays in {}, shapes, {**shapes, "blockiness": numpy.full((3, 2), [3., 6])}:
+    three = made([[-2.5, 0, 0], [0, 0, 0], [2.5, 0, 0]], radius=numpy.ones(3), color=colors, seen=opacities, **arrays)
+    display = granular.show(three, view)
+    ColorBy(display, ("POINTS", "color"))
+    display.MapScalars, display.Ambient, display.Diffuse, display.Specular = 0, 1, 0, 0
+    for solid in 1, 0:
+        if not solid:
+            display.GrainOpacities = "seen"
+        pixels = picture(view, "colors")[PIXELS // 2, [int(PIXELS * (0.5 + place / 8)) for place in (-2.5, 0, 2.5)]]
+        assert abs(pixels - colors * (1 if solid else numpy.c_[opacities])).max() <= 2, (list(arrays), solid, pixels)
+    Delete(three)
+
 # ---- selection -----------------------------------------------------------------------------------------------------------
 cloud = numpy.random.default_rng(2).uniform(-1, 1, (500, 3))
 particles = made(cloud, radius=numpy.full(500, 0.15))
