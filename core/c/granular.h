@@ -114,13 +114,10 @@ typedef struct granular_open_options
   const char* column_map;   /* names of the columns of local data */
   const char* atom_style; /* of data files; empty: found by the file */
   int repeated_steps;     /* 0 automatic (default), 1 merge pieces, 2 the last one counts */
-  int keep_index;         /* 0 never (default), 1 in the user's cache, 2 beside the first file */
   int threads;            /* 0 (default): one per core */
   granular_progress progress; /* may be null */
   granular_notice notice;     /* may be null */
   void* user;                 /* for both */
-  /* of compressed files: content beyond 256 MiB and this many times the file is refused; at least 1; 200 (default) */
-  int64_t largest_expansion;
 } granular_open_options;
 
 GRANULAR_API void granular_open_options_init(granular_open_options* options);

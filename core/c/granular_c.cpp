@@ -25,8 +25,8 @@ extern "C"
   {
     if (options != nullptr)
     {
-      *options = { sizeof(*options), GRANULAR_KIND_AUTOMATIC, 1, "", "", "", "", 0, 0, 0, nullptr,
-        nullptr, nullptr, granular::usual_expansion };
+      *options = { sizeof(*options), GRANULAR_KIND_AUTOMATIC, 1, "", "", "", "", 0, 0, nullptr,
+        nullptr, nullptr };
     }
   }
 

@@ -5,7 +5,6 @@
 
 #include "granular/bytes/find_files.h"
 #include "granular/common/words.h"
-#include "granular/frames/shared_indexes.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 
@@ -41,14 +40,6 @@ const Kind& find_kind(granular_kind wanted, const std::string& path)
   return kinds().front(); // which says what it expected
 }
 
-/// What the runs of this process know of their files.
-SharedIndexes& indexes_of_process()
-{
-  static auto* const indexes =
-    new SharedIndexes; // for ever: threads may read when the process ends
-  return *indexes;
-}
-
 IndexOptions index_options(const granular_open_options& options, const Kind& kind)
 {
   IndexOptions made;
@@ -58,20 +49,8 @@ IndexOptions index_options(const granular_open_options& options, const Kind& kin
     throw BadArgument(
       "expected repeated_steps from 0 to 2, got " + std::to_string(options.repeated_steps));
   }
-  if (options.keep_index < 0 || options.keep_index > 2)
-  {
-    throw BadArgument("expected keep_index from 0 to 2, got " + std::to_string(options.keep_index));
-  }
-  if (options.largest_expansion < 1)
-  {
-    throw BadArgument("expected a largest_expansion of at least 1, got " +
-      std::to_string(options.largest_expansion));
-  }
-  made.largest_expansion = options.largest_expansion;
   made.repeated_steps = kind.has_pieces ? static_cast<RepeatedSteps>(options.repeated_steps)
                                         : RepeatedSteps::Last; // no file is a piece of another
-  constexpr KeepIndex keep[] = { KeepIndex::Never, KeepIndex::Cache, KeepIndex::Beside };
-  made.keep_index = keep[options.keep_index];
   std::string names = text_of(options.column_names);
   std::ranges::replace(names, ',', ' ');
   for (const std::string_view name : split_words(names))
@@ -79,7 +58,6 @@ IndexOptions index_options(const granular_open_options& options, const Kind& kin
     made.column_names.emplace_back(name);
   }
   made.threads = options.threads > 0 ? options.threads : available_cores();
-  made.shared = &indexes_of_process();
   return made;
 }
 }

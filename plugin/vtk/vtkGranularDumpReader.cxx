@@ -4,7 +4,6 @@
 #include "private/arrays/array_choice.h"
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_output.h"
-#include "private/dump/frame_ahead.h"
 #include "private/dump/reader_frames.h"
 #include "private/request/guard.h"
 #include "private/request/piece_request.h"
@@ -48,8 +47,6 @@ struct vtkGranularDumpReader::Internals
   ArrayChoice Arrays;
 
   VertexCache Vertices; ///< of the frame before
-  FrameAhead Ahead;     ///< the next frame
-  std::size_t LastFrame = 0;
 
   void UpdateSelection(const granular::RunIndex& index);
   granular::DumpRequest MakeRequest(Self* self);
@@ -57,7 +54,6 @@ struct vtkGranularDumpReader::Internals
   void FillOutputs(Self* self, vtkInformationVector* outputs, const granular::DumpRequest& request,
     granular::DumpFrame& frame, Shown& shown);
   void Show(Self* self, vtkInformationVector* outputs, Shown& shown);
-  void StartNext(Self* self, const granular::DumpRequest& request, const Shown& shown) noexcept;
 };
 
 //------------------------------------------------------------------------------
@@ -156,36 +152,10 @@ void vtkGranularDumpReader::Internals::Show(Self* self, vtkInformationVector* ou
       form.number(request.stride);
       form.number(request.region);
     });
-  std::optional<granular::DumpPart> ahead = this->Ahead.Take(
-    { shown.Number, request.piece, request.pieces, shown.Together, self->GetMTime() },
-    shown.Progress);
   granular::SerialCommunicator alone;
-  granular::DumpFrame frame = granular::read_dump(shown.Pieces, request,
-    shown.Together ? ranks : alone, std::move(ahead), shown.Notices, shown.Progress);
+  granular::DumpFrame frame = granular::read_dump(
+    shown.Pieces, request, shown.Together ? ranks : alone, shown.Notices, shown.Progress);
   this->FillOutputs(self, outputs, request, frame, shown);
-  this->StartNext(self, request, shown);
-}
-
-//------------------------------------------------------------------------------
-// The next frame in the direction in which they are looked at. Where there is no memory or no thread for
-// that, it is decoded when it is asked for.
-void vtkGranularDumpReader::Internals::StartNext(
-  Self* self, const granular::DumpRequest& request, const Shown& shown) noexcept
-{
-  const bool back = shown.Number + 1 == this->LastFrame;
-  this->LastFrame = shown.Number;
-  const std::size_t next = back ? shown.Number - 1 : shown.Number + 1;
-  try
-  {
-    if (self->Prefetch && next < self->Series->Index.size())
-    {
-      this->Ahead.Start({ next, request.piece, request.pieces, shown.Together, self->GetMTime() },
-        self->Series->Index.pieces(next), request);
-    }
-  }
-  catch (const std::exception&)
-  {
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -222,12 +192,6 @@ vtkGranularDumpReader::~vtkGranularDumpReader() = default;
 vtkPolyData* vtkGranularDumpReader::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDumpReader::ForgetFrames()
-{
-  this->Internal->Ahead.Drop();
 }
 
 //------------------------------------------------------------------------------
@@ -279,16 +243,6 @@ void vtkGranularDumpReader::SetStride(vtkTypeInt64 stride)
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularDumpReader::SetPrefetch(bool prefetch)
-{
-  this->Prefetch = prefetch; // changes no result: nothing is to be read again
-  if (!prefetch)
-  {
-    this->Internal->Ahead.Drop();
-  }
-}
-
-//------------------------------------------------------------------------------
 vtkDataArraySelection* vtkGranularDumpReader::GetPointDataArraySelection()
 {
   return this->Internal->Arrays.GetSelection();
@@ -321,7 +275,6 @@ void vtkGranularDumpReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SortById: " << (this->SortById ? "On" : "Off") << "\n";
   os << indent << "Vertices: " << this->Vertices << "\n";
   os << indent << "Stride: " << this->Stride << "\n";
-  os << indent << "Prefetch: " << (this->Prefetch ? "On" : "Off") << "\n";
   os << indent << "RegionOfInterest:";
   for (double bound : this->RegionOfInterest)
   {

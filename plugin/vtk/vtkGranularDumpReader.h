@@ -153,16 +153,6 @@ public:
   vtkGetVector6Macro(RegionOfInterest, double);
   ///@}
 
-  ///@{
-  /**
-   * On: while a frame is shown, the next one in the same direction is decoded in the background, in the memory of one more
-   * frame. It changes no result. Off by default.
-   */
-  void SetPrefetch(bool prefetch);
-  vtkGetMacro(Prefetch, bool);
-  vtkBooleanMacro(Prefetch, bool);
-  ///@}
-
   /**
    * Returns the selection of the point arrays. UpdateInformation() fills it with the arrays of all frames: on, except
    * coordinate columns. The choice stays when the files are read again.
@@ -173,7 +163,6 @@ protected:
   vtkGranularDumpReader();
   ~vtkGranularDumpReader() override;
 
-  void ForgetFrames() override;
   void FramesChanged() override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
@@ -189,7 +178,6 @@ private:
   bool SortById = false;
   int Vertices = VERTEX;
   vtkTypeInt64 Stride = 1;
-  bool Prefetch = false;
   double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
 
   friend struct vtkGranularPrivate::ReaderFrames;

@@ -11,8 +11,6 @@
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include "granular/frames/shared_indexes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -20,18 +18,6 @@
 #include <vector>
 
 using namespace vtkGranularPrivate;
-
-namespace
-{
-/**
- * Returns what the readers of this process know of their files. A second reader of a run does not look through it again.
- */
-granular::SharedIndexes& IndexesOfProcess()
-{
-  static granular::SharedIndexes indexes;
-  return indexes;
-}
-}
 
 //------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::Update(Self* self)
@@ -56,10 +42,7 @@ void vtkGranularSeriesReader::Internals::Update(Self* self)
   options.format = this->Format;
   options.column_names = this->ColumnNames;
   options.repeated_steps = static_cast<granular::RepeatedSteps>(self->RepeatedSteps);
-  options.keep_index = static_cast<granular::KeepIndex>(self->IndexFile);
   options.threads = ChooseThreads(self->Threads, ranks);
-  options.largest_expansion = self->LargestExpansion;
-  options.shared = &IndexesOfProcess();
   granular::Notices notices;
   AlgorithmProgress progress(self);
   granular::update_run_index(this->Index, ranks, this->FileNames, options, notices, progress);
@@ -241,32 +224,6 @@ void vtkGranularSeriesReader::SetRepeatedSteps(int repeated)
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularSeriesReader::SetIndexFile(int where)
-{
-  where = std::clamp(where, static_cast<int>(NEVER), static_cast<int>(BESIDE));
-  if (this->IndexFile != where)
-  {
-    this->IndexFile = where;
-    this->Refresh();
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularSeriesReader::SetLargestExpansion(int times)
-{
-  if (times < 1)
-  {
-    vtkErrorMacro("LargestExpansion must be at least 1, got " << times);
-    return;
-  }
-  if (this->LargestExpansion != times)
-  {
-    this->LargestExpansion = times;
-    this->Refresh();
-  }
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularSeriesReader::SetThreads(int threads)
 {
   if (threads < 0)
@@ -415,8 +372,6 @@ void vtkGranularSeriesReader::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << indent << "RefreshOnUpdate: " << (this->RefreshOnUpdate ? "On" : "Off") << "\n";
   os << indent << "RepeatedSteps: " << this->RepeatedSteps << "\n";
-  os << indent << "IndexFile: " << this->IndexFile << "\n";
-  os << indent << "LargestExpansion: " << this->LargestExpansion << "\n";
   os << indent << "TimestepSize: " << this->TimestepSize << "\n";
   os << indent << "Threads: " << this->Threads << "\n";
   os << indent << "Controller: " << this->GetController() << "\n";

@@ -46,13 +46,6 @@ public:
     LAST = 2
   };
 
-  enum IndexFileType
-  {
-    NEVER = 0,
-    CACHE = 1,
-    BESIDE = 2
-  };
-
   ///@{
   /**
    * Sets the files of one run. Null and empty names are ignored. None by default.
@@ -86,27 +79,6 @@ public:
    */
   void SetRepeatedSteps(int repeated);
   vtkGetMacro(RepeatedSteps, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sets where the positions of the frames are kept for the next opening. NEVER, the default; CACHE: in
-   * $XDG_CACHE_HOME/granular or ~/.cache/granular; BESIDE: beside the first file, under its name with .granular.idx
-   * appended. An index is used while size, time, first and last bytes of a file are unchanged; a damaged index is ignored
-   * with a warning.
-   */
-  void SetIndexFile(int where);
-  vtkGetMacro(IndexFile, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sets the limit of the content of compressed files: content of more than 256 MiB and more than this many times the
-   * bytes of its file is an error, because such files are made to fill memory and time. Numbers below 1 are an error and
-   * change nothing. 200 by default; real dumps reach 90.
-   */
-  void SetLargestExpansion(int times);
-  vtkGetMacro(LargestExpansion, int);
   ///@}
 
   ///@{
@@ -175,8 +147,6 @@ protected:
 
   bool RefreshOnUpdate = false;
   int RepeatedSteps = AUTO;
-  int IndexFile = NEVER;
-  int LargestExpansion = 200;
   double TimestepSize = 1;
   int Threads = 0;
 

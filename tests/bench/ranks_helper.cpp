@@ -93,7 +93,7 @@ public:
     MPI_Barrier(mpi_);
     const auto start = std::chrono::steady_clock::now();
     request_.pool->next_frame();
-    frame_ = granular::read_dump(pieces, request_, ranks_, std::nullopt, notices, progress);
+    frame_ = granular::read_dump(pieces, request_, ranks_, notices, progress);
     MPI_Barrier(mpi_);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     if (!notices.empty())

@@ -174,20 +174,16 @@ TEST(Segments, OfAFrameInTheMiddle)
 {
   for (int kind = 0; kind < kinds; ++kind)
   {
-    for (const bool claimed : { false, true })
-    {
-      Packed packed;
-      fill(packed, kind);
-      packed.points->claimed = claimed;
-      const std::int64_t begin = 2'345'678;
-      const std::int64_t end = 4'000'001;
-      const auto source = packed.open(begin, end);
-      ASSERT_TRUE(source);
-      expect_reads(*source, packed.content, begin, end, 3);
-      char byte = 0;
-      EXPECT_EQ(source->read(end, &byte, 1), 0u);
-      EXPECT_EQ(source->read(end - 1, &byte, 1), 1u);
-    }
+    Packed packed;
+    fill(packed, kind);
+    const std::int64_t begin = 2'345'678;
+    const std::int64_t end = 4'000'001;
+    const auto source = packed.open(begin, end);
+    ASSERT_TRUE(source);
+    expect_reads(*source, packed.content, begin, end, 3);
+    char byte = 0;
+    EXPECT_EQ(source->read(end, &byte, 1), 0u);
+    EXPECT_EQ(source->read(end - 1, &byte, 1), 1u);
   }
 }
 
@@ -308,57 +304,4 @@ TEST(Segments, TruncatedFilesEndEarly)
   EXPECT_LT(got, buffer.size());
   EXPECT_EQ(std::string_view(buffer).substr(0, got),
     std::string_view(packed.content).substr(std::size_t{ 5 } << 19, got));
-}
-
-/// Other bytes than those before a point would make other data of what follows.
-TEST(Segments, WindowsThatAreClaimedAreCompared)
-{
-  for (const bool first : { false, true })
-  {
-    Packed packed;
-    fill(packed, 0);
-    packed.points->claimed = true;
-    const std::size_t number = packed.points->points.size() / 2;
-    SeekPoints::Point& point = packed.points->points[number];
-    point.window[point.window.size() - 100] ^= 1;
-    const std::int64_t begin = first ? point.offset + 10 : 0;
-    const auto source = packed.open(begin);
-    std::string buffer(100, '\0');
-    for (int i = 0; i < 2; ++i)
-    {
-      EXPECT_THROW(
-        source->read(point.offset + 50, buffer.data(), buffer.size()), granular::FormatError);
-    }
-    const std::int64_t next = packed.points->points[number + 2].offset;
-    EXPECT_EQ(source->read(next, buffer.data(), buffer.size()), buffer.size());
-    EXPECT_EQ(buffer, packed.content.substr(static_cast<std::size_t>(next), buffer.size()));
-  }
-}
-
-TEST(Segments, PointsThatAreClaimedMayBeNonsense)
-{
-  Packed packed;
-  fill(packed, 0);
-  packed.points->claimed = true;
-  auto& points = packed.points->points;
-  for (std::size_t i = 0; i < points.size(); i += 3)
-  {
-    points[i].offset = points[i / 2].offset; // two at a place, or before others
-  }
-  std::ranges::sort(points, {}, &SeekPoints::Point::offset);
-  const auto source = packed.open();
-  std::string buffer(1000, '\0');
-  for (std::int64_t at = 0; at < 6 << 20; at += 50000)
-  {
-    try
-    {
-      const std::size_t got = source->read(at, buffer.data(), buffer.size());
-      EXPECT_EQ(std::string_view(buffer).substr(0, got),
-        std::string_view(packed.content).substr(static_cast<std::size_t>(at), got));
-    }
-    catch (const granular::FormatError&)
-    {
-      SUCCEED();
-    }
-  }
 }

@@ -138,7 +138,6 @@ TEST(CMisuse, ChoicesThatThereAreNot)
     [](auto& options) { options.kind = static_cast<granular_kind>(77); }, "granular_kind, got 77");
   refused([](auto& options) { options.timestep_size = 0; }, "timestep_size greater than 0");
   refused([](auto& options) { options.repeated_steps = 3; }, "repeated_steps from 0 to 2, got 3");
-  refused([](auto& options) { options.keep_index = -1; }, "keep_index from 0 to 2, got -1");
 
   const auto refused_request = [&](auto change, const std::string& words)
   {

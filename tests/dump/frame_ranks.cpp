@@ -8,15 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace
 {
 using granular::Communicator;
-using granular::DumpPart;
 using granular::DumpRequest;
 using granular::FramePiece;
 using granular::Notices;
@@ -31,9 +28,9 @@ public:
   bool stop = false;
 };
 
-/// One rank's reading, with its part decoded ahead or not.
-Outcome read_rank(const std::vector<FramePiece>& pieces, DumpRequest request, Communicator& ranks,
-  bool ahead, bool stop)
+/// One rank's reading.
+Outcome read_rank(
+  const std::vector<FramePiece>& pieces, DumpRequest request, Communicator& ranks, bool stop)
 {
   request.piece = ranks.rank();
   request.pieces = ranks.size();
@@ -41,30 +38,22 @@ Outcome read_rank(const std::vector<FramePiece>& pieces, DumpRequest request, Co
     [&](const DumpRequest& own, Notices& notices)
     {
       Stop progress;
-      std::optional<DumpPart> part;
-      if (ahead)
-      {
-        // as a thread does before: what it throws is left to the reading itself
-        const std::string error =
-          error_of([&] { part = decode_dump(pieces, own, ranks.size() > 1, progress); });
-        EXPECT_EQ(part.has_value(), error.empty());
-      }
       progress.stop = stop;
-      return read_dump(pieces, own, ranks, std::move(part), notices, progress);
+      return read_dump(pieces, own, ranks, notices, progress);
     },
     request);
 }
 
 /// Parts of all ranks, put together. Notices and errors must be the same on all.
 Outcome read_together(const std::vector<FramePiece>& pieces, const DumpRequest& request, int size,
-  bool ahead, int stopped_rank = -1)
+  int stopped_rank = -1)
 {
   std::vector<Outcome> outcomes(static_cast<std::size_t>(size));
   run_ranks(size,
     [&](Communicator& ranks)
     {
       outcomes[static_cast<std::size_t>(ranks.rank())] =
-        read_rank(pieces, request, ranks, ahead && ranks.rank() != 1, ranks.rank() == stopped_rank);
+        read_rank(pieces, request, ranks, ranks.rank() == stopped_rank);
     });
   Outcome all = outcomes.front();
   for (std::size_t rank = 1; rank < outcomes.size(); ++rank)
@@ -94,12 +83,8 @@ void expect_same_on_ranks(const Series& series, std::size_t frame = 0)
       plainly(request));
     for (int size = 1; size <= 5; ++size)
     {
-      for (const bool ahead : { false, true })
-      {
-        const DumpRequest small = in_chunks(request, 1 + size % 3, 700);
-        EXPECT_EQ(read_together(pieces, small, size, ahead).difference(whole), "")
-          << size << " ranks";
-      }
+      const DumpRequest small = in_chunks(request, 1 + size % 3, 700);
+      EXPECT_EQ(read_together(pieces, small, size).difference(whole), "") << size << " ranks";
     }
   }
 }
@@ -167,7 +152,7 @@ TEST(FrameRanks, NoticesOfEachAreThereOnce)
   const Series series = index_of({ folder.write(
     "a.dump", rows_with({ { 0, "1000 1 0 0 0 1 more" }, { 80, "1002 1 0 0 0 1 more words" } })) });
   expect_same_on_ranks(series);
-  const Outcome outcome = read_together(series.index.pieces(0), {}, 3, true);
+  const Outcome outcome = read_together(series.index.pieces(0), {}, 3);
   EXPECT_EQ(outcome.said,
     folder.path("a.dump") +
       ":1: expected 6 words in a row, got more in some rows; the rest of them was ignored\n");
@@ -182,12 +167,8 @@ TEST(FrameRanks, AnErrorOfOneIsThatOfAll)
   const std::string said = path + ":55: column 'y': expected a number, got 'zero'";
   for (const DumpRequest& request : { DumpRequest{}, all_requests()[3] })
   {
-    for (const bool ahead : { false, true })
-    {
-      EXPECT_EQ(read_together(series.index.pieces(0), request, 1, ahead).error, said);
-      EXPECT_EQ(
-        read_together(series.index.pieces(0), request, 3, ahead).error, said + " (on rank 1 of 3)");
-    }
+    EXPECT_EQ(read_together(series.index.pieces(0), request, 1).error, said);
+    EXPECT_EQ(read_together(series.index.pieces(0), request, 3).error, said + " (on rank 1 of 3)");
   }
 }
 
@@ -197,7 +178,7 @@ TEST(FrameRanks, OneThatIsStoppedStopsAll)
   const Series series = index_of({ folder.write("a.dump", rows_with({})) });
   for (const int rank : { 0, 1, 2 })
   {
-    EXPECT_EQ(read_together(series.index.pieces(0), {}, 3, false, rank).error, "cancelled");
+    EXPECT_EQ(read_together(series.index.pieces(0), {}, 3, rank).error, "cancelled");
   }
 }
 
@@ -214,11 +195,11 @@ TEST(FrameRanks, RowsThatAreMissingAreMissed)
   const Series series = index_of({ path });
   // behind the back of the index, which looks at both ends of a file
   folder.write("a.dump", replaced(text, "\n1500 0.5 0.5 0.5\n", "\n                \n"));
-  EXPECT_EQ(read_together(series.index.pieces(0), {}, 1, false).error,
-    path + ":1: expected 1200 rows, got 1199");
-  EXPECT_EQ(read_together(series.index.pieces(0), {}, 3, false).error,
-    path + ":1: expected 1200 rows, got 1199");
+  EXPECT_EQ(
+    read_together(series.index.pieces(0), {}, 1).error, path + ":1: expected 1200 rows, got 1199");
+  EXPECT_EQ(
+    read_together(series.index.pieces(0), {}, 3).error, path + ":1: expected 1200 rows, got 1199");
   folder.write("a.dump", replaced(text, "\n             \n", "\n17 0.5 0.5 .5\n"));
-  EXPECT_EQ(read_together(series.index.pieces(0), {}, 3, false).error,
-    path + ":1: expected 1200 rows, got more");
+  EXPECT_EQ(
+    read_together(series.index.pieces(0), {}, 3).error, path + ":1: expected 1200 rows, got more");
 }

@@ -2,7 +2,7 @@
 // Columns cost time in proportion to their number, when they are read and when they are written.
 #include "../support/binary_dumps.h"
 #include "../support/dump_writing.h"
-#include "../support/series.h"
+#include "../support/dumps.h"
 
 #include "../support/counting_source.h"
 #include "../support/many_columns.h"
@@ -113,21 +113,6 @@ TEST(ManyColumns, OfABinaryFile)
   EXPECT_EQ(read.values("i_a"), std::vector<double>({ 4.5 }));
   EXPECT_EQ(read.values("i_a_9996"), std::vector<double>({ 9999.5 }));
   EXPECT_EQ(read.notices.size(), 9996u);
-}
-
-// Kept on disk, and opened again.
-TEST(ManyColumns, OfAKeptIndex)
-{
-  const Folder folder;
-  const std::string path = folder.write("a.dump", one_frame(names("word"), rows("a#", "b#")));
-  for (int time = 0; time < 2; ++time)
-  {
-    Series run;
-    run.options.keep_index = granular::KeepIndex::Beside;
-    run.update({ path });
-    ASSERT_EQ(run.index.size(), 1u);
-    EXPECT_EQ(run.read(0).texts("word_3"), std::vector<std::string>({ "a3", "b3" }));
-  }
 }
 
 /// As many bytes as are read of a frame to decode it, times the bytes that it has.

@@ -6,7 +6,7 @@ import granular
 
 here = os.getcwd()
 names = ["run_10.0.dump", "run_10.1.dump", "run_2.0.dump", "run_2.1.dump.gz", "run_100.0.dump.zst",
-         "run_boundingBox_2.dump", "run_2.0.dump.granular.idx", "other.dump"]
+         "run_boundingBox_2.dump", "other.dump"]
 for name in names:
     open(name, "w").close()
 

@@ -17,6 +17,10 @@ reader = granular.reader("first/post/grains_*.dump", dt=2e-5)
 granular.show(reader, color="radius", box=True)
 SaveState("first/run.pvsm")
 state = Path("first/run.pvsm").read_bytes()
+kept = b'<Property name="RepeatedSteps"'
+assert state.count(kept) == 1
+state = state.replace(kept, b'<Property name="IndexFile" id="1.IndexFile" number_of_elements="1"><Element index="0" value="1"/></Property>' + kept)
+Path("first/run.pvsm").write_bytes(state)  # a state of the time when readers had this property
 
 
 def loaded():

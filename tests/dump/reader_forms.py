@@ -6,9 +6,6 @@ import os
 import shutil
 import struct
 
-os.environ["XDG_CACHE_HOME"] = os.path.abspath("cache")  # before the reader is asked for it
-shutil.rmtree("cache", ignore_errors=True)
-
 from paraview.simple import *
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -142,36 +139,10 @@ points(reader, 1000)
 assert sorted(reader.PointData.keys()) == ["id", "image", "size", "type", "v"], \
     reader.PointData.keys()
 
-# ---- the index of a run ------------------------------------------------------------------------
-
-assert reader.IndexFile == "Never" and not os.path.exists("cache")
-run = write("run.dump", content("grains.dump"))
-reader = OpenDataFile(run)
-reader.IndexFile = "Cache"
-assert points(reader, 2000) == 1200
-assert len(os.listdir("cache/granular")) == 1, os.listdir("cache")
-again = GranularDumpReader(FileNames=[run], IndexFile="Cache")
-assert points(again, 2000) == 1200
-assert list(again.TimestepValues) == [0, 1000, 2000]
-ReloadFiles(again)
-assert list(again.TimestepValues) == [0, 1000, 2000]
-beside = GranularDumpReader(FileNames=[run], IndexFile="Beside")
-beside.UpdatePipelineInformation()
-assert os.path.isfile(run + ".granular.idx")
-assert points(GranularDumpReader(FileNames=[run], IndexFile="Beside"), 1000) == 1200
-# what is kept of a file is not used for another of that name
-write("run.dump", content("ortho_plain.dump"))
-for where in ("Cache", "Beside"):
-    reader = GranularDumpReader(FileNames=[run], IndexFile=where)
-    reader.UpdatePipelineInformation()
-    assert list(reader.TimestepValues) == [0, 100], (where, reader.TimestepValues)
-    assert points(reader, 100) == 500
-
 # ---- names, defaults, words, and the state -----------------------------------------------------
 
 reader = OpenDataFile(good("grains_1000.dump"))
-for name, default in (("ColumnNames", ""), ("RepeatedSteps", "Auto"), ("RefreshOnUpdate", 0),
-                      ("IndexFile", "Never")):
+for name, default in (("ColumnNames", ""), ("RepeatedSteps", "Auto"), ("RefreshOnUpdate", 0)):
     assert getattr(reader, name) == default, (name, getattr(reader, name))
     explained = reader.SMProxy.GetProperty(name).GetDocumentation()
     assert explained and len(explained.GetDescription().strip()) > 60, name
@@ -181,7 +152,6 @@ reader = OpenDataFile(good("grains.bin"))
 reader.ColumnNames = GRAINS
 reader.RepeatedSteps = "Last"
 reader.RefreshOnUpdate = 1
-reader.IndexFile = "Cache"
 reader.UpdatePipelineInformation()
 reader.PointArrayStatus = ["id", "radius"]
 assert points(reader, 1000) == 1200
@@ -192,7 +162,7 @@ loaded = [proxy for proxy in GetSources().values() if proxy.GetXMLName() == "Gra
 assert len(loaded) == 1, GetSources()
 reader = loaded[0]
 assert reader.ColumnNames == GRAINS and reader.RepeatedSteps == "Last"
-assert reader.RefreshOnUpdate == 1 and reader.IndexFile == "Cache"
+assert reader.RefreshOnUpdate == 1
 assert list(reader.PointArrayStatus) == ["id", "radius"], reader.PointArrayStatus
 assert points(reader, 1000) == 1200
 assert sorted(reader.PointData.keys()) == ["id", "radius"], reader.PointData.keys()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces one after the other in one process, any number of threads, and frames decoded ahead of time: the
-// particles are always the same.
+// Pieces one after the other in one process, any number of threads, and frames in any order: the particles
+// are always the same.
 #include "reader_helpers.h"
 
 #include "vtkCellArray.h"
@@ -175,7 +175,7 @@ TEST(ReaderPieces, ThreadsChangeNothing)
   }
 }
 
-TEST(ReaderAhead, AnyWayThroughTheFrames)
+TEST(ReaderFrames, AnyWayThroughTheFrames)
 {
   const std::string file = WriteFile("run.dump", RunOf(Sizes));
   std::vector<std::vector<std::string>> expected;
@@ -195,7 +195,6 @@ TEST(ReaderAhead, AnyWayThroughTheFrames)
   for (const int threads : { 1, 3 })
   {
     Reader reader({ file });
-    reader->PrefetchOn();
     reader->SetThreads(threads);
     for (const int frame : way)
     {
@@ -207,7 +206,7 @@ TEST(ReaderAhead, AnyWayThroughTheFrames)
   }
 }
 
-TEST(ReaderAhead, WhatIsAskedForChanges)
+TEST(ReaderFrames, WhatIsAskedForChanges)
 {
   const std::string file = WriteFile("run.dump", RunOf(Sizes));
   const auto read = [&](Reader& reader, int frame)
@@ -226,7 +225,6 @@ TEST(ReaderAhead, WhatIsAskedForChanges)
     EXPECT_EQ(RowsOf(reader.Particles()), RowsOf(plain.Particles())) << frame;
   };
   Reader reader({ file });
-  reader->PrefetchOn();
   read(reader, 0);
   reader->SortByIdOn();
   read(reader, 1);
@@ -236,28 +234,25 @@ TEST(ReaderAhead, WhatIsAskedForChanges)
   read(reader, 3);
   reader->SetStride(2);
   read(reader, 4);
-  reader->PrefetchOff();
   read(reader, 5);
-  reader->PrefetchOn();
   read(reader, 4);
   read(reader, 3);
-  reader->UpdateTimeStep(2, 1, 3); // another piece than the one begun
+  reader->UpdateTimeStep(2, 1, 3);
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
   read(reader, 1);
 }
 
-TEST(ReaderAhead, FilesChange)
+TEST(ReaderFrames, FilesChange)
 {
   const std::string file = WriteFile("run.dump", RunOf({ 10, 20, 30 }));
   const std::string other = WriteFile("other.dump", RunOf({ 11, 21, 31 }));
   Reader reader({ file });
-  reader->PrefetchOn();
   reader->UpdateTimeStep(0);
   reader.Open(other);
   reader->UpdateTimeStep(1);
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 21);
 
-  // replaced behind the reader's back while frame 2 waits: what is shown is not what was there before
+  // replaced behind the reader's back: what is shown is not what was there before
   std::filesystem::remove(other);
   WriteFile("other.dump", RunOf({ 11, 21, 36 }));
   reader->UpdateTimeStep(2);
@@ -268,7 +263,7 @@ TEST(ReaderAhead, FilesChange)
   reader->UpdateTimeStep(2);
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 36);
 
-  // grows while a frame is being decoded
+  // grows
   reader->RefreshOnUpdateOn();
   reader->UpdateTimeStep(1);
   WriteFile("other.dump", RunOf({ 11, 21, 36, 40 }));
@@ -276,81 +271,4 @@ TEST(ReaderAhead, FilesChange)
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 36);
   reader->UpdateTimeStep(3);
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 40);
-}
-
-TEST(ReaderAhead, TheReaderGoesWhileAFrameIsDecoded)
-{
-  const std::string file = WriteFile("run.dump", RunOf({ 10, 200000, 10 }));
-  for (int i = 0; i < 5; ++i)
-  {
-    Reader reader({ file });
-    reader->PrefetchOn();
-    reader->UpdateTimeStep(0);
-    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 10);
-  }
-  Reader reader({ file });
-  reader->PrefetchOn();
-  reader->UpdateTimeStep(0);
-  reader->UpdateTimeStep(2); // and here it is stopped for another
-  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 10);
-  vtkNew<vtkPolyData> kept;
-  kept->ShallowCopy(reader.Particles());
-  reader->SetController(nullptr);
-  EXPECT_EQ(RowsOf(kept).size(), 10u);
-}
-
-TEST(ReaderAhead, AStopWhileWaiting)
-{
-  const std::string file = WriteFile("run.dump", RunOf({ 10, 200000, 10 }));
-  for (int report = 1; report <= 3; ++report)
-  {
-    Reader reader({ file });
-    reader->PrefetchOn();
-    reader->UpdateTimeStep(0);
-    vtkNew<StopAt> stop;
-    stop->Left = report;
-    reader->AddObserver(vtkCommand::ProgressEvent, stop);
-    reader->UpdateTimeStep(1);
-    if (stop->Left > 0 || reader.Particles()->GetNumberOfPoints() > 0)
-    {
-      EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 200000); // it was there already
-      EXPECT_GT(report, 2);
-    }
-    else
-    {
-      EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
-      EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 0);
-      reader->RemoveObservers(vtkCommand::ProgressEvent);
-      reader->UpdateTimeStep(1);
-      EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 200000);
-    }
-    EXPECT_TRUE(reader.Said->Errors.empty());
-  }
-}
-
-TEST(ReaderAhead, AnErrorIsSaidWhenItsFrameIsAskedFor)
-{
-  std::string text = RunOf({ 10, 20, 30 });
-  text.replace(text.find("1000007 0.5"), 11, "1000007 0,5");
-  const std::string file = WriteFile("run.dump", text);
-  std::string without;
-  for (const bool prefetch : { false, true })
-  {
-    Reader reader({ file });
-    reader->SetPrefetch(prefetch);
-    reader->UpdateTimeStep(0);
-    reader->Modified();
-    reader->UpdateTimeStep(0);
-    EXPECT_TRUE(reader.Said->Errors.empty());
-    reader->UpdateTimeStep(1);
-    ASSERT_EQ(reader.Said->Errors.size(), 1u);
-    EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::FileFormatError));
-    EXPECT_EQ(prefetch ? reader.Said->Errors[0] : without, without);
-    without = reader.Said->Errors[0];
-    EXPECT_NE(without.find("got '0,5'"), std::string::npos) << without;
-    reader->UpdateTimeStep(2);
-    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 30);
-    reader->UpdateTimeStep(0);
-    EXPECT_EQ(reader.Said->Errors.size(), 1u);
-  }
 }

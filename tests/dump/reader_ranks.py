@@ -41,9 +41,6 @@ for time in (0, 1000, 2000):
     check(reader, time, [grains[time]])
 reader.SortById = 1
 check(reader, 1000, [grains[1000]])
-reader.Prefetch = 1
-for time in (0, 1000, 2000, 1000, 0, 2000):
-    check(reader, time, [grains[time]])
 
 # some of the rows: what is kept of the whole file
 reader.Stride = 3
@@ -63,7 +60,7 @@ assert whole(reader, 1000).GetNumberOfPoints() == (heights <= numpy.median(heigh
 Delete(reader)
 
 # compressed, and binary
-reader = open_files(*[f"ortho_{step:06d}.dump.gz" for step in (0, 50, 100)], Prefetch=1)
+reader = open_files(*[f"ortho_{step:06d}.dump.gz" for step in (0, 50, 100)])
 for step in (0, 50, 100):
     check(reader, step, plain_dump.read(good(f"ortho_{step:06d}.dump.gz")[0]))
 Delete(reader)

@@ -10,7 +10,7 @@ with open("broken.dump", "w") as file:
     file.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1000\nITEM: BOX BOUNDS pp pp pp\n"
                "0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n" + "".join(rows))
 for sort in (0, 1):
-    reader = GranularDumpReader(FileNames=[os.path.abspath("broken.dump")], SortById=sort, Prefetch=1)
+    reader = GranularDumpReader(FileNames=[os.path.abspath("broken.dump")], SortById=sort)
     reader.UpdatePipeline()
     assert reader.GetDataInformation().GetNumberOfPoints() == 0
     reader.FileNames = [os.path.abspath("gone.dump")]

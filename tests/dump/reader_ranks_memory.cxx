@@ -195,7 +195,6 @@ TEST_F(ScarceMemory, OfARefreshByEachAlone)
     {
       reader->AddFileName("run.dump");
       reader->RefreshOnUpdateOn();
-      reader->PrefetchOn();
       reader->UpdateInformation();
     },
     [&](ScarceReader* reader) { reader->UpdateTimeStep(this->Rank() == 1 ? 1 : 0); });

@@ -7,10 +7,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyDataAlgorithm.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <functional>
 #include <iterator>
 
 namespace
@@ -45,12 +41,6 @@ std::string ReadAll(const std::string& file)
 {
   std::ifstream in(file, std::ios::binary);
   return { std::istreambuf_iterator<char>(in), {} };
-}
-
-/// A copy of a file of the test data, in a folder of its own.
-std::string Copy(const std::string& name)
-{
-  return WriteFile(name, ReadAll(Good(name)));
 }
 
 void ExpectNothing(Reader& reader, unsigned long code)
@@ -474,206 +464,17 @@ TEST(ReaderSeries, AFileThatIsCutIsReadAsFarAsItGoes)
   EXPECT_EQ(reader.Times(), (std::vector<double>{ 0, 50, 100 }));
 }
 
-// ---- index files -------------------------------------------------------------------------------
-
-namespace
+TEST(ReaderSeries, OtherFramesBehindTheSameStampAreNotShown)
 {
-/// A dump whose middle can be exchanged behind an index: of the same length, time and ends.
-struct Kept
-{
-  std::string File;
-  std::string Text;
-
-  explicit Kept(const std::string& name)
-  {
-    for (long step = 1000; step < 9000; step += 1000)
-    {
-      this->Text += Grain(step) + std::string(2000, '\n');
-    }
-    this->File = WriteFile(name, this->Text);
-    fs::remove(this->File + ".granular.idx"); // of an earlier run of the test
-  }
-
-  void Exchange() const
-  {
-    std::string other = this->Text;
-    const std::size_t at = other.find("\n4000\n");
-    ASSERT_GT(at, 4096u);
-    ASSERT_GT(other.size() - at, 4096u + 10);
-    other.replace(at, 6, "\n4567\n");
-    const auto time = fs::last_write_time(this->File);
-    std::ofstream(this->File, std::ios::binary | std::ios::in) << other;
-    fs::last_write_time(this->File, time);
-  }
-};
-
-const std::vector<double> KeptTimes = { 1000, 2000, 3000, 4000, 5000, 6000, 7000, 8000 };
-}
-
-TEST(ReaderSeries, ASecondReaderDoesNotLookThroughTheFile)
-{
-  const std::string file = WriteFile("twice.dump", Grain(100) + Grain(200));
-  const auto time = fs::last_write_time(file) - std::chrono::seconds(100);
+  const std::string file = WriteFile("exchanged.dump", Grain(100) + Grain(200));
+  const auto time = fs::last_write_time(file);
+  Reader reader({ file });
+  EXPECT_EQ(reader.Times(), (std::vector<double>{ 100, 200 }));
+  WriteFile("exchanged.dump", Grain(300) + Grain(400));
   fs::last_write_time(file, time);
-  Reader second;
-  {
-    Reader first({ file });
-    EXPECT_EQ(first.Times(), (std::vector<double>{ 100, 200 }));
-    // other bytes behind the same stamp: only who looks through the file sees them
-    WriteFile("twice.dump", Grain(300) + Grain(400));
-    fs::last_write_time(file, time);
-    second.Open(file);
-    EXPECT_EQ(second.Times(), (std::vector<double>{ 100, 200 }));
-  }
-  // and not even then is anything shown that is not there
-  second->Update();
-  ASSERT_EQ(second.Said->Errors.size(), 1u);
-  EXPECT_NE(second.Said->Errors[0].find("changed since it was indexed"), std::string::npos)
-    << second.Said->Errors[0];
-  EXPECT_EQ(second.Particles()->GetNumberOfPoints(), 0);
-}
-
-TEST(ReaderSeries, AnIndexFileBesideTheFirstFile)
-{
-  const Kept kept("a.dump");
-  const std::string index = kept.File + ".granular.idx";
-  Reader first({ kept.File });
-  first->SetIndexFile(vtkGranularDumpReader::BESIDE);
-  EXPECT_EQ(first->GetIndexFile(), vtkGranularDumpReader::BESIDE);
-  EXPECT_EQ(first.Times(), KeptTimes);
-  EXPECT_TRUE(fs::exists(index));
-  kept.Exchange();
-  Reader second({ kept.File });
-  second->SetIndexFile(vtkGranularDumpReader::BESIDE);
-  EXPECT_EQ(second.Times(), KeptTimes) << "the frames are those of the index file";
-  second->UpdateTimeStep(8000);
-  EXPECT_EQ(second.Particles()->GetPoint(0)[0], 8000);
-  EXPECT_TRUE(second.Said->Warnings.empty());
-  EXPECT_TRUE(second.Said->Errors.empty());
-  Reader without({ kept.File });
-  EXPECT_EQ(without.Times()[3], 4567);
-  // a frame that is not what the index says is no frame
-  second->UpdateTimeStep(4000);
-  ASSERT_EQ(second.Said->Errors.size(), 1u);
-  ExpectNothing(second, vtkErrorCode::PrematureEndOfFileError);
-}
-
-TEST(ReaderSeries, AnIndexFileIsWrittenAlsoIfItIsAskedForLater)
-{
-  // somebody finds that opening takes long, and then turns it on
-  const Kept kept("a.dump");
-  Reader reader({ kept.File });
-  EXPECT_EQ(reader.Times(), KeptTimes);
-  EXPECT_FALSE(fs::exists(kept.File + ".granular.idx"));
-  reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
-  EXPECT_EQ(reader.Times(), KeptTimes);
-  EXPECT_TRUE(fs::exists(kept.File + ".granular.idx"));
-}
-
-TEST(ReaderSeries, AnIndexFileInTheCache)
-{
-  const Kept kept("a.dump");
-  const fs::path cache = fs::path(kept.File).parent_path() / "cache";
-  fs::remove_all(cache);
-  ASSERT_EQ(setenv("XDG_CACHE_HOME", cache.c_str(), 1), 0);
-  Reader first({ kept.File });
-  first->SetIndexFile(vtkGranularDumpReader::CACHE);
-  EXPECT_EQ(first.Times(), KeptTimes);
-  ASSERT_TRUE(fs::is_directory(cache / "granular"));
-  EXPECT_EQ(std::distance(fs::directory_iterator(cache / "granular"), {}), 1);
-  EXPECT_FALSE(fs::exists(kept.File + ".granular.idx"));
-  kept.Exchange();
-  Reader second({ kept.File });
-  second->SetIndexFile(vtkGranularDumpReader::CACHE);
-  EXPECT_EQ(second.Times(), KeptTimes);
-  EXPECT_TRUE(second.Said->Warnings.empty());
-}
-
-TEST(ReaderSeries, AnIndexFileOfAFileThatGrewOrIsAnother)
-{
-  const Kept kept("a.dump");
-  {
-    Reader reader({ kept.File });
-    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
-    reader->Update();
-  }
-  Append(kept.File, Grain(9000));
-  {
-    Reader reader({ kept.File });
-    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
-    std::vector<double> times = KeptTimes;
-    times.push_back(9000);
-    EXPECT_EQ(reader.Times(), times);
-    EXPECT_TRUE(reader.Said->Warnings.empty());
-  }
-  WriteFile("a.dump", Grain(1) + Grain(2));
-  for (int round = 0; round < 2; ++round)
-  {
-    Reader reader({ kept.File });
-    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
-    EXPECT_EQ(reader.Times(), (std::vector<double>{ 1, 2 }));
-    EXPECT_TRUE(reader.Said->Warnings.empty());
-  }
-}
-
-TEST(ReaderSeries, ADamagedIndexFileIsIgnoredWithAWarning)
-{
-  const Kept kept("a.dump");
-  const std::string index = WriteFile("a.dump.granular.idx", "\x89GIDX\r\n\x1athis is no index\n");
-  Reader reader({ kept.File });
-  reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
-  EXPECT_EQ(reader.Times(), KeptTimes);
-  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
-  EXPECT_EQ(reader.Said->Warnings[0].substr(0, index.size()), index);
-  // it was replaced by a good one
-  Reader second({ kept.File });
-  second->SetIndexFile(vtkGranularDumpReader::BESIDE);
-  EXPECT_EQ(second.Times(), KeptTimes);
-  EXPECT_TRUE(second.Said->Warnings.empty());
-}
-
-TEST(ReaderSeries, AnIndexFileOfPiecesAndCompressedFiles)
-{
-  std::vector<std::string> files;
-  for (const char* name :
-    { "pieces_1000.0.dump", "pieces_1000.1.dump", "pieces_1000.2.dump", "pieces_1000.3.dump",
-      "pieces_2000.0.dump", "pieces_2000.1.dump", "pieces_2000.2.dump", "pieces_2000.3.dump" })
-  {
-    files.push_back(Copy(name));
-  }
-  fs::remove(files[0] + ".granular.idx");
-  for (int round = 0; round < 2; ++round)
-  {
-    Reader reader(files);
-    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
-    EXPECT_EQ(reader.Times(), (std::vector<double>{ 1000, 2000 }));
-    reader->UpdateTimeStep(2000);
-    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
-    EXPECT_TRUE(fs::exists(files[0] + ".granular.idx"));
-    EXPECT_TRUE(reader.Said->Warnings.empty());
-  }
-  const std::string packed = Copy("tri_000050.dump.gz");
-  fs::remove(packed + ".granular.idx");
-  for (int round = 0; round < 2; ++round)
-  {
-    Reader reader({ packed });
-    reader->SetIndexFile(vtkGranularDumpReader::BESIDE);
-    reader->Update();
-    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 500);
-    EXPECT_TRUE(fs::exists(packed + ".granular.idx"));
-  }
-}
-
-TEST(ReaderSeries, AnIndexFileThatCannotBeWritten)
-{
-  // a file in the place of a folder: nobody can write below it, not even root
-  const Kept kept("a.dump");
-  const std::string blocked = WriteFile("blocked", "");
-  ASSERT_EQ(setenv("XDG_CACHE_HOME", blocked.c_str(), 1), 0);
-  Reader reader({ kept.File });
-  reader->SetIndexFile(vtkGranularDumpReader::CACHE);
-  EXPECT_EQ(reader.Times(), KeptTimes);
-  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
-  EXPECT_NE(reader.Said->Warnings[0].find("the index is not kept"), std::string::npos);
-  EXPECT_TRUE(reader.Said->Errors.empty());
+  reader->Update();
+  ASSERT_EQ(reader.Said->Errors.size(), 1u);
+  EXPECT_NE(reader.Said->Errors[0].find("changed since it was indexed"), std::string::npos)
+    << reader.Said->Errors[0];
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
 }

@@ -228,13 +228,7 @@ void Change(vtkGranularDumpReader* reader, std::mt19937& random)
     [&] { reader->SetVertices(below(3)); },
     [&] { reader->SetStride(1 + below(5)); },
     [&] { reader->SetThreads(below(4)); },
-    [&] { reader->SetPrefetch(below(2) == 0); },
     [&] { reader->SetRefreshOnUpdate(below(2) == 0); },
-    [&]
-    {
-      reader->SetIndexFile(
-        below(4) == 0 ? vtkGranularSeriesReader::BESIDE : vtkGranularSeriesReader::NEVER);
-    },
     [&] { reader->SetRegionOfInterest(below(40), below(64), 1, -1, below(20), 30 + below(40)); },
     [&] { reader->SetRegionOfInterest(1, -1, 1, -1, 1, -1); },
     [&] { arrays->SetArraySetting("radius", below(2)); },
@@ -297,7 +291,7 @@ void ExpectSameAsAFreshOne(Reader& reader, const std::string& file)
   }
 }
 
-/// A reader in a thread of its own, which follows a file and reads ahead.
+/// A reader in a thread of its own, which follows a file.
 class Following
 {
 public:
@@ -324,7 +318,6 @@ private:
     Reader reader({ file });
     reader->SetController(nullptr);
     reader->RefreshOnUpdateOn();
-    reader->PrefetchOn();
     bool last = false;
     while (!last && this->Wrong.empty())
     {
@@ -394,50 +387,6 @@ TEST(ChangingUpdates, AreRightAndKeepMemory)
     EXPECT_EQ(open_descriptors(), descriptors);
   }
   ::unsetenv("GRANULAR_POOL_MIB");
-}
-
-TEST(ChangingUpdates, ReadersThatAreDeletedWhileTheyReadAhead)
-{
-  std::string rows;
-  for (int i = 1; i <= 20'000; ++i)
-  {
-    rows += std::to_string(i) + " 0.123456789012345 0.123456789012345 0.123456789012345\n";
-  }
-  std::string text;
-  for (int step = 0; step < 3; ++step)
-  {
-    text += Frame(step, 20'000, "id x y z", rows);
-  }
-  const std::string file = WriteFile("ahead.dump", text);
-  std::mt19937 random(3);
-  const std::int64_t threads = status_of_process("Threads");
-  const std::int64_t descriptors = open_descriptors();
-  const std::int64_t count = size_of_load(40, 2'000);
-  std::int64_t memory = 0;
-  std::int64_t ahead = 0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    memory = i == count / 2 ? status_of_process("VmRSS") : memory;
-    Reader reader({ file });
-    reader->SetController(nullptr);
-    reader->PrefetchOn();
-    reader->SetThreads(1 + static_cast<int>(i % 2));
-    reader->UpdateTimeStep(static_cast<double>(random() % 2));
-    ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 20'000);
-    std::this_thread::sleep_for(std::chrono::microseconds(i % 2 * (random() % 4'000)));
-    ahead += status_of_process("Threads") > threads ? 1 : 0;
-  }
-  const std::int64_t grown = status_of_process("VmRSS") - memory;
-  std::printf("load | readers deleted while they read ahead | %lld of %lld | %lld KiB more in the "
-              "second half\n",
-    static_cast<long long>(ahead), static_cast<long long>(count),
-    static_cast<long long>(grown / 1024));
-  EXPECT_GT(ahead, 0);
-  EXPECT_EQ(status_of_process("Threads"), threads);
-  EXPECT_EQ(open_descriptors(), descriptors);
-#ifndef GRANULAR_TEST_SANITIZED
-  EXPECT_LT(grown, 16 * mebibyte);
-#endif
 }
 
 namespace

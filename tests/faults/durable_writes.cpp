@@ -18,7 +18,13 @@
 namespace
 {
 namespace fs = std::filesystem;
-using granular::write_file;
+
+void write_file(const std::string& path, std::string_view bytes, bool durable)
+{
+  granular::NewFile file(path);
+  file.write_at(0, bytes);
+  file.finish(durable);
+}
 
 class DurableWrites : public OwnFolder
 {
@@ -26,7 +32,7 @@ protected:
   void SetUp() override
   {
     OwnFolder::SetUp();
-    write_file(this->path("a"), "old");
+    write_file(this->path("a"), "old", true);
   }
 
   void TearDown() override { stop_failing(); }

@@ -19,9 +19,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <chrono>
-#include <cstring>
 #include <functional>
 #include <span>
 
@@ -268,23 +265,6 @@ constexpr Case page_cases[] = {
   { "threads are refused", CallFault::Error, always, Sees::Nothing, calls::thread, EAGAIN },
 };
 
-/// Of an index that is written: the files are read all the same.
-constexpr Case index_cases[] = {
-  { "no file can be made", CallFault::Error, always, Sees::Word, calls::create, ENOSPC },
-  { "a file cannot be made", CallFault::Error, 1, Sees::Word, calls::create, ENOSPC },
-  { "making a file is interrupted", CallFault::Interrupted, 1, Sees::Nothing, calls::create },
-  { "the disk is full", CallFault::Error, 1, Sees::Word, calls::write, ENOSPC },
-  { "one byte is written", CallFault::Short, 1, Sees::Nothing, calls::write },
-  { "a write is interrupted", CallFault::Interrupted, 1, Sees::Nothing, calls::write },
-  { "the file cannot be changed", CallFault::Error, 1, Sees::Word, calls::change, EPERM },
-  { "there are no locks", CallFault::Error, 1, Sees::Nothing, calls::lock, ENOLCK },
-  { "locking is interrupted", CallFault::Interrupted, 1, Sees::Nothing, calls::lock },
-  { "there are no descriptors", CallFault::Error, 1, Sees::Word, calls::copy, EMFILE },
-  { "closing fails", CallFault::Error, 1, Sees::Word, calls::close, ENOSPC },
-  { "closing is interrupted", CallFault::Interrupted, 1, Sees::Nothing, calls::close },
-  { "renaming fails", CallFault::Error, 1, Sees::Word, calls::rename, EACCES },
-};
-
 constexpr bool is_of_file(const Case& one)
 {
   return (one.kinds & (calls::memory | calls::map | calls::thread)) == 0;
@@ -358,7 +338,6 @@ protected:
     {
       granular::IndexOptions options = { .format = &granular::dump_format() };
       options.format = &this->kind().format();
-      options.keep_index = keep_index;
       options.threads = threads;
       options.column_names = this->kind().columns;
       index.update(paths_, options, notices, progress);
@@ -484,7 +463,6 @@ protected:
   }
 
   FaultCount faults;
-  granular::KeepIndex keep_index = granular::KeepIndex::Never;
   Folder folder_;
   std::vector<std::string> texts_;
   std::vector<std::string> paths_;
@@ -544,87 +522,6 @@ TEST_P(FailingReads, OfAFileThatGrew)
       this->write(texts_.size() - 1, text);
       return before;
     });
-}
-
-/// The index is in a file.
-TEST_P(FailingReads, OfAKeptIndex)
-{
-  RunIndex index;
-  const Seen whole = this->look(index);
-  keep_index = granular::KeepIndex::Beside;
-  this->try_all(whole, some_cases,
-    [&]
-    {
-      std::filesystem::remove(paths_.front() + std::string(granular::index_file_suffix));
-      RunIndex before;
-      this->look(before);
-      return RunIndex();
-    });
-}
-
-/// Nor does a look that fails leave anything in the file of the index.
-TEST_P(FailingReads, OfAnIndexThatIsMade)
-{
-  RunIndex index;
-  const Seen whole = this->look(index);
-  keep_index = granular::KeepIndex::Beside;
-  const std::string kept = paths_.front() + std::string(granular::index_file_suffix);
-  long possible = 0;
-  for (long number = 1; number <= possible + 1; ++number)
-  {
-    std::filesystem::remove(kept);
-    RunIndex failing;
-    long made = 0;
-    this->look_with({ CallFault::Error, number, 1 }, failing, possible, made);
-    RunIndex opened;
-    EXPECT_TRUE(this->look(opened).frames == whole.frames) << number;
-    faults.add(number <= possible);
-  }
-  EXPECT_GT(possible, 3);
-}
-
-/// An index that cannot be written is said, and nothing else is to be seen of it. The old one, of older files, is there before.
-TEST_P(FailingReads, OfAnIndexThatIsWritten)
-{
-  keep_index = granular::KeepIndex::Beside;
-  const std::string kept = paths_.front() + std::string(granular::index_file_suffix);
-  const std::string folder = without_slash(folder_.path(""));
-  RunIndex index;
-  const Seen whole = this->look(index);
-  ASSERT_EQ(whole.error, "");
-  ASSERT_TRUE(std::filesystem::exists(kept));
-  auto time = std::filesystem::last_write_time(paths_.front());
-  for (const Case& one : index_cases)
-  {
-    long delivered = 0;
-    bool fired = true;
-    for (long number = 1; fired && !HasFailure(); ++number)
-    {
-      SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
-      time += std::chrono::seconds(1);
-      std::filesystem::last_write_time(paths_.front(), time);
-      const long files = open_files();
-      RunIndex failing;
-      long possible = 0;
-      long made = 0;
-      const Seen seen =
-        this->look_with({ one.fault, number, one.count, one.kinds, one.error, folder.c_str() },
-          failing, possible, made);
-      fired = possible >= number;
-      delivered += fired ? 1 : 0;
-      faults.add(fired);
-      EXPECT_TRUE(seen.error.empty() && seen.frames == whole.frames) << seen.error;
-      EXPECT_TRUE(seen.said == whole.said ||
-        (one.sees == Sees::Word && seen.said.find(kept) != std::string::npos))
-        << seen.said;
-      EXPECT_EQ(open_files(), files);
-      EXPECT_EQ(count_hidden(folder), 0) << seen.said;
-      RunIndex opened;
-      const Seen again = this->look(opened);
-      EXPECT_TRUE(again == whole) << again.error << again.said;
-    }
-    expect_delivered(one.name, delivered);
-  }
 }
 
 /// A file that is written by MPI has another one beside it for its lock.

@@ -5,7 +5,6 @@
 // outputs, or empty ones and an error that names the file. A crash, a hang, or anything else is a failure, told with the copy.
 #include "../support/byte_source_packing.h"
 #include "../support/file_damage.h"
-#include "../support/index_damage.h"
 #include "../support/largest_request.h"
 #include "valid_outputs.h"
 
@@ -212,7 +211,6 @@ void SetUpDump(vtkGranularSeriesReader& base, Random& random)
   reader.SetSortById(Once(random, 2));
   reader.SetVertices(static_cast<int>(below(random, 3)));
   reader.SetStride(Once(random, 3) ? 3 : 1);
-  reader.SetPrefetch(Once(random, 4));
   reader.SetPointOrigin(Once(random, 3) ? 1e3 : 0, 0, 0);
   reader.SetRegionOfInterest(Once(random, 3) ? 0 : 1, Once(random, 2) ? 0.05 : -1, 1, -1, 1, -1);
   Choose(reader.GetPointDataArraySelection(), random);
@@ -251,10 +249,8 @@ void SetUpEuler(vtkGranularSeriesReader& base, Random& random)
 void SetUpDecomposition(vtkGranularSeriesReader& base, Random& random)
 {
   auto& reader = static_cast<vtkGranularDecompositionReader&>(base);
-  reader.SetCheckBounds(static_cast<int>(below(random, 3)));
   reader.SetCheckOverlap(static_cast<int>(below(random, 3)));
   reader.SetCheckGaps(static_cast<int>(below(random, 3)));
-  reader.SetSharedCorners(Once(random, 2));
 }
 
 void SetUpRestart(vtkGranularSeriesReader& base, Random& random)
@@ -353,7 +349,6 @@ void Use(Reader& reader, const std::vector<std::string>& paths, const fs::path& 
   get.Refresh(); // the names are those of the copy before
   get.SetThreads(static_cast<int>(below(random, 4)));
   get.SetRepeatedSteps(static_cast<int>(below(random, 3)));
-  get.SetIndexFile(Once(random, 2) ? 0 : static_cast<int>(below(random, 3)));
   get.SetTimestepSize(Once(random, 8) ? 1e300 : 1e-5);
   reader.Set(get, random);
   const auto check = [&](const std::function<void()>& update)
@@ -457,7 +452,7 @@ public:
   const std::string& What() const { return this->Now.What; }
 
 private:
-  /// A copy, or two; among some are an index or another's index, or the file as it was.
+  /// A copy, or two; the second may be the file as it was.
   std::vector<std::string> Write(const File& file, Random& random, std::size_t& bytes)
   {
     std::vector<std::string> paths;
@@ -471,13 +466,6 @@ private:
         paths.size() == 2 && Once(random, 2) ? file.Bytes : DamagedCopy(file, other, random);
       bytes += std::max(copy.size(), file.Content.size());
       std::ofstream(paths.back(), std::ios::binary) << copy;
-    }
-    const std::string index = paths.front() + ".granular.idx";
-    const std::string kept = file_damage::content_of(index); // of the copy before
-    if (kept.size() > 24 && Once(random, 2))
-    {
-      const std::string changed = file_damage::damage(kept, kept, random);
-      index_damage::put(index, changed.size() > 24 ? index_damage::sealed(changed) : changed);
     }
     return paths;
   }
@@ -553,7 +541,6 @@ int main(int argc, char** argv)
     fs::current_path() / ("mutate_readers." + std::to_string(seed) + "." + std::to_string(first));
   fs::remove_all(folder); // of a run that crashed or was killed
   fs::create_directories(folder);
-  setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
   std::size_t wrong = 0;
   {
     Session session(FilesOf(argc, argv), folder);

@@ -110,12 +110,7 @@ TEST_F(Places, AreReadUnderStrangeNames)
       const std::string file = folder + "/" + name + kind.ending;
       fs::copy_file(source, file);
       EXPECT_EQ(look(file, kind.kind), plain);
-      for (int keep_index : { 2, 2 }) // it is made, and used; the longest name takes none
-      {
-        EXPECT_EQ(look(file, kind.kind, keep_index), plain);
-      }
-      EXPECT_EQ(names_in(folder).size(),
-        fs::path(file + ".granular.idx").filename().string().size() > 255 ? 1u : 2u);
+      EXPECT_EQ(names_in(folder).size(), 1u);
       EXPECT_EQ(look(folder + "/*" + kind.ending, kind.kind), plain);
       EXPECT_EQ(look(folder + "/*", kind.kind), plain);
 
@@ -170,25 +165,6 @@ TEST_F(Places, WhereThereIsNoFileNothingIsRead)
   }
 }
 
-/// Nor is it a reason to fail that a pipe or a folder has the name of the index.
-TEST_F(Places, WhereThereIsNoFileNoIndexIsKept)
-{
-  const std::string file = this->path("a.dump");
-  fs::copy_file(good(kinds[0].file), file);
-  const Seen plain = look(file);
-  const std::string index = file + ".granular.idx";
-  for (const auto& [path, why] : no_files(this->folder()))
-  {
-    fs::remove(index);
-    fs::create_symlink(path, index);
-    EXPECT_EQ(look(file, GRANULAR_KIND_DUMP, 2), plain) << path;
-  }
-  fs::remove(index);
-  ASSERT_EQ(::mkfifo(index.c_str(), 0644), 0);
-  EXPECT_EQ(look(file, GRANULAR_KIND_DUMP, 2), plain);
-  EXPECT_TRUE(fs::is_fifo(index));
-}
-
 TEST_F(Places, WhereThereIsNoFileNothingIsWritten)
 {
   no_files(this->folder());
@@ -232,12 +208,8 @@ TEST_F(Places, LinksAreFiles)
       { folder + "/link_7" + kind.ending, folder + "/far/7" + kind.ending,
         folder + "/hard" + kind.ending, folder + "/link_*" + kind.ending })
     {
-      for (int keep_index : { 2, 2 })
-      {
-        EXPECT_EQ(look(path, kind.kind, keep_index), plain) << path;
-      }
+      EXPECT_EQ(look(path, kind.kind), plain) << path;
     }
-    EXPECT_TRUE(fs::exists(folder + "/link_7" + kind.ending + ".granular.idx"));
   }
 }
 
@@ -277,16 +249,12 @@ TEST_F(Places, ReadOnlyFolders)
       {
         return std::string("skip");
       }
-      ::setenv("XDG_CACHE_HOME", this->folder().c_str(), 1);
       std::string wrong;
       for (const Kind& kind : kinds)
       {
         const std::string path = this->path(std::string(kind.name) + kind.ending);
-        for (int keep_index : { 0, 1, 2 })
-        {
-          const Seen seen = look(path, kind.kind, keep_index);
-          wrong += seen.status == GRANULAR_OK ? "" : seen.text + "\n";
-        }
+        const Seen seen = look(path, kind.kind);
+        wrong += seen.status == GRANULAR_OK ? "" : seen.text + "\n";
       }
       for (const Output& output : outputs)
       {
@@ -345,9 +313,8 @@ TEST_F(Places, TheUmaskDecidesWhoMayRead)
     {
       EXPECT_EQ(convert(good(output.file), folder + "/new" + output.ending), Seen{});
     }
-    EXPECT_EQ(look(folder + "/new.dump", GRANULAR_KIND_DUMP, 2).status, GRANULAR_OK);
     ::umask(before);
-    EXPECT_EQ(names_in(folder).size(), std::size(outputs) + 1);
+    EXPECT_EQ(names_in(folder).size(), std::size(outputs));
     for (const std::string& name : names_in(folder))
     {
       EXPECT_EQ(fs::status(folder + "/" + name).permissions(), fs::perms(0666 & ~mask)) << name;
@@ -365,34 +332,20 @@ TEST_F(Places, NoHome)
   for (const std::string home :
     { "", "relative", "/dev/null", "/proc", "/none/none", pipe.c_str(), file.c_str() })
   {
-    for (const char* const variable : { "HOME", "XDG_CACHE_HOME", "TMPDIR" })
+    for (const char* const variable : { "HOME", "TMPDIR" })
     {
       const Ended ended = run_apart(
         [&]
         {
-          for (const char* const each : { "HOME", "XDG_CACHE_HOME", "TMPDIR" })
+          for (const char* const each : { "HOME", "TMPDIR" })
           {
             ::unsetenv(each);
           }
           home.empty() ? 0 : ::setenv(variable, home.c_str(), 1);
-          const bool same = look(file, GRANULAR_KIND_DUMP, 1) == plain;
+          const bool same = look(file, GRANULAR_KIND_DUMP) == plain;
           return std::string(same ? "same" : "other");
         });
       EXPECT_EQ(ended.how + " " + ended.text, "done same") << variable << "=" << home;
     }
-  }
-  // where the cache has a strange name, it is used all the same
-  for (const auto& [name, shown] : strange_names)
-  {
-    const Ended ended = run_apart(
-      [&]
-      {
-        ::setenv("XDG_CACHE_HOME", this->path(name).c_str(), 1);
-        const bool same =
-          look(file, GRANULAR_KIND_DUMP, 1) == plain && look(file, GRANULAR_KIND_DUMP, 1) == plain;
-        return std::string(same ? "same" : "other");
-      });
-    EXPECT_EQ(ended.text, "same") << shown;
-    EXPECT_EQ(names_in(this->path(name) + "/granular").size(), 1u) << shown;
   }
 }

@@ -76,13 +76,11 @@ void visit_values(const granular_array& array, const Add& add)
 
 /// Reads all frames and arrays of a run. Needs no memory but that of the interface, which lets no exception out.
 template <class Add>
-granular_status visit(
-  const char* pattern, granular_kind kind, int keep_index, int threads, const Add& add) noexcept
+granular_status visit(const char* pattern, granular_kind kind, int threads, const Add& add) noexcept
 {
   granular_open_options options;
   granular_open_options_init(&options);
   options.kind = kind;
-  options.keep_index = keep_index;
   options.threads = threads;
   granular_run* opened = nullptr;
   if (const granular_status status = granular_open(&pattern, 1, &options, &opened))
@@ -125,11 +123,11 @@ granular_status visit(
 }
 
 /// Returns the values of all frames and arrays of a run.
-inline Seen look(const std::string& pattern, granular_kind kind = GRANULAR_KIND_AUTOMATIC,
-  int keep_index = 0, int threads = 2)
+inline Seen look(
+  const std::string& pattern, granular_kind kind = GRANULAR_KIND_AUTOMATIC, int threads = 2)
 {
   Seen seen;
-  const granular_status status = visit(pattern.c_str(), kind, keep_index, threads,
+  const granular_status status = visit(pattern.c_str(), kind, threads,
     [&](const void* bytes, std::size_t count)
     { seen.text.append(static_cast<const char*>(bytes), count); });
   return status == GRANULAR_OK ? seen : failed(status);

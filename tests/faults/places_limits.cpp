@@ -83,10 +83,10 @@ std::string use_everything(const std::string& folder, int threads)
   std::string said;
   for (const Kind& kind : kinds)
   {
-    const std::string path = folder + "/" + kind.name + kind.ending; // an index is kept beside it
+    const std::string path = folder + "/" + kind.name + kind.ending;
     std::error_code failed;
     fs::copy_file(file_of(kind), path, fs::copy_options::skip_existing, failed);
-    const Seen seen = look(path, kind.kind, 2, threads);
+    const Seen seen = look(path, kind.kind, threads);
     said += seen.status == GRANULAR_OK ? "" : std::string(kind.name) + ": " + seen.text + "\n";
   }
   for (const Output& output : outputs)
@@ -128,7 +128,6 @@ struct Task
   std::string from = {};
   std::string to = {};
   granular_kind kind = GRANULAR_KIND_AUTOMATIC;
-  int keep_index = 0;
   std::string expected = {}; ///< the result without limits
   granular_status status = GRANULAR_OK;
   std::uint64_t hash = 0;              ///< of the values read
@@ -141,7 +140,7 @@ struct Task
     ::unlink(to.c_str()); // of the run before
     status = !to.empty()
       ? convert_file(from.c_str(), to.c_str(), 4)
-      : visit(from.c_str(), kind, keep_index, 4,
+      : visit(from.c_str(), kind, 4,
           [&](const void* bytes, std::size_t count) { values.add(bytes, count); });
     hash = values.value();
     if (status != GRANULAR_OK)
@@ -178,7 +177,7 @@ struct Task
   }
 };
 
-/// All kinds, with the index that is kept and without, all outputs, and a large file.
+/// All kinds, all outputs, and a large file.
 std::vector<Task> all_tasks(const std::string& folder)
 {
   std::vector<Task> tasks;
@@ -187,7 +186,6 @@ std::vector<Task> all_tasks(const std::string& folder)
     const std::string path = folder + "/" + kind.name + kind.ending;
     fs::copy_file(file_of(kind), path);
     tasks.push_back({ .from = path, .kind = kind.kind });
-    tasks.push_back({ .from = path, .kind = kind.kind, .keep_index = 2 });
   }
   for (const Output& output : outputs)
   {
@@ -242,19 +240,16 @@ TEST_F(PlacesLimits, FewOpenFiles)
       }
     }
     const std::string pattern = folder + "/s_*" + kind.ending;
-    const Seen free = look(pattern, kind.kind, 0, 4);
+    const Seen free = look(pattern, kind.kind, 4);
     ASSERT_EQ(free.status, GRANULAR_OK) << free;
     const Ended ended = run_apart(
       [&]
       {
         limit(RLIMIT_NOFILE, 64);
-        for (int keep_index : { 0, 2, 2 })
+        const Seen limited = look(pattern, kind.kind, 4);
+        if (limited != free)
         {
-          const Seen seen = look(pattern, kind.kind, keep_index, 4);
-          if (seen != free)
-          {
-            return seen.text.substr(0, 300);
-          }
+          return limited.text.substr(0, 300);
         }
         const Seen seen = is_text ? convert(pattern, folder + "/all.dump.gz", 4) : Seen{};
         return seen.status == GRANULAR_OK ? std::string() : seen.text;
@@ -383,10 +378,10 @@ TEST_F(PlacesLimits, NoThreads)
       std::string said;
       for (const Kind& kind : kinds)
       {
-        const Seen seen = look(file_of(kind), kind.kind, 0, 4);
+        const Seen seen = look(file_of(kind), kind.kind, 4);
         said += seen.status == GRANULAR_OK ? "" : seen.text + "\n";
       }
-      said += look(large, GRANULAR_KIND_DUMP, 0, 4) == free ? "" : "other values\n";
+      said += look(large, GRANULAR_KIND_DUMP, 4) == free ? "" : "other values\n";
       const std::string folder = this->path("nobody");
       fs::create_directory(folder);
       for (const Output& output : outputs)
@@ -425,13 +420,13 @@ TEST_F(PlacesLimits, SmallStacks)
             [&]
             {
               said = use_everything(this->folder(), threads);
-              said += look(large, GRANULAR_KIND_DUMP, 0, threads) == free ? "" : "other values\n";
+              said += look(large, GRANULAR_KIND_DUMP, threads) == free ? "" : "other values\n";
               said += convert(large, this->path("large.dump.zst"), threads).text;
               said += convert(large, this->path("large.dump.gz"), threads).text;
-              said += look(this->path("large.dump.zst"), GRANULAR_KIND_DUMP, 0, threads) == free
+              said += look(this->path("large.dump.zst"), GRANULAR_KIND_DUMP, threads) == free
                 ? ""
                 : "other zst\n";
-              said += look(this->path("large.dump.gz"), GRANULAR_KIND_DUMP, 0, threads) == free
+              said += look(this->path("large.dump.gz"), GRANULAR_KIND_DUMP, threads) == free
                 ? ""
                 : "other gz\n";
             });

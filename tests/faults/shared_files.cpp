@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs in two threads that open and read the same files, while a third thread appends to one of them: each finds whole frames,
-// right to the last row. Both keep their index in the same file. For the thread sanitizer, and for memory over time with
-// GRANULAR_LOAD=full in the environment.
+// right to the last row. For the thread sanitizer, and for memory over time with GRANULAR_LOAD=full in the environment.
 #include "load.h"
 
 #include "../c/handles.h"
@@ -84,7 +83,6 @@ void follow(const std::string& pattern, unsigned seed, std::int64_t rounds, std:
   {
     granular_open_options options;
     granular_open_options_init(&options);
-    options.keep_index = 2;
     options.threads = 2;
     granular_run* opened = nullptr;
     const char* const name = pattern.c_str();

@@ -95,7 +95,6 @@ class Use:
         reader = simple.GranularDumpReader(FileNames=[sample("grains.dump")])
         for _ in range(20):
             reader.SortById = int(self.random.integers(2))
-            reader.Prefetch = int(self.random.integers(2))
             reader.Stride = int(self.random.integers(1, 4))
             reader.Threads = int(self.random.integers(3))
             reader.Coordinates = ["Absolute", "Unwrapped", "Scaled"][self.random.integers(3)]

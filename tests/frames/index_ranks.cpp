@@ -229,48 +229,6 @@ TEST(IndexRanks, AFileThatARankSeesOtherwiseIsLookedThroughByRank0)
     });
 }
 
-TEST(IndexRanks, AnIndexFileSavesAllRanksTheLook)
-{
-  const Folder folder;
-  Files files;
-  for (const char* const name : { "a.dump", "b.dump", "c.dump" })
-  {
-    files.push_back(folder.write(name, grains(100 * (name[0] - 'a'), { 1, 2 })));
-    touch(files.back(), -100);
-  }
-  IndexOptions options = { .format = &granular::dump_format() };
-  options.keep_index = granular::KeepIndex::Beside;
-  for (const bool first : { true, false })
-  {
-    run_ranks(ranks_of_tests,
-      [&](Communicator& communicator)
-      {
-        Rank rank(communicator);
-        Counting progress;
-        rank.update(files, options, progress);
-        EXPECT_EQ(progress.reports > 0, first || communicator.rank() == 0);
-        EXPECT_EQ(rank.frames(), "0: 1 2\n100: 1 2\n200: 1 2\n");
-      });
-    EXPECT_TRUE(fs::exists(files[0] + ".granular.idx"));
-  }
-  // files that have come since are looked through by all
-  Files more = files;
-  for (const char* const name : { "d.dump", "e.dump", "f.dump" })
-  {
-    more.push_back(folder.write(name, grains(100 * (name[0] - 'a'), { 1, 2 })));
-  }
-  run_ranks(ranks_of_tests,
-    [&](Communicator& communicator)
-    {
-      Rank rank(communicator);
-      Counting progress;
-      rank.update(more, options, progress);
-      EXPECT_GT(progress.reports, 0);
-      EXPECT_EQ(rank.index.size(), 6u);
-      EXPECT_EQ(rank.frames(), "0: 1 2\n100: 1 2\n200: 1 2\n300: 1 2\n400: 1 2\n500: 1 2\n");
-    });
-}
-
 TEST(IndexRanks, PiecesAreThoseOfRank0)
 {
   const Folder folder;

@@ -3,6 +3,7 @@
 #include "granular/frames/run_index.h"
 #include "granular/dump/formats/dump_files.h"
 
+#include "../support/byte_source_packing.h"
 #include "../support/series.h"
 
 #include <gtest/gtest.h>
@@ -304,6 +305,33 @@ TEST(RunIndex, AFileThatDidNotChangeIsNotRead)
   fs::last_write_time(path, time);
   run.update({ path });
   EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
+}
+
+TEST(RunIndex, ACopyReadsWhileTheFileGrows)
+{
+  const Folder folder;
+  const auto packed = [](std::int64_t from, std::int64_t to)
+  {
+    std::string members;
+    for (std::int64_t step = from; step < to; ++step)
+    {
+      members += packing::gzip(grains(step, ids_from(1, 40'000)));
+    }
+    return members;
+  };
+  const std::string path = folder.write("a.dump.gz", packed(0, 3));
+  Series run;
+  run.update({ path });
+  const Series copy = run;
+  const std::size_t points = copy.index.files()[0].points->points.size();
+  ASSERT_GT(points, 0u);
+  folder.append("a.dump.gz", packed(3, 5));
+  run.update({ path });
+  EXPECT_EQ(run.steps(), (Steps{ 0, 1, 2, 3, 4 }));
+  EXPECT_GT(run.index.files()[0].points->points.size(), points);
+  EXPECT_EQ(copy.index.files()[0].points->points.size(), points);
+  EXPECT_EQ(copy.read(2).points()[0], 2);
+  EXPECT_EQ(run.read(4).points()[0], 4);
 }
 
 TEST(RunIndex, FilesComeAndGo)

@@ -47,8 +47,8 @@ inline void use_subdomains(const Decomposition& all)
   Notices notices;
   check_subdomains(all.subdomains, checks, {}, notices, progress);
   const std::int64_t most = 8 * static_cast<std::int64_t>(all.subdomains.size());
-  require(make_voxels(all.subdomains, {}, true, Executor(1), progress).number_of_points <= most,
-    "points");
+  require(
+    make_voxels(all.subdomains, {}, Executor(1), progress).number_of_points == most, "points");
   const Subdomain bounds = bounds_of(all.subdomains);
   require(
     bounds.lo[0] <= bounds.hi[0] && bounds.lo[1] <= bounds.hi[1] && bounds.lo[2] <= bounds.hi[2],

@@ -55,11 +55,7 @@ struct Folder
   std::filesystem::path path =
     std::filesystem::temp_directory_path() / ("fuzz_c_interface." + std::to_string(getpid()));
 
-  Folder()
-  {
-    std::filesystem::create_directories(path);
-    setenv("XDG_CACHE_HOME", (path / "cache").c_str(), 1); // of kept indexes
-  }
+  Folder() { std::filesystem::create_directories(path); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   ~Folder() { std::filesystem::remove_all(path); }
@@ -172,7 +168,6 @@ private:
     options.column_map = pick(maps, choice[3] / 8);
     options.atom_style = pick(styles, choice[4]);
     options.repeated_steps = choice[5] % 3;
-    options.keep_index = choice[5] / 4 % 3;
     options.threads = choice[6] % 3;
     left_ = choice[7];
     options.progress = choice[7] != 0 ? stop : nullptr;

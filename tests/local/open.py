@@ -33,7 +33,7 @@ for name in ("contacts.local", "bonds.bond", "x.bfc", "x.lmp", "dump.local.1000"
 
 reader = OpenDataFile(contacts, Preset="ContactsForce")
 defaults = {"ColumnMap": "", "PeriodicLines": "MinimumImage", "PointOrigin": [0, 0, 0], "TimestepSize": 1,
-            "RepeatedSteps": "Auto", "RefreshOnUpdate": 0, "IndexFile": "Never", "Threads": 0}
+            "RepeatedSteps": "Auto", "RefreshOnUpdate": 0, "Threads": 0}
 for name, default in defaults.items():
     found = getattr(reader, name)
     assert (list(found) if isinstance(default, list) else found) == default, (name, found)

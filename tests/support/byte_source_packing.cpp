@@ -118,7 +118,7 @@ std::unique_ptr<ByteSource> unpack(
   }
   const auto make = [](const ByteSource& source, std::shared_ptr<SeekPoints> found)
   { return granular::make_gzip_decoder(source, std::move(found), *inflation); };
-  return granular::unpack_by(make, std::move(packed), std::move(points), granular::usual_expansion);
+  return granular::unpack_by(make, std::move(packed), std::move(points));
 }
 
 std::unique_ptr<ByteSource> open(

@@ -39,7 +39,7 @@ def check(kind, sources, name, attributes, adds, **form):
     begin, end = name.split("*") if "*" in name else (name, "")
     own = sorted(file for file in os.listdir(".") if file.startswith(begin) and file.endswith(end))
     assert own, name
-    reader = kind(FileNames=[os.path.abspath(file) for file in own], **({"Prefetch": 1} if kind is GranularDumpReader else {}))
+    reader = kind(FileNames=[os.path.abspath(file) for file in own])
     shown = Calculator(Input=reader, AttributeType=attributes, ResultArrayName="added", Function="7") if adds else reader
     granular.save(shown, "other_" + name, **form)
     expected = {file: content("other_" + file) for file in own}

@@ -353,11 +353,4 @@ void sync_file(const std::string& name, const std::string& path)
   check(sync(file.get()), path);
   check(file.close(), path);
 }
-
-void write_file(const std::string& path, std::string_view bytes, bool durable)
-{
-  NewFile file(path);
-  file.write_at(0, bytes);
-  file.finish(durable);
-}
 }

@@ -106,9 +106,5 @@ void write_into(
 /// Returns when all bytes of the existing file `name` that this machine has are on the disk; a file system that cannot
 /// tell is none of the errors. Throws IoError that names path.
 void sync_file(const std::string& name, const std::string& path);
-
-/// Writes a file completely or not at all, as NewFile does: a reader sees the old content or the new one. After an
-/// error the old file is untouched. durable: as Durability::On. Throws IoError.
-void write_file(const std::string& path, std::string_view bytes, bool durable = true);
 }
 #endif

@@ -72,15 +72,13 @@ struct SeekPoints
 
   std::vector<Point> points;                      ///< by offset
   std::int64_t spacing = std::int64_t{ 1 } << 20; ///< smallest distance of two, in bytes of content
-  bool claimed =
-    false; ///< from an index, not found in the file: a window is compared before bytes after it are returned
 
   /// Returns the bytes of memory.
   std::size_t bytes() const noexcept;
 };
 
-/// How many times the bytes of a compressed file its content may have, unless the user raises it. Real dumps reach 90.
-inline constexpr std::int64_t usual_expansion = 200;
+/// How many times the bytes of a compressed file its content may have, at most. Real dumps reach 90.
+inline constexpr std::int64_t largest_expansion = 200;
 
 /// Content below this size [bytes], 256 MiB, is read whatever the size of its compressed file.
 inline constexpr std::int64_t free_content = std::int64_t{ 1 } << 28;
@@ -106,8 +104,8 @@ std::unique_ptr<ByteSource> first_bytes(std::unique_ptr<ByteSource> source, std:
 /// at a time and reads up to 64 KiB ahead. Throws IoError; reading also throws FormatError and LimitError (a Zstandard window
 /// above 128 MiB; content beyond free_content and largest_expansion times the file), and the same error again later, because
 /// bytes before the damage may be wrong, too.
-std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,
-  std::shared_ptr<SeekPoints> points = nullptr, std::int64_t largest_expansion = usual_expansion);
+std::unique_ptr<ByteSource> unpack(
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points = nullptr);
 
 /// A buffer that may be read up to `padding` bytes before its start and after its end, for the 64-byte steps of the row
 /// decoder. The padding holds line feeds.

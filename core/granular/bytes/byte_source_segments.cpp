@@ -12,7 +12,6 @@
 #include <exception>
 #include <mutex>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,7 +45,6 @@ struct Segment
   SeekPoints::Point point;
   std::int64_t end = 0; ///< in the content
   State state = State::Absent;
-  bool trusted = false; ///< the window of the point is what lies before it
   std::shared_ptr<const Content> content = {};
   std::exception_ptr damage = {};
   std::int64_t used = 0; ///< greater: later
@@ -66,12 +64,11 @@ class SegmentSource final : public ByteSource
 {
 public:
   SegmentSource(std::unique_ptr<ByteSource> packed, const MakeDecoder& make_decoder,
-    std::vector<Segment> segments, int threads, std::int64_t largest_expansion)
+    std::vector<Segment> segments, int threads)
     : packed_(std::move(packed))
     , make_decoder_(make_decoder)
     , segments_(std::move(segments))
     , most_(2 * static_cast<std::size_t>(threads) + 2)
-    , largest_expansion_(largest_expansion)
     , pool_(std::make_shared<BlockPool>(most_ * length_of(longest_of(segments_))))
   {
   }
@@ -119,7 +116,6 @@ private:
   std::size_t next_absent(std::size_t number) const noexcept;
   void make(std::size_t number, std::unique_lock<std::mutex>& lock) const;
   std::shared_ptr<const Content> decompress(std::size_t number, Decoder& decoder) const;
-  void trust_next(std::size_t number, const Content& content) const;
   void forget() const;
 
   std::unique_ptr<ByteSource> packed_;
@@ -129,8 +125,7 @@ private:
   mutable std::vector<Segment> segments_;
   mutable std::vector<std::unique_ptr<Decoder>> spare_;
   mutable std::int64_t uses_ = 0;
-  std::size_t most_; ///< segments in memory
-  std::int64_t largest_expansion_;
+  std::size_t most_;                ///< segments in memory
   std::shared_ptr<BlockPool> pool_; ///< memory that was touched before
 };
 
@@ -141,30 +136,19 @@ std::shared_ptr<const Content> SegmentSource::get(std::size_t number) const
   bool help = true;
   for (;;)
   {
-    // where a window must be compared, the segment before comes first
-    Segment& wanted = segments_[number];
-    const std::size_t needed = wanted.trusted ? number : number - 1;
-    Segment& segment = segments_[needed];
+    Segment& segment = segments_[number];
     switch (segment.state)
     {
       case Segment::State::There:
         segment.used = ++uses_;
-        if (!wanted.trusted)
-        {
-          this->trust_next(needed, *segment.content);
-        }
-        if (needed == number)
-        {
-          return segment.content;
-        }
-        break;
+        return segment.content;
       case Segment::State::Damaged:
         std::rethrow_exception(segment.damage);
       case Segment::State::Absent:
-        this->make(needed, lock);
+        this->make(number, lock);
         break;
       case Segment::State::Made:
-        if (const std::size_t next = help ? this->next_absent(needed) : segments_.size();
+        if (const std::size_t next = help ? this->next_absent(number) : segments_.size();
             next < segments_.size())
         {
           try
@@ -262,8 +246,8 @@ std::shared_ptr<const Content> SegmentSource::decompress(std::size_t number, Dec
   {
     got = decoder.decode(bytes + content->size, length - content->size);
     content->size += got;
-    expect_honest(decoder, segment.point.offset + static_cast<std::int64_t>(content->size),
-      *packed_, largest_expansion_);
+    expect_honest(
+      decoder, segment.point.offset + static_cast<std::int64_t>(content->size), *packed_);
   }
   const bool ends_at_next =
     number + 1 < segments_.size() && segment.end == segments_[number + 1].point.offset;
@@ -273,20 +257,6 @@ std::shared_ptr<const Content> SegmentSource::decompress(std::size_t number, Dec
       segments_[number + 1].point); // what is damaged must not wait for the end of the member
   }
   return content;
-}
-
-/// Throws if the window of the next segment is not what is in this one.
-void SegmentSource::trust_next(std::size_t number, const Content& content) const
-{
-  Segment& next = segments_[number + 1];
-  const std::string& window = next.point.window;
-  const std::string_view there(content.data(), content.size);
-  if (segments_[number].end != next.point.offset || !there.ends_with(window) ||
-    content.size != length_of(segments_[number]))
-  {
-    fail_window(packed_->path());
-  }
-  next.trusted = true;
 }
 
 /// Lets go of those that nobody has asked for lately.
@@ -314,10 +284,8 @@ void SegmentSource::forget() const
   }
 }
 
-/// The places where [begin, end) is cut, and the two at or before its begin, not too near to each other. The start of the file
-/// is a place.
-std::vector<const SeekPoints::Point*> choose_places(
-  const SeekPoints& all, std::int64_t begin, std::int64_t end)
+/// The segments of [begin, end), not too short. The start of the file is a place to cut, too.
+std::vector<Segment> cut_content(const SeekPoints& all, std::int64_t begin, std::int64_t end)
 {
   static const SeekPoints::Point start;
   std::vector<const SeekPoints::Point*> places = { &start };
@@ -329,40 +297,24 @@ std::vector<const SeekPoints::Point*> choose_places(
     }
     if (point.offset - places.back()->offset >= shortest_segment)
     {
-      if (point.offset <= begin && places.size() == 2)
+      if (point.offset <= begin)
       {
-        places.erase(places.begin());
+        places.clear();
       }
       places.push_back(&point);
     }
   }
-  return places;
-}
-
-/// The segments of [begin, end), and one before where the window of the first must be compared.
-std::vector<Segment> cut_content(const SeekPoints& all, std::int64_t begin, std::int64_t end)
-{
-  const std::vector<const SeekPoints::Point*> places = choose_places(all, begin, end);
-  const auto compared = [&](const SeekPoints::Point& point)
-  { return all.claimed && !point.window.empty(); };
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    const bool last = i + 1 == places.size();
-    const bool before = !last && places[i + 1]->offset <= begin;
-    if (!before || compared(*places[i + 1]))
-    {
-      segments.push_back({ *places[i], last ? end : places[i + 1]->offset });
-      segments.back().trusted = segments.size() == 1 || !compared(*places[i]);
-    }
+    segments.push_back({ *places[i], i + 1 < places.size() ? places[i + 1]->offset : end });
   }
   return segments;
 }
 }
 
 std::unique_ptr<ByteSource> unpack_segments(std::unique_ptr<ByteSource>& packed,
-  const SeekPoints& points, std::int64_t begin, std::int64_t end, int threads,
-  std::int64_t largest_expansion)
+  const SeekPoints& points, std::int64_t begin, std::int64_t end, int threads)
 {
   const MakeDecoder make_decoder =
     threads > 1 && packed->concurrent() ? find_decoder(*packed) : nullptr;
@@ -378,6 +330,6 @@ std::unique_ptr<ByteSource> unpack_segments(std::unique_ptr<ByteSource>& packed,
     return nullptr;
   }
   return std::make_unique<SegmentSource>(
-    std::move(packed), make_decoder, std::move(segments), threads, largest_expansion);
+    std::move(packed), make_decoder, std::move(segments), threads);
 }
 }

@@ -43,11 +43,10 @@ class Unpacker
 {
 public:
   Unpacker(std::unique_ptr<Decoder> decoder, std::shared_ptr<const SeekPoints> points,
-    const ByteSource& packed, std::int64_t largest_expansion)
+    const ByteSource& packed)
     : decoder_(std::move(decoder))
     , points_(std::move(points))
     , packed_(packed)
-    , largest_expansion_(largest_expansion)
     , ring_(new char[ring_bytes]) // not value-initialised: many files are smaller
   {
   }
@@ -59,14 +58,12 @@ public:
 private:
   void go_to(std::int64_t offset);
   void start_at(const SeekPoints::Point& point);
-  void compare_window(const SeekPoints::Point& before, SeekPoints::Point point);
   std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
   bool advance(std::int64_t target);
 
   std::unique_ptr<Decoder> decoder_;
   std::shared_ptr<const SeekPoints> points_;
   const ByteSource& packed_;
-  std::int64_t largest_expansion_;
   std::unique_ptr<char[]> ring_; ///< the byte at an offset lies at offset % ring_bytes
   std::int64_t begin_ = 0;       ///< of the bytes in the ring
   std::int64_t end_ = 0;         ///< where the decoder stands, too, unless lost
@@ -114,12 +111,6 @@ void Unpacker::go_to(std::int64_t offset)
   const bool far_ahead = nearest.offset > end_ + static_cast<std::int64_t>(largest_step);
   if (lost_ || offset < begin_ || far_ahead)
   {
-    if (points_->claimed && !nearest.window.empty())
-    {
-      this->compare_window(
-        after - points_->points.begin() > 1 ? *std::prev(after, 2) : start, nearest);
-      return;
-    }
     this->start_at(nearest);
   }
 }
@@ -131,25 +122,6 @@ void Unpacker::start_at(const SeekPoints::Point& point)
   begin_ = point.offset;
   end_ = point.offset;
   lost_ = false;
-}
-
-/// Gets to a point from the one before. Throws if the window of the point is not what lies before it: bytes that were made
-/// with another one would be other data. The point is a copy: others are added where the decoder gets further than it.
-void Unpacker::compare_window(const SeekPoints::Point& before, SeekPoints::Point point)
-{
-  this->start_at(before);
-  while (end_ < point.offset && this->advance(point.offset))
-  {
-  }
-  const std::string window = std::move(point.window);
-  std::string there(window.size(), '\0');
-  const std::int64_t first = point.offset - static_cast<std::int64_t>(window.size());
-  if (first < begin_ || end_ < point.offset ||
-    this->copy(first, there.data(), there.size()) < there.size() || there != window)
-  {
-    fail_window(decoder_->path());
-  }
-  begin_ = point.offset; // nobody compared the window of the point before
 }
 
 /// Copies what the ring has of [offset, offset + bytes), which does not begin before it.
@@ -176,7 +148,7 @@ bool Unpacker::advance(std::int64_t target)
   const std::size_t got = decoder_->decode(ring_.get() + at, std::min(step, ring_bytes - at));
   end_ += static_cast<std::int64_t>(got);
   begin_ = std::max(begin_, end_ - static_cast<std::int64_t>(ring_bytes));
-  expect_honest(*decoder_, end_, packed_, largest_expansion_);
+  expect_honest(*decoder_, end_, packed_);
   if (got == 0)
   {
     unchecked_.clear();
@@ -194,11 +166,10 @@ class UnpackedSource final : public ByteSource
 public:
   /// found: see Decoder.
   UnpackedSource(std::unique_ptr<ByteSource> packed, std::shared_ptr<const SeekPoints> points,
-    std::shared_ptr<SeekPoints> found, const MakeDecoder& make_decoder,
-    std::int64_t largest_expansion)
+    std::shared_ptr<SeekPoints> found, const MakeDecoder& make_decoder)
     : packed_(std::move(packed))
     , unpacker_(std::make_unique<Unpacker>(
-        make_decoder(*packed_, std::move(found)), std::move(points), *packed_, largest_expansion))
+        make_decoder(*packed_, std::move(found)), std::move(points), *packed_))
   {
   }
 
@@ -309,8 +280,7 @@ void Decoder::fail(const std::string& why) const
     { in_.path(), 0, in_.position() });
 }
 
-void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed,
-  std::int64_t largest_expansion)
+void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed)
 {
   if (content <= free_content)
   {
@@ -321,15 +291,9 @@ void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSourc
   {
     throw LimitError("expected content of at most " + std::to_string(largest_expansion) +
         " times the " + std::to_string(size) +
-        " bytes of the file, got more; raise LargestExpansion if you trust the file",
+        " bytes of the file, got more; if you trust the file, unpack it first",
       { decoder.path(), 0, decoder.position() });
   }
-}
-
-void fail_window(const std::string& path)
-{
-  throw FormatError(
-    "expected the content that the index file says, got other; remove the index file", { path });
 }
 
 MakeDecoder find_decoder(const ByteSource& packed)
@@ -349,34 +313,31 @@ MakeDecoder find_decoder(const ByteSource& packed)
 }
 
 std::unique_ptr<ByteSource> unpack_by(const MakeDecoder& make_decoder,
-  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points,
-  std::int64_t largest_expansion)
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points)
 {
   const std::shared_ptr<SeekPoints> found =
     points ? std::move(points) : std::make_shared<SeekPoints>();
-  return std::make_unique<UnpackedSource>(
-    std::move(packed), found, found, make_decoder, largest_expansion);
+  return std::make_unique<UnpackedSource>(std::move(packed), found, found, make_decoder);
 }
 
-std::unique_ptr<ByteSource> unpack_known(std::unique_ptr<ByteSource> packed,
-  std::shared_ptr<const SeekPoints> points, std::int64_t largest_expansion)
+std::unique_ptr<ByteSource> unpack_known(
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<const SeekPoints> points)
 {
   if (!points)
   {
-    return unpack(std::move(packed), nullptr, largest_expansion);
+    return unpack(std::move(packed), nullptr);
   }
   const MakeDecoder make_decoder = find_decoder(*packed);
-  return make_decoder ? std::make_unique<UnpackedSource>(std::move(packed), std::move(points),
-                          nullptr, make_decoder, largest_expansion)
-                      : std::move(packed);
+  return make_decoder
+    ? std::make_unique<UnpackedSource>(std::move(packed), std::move(points), nullptr, make_decoder)
+    : std::move(packed);
 }
 
-std::unique_ptr<ByteSource> unpack(std::unique_ptr<ByteSource> packed,
-  std::shared_ptr<SeekPoints> points, std::int64_t largest_expansion)
+std::unique_ptr<ByteSource> unpack(
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points)
 {
   const MakeDecoder make_decoder = find_decoder(*packed);
-  return make_decoder
-    ? unpack_by(make_decoder, std::move(packed), std::move(points), largest_expansion)
-    : std::move(packed);
+  return make_decoder ? unpack_by(make_decoder, std::move(packed), std::move(points))
+                      : std::move(packed);
 }
 }

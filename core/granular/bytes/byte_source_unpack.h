@@ -121,14 +121,9 @@ MakeDecoder find_decoder(const ByteSource& packed);
 
 /// Returns the content of a file by a decoder: see unpack.
 std::unique_ptr<ByteSource> unpack_by(const MakeDecoder& make_decoder,
-  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points,
-  std::int64_t largest_expansion);
+  std::unique_ptr<ByteSource> packed, std::shared_ptr<SeekPoints> points);
 
 /// Throws LimitError if so many bytes of content came out of a file that it was made to fill memory and time.
-void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed,
-  std::int64_t largest_expansion);
-
-/// Throws FormatError: the window of a seek point, from an index file, is not what lies before it.
-[[noreturn]] void fail_window(const std::string& path);
+void expect_honest(const Decoder& decoder, std::int64_t content, const ByteSource& packed);
 }
 #endif

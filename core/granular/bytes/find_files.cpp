@@ -105,7 +105,7 @@ bool is_file(const std::string& path)
 /// Other files that lie beside those of a run.
 bool is_beside(std::string_view name) noexcept
 {
-  return name.find("boundingBox") != std::string_view::npos || name.ends_with(".granular.idx");
+  return name.find("boundingBox") != std::string_view::npos;
 }
 
 std::string last_part(const std::string& path)

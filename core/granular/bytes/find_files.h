@@ -13,9 +13,9 @@ namespace granular
 ///
 /// If some files have a number for each `*` of the last part of the path, only these are found; otherwise all that fit. So
 /// run_*.dump does not find run_first.dump beside run_100.dump. Plain and compressed files go together: run_*.dump also finds
-/// run_100.dump.gz and run_100.dump.zst. Files with `boundingBox` in their names, which LIGGGHTS writes beside some dumps, and
-/// kept indices are left out. The name of a file that there is stands for this file alone, and so do the names of folders that there
-/// are. Throws IoError if a pattern fits no file, or names something else than a file, or a folder that cannot be listed.
+/// run_100.dump.gz and run_100.dump.zst. Files with `boundingBox` in their names, which LIGGGHTS writes beside some dumps,
+/// are left out. The name of a file that there is stands for this file alone, and so do the names of folders that there are.
+/// Throws IoError if a pattern fits no file, or names something else than a file, or a folder that cannot be listed.
 std::vector<std::string> find_files(const std::vector<std::string>& patterns);
 
 /// Returns true if a name has a number, with or without decimals, for each `*` of a pattern.

@@ -18,7 +18,7 @@
 
 namespace granular
 {
-/// Appends the parts of an object to bytes, for another rank or for a file. ArchiveReader has the same functions, so one
+/// Appends the parts of an object to bytes, for another rank. ArchiveReader has the same functions, so one
 /// description of an object, pass(archive, thing), serves both. Numbers are as in memory.
 class ArchiveWriter
 {
@@ -26,12 +26,6 @@ public:
   /// The type of an object whose parts are passed.
   template <typename Thing>
   using Passed = const Thing;
-
-  /// Returns a writer; paths below the folder are written relative to it. The folder ends in a slash, or is empty.
-  explicit ArchiveWriter(std::string folder = {})
-    : folder_(std::move(folder))
-  {
-  }
 
   std::string bytes; ///< written so far
 
@@ -51,15 +45,6 @@ public:
     bytes.append(value);
   }
 
-  /// Writes the path of a file: relative to the folder if it lies below, as it is otherwise.
-  void path(const std::string& value)
-  {
-    const bool elsewhere = folder_.empty() && value.starts_with('/');
-    const bool below = value.starts_with(folder_) && !elsewhere;
-    this->flag(below);
-    this->text(below ? value.substr(folder_.size()) : value);
-  }
-
   template <typename Item, typename Each>
   void list(const std::vector<Item>& items, const Each& each)
   {
@@ -77,9 +62,6 @@ public:
       each(*holder);
     }
   }
-
-private:
-  std::string folder_;
 };
 
 /// Throws FormatError unless the bytes of an archive are good.
@@ -99,9 +81,8 @@ public:
   template <typename Thing>
   using Passed = Thing;
 
-  explicit ArchiveReader(std::string_view bytes, std::string folder = {})
+  explicit ArchiveReader(std::string_view bytes)
     : bytes_(bytes)
-    , folder_(std::move(folder))
   {
   }
 
@@ -129,17 +110,6 @@ public:
   }
 
   void text(std::string& value) { value = this->take(this->count(1)); }
-
-  void path(std::string& value)
-  {
-    bool below = false;
-    this->flag(below);
-    this->text(value);
-    if (below)
-    {
-      value.insert(0, folder_);
-    }
-  }
 
   template <typename Item, typename Each>
   void list(std::vector<Item>& items, const Each& each)
@@ -187,7 +157,6 @@ private:
   }
 
   std::string_view bytes_; ///< not yet taken
-  std::string folder_;
 };
 }
 #endif

@@ -15,7 +15,7 @@ namespace granular
 template <typename Archive>
 void pass(Archive& archive, typename Archive::template Passed<Where>& where)
 {
-  archive.path(where.path);
+  archive.text(where.path);
   archive.number(where.line);
   archive.number(where.byte);
   archive.text(where.column);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -68,21 +67,11 @@ void index_data_file(
   }
 }
 
-/// Whether an index says what the header does: all else is read again with the rows.
-bool header_fits(const ByteSource& source, const FileIndex& index)
-{
-  const FrameEntry& frame = index.frames.front();
-  const DataLayout layout = read_data_header(source);
-  return index.frames.size() == 1 && frame.timestep == layout.timestep &&
-    frame.rows == layout.atoms && frame.line == 1 && std::isnan(frame.time);
-}
 }
 
 const FileFormat& data_file_format() noexcept
 {
-  static constexpr FileFormat format = {
-    .name = "a data file", .index = &index_data_file, .fits = &header_fits
-  };
+  static constexpr FileFormat format = { .name = "a data file", .index = &index_data_file };
   return format;
 }
 

@@ -369,12 +369,6 @@ bool starts_data_file(std::string_view first_bytes)
   return header.counts_atoms && (header.describes_box() || layout.bonds > 0);
 }
 
-DataLayout read_data_header(const ByteSource& source)
-{
-  Progress progress;
-  return LayoutScan(source, progress).read_header();
-}
-
 DataLayout read_data_layout(const ByteSource& source, Progress& progress)
 {
   return LayoutScan(source, progress).read();

@@ -47,9 +47,6 @@ struct DataLayout : FileLayout
 /// Returns true if the first bytes of a file are a title and a header that counts atoms.
 bool starts_data_file(std::string_view first_bytes);
 
-/// Reads only the header. Throws FormatError.
-DataLayout read_data_header(const ByteSource& source);
-
 /// Reads the header and skips all sections, counting the rows of those in the layout. A section Atoms, Bonds or
 /// Ellipsoids without rows may be missing. Throws FormatError if rows are missing or too many; IoError; Cancelled.
 DataLayout read_data_layout(const ByteSource& source, Progress& progress);

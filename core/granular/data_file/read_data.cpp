@@ -136,7 +136,7 @@ private:
     const std::vector<std::string>& columns, const DumpRequest& request)
   {
     const SectionRows rows(file_, *source_, section.value_or(DataSection{}), columns);
-    return read_dump(rows.pieces(), request, ranks_, std::nullopt, notices_, progress_);
+    return read_dump(rows.pieces(), request, ranks_, notices_, progress_);
   }
 
   /// With the ids, which velocities and bonds need, whether they are wanted or not.

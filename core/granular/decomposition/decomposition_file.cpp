@@ -11,7 +11,6 @@
 #include "granular/frames/named_steps.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -214,22 +213,6 @@ void index_decomposition(
   }
 }
 
-/// Whether the frames are those that are found now: a file is short, and no header says which number a grid has.
-bool decomposition_fits(const ByteSource& source, const FileIndex& index)
-{
-  FileIndex found;
-  Progress progress;
-  index_decomposition(source, found, progress, {});
-  const bool numbered = index.frames.size() > 1; // else the name may say the timestep
-  return std::ranges::equal(index.frames, found.frames,
-    [&](const FrameEntry& kept, const FrameEntry& there)
-    {
-      return (kept.timestep == there.timestep || !numbered) && kept.rows == there.rows &&
-        kept.offset == there.offset && kept.end == there.end && kept.line == there.line &&
-        kept.shape == there.shape && std::isnan(kept.time);
-    });
-}
-
 /// Whether the first cell of a grid is a box along the axes, and none is of a type that never is.
 bool begins_with_box(const DecompositionGrid& grid)
 {
@@ -311,10 +294,9 @@ bool is_decomposition_vtu(const ByteSource& source, const VtuHead& head)
 
 const FileFormat& decomposition_format() noexcept
 {
-  static constexpr FileFormat format = { .name = "a decomposition file",
-    .index = &index_decomposition,
-    .complete = &name_steps,
-    .fits = &decomposition_fits };
+  static constexpr FileFormat format = {
+    .name = "a decomposition file", .index = &index_decomposition, .complete = &name_steps
+  };
   return format;
 }
 

@@ -6,7 +6,6 @@
 #include "granular/frames/named_steps.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -88,13 +87,6 @@ void index_euler(const ByteSource& source, FileIndex& index, Progress& progress,
   }
 }
 
-/// Whether an index says of a file what index_euler may; cells are counted when they are read.
-bool is_one_frame(const ByteSource&, const FileIndex& index)
-{
-  const FrameEntry& frame = index.frames.front();
-  return index.frames.size() == 1 && frame.shape == FrameEntry::whole && std::isnan(frame.time);
-}
-
 bool look_at(const ByteSource& source)
 {
   Progress progress;
@@ -121,10 +113,9 @@ bool look_at(const ByteSource& source)
 
 const FileFormat& euler_format() noexcept
 {
-  static constexpr FileFormat format = { .name = "a file of Euler cells",
-    .index = &index_euler,
-    .complete = &name_steps,
-    .fits = &is_one_frame };
+  static constexpr FileFormat format = {
+    .name = "a file of Euler cells", .index = &index_euler, .complete = &name_steps
+  };
   return format;
 }
 

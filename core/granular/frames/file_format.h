@@ -47,10 +47,6 @@ struct FileFormat
   /// Returns true if frames lack what complete gives them; null: they always do.
   bool (*lacks)(const std::vector<FileIndex>& files) = nullptr;
 
-  /// Returns true if the contents of an index file can be true for a file with frames, as far as reading a frame would
-  /// not show it. Reads little of the source. May throw Error, which also means false. May be null.
-  bool (*fits)(const ByteSource& source, const FileIndex& index) = nullptr;
-
   /// Returns a description of the first row of a frame, for a user who has to name its columns; may be null. May throw
   /// Error.
   std::string (*describe)(const ByteSource& source, const FrameEntry& entry) = nullptr;
@@ -61,8 +57,6 @@ struct FileFormat
 
   bool large_runs =
     false; ///< of so many or large files that several ranks look through them together
-
-  int layouts = 0; ///< how many FrameKind::layout there are that are no text
 };
 }
 #endif

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/file_index.h"
 
-#include "granular/bytes/byte_source_segments.h"
 #include "granular/common/hash.h"
-#include "granular/frames/index_claims.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
 namespace granular
@@ -30,112 +27,11 @@ bool others_changed(const FileIndex& index)
     index.beside, [](const KnownFile& file) { return !(stamp_of(file.path) == file.stamp); });
 }
 
-/// Whether a notice tells of bytes between two frames, or before the first: a frame there is left out, and the user knows.
-bool tells_gap(const FileIndex& index, const FrameEntry& before, const FrameEntry& after)
-{
-  return std::ranges::any_of(index.notices,
-    [&](const Notice& notice)
-    {
-      const Where& where = notice.where;
-      return where.line > 0 ? before.line <= where.line && where.line < after.line
-                            : before.end <= where.byte && where.byte < after.offset;
-    });
-}
-
-/// Whether bytes before the last frame belong to no frame, in silence: frames could be hidden there.
-bool has_gaps(const FileIndex& index)
-{
-  FrameEntry before = {};
-  for (const FrameEntry& frame : index.frames)
-  {
-    if (frame.offset != before.end && !tells_gap(index, before, frame))
-    {
-      return true;
-    }
-    before = frame;
-  }
-  return false;
-}
-
-/// Whether a source has bytes behind the last frame: an unfinished frame, or frames that an index hides.
+/// Whether a source has bytes behind the last frame: an unfinished frame.
 bool goes_on(const ByteSource& source, const FileIndex& index)
 {
   char byte = 0;
   return source.read(index.frames.back().end, &byte, 1) > 0;
-}
-
-/// Whether a file goes on behind its last frame, or cannot be read there.
-bool goes_on(const FileIndex& index)
-{
-  try
-  {
-    return goes_on(*open_indexed(index), index);
-  }
-  catch (const Error&)
-  {
-    return true; // who looks at these bytes tells the error
-  }
-}
-
-/// Whether what was kept of a file can be what it holds, beyond what is looked at when a frame is read. All frames have the
-/// layout of the first.
-bool fits(const FileIndex& index)
-{
-  try
-  {
-    const std::unique_ptr<ByteSource> source =
-      unpack_known(open_file(index.path), index.points, index.largest_expansion);
-    return source->compressed() == index.compressed && !index.frames.empty() && !has_gaps(index) &&
-      index.frames.front().kind->layout < index.format->layouts &&
-      (index.format->fits == nullptr || index.format->fits(*source, index));
-  }
-  catch (const Error&)
-  {
-    return false;
-  }
-}
-
-/// An index that was kept in a file is good for a file of the same size, time and ends: a copy has
-/// another inode. Where such a file goes on is found out by its last frame.
-void adopt(FileIndex& index, const ByteSource& packed, const FileStamp& now)
-{
-  index.loaded = false;
-  const bool same = index.stamp.modified == now.modified && index.stamp.size == now.size;
-  const bool good = index.stamp.size <= now.size &&
-    hash_ends(packed, index.stamp.size) == index.ends_hash && fits(index);
-  if (same || !good)
-  {
-    index.stamp = good ? now : FileStamp{};
-  }
-  if (same && good && index.compressed && index.frames.size() == 1 &&
-    (!index.points || claims_end(index)))
-  {
-    index.points = no_points(); // nothing is decompressed before the frame is read
-  }
-  else if (same && good && goes_on(index))
-  {
-    --index.stamp.size;
-    index.ends_hash = hash_ends(packed, index.stamp.size);
-  }
-  if (good)
-  {
-    const FrameEntry& last = index.frames.back();
-    index.resume_offset = last.offset;
-    index.resume_line = std::max(last.line, std::int64_t{ 1 });
-    index.units = last.kind->units;
-  }
-}
-
-/// An index of another rank is good for a file of the same size, time and ends. Devices and inodes may have other numbers here.
-void adopt_elsewhere(FileIndex& index, const ByteSource& packed, const FileStamp& now)
-{
-  index.elsewhere = false;
-  const FileStamp& there = index.stamp;
-  if (!(there == now) && there.size == now.size && there.modified == now.modified &&
-    hash_ends(packed, now.size) == index.ends_hash)
-  {
-    index.stamp = now;
-  }
 }
 
 /// A file that was not indexed yet, of the same name and run.
@@ -145,7 +41,6 @@ FileIndex blank(const FileIndex& index)
   fresh.path = index.path;
   fresh.kinds = index.kinds;
   fresh.format = index.format;
-  fresh.largest_expansion = index.largest_expansion;
   return fresh;
 }
 
@@ -199,17 +94,8 @@ bool has_free_points(const FileIndex& index)
 bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
   const ScanAhead& ahead)
 {
-  const std::int64_t now = clock_time();
   std::unique_ptr<ByteSource> packed = open_file(index.path);
   const FileStamp stamp = packed->stamp();
-  if (index.loaded)
-  {
-    adopt(index, *packed, stamp);
-  }
-  if (index.elsewhere)
-  {
-    adopt_elsewhere(index, *packed, stamp);
-  }
   const bool renamed = (index.unnamed || index.error) && index.column_names != column_names;
   const bool anew = renamed || others_changed(index);
   if (index.stamp == stamp && !anew)
@@ -220,7 +106,6 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index = blank(index);
   }
-  const bool only_looked = index.frames.empty() || index.shareable; // nothing is of an index file
   std::erase_if(
     index.frames, [&](const FrameEntry& frame) { return frame.offset >= index.resume_offset; });
   index.stamp = stamp;
@@ -231,7 +116,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   // what is appended meanwhile is for the next time: an end that moves on makes frames look cut
   packed = first_bytes(std::move(packed), stamp.size);
   index.ends_hash = hash_ends(*packed, stamp.size);
-  if (!index.points || claims_end(index))
+  if (!index.points)
   {
     index.points = std::make_shared<SeekPoints>();
   }
@@ -239,8 +124,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   {
     index.points = std::make_shared<SeekPoints>(*index.points); // others read by them
   }
-  const std::unique_ptr<ByteSource> source =
-    unpack(std::move(packed), index.points, index.largest_expansion);
+  const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();
   index.compressed = source->compressed();
   refuse_other_packings(*index.format, *source);
@@ -258,7 +142,6 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
     index.points.reset();
   }
   index.frames.shrink_to_fit();
-  index.shareable = only_looked && had_rested(index, now);
   if (index.frames.empty() || stamp.size == 0)
   {
     set_defect(index,
@@ -314,18 +197,22 @@ bool update_file_index(FileIndex& index, const std::vector<std::string>& column_
   }
 }
 
-bool had_rested(const FileIndex& index, std::int64_t time)
+void adopt(FileIndex& index)
 {
-  constexpr std::int64_t while_fresh = 2'000'000'000;
-  const auto rested = [&](const FileStamp& stamp) { return stamp.modified < time - while_fresh; };
-  return rested(index.stamp) &&
-    std::ranges::all_of(index.beside, [&](const KnownFile& file) { return rested(file.stamp); });
-}
-
-std::int64_t clock_time()
-{
-  using namespace std::chrono;
-  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+  try
+  {
+    const std::unique_ptr<ByteSource> packed = open_file(index.path);
+    const FileStamp here = packed->stamp();
+    if (!(here == index.stamp) && here.size == index.stamp.size &&
+      here.modified == index.stamp.modified && hash_ends(*packed, here.size) == index.ends_hash)
+    {
+      index.stamp = here;
+    }
+  }
+  catch (const IoError&)
+  {
+    // who looks through the file tells the error
+  }
 }
 
 bool is_changed(const FileIndex& index)

@@ -45,15 +45,11 @@ struct FileIndex
   std::exception_ptr error;     ///< the file could not be opened or read
   bool unnamed = false;         ///< binary, without the names of its columns
   bool compressed = false;      ///< gzip or Zstandard
-  bool loaded = false;          ///< from an index file: to be compared with the file first
-  bool elsewhere = false;       ///< from another rank: the same, but for devices and inodes
-  bool shareable = false;       ///< see SharedIndexes
-  std::vector<std::string> column_names;            ///< of the user, for such a file
-  std::shared_ptr<SeekPoints> points;               ///< of a compressed file
-  std::shared_ptr<FrameKinds> kinds;                ///< may be shared by files; made if missing
-  std::shared_ptr<const FileLayout> layout;         ///< see known_layout
-  const FileFormat* format = nullptr;               ///< must be there to be updated
-  std::int64_t largest_expansion = usual_expansion; ///< of a compressed file: see unpack
+  std::vector<std::string> column_names;    ///< of the user, for such a file
+  std::shared_ptr<SeekPoints> points;       ///< of a compressed file
+  std::shared_ptr<FrameKinds> kinds;        ///< may be shared by files; made if missing
+  std::shared_ptr<const FileLayout> layout; ///< see known_layout
+  const FileFormat* format = nullptr;       ///< must be there to be updated
 };
 
 /// Returns the first 64 KiB of a file, decompressed: enough for many headers of ordinary length, and all that is read to
@@ -81,12 +77,9 @@ bool looks_so(const std::string& path, const Look& look) noexcept
 bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
   Progress& progress, const ScanAhead& ahead = {});
 
-/// Returns true if a file, and those beside it, had not been written for two seconds at a time of the system's clock
-/// [nanoseconds since the epoch]. Otherwise they could be written again in the same tick of the clock, and look the same.
-bool had_rested(const FileIndex& index, std::int64_t time);
-
-/// Returns the time of the system's clock [nanoseconds since the epoch].
-std::int64_t clock_time();
+/// Makes the index of a file that another rank has looked through one of this machine, where devices and inodes may have other
+/// numbers, if the file has the same size, time and ends here.
+void adopt(FileIndex& index);
 
 /// Returns true if the file, or one beside it, has changed since it was indexed.
 bool is_changed(const FileIndex& index);

@@ -49,7 +49,7 @@ struct FrameKind
 
   ColumnSchema schema;
   std::string units;
-  int layout = text;    ///< below FileFormat::layouts: which of them; or text, or bare
+  int layout = text;    ///< which of binary_layouts(); or text, or bare
   bool named = true;    ///< false: the columns of a binary file have no names, only stand-ins
   bool guessed = false; ///< the columns have no names and are taken for those of dump atom
   std::uint64_t names_hash =

@@ -10,11 +10,11 @@ namespace granular
 {
 namespace
 {
-/// Returns true if a file of a run, which may have been looked at on another rank, is that of a stamp or a name.
+/// Returns true if a file of a run is that of a stamp or a name.
 bool is_same(const FileIndex& file, const FileStamp& stamp, const std::string& path)
 {
-  const FileStamp own = file.elsewhere ? stamp_of(file.path) : file.stamp;
-  return file.path == path || (own.device == stamp.device && own.inode == stamp.inode);
+  return file.path == path ||
+    (file.stamp.device == stamp.device && file.stamp.inode == stamp.inode);
 }
 
 /// Returns the files whose frames have their other pieces in other files.

@@ -3,13 +3,11 @@
 
 #include "granular/common/hash.h"
 #include "granular/frames/file_series.h"
-#include "granular/frames/shared_indexes.h"
 #include "granular/frames/update_files.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -44,12 +42,10 @@ std::string first_row_of(const FileIndex& file)
   }
 }
 
-/// What lies beside dumps under a name that a pattern for these matches too: LIGGGHTS' boxes, and what
-/// is kept of the index.
+/// LIGGGHTS' boxes lie beside dumps under a name that a pattern for these matches too.
 bool is_beside(const std::string& path)
 {
-  return path.find("boundingBox", path.rfind('/') + 1) != path.npos ||
-    path.ends_with(index_file_suffix);
+  return path.find("boundingBox", path.rfind('/') + 1) != path.npos;
 }
 
 /// The files that are looked at, in their order; of one that occurs again the last counts.
@@ -72,23 +68,10 @@ std::vector<std::string> distinct_dumps(const std::vector<std::string>& names)
   return kept;
 }
 
-/// Gives frames of another run the kinds of this one, which are stored once.
-void share_kinds(FileIndex& file, FrameKinds& kinds)
+/// The kinds of the frames of a run, or new ones.
+std::shared_ptr<FrameKinds> kinds_of(const std::vector<FileIndex>& files)
 {
-  std::map<const FrameKind*, std::shared_ptr<const FrameKind>> own;
-  for (FrameEntry& frame : file.frames)
-  {
-    std::shared_ptr<const FrameKind>& kind = own[frame.kind.get()];
-    kind = kind ? kind : kinds.share(*frame.kind);
-    frame.kind = kind;
-  }
-}
-
-/// Whether what is known of a file is so with another limit of its content, too.
-bool keeps_limit(const FileIndex& file, std::int64_t largest_expansion)
-{
-  return file.loaded || file.largest_expansion == largest_expansion ||
-    (!file.compressed && !file.error);
+  return files.empty() ? std::make_shared<FrameKinds>() : files.front().kinds;
 }
 
 FramePiece piece_at(const std::vector<FileIndex>& files, const FileSeries::Place& place)
@@ -150,39 +133,20 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   {
     this->fail(found);
   }
-  if (options.shared != nullptr)
-  {
-    options.shared->add(looked_);
-  }
   notices.insert(notices.end(), found.begin(), found.end());
   this->note_files(notices);
   this->note_times(notices);
 }
 
-std::vector<std::string> RunIndex::unknown_files(
-  const std::vector<std::string>& files, const IndexOptions& options)
+std::vector<std::string> RunIndex::unknown_files(const std::vector<std::string>& files) const
 {
-  std::vector<std::string> unknown = distinct_dumps(files);
-  const std::string kept =
-    unknown.empty() ? "" : index_file_path(options.keep_index, unknown.front());
-  if (looked_->empty() && !kept.empty())
-  {
-    Notices told_by_update; // which reads the file again if it lists nothing
-    looked_ = std::make_shared<const std::vector<FileIndex>>(
-      load_index(kept, unknown.front(), std::make_shared<FrameKinds>(), told_by_update));
-    kept_ = looked_->empty() ? "" : kept;
-  }
   std::set<std::string_view> known;
   for (const FileIndex& file : *looked_)
   {
     known.insert(file.path);
   }
-  std::erase_if(unknown,
-    [&](const std::string& path)
-    {
-      return known.contains(path) ||
-        (options.shared != nullptr && options.shared->has(path, options.format));
-    });
+  std::vector<std::string> unknown = distinct_dumps(files);
+  std::erase_if(unknown, [&](const std::string& path) { return known.contains(path); });
   return unknown;
 }
 
@@ -190,64 +154,43 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
   const IndexOptions& options, std::vector<FileIndex>&& of_ranks, Notices& notices,
   Progress& progress)
 {
-  std::vector<FileIndex> before = *looked_; // a copy, as another run may have them too
+  std::vector<FileIndex> before = *looked_; // a copy: who copied this index has them, too
   // if this is left by an exception, what is known so far is gone and will be read anew
   files_ = looked_ = std::make_shared<const std::vector<FileIndex>>();
-  const auto kinds = before.empty() ? std::make_shared<FrameKinds>() : before.front().kinds;
-  const std::string kept = files.empty() ? "" : index_file_path(options.keep_index, files.front());
-  if (before.empty() && !kept.empty())
-  {
-    before = load_index(kept, files.front(), kinds, notices);
-    kept_ = before.empty() ? "" : kept;
-  }
+  const std::shared_ptr<FrameKinds> kinds =
+    of_ranks.empty() ? kinds_of(before) : of_ranks.front().kinds;
   std::map<std::string, FileIndex> known;
-  for (FileIndex& file : before)
+  for (std::vector<FileIndex>* looked : { &before, &of_ranks })
   {
-    known[file.path] = std::move(file);
+    for (FileIndex& file : *looked)
+    {
+      known.try_emplace(file.path, std::move(file));
+    }
   }
-  bool changed = known.size() != files.size() || kept != kept_ || !of_ranks.empty();
-  for (FileIndex& file : of_ranks)
-  {
-    share_kinds(file, *kinds);
-    known.try_emplace(file.path, std::move(file));
-  }
-  kept_ = kept;
   std::vector<FileIndex> updated(files.size());
   for (std::size_t i = 0; i < files.size(); ++i)
   {
-    std::optional<FileIndex> found;
     if (const auto own = known.find(files[i]); own != known.end())
     {
-      found = std::move(own->second);
-    }
-    else if (options.shared != nullptr &&
-      (found = options.shared->find(files[i], options.format)).has_value())
-    {
-      share_kinds(*found, *kinds);
-      changed = true;
-    }
-    if (found && keeps_limit(*found, options.largest_expansion))
-    {
-      updated[i] = std::move(*found);
+      updated[i] = std::move(own->second);
     }
     updated[i].path = files[i];
     updated[i].kinds = kinds;
     updated[i].format = options.format;
-    updated[i].largest_expansion = options.largest_expansion;
   }
-  changed =
-    granular::update_files(updated, options.column_names, options.threads, progress) || changed;
+  granular::update_files(updated, options.column_names, options.threads, progress);
   for (FileIndex& file : updated)
   {
     notices.insert(notices.end(), file.notices.begin() + static_cast<std::ptrdiff_t>(file.told),
       file.notices.end());
     file.told = file.notices.size();
   }
-  if (changed && !kept.empty())
-  {
-    save_index(kept, updated, notices);
-  }
   return updated;
+}
+
+std::shared_ptr<FrameKinds> RunIndex::kinds() const
+{
+  return kinds_of(*looked_);
 }
 
 bool RunIndex::changed() const

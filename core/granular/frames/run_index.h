@@ -6,7 +6,6 @@
 #include "granular/common/progress.h"
 #include "granular/frames/file_index.h"
 #include "granular/frames/frame_times.h"
-#include "granular/frames/saved_index.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstddef>
@@ -19,7 +18,6 @@
 namespace granular
 {
 struct FileSeries;
-class SharedIndexes;
 
 /// Meaning of several frames with the same timestep in different files.
 ///
@@ -45,10 +43,7 @@ struct IndexOptions
   const FileFormat* format = nullptr;         ///< of the files; must be there
   std::vector<std::string> column_names = {}; ///< of binary files that do not name their columns
   RepeatedSteps repeated_steps = RepeatedSteps::Auto;
-  KeepIndex keep_index = KeepIndex::Never;
-  int threads = 1;                                  ///< at least 1; does not change the result
-  std::int64_t largest_expansion = usual_expansion; ///< of compressed files, at least 1: see unpack
-  SharedIndexes* shared = nullptr; ///< with other runs of the process; null: with none
+  int threads = 1; ///< at least 1; does not change the result
 };
 
 /// A piece of a frame: the whole frame, or the part of one rank.
@@ -71,13 +66,13 @@ Where where_of(const FramePiece& piece);
 ///
 /// Frames are ordered by timestep. Frames with the same timestep are pieces, or the last one counts, in the order of the
 /// files and within a file: see RepeatedSteps. An incomplete last frame is left out, because it is still being written.
-/// Frames in the middle that contradict their header are left out with a notice. Index files, and files with `boundingBox` in
-/// their names, which LIGGGHTS writes beside some dumps, are skipped.
+/// Frames in the middle that contradict their header are left out with a notice. Files with `boundingBox` in their
+/// names, which LIGGGHTS writes beside some dumps, are skipped.
 class RunIndex
 {
 public:
   /// Updates the index to the current contents of the files. Files that grew are read from the end of the last complete
-  /// frame, unchanged files are not read, nor those that another run has in options.shared, and other files are read again.
+  /// frame, unchanged files are not read, and other files are read again.
   /// Appends notices about the files that are new here or were read now, and about unreadable files. Throws IoError or
   /// FormatError with the error of the first file if no file yields a frame; Cancelled.
   void update(const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
@@ -115,15 +110,16 @@ private:
     const std::vector<std::string>& files, const IndexOptions& options, Notices& notices,
     Progress& progress);
 
-  /// Returns the files that neither this nor another run of the process knows, nor an index file.
-  std::vector<std::string> unknown_files(
-    const std::vector<std::string>& files, const IndexOptions& options);
+  /// Returns the files that this does not know.
+  std::vector<std::string> unknown_files(const std::vector<std::string>& files) const;
   /// As update, with what other ranks know of files.
   void update(const std::vector<std::string>& files, const IndexOptions& options,
     std::vector<FileIndex>&& of_ranks, Notices& notices, Progress& progress);
   std::vector<FileIndex> update_files(const std::vector<std::string>& files,
     const IndexOptions& options, std::vector<FileIndex>&& of_ranks, Notices& notices,
     Progress& progress);
+  /// Returns the kinds of the frames that this knows, or new ones.
+  std::shared_ptr<FrameKinds> kinds() const;
   void note_files(Notices& notices) const;
   void note_times(Notices& notices) const;
   std::vector<FrameInstant> instants() const;
@@ -132,15 +128,14 @@ private:
   using Files = std::shared_ptr<const std::vector<FileIndex>>;
 
   Files files_ = std::make_shared<const std::vector<FileIndex>>(); ///< null only after a move
-  Files looked_ = files_;                    ///< the same as they were before FileFormat::complete
-  std::string kept_;                         ///< path of the index file
+  Files looked_ = files_; ///< as they were before FileFormat::complete: an update goes on from them
   std::shared_ptr<const FileSeries> series_; ///< null: no frames
   std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
 };
 
 /// Updates the index on rank 0, which alone has notices; then all ranks have the same index. If the format has large runs, files
 /// that are new are looked through by all ranks, each some of them, with its own threads and progress. Rank 0 looks through what
-/// has changed, and what another rank cannot read or sees otherwise. Other options than threads and shared must be the same on
+/// has changed, and what another rank cannot read or sees otherwise. Other options than threads must be the same on
 /// all ranks. Collective. Throws the same error on all ranks, whose indexes then have no frames.
 void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
   const IndexOptions& options, Notices& notices, Progress& progress);

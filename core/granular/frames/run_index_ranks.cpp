@@ -2,10 +2,11 @@
 // One index for all ranks.
 #include "granular/common/archive.h"
 #include "granular/common/hash.h"
+#include "granular/frames/file_index_archive.h"
 #include "granular/frames/file_series.h"
 #include "granular/frames/run_index.h"
-#include "granular/frames/saved_index.h"
 #include "granular/frames/update_files.h"
+#include "granular/parallel/executor.h"
 #include "granular/parallel/trade.h"
 
 #include <algorithm>
@@ -39,23 +40,18 @@ bool may_be_sent(const FileIndex& file)
 
 /// Looks through every so many of the files. Returns, on rank 0, what all ranks have found.
 std::vector<FileIndex> look_together(const std::vector<std::string>& names,
-  const IndexOptions& options, Communicator& ranks, Progress& progress)
+  const IndexOptions& options, const std::shared_ptr<FrameKinds>& kinds, Communicator& ranks,
+  Progress& progress)
 {
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const auto size = static_cast<std::size_t>(ranks.size());
-  const std::int64_t start = clock_time();
-  const auto kinds = std::make_shared<FrameKinds>();
-  const auto complete = [&](FileIndex& file)
-  {
-    file.kinds = kinds;
-    file.format = options.format;
-    file.largest_expansion = options.largest_expansion;
-  };
   std::vector<FileIndex> files;
   for (std::size_t i = rank; i < names.size(); i += size)
   {
-    files.emplace_back().path = names[i];
-    complete(files.back());
+    FileIndex& file = files.emplace_back();
+    file.path = names[i];
+    file.kinds = kinds;
+    file.format = options.format;
   }
   constexpr std::size_t most_seek_bytes = std::size_t{ 1 } << 28; // of all ranks
   update_files(files, options.column_names, options.threads, progress,
@@ -71,24 +67,25 @@ std::vector<FileIndex> look_together(const std::vector<std::string>& names,
   const std::vector<std::int64_t> come = swap_numbers(counts, ranks);
   const std::vector<char> parts = trade(sent, counts, come, ranks);
   std::string_view rest(parts.data(), parts.size());
+  const std::size_t own = files.size();
   for (const std::int64_t bytes : come)
   {
     const auto length = static_cast<std::size_t>(bytes);
     std::vector<FileIndex> of_rank;
     if (length > 0)
     {
-      of_rank = decode_index(rest.substr(0, length), "", kinds);
+      of_rank = decode_files(rest.substr(0, length), kinds);
     }
     for (FileIndex& file : of_rank)
     {
-      complete(file);
-      file.loaded = false;
-      file.elsewhere = true;
-      file.shareable = had_rested(file, start);
       files.push_back(std::move(file));
     }
     rest.remove_prefix(length);
   }
+  Executor(options.threads)
+    .parallel_for(
+      files.size() - own, [&](std::size_t file, std::size_t) { adopt(files[own + file]); },
+      progress);
   return files;
 }
 }
@@ -97,7 +94,6 @@ std::string RunIndex::encode() const
 {
   ArchiveWriter out;
   out.text(encode_files(*files_));
-  out.number(files_->empty() ? usual_expansion : files_->front().largest_expansion);
   write_series(out, series_ ? *series_ : FileSeries());
   return std::move(out.bytes);
 }
@@ -108,14 +104,7 @@ void RunIndex::decode(std::string_view bytes)
   RunIndex index;
   std::string bytes_of_files;
   in.text(bytes_of_files);
-  std::vector<FileIndex> files = decode_index(bytes_of_files, "", std::make_shared<FrameKinds>());
-  std::int64_t largest_expansion = 0;
-  in.number(largest_expansion);
-  require(largest_expansion >= 1, "a limit of content");
-  for (FileIndex& file : files)
-  {
-    file.largest_expansion = largest_expansion;
-  }
+  std::vector<FileIndex> files = decode_files(bytes_of_files, std::make_shared<FrameKinds>());
   index.series_ = std::make_shared<const FileSeries>(read_series(in, files));
   index.files_ = std::make_shared<const std::vector<FileIndex>>(std::move(files));
   index.looked_ = index.files_;
@@ -140,14 +129,14 @@ void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<st
           std::vector<std::string> names;
           if (looks)
           {
-            names = index.unknown_files(files, options);
+            names = index.unknown_files(files);
           }
           std::string bytes = names.size() > 1 ? pack(names) : ""; // one is nothing to share
           ranks.broadcast(bytes, 0);
           if (!bytes.empty())
           {
             parts.set_part(0, 0.9);
-            of_ranks = look_together(unpack_names(bytes), options, ranks, parts);
+            of_ranks = look_together(unpack_names(bytes), options, index.kinds(), ranks, parts);
             parts.set_part(0.9, 1);
           }
         }

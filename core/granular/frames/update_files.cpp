@@ -89,7 +89,7 @@ private:
 };
 }
 
-bool update_files(std::vector<FileIndex>& files, const std::vector<std::string>& column_names,
+void update_files(std::vector<FileIndex>& files, const std::vector<std::string>& column_names,
   int threads, Progress& progress, std::size_t most_seek_bytes)
 {
   const Executor executor(threads);
@@ -97,17 +97,12 @@ bool update_files(std::vector<FileIndex>& files, const std::vector<std::string>&
   ahead.threads = executor.threads() / static_cast<int>(executor.workers(files.size()));
   RestartBudget budget(files, most_seek_bytes);
   FilesProgress all(progress, files.size());
-  std::atomic<bool> changed = false;
   const auto update = [&](std::size_t file, std::size_t)
   {
-    if (update_file_index(files[file], column_names, all, ahead))
-    {
-      changed = true;
-    }
+    update_file_index(files[file], column_names, all, ahead);
     budget.take(file);
     all.finish_file();
   };
   executor.parallel_for(files.size(), update, all);
-  return changed;
 }
 }

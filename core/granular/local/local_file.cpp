@@ -17,14 +17,6 @@ namespace granular
 {
 namespace
 {
-/// What rows without a header are, the header of another file says.
-bool local_fits(const ByteSource& source, const FileIndex& index)
-{
-  const FrameEntry& first = index.frames.front();
-  const bool bare = first.kind->layout == FrameKind::bare;
-  return bare ? first.offset == 0 && index.frames.size() == 1 : text_dump_fits(source, index);
-}
-
 /// Whether a text begins with a row of numbers; so does one that is empty, of a process without rows.
 bool is_bare(std::string_view first_bytes)
 {
@@ -292,7 +284,6 @@ const FileFormat& local_format() noexcept
   static constexpr FileFormat format = { .name = "a dump of local data",
     .index = index_local,
     .complete = complete_pieces,
-    .fits = local_fits,
     .first_rows = find_first_rows,
     .large_runs = true };
   return format;

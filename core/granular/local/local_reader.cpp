@@ -308,7 +308,7 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       const DumpRequest table = table_request(request, schema);
       const Where where = where_of(piece);
       forward.set_part(0, 0.8);
-      local.table = read_dump(pieces, table, ranks, std::nullopt, notices, forward);
+      local.table = read_dump(pieces, table, ranks, notices, forward);
       DumpFrame& frame = local.table;
       Remarks remarks;
       remarks.rows = frame.rows;

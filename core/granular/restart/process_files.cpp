@@ -26,7 +26,7 @@ RestartChunk read_process_file(
 {
   std::unique_ptr<ByteSource> source = open_file(path);
   const FileStamp stamp = source->stamp();
-  source = unpack(std::move(source), nullptr, layout.largest_expansion);
+  source = unpack(std::move(source));
   std::string content;
   if (source->compressed())
   {

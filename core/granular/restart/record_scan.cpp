@@ -122,7 +122,7 @@ const ByteSource& RecordScan::open(const RecordBlock& block, Buffer& buffer) con
   }
   if (!buffer.file || buffer.path != path)
   {
-    buffer.file = unpack(open_file(path), nullptr, layout_.largest_expansion);
+    buffer.file = unpack(open_file(path));
     buffer.path = path;
   }
   return *buffer.file;

@@ -5,7 +5,6 @@
 #include "granular/restart/restart_bytes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -45,8 +44,8 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
   try
   {
     Notices notices; // what is missing of a frame that can be read is told when it is
-    const auto found = std::make_shared<const RestartLayout>(
-      read_layout(source, notices, progress, index.largest_expansion));
+    const auto found =
+      std::make_shared<const RestartLayout>(read_layout(source, notices, progress));
     const RestartLayout& layout = *found;
     FrameEntry entry;
     entry.timestep = layout.header.timestep;
@@ -78,17 +77,6 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
   {
     leave_out(index, { error.where(), error.text() });
   }
-}
-
-/// Whether an index has the times of the header: all else is read again with the records.
-bool header_fits(const ByteSource& source, const FileIndex& index)
-{
-  const FrameEntry& frame = index.frames.front();
-  RestartBytes bytes(source);
-  const RestartHeader header = read_header(bytes);
-  const double time = header.time.value_or(FrameEntry::no_time);
-  return index.frames.size() == 1 && frame.timestep == header.timestep &&
-    (frame.time == time || (std::isnan(frame.time) && std::isnan(time)));
 }
 
 /// Files of processes are known by their base, where it is.
@@ -178,25 +166,21 @@ bool looks_like_restart(const ByteSource& source)
 
 const FileFormat& restart_format() noexcept
 {
-  static constexpr FileFormat format = { .name = "a restart file",
-    .index = &index_restart,
-    .complete = &pass_over_parts,
-    .fits = &header_fits };
+  static constexpr FileFormat format = {
+    .name = "a restart file", .index = &index_restart, .complete = &pass_over_parts
+  };
   return format;
 }
 
 std::shared_ptr<const RestartLayout> find_restart_layout(
   const FileIndex& file, const ByteSource& source, Notices& notices, Progress& progress)
 {
-  auto known = known_layout<RestartLayout>(file);
-  // an index is kept when the limit changes, but files of ranks may be refused by another limit
-  if (known && known->largest_expansion == file.largest_expansion)
+  if (auto known = known_layout<RestartLayout>(file))
   {
     note_fixes(*known, source.path(), notices);
     return known;
   }
-  return std::make_shared<const RestartLayout>(
-    read_layout(source, notices, progress, file.largest_expansion));
+  return std::make_shared<const RestartLayout>(read_layout(source, notices, progress));
 }
 
 bool is_restart_file(const std::string& path) noexcept

@@ -17,11 +17,10 @@ namespace
 class LayoutReader
 {
 public:
-  LayoutReader(const ByteSource& source, Progress& progress, std::int64_t largest_expansion)
+  LayoutReader(const ByteSource& source, Progress& progress)
     : bytes_(source)
     , progress_(progress)
   {
-    layout_.largest_expansion = largest_expansion;
   }
 
   RestartLayout read()
@@ -160,12 +159,11 @@ private:
 };
 }
 
-RestartLayout read_layout(
-  const ByteSource& source, Notices& notices, Progress& progress, std::int64_t largest_expansion)
+RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress)
 {
   if (!source.compressed())
   {
-    RestartLayout layout = LayoutReader(source, progress, largest_expansion).read();
+    RestartLayout layout = LayoutReader(source, progress).read();
     note_fixes(layout, source.path(), notices);
     return layout;
   }
@@ -175,7 +173,7 @@ RestartLayout read_layout(
   }
   const std::string content = read_content(source, progress);
   const std::unique_ptr<ByteSource> unpacked = open_memory(content, source.path());
-  return read_layout(*unpacked, notices, progress, largest_expansion);
+  return read_layout(*unpacked, notices, progress);
 }
 
 void note_fixes(const RestartLayout& layout, const std::string& path, Notices& notices)

@@ -47,7 +47,6 @@ struct RestartLayout : FileLayout
   std::int64_t records = 0; ///< in all chunks
   std::int64_t begin = 0;   ///< byte of the count of the first chunk; of a `base` file its end
   std::int64_t size = 0;    ///< bytes of the file, unpacked
-  std::int64_t largest_expansion = usual_expansion; ///< of the files of processes: see unpack
 };
 
 /// Finds all parts. The length of the force fields' data is unknown, so each byte from there on is tried as the start of the
@@ -59,8 +58,7 @@ struct RestartLayout : FileLayout
 /// held in memory meanwhile. Memory depends on the bytes of the file, not on its claims; a search reads at most a few times
 /// the size of the file. Throws FormatError that tells which parts were
 /// understood, where the search began, and which files of ranks are missing; UnsupportedError; IoError; Cancelled.
-RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress,
-  std::int64_t largest_expansion = usual_expansion);
+RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& progress);
 
 /// Adds the notice of read_layout on a layout that is known already.
 void note_fixes(const RestartLayout& layout, const std::string& path, Notices& notices);

@@ -57,8 +57,8 @@ class _CError(Structure):
 
 class OpenOptions(Structure):
     _fields_ = [("size", c_size_t), ("kind", c_int), ("timestep_size", c_double), ("column_names", c_char_p), ("preset", c_char_p),
-                ("column_map", c_char_p), ("atom_style", c_char_p), ("repeated_steps", c_int), ("keep_index", c_int),
-                ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p), ("largest_expansion", c_int64)]
+                ("column_map", c_char_p), ("atom_style", c_char_p), ("repeated_steps", c_int),
+                ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
 
 
 class RunFacts(Structure):
@@ -150,7 +150,7 @@ _IO_ERROR, _BAD_ARGUMENT, _CANCELLED, _NO_MEMORY = 1, 5, 6, 7
 
 # The names of settings in messages, which readers share, and those of granular.open.
 _SETTINGS = {"AtomStyle": "atom_style", "ColumnMap": "column_map", "ColumnNames": "column_names", "Preset": "preset",
-             "RepeatedSteps to Merge": 'repeated_steps to "merge"', "LargestExpansion": "largest_expansion", "TimestepSize": "dt"}
+             "RepeatedSteps to Merge": 'repeated_steps to "merge"', "TimestepSize": "dt"}
 
 
 def text(value: bytes | None) -> str:

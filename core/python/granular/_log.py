@@ -212,6 +212,7 @@ class _Rows:
 
 
 _FREE_CONTENT = 1 << 28  # bytes that are read whatever the size of the compressed file
+_LARGEST_EXPANSION = 200
 _LONGEST_LINE = 1 << 22
 
 
@@ -241,9 +242,8 @@ class _Unpacked(io.RawIOBase):
 class _Reader:
     """Finds the tables among the lines of a log."""
 
-    def __init__(self, path: str, largest_expansion: int):
+    def __init__(self, path: str):
         self.path = path
-        self._largest_expansion = largest_expansion
         self.runs: list[_Rows] = []
         self._run: _Rows | None = None
         self._width = -1  # of rows that are expected now
@@ -270,12 +270,12 @@ class _Reader:
             head = file.peek(4)[:4]
             if head[:2] == b"\x1f\x8b":
                 size = os.fstat(file.fileno()).st_size
-                most = max(_FREE_CONTENT, size * self._largest_expansion)
+                most = max(_FREE_CONTENT, size * _LARGEST_EXPANSION)
                 try:
                     self._read(io.BufferedReader(_Unpacked(gzip.GzipFile(fileobj=file), most), 1 << 16))
                 except _TooMuch:
-                    self._fail(0, f"expected content of at most {self._largest_expansion} times the {size} bytes of the file, got more; "
-                                  "raise largest_expansion if you trust the file")
+                    self._fail(0, f"expected content of at most {_LARGEST_EXPANSION} times the {size} bytes of the file, got more; "
+                                  "if you trust the file, unpack it first")
                 except (OSError, zlib.error) as error:
                     self._fail(0, f"expected gzip data, got damaged ones: {error}")
             elif head == b"\x28\xb5\x2f\xfd":
@@ -657,23 +657,21 @@ def _last(values: Any) -> float:
     return known[-1] if rows[-1] == values.rows - 1 else math.nan
 
 
-def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None,
-             largest_expansion: int = 200) -> Log:
+def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None) -> Log:
     """Reads the thermo tables of a log of LAMMPS or LIGGGHTS, and returns them as a Log. Needs numpy alone.
 
     paths  the log, or what the program printed on the screen, plain or .gz; a list of logs, in the order in which they were written
     dt     the time of one timestep, greater than 0, in the unit of the run. None: the log says it, by its commands `timestep` and
            `units` or by LAMMPS's line "Time step". If the timestep changes, times go on from those of the run before. A column
            Time counts if it differs by more than rounding, as with `fix dt/reset`. If the log says nothing, times are timesteps.
-    largest_expansion  refuses a compressed log whose content exceeds 256 MiB and so many times its size; from 1 on
 
     The function reads thermo_style one, multi, custom and yaml, of any number of runs, with columns that differ. It skips other lines
     between the rows. Three things are left out with a warning: a last row that ends early, because a simulation may be writing it;
     lines of numbers that are no rows of their table; tables without the column Step.
 
     Raises FileNotFoundError if there is no such file; granular.Error with path, line and column if a row has a word in place of a
-    number, if a file is binary or empty, if a line has 4 MiB or more, if the content is beyond largest_expansion, and if it has no table
-    with rows; granular.ArgumentError for a dt or a largest_expansion that cannot be.
+    number, if a file is binary or empty, if a line has 4 MiB or more, if the content of a compressed log exceeds 256 MiB and 200 times
+    its size, and if it has no table with rows; granular.ArgumentError for a dt that cannot be.
     """
     import numpy
 
@@ -682,12 +680,10 @@ def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], d
         raise c.ArgumentError("expected at least one log, got none")
     if dt is not None and not 0 < float(dt) < math.inf:
         raise c.ArgumentError(f"expected a dt that is finite and greater than 0, got {dt}")
-    if largest_expansion < 1:
-        raise c.ArgumentError(f"expected a largest_expansion of at least 1, got {largest_expansion}")
     names = [os.path.abspath(os.fsdecode(path)) for path in given]
     rows: list[_Rows] = []
     for name in names:
-        reader = _Reader(name, largest_expansion)
+        reader = _Reader(name)
         reader._dt = rows[-1].dt if rows else None  # a log that begins with a restart file may not say it again
         rows += reader.read()
     tables = [run.arrays() for run in rows]

@@ -28,7 +28,6 @@ _Columns = namedtuple("_Columns", "usual others sizes words")
 
 _COORDINATES = ("absolute", "unwrapped", "scaled")
 _STEPS = ("auto", "merge", "last")
-_INDEX = ("never", "cache", "beside")
 # Options of granular.open, and the properties of readers of ParaView that mean the same.
 _PROPERTIES = {"column_names": "ColumnNames", "preset": "Preset", "column_map": "ColumnMap", "atom_style": "AtomStyle"}
 
@@ -592,9 +591,7 @@ class Run(_Frames):
         for name in _PROPERTIES:
             setattr(given, name, words_of(options.get(name)).encode())
         given.repeated_steps = _choice("repeated_steps", options.get("repeated_steps", "auto"), _STEPS)
-        given.keep_index = _choice("an index", options.get("index", "never"), _INDEX)
         given.threads = int(options.get("threads", 0))
-        given.largest_expansion = int(options.get("largest_expansion", given.largest_expansion))
         pointer = c.c_void_p()
         with c.Calls(progress, _warn) as calls:
             given.progress, given.notice = calls.progress, calls.notice
@@ -822,8 +819,7 @@ def _region(given: Any) -> list[float]:
 
 def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None, *, kind: str | None = None,
          column_names: str | Iterable[str] = "", preset: str = "", column_map: str | Iterable[str] = "", atom_style: str = "",
-         repeated_steps: str = "auto", index: str = "never", threads: int = 0, largest_expansion: int = 200,
-         progress: Callable[[float], Any] | None = None) -> Run:
+         repeated_steps: str = "auto", threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
     """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
 
     paths           a file, a pattern such as "post/*.dump", or a list of these; see granular.files. Dumps in every form, contacts
@@ -835,10 +831,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     preset          the order of the columns of contacts and bonds, by its name; column_map: their names
     atom_style      of data files that do not name it
     repeated_steps  the meaning of a timestep in several files: "auto", "merge" (pieces of a frame) or "last" (a restarted run)
-    index           keeps the positions of the frames for the next time: "never", "cache" or "beside" the first file
     threads         0 (default): one per core
-    largest_expansion  refuses compressed files whose content exceeds 256 MiB and so many times their size, which are made to fill
-                    memory and time. Raise it only for files that you trust.
     progress        is called with fractions from 0 to 1 while the frames are looked for; it returns False to stop
 
     The frames are found now, and read when they are asked for. A last frame that ends early is left out, because a simulation may
@@ -848,7 +841,6 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     """
     given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
     options = {"dt": dt, "kind": kind, "column_names": column_names, "preset": preset, "column_map": column_map,
-               "atom_style": atom_style, "repeated_steps": repeated_steps, "index": index, "threads": threads,
-               "largest_expansion": largest_expansion}
+               "atom_style": atom_style, "repeated_steps": repeated_steps, "threads": threads}
     absolute = [os.path.abspath(os.fsdecode(path)) for path in given]
     return Run(absolute, {name: value for name, value in options.items() if value not in (None, "")}, progress)

@@ -133,10 +133,9 @@ class Packing:
 
 
 def open_dump(path, **properties):
-    """A reader of one thread that keeps no index and has looked at the headers."""
+    """A reader of one thread that has looked at the headers."""
     reader = granular.vtkGranularDumpReader()
     reader.AddFileName(str(path))
-    reader.SetIndexFile(reader.NEVER)
     for name, value in {"Threads": 1, **properties}.items():
         getattr(reader, "Set" + name)(*value if isinstance(value, (tuple, list)) else (value,))
     reader.UpdateInformation()

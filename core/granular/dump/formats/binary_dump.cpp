@@ -302,20 +302,6 @@ ColumnSchema Indexer::schema(const std::vector<std::string>& names, const Binary
 }
 }
 
-bool binary_dump_fits(const ByteSource& source, const FileIndex& index)
-{
-  const FrameEntry& first = index.frames.front();
-  const auto header = read_binary_header(
-    source, first.offset, binary_layouts()[static_cast<std::size_t>(first.kind->layout)]);
-  const auto is_named = [&](const FrameEntry& frame)
-  {
-    const FrameKind& kind = *frame.kind;
-    return index.unnamed ? is_named_so(kind, index.column_names) : kind.named && !kind.guessed;
-  };
-  return header && header->columns.empty() == index.unnamed &&
-    header->frame.units == first.kind->units && std::ranges::all_of(index.frames, is_named);
-}
-
 bool holds_binary(std::string_view first_bytes) noexcept
 {
   constexpr std::size_t enough = 64;

@@ -24,9 +24,6 @@ bool holds_binary(std::string_view first_bytes) noexcept;
 std::string describe_first_row(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout);
 
-/// FileFormat::fits for binary dumps.
-bool binary_dump_fits(const ByteSource& source, const FileIndex& index);
-
 /// Indexes a binary file: see index_dump. index.kinds must be set. Skips the values from chunk to chunk.
 ///
 /// Files without magic, and those of revision 1, do not name their columns; index.column_names must name all of them. If it

@@ -5,7 +5,6 @@
 #include "granular/dump/formats/binary_dump.h"
 #include "granular/dump/formats/binary_header.h"
 #include "granular/dump/formats/first_rows.h"
-#include "granular/dump/formats/frame_rows.h"
 #include "granular/dump/formats/text_dump.h"
 
 #include <array>
@@ -15,15 +14,6 @@ namespace granular
 {
 namespace
 {
-/// Throws if the header of the frame is another.
-void check_frame(const ByteSource& source, const FrameEntry& entry)
-{
-  if (entry.kind->named) // else it says so when it is read
-  {
-    open_rows(source, entry);
-  }
-}
-
 std::string describe_first(const ByteSource& source, const FrameEntry& entry)
 {
   return entry.kind->is_text() ? ""
@@ -38,11 +28,9 @@ const FileFormat& dump_format() noexcept
     .index = index_dump,
     .complete = complete_atom_names,
     .lacks = lack_atom_names,
-    .fits = dump_fits,
     .describe = describe_first,
     .first_rows = find_first_ids,
-    .large_runs = true,
-    .layouts = static_cast<int>(binary_layouts().size()) };
+    .large_runs = true };
   return format;
 }
 
@@ -54,28 +42,6 @@ bool is_dump(std::string_view first_bytes)
 bool is_dump_file(const std::string& path) noexcept
 {
   return looks_so(path, [](const ByteSource& source) { return is_dump(first_bytes_of(source)); });
-}
-
-bool dump_fits(const ByteSource& source, const FileIndex& index)
-{
-  const std::vector<FrameEntry>& frames = index.frames;
-  const bool text = frames.front().kind->is_text();
-  if (!(text ? text_dump_fits(source, index) : binary_dump_fits(source, index)))
-  {
-    return false;
-  }
-  check_frame(source, frames.front());
-  for (std::size_t i = 1; i < frames.size(); ++i)
-  {
-    const bool hides =
-      frames[i].timestep <= frames[i - 1].timestep; // a frame that nobody will read
-    if (hides || i + 1 == frames.size())
-    {
-      check_frame(source, frames[i - (hides ? 1 : 0)]);
-      check_frame(source, frames[i]);
-    }
-  }
-  return true;
 }
 
 void index_dump(

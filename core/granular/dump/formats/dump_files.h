@@ -28,8 +28,5 @@ bool is_dump_file(const std::string& path) noexcept;
 /// text. Throws IoError, LimitError; FormatError for compressed data; Cancelled.
 void index_dump(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead = {});
-
-/// FileFormat::fits for dumps: compares the headers of the first and last frames, and of frames whose timestep does not grow.
-bool dump_fits(const ByteSource& source, const FileIndex& index);
 }
 #endif

@@ -366,16 +366,6 @@ bool makes_columns(const std::vector<std::string>& names,
   }
 }
 
-bool text_dump_fits(const ByteSource& source, const FileIndex& index)
-{
-  const FrameEntry& first = index.frames.front();
-  constexpr std::size_t window = 4096;
-  TextScanner scanner(source, first.offset, first.line, window);
-  TextHeader reader(scanner, "", RowsOf::Any);
-  return !index.unnamed && reader.read() && reader.header().units == first.kind->units &&
-    open_rows(source, first) != nullptr;
-}
-
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
   const ScanAhead& ahead, RowsOf rows_of)
 {

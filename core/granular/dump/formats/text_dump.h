@@ -28,9 +28,6 @@ bool is_text_of_others(std::string_view first_bytes);
 bool makes_columns(const std::vector<std::string>& names,
   const std::vector<std::string_view>& first_row, const ColumnSchema& schema);
 
-/// FileFormat::fits for text dumps.
-bool text_dump_fits(const ByteSource& source, const FileIndex& index);
-
 /// Indexes a text dump; see index_dump. index.kinds must be set.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
   const ScanAhead& ahead = {}, RowsOf rows_of = RowsOf::Particles);

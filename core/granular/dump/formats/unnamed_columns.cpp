@@ -3,7 +3,6 @@
 
 #include "granular/common/words.h"
 
-#include <algorithm>
 #include <string_view>
 
 namespace granular
@@ -35,17 +34,5 @@ UnnamedColumns name_columns(
     found.names.push_back(named ? std::string(atom[i]) : "column" + std::to_string(i + 1));
   }
   return found;
-}
-
-bool is_named_so(const FrameKind& kind, const std::vector<std::string>& of_user)
-{
-  constexpr AtomFit fits[] = { { .scaled = true }, { .absolute = true }, {} };
-  return std::ranges::any_of(fits,
-    [&](AtomFit fit)
-    {
-      const UnnamedColumns columns = name_columns(kind.schema.columns().size(), of_user, fit);
-      return columns.named == kind.named && columns.guessed == kind.guessed &&
-        std::ranges::equal(columns.names, kind.schema.columns(), {}, {}, &ColumnInfo::name);
-    });
 }
 }

@@ -34,8 +34,5 @@ bool is_atom(std::size_t columns) noexcept;
 /// Otherwise returns placeholders: frames can be listed, and reading one is an error.
 UnnamedColumns name_columns(
   std::size_t columns, const std::vector<std::string>& of_user, AtomFit fit);
-
-/// Returns true if the columns of a kind of frames may have these names, whatever the rows are.
-bool is_named_so(const FrameKind& kind, const std::vector<std::string>& of_user);
 }
 #endif

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -273,7 +272,7 @@ void sort(DumpPart& part, const DumpRequest& request, Communicator& ranks, const
 }
 
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
-  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress)
+  Communicator& ranks, Notices& notices, Progress& progress)
 {
   SharedProgress shared(progress, ranks);
   PartialProgress forward(shared); // also where a frame is read again
@@ -286,8 +285,7 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
       ColumnSchema schema = join_schemas(pieces, request);
       Notices
         widened; // dropped if the frame cannot be read: how many there are depends on chunk_bytes
-      DumpPart part = ahead ? std::move(*ahead) : decode(pieces, schema, own, forward);
-      ahead.reset();
+      DumpPart part = decode(pieces, schema, own, forward);
       for (share_remarks(ranks, part); !part.misfits.empty(); share_remarks(ranks, part))
       {
         const FrameKind& kind = *pieces.front().entry.kind;
@@ -314,7 +312,7 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
   Notices& notices, Progress& progress)
 {
   SerialCommunicator alone;
-  return read_dump(pieces, request, alone, std::nullopt, notices, progress);
+  return read_dump(pieces, request, alone, notices, progress);
 }
 
 DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,

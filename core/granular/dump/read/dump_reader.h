@@ -10,7 +10,6 @@
 #include "granular/parallel/communicator.h"
 #include "granular/particles/dump_frame.h"
 
-#include <optional>
 #include <vector>
 
 namespace granular
@@ -34,11 +33,10 @@ DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const Dum
 
 /// Decodes one frame by all ranks together, each its own part: request.piece is the rank, request.pieces the number of ranks.
 /// Collective, except for the decoding itself. All ranks get the notices of all, and throw the errors of any: see agree.
-/// `ahead` may be the result of decode_dump for the same request, and is used up.
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
-  Communicator& ranks, std::optional<DumpPart> ahead, Notices& notices, Progress& progress);
+  Communicator& ranks, Notices& notices, Progress& progress);
 
-/// The non-collective part of read_dump; safe to run ahead of time on any thread. together: for the ranks.
+/// The non-collective part of read_dump. together: for the ranks.
 DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   bool together, Progress& progress);
 }

@@ -46,8 +46,6 @@ def add_reading(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--atom-style", default="", help="atom style of data files that do not name it")
     group.add_argument("--repeated-steps", choices=("auto", "merge", "last"), default="auto",
                        help="a timestep in several files: pieces of a frame (merge), or a run that was restarted (last)")
-    group.add_argument("--largest-expansion", type=int, default=200, metavar="N",
-                       help="refuse compressed files whose content exceeds 256 MiB and N times their size (default: 200)")
     group.add_argument("--threads", type=int, default=0, metavar="N", help="threads (default: one per core)")
 
 
@@ -62,8 +60,7 @@ def open_run(arguments: argparse.Namespace) -> Any:
 
     return granular.open(arguments.files, dt=arguments.dt, kind=arguments.kind, column_names=arguments.column_names,
                          preset=arguments.preset, column_map=arguments.column_map, atom_style=arguments.atom_style,
-                         repeated_steps=arguments.repeated_steps, largest_expansion=arguments.largest_expansion,
-                         threads=arguments.threads)
+                         repeated_steps=arguments.repeated_steps, threads=arguments.threads)
 
 
 @contextlib.contextmanager

@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An index file: a head, the kinds of frames, the files with their frames, a hash of all that.
-// Numbers are as in memory; what another byte order or another version wrote is not read.
-#include "granular/frames/saved_index.h"
+// The kinds of frames, then the files with their frames. Numbers are as in memory.
+#include "granular/frames/file_index_archive.h"
 
-#include "granular/common/hash.h"
 #include "granular/common/pass.h"
-#include "granular/frames/index_claims.h"
 
-#include <algorithm>
-#include <cstring>
 #include <map>
-#include <span>
 #include <utility>
 
 namespace granular
 {
 namespace
 {
-/// What an index file begins with.
-struct Head
-{
-  char magic[8] = { '\x89', 'G', 'I', 'D', 'X', '\r', '\n', '\x1a' };
-  std::uint32_t byte_order = 0x01020304;
-  /// To be raised with every change of what is written here, or of what it means: of the hashes, of
-  /// how frames are found, of how columns become arrays.
-  std::uint32_t version = 4;
-};
-
-/// A frame as it is kept.
+/// A frame as it is sent.
 struct FrameRecord
 {
   std::int64_t timestep;
@@ -37,28 +21,14 @@ struct FrameRecord
   std::int64_t line;
   double time;
   std::uint64_t shape;
-  std::uint64_t kind; ///< index into the kinds of the index file
+  std::uint64_t kind; ///< index into the kinds
 };
 static_assert(sizeof(FrameRecord) == 64);
-
-/// With the slash, as the user spells it; empty if there is none.
-std::string folder_of(const std::string& path)
-{
-  return path.substr(0, path.rfind('/') + 1);
-}
-
-std::uint64_t hash_of(std::string_view bytes)
-{
-  Hash hash;
-  hash.add(bytes.data(), bytes.size());
-  return hash.value();
-}
 
 template <typename Archive, typename Points>
 void visit_points(Archive& archive, Points& all)
 {
   archive.number(all.spacing);
-  archive.flag(all.claimed);
   archive.list(all.points,
     [&](auto& point)
     {
@@ -78,7 +48,7 @@ void visit_file(Archive& archive, File& file)
   const auto notice = [&](auto& said) { pass(archive, said); };
   const auto known = [&](auto& one)
   {
-    archive.path(one.path);
+    archive.text(one.path);
     archive.number(one.stamp);
   };
   known(file);
@@ -100,11 +70,11 @@ void visit_file(Archive& archive, File& file)
 class KindTable
 {
 public:
-  explicit KindTable(std::span<const FileIndex* const> files)
+  explicit KindTable(const std::vector<FileIndex>& files)
   {
-    for (const FileIndex* file : files)
+    for (const FileIndex& file : files)
     {
-      for (const FrameEntry& frame : file->frames)
+      for (const FrameEntry& frame : file.frames)
       {
         this->number_of(*frame.kind);
       }
@@ -230,90 +200,27 @@ void read_file(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
       entry = { frame.timestep, frame.rows, frame.offset, frame.end, frame.line, frame.time,
         frame.shape, kinds[static_cast<std::size_t>(frame.kind)] };
     });
-  check_claims(file);
-  file.loaded = true;
 }
-
-/// The part of an index file between its head and the hash at its end, which are made sure of.
-std::string_view body_of(std::string_view bytes)
-{
-  Head head;
-  std::uint64_t hash = 0;
-  if (bytes.size() < sizeof head + sizeof hash)
-  {
-    throw FormatError("expected at least " + std::to_string(sizeof head + sizeof hash) +
-      " bytes, got " + std::to_string(bytes.size()));
-  }
-  std::memcpy(&head, bytes.data(), sizeof head);
-  if (!begins_as_index(bytes))
-  {
-    throw FormatError("expected the first bytes of an index file, got others");
-  }
-  if (head.byte_order != Head().byte_order)
-  {
-    throw UnsupportedError("expected the byte order of this machine, got another");
-  }
-  if (head.version != Head().version)
-  {
-    throw UnsupportedError(
-      "expected " + std::to_string(Head().version) + ", got " + std::to_string(head.version));
-  }
-  std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
-  bytes.remove_suffix(sizeof hash);
-  if (hash != hash_of(bytes))
-  {
-    throw FormatError("expected bytes that fit the hash at their end, got others");
-  }
-  return bytes.substr(sizeof head);
-}
-
-std::string encode(const std::vector<const FileIndex*>& files, const std::string& folder)
-{
-  ArchiveWriter out(folder);
-  KindTable kinds(files);
-  out.number(Head());
-  kinds.write(out);
-  out.list(files,
-    [&](const FileIndex* file)
-    {
-      visit_file(out, *file);
-      write_frames(out, file->frames, kinds);
-    });
-  out.number(hash_of(out.bytes));
-  return std::move(out.bytes);
-}
-}
-
-bool begins_as_index(std::string_view bytes) noexcept
-{
-  const Head head;
-  return bytes.starts_with(std::string_view(head.magic, sizeof head.magic));
-}
-
-std::string encode_index(const std::vector<FileIndex>& files)
-{
-  std::vector<const FileIndex*> kept;
-  for (const FileIndex& file : files)
-  {
-    if (!file.error)
-    {
-      kept.push_back(&file);
-    }
-  }
-  return encode(kept, files.empty() ? "" : folder_of(files.front().path));
 }
 
 std::string encode_files(const std::vector<FileIndex>& files)
 {
-  std::vector<const FileIndex*> all(files.size());
-  std::ranges::transform(files, all.begin(), [](const FileIndex& file) { return &file; });
-  return encode(all, "");
+  ArchiveWriter out;
+  KindTable kinds(files);
+  kinds.write(out);
+  out.list(files,
+    [&](const FileIndex& file)
+    {
+      visit_file(out, file);
+      write_frames(out, file.frames, kinds);
+    });
+  return std::move(out.bytes);
 }
 
-std::vector<FileIndex> decode_index(
-  std::string_view bytes, const std::string& first_file, const std::shared_ptr<FrameKinds>& kinds)
+std::vector<FileIndex> decode_files(
+  std::string_view bytes, const std::shared_ptr<FrameKinds>& kinds)
 {
-  ArchiveReader in(body_of(bytes), folder_of(first_file));
+  ArchiveReader in(bytes);
   const Kinds table = read_kinds(in, *kinds);
   std::vector<FileIndex> files;
   in.list(files,
@@ -322,7 +229,7 @@ std::vector<FileIndex> decode_index(
       read_file(in, file, table);
       file.kinds = kinds;
     });
-  require(in.ended(), "the end of the index file");
+  require(in.ended(), "the end of the index");
   return files;
 }
 }
