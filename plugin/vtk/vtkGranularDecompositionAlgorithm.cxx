@@ -29,7 +29,6 @@ VoxelForm vtkGranularDecompositionAlgorithm::Internals::MakeForm(
   vtkGranularDecompositionAlgorithm* self)
 {
   VoxelForm form;
-  form.SharedCorners = self->SharedCorners;
   form.Threads = ChooseThreads(self->Threads, self->Ranks->Get());
   return form;
 }
@@ -136,5 +135,4 @@ void vtkGranularDecompositionAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   print("XCuts", this->Shared->Cuts[0]);
   print("YCuts", this->Shared->Cuts[1]);
   print("ZCuts", this->Shared->Cuts[2]);
-  os << indent << "SharedCorners: " << (this->SharedCorners ? "On" : "Off") << "\n";
 }

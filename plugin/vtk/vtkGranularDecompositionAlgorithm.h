@@ -72,16 +72,6 @@ public:
   int GetNumberOfCuts(int axis);
   ///@}
 
-  ///@{
-  /**
-   * On: subdomains of a piece that touch share their corner points, so that filters see them as neighbours. Off, the
-   * default: 8 points each.
-   */
-  vtkSetMacro(SharedCorners, bool);
-  vtkGetMacro(SharedCorners, bool);
-  vtkBooleanMacro(SharedCorners, bool);
-  ///@}
-
 protected:
   vtkGranularDecompositionAlgorithm();
   ~vtkGranularDecompositionAlgorithm() override;
@@ -91,7 +81,6 @@ protected:
   double Bounds[6];
   int NumberOfProcesses = 0;
   int ProcessorGrid[3] = { 1, 1, 1 };
-  bool SharedCorners = false;
 
   struct Internals;
   std::unique_ptr<Internals> Shared;

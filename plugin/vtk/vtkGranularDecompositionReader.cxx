@@ -66,9 +66,9 @@ int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
       shown.Progress.set_part(0, 0.4);
       granular::Decomposition all =
         granular::read_decomposition_pieces(shown.Pieces, shown.Notices, shown.Progress);
-      const granular::SubdomainChecks checks = { static_cast<granular::Answer>(this->CheckBounds),
-        static_cast<granular::Answer>(this->CheckOverlap),
-        static_cast<granular::Answer>(this->CheckGaps), this->Tolerance };
+      granular::SubdomainChecks checks;
+      checks.overlap = static_cast<granular::Answer>(this->CheckOverlap);
+      checks.gap = static_cast<granular::Answer>(this->CheckGaps);
       shown.Progress.set_part(0.4, 0.8);
       granular::check_subdomains(
         all.subdomains, checks, shown.Where, shown.Notices, shown.Progress);
@@ -98,7 +98,6 @@ int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
         part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
       }
       VoxelForm form;
-      form.SharedCorners = this->SharedCorners;
       form.Threads = ChooseThreads(this->Threads, this->Series->GetRanks());
       shown.Progress.set_part(0.8, 1);
       FillVoxels(output, part, form, shown.Progress);
@@ -109,9 +108,6 @@ int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
 void vtkGranularDecompositionReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "CheckBounds: " << this->CheckBounds << "\n";
   os << indent << "CheckOverlap: " << this->CheckOverlap << "\n";
   os << indent << "CheckGaps: " << this->CheckGaps << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "SharedCorners: " << (this->SharedCorners ? "On" : "Off") << "\n";
 }

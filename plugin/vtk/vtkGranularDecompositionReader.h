@@ -46,35 +46,14 @@ public:
 
   ///@{
   /**
-   * Sets the action for wrong subdomains: an error (the default), a warning, or none. CheckBounds: lower bounds above
-   * upper ones, or not numbers. CheckOverlap: two subdomains share more than faces. CheckGaps: together they do not fill
-   * the smallest box around them.
+   * Sets the action for wrong subdomains: an error (the default), a warning, or none. CheckOverlap: two subdomains share
+   * more than faces, by more than 1e-9 of the box's edge. CheckGaps: together they do not fill the smallest box around them,
+   * by more than 1e-9 of its volume.
    */
-  vtkSetClampMacro(CheckBounds, int, ANSWER_ERROR, ANSWER_NOTHING);
-  vtkGetMacro(CheckBounds, int);
   vtkSetClampMacro(CheckOverlap, int, ANSWER_ERROR, ANSWER_NOTHING);
   vtkGetMacro(CheckOverlap, int);
   vtkSetClampMacro(CheckGaps, int, ANSWER_ERROR, ANSWER_NOTHING);
   vtkGetMacro(CheckGaps, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sets what these checks accept: overlaps up to this fraction of the box's edge, and gaps up to this fraction of its
-   * volume. 1e-9 by default.
-   */
-  vtkSetClampMacro(Tolerance, double, 0, 1);
-  vtkGetMacro(Tolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * On: subdomains of a piece that touch share their corner points, so that filters see them as neighbours. Off, the
-   * default: 8 points each.
-   */
-  vtkSetMacro(SharedCorners, bool);
-  vtkGetMacro(SharedCorners, bool);
-  vtkBooleanMacro(SharedCorners, bool);
   ///@}
 
   /**
@@ -95,11 +74,8 @@ private:
   vtkGranularDecompositionReader(const vtkGranularDecompositionReader&) = delete;
   void operator=(const vtkGranularDecompositionReader&) = delete;
 
-  int CheckBounds = ANSWER_ERROR;
   int CheckOverlap = ANSWER_ERROR;
   int CheckGaps = ANSWER_ERROR;
-  double Tolerance = 1e-9;
-  bool SharedCorners = false;
 };
 
 #endif

@@ -183,9 +183,6 @@ TEST(DecompositionSource, AMillionProcesses)
   source->Update();
   EXPECT_EQ(source.Grid()->GetNumberOfCells(), 1000000);
   EXPECT_EQ(source.Grid()->GetNumberOfPoints(), 8000000);
-  source->SetSharedCorners(true);
-  source->Update();
-  EXPECT_EQ(source.Grid()->GetNumberOfPoints(), 101 * 101 * 101);
 }
 
 TEST(Decomposition, FacesBelongToTheProcessAboveAndTheLastToTheBox)

@@ -27,33 +27,30 @@ def output(algorithm):
     return algorithm.GetOutput()
 
 
-def source(bounds, grid, cuts=((), (), ()), shared=False):
+def source(bounds, grid, cuts=((), (), ())):
     algorithm = granular.vtkGranularDecompositionSource()
     algorithm.SetBounds(*bounds)
     algorithm.SetProcessorGrid(*grid)
     for axis, positions in zip("XYZ", cuts):
         for position in positions:
             getattr(algorithm, f"Add{axis}Cut")(position)
-    algorithm.SetSharedCorners(shared)
     return output(algorithm)
 
 
-def reader(*names, shared=False):
+def reader(*names):
     algorithm = granular.vtkGranularDecompositionReader()
     algorithm.AddObserver("WarningEvent", lambda *_: None)  # of mirrored voxels
-    algorithm.SetSharedCorners(shared)
     for name in names:
         algorithm.AddFileName(os.path.join(data, name))
     return output(algorithm)
 
 
-def counted(shared=False):
+def counted():
     grains = granular.vtkGranularDumpReader()
     grains.AddFileName(os.path.join(data, "grains_2000.dump"))
     algorithm = granular.vtkGranularDecomposition()
     algorithm.SetInputConnection(grains.GetOutputPort())
     algorithm.SetProcessorGrid(3, 2, 4)
-    algorithm.SetSharedCorners(shared)
     return output(algorithm)
 
 
@@ -144,18 +141,9 @@ def check(name, grid, omega=None, forms_grid=True):
         assert normal @ outward > 0, (name, face)
 
 
-def check_outside(name, grid):
-    """With corners that are shared the outside is that of the box."""
-    lengths = numpy.subtract(grid.GetBounds()[1::2], grid.GetBounds()[::2])
-    area = 2 * (lengths.prod() / lengths).sum()
-    areas, _ = sizes(surface(grid))
-    assert abs(areas.sum() - area) <= 1e-12 * area, (name, areas.sum(), area)
-
-
 unit = (0, 1, 0, 2, 0, 3)
 check("one", source(unit, (1, 1, 1)), unit)
 check("grid", source(unit, (3, 4, 5)), unit)
-check("shared", source(unit, (3, 4, 5), shared=True), unit)
 check("cuts", source((-0.05, 0.05, -0.05, 0.05, 0, 0.15), (3, 1, 4), ((-0.04, 0.049), (), (1e-3, 0.01, 0.1))))
 far = (1e9, 1e9 + 1, -1e9, -1e9 + 2, 5e8, 5e8 + 4)
 check("far", source(far, (4, 2, 3)), far)
@@ -163,10 +151,6 @@ check("counted", counted(), (-0.05, 0.05, -0.05, 0.05, 0, 0.15))
 check("public", reader("decomposition/all.vtk"), (-0.05, 0.05, -0.05, 0.05, 0, 0.15))
 for name in ("inl_42.vtk", "inl_51_binary.vtk", "inl.vtu", "hexahedra_42.vtk", "appended_raw_zlib.vtu"):
     check(name, reader("decomposition/" + name), (-1, 1, 0, 0.5, 0, 2), forms_grid=False)
-check_outside("shared", source(unit, (3, 4, 5), shared=True))
-check_outside("shared cuts", source(unit, (2, 2, 1), ((0.9,), (0.1,), ()), shared=True))
-check_outside("counted", counted(shared=True))
-check_outside("public", reader("decomposition/all.vtk", shared=True))
 
 # a slab one ulp thick has a volume, too, and so it has when it is written and read, as has a box far away
 thin = (1.0, numpy.nextafter(1.0, 2.0), 0, 1, 0, 1)

@@ -61,29 +61,28 @@ source = GranularDecompositionSource()
 source.UpdatePipeline()
 assert source.GetDataInformation().GetNumberOfCells() == 1
 assert list(source.GetDataInformation().GetBounds()) == [0, 1, 0, 1, 0, 1]
-granular.set_properties(source, Bounds=[0, 4, 0, 2, 0, 1], ProcessorGrid=[2, 2, 1], XCuts=[3], SharedCorners=1)
+granular.set_properties(source, Bounds=[0, 4, 0, 2, 0, 1], ProcessorGrid=[2, 2, 1], XCuts=[3])
 source.UpdatePipeline()
 grid = servermanager.Fetch(source)
-assert grid.GetNumberOfPoints() == 18 and grid.GetNumberOfCells() == 4
+assert grid.GetNumberOfPoints() == 32 and grid.GetNumberOfCells() == 4
 assert sorted({grid.GetCell(i).GetBounds()[1] for i in range(4)}) == [3, 4]
 assert not vtk_to_numpy(grid.GetCellData().GetArray("nlocal")).any()
 source.XCuts = []
 source.UpdatePipeline()
 assert servermanager.Fetch(source).GetCell(0).GetBounds()[1] == 2
-check_documentation(source, ("Bounds", "ProcessorGrid", "NumberOfProcesses", "XCuts", "YCuts", "ZCuts",
-                             "SharedCorners", "Threads"))
+check_documentation(source, ("Bounds", "ProcessorGrid", "NumberOfProcesses", "XCuts", "YCuts", "ZCuts", "Threads"))
 assert source.SMProxy.GetHints().FindNestedElementByName("ShowInMenu").GetAttribute("category") == "Granular"
 
 # the filter, on the grains of a run
 grains = OpenDataFile(os.path.join(data, "grains.dump"))
 divided = GranularDecomposition(Input=grains, ProcessorGrid=[2, 1, 2])
-defaults = {"Mode": "ProcessorGrid", "NumberOfProcesses": 0, "ProcessArray": "proc", "SharedCorners": 0,
+defaults = {"Mode": "ProcessorGrid", "NumberOfProcesses": 0, "ProcessArray": "proc",
             "Threads": 0, "Subdomains": None}
 for name, default in defaults.items():
     assert getattr(divided, name) == default, (name, getattr(divided, name))
 check_documentation(divided, ("Input", "Mode", "ProcessorGrid", "Bounds", "ProcessArray", "Subdomains"))
-check_documentation(reader, ("FileNames", "TimestepSize", "RepeatedSteps", "RefreshOnUpdate", "SharedCorners",
-                             "CheckBounds", "CheckOverlap", "CheckGaps", "Tolerance", "Threads"))
+check_documentation(reader, ("FileNames", "TimestepSize", "RepeatedSteps", "RefreshOnUpdate", "CheckOverlap",
+                             "CheckGaps", "Threads"))
 
 view = CreateRenderView(ViewSize=[500, 500], OrientationAxesVisibility=0)
 display = Show(divided, view)

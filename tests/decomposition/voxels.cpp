@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -28,12 +27,11 @@ struct Made
   std::vector<Vector3> points;
   std::vector<std::array<std::int64_t, corners_of_voxel>> cells;
 
-  explicit Made(const Subdomains& subdomains, bool shared = false, const Vector3& origin = {},
-    int threads = 1, const std::shared_ptr<BlockPool>& pool = nullptr)
+  explicit Made(const Subdomains& subdomains, const Vector3& origin = {}, int threads = 1,
+    const std::shared_ptr<BlockPool>& pool = nullptr)
   {
     Progress progress;
-    const Voxels voxels =
-      make_voxels(subdomains, origin, shared, Executor(threads), progress, pool);
+    const Voxels voxels = make_voxels(subdomains, origin, Executor(threads), progress, pool);
     EXPECT_EQ(voxels.points.bytes(), 24 * static_cast<std::size_t>(voxels.number_of_points));
     EXPECT_EQ(voxels.connectivity.bytes(), 64 * subdomains.size());
     const auto* point = static_cast<const Vector3*>(voxels.points.data());
@@ -75,33 +73,6 @@ void expect_voxels(const Made& made, const Subdomains& subdomains, const Vector3
   }
 }
 
-/// Corners that are equal as one, by a map; the first to come is the point.
-Made merged(const Made& separate)
-{
-  Made result = separate;
-  result.points.clear();
-  std::map<Vector3, std::int64_t> known;
-  std::vector<std::int64_t> number_of;
-  for (const Vector3& point : separate.points)
-  {
-    const auto [at, is_new] =
-      known.try_emplace(point, static_cast<std::int64_t>(result.points.size()));
-    number_of.push_back(at->second);
-    if (is_new)
-    {
-      result.points.push_back(point);
-    }
-  }
-  for (auto& cell : result.cells)
-  {
-    for (std::int64_t& corner : cell)
-    {
-      corner = number_of[static_cast<std::size_t>(corner)];
-    }
-  }
-  return result;
-}
-
 Corners in_order(
   const std::array<int, corners_of_voxel>& sides, const Vector3& lo, const Vector3& hi)
 {
@@ -137,75 +108,33 @@ TEST(MakeVoxels, grid)
   const Made made(subdomains);
   expect_voxels(made, subdomains);
   EXPECT_EQ(made.points.size(), 8 * 60);
-  const Made shared(subdomains, true);
-  expect_voxels(shared, subdomains);
-  EXPECT_EQ(shared.points.size(), 5 * 4 * 6);
-  EXPECT_EQ(shared, merged(made));
 }
 
 TEST(MakeVoxels, nothing)
 {
   EXPECT_TRUE(Made({}).points.empty());
-  EXPECT_TRUE(Made({}, true).points.empty());
 }
 
-/// Corners of cells of different size meet or do not; the order of points is that in which they come first.
-TEST(MakeVoxels, shared_corners)
-{
-  for (const int count : { 1, 2, 15, 16, 17, 1000, 20000 })
-  {
-    const Subdomains subdomains = made_bisection(count, 3);
-    const Made separate(subdomains);
-    expect_voxels(separate, subdomains);
-    EXPECT_EQ(Made(subdomains, true), merged(separate)) << count;
-  }
-}
-
-TEST(MakeVoxels, equal_is_exact)
-{
-  const double next = std::nextafter(1, 2);
-  const Subdomains subdomains = { made_subdomain({ 0, 0, 0 }, { 1, 1, 1 }),
-    made_subdomain({ 1, -0.0, 0 }, { next, 1, 1 }), made_subdomain({ 1, 0, -0.0 }, { 2, 1, 1 }) };
-  const Made shared(subdomains, true);
-  expect_voxels(shared, subdomains);
-  EXPECT_EQ(shared.points.size(), 16); // four planes of four: 0, 1, one ulp above, 2
-  EXPECT_EQ(shared.cells[1][0], shared.cells[0][1]);
-  EXPECT_EQ(shared.cells[2][0], shared.cells[0][1]);
-  EXPECT_NE(shared.cells[2][0], shared.cells[1][1]);
-}
-
-/// Flat ones share with themselves, nan with nobody.
 TEST(MakeVoxels, odd_bounds)
 {
   const Subdomains flat = { made_subdomain({ 0, 0, 2 }, { 1, 1, 2 }),
     made_subdomain({ 5, 5, 5 }, { 5, 5, 5 }) };
   expect_voxels(Made(flat), flat);
-  expect_voxels(Made(flat, true), flat);
-  EXPECT_EQ(Made(flat, true).points.size(), 5);
-  const Subdomains odd = { made_subdomain({ no_number, 0, 0 }, { 1, 1, infinity }),
-    made_subdomain({ no_number, 0, 0 }, { -1, 1, infinity }) };
-  EXPECT_EQ(Made(odd).points.size(), 16);
-  EXPECT_EQ(Made(odd, true).points.size(), 16);
-  // a table of corners would be full of them
-  EXPECT_EQ(Made(Subdomains(200'000, odd[0]), true).points.size(), 4 + 4 * 200'000);
+  const Subdomains odd = { made_subdomain({ no_number, 0, 0 }, { 1, 1, infinity }) };
+  EXPECT_EQ(Made(odd).points.size(), 8);
   const Subdomains inverted = { made_subdomain({ 1, 1, 1 }, { 0, 0, 0 }) };
-  expect_voxels(Made(inverted, true), inverted);
+  expect_voxels(Made(inverted), inverted);
 }
 
-/// Far away the origin is subtracted with one rounding, and corners that were two stay two.
+/// Far away the origin is subtracted with one rounding.
 TEST(MakeVoxels, origin)
 {
   const Vector3 origin = { 1e9, -0.1, 1e16 };
   const Subdomains subdomains = { made_subdomain({ 1e9, 0.1, 1 }, { 1e9 + 1e-6, 0.3, 2 }),
     made_subdomain({ 1e9 + 1e-6, 0.1, 1 }, { 1e9 + 2e-6, 0.3, 2 }) };
-  for (const bool shared : { false, true })
-  {
-    const Made made(subdomains, shared, origin);
-    expect_voxels(made, subdomains, origin);
-    EXPECT_EQ(made.points.size(), shared ? 12 : 16);
-  }
-  EXPECT_EQ(
-    Made(subdomains, true, origin).points[0][2], -1e16); // both z of the box became this one
+  const Made made(subdomains, origin);
+  expect_voxels(made, subdomains, origin);
+  EXPECT_EQ(made.points[0][2], -1e16); // both z of the box became this one
 }
 
 TEST(MakeVoxels, threads)
@@ -213,13 +142,10 @@ TEST(MakeVoxels, threads)
   const Subdomains subdomains = made_bisection(50000, 4);
   const Vector3 origin = { 0.25, 0.5, 0.75 };
   const auto pool = std::make_shared<BlockPool>(std::size_t{ 1 } << 30);
-  for (const bool shared : { false, true })
+  const Made alone(subdomains, origin);
+  for (const int threads : { 2, 3 })
   {
-    const Made alone(subdomains, shared, origin);
-    for (const int threads : { 2, 3 })
-    {
-      EXPECT_EQ(Made(subdomains, shared, origin, threads, pool), alone);
-    }
+    EXPECT_EQ(Made(subdomains, origin, threads, pool), alone);
   }
 }
 
@@ -239,24 +165,21 @@ TEST(MakeVoxels, tells_and_stops)
     int most = 1'000'000;
   };
   const Subdomains subdomains = made_bisection(200'000, 4);
-  for (const bool shared : { false, true })
-  {
-    Stop all;
-    make_voxels(subdomains, { 1, 0, 0 }, shared, Executor(1), all);
-    EXPECT_GT(all.reports, 10);
-    EXPECT_GT(all.last, 0.9);
-    Stop half;
-    half.most = all.reports / 2;
-    EXPECT_THROW(make_voxels(subdomains, { 1, 0, 0 }, shared, Executor(1), half), Cancelled);
-  }
+  Stop all;
+  make_voxels(subdomains, { 1, 0, 0 }, Executor(1), all);
+  EXPECT_GT(all.reports, 10);
+  EXPECT_GT(all.last, 0.9);
+  Stop half;
+  half.most = all.reports / 2;
+  EXPECT_THROW(make_voxels(subdomains, { 1, 0, 0 }, Executor(1), half), Cancelled);
 }
 
 TEST(MakeVoxels, a_million)
 {
   const Subdomains subdomains = made_grid({ 100, 100, 100 });
   Progress progress;
-  const Voxels voxels = make_voxels(subdomains, {}, true, Executor(1), progress);
-  EXPECT_EQ(voxels.number_of_points, 101 * 101 * 101);
+  const Voxels voxels = make_voxels(subdomains, {}, Executor(1), progress);
+  EXPECT_EQ(voxels.number_of_points, 8'000'000);
   const auto* points = static_cast<const Vector3*>(voxels.points.data());
   const auto* cells = static_cast<const std::int64_t*>(voxels.connectivity.data());
   for (const std::size_t p : { std::size_t{ 0 }, std::size_t{ 500'000 }, std::size_t{ 999'999 } })

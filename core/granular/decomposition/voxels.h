@@ -33,11 +33,9 @@ struct Voxels
 };
 
 /// Makes voxels. Point 8p + 4i + 2j + k is the corner (i, j, k) of subdomain p minus the origin, rounded once.
-/// shared_corners: equal corners of several subdomains become one point, the first one, and points are numbered by first
-/// occurrence; nan equals nothing. The result does not depend on threads. Throws std::bad_alloc; Cancelled.
+/// The result does not depend on threads. Throws std::bad_alloc; Cancelled.
 Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
-  bool shared_corners, const Executor& executor, Progress& progress,
-  const std::shared_ptr<BlockPool>& pool = nullptr);
+  const Executor& executor, Progress& progress, const std::shared_ptr<BlockPool>& pool = nullptr);
 
 /// The order of the points of a cell.
 enum class CornerOrder : std::uint8_t

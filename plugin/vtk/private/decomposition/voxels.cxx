@@ -95,8 +95,7 @@ void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& deco
 {
   const std::vector<Subdomain>& subdomains = decomposition.subdomains;
   const granular::Executor executor(form.Threads);
-  granular::Voxels voxels =
-    granular::make_voxels(subdomains, form.Origin, form.SharedCorners, executor, progress);
+  granular::Voxels voxels = granular::make_voxels(subdomains, form.Origin, executor, progress);
   const auto cells = static_cast<vtkIdType>(subdomains.size());
   output->SetPoints(TakePoints(voxels.points, voxels.number_of_points, false, {}));
   // An array of types, where VTK 9.6 has a constant for one type: its writers warn of that.

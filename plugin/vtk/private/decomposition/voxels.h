@@ -17,7 +17,6 @@ namespace vtkGranularPrivate
 struct VoxelForm
 {
   granular::Vector3 Origin = {}; ///< subtracted
-  bool SharedCorners = false;
   int Threads = 1;
 };
 
