@@ -196,29 +196,25 @@ TEST(SixDigits, are_found_in_their_range)
     { 2.0 / 3, "666667", -1 }, { std::nextafter(0x1p-33, 0), "", none }, { 1e6, "", none },
     { -1e300, "", none }, { inf, "", none }, { -inf, "", none }, { std::nan(""), "", none },
     { 5e-324, "", none }, { 123456.5, "", none }, { -0.5 - 99999, "999995", 4 } };
-  for (const Simd simd : granular::instruction_sets())
+  if (granular::best_simd() == Simd::Portable)
   {
-    if (simd != Simd::Avx2 && simd != Simd::Avx512)
+    GTEST_SKIP() << "no AVX2 here";
+  }
+  SixDigits numbers;
+  std::size_t count = 0;
+  for (const Case& each : cases)
+  {
+    numbers.values[count++] = each.value;
+  }
+  granular::number_print::find_six_digits(numbers, count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    EXPECT_EQ(numbers.k[i], cases[i].k) << cases[i].value;
+    for (unsigned place = 0; place < 8 && cases[i].k != none; ++place)
     {
-      continue;
-    }
-    SixDigits numbers;
-    std::size_t count = 0;
-    for (const Case& each : cases)
-    {
-      numbers.values[count++] = each.value;
-    }
-    granular::number_print::find_six_digits(numbers, count, simd);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      EXPECT_EQ(numbers.k[i], cases[i].k) << cases[i].value;
-      for (unsigned place = 0; place < 8 && cases[i].k != none; ++place)
-      {
-        const std::uint64_t digit =
-          place < 6 ? static_cast<std::uint64_t>(cases[i].digits[place] - '0') : 0;
-        EXPECT_EQ(numbers.digits[i] >> (8 * place) & 0xff, digit)
-          << cases[i].value << ", " << place;
-      }
+      const std::uint64_t digit =
+        place < 6 ? static_cast<std::uint64_t>(cases[i].digits[place] - '0') : 0;
+      EXPECT_EQ(numbers.digits[i] >> (8 * place) & 0xff, digit) << cases[i].value << ", " << place;
     }
   }
 }

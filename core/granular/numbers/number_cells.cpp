@@ -53,8 +53,8 @@ char* print_few(char* cell, double value) noexcept
 }
 
 /// Prints numbers whose digits are found together.
-void print_together(const double* from, std::int64_t step, std::size_t count, const NumberCells& to,
-  Simd simd) noexcept
+void print_together(
+  const double* from, std::int64_t step, std::size_t count, const NumberCells& to) noexcept
 {
   using number_print::SixDigits;
   SixDigits numbers;
@@ -66,7 +66,7 @@ void print_together(const double* from, std::int64_t step, std::size_t count, co
       __builtin_prefetch(from + ahead * step);
       numbers.values[i] = *from;
     }
-    find_six_digits(numbers, some, simd);
+    find_six_digits(numbers, some);
     NumberCells cells = to;
     cells.text += first * to.step * most_number_chars;
     cells.lengths += first * to.step;
@@ -103,13 +103,13 @@ void print_numbers(const double* from, std::int64_t step, std::size_t count, Num
     print_all(from, step, count, to,
       [format](char* cell, double value) { return print_number(cell, value, format); });
   }
-  else if ((simd != Simd::Avx2 && simd != Simd::Avx512) || count < many)
+  else if (simd == Simd::Portable || count < many)
   {
     print_all(from, step, count, to, print_few);
   }
   else
   {
-    print_together(from, step, count, to, simd);
+    print_together(from, step, count, to);
   }
 }
 

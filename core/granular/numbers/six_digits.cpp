@@ -35,7 +35,6 @@ alignas(64) constexpr std::array<double, 16> powers = { 1e15, 1e14, 1e13, 1e12, 
   1e8, 1e7, 1e6, 1e5, 1e4, 1e3, 1e2, 1e1, 1e0 };
 
 #define GRANULAR_AVX2 __attribute__((target("avx2")))
-#define GRANULAR_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq")))
 
 /// As eight_digits of number_print_layout.h, for four numbers.
 GRANULAR_AVX2 inline __m256i eight_digits(__m256i x) noexcept
@@ -86,80 +85,26 @@ GRANULAR_AVX2 void find_by_avx2(SixDigits& numbers, std::size_t at) noexcept
   _mm256_store_si256(reinterpret_cast<__m256i*>(&numbers.k[at]),
     _mm256_blendv_epi8(none, k, _mm256_castpd_si256(found)));
 }
-
-/// The same for eight numbers.
-GRANULAR_AVX512 inline __m512i eight_digits(__m512i x) noexcept
-{
-  const __m512i high = _mm512_srli_epi64(_mm512_mul_epu32(x, _mm512_set1_epi64(3518437209)), 45);
-  const __m512i low = _mm512_sub_epi64(x, _mm512_mul_epu32(high, _mm512_set1_epi64(10000)));
-  const __m512i halves = _mm512_or_si512(_mm512_slli_epi64(low, 32), high);
-  const __m512i hundreds =
-    _mm512_srli_epi32(_mm512_mullo_epi32(halves, _mm512_set1_epi32(10486)), 20);
-  const __m512i pairs = _mm512_sub_epi32(_mm512_slli_epi32(halves, 16),
-    _mm512_mullo_epi32(hundreds, _mm512_set1_epi32((100 << 16) - 1)));
-  const __m512i tens = _mm512_mulhi_epu16(pairs, _mm512_set1_epi16(103 << 6));
-  return _mm512_sub_epi16(
-    _mm512_slli_epi16(pairs, 8), _mm512_mullo_epi16(tens, _mm512_set1_epi16((10 << 8) - 1)));
 }
 
-/// As find_by_avx2; its tables are in registers.
-GRANULAR_AVX512 void find_by_avx512(SixDigits& numbers, std::size_t at) noexcept
+void find_six_digits(SixDigits& numbers, std::size_t count) noexcept
 {
-  const __m512i one = _mm512_set1_epi64(1);
-  const __m512d any = _mm512_abs_pd(_mm512_load_pd(&numbers.values[at]));
-  const __mmask8 usual =
-    _mm512_mask_cmp_pd_mask(_mm512_cmp_pd_mask(any, _mm512_set1_pd(least), _CMP_GE_OQ), any,
-      _mm512_set1_pd(end), _CMP_LT_OQ);
-  const __m512d x = _mm512_mask_mov_pd(_mm512_set1_pd(1), usual, any);
-  const __m512i exponent = _mm512_srli_epi64(_mm512_castpd_si512(x), 52);
-  const __m512i bias =
-    _mm512_set1_epi64(exponent_bias * log_of_two + least_k * (std::int64_t{ 1 } << log_bits));
-  const __m512i at_least = _mm512_srli_epi64(
-    _mm512_sub_epi64(_mm512_mul_epu32(exponent, _mm512_set1_epi64(log_of_two)), bias), log_bits);
-  const __m512d next = _mm512_permutex2var_pd(
-    _mm512_load_pd(&next_powers[0]), at_least, _mm512_load_pd(&next_powers[8]));
-  const __m512i place =
-    _mm512_mask_add_epi64(at_least, _mm512_cmp_pd_mask(x, next, _CMP_GE_OQ), at_least, one);
-  const __m512d power =
-    _mm512_permutex2var_pd(_mm512_load_pd(&powers[0]), place, _mm512_load_pd(&powers[8]));
-  const __m512d product = _mm512_mul_pd(x, power);
-  const __m512d whole =
-    _mm512_roundscale_pd(product, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
-  const __m512d off = _mm512_abs_pd(_mm512_sub_pd(product, whole));
-  const __mmask8 not_zero = _mm512_cmp_pd_mask(any, _mm512_setzero_pd(), _CMP_NEQ_UQ);
-  const __mmask8 found = static_cast<__mmask8>(
-    _mm512_mask_cmp_pd_mask(usual, off, _mm512_set1_pd(0.5), _CMP_NEQ_UQ) | ~not_zero);
-  const __mmask8 carries = _mm512_cmp_pd_mask(whole, _mm512_set1_pd(end), _CMP_EQ_OQ);
-  const __m512d six = _mm512_mask_mov_pd(whole, carries, _mm512_set1_pd(end / 10));
-  const __m512i eight =
-    _mm512_cvtepu32_epi64(_mm512_cvtpd_epi32(_mm512_mul_pd(six, _mm512_set1_pd(100))));
-  const __m512i k =
-    _mm512_add_epi64(_mm512_mask_add_epi64(place, carries, place, one), _mm512_set1_epi64(least_k));
-  _mm512_store_si512(&numbers.digits[at], _mm512_maskz_mov_epi64(not_zero, eight_digits(eight)));
-  _mm512_store_si512(
-    &numbers.k[at], _mm512_mask_mov_epi64(_mm512_set1_epi64(SixDigits::not_found), found, k));
-}
-}
-
-void find_six_digits(SixDigits& numbers, std::size_t count, Simd simd) noexcept
-{
-  static_assert(SixDigits::most % 8 == 0); // so the last lanes stay in the arrays
-  const bool wide = simd == Simd::Avx512;
-  const std::size_t lanes = wide ? 8 : 4;
+  constexpr std::size_t lanes = 4;
+  static_assert(SixDigits::most % lanes == 0); // so the last lanes stay in the arrays
   while (count % lanes != 0)
   {
     numbers.values[count++] = 0;
   }
   for (std::size_t at = 0; at < count; at += lanes)
   {
-    (wide ? find_by_avx512 : find_by_avx2)(numbers, at);
+    find_by_avx2(numbers, at);
   }
 }
 }
 #else
 namespace granular::number_print
 {
-void find_six_digits(SixDigits& numbers, std::size_t, Simd) noexcept
+void find_six_digits(SixDigits& numbers, std::size_t) noexcept
 {
   numbers.k.fill(SixDigits::not_found);
 }

@@ -27,7 +27,7 @@ struct alignas(64) SixDigits
 
 /// Finds six digits of the first `count` values, rounded as by printf's %.6g, without signs; 0 has six zeros and k = 0. k is
 /// not_found for nan, for other magnitudes below 2^-33 or from 10^6 on, and where the value times a power of ten rounds to
-/// exactly half. Values from `count` up to a multiple of eight may be overwritten. simd must be Avx2 or Avx512.
-void find_six_digits(SixDigits& numbers, std::size_t count, Simd simd) noexcept;
+/// exactly half. Values from `count` up to a multiple of four may be overwritten. Needs AVX2.
+void find_six_digits(SixDigits& numbers, std::size_t count) noexcept;
 }
 #endif
