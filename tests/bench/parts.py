@@ -223,20 +223,6 @@ PARTS = (
          [Target(r"columns", "ratio:1", ">=", 2),
           Target(r"^first three", "time against all:1", "<=", 0.6)],
          plot_decode),
-    Part("print", "Print: numbers to text",
-         """ns a value, or a row `id type x y z ix iy iz` ("%d %d %g %g %g %d %d %d\\n"), one thread, into
-         memory that was touched before; fprintf writes to a stream in memory. All print the same bytes.
-         Positions are in [-1, 1] and velocities about 1e-3, both of six digits as a text had them; full
-         doubles have 53 random bits, in [-1, 1]. Ratios are their times by ours.""",
-         [cases_by_metrics(r"^(%|shortest)",
-                           *columns(".1f", "ours:ns", "to_chars:ns", "snprintf:ns", "to_chars ratio:1",
-                                    "snprintf ratio:1"),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^row",
-                           *columns(".0f", "ours:ns", "fprintf:ns"),
-                           *columns(".1f", "fprintf ratio:1"),
-                           *columns(".0%", "spread:1"))],
-         [Target(r"^row", "fprintf ratio:1", ">=", 5)]),
     Part("write", "Write: a frame to a file",
          """ns a row `id type c ix iy iz` of dump atom, 10^6 rows into a file in memory (/dev/shm), time on
          the wall: text with %g, against a loop of fprintf; binary, against one write() of all bytes. All
@@ -249,15 +235,6 @@ PARTS = (
          [Target(r"^text", "speed against other:1", ">=", 5),
           Target(r"^binary", "speed against other:1", ">=", 0.7),
           Target(r"", "speed of 2 threads:1", ">=", 1.4, cores=2)], wants_cores=2),
-    Part("index", "Index: where the frames of a file are",
-         """file: RunIndex::update, against reading the file (in the page cache) the same way and
-         counting line feeds with memchr. memory: scan_lines against memchr in a window of 256 KiB
-         that is in the cache. ratio is our time by memchr's.""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "memchr:GB/s", "portable:GB/s", "index:GB/s"),
-                           *columns(".2f", "ratio:1"),
-                           Column("spread", "ratio spread:1", ".0%"))],
-         [Target(r"", "ratio:1", "<=", 2)]),
     Part("read", "Read: a file to arrays, the whole way",
          """read_dump of a file in the page cache, double points and all arrays, against decode_rows
          of the same text in memory into memory that was touched before. Arrays are new memory each
@@ -273,180 +250,6 @@ PARTS = (
          [Target(r"^more", "slowest against fastest:1", "<=", 1.5),
           Target(r"^memory", "above the arrays:MiB", "<=", 32)],
          plot_read),
-    Part("binary", "Binary: the rows of a binary dump to arrays",
-         """GB of rows a second, 10^6 rows. copy is the plainest loop there is, from memory: row by row,
-         in it column by column, each double to an array of its column, nothing looked at. file
-         decodes the frame from the page cache, memory from a buffer, both into memory that was
-         touched before: id to 64-bit, type to 32-bit integers, vectors together, every value
-         checked to fit. read_dump makes new arrays each time, as it does for a user, and points of
-         scaled coordinates (5 columns).""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "copy:GB/s", "memory:GB/s", "file:GB/s", "read_dump:GB/s"),
-                           Column("memory, speed against copy", "memory against copy:1", ".2f"),
-                           Column("file", "file against copy:1", ".2f"),
-                           Column("read_dump", "read_dump against copy:1", ".2f"),
-                           *columns(".0%", "spread:1"))],
-         [Target(r"", "file against copy:1", ">=", 0.6),
-          Target(r"", "memory against copy:1", ">=", 0.6)]),
-    Part("compressed", "Compressed: gzip and Zstandard",
-         """A text dump of 200 MiB, 190 frames of 10^4 rows, 12 columns of %g: one member of gzip
-         (level 6), one frame of Zstandard (level 3). MB of text a second. library is zlib's inflate
-         (which checks the CRC) or ZSTD_decompressStream alone; both sides read the file in the page
-         cache and hand out 256 KiB at a time. in order: unpack(), which keeps the last MiB and notes
-         where it could start again; index: RunIndex::update, against decompressing alone. A frame
-         in the middle is read by an index that knows where to start, and without that from the start
-         of the file; plain is the frame of the same text uncompressed. What is one frame of Zstandard
-         has no places to start from.""",
-         [cases_by_metrics(r"(in order|index)$",
-                           *columns(".0f", "library:MB/s", "ours:MB/s"),
-                           *columns(".2f", "time against library:1"),
-                           *columns(".0%", "spread:1"),
-                           *columns(".1f", "time against plain text:1", "seek points:MiB")),
-          cases_by_metrics(r"middle$",
-                           *columns(".2f", "indexed:ms"),
-                           *columns(".1f", "from the start:ms"),
-                           Column("time against that", "time against the start:1", ".3f"),
-                           *columns(".2f", "plain:ms"))],
-         [Target(r"^gzip, in order", "time against library:1", "<=", 1.15)]),
-    Part("series", "Series: long runs",
-         """Rows of 8 columns, in the page cache. 1000 frames are of 10^4 rows each in one file; 10^4
-         files have a frame of 100 rows each; of 1000 frames of 4 files each piece has 100 rows.
-         yardstick: of one file, to read it and count line feeds with memchr; of many, to open each,
-         read its first 4 KiB and close it. index is RunIndex::update; from index file the same
-         where the index of an earlier one lies beside the dump; again an update where nothing
-         changed. Memory is what operator new gave and still has out, peak the most on the way; each
-         frame counts once, however many files it has. The last frame is read alone: no byte of
-         another is. threads: the index made by one thread and by two, time on the wall; of frames of
-         10^6 rows both pass over one, of files each takes its own, and a file of smaller frames is for
-         one thread.""",
-         [cases_by_metrics(r"^1",
-                           *columns(".1f", "yardstick:ms", "index:ms"),
-                           *columns(".2f", "ratio:1"),
-                           *columns(".0%", "spread:1"),
-                           *columns(".1f", "from index file:ms"),
-                           Column("against index", "from index file against index:1", ".3f"),
-                           *columns(".1f", "again:ms"),
-                           *columns(".0f", "memory:B/frame", "peak:B/frame")),
-          cases_by_metrics(r"^threads",
-                           *columns(".1f", "1 thread:ms", "2 threads:ms"),
-                           Column("ratio", "2 against 1:1", ".2f"),
-                           Column("spread", "2 against 1, spread:1", ".0%")),
-          cases_by_metrics(r"^last",
-                           *columns(".2f", "last frame:ms"),
-                           Column("time against the first", "against the first:1", ".2f"),
-                           Column("bytes read against its own",
-                                  "bytes read against the frame's:1", ".2f"))],
-         [Target(r"^1000 frames$", "ratio:1", "<=", 2),
-          Target(r"^10\^4 files$", "ratio:1", "<=", 3),
-          Target(r"^10\^6 frames", "memory:B/frame", "<=", 100)], wants_cores=2),
-    Part("pool", "Pool: memory of the frame before",
-         """The arrays of 12 columns (92 bytes a row) are made and filled, frame after frame, each as long
-         as the next one takes. touched: memory that is never freed, and so the time of filling alone;
-         pool: Blocks of a pool; fresh: Blocks without; malloc: the C library's, with the thresholds
-         that it starts with (it raises them while memory is freed), and tuned to keep what it can,
-         arrays of at most 32 MiB. What first touch costs is the difference to touched.""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "touched:ns/row", "pool:ns/row", "fresh:ns/row", "malloc:ns/row"),
-                           *columns(".2f", "pool against touched:1"),
-                           *columns(".0%", "spread:1"),
-                           Column("fresh", "fresh against touched:1", ".2f"),
-                           Column("malloc", "malloc against touched:1", ".2f"),
-                           Column("page faults pool", "pool, page faults a frame:1", ".0f"),
-                           Column("fresh", "fresh, page faults a frame:1", ".0f"),
-                           Column("malloc", "malloc, page faults a frame:1", ".0f"))],
-         [Target(r"", "pool against touched:1", "<=", 1.2)]),
-    Part("restart", "Restart files",
-         """read_restart against reading the bytes of the file, into fresh memory for all of it and into a MiB that is used
-         again and again; time on the wall, files in the page cache, outputs in memory of a frame before. find is read_layout,
-         which looks for the particles. Single ones have 31 doubles, those of fibres up to 75, with nine bonds of 14 history
-         values to ten particles.""",
-         [cases_by_metrics(r"",
-                           *columns(".0f", "file:MiB"),
-                           *columns(".3f", "find:s"),
-                           *columns(".2f", "read:GB/s"),
-                           Column("ns/particle", "ns:ns/particle", ".0f"),
-                           Column("whole file GB/s", "whole:GB/s", ".2f"),
-                           Column("against that", "read against whole:1", ".2f"),
-                           Column("reused MiB GB/s", "reused:GB/s", ".2f"),
-                           Column("against that", "read against reused:1", ".2f"))],
-         [Target(r"", "read against whole:1", ">=", 0.67), Target(r"", "find:s", "<=", 2)], wants_cores=2),
-    Part("voxels", "Voxels: subdomains as cells",
-         """make_voxels, 343,000 subdomains, with --large 10^6: of a grid, and as a random recursive bisection makes them; time
-         on the wall, against filling arrays of the same size with one value, in new memory and in that of a frame before.
-         Shared corners are found by hashing eight corners a subdomain, on one thread: arrays become small, the search does
-         not. check holds them against all checks, text is encode_voxels.""",
-         [cases_by_metrics(r"^(grid|bisection)(, shared corners)?$",
-                           Column("new memory ns", "new memory:ns/subdomain", ".0f"),
-                           Column("against writing", "new memory against writing:1", ".2f"),
-                           Column("2 threads", "new memory against writing, 2 threads:1", ".2f"),
-                           Column("spread", "new memory, spread:1", ".0%"),
-                           Column("pooled ns", "pooled memory:ns/subdomain", ".0f"),
-                           Column("against writing", "pooled memory against writing:1", ".2f"),
-                           Column("2 threads", "pooled memory against writing, 2 threads:1", ".2f"),
-                           Column("spread", "pooled memory, spread:1", ".0%")),
-          cases_by_metrics(r"checks and text$",
-                           *columns(".0f", "check:ns/subdomain", "text:ns/subdomain"))],
-         [Target(r"^(grid|bisection)$", "new memory against writing:1", "<=", 2),
-          Target(r"^(grid|bisection)$", "pooled memory against writing:1", "<=", 2)], wants_cores=2),
-    Part("count", "Count: particles of the subdomains of processes",
-         """count_in_grid and count_in_subdomains, one thread, 10^6 particles (more: 2 x 10^6, with --large 10^7) everywhere
-         alike in the box, in no order or in that of the grid's processes, as a dump has them. plain is a loop that trusts the
-         index it computes, (x - lo) p / (hi - lo) cut off to an integer and clamped: it needs an even grid, and at faces it
-         is wrong by rounding. With std::floor it takes longer. even and uneven are grids with even cuts and with cuts at
-         random; bisection: as many subdomains that form no grid, from recursive bisection, in no order. All find their place
-         by comparison with the faces, and set up what they need for that each time.""",
-         [cases_by_metrics(r"",
-                           *columns(".1f", "plain:ns/particle"),
-                           Column("floor against plain", "plain, floor, time against plain:1", ".2f"),
-                           Column("even against plain", "even, time against plain:1", ".2f"),
-                           Column("uneven against plain", "uneven, time against plain:1", ".2f"),
-                           *columns(".0f", "bisection:ns/particle"),
-                           *columns(".0%", "spread:1"))],
-         [Target(r"", "even, time against plain:1", "<=", 2),
-          Target(r"", "uneven, time against plain:1", "<=", 4)]),
-    Part("local", "Local: contacts read, and lines joined with particles",
-         """read: a text of 10^6 contacts with 12 columns in the page cache, memory of a frame before: as a dump of particles
-         with the same rows (read_dump), as a table of local data, as lines (read_local), and as lines that are split at the
-         faces. The others: join_lines, one thread, 3 x 10^6 lines between 10^6 particles, with --large ten lines a particle.
-         gather copies the positions of both ends, 3 doubles each, by rows that are known, and nothing else; join finds the
-         rows by id, sets up what it needs for that, and copies as much. Both take memory from a pool. ids from 1: in no
-         order, without gaps; any ids: anywhere in 64 bits. The ends of a line are any particles; in order: neighbours, one
-         line after the other, as a dump has them. 7 values: also the mean of a scalar, and mean and difference of a vector.
-         Where many particles are in no order, memory is what both wait for.""",
-         [cases_by_metrics(r"^read",
-                           *columns(".1f", "dump:ns/row"),
-                           *(Column(f"{name} against dump", f"{name}, time against dump:1", ".2f")
-                                  for name in ("table", "lines", "split")),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^join",
-                           *columns(".1f", "gather:ns/line", "join:ns/line"),
-                           Column("join against gather", "join, time against gather:1", ".2f"),
-                           *columns(".0%", "spread:1")),
-          cases_by_metrics(r"^more",
-                           *(Column(f"{name} 10^{power} ns/line", f"{name}, 10^{power}:ns/line", ".1f")
-                                  for name in ("gather", "join") for power in (4, 5, 6, 7)),
-                           *columns(".2f", "join, slowest against fastest:1"))],
-         [Target(r"^read, threads: 1", "table, time against dump:1", "<=", 1.05),
-          Target(r"^join", "join, time against gather:1", "<=", 15),
-          Target(r"^more.*in order", "join, slowest against fastest:1", "<=", 1.5)]),
-    Part("threads", "Threads: one frame, read by several",
-         """read_dump of 12 columns (%g where they are text), 10^6 rows, with --large also three times as many, file in the page
-         cache, memory of a frame before, time on the wall; processor time is that of all threads, against that of 1 thread.
-         speed against from_chars: the plain loop of the part decode, one thread, on the same text in memory, not compressed.
-         decode alone is decode_rows on one thread, on the same text in memory. Both write to memory that was touched before.
-         gzip (level 6) is one member and Zstandard (level 3) one frame. With one frame of the dump they are decompressed in
-         order, and threads decode what has been decompressed. With two, whose second is empty, the index has places where
-         decompression can start, and each thread decompresses what it decodes.""",
-         [contenders_by_metrics(
-              *columns(".1f", ":ns/row"),
-              *columns(".2f", ", speed against 1 thread:1"),
-              *columns(".0%", ", spread:1"),
-              Column("processor time", ", processor time against 1 thread:1", ".2f"),
-              *columns(".1f", ", speed against from_chars:1"),
-              *columns(".2f", ", time against decode alone:1"))],
-         [Target(r"^text", "1 thread, time against decode alone:1", "<=", 1.3),
-          Target(r"^text", "2 threads, speed against 1 thread:1", ">=", 1.5, cores=2),
-          Target(r"^text", "16 threads, speed against 1 thread:1", ">=", 8, cores=16)], wants_cores=2),
     Part("ranks", "Ranks: one frame, read by several processes together",
          """read_dump by the ranks of MPI, each its part of a text of 10^6 rows and 12 columns, with one
          thread and the memory of a frame before; time on the wall from one barrier to the next. Sorted by
@@ -456,32 +259,4 @@ PARTS = (
               *columns(".2f", ", speed against 1 rank:1"),
               *columns(".0%", ", spread:1"))],
          [Target(r"order", "2 ranks, speed against 1 rank:1", ">=", 1.6, cores=2)], needs="MPI", wants_cores=2),
-    Part("pipeline", "Pipeline: stepping through a run in ParaView",
-         """UpdatePipeline(time) in pvpython, frame after frame of a text of 10 frames of 300,000 rows (with --large 10^6) and 12
-         columns, in the page cache; time on the wall, and of the processor where one thread works.
-         decode alone is decode_rows of the same text in memory, into memory that was touched before. no
-         pool: GRANULAR_POOL_MIB is 0. The filter is a Threshold that keeps half of the particles: with
-         prefetch, the next frame is read meanwhile, by another thread. Data information: what the window asks
-         for after each update, ranges of all arrays and bounds.""",
-         [contenders_by_metrics(
-              *columns(".1f", ":ns/row"),
-              Column("time against decode alone", ", time against decode:1", ".2f"),
-              *columns(".0%", ", spread:1"),
-              Column("processor time", ", processor time against decode:1", ".2f"))],
-         [Target(r"", "1 thread, time against decode:1", "<=", 1.3)], needs="ParaView", wants_cores=2),
-    Part("vtp", "VTP: opening a file in ParaView",
-         """From OpenDataFile to the data of a frame in pvpython, 10^6 rows of 12 columns, file in the page
-         cache, time on the wall: a text dump, against the same data as ParaView saves it in a .vtp of
-         VTK, appended raw, read by ParaView's own reader. Some versions of libexpat refuse what ParaView
-         has saved so: then there is nothing to measure.""",
-         [cases_by_metrics(r"",
-                           Column("vtp ms", "vtp:ms", ".0f", "not measured"),
-                           *columns(".0f", "text, 1 thread:ms", "text, all threads:ms"),
-                           Column("1 thread against vtp", "text, 1 thread, time against vtp:1", ".2f"),
-                           Column("spread", "text, 1 thread, spread:1", ".0%"),
-                           Column("all threads against vtp",
-                                  "text, all threads, time against vtp:1", ".2f"),
-                           Column("spread", "text, all threads, spread:1", ".0%"))],
-         [Target(r"not compressed", "text, all threads, time against vtp:1", "<=", 1)],
-         needs="ParaView"),
 )

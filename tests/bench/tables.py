@@ -33,9 +33,8 @@ class Figures:
 # What parts take on two cores, for the estimate of the end.
 SECONDS = {
     "store": 36, "look": 12, "draw": 180, "choose": 8, "euler": 43, "kernels": 45, "contacts": 60, "average": 25, "volumes": 4, "sums": 20,
-    "lines": 3, "cores": 6, "others": 12, "arrays": 45, "decode": 16, "print": 1, "write": 24, "index": 3, "read": 24, "binary": 4,
-    "compressed": 18, "series": 26, "pool": 11, "restart": 13, "voxels": 9, "count": 20, "local": 18, "threads": 30, "ranks": 13,
-    "pipeline": 22, "vtp": 17, "scale": 45}
+    "lines": 3, "cores": 6, "others": 12, "arrays": 45, "decode": 16, "write": 24, "read": 24, "ranks": 13,
+    "scale": 45}
 
 
 class Part:
