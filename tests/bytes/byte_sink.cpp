@@ -5,6 +5,7 @@
 
 #include "../support/own_folder.h"
 #include "../support/small_disk.h"
+#include "../support/write_file.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,6 @@ namespace
 namespace fs = std::filesystem;
 using granular::Locking;
 using granular::NewFile;
-using granular::write_file;
 
 class WriteFile : public OwnFolder
 {

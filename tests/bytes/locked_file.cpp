@@ -6,6 +6,7 @@
 #include "granular/common/error.h"
 
 #include "../support/own_folder.h"
+#include "../support/write_file.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,6 @@ namespace fs = std::filesystem;
 using granular::LockedFile;
 using granular::Locking;
 using granular::NewFile;
-using granular::write_file;
 using Names = std::set<std::string>;
 
 class LeftFiles : public OwnFolder

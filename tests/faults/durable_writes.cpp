@@ -3,6 +3,7 @@
 #include "../c/handles.h"
 #include "../support/failing_calls.h"
 #include "../support/own_folder.h"
+#include "../support/write_file.h"
 
 #include "granular/bytes/byte_sink.h"
 #include "granular/common/error.h"
@@ -18,13 +19,6 @@
 namespace
 {
 namespace fs = std::filesystem;
-
-void write_file(const std::string& path, std::string_view bytes, bool durable)
-{
-  granular::NewFile file(path);
-  file.write_at(0, bytes);
-  file.finish(durable);
-}
 
 class DurableWrites : public OwnFolder
 {

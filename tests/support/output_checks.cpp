@@ -3,6 +3,7 @@
 #include "communicator_checks.h"
 #include "dumps.h"
 #include "small_disk.h"
+#include "write_file.h"
 
 #include "granular/bytes/byte_sink.h"
 
@@ -133,7 +134,7 @@ void check_open_together_fails(Communicator& ranks, const std::string& folder)
     {
       if (ranks.rank() == 0)
       {
-        granular::write_file(path, "old");
+        write_file(path, "old");
       }
     });
 
@@ -186,7 +187,7 @@ bool check_full_disk(Communicator& ranks, const std::string& folder)
   const std::string path = folder + "/disk/file";
   if (ranks.rank() == 0)
   {
-    granular::write_file(path, "old");
+    write_file(path, "old");
   }
   const std::string bytes(300'000 / static_cast<std::size_t>(ranks.size()) + 1, 'x');
   std::unique_ptr<granular::OutputFile> file = ranks.open_together(path);
