@@ -82,10 +82,13 @@ std::vector<FileIndex> look_together(const std::vector<std::string>& names,
     }
     rest.remove_prefix(length);
   }
-  Executor(options.threads)
-    .parallel_for(
-      files.size() - own, [&](std::size_t file, std::size_t) { adopt(files[own + file]); },
-      progress);
+  if (rank == 0)
+  {
+    Executor(options.threads)
+      .parallel_for(
+        files.size() - own, [&](std::size_t file, std::size_t) { adopt(files[own + file]); },
+        progress);
+  }
   return files;
 }
 }
