@@ -17,69 +17,27 @@ void expect_none(const granular::Notices& notices)
   }
 }
 
-/// The points where the truth has them, and all other arrays.
-std::vector<const void*> arrays_of(const granular::DumpFrame& frame, std::size_t points_at)
+/// The points, where the truth has them, and all other arrays.
+std::vector<const void*> arrays_of(const granular::DumpFrame& frame)
 {
   std::vector<const void*> data;
   for (const granular::DumpArray& array : frame.arrays)
   {
     data.push_back(array.block.data());
   }
-  const std::size_t place = std::min(points_at, data.size());
+  const std::size_t place = std::min<std::size_t>(2, data.size());
   data.insert(data.begin() + static_cast<std::ptrdiff_t>(place), frame.points.data());
   return data;
 }
 
-template <typename T>
-void put(std::string& bytes, T value)
-{
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof raw);
 }
 
-void put_text(std::string& bytes, const std::string& text)
-{
-  put(bytes, static_cast<std::int32_t>(text.size()));
-  bytes += text;
-}
-
-/// What `dump custom` of LAMMPS writes before the chunks.
-std::string binary_header(const Rows& form, std::int32_t chunks)
-{
-  const std::string magic = "DUMPCUSTOM";
-  std::string bytes;
-  put(bytes, -static_cast<std::int64_t>(magic.size()));
-  bytes += magic;
-  put(bytes, std::int32_t{ 1 }); // the byte order
-  put(bytes, std::int32_t{ 2 }); // the revision
-  put(bytes, std::int64_t{ 0 }); // the timestep
-  put(bytes, form.count);
-  for (int i = 0; i < 7; ++i)
-  {
-    put(bytes, std::int32_t{ 0 }); // not triclinic, periodic
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    put(bytes, 0.0);
-    put(bytes, 1.0);
-  }
-  put(bytes, static_cast<std::int32_t>(form.words()));
-  put_text(bytes, ""); // units
-  bytes += '\0';       // no time
-  put_text(bytes, form.columns);
-  put(bytes, chunks);
-  return bytes;
-}
-}
-
-granular::RunIndex index_of(
-  const std::vector<std::string>& files, const granular::IndexOptions& options)
+granular::RunIndex index_of(const std::vector<std::string>& files)
 {
   granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update(files, options, notices, progress);
+  index.update(files, { .format = &granular::dump_format() }, notices, progress);
   expect_none(notices);
   return index;
 }
@@ -90,16 +48,6 @@ granular::DumpFrame read_frame(
   granular::Notices notices;
   granular::Progress progress;
   granular::DumpFrame read = granular::read_dump(index.pieces(frame), request, notices, progress);
-  expect_none(notices);
-  return read;
-}
-
-granular::DumpFrame read_frame(
-  const granular::ByteSource& source, const granular::FrameEntry& entry)
-{
-  granular::Notices notices;
-  granular::Progress progress;
-  granular::DumpFrame read = granular::read_dump(source, entry, {}, notices, progress);
   expect_none(notices);
   return read;
 }
@@ -118,49 +66,9 @@ TextFrame::TextFrame(Form form, std::int64_t row_count)
   }
 }
 
-BinaryFrame::BinaryFrame(const Rows& rows, std::int64_t rows_a_chunk)
-  : form(rows)
-  , truth(rows, rows.count)
-{
-  this->make_values();
-  const std::int64_t chunks = (form.count + rows_a_chunk - 1) / rows_a_chunk;
-  bytes = binary_header(form, static_cast<std::int32_t>(chunks));
-  for (std::int64_t row = 0; row < form.count; row += rows_a_chunk)
-  {
-    const auto n =
-      static_cast<std::size_t>(std::min(rows_a_chunk, form.count - row)) * form.words();
-    put(bytes, static_cast<std::int32_t>(n));
-    const double* const from = values.data() + static_cast<std::size_t>(row) * form.words();
-    bytes.append(reinterpret_cast<const char*>(from), n * sizeof(double));
-  }
-  file.append(bytes);
-  index = index_of({ file.path() });
-}
-
-void BinaryFrame::make_values()
-{
-  Random random(1);
-  std::vector<granular::ColumnSink> sinks = truth.sinks(0);
-  for (std::int64_t row = 0; row < form.count; ++row)
-  {
-    for (granular::ColumnSink& sink : sinks)
-    {
-      const auto number = static_cast<std::int32_t>(1 + random.bits() % 1'000'000);
-      const std::int64_t wide = number;
-      const double value = random.between(-1, 1);
-      const void* const source = sink.type == ValueType::Float64 ? static_cast<const void*>(&value)
-        : sink.type == ValueType::Int32                          ? &number
-                                                                 : static_cast<const void*>(&wide);
-      std::memcpy(sink.data, source, granular::size_of(sink.type));
-      sink.data += sink.stride;
-      values.push_back(sink.type == ValueType::Float64 ? value : number);
-    }
-  }
-}
-
 bool holds_from(const granular::DumpFrame& frame, const Output& truth, std::int64_t first_row)
 {
-  const std::vector<const void*> data = arrays_of(frame, 2);
+  const std::vector<const void*> data = arrays_of(frame);
   bool right = data.size() == truth.arrays();
   for (std::size_t i = 0; i < data.size() && right; ++i)
   {
@@ -172,10 +80,9 @@ bool holds_from(const granular::DumpFrame& frame, const Output& truth, std::int6
   return right;
 }
 
-bool holds(const granular::DumpFrame& frame, const Output& truth, std::int64_t truth_rows,
-  std::size_t points_at)
+bool holds(const granular::DumpFrame& frame, const Output& truth, std::int64_t truth_rows)
 {
-  const std::vector<const void*> data = arrays_of(frame, points_at);
+  const std::vector<const void*> data = arrays_of(frame);
   if (data.size() != truth.arrays() || frame.rows % truth_rows != 0 || frame.rows == 0)
   {
     return false;

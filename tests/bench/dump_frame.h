@@ -17,17 +17,12 @@
 namespace bench
 {
 /// The index of a run. Throws where there is anything to notice.
-granular::RunIndex index_of(const std::vector<std::string>& files,
-  const granular::IndexOptions& options = { .format = &granular::dump_format() });
+granular::RunIndex index_of(const std::vector<std::string>& files);
 
 /// A frame of it: double points and all arrays unless the request is for others. Throws where there is
 /// anything to notice.
 granular::DumpFrame read_frame(
   const granular::RunIndex& index, std::size_t frame, const granular::DumpRequest& request = {});
-
-/// The same of a file that is open.
-granular::DumpFrame read_frame(
-  const granular::ByteSource& source, const granular::FrameEntry& entry);
 
 /// A text file of one frame with its index, and what must come out.
 struct TextFrame
@@ -44,30 +39,11 @@ struct TextFrame
   granular::RunIndex index;
 };
 
-/// The same as LAMMPS' binary dump.
-struct BinaryFrame
-{
-  /// rows: their form and number.
-  BinaryFrame(const Rows& rows, std::int64_t rows_a_chunk);
+/// Returns true if a frame holds the values of the first truth_rows rows of truth, over and over. The box is
+/// that of 0 and 1, so that scaled coordinates are absolute ones. Points are its third array.
+bool holds(const granular::DumpFrame& frame, const Output& truth, std::int64_t truth_rows);
 
-  Rows form;
-  Output truth;
-  std::vector<double> values; ///< row-major
-  std::string bytes;          ///< of the file
-  TemporaryFile file;
-  granular::RunIndex index;
-
-private:
-  void make_values();
-};
-
-/// Whether a frame holds the values of the first truth_rows rows of truth, over and over. The box is
-/// that of 0 and 1, so that scaled coordinates are absolute ones; points_at is which of the arrays of
-/// the truth has the coordinates.
-bool holds(const granular::DumpFrame& frame, const Output& truth, std::int64_t truth_rows,
-  std::size_t points_at = 2);
-
-/// Whether a part of a frame holds the values of truth from a row on. Points are its third array.
+/// Returns true if a part of a frame holds the values of truth from a row on. Points are its third array.
 bool holds_from(const granular::DumpFrame& frame, const Output& truth, std::int64_t first_row);
 }
 #endif

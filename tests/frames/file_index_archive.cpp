@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rank knows of files, as bytes for others: it comes back as it was, and other bytes are refused.
+// The knowledge of a rank about files, as bytes for others: it comes back as it was, and other bytes are refused.
 #include "granular/frames/file_index_archive.h"
 
 #include "../support/dumps.h"
@@ -175,7 +175,7 @@ Files decode(const std::string& bytes)
   return decode_files(bytes, std::make_shared<FrameKinds>());
 }
 
-/// What decode_files says of bytes, or "".
+/// The error of decode_files for these bytes, or "".
 std::string refusal(const std::string& bytes)
 {
   try

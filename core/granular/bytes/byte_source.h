@@ -77,7 +77,7 @@ struct SeekPoints
   std::size_t bytes() const noexcept;
 };
 
-/// How many times the bytes of a compressed file its content may have, at most. Real dumps reach 90.
+/// The content of a compressed file may have so many times its bytes, at most. Real dumps reach 90.
 inline constexpr std::int64_t largest_expansion = 200;
 
 /// Content below this size [bytes], 256 MiB, is read whatever the size of its compressed file.

@@ -27,7 +27,7 @@ bool others_changed(const FileIndex& index)
     index.beside, [](const KnownFile& file) { return !(stamp_of(file.path) == file.stamp); });
 }
 
-/// Whether a source has bytes behind the last frame: an unfinished frame.
+/// Returns true if a source has bytes behind the last frame: an unfinished frame.
 bool goes_on(const ByteSource& source, const FileIndex& index)
 {
   char byte = 0;
