@@ -7,12 +7,16 @@ namespace vtkGranularGrainShaders
 {
 constexpr const char* FragmentInputs = R"(
 //GRANULAR::Shapes
-flat in vec4 centerVCVSOutput;
+flat in vec3 centerVCVSOutput; // from the place
 flat in float radiusVCVSOutput;
-uniform vec4 pixelVC; // what leads from pixels to x and y of VC at z = -1, or at any z if parallel
+uniform vec3 placeVC;
+uniform vec2 placeTangent; // x and y of VC where the line from the camera to the place meets z = -1
+uniform vec4 placePixel; // where the picture shows the place: whole pixels, and parts of one
+uniform vec2 pixelVC; // the size of a pixel at z = -1, or at any z if parallel
 uniform int cameraParallel;
 uniform float nearVC; // z of the near plane
-uniform vec3 depthVC; // of the place, its change with z there, and that of w with z by w
+uniform vec3 middleVC; // z of the place from where the depth is 1/2, the change of depth with z there, and that of w with z by w
+uniform vec3 farVC; // the same for where it is 1
 #ifdef CLIPS
 uniform vec4 clipVC[CLIPS];
 #endif
@@ -30,101 +34,22 @@ bool isLeft(vec3 place)
   return left;
 }
 
-#ifdef HAVE_SHAPES
-flat in mat3 turnVCVSOutput;
-flat in vec3 axesVCVSOutput;
-flat in vec2 powersVSOutput;
-
-// x^n for x, n >= 0 by products and square roots, which graphics hardware rounds well, for n below 4096
-float power(float x, float n)
-{
-  float result = 1.0;
-  float whole = floor(n);
-  float part = n - whole;
-  float base = x;
-  for (int k = 0; k < 12 && whole > 0.0; ++k)
-  {
-    float half_whole = floor(0.5 * whole);
-    if (whole > 2.0 * half_whole)
-    {
-      result *= base;
-    }
-    base *= base;
-    whole = half_whole;
-  }
-  base = x;
-  for (int k = 0; k < 24 && part > 0.0; ++k)
-  {
-    base = sqrt(base);
-    part *= 2.0;
-    if (part >= 1.0)
-    {
-      result *= base;
-      part -= 1.0;
-    }
-  }
-  return result;
-}
-
-// (|x|^n2 + |y|^n2)^(n1/n2) + |z|^n1, which is 1 on the surface, and its gradient by n1. x and y are taken in parts of the larger one:
-// near the axis of z their powers would be less than floats hold, but a root of them is not.
-float superquadric(vec3 p, vec2 n, out vec3 gradient)
-{
-  vec3 a = abs(p);
-  float most = n.x == n.y ? 1.0 : max(a.x, a.y);
-  vec2 part = most > 0.0 ? a.xy / most : vec2(0.0);
-  vec3 b = vec3(power(part.x, n.y - 1.0), power(part.y, n.y - 1.0), power(a.z, n.x - 1.0));
-  float inner = part.x * b.x + part.y * b.y;
-  float outer = 1.0;
-  if (n.x != n.y && most > 0.0)
-  {
-    float mosts = power(most, n.x - 1.0);
-    outer = power(inner, n.x / n.y) / inner * mosts;
-    inner *= outer * most;
-  }
-  gradient = sign(p) * b * vec3(outer, outer, 1.0);
-  return inner + a.z * b.z;
-}
-
-// Moves t to where the ray o + t d meets the surface, along the ray (side 1) or against it (-1), from a place outside. Returns false
-// if it does not. The particle is the unit ball of a norm, which is convex along the ray, so Newton's method passes nothing.
-bool meets(vec3 o, vec3 d, vec2 n, float side, inout float t, out vec3 gradient)
-{
-  float enough = 1e-7 / length(d);
-  for (int k = 0; k < 48; ++k)
-  {
-    float value = superquadric(o + t * d, n, gradient);
-    float slope = n.x * dot(gradient, d);
-    if (slope * side >= 0.0)
-    {
-      return false;
-    }
-    float more = value - 1.0;
-    float part = abs(more) < 0.02 ? more * (1.0 - 0.5 * (1.0 + 1.0 / n.x) * more) : n.x * (1.0 - pow(value, -1.0 / n.x));
-    float move = part * value / slope;
-    t -= move;
-    if (abs(move) <= enough)
-    {
-      break;
-    }
-  }
-  return true;
-}
-#endif
 )";
 
 // Finds the point of the surface on the ray: in front, or behind if the front is cut away.
 constexpr const char* FragmentSurface = R"(
-  // from the centre to a point of the ray near it, from where the numbers are small
+  // From the centre to a point of the ray near it. All is counted from the place, so that numbers are small and digits are kept.
   float radiusVC = radiusVCVSOutput;
-  float awayVC = max(radiusVC, -centerVCVSOutput.z);
-  vec2 tangentVC = gl_FragCoord.xy * pixelVC.xy + pixelVC.zw;
+  vec3 centerVC = placeVC + centerVCVSOutput;
+  vec2 tangentVC = ((gl_FragCoord.xy - placePixel.xy) - placePixel.zw) * pixelVC; // from that of the place
   vec3 offsetVC = vec3(tangentVC - centerVCVSOutput.xy, 0.0);
   vec3 rayVC = vec3(0.0, 0.0, -radiusVC);
   if (cameraParallel == 0)
   {
-    rayVC = vec3(tangentVC * awayVC, -awayVC);
-    offsetVC = vec3(rayVC.xy - centerVCVSOutput.xy, -awayVC - centerVCVSOutput.z);
+    float awayVC = max(radiusVC, -centerVC.z);
+    rayVC = vec3((placeTangent + tangentVC) * awayVC, -awayVC);
+    offsetVC.z = -awayVC - centerVC.z;
+    offsetVC.xy = tangentVC * awayVC - placeTangent * (centerVCVSOutput.z + offsetVC.z) - centerVCVSOutput.xy;
   }
   vec3 surfaceVC = vec3(0.0);
   vec3 normalVCVSOutput = vec3(0.0, 0.0, 1.0);
@@ -148,7 +73,7 @@ constexpr const char* FragmentSurface = R"(
       }
       surfaceVC = offsetVC + t * rayVC;
       normalVCVSOutput = side * normalize(turnVCVSOutput * (gradient / axesVCVSOutput));
-      found = isLeft(centerVCVSOutput.xyz + surfaceVC);
+      found = isLeft(centerVC + surfaceVC);
     }
     if (!found)
     {
@@ -171,12 +96,12 @@ constexpr const char* FragmentSurface = R"(
     float t = -(rayB + sqrt(rayD)) / rayA;
     vec3 unit = from + t * along;
     surfaceVC = offsetVC + t * rayVC;
-    if (!isLeft(centerVCVSOutput.xyz + surfaceVC))
+    if (!isLeft(centerVC + surfaceVC))
     {
       t = (sqrt(rayD) - rayB) / rayA;
       unit = -(from + t * along);
       surfaceVC = offsetVC + t * rayVC;
-      if (!isLeft(centerVCVSOutput.xyz + surfaceVC))
+      if (!isLeft(centerVC + surfaceVC))
       {
         discard;
       }
@@ -187,9 +112,14 @@ constexpr const char* FragmentSurface = R"(
     normalVCVSOutput = unit;
 #endif
   }
-  vertexVC = vec4(centerVCVSOutput.xyz + surfaceVC, 1.0);
-  float fromPlace = centerVCVSOutput.w + surfaceVC.z;
-  gl_FragDepth = depthVC.x + fromPlace * depthVC.y / (1.0 + fromPlace * depthVC.z);
+  vertexVC = vec4(centerVC + surfaceVC, 1.0);
+  float fromMiddle = middleVC.x + centerVCVSOutput.z + surfaceVC.z;
+  gl_FragDepth = 0.5 + fromMiddle * middleVC.y / (1.0 + fromMiddle * middleVC.z);
+  if (gl_FragDepth > 0.875) // digits are lost with the distance from where a depth is known
+  {
+    float fromFar = farVC.x + centerVCVSOutput.z + surfaceVC.z;
+    gl_FragDepth = 1.0 + fromFar * farVC.y / (1.0 + fromFar * farVC.z);
+  }
   if (gl_FragDepth > 1.0)
   {
     discard;

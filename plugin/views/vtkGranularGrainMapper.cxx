@@ -5,6 +5,8 @@
 #include "vtkGranularGrainFragments.h"
 #include "vtkGranularGrainShaders.h"
 #include "vtkGranularGrainShapes.h"
+#include "vtkGranularPlaceInView.h"
+#include "vtkGranularSuperquadrics.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -51,16 +53,20 @@ vtkSmartPointer<vtkFloatArray> MakeFloats(vtkIdType tuples, int components)
   return made;
 }
 
-vtkSmartPointer<vtkFloatArray> CountedFrom(const std::array<double, 3>& place, vtkDataArray* points)
+// Returns the points, all or those that are seen, counted from a place.
+vtkSmartPointer<vtkFloatArray> CountedFrom(const std::array<double, 3>& place, vtkDataArray* points,
+  const vtkGranularHiddenGrains::Seen* seen)
 {
-  auto made = MakeFloats(points->GetNumberOfTuples(), 3);
-  for (vtkIdType i = 0; i < points->GetNumberOfTuples(); ++i)
+  const vtkIdType count =
+    seen ? static_cast<vtkIdType>(seen->Grains.size()) : points->GetNumberOfTuples();
+  auto made = MakeFloats(count, 3);
+  float* to = made->GetPointer(0);
+  for (vtkIdType i = 0; i < count; ++i)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      made->SetTypedComponent(
-        i, axis, static_cast<float>(points->GetComponent(i, axis) - place[axis]));
-    }
+    double point[3];
+    points->GetTuple(seen ? seen->Grains[static_cast<std::size_t>(i)] : i, point);
+    to = std::transform(point, point + 3, place.begin(), to,
+      [](double at, double from) { return static_cast<float>(at - from); });
   }
   return made;
 }
@@ -100,6 +106,41 @@ struct View
     return this->CameraToPicture->GetElement(column, row);
   }
 
+  // The picture, from -1 to 1, is Zoom x + Middle of a place at z = -1, or of any place if parallel.
+  double Zoom(int axis) const { return this->Element(axis, axis); }
+  double Middle(int axis) const
+  {
+    return this->IsParallel() ? this->Element(axis, 3) : -this->Element(axis, 2);
+  }
+
+  bool IsParallel() const { return this->Camera->GetParallelProjection() != 0; }
+  double Place(int axis) const { return this->ToCamera->GetElement(axis, 3); }
+  bool IsInFront() const { return this->Place(2) < 0.5 * this->Near; }
+
+  // Of the place, where the line from the camera meets z = -1; 0 if it is the camera.
+  double Tangent(int axis) const
+  {
+    if (this->IsParallel())
+    {
+      return this->Place(axis);
+    }
+    return this->IsInFront() ? -this->Place(axis) / this->Place(2) : 0.0;
+  }
+
+  // The picture's z, from -1 to 1, is (a z + b) / (c z + d), and the depth (1 + that) / 2. Returns z of the place from where the picture's
+  // z is a given one, the change of the depth with z there, and that of w = c z + d by w.
+  std::array<float, 3> DepthFrom(double pictures) const
+  {
+    const double a = this->Element(2, 2);
+    const double b = this->Element(2, 3);
+    const double c = this->Element(3, 2);
+    const double d = this->Element(3, 3);
+    const double z = (pictures * d - b) / (a - pictures * c);
+    const double w = c * z + d;
+    return { static_cast<float>(this->Place(2) - z),
+      static_cast<float>(0.5 * (a * d - b * c) / (w * w)), static_cast<float>(c / w) };
+  }
+
   vtkGranularHiddenGrains::View ForHidden() const
   {
     vtkGranularHiddenGrains::View made;
@@ -110,12 +151,11 @@ struct View
         made.ToCamera[i][k] = static_cast<float>(this->ToCamera->GetElement(i, k));
       }
     }
-    made.Parallel = this->Camera->GetParallelProjection() != 0;
+    made.Parallel = this->IsParallel();
     for (int i = 0; i < 2; ++i)
     {
-      made.Scale[i] = static_cast<float>(this->Element(i, i));
-      made.Middle[i] =
-        static_cast<float>(made.Parallel ? this->Element(i, 3) : -this->Element(i, 2));
+      made.Scale[i] = static_cast<float>(this->Zoom(i));
+      made.Middle[i] = static_cast<float>(this->Middle(i));
     }
     made.Near = this->Near;
     made.Radius = this->Scale;
@@ -128,6 +168,23 @@ struct View
   float Scale; // of lengths
   float Near;  // z of the near plane
 };
+
+// Returns the place from which the particles are counted in the buffers. Close to a camera in perspective the units of a depth buffer are
+// parts of the distance, so there it is the camera; else a given place in the middle of the particles.
+std::array<double, 3> ChoosePlace(
+  vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& middle)
+{
+  const View view(renderer, actor, middle);
+  vtkCamera* camera = view.Camera;
+  const double* range = camera->GetClippingRange();
+  if (view.IsParallel() || (view.IsInFront() && 3.0 * range[0] > range[1]))
+  {
+    return middle;
+  }
+  std::array<double, 3> position;
+  camera->GetPosition(position.data());
+  return vtkGranularPlaceInView::InData(position, actor);
+}
 }
 
 vtkStandardNewMacro(vtkGranularGrainMapper);
@@ -168,7 +225,10 @@ void vtkGranularGrainMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
     // off where points are selected; here they are surfaces, of which the nearest counts
     static_cast<vtkOpenGLRenderer*>(renderer)->GetState()->vtkglDepthMask(1);
   }
-  if (!this->FindSeen(renderer, actor) && !this->HasAll)
+  const Place place = ChoosePlace(renderer, actor, this->From);
+  const bool isPlaceNew = this->Counted != place;
+  this->Counted = place;
+  if (!this->FindSeen(renderer, actor) && (!this->HasAll || isPlaceNew))
   {
     this->Upload(renderer, nullptr);
   }
@@ -201,7 +261,8 @@ void vtkGranularGrainMapper::ReplaceShaderPositionVC(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*)
 {
   vtkShader* fragment = shaders[vtkShader::Fragment];
-  Replace(fragment, "//VTK::PositionVC::Dec", vtkGranularGrainShaders::FragmentInputs);
+  Replace(fragment, "//VTK::PositionVC::Dec",
+    std::string(vtkGranularGrainShaders::FragmentInputs) + vtkGranularGrainShaders::Superquadrics);
   Replace(fragment, "//VTK::PositionVC::Impl", "vec4 vertexVC = vec4(0.0);\n");
 }
 
@@ -221,13 +282,13 @@ void vtkGranularGrainMapper::ReplaceShaderClip(
 void vtkGranularGrainMapper::SetCameraShaderParameters(
   vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
 {
-  const View view(renderer, actor, this->From);
+  const View view(renderer, actor, this->Counted);
   vtkShaderProgram* program = helper.Program;
   vtkNew<vtkMatrix4x4> toCamera;
   vtkMatrix4x4::Transpose(view.ToCamera, toCamera);
   program->SetUniformMatrix("MCVCMatrix", toCamera);
   program->SetUniformf("scaleVC", view.Scale);
-  program->SetUniformi("cameraParallel", view.Camera->GetParallelProjection());
+  program->SetUniformi("cameraParallel", view.IsParallel() ? 1 : 0);
   program->SetUniformf("nearVC", view.Near);
   const vtkGranularHiddenGrains::View picture = view.ForHidden();
   const float toPicture[4] = { picture.Scale[0], picture.Scale[1], picture.Middle[0],
@@ -237,26 +298,31 @@ void vtkGranularGrainMapper::SetCameraShaderParameters(
   static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())
     ->GetState()
     ->vtkglGetIntegerv(ViewportOfOpenGL, viewport);
-  float fromPixels[4];
+  float place[3];
+  float pixelSizes[2];
+  float tangents[2];
+  float pixels[4];
+  for (int i = 0; i < 3; ++i)
+  {
+    place[i] = static_cast<float>(view.Place(i));
+  }
   for (int i = 0; i < 2; ++i)
   {
-    const double step = 2.0 / (viewport[i + 2] * picture.Scale[i]);
-    fromPixels[i] = static_cast<float>(step);
-    fromPixels[i + 2] =
-      static_cast<float>(-(1.0 + picture.Middle[i]) / picture.Scale[i] - viewport[i] * step);
+    const double tangent = view.Tangent(i);
+    const double pixel =
+      viewport[i] + 0.5 * viewport[i + 2] * (1.0 + view.Zoom(i) * tangent + view.Middle(i));
+    tangents[i] = static_cast<float>(tangent);
+    pixels[i] = std::floor(static_cast<float>(pixel));
+    pixels[i + 2] = static_cast<float>(pixel - pixels[i]);
+    pixelSizes[i] = static_cast<float>(2.0 / (viewport[i + 2] * view.Zoom(i)));
   }
-  program->SetUniform4f("pixelVC", fromPixels);
+  program->SetUniform3f("placeVC", place);
+  program->SetUniform2f("placeTangent", tangents);
+  program->SetUniform4f("placePixel", pixels);
+  program->SetUniform2f("pixelVC", pixelSizes);
 
-  // depth = (1 + (a z + b) / (c z + d)) / 2
-  const double a = view.Element(2, 2);
-  const double b = view.Element(2, 3);
-  const double c = view.Element(3, 2);
-  const double d = view.Element(3, 3);
-  const double z = view.ToCamera->GetElement(2, 3);
-  const double w = c * z + d;
-  const float depth[3] = { static_cast<float>(0.5 * (1.0 + (a * z + b) / w)),
-    static_cast<float>(0.5 * (a * d - b * c) / (w * w)), static_cast<float>(c / w) };
-  program->SetUniform3f("depthVC", depth);
+  program->SetUniform3f("middleVC", view.DepthFrom(0.0).data());
+  program->SetUniform3f("farVC", view.DepthFrom(1.0).data());
   this->SetClips(program, view.Camera->GetModelViewTransformMatrix());
 }
 
@@ -301,7 +367,7 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   vtkPolyData* data = this->CurrentInput;
   const vtkIdType count = data->GetNumberOfPoints();
   this->Values.clear();
-  this->Values["vertexMC"] = CountedFrom(this->From, data->GetPoints()->GetData());
+  this->Values["vertexMC"] = CountedFrom(this->From, data->GetPoints()->GetData(), nullptr);
   auto radii = MakeFloats(count, 1);
   const char* name = this->Owner->GetScaleArray();
   vtkDataArray* given = Find(data, name);
@@ -328,7 +394,11 @@ void vtkGranularGrainMapper::Upload(
   for (const char* name : { "vertexMC", "radiusMC", "scalarColor", "axesMC", "turnMC", "powersMC" })
   {
     vtkSmartPointer<vtkDataArray> values = this->Values[name];
-    if (values && seen)
+    if (name == std::string("vertexMC"))
+    {
+      values = CountedFrom(this->Counted, this->CurrentInput->GetPoints()->GetData(), seen);
+    }
+    else if (values && seen)
     {
       values = vtk::TakeSmartPointer(values->NewInstance());
       values->SetNumberOfComponents(this->Values[name]->GetNumberOfComponents());

@@ -105,7 +105,8 @@ private:
   double Growth = 1.0;
   vtkPointGaussianMapper* Owner = nullptr; // while it draws
   Place From{};                            // of the next picture
-  Place Built{};                           // of the buffers
+  Place Built{};                           // of the values
+  Place Counted{};                         // of the buffers
   bool HaveShapes = false;
   std::map<std::string, vtkSmartPointer<vtkDataArray>>
     Values; // of each particle, by the names that the programs have for them

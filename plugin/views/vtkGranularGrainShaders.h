@@ -14,7 +14,7 @@ in float radiusMC; // of a sphere around the particle
 in vec4 partMC; // of the square around the particle that may be seen: low and high x and y, as parts of it
 uniform mat4 MCVCMatrix;
 uniform float scaleVC;
-out vec4 centerVCVSOutput; // and z from the place
+out vec3 centerVCVSOutput; // from the place
 out float radiusVCVSOutput;
 out vec4 partVSOutput;
 #ifdef HAVE_SHAPES
@@ -33,8 +33,7 @@ void main()
   //VTK::Color::Impl
   radiusVCVSOutput = radiusMC * scaleVC;
   partVSOutput = partMC;
-  vec4 fromPlace = MCVCMatrix * vec4(vertexMC.xyz, 0.0);
-  centerVCVSOutput = vec4(fromPlace.xyz + MCVCMatrix[3].xyz, fromPlace.z);
+  centerVCVSOutput = mat3(MCVCMatrix) * vertexMC.xyz;
   gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 #ifdef HAVE_SHAPES
   float w = turnMC.x;
@@ -60,10 +59,11 @@ layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
 uniform vec4 pictureVC; // x y of the picture are pictureVC.xy times x y of VC at z = -1, or at any z if parallel, and pictureVC.zw
 uniform int cameraParallel;
-in vec4 centerVCVSOutput[];
+uniform vec3 placeVC;
+in vec3 centerVCVSOutput[];
 in float radiusVCVSOutput[];
 in vec4 partVSOutput[];
-flat out vec4 centerVCGSOutput;
+flat out vec3 centerVCGSOutput;
 flat out float radiusVCGSOutput;
 #ifdef HAVE_SHAPES
 in mat3 turnVCVSOutput[];
@@ -80,7 +80,7 @@ flat out vec2 powersGSOutput;
 void main()
 {
   int i = 0;
-  vec3 center = centerVCVSOutput[0].xyz;
+  vec3 center = placeVC + centerVCVSOutput[0];
   float radius = radiusVCVSOutput[0];
   if (!(radius > 0.0))
   {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <future>
 #include <limits>
+#include <thread>
 
 namespace
 {
@@ -16,6 +18,28 @@ constexpr float Widest = 0.7F;
 constexpr int MostCells = 2048;  // along an axis
 constexpr float CellPart = 0.4F; // of a radius that a cell is long
 constexpr int BlockSide = 4;     // cells
+
+constexpr vtkIdType FewestOfThread = 20000;
+constexpr vtkIdType MostThreads = 8;
+
+// Does something for parts of a range, each in a thread of its own.
+template <typename Do>
+void ForParts(vtkIdType count, std::size_t parts, const Do& work)
+{
+  std::vector<std::future<void>> others;
+  const auto begin = [&](std::size_t part)
+  { return count * static_cast<vtkIdType>(part) / static_cast<vtkIdType>(parts); };
+  for (std::size_t part = 1; part < parts; ++part)
+  {
+    others.push_back(std::async(std::launch::async,
+      [&work, part, from = begin(part), to = begin(part + 1)] { work(part, from, to); }));
+  }
+  work(0, 0, begin(1));
+  for (std::future<void>& other : others)
+  {
+    other.get();
+  }
+}
 
 struct Centre
 {
@@ -66,7 +90,37 @@ const vtkGranularHiddenGrains::Seen& vtkGranularHiddenGrains::Find(
   const View& view, const Grains& grains)
 {
   this->MakeCells(view, grains);
-  for (vtkIdType i = 0; i < grains.Count; ++i)
+  const auto parts = static_cast<std::size_t>(std::clamp<vtkIdType>(grains.Count / FewestOfThread,
+    1, std::clamp<vtkIdType>(std::thread::hardware_concurrency(), 1, MostThreads)));
+  std::vector<std::vector<float>> depths(parts, this->Depths);
+  ForParts(grains.Count, parts,
+    [&](std::size_t part, vtkIdType begin, vtkIdType end)
+    { this->CoverBy(view, grains, begin, end, depths[part]); });
+  for (const std::vector<float>& others : depths)
+  {
+    std::transform(others.begin(), others.end(), this->Depths.begin(), this->Depths.begin(),
+      [](float a, float b) { return std::min(a, b); });
+  }
+  this->MakeBlocks();
+  std::vector<Seen> seen(parts);
+  ForParts(grains.Count, parts,
+    [&](std::size_t part, vtkIdType begin, vtkIdType end)
+    { seen[part] = this->FindSeen(view, grains, begin, end); });
+  this->Found.Grains.clear();
+  this->Found.Parts.clear();
+  for (const Seen& each : seen)
+  {
+    this->Found.Grains.insert(this->Found.Grains.end(), each.Grains.begin(), each.Grains.end());
+    this->Found.Parts.insert(this->Found.Parts.end(), each.Parts.begin(), each.Parts.end());
+  }
+  return this->Found;
+}
+
+// Makes some particles hide what is behind them.
+void vtkGranularHiddenGrains::CoverBy(const View& view, const Grains& grains, vtkIdType begin,
+  vtkIdType end, std::vector<float>& depths) const
+{
+  for (vtkIdType i = begin; i < end; ++i)
   {
     const float radius = grains.Inner[i] * view.Radius;
     const Centre centre = CentreOf(view, grains.Points + 3 * i);
@@ -75,13 +129,17 @@ const vtkGranularHiddenGrains::Seen& vtkGranularHiddenGrains::Find(
     if (narrow && IsFinite(centre) && radius > 0.0F && radius - centre.Away <= view.Near)
     {
       const float part = view.Parallel ? InnerPart : InnerPartInPerspective;
-      this->Cover(Square(view, centre, part * radius, centre.Away));
+      this->Cover(Square(view, centre, part * radius, centre.Away), depths);
     }
   }
-  this->MakeBlocks();
-  this->Found.Grains.clear();
-  this->Found.Parts.clear();
-  for (vtkIdType i = 0; i < grains.Count; ++i)
+}
+
+// Returns some of the particles: those that may be seen.
+vtkGranularHiddenGrains::Seen vtkGranularHiddenGrains::FindSeen(
+  const View& view, const Grains& grains, vtkIdType begin, vtkIdType end) const
+{
+  Seen found;
+  for (vtkIdType i = begin; i < end; ++i)
   {
     const float radius = grains.Outer[i] * view.Radius;
     const Centre centre = CentreOf(view, grains.Points + 3 * i);
@@ -93,11 +151,11 @@ const vtkGranularHiddenGrains::Seen& vtkGranularHiddenGrains::Find(
     if ((!view.Parallel && centre.Away < 2.0F * radius) ||
       this->FindPart(Square(view, centre, radius, centre.Away - radius), part))
     {
-      this->Found.Grains.push_back(i);
-      this->Found.Parts.push_back(part);
+      found.Grains.push_back(i);
+      found.Parts.push_back(part);
     }
   }
-  return this->Found;
+  return found;
 }
 
 // Cells that are so small that a typical particle covers some.
@@ -130,9 +188,14 @@ void vtkGranularHiddenGrains::MakeCells(const View& view, const Grains& grains)
 }
 
 // Makes the cells that are wholly in an ellipse hide what is behind it.
-void vtkGranularHiddenGrains::Cover(const Square& square)
+void vtkGranularHiddenGrains::Cover(const Square& square, std::vector<float>& depths) const
 {
-  if (this->DepthAt(square.Middle[0], square.Middle[1]) < square.Away)
+  const int column = this->CellOf(square.Middle[0]);
+  const int middle = this->CellOf(square.Middle[1]);
+  const bool is_inside = column >= 0 && middle >= 0 && column < this->Side && middle < this->Side;
+  if (!is_inside ||
+    depths[static_cast<std::size_t>(middle * this->Side) + static_cast<std::size_t>(column)] <
+      square.Away)
   {
     return; // others hide it, or most of it
   }
@@ -147,7 +210,7 @@ void vtkGranularHiddenGrains::Cover(const Square& square)
     const float half =
       square.Half[0] * std::sqrt(std::max(0.0F, 1.0F - std::max(low * low, high * high)));
     const int x1 = cell(std::floor((square.Middle[0] + half) * side));
-    float* row = this->Depths.data() + static_cast<std::ptrdiff_t>(y) * this->Side;
+    float* row = depths.data() + static_cast<std::ptrdiff_t>(y) * this->Side;
     for (int x = cell(std::ceil((square.Middle[0] - half) * side)); x < x1; ++x)
     {
       row[x] = std::min(row[x], square.Away);
@@ -235,15 +298,4 @@ int vtkGranularHiddenGrains::CellOf(float at) const
 {
   const auto side = static_cast<float>(this->Side);
   return static_cast<int>(std::clamp(at * side, -1.0F, side) + 1.0F) - 1;
-}
-
-// Returns the depth behind which all is hidden at a place; outside of the picture nothing is seen.
-float vtkGranularHiddenGrains::DepthAt(float x, float y) const
-{
-  const int column = this->CellOf(x);
-  const int row = this->CellOf(y);
-  const bool is_inside = column >= 0 && row >= 0 && column < this->Side && row < this->Side;
-  return is_inside
-    ? this->Depths[static_cast<std::size_t>(row * this->Side) + static_cast<std::size_t>(column)]
-    : -std::numeric_limits<float>::infinity();
 }

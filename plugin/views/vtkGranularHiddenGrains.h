@@ -51,11 +51,13 @@ public:
 private:
   struct Square;
   void MakeCells(const View& view, const Grains& grains);
-  void Cover(const Square& square);
+  void CoverBy(const View& view, const Grains& grains, vtkIdType begin, vtkIdType end,
+    std::vector<float>& depths) const;
+  void Cover(const Square& square, std::vector<float>& depths) const;
   void MakeBlocks();
+  Seen FindSeen(const View& view, const Grains& grains, vtkIdType begin, vtkIdType end) const;
   bool FindPart(const Square& square, std::array<unsigned char, 4>& part) const;
   int CellOf(float at) const;
-  float DepthAt(float x, float y) const;
 
   int Side = 0;              ///< cells along each axis
   std::vector<float> Depths; ///< of each cell; what is farther away is hidden
