@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How everything rounds, warnings per layer, and sanitizers.
+# Options for rounding, for warnings per layer, and sanitizers.
 
 set(granular_warnings_vtk -Wall -Wextra)
 set(granular_warnings_core -Wall -Wextra)

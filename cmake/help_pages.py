@@ -14,7 +14,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 import zlib
 
-# What Qt reads. The tables of filters stay empty: all pages are always there.
+# The input of Qt. The tables of filters stay empty: all pages are always there.
 TABLES = """
 CREATE TABLE NamespaceTable (Id INTEGER PRIMARY KEY, Name TEXT);
 CREATE TABLE FolderTable (Id INTEGER PRIMARY KEY, Name TEXT, NamespaceID INTEGER);

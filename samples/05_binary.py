@@ -17,7 +17,7 @@ binary = granular.reader(path, ColumnNames=names)
 text = granular.reader(text_path)
 assert list(binary.TimestepValues) == list(text.TimestepValues)
 
-# How far the 6 digits of the text are from where a particle was: the last one of 0.0999999 m is worth
+# The distance of the 6 digits of the text from where a particle was: the last one of 0.0999999 m is worth
 # 0.1 micrometres, that of 0.100000 m ten times as much.
 shift = PythonCalculator(Input=[binary, text], ArrayName="shift",
                          Expression="mag(inputs[0].Points - inputs[1].Points) * 1e9")

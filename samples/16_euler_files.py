@@ -45,7 +45,7 @@ def shared_cells(step, centres):
 
 
 # The files have six decimals, the dump has six digits, and lacks the stress that the pressure needs.
-# Where particles of two ranks of LIGGGHTS meet in a cell, its v_avg is too small by up to 3.5e-5;
+# The error of LIGGGHTS: where particles of two ranks of LIGGGHTS meet in a cell, its v_avg is too small by up to 3.5e-5;
 # a run with one rank is right.
 print("largest differences    centre  volumefraction  radius   v_avg  v_avg of cells that processes share")
 for step in (1000, 2000, 3000, 4000):

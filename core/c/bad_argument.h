@@ -6,7 +6,7 @@
 
 namespace granular_c
 {
-/// What the caller gave cannot be used.
+/// An argument of the caller that cannot be used.
 class BadArgument : public granular::Error
 {
   using Error::Error;

@@ -64,7 +64,7 @@ std::string digits_of(Number number)
   }
 }
 
-/// Whether a number is the same in another type; floats may be rounded to floats.
+/// Returns true if a number is the same in another type; floats may be rounded to floats.
 template <class To, class From>
 bool fits(From value, To converted) noexcept
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the handles of granular.h hold. No exception leaves the functions of granular.h; here they are thrown.
+// Contents of the handles of granular.h. No exception leaves the functions of granular.h; here they are thrown.
 #ifndef granular_c_frame_h
 #define granular_c_frame_h
 

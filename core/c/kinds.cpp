@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How files of each kind become frames.
+// The ways from files of each kind to frames.
 #include "bad_argument.h"
 #include "run.h"
 

@@ -100,7 +100,7 @@ struct granular_run
     std::make_shared<granular::BlockPool>(std::size_t{ 1 } << 28);
   std::vector<double> times;
 
-  /// What a file has beside the frames that are shown.
+  /// Contents of a file beside the frames that are shown.
   struct Rest
   {
     std::string defect;        ///< of the first frame that was left out; empty: none

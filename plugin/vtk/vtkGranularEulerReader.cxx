@@ -46,7 +46,7 @@ vtkStandardNewMacro(vtkGranularEulerReader);
 namespace
 {
 /**
- * What the data of all frames are, as the first one that has cells tells.
+ * Form of the data of all frames, as the first one that has cells tells.
  */
 struct Form
 {

@@ -36,7 +36,7 @@ vtkStandardNewMacro(vtkGranularLocalReader);
 namespace
 {
 /**
- * What the columns of a kind of frames are, or why that cannot be known.
+ * Meaning of the columns of a kind of frames, or the reason why it cannot be known.
  */
 struct Meaning
 {
@@ -56,7 +56,7 @@ void pass(Archive& archive, typename Archive::template Passed<Meaning>& meaning)
 }
 
 /**
- * What is known of all kinds, by the columns as the file names them.
+ * Meanings of all kinds, by the columns as the file names them.
  */
 using Meanings = std::map<std::string, Meaning>;
 }

@@ -77,7 +77,7 @@ public:
 
   ///@{
   /**
-   * What the columns are, which files rarely say: c_b[1] is any. AUTOMATIC, the default: what they are named, if that says
+   * Meaning of the columns, which files rarely tell: c_b[1] can be anything. AUTOMATIC, the default: what they are named, if that says
    * between which particles or places lines are; else the preset with as many columns that fits the values, with a warning where
    * another has as many; an error that lists presets where none fits or several do. AS_NAMED: what they are named. Others:
    * the columns, or those whose names say nothing, in this order:
@@ -94,7 +94,7 @@ public:
 
   ///@{
   /**
-   * What the columns are, in the user's words, instead of Preset if it is not empty. Either a name for each column, or the
+   * Meaning of the columns in the words of the user, instead of Preset if it is not empty. Either a name for each column, or the
    * keywords of the compute that made them, such as "pos id force"; or pairs of a name and a column, which the file names or which is a
    * number from 1 on, such as "id1=c_b[7] id2=8". Names are those of arrays and their components (x1 y1 z1 x2 y2 z2
    * id1 id2 btype periodic forcex forcey forcez torquex dist equilibrium_length and so on), or any others.

@@ -92,7 +92,7 @@ std::vector<std::string> NamesOf(const granular::ColumnSchema& schema)
 }
 
 /**
- * What the user has chosen; an array that neither the first nor the last file has is on where all others are.
+ * Returns the choice of the user; an array that neither the first nor the last file has is on where all others are.
  */
 std::function<bool(std::string_view)> Wanted(const ArrayChoice& choice)
 {

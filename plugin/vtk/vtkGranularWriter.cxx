@@ -35,7 +35,7 @@ bool IsWhole(double time)
 }
 
 //------------------------------------------------------------------------------
-// Of the processes the first one speaks.
+// Tells the user; the first process does that for all.
 void vtkGranularWriter::Internals::Tell(vtkGranularWriter* self)
 {
   for (const granular::Notice& notice : std::exchange(this->Notices, {}))

@@ -102,7 +102,7 @@ void simulate(const std::string& path, granular::ParallelMode mode, granular::Co
   writer.finish(); // until here the file has another name
 }
 
-/// What goes wrong on one process is thrown on all of them: they leave together, and one says why.
+/// An error on one process is thrown on all of them: they leave together, and one says why.
 bool run(const std::string& path, granular::ParallelMode mode)
 {
   granular::MpiCommunicator ranks(MPI_COMM_WORLD);

@@ -21,11 +21,11 @@ namespace
 {
 constexpr std::size_t rows_of_chunk = 65536;
 
-/// How far below the largest possible term its terms still count, at least, and shares below 1.
+/// Bits below the largest possible term in which its terms still count, at least, and shares below 1.
 constexpr int stress_bits = 192;
 constexpr int share_bits = 64;
 
-/// Where the sums beside those of stresses are.
+/// Places of the sums beside those of stresses.
 constexpr std::size_t ends_lane = 6;
 constexpr std::size_t contacts_lane = 7;
 
@@ -34,7 +34,7 @@ double largest_of(const Vector3& vector) noexcept
   return std::max({ std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2]) });
 }
 
-/// What is summed of a contact.
+/// Terms of a contact that are summed.
 struct Line
 {
   Vector3 start;

@@ -34,7 +34,7 @@ double ContactEnds::is_enough(std::size_t row) const noexcept
   return 1;
 }
 
-/// Of the branch vector, up to where the force acts.
+/// Returns the part of the branch vector up to where the force acts.
 double ContactEnds::part(std::size_t row, std::size_t end) const noexcept
 {
   const std::int64_t own = this->place(row, end);

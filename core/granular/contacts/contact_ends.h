@@ -12,7 +12,7 @@
 
 namespace granular
 {
-/// Where the force of a contact acts, seen from the centre of a particle.
+/// Place where the force of a contact acts, seen from the centre of a particle.
 enum class LeverArm : std::uint8_t
 {
   ContactPoint, ///< at the contact point; where it is not known, at that part of the branch vector that the radii give; where

@@ -31,7 +31,7 @@ struct ContactRows
   std::optional<Box> box = {};           ///< counts where the particles have none
 };
 
-/// What all ranks know of the contacts of one input.
+/// Facts that all ranks share about the contacts of one input.
 struct ContactKinds
 {
   bool walls = false;

@@ -18,7 +18,7 @@ struct Counted
   std::int32_t normals = 0;
 };
 
-/// What one end of a contact adds to the sums of its particle.
+/// Terms that one end of a contact adds to the sums of its particle.
 struct EndTerms
 {
   static constexpr std::size_t most = 18;
@@ -27,7 +27,7 @@ struct EndTerms
   std::array<double, most> terms;
 };
 
-/// What of the contacts is summed, and where its terms are among those of a contact.
+/// Sums over contacts that are wanted, and places of their terms among those of a contact.
 struct ContactTerms
 {
   explicit ContactTerms(const ContactSumsRequest& request, bool forces) noexcept
@@ -79,7 +79,7 @@ struct ContactTerms
   std::size_t count;
 
 private:
-  /// What a particle feels of a contact.
+  /// Effect of a contact on a particle.
   struct Feel
   {
     Vector3 force;

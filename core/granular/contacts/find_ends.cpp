@@ -19,7 +19,7 @@ namespace
 {
 constexpr std::size_t rows_of_stretch = 65536;
 
-/// What contacts need to know of particles.
+/// Values of particles that contacts need.
 struct Needs
 {
   bool points = false;
@@ -34,7 +34,7 @@ Needs find_needs(const ContactKinds& kind, const ContactOptions& options, bool h
     options.least_overlap > 0 && !kind.overlap };
 }
 
-/// What all contacts need together.
+/// Returns the values that all contacts need together.
 Needs find_needs(std::span<const ContactKinds> kinds, std::span<const std::int64_t> counts,
   const ContactOptions& options, bool has_box)
 {
@@ -247,7 +247,7 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
   }
 }
 
-/// Of each row; nowhere where it is left out.
+/// Finds the particle of each row; nowhere where it is left out.
 void FoundEnds::find_places(const IdFinder& finder, const ContactRows& rows,
   const ContactKinds& kinds, const ContactParticles& particles, const ContactOptions& options,
   std::span<std::int64_t> places, const Executor& executor, Progress& progress)

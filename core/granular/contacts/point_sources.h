@@ -36,7 +36,7 @@ struct NearLine
   double counts; ///< 1 or 0
 };
 
-/// What reaches the points of this rank, of all ranks and with periodic images.
+/// Particles that reach the points of this rank, of all ranks and with periodic images.
 struct PointSources
 {
   std::vector<NearGrain> grains;

@@ -67,7 +67,7 @@ std::span<const std::int64_t> ends_of(std::span<const ContactPair> pairs) noexce
   return { pairs.empty() ? nullptr : pairs.front().data(), 2 * pairs.size() };
 }
 
-/// Who has contacts of the particles of this rank: ranks, and places in their lists.
+/// Ranks with contacts of the particles of this rank: their numbers, and places in their lists.
 struct Listeners
 {
   Numbers rows; ///< of the particles

@@ -47,13 +47,13 @@ Words columns_of(const AtomStyle& style, std::size_t words)
   return columns.size() == words ? columns : Words();
 }
 
-/// Whether a word is written as integers are: "1", and not "1.0" or "1e0".
+/// Returns true if a word is written as integers are: "1", and not "1.0" or "1e0".
 bool is_whole(std::string_view word) noexcept
 {
   return word.find_first_not_of("0123456789", word.starts_with('-') ? 1 : 0) == word.npos;
 }
 
-/// Whether the rows may be those of a style: as many words, integers where columns are, and as many velocities.
+/// Returns true if the rows may be those of a style: as many words, integers where columns are, and as many velocities.
 bool fits(const AtomStyle& style, const DataLayout& layout)
 {
   const Words row = split_words(layout.particles->first_row);

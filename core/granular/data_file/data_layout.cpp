@@ -87,7 +87,7 @@ bool is_integer(std::string_view word, std::int64_t& value)
   return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), value));
 }
 
-/// What write_data says in the title: "..., timestep = 2000, units = lj".
+/// Takes the facts of the title that write_data makes: "..., timestep = 2000, units = lj".
 void take_title(std::string_view title, DataLayout& layout)
 {
   const Words words = split_words(title);

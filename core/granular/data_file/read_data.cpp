@@ -165,7 +165,7 @@ private:
     }
   }
 
-  /// What the image counts show: where a particle has crossed a face, there are others beyond it.
+  /// Finds periodic axes by image counts: where a particle has crossed a face, there are others beyond it.
   void find_boundary(DumpFrame& frame)
   {
     std::array<std::int64_t, 3> crossed = {};
@@ -268,7 +268,7 @@ private:
       { return request_.wanted_bonds && !request_.wanted_bonds(array.info.name); });
   }
 
-  /// Whether particles are left out because the user wants few.
+  /// Returns true if particles are left out because the user wants few.
   bool is_filtered() const { return own_.stride > 1 || restricts(own_.region); }
 
   /// Says what particles share that have one id.

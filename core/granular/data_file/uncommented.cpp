@@ -5,7 +5,7 @@
 
 namespace granular
 {
-/// Whether the line up to a byte has begun a comment.
+/// Returns true if the line up to a byte has begun a comment.
 bool Uncommented::is_comment(std::int64_t offset) const
 {
   std::string before;

@@ -34,7 +34,7 @@ double fields_of(const EulerFieldSet& fields)
     (fields.coordination ? 1 : 0) + (fields.fabric ? 6 : 0);
 }
 
-/// Of the wanted cells, the faces, what is known of blocks of cells, and the sums of some of these.
+/// Checks the memory for the wanted cells: their faces, what is known of blocks of cells, and the sums of some of these.
 void check_memory(const EulerAverageRequest& request)
 {
   const auto& [nx, ny, nz] = request.grid.counts;
@@ -55,7 +55,7 @@ void check_memory(const EulerAverageRequest& request)
   }
 }
 
-/// What is counted over the ranks: grains, ranks that have any, and how many of these ranks know something of theirs.
+/// Counts over the ranks: particles, ranks that have any, and how many of these ranks know something of theirs.
 enum Count : std::size_t
 {
   Rows,

@@ -18,7 +18,7 @@ namespace
 /// Shares of a group that the first pass keeps for the second: 256 MiB.
 constexpr std::size_t most_kept = std::size_t{ 1 } << 24;
 
-/// Where the sums of each quantity are.
+/// Places of the sums of each quantity.
 enum Lane : std::size_t
 {
   Share,

@@ -22,7 +22,7 @@ using Rows = std::span<const std::int64_t>;
 constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
 constexpr std::int64_t rows_of_chunk = 65536;
 
-/// How far below the largest possible term of a stress in a cell its terms still count.
+/// Bits below the largest possible term of a stress in a cell in which its terms still count.
 constexpr int stress_bits = 192;
 }
 
@@ -108,7 +108,7 @@ std::int64_t AveragePasses::find_blocks(
   return outside;
 }
 
-/// How the sums are made, and the cells that they are for.
+/// Plans the sums and the cells that they are for.
 void AveragePasses::plan()
 {
   const double radius = scanned_.radius.largest();

@@ -7,7 +7,7 @@ namespace granular
 {
 namespace
 {
-/// Of the sums of a group, where there is one process.
+/// Size of the sums of a group, where there is one process.
 constexpr std::int64_t bytes_of_thread = std::int64_t{ 2 } << 20;
 
 /// Below it the parts of a block are not worth a sum of their own each.

@@ -44,7 +44,7 @@ CellBlocks::CellBlocks(const EulerFrame& frame)
   }
 }
 
-/// How much the distance of two centres may be wrong: LIGGGHTS prints six decimals; somebody may since have stored them
+/// Returns the possible error in the distance of two centres: LIGGGHTS prints six decimals; somebody may since have stored them
 /// in single precision, or printed six digits, as VTK does. Of other numbers only the last bits may.
 double CellBlocks::rounding(std::size_t axis) const
 {
@@ -92,7 +92,7 @@ CellBlock CellBlocks::block(std::int64_t first) const
   return block;
 }
 
-/// How many slabs, of that many cells each, follow one another along an axis at equal distances.
+/// Returns the number of slabs, of that many cells each, that follow one another along an axis at equal distances.
 std::int64_t CellBlocks::run(std::int64_t first, std::size_t axis, std::int64_t stride) const
 {
   if (!this->goes_on(first, axis, stride, 1) || this->is_alone(first, axis, stride))
@@ -110,7 +110,7 @@ std::int64_t CellBlocks::run(std::int64_t first, std::size_t axis, std::int64_t 
   return slab;
 }
 
-/// Whether a slab is the first one of all, moved along the axis beyond the one before. What is the same is printed the
+/// Returns true if a slab is the first one of all, moved along the axis beyond the one before. What is the same is printed the
 /// same.
 bool CellBlocks::goes_on(
   std::int64_t first, std::size_t axis, std::int64_t stride, std::int64_t slab) const
@@ -133,7 +133,7 @@ bool CellBlocks::goes_on(
   return true;
 }
 
-/// Whether the first slab is a grid of its own, and at least three of another follow: those have the same distances,
+/// Returns true if the first slab is a grid of its own, and at least three of another follow: those have the same distances,
 /// the first one has another.
 bool CellBlocks::is_alone(std::int64_t first, std::size_t axis, std::int64_t stride) const
 {

@@ -17,7 +17,7 @@ enum class CellWeights : std::uint8_t
   Kernel   ///< each cell has what a smoothing kernel around its centre gives: see SmoothCells
 };
 
-/// How particles and contacts are divided.
+/// Ways to divide particles and contacts.
 struct WeightOptions
 {
   CellWeights weights = CellWeights::Overlap;

@@ -34,7 +34,7 @@ constexpr std::pair<std::vector<double> EulerCells::*, std::size_t> packed_array
 };
 constexpr auto packed_size = static_cast<std::size_t>(values_of_cell);
 
-/// What a rank tells the others of what it has: numbers of cells and of values.
+/// Facts that a rank tells the others of itself: numbers of cells and of values.
 using Told = std::array<std::int64_t, 2>;
 
 std::vector<Told> tell_all(std::int64_t cells, std::size_t values, Communicator& ranks)

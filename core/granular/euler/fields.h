@@ -8,7 +8,7 @@
 
 namespace granular
 {
-/// What cells may have beside EulerCells: structure of arrays, empty where nobody asked for it.
+/// Fields of cells beside EulerCells: structure of arrays, empty where nobody asked for it.
 struct EulerFields
 {
   std::vector<double> density;  ///< mass of particles over the volume of the cell [kg/m3]

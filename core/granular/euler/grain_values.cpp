@@ -86,7 +86,7 @@ const double* load(const std::array<std::optional<ValueSource>, size>& sources, 
   return buffer;
 }
 
-/// Whether all magnitudes are such that they can be added.
+/// Returns true if all magnitudes are such that they can be added.
 bool all_usable(const Magnitudes& magnitudes) noexcept
 {
   return magnitudes.largest() < too_large; // not for nan

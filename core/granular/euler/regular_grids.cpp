@@ -16,7 +16,7 @@ namespace granular
 {
 namespace
 {
-/// What is common to the grids between two faces along an axis.
+/// Facts that the grids have in common between two faces along an axis.
 struct Span
 {
   double first = 0; ///< centres
@@ -91,7 +91,7 @@ std::vector<RegularGrid> GridFinder::find(Notices& notices)
   return grids;
 }
 
-/// Of a rectilinear grid the faces are known.
+/// Returns the grid by its faces, which a rectilinear grid tells.
 RegularGrid GridFinder::grid_of_faces() const
 {
   RegularGrid grid;

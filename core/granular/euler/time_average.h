@@ -32,7 +32,7 @@ public:
   EulerFields fields() const;
 
 private:
-  /// Of a cell.
+  /// Sums of a cell.
   struct Sums
   {
     CompensatedSum share;

@@ -208,7 +208,7 @@ std::vector<Place> Collector::pieces_of(std::span<const Place> repeated, const P
   return pieces;
 }
 
-/// What is wrong with a frame; empty if it is complete.
+/// Returns the fault of a frame; empty if it is complete.
 std::string Collector::complaint(const std::vector<Place>& pieces, const PieceSet& set) const
 {
   const auto shape = [this](const Place& place)
@@ -229,7 +229,7 @@ std::string Collector::complaint(const std::vector<Place>& pieces, const PieceSe
       " with the same box and columns, got others; the frame is left out";
 }
 
-/// Whether the pieces that are missing may still come.
+/// Returns true if the pieces that are missing may still come.
 bool Collector::being_written(const PieceSet& set) const
 {
   return set.missing.empty() &&

@@ -19,7 +19,7 @@ bool counts_from_zero(const std::map<NameNumber, std::uint32_t>& group)
     group, [&](const auto& entry) { return entry.first.text == std::to_string(next++); });
 }
 
-/// Whether the contents of the files say that they are pieces: see name_steps.
+/// Returns true if the contents of the files say that they are pieces: see name_steps.
 bool hold_pieces(
   const std::vector<FileIndex>& files, const std::map<NameNumber, std::uint32_t>& group)
 {

@@ -32,7 +32,7 @@ std::vector<std::string> unpack_names(std::string_view bytes)
   return names;
 }
 
-/// Whether all that is known of a file can be sent.
+/// Returns true if all that is known of a file can be sent.
 bool may_be_sent(const FileIndex& file)
 {
   return !file.error && !file.layout && file.beside.empty();

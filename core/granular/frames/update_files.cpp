@@ -56,7 +56,7 @@ private:
   std::size_t end_;                         ///< from this file on none are kept
 };
 
-/// How far all files are. The caller's thread reports that; the others only hear of it that they
+/// Progress of all files together. The caller's thread reports that; the others only hear of it that they
 /// should stop.
 class FilesProgress final : public Progress
 {

@@ -58,7 +58,7 @@ struct Conversion
   }
 }
 
-/// Whether component k of the box vector j is a term of coordinate k at all. One that is 0 by the
+/// Returns true if component k of the box vector j is a term of coordinate k at all. One that is 0 by the
 /// shape of the box is none: a grain that was lost along j keeps its coordinate k.
 [[gnu::always_inline]] inline bool reaches(const Box& box, std::size_t j, std::size_t k) noexcept
 {
@@ -189,7 +189,7 @@ inline Twofold3 solve_general(
   }
 }
 
-/// Whether three scaled coordinates become those of an aligned box, as in most dumps.
+/// Returns true if three scaled coordinates become those of an aligned box, as in most dumps.
 bool places_scaled(const Conversion& c) noexcept
 {
   return c.plan.coordinates != Coordinates::Scaled && !c.box.tilted &&
@@ -198,7 +198,7 @@ bool places_scaled(const Conversion& c) noexcept
       { return axis.column >= 0 && axis.scaled && axis.shift == 0; });
 }
 
-/// What to_cartesian_aligned does then. Eight points at once: compilers find vector instructions for them.
+/// Does the work of to_cartesian_aligned then. Eight points at once: compilers find vector instructions for them.
 [[gnu::always_inline]] inline void place_rows(
   const Conversion& c, std::span<double> points) noexcept
 {
@@ -265,7 +265,7 @@ bool places_scaled(const Conversion& c) noexcept
   }
 }
 
-/// What to_scaled does in an aligned box. Without branches: compilers find vector instructions for it.
+/// Does the work of to_scaled in an aligned box. Without branches: compilers find vector instructions for it.
 [[gnu::always_inline]] inline void scale_rows(
   const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
 {

@@ -91,7 +91,7 @@ std::array<const Choice*, 3> choose(const Columns& columns, std::span<const Choi
   return chosen;
 }
 
-/// Whether the axes are not all made in the same way. In a tilted box one coordinate alone, or one
+/// Returns true if the axes are not all made in the same way. In a tilted box one coordinate alone, or one
 /// image count alone, says nothing of the others.
 bool mixed(std::span<const Choice* const> chosen) noexcept
 {

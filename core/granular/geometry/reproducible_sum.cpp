@@ -15,7 +15,7 @@ __extension__ using Wide = __int128;
 /// Below it no number has bits.
 constexpr int least_exponent = -1074;
 
-/// Of 21 bits and more each, as 2^40 terms leave them.
+/// Levels of 21 bits and more each, as 2^40 terms leave them.
 constexpr std::size_t most_levels = 128;
 
 /// So many bits and more of a sum, and whether there are others, are enough to round it.
@@ -56,7 +56,7 @@ template <class To>
   std::memcpy(&to, from, sizeof to);
 }
 
-/// Whether all are 0; -0 is.
+/// Returns true if all are 0; -0 is.
 [[gnu::always_inline]] inline bool all_zero(const Reals& numbers) noexcept
 {
   using Four [[gnu::vector_size(32)]] = std::uint64_t;

@@ -34,7 +34,7 @@ void check_extent(const Vector3& lo, const Vector3& hi)
   }
 }
 
-/// How many cells of at least that edge there are: fewer, larger ones where they do not fit. rounding: what may be missing.
+/// Returns the number of cells of at least that edge: fewer, larger ones where they do not fit. rounding: what may be missing.
 std::int64_t count_cells(double length, double edge, double rounding)
 {
   const double count = std::floor(length / edge * (1 + rounding));
@@ -80,7 +80,7 @@ std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
   return counts;
 }
 
-/// Whether no two faces coincide, however they are rounded.
+/// Returns true if no two faces coincide, however they are rounded.
 bool have_thickness(const EulerGrid& grid, std::size_t axis) noexcept
 {
   const double largest = std::max(std::abs(grid.lo[axis]), std::abs(grid.hi[axis]));

@@ -13,11 +13,11 @@ namespace granular
 {
 namespace
 {
-/// Of a grain, in the grid and in a cell: more are no scene.
+/// Images of a particle, in the grid and in a cell: more are no scene.
 constexpr double most_in_grid = 1e6;
 constexpr double most_in_one_cell = 1000;
 
-/// Of the length of the box: an image too many is outside of all cells.
+/// Part of the length of the box: an image too many is outside of all cells.
 constexpr double rounding = 1e-9;
 }
 

@@ -76,7 +76,7 @@ public:
   /// Returns the largest number of images of a particle up to that radius in one cell.
   std::int64_t most_in_cell(double radius) const noexcept;
 
-  /// Whether a place along an axis is that of a grain whose image one period below is in the grid, too: at the upper
+  /// Returns true if a place along an axis is that of a grain whose image one period below is in the grid, too: at the upper
   /// face of a grid that is a period long, or longer. In a tilted box the image may be elsewhere along other axes: a grid with
   /// the lengths of the box has each grain once all the same.
   bool is_twice(std::size_t axis, double x) const noexcept

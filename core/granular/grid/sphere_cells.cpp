@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::int64_t no_cell = -1; // in no range
 
-/// Where the first difference is not exact, the low part is below its last bit. Never falls as the face rises.
+/// The low part: where the first difference is not exact, it part is below its last bit. Never falls as the face rises.
 double difference(double face, Twofold centre)
 {
   return face - centre.hi - centre.lo;
@@ -65,7 +65,7 @@ private:
   std::vector<CellShare>& shares_;
 };
 
-/// What the faces across an axis do to a sphere.
+/// The cuts that the faces across an axis make in a sphere.
 struct SphereCells::Cut
 {
   double distance;                   ///< of the face that cuts it, or the radius
@@ -144,7 +144,7 @@ CellRange SphereCells::range(const Twofold3& centre, double radius) const noexce
   return range;
 }
 
-/// Whether no more than one face cuts a sphere that touches this cell, or the one beside it, and which. Not where a cap
+/// Returns true if no more than one face cuts a sphere that touches this cell, or the one beside it, and tells which. Not where a cap
 /// is so flat that its cell may be smaller than what rounding adds: only centred_box_volume looks at that.
 bool SphereCells::cut_once(
   std::size_t axis, std::int64_t cell, Twofold centre, double radius, Cut& cut) const noexcept
@@ -178,7 +178,7 @@ bool SphereCells::cut_once(
   return true;
 }
 
-/// Where no more than one face an axis cuts a sphere; otherwise it is not done.
+/// Adds the parts of a sphere that no more than one face an axis cuts; otherwise it is not done.
 bool SphereCells::add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre,
   double radius, Shares& shares) const
 {

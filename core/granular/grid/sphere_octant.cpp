@@ -23,7 +23,7 @@ double root(double x)
 
 // ---- one slice: a disc and a rectangle ---------------------------------------------------------
 
-/// Of a disc of radius 1, what is beyond a chord of this half length t, t^2 <= 1/2.
+/// Returns the area of the part of a disc of radius 1 that is beyond a chord of this half length t, t^2 <= 1/2.
 double segment(double t2)
 {
   const double t = std::sqrt(t2);
@@ -187,7 +187,7 @@ double integrate_slices(const Slices& slices, double begin, double end)
 
 // ---- the box -----------------------------------------------------------------------------------
 
-/// What is left of the box, the surface of the sphere in it.
+/// The rest of the box: the surface of the sphere in it.
 struct Piece
 {
   double radius2;

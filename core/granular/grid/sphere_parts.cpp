@@ -15,7 +15,7 @@ constexpr double pi = std::numbers::pi;
 
 // All for a sphere of radius 1 and planes at distances a, b, c from 0 to 1.
 
-/// Where two planes meet inside, and the angles that belong to it.
+/// The edge where two planes meet inside, and the angles that belong to it.
 struct Edge
 {
   double product;     ///< a b

@@ -97,7 +97,7 @@ double chord_square(const Vector3& x, const Vector3& b, double n, double width) 
   return sum.twofold().value();
 }
 
-/// Of a term that nearly cancels as well.
+/// Returns a dot product that is right for terms that nearly cancel, too.
 double accurate_dot(const Vector3& a, const Vector3& b) noexcept
 {
   CompensatedSum sum;
@@ -227,7 +227,7 @@ double Kernel::line_mean(const Vector3& to_point, const Vector3& branch) const n
   return part.from < part.to ? std::clamp(this->integrate(part, to_point, b) / end, 0.0, 1.0) : 0;
 }
 
-/// Of take(r^2) along the branch.
+/// Returns the integral of take(r^2) along the branch.
 template <class Take>
 double Kernel::quadrature(double from, double to, const Take& take) const noexcept
 {

@@ -11,7 +11,7 @@ namespace granular
 {
 namespace
 {
-/// Of a kernel.
+/// Largest number of cells that a kernel reaches.
 constexpr double most_cells_of_kernel = 1e8;
 }
 

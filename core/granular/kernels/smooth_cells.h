@@ -16,7 +16,7 @@
 
 namespace granular
 {
-/// Where a kernel that a face of the grid cuts is normalised.
+/// Ways in which a kernel that a face of the grid cuts is normalised.
 enum class KernelBounds : std::uint8_t
 {
   None,  ///< over all space: what is beyond the faces is lost

@@ -109,7 +109,7 @@ FoundEnds find_ends(const IdFinder& finder, Places id1, Places id2, const JoinRe
   return ends;
 }
 
-/// Of so many rows those that are not missing, as JoinedLines has them.
+/// Returns, of so many rows, those that are not missing, as JoinedLines has them.
 std::vector<std::int64_t> list_rows(const FoundEnds& ends, std::size_t all, std::size_t found)
 {
   std::vector<std::int64_t> rows;
@@ -204,7 +204,7 @@ std::vector<EndColumn> make_arrays(
   return columns;
 }
 
-/// What the lines between particles that are here have.
+/// Returns the values of the lines between particles that are here.
 JoinedLines join_here(const ParticleValues& particles, const IdFinder& finder, Places id1,
   Places id2, const JoinRequest& request, PartialProgress& progress)
 {

@@ -61,7 +61,7 @@ public:
 private:
   using Parts = std::array<LinePart, LineSplitter::most_parts>;
 
-  /// Of a chunk of rows.
+  /// Counts of a chunk of rows.
   struct Counts
   {
     std::size_t lines = 0;

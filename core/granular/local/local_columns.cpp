@@ -77,7 +77,7 @@ constexpr KnownColumn table[] = {
   // clang-format on
 };
 
-/// How else columns are spelled: by property/local, bond/local and pair/local of LIGGGHTS, LAMMPS and their forks, and
+/// Other spellings of columns: by property/local, bond/local and pair/local of LIGGGHTS, LAMMPS and their forks, and
 /// by scripts that name them.
 constexpr std::string_view spellings[][2] = {
   { "batom1", "id1" },
@@ -114,7 +114,7 @@ constexpr std::string_view spellings[][2] = {
   { "heatFlux", "heat_flux" },
 };
 
-/// What the computes of contacts print for a keyword, in this order; nothing is known of history.
+/// Values that the computes of contacts print for a keyword, in this order; nothing is known of history.
 constexpr std::string_view keywords[][2] = {
   { "pos", "x1 y1 z1 x2 y2 z2" },
   { "vel", "vx1 vy1 vz1 vx2 vy2 vz2" },

@@ -12,7 +12,7 @@ namespace granular
 {
 namespace
 {
-/// What rounding may have done to a vector, of its length.
+/// Part of the length of a vector that rounding may have changed.
 constexpr double rounding = 0x1p-48;
 
 /// Counts beyond have no meaning: of a vector, and of the short sums of box vectors.
@@ -274,7 +274,7 @@ bool MinimumImage::descend(const Vector3& vector, double slack, Vector3& counts)
   return best != nullptr;
 }
 
-/// Of the images that are as short as the shortest one.
+/// Returns the smallest of the images that are as short as the shortest one.
 Vector3 MinimumImage::smallest_of_ties(
   const Vector3& vector, double slack, const Vector3& counts) const noexcept
 {

@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::size_t rows_per_chunk = 64 * AbsolutePositions::most_rows;
 
-/// Where particles are shown counts, in how many periods they have been does not.
+/// Returns particles by the places where they are shown: in how many periods they have been does not.
 FrameView as_shown(const FrameView& frame)
 {
   FrameView shown = frame;
@@ -62,10 +62,10 @@ ArrayView view_array(const FrameView& frame, const std::string& name)
   return array ? *array : ArrayView{ name };
 }
 
-/// What a rank tells of itself: whether it has rows, and the sizes of the arrays.
+/// Facts that a rank tells of itself: whether it has rows, and the sizes of the arrays.
 using Told = std::vector<int>;
 
-/// Of the ranks with rows, who must agree; if none has any, of the first that knows it.
+/// Returns the size that the ranks with rows have, which must agree; if none has any, that of the first that knows it.
 int size_among(const std::vector<Told>& all, std::size_t place, const std::string& name)
 {
   int size = 0;

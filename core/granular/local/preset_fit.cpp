@@ -18,7 +18,7 @@ bool is_integral(double value) noexcept
   return std::isfinite(value) && value == std::nearbyint(value);
 }
 
-/// What a column may hold; null: anything.
+/// A rule for the numbers of a column; null: all are right.
 using Rule = bool (*)(double);
 
 Rule rule_of(std::string_view name) noexcept

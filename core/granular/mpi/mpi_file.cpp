@@ -27,7 +27,7 @@ constexpr Reason reasons[] = {
   { MPI_ERR_NO_SUCH_FILE, std::errc::no_such_file_or_directory },
 };
 
-/// What the system would say; std::errc{} if MPI does not tell.
+/// Returns the error that the system would tell; std::errc{} if MPI does not tell.
 std::errc code_of(int status)
 {
   int mpi_class = MPI_ERR_UNKNOWN;

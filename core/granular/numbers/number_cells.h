@@ -11,7 +11,7 @@
 
 namespace granular
 {
-/// Where the text of a column goes: each number into a cell of most_number_chars bytes, with what follows it. A number has at
+/// Cells for the text of a column: each number into a cell of most_number_chars bytes, with what follows it. A number has at
 /// most 24 characters.
 struct NumberCells
 {

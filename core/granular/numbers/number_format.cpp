@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How formats of numbers are spelled.
+// Spellings of formats of numbers.
 #include "granular/numbers/number_print.h"
 
 #include "granular/common/error.h"

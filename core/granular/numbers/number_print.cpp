@@ -39,7 +39,7 @@ enum class Rounding : std::uint8_t
   Unknown
 };
 
-/// Whether mantissa * 10^q, of which 64 bits are too near to a half, is rounded up. floor is the
+/// Tells if mantissa * 10^q, of which 64 bits are too near to a half, is rounded up. floor is the
 /// number before the point, shift the bits after it in the high half of the product.
 Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floor) noexcept
 {

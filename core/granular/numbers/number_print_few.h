@@ -36,7 +36,7 @@ inline std::uint64_t whole_power_of_ten(int q)
   return whole_powers_of_ten[static_cast<std::size_t>(q)];
 }
 
-/// Whether a number, finite and not small, is one that 10^q in the table can scale.
+/// Returns true if a number, finite and not small, is one that 10^q in the table can scale.
 inline bool is_usual(std::uint64_t magnitude)
 {
   constexpr std::uint64_t least = 60; // 2^-963

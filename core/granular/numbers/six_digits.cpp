@@ -8,7 +8,7 @@ namespace granular::number_print
 {
 namespace
 {
-// How the six digits of x are found, for 2^-33 <= |x| < 10^6:
+// The way to the six digits of x, for 2^-33 <= |x| < 10^6:
 // 1. k is the exponent of the first digit: 10^k <= |x| < 10^(k + 1), here -10 <= k <= 5. With 2^e the largest power of two up to
 //    |x|, k is floor(e * log10(2)) or one more; a comparison with 10^(k + 1) decides. 78913 / 2^18 gives the same floor as
 //    log10(2) for all these e. Below 2^-33 the floor is -11, outside of the tables.

@@ -17,7 +17,7 @@ namespace granular
 {
 namespace
 {
-/// What the workers of one parallel_for share.
+/// State that the workers of one parallel_for share.
 struct Work
 {
   std::size_t chunks;

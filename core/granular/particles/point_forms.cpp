@@ -56,7 +56,7 @@ int side_of(const ExactVector& vector, const Box& box, std::size_t axis) noexcep
     .sign();
 }
 
-/// Whether the scaled coordinate of a point along an axis is below a number. orientation: side_of the vector of that axis.
+/// Returns true if the scaled coordinate of a point along an axis is below a number. orientation: side_of the vector of that axis.
 bool is_below(
   const Box& box, int orientation, std::size_t axis, const double* point, double number) noexcept
 {

@@ -29,7 +29,7 @@ bool same_box(const FrameView& a, const FrameView& b)
 }
 }
 
-/// What ranks tell each other of a frame.
+/// Facts that ranks tell each other of a frame.
 template <class Archive>
 static void pass(Archive& archive, typename Archive::template Passed<FrameView>& frame)
 {

@@ -70,7 +70,7 @@ struct Side
 
 const char* const image_array = "image";
 
-/// Whether rows of a rank can be unwrapped; of a rank without rows nothing is known.
+/// Returns true if rows of a rank can be unwrapped; of a rank without rows nothing is known.
 bool cannot_unwrap(const FrameView& frame)
 {
   const ArrayView* const images = frame.find(image_array);

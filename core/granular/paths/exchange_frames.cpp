@@ -22,7 +22,7 @@ namespace
 {
 using Numbers = std::vector<std::int64_t>;
 
-/// What a rank knows of a frame.
+/// Facts that a rank has of a frame.
 struct FrameKnown
 {
   std::int64_t particles = 0;
@@ -83,7 +83,7 @@ void share_headers(std::vector<PathFrame>& frames, Communicator& ranks)
   }
 }
 
-/// What a rank knows of an array in all its frames.
+/// Facts that a rank has of an array in all its frames.
 struct ArrayKnown
 {
   int smallest = std::numeric_limits<int>::max();

@@ -23,7 +23,7 @@
 
 namespace granular
 {
-/// What is collected of each frame.
+/// Values that are collected of each frame.
 struct PathRequest
 {
   IdSelection selection;

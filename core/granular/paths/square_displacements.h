@@ -62,7 +62,7 @@ private:
     Vector3 start = {}; ///< its place in the first frame
   };
 
-  /// What is known of some particles.
+  /// Values of some particles.
   struct Chunk
   {
     std::vector<double> points; ///< x y z: later the displacements

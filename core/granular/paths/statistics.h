@@ -27,7 +27,7 @@ SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Co
 SumScale::Terms sum_exactly(std::span<const SumScale::Terms> terms, std::size_t sums,
   Communicator& ranks, const Executor& executor = Executor());
 
-/// What the numbers of all ranks have in common.
+/// Properties of the numbers of all ranks together.
 struct Statistics
 {
   std::int64_t count = 0; ///< of finite numbers, which alone count

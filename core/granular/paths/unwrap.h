@@ -51,7 +51,7 @@ private:
   std::int64_t flip_yz_ = 0;
 };
 
-/// Where a particle was last.
+/// Last known place of a particle.
 struct PathState
 {
   Vector3 point = {};    ///< as its frame had it

@@ -16,8 +16,8 @@ constexpr std::int64_t count_bytes = 4;
 constexpr std::int64_t none_bytes = 2 * count_bytes; ///< of no fixes of either kind
 constexpr std::int64_t least_bytes = 16;             ///< of a fix
 
-/// Whether there may be two counts: of fixes, and of the bytes of the first id, or of fixes of the other kind. Not two zeros, of which
-/// files are full.
+/// Returns true if there may be two counts: of fixes, and of the bytes of the first id, or of fixes of the other kind. Not two zeros, of
+/// which files are full.
 constexpr auto is_pair = [](const char* bytes, bool swapped, std::int64_t left) noexcept
 {
   const std::int64_t most = left / least_bytes;

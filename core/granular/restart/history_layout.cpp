@@ -10,7 +10,7 @@ namespace
 {
 constexpr std::size_t most_values = 14;
 
-/// What all have, then the length, then the damage. Bonds act on their first particle (bond_gran.cpp of each program).
+/// Names that all have, then the length, then the damage. Bonds act on their first particle (bond_gran.cpp of each program).
 constexpr std::string_view pfm[] = { "force_normalx", "force_normaly", "force_normalz",
   "force_tangentialx", "force_tangentialy", "force_tangentialz", "torque_normalx", "torque_normaly",
   "torque_normalz", "torque_tangentialx", "torque_tangentialy", "torque_tangentialz",

@@ -11,11 +11,11 @@ namespace granular
 {
 namespace
 {
-/// What copies of a history value may differ by, in parts of it: programs compute both where a bond crosses a periodic face or one
+/// Difference that copies of a history value may have, in parts of it: programs compute both where a bond crosses a periodic face or one
 /// between processes.
 constexpr double rounding = 1e-6;
 
-/// Whether numbers are the same but for their signs, and for rounding of numbers of that size.
+/// Returns true if numbers are the same but for their signs, and for rounding of numbers of that size.
 bool same_value(double one, double other, double size) noexcept
 {
   const double difference = std::abs(std::abs(one) - std::abs(other));
@@ -127,7 +127,7 @@ public:
       progress);
   }
 
-  /// Of the bonds that were matched, how many have copies that differ.
+  /// Returns the number of bonds that were matched, but have copies that differ.
   std::int64_t count_differing(const Executor& executor, Progress& progress) const
   {
     const auto has = [](const Scratch& scratch) { return !scratch.doubtful.empty(); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the parts of a record are, by a plan.
+// Places of the parts of a record, by a plan.
 #include "granular/numbers/number_print.h"
 #include "granular/restart/record_places.h"
 #include "granular/restart/record_plan.h"
@@ -44,7 +44,7 @@ std::size_t RecordPlan::search_next(std::span<const double> record)
   return at;
 }
 
-/// Of a part that has a length of its own.
+/// Returns the length of a part that tells it itself.
 std::size_t RecordPlan::length_of_part(
   std::span<const double> record, std::size_t at, std::size_t part) const
 {
@@ -71,7 +71,8 @@ std::size_t RecordPlan::length_of_part(
   return length;
 }
 
-/// Where what a style has in a part ends, and its bonds if they are those that are read. may_have_more: other parts may be behind it.
+/// Returns the end of the values that a style has in a part, and its bonds if they are those that are read. may_have_more: other parts
+/// may be behind it.
 std::size_t RecordPlan::measure_style(
   std::span<const double> block, std::size_t part, bool may_have_more, FoundBonds& bonds) const
 {
@@ -94,7 +95,7 @@ std::size_t RecordPlan::measure_style(
   return end;
 }
 
-/// Where the first part ends: its length is that of the whole record.
+/// Returns the end of the first part: its length is that of the whole record.
 std::size_t RecordPlan::end_of_first(std::span<const double> record, FoundBonds& bonds) const
 {
   return parts_.front().searched ? search_next(record)

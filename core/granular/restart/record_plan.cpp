@@ -26,7 +26,7 @@ const RecordColumn common_columns[] = { { "id", Kind::Id, 0, 0 }, { "type", Kind
 
 constexpr auto take_none = [](std::size_t, std::size_t, std::size_t) {};
 
-/// Whether a part may be that of a fix, which has columns if it has a length.
+/// Returns true if a part may be that of a fix, which has columns if it has a length.
 bool fits_fix(const RestartFix& fix, std::size_t fix_length, std::size_t length) noexcept
 {
   return fix_length > 0 ? length == fix_length : static_cast<std::int64_t>(length) <= fix.most;
@@ -210,7 +210,7 @@ void RecordPlan::look_at(std::span<const double> record, const Where& where, Not
   }
 }
 
-/// Of a style alone: what is behind its part must be of the fixes that the file names, or nobody knows where its values are.
+/// Checks the end of a style alone: what is behind its part must be of the fixes that the file names, or nobody knows where its values are.
 void RecordPlan::look_at_end(std::span<const double> record, const Where& where, Notices& notices)
 {
   if (end_known_ || parts_.size() > 1 || !has_fixes_ || !parts_.front().style ||
@@ -227,7 +227,7 @@ void RecordPlan::look_at_end(std::span<const double> record, const Where& where,
   }
 }
 
-/// Whether what is behind a place of a record is what it should be: the parts of other styles, or of fixes.
+/// Returns true if what is behind a place of a record is what it should be: the parts of other styles, or of fixes.
 bool RecordPlan::fits(std::span<const double> record, std::size_t end) const
 {
   if (parts_.size() > 1)
@@ -237,7 +237,7 @@ bool RecordPlan::fits(std::span<const double> record, std::size_t end) const
   return has_fixes_ ? walk_fixes(record, end, known_fixes_, take_none) : end == record.size();
 }
 
-/// Whether bonds may have history, of which is not known how much.
+/// Returns true if bonds may have history, of which is not known how much.
 bool RecordPlan::needs_history() const noexcept
 {
   return this->has_bonds() && parts_[bonds_].style->history && history_values_ < 0;

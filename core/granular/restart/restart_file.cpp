@@ -118,7 +118,7 @@ void pass_over_parts(std::vector<FileIndex>& files, Notices& notices)
   }
 }
 
-/// Whether a file that could be of a process is beside its base: one name in the folder has `base` in place of the number.
+/// Returns true if a file that could be of a process is beside its base: one name in the folder has `base` in place of the number.
 bool has_base(const std::string& path)
 {
   const std::size_t slash = path.rfind('/');

@@ -175,8 +175,8 @@ private:
     }
   }
 
-  /// What follows the atom style has no flags: the styles of a hybrid, then two numbers for each bond/gran (write_restart_settings of
-  /// these styles).
+  /// Reads the values behind the atom style, which have no flags: the styles of a hybrid, then two numbers for each bond/gran
+  /// (write_restart_settings of these styles).
   void read_styles()
   {
     const std::string& style = values_[flag::atom_style].text;

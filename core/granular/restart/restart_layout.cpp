@@ -13,7 +13,7 @@ namespace granular
 {
 namespace
 {
-/// Of a file of which the size is known.
+/// Reads the layout of a file of which the size is known.
 class LayoutReader
 {
 public:
@@ -60,7 +60,7 @@ public:
   }
 
 private:
-  /// How many there are, then slots until so many were seen: a count of bytes, 0 of a slot that is free, and the name.
+  /// Reads the number of groups, then slots until so many were seen: a count of bytes, 0 of a slot that is free, and the name.
   void read_groups()
   {
     constexpr std::int32_t most = 32; ///< bits of a mask
@@ -103,7 +103,7 @@ private:
     }
   }
 
-  /// What is stored of fixes lies right before `end`.
+  /// Reads the values of fixes, which lie right before `end`.
   FixSearch take_fixes(std::int64_t end)
   {
     FixSearch fixes = find_fixes(bytes_.source(), layout_.swapped, at_, end, progress_);

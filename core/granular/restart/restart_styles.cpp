@@ -10,7 +10,7 @@ namespace granular
 {
 namespace
 {
-// What is behind the last list of ellipsoid, line and tri, which has one entry at most, is their shape.
+// Behind the last list of ellipsoid, line and tri, which has one entry at most, comes their shape.
 constexpr StyleLayout table[] = {
   // clang-format off
   // name                     columns                                               values lists           bonds  history

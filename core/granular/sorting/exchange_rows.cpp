@@ -15,7 +15,7 @@ namespace granular
 {
 namespace
 {
-/// How many of the sorted ids of this rank go to each rank.
+/// Returns the numbers of the sorted ids of this rank that go to each rank.
 std::vector<std::int64_t> count_parts(
   std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks)
 {

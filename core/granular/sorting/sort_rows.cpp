@@ -51,7 +51,7 @@ void for_each_block(DumpFrame& frame, const Call& call)
   }
 }
 
-/// What is known of the rows of a rank, or of all, before they move.
+/// Facts about the rows of a rank, or of all, before they move.
 struct Survey
 {
   std::int64_t rows = 0;

@@ -105,7 +105,7 @@ const char* skip_word(const char* at) noexcept
   return at;
 }
 
-/// Where decoding a row stopped.
+/// Place where decoding a row stopped.
 struct RowEnd
 {
   RowStatus status;

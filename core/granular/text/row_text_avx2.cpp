@@ -88,7 +88,7 @@ GRANULAR_TARGET inline __m256i kept(__m256i constant) noexcept
   return constant;
 }
 
-/// What all words need.
+/// Constants for all words.
 struct Constants
 {
   __m256i zero;
@@ -186,7 +186,7 @@ GRANULAR_TARGET inline __m256i combine_fours(__m256i digits, const Constants& co
   return _mm256_madd_epi16(_mm256_maddubs_epi16(digits, constants.pairs), constants.fours);
 }
 
-/// Whether some bytes are above 9.
+/// Returns true if some bytes are above 9.
 GRANULAR_TARGET inline bool has_others(__m256i digits, const Constants& constants) noexcept
 {
   return !all_zero(_mm256_subs_epu8(digits, constants.nine));

@@ -70,7 +70,7 @@ GRANULAR_TARGET inline void append_lines(
 
 constexpr Table short_places = by_place<8>([](std::size_t i, std::size_t) { return i; });
 
-/// Of eight words, by their edges.
+/// Returns the lengths of eight words, by their edges.
 GRANULAR_TARGET inline __m256i lengths(const std::uint16_t* edges) noexcept
 {
   const __m256i edge = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(edges));

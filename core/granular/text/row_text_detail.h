@@ -2,7 +2,7 @@
 #ifndef granular_text_row_text_detail_h
 #define granular_text_row_text_detail_h
 
-// What the decoders of the instruction sets share. Only for row_text*.cpp.
+// Parts that the decoders of the instruction sets share. Only for row_text*.cpp.
 
 #include "granular/text/row_text.h"
 

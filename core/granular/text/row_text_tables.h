@@ -55,7 +55,7 @@ struct Words
   alignas(64) std::uint64_t values[batch_bytes / 2 + 8];
 };
 
-/// What the decoders keep of a batch.
+/// State of a batch for the decoders.
 struct Batch
 {
   Edges edges;

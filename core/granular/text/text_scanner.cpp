@@ -11,7 +11,7 @@ namespace granular
 {
 namespace
 {
-/// How much of a mark may lie behind a part of the text in which it begins.
+/// Largest part of a mark that may lie behind a part of the text in which it begins.
 constexpr std::size_t rest_of_mark = item_mark.size() - 1;
 }
 
@@ -42,7 +42,7 @@ private:
   std::int64_t reported_;
 };
 
-/// What was found in a part of the text. Its first line may have begun before it.
+/// Findings in a part of the text. Its first line may have begun before it.
 struct TextScanner::Chunk
 {
   std::int64_t feeds = 0;

@@ -94,7 +94,7 @@ void LegacyVtk::pass(std::size_t bytes) noexcept
   at_ += bytes;
 }
 
-/// Whether that many bytes come, which are in the window then.
+/// Returns true if that many bytes come, which are in the window then.
 bool LegacyVtk::have(std::size_t bytes)
 {
   while (size_ - at_ < bytes && this->more())

@@ -12,7 +12,7 @@ namespace granular
 {
 namespace
 {
-/// What a block of text holds.
+/// Words of a block of text.
 struct Words
 {
   std::int64_t starts = 0;

@@ -11,7 +11,7 @@ namespace granular
 {
 namespace
 {
-/// What an attribute may say, and what that means.
+/// A value that an attribute may have, and its meaning.
 template <class T>
 struct Choice
 {
@@ -29,7 +29,7 @@ constexpr Choice<ValueType> types[] = { { "Int8", ValueType::Int8 }, { "UInt8", 
   { "UInt32", ValueType::UInt32 }, { "Int64", ValueType::Int64 }, { "UInt64", ValueType::UInt64 },
   { "Float32", ValueType::Float32 }, { "Float64", ValueType::Float64 } };
 
-/// What an attribute of the element says; the first choice where it is optional and not there.
+/// Returns the meaning of an attribute of the element; the first choice where it is optional and not there.
 template <class T, std::size_t N>
 T choose(
   const XmlTags& tags, std::string_view attribute, bool optional, const Choice<T> (&choices)[N])

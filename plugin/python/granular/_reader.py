@@ -76,7 +76,7 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
             raise TypeError(f"expected a number for dt, the time of one timestep, got {dt!r}: other settings have names, as in "
                             "Preset=\"Contacts\"")
         properties["TimestepSize"] = float(dt)
-    # What paraview.simple does, but registered only once it is known to be of use.
+    # As paraview.simple does it, but registered only once it is known to be of use.
     controller = servermanager.ParaViewPipelineController()
     made = getattr(servermanager.sources, kind)(no_update=True)
     controller.PreInitializeProxy(made)

@@ -60,7 +60,7 @@ std::optional<std::int64_t> find_end(
   return source.read(end - 1, &last, 1) == 1 ? std::optional(end) : std::nullopt;
 }
 
-/// How well a layout fits the first frame.
+/// Measures of the fit of a layout to the first frame.
 struct Fit
 {
   enum Grade

@@ -41,7 +41,7 @@ constexpr std::int64_t longest_magic_word = 10;
 constexpr std::string_view magic_words[] = { "DUMPATOM", "DUMPCUSTOM" };
 constexpr int all_faults = 100; // more than there are fields
 
-/// Whether a box can be that of a simulation, as far as a file without magic can be told by it: small
+/// Returns true if a box can be that of a simulation, as far as a file without magic can be told by it: small
 /// integers, of which other files are full, are tiny as doubles.
 bool plausible_box(const Box& box) noexcept
 {
@@ -62,7 +62,7 @@ bool plausible_box(const Box& box) noexcept
   return longest > 0;
 }
 
-/// Whether bounds are the wrong way round. Others that are not plausible may come of a simulation that
+/// Returns true if bounds are the wrong way round. Others that are not plausible may come of a simulation that
 /// failed.
 bool inverted_box(const Box& box) noexcept
 {

@@ -20,7 +20,7 @@ namespace
 /// Rows whose columns are converted one after the other: they stay in the nearest cache.
 constexpr std::size_t block_bytes = std::size_t{ 1 } << 14;
 
-/// Of the number of values before a run.
+/// Size of the number of values before a run.
 constexpr std::int64_t count_bytes = sizeof(std::int32_t);
 
 /// Bytes for such numbers that are read with the rows of a chunk.
@@ -75,7 +75,7 @@ const char* convert_column(
 
 using ConvertColumn = const char* (*)(const char*, std::size_t, std::size_t, ColumnSink&) noexcept;
 
-/// Of Int32, Int64 and Float64, by byte order. There are no texts in binary files.
+/// Functions for Int32, Int64 and Float64, by byte order. There are no texts in binary files.
 constexpr ConvertColumn convert_columns[][2] = {
   { convert_column<std::int32_t, false>, convert_column<std::int32_t, true> },
   { convert_column<std::int64_t, false>, convert_column<std::int64_t, true> },
@@ -159,7 +159,7 @@ void BinaryRows::fail_short(std::int64_t end) const
     { source_.path() });
 }
 
-/// Of the number of values of a run.
+/// Checks the number of values of a run.
 void BinaryRows::check_place(std::int64_t at) const
 {
   if (at + count_bytes > entry_.end)

@@ -100,7 +100,7 @@ public:
   /// Returns FrameHeader::digits, from the first rows. Reads the source.
   virtual std::vector<int> digits() const { return {}; }
 
-  /// Who reads rows of it, as long as this lives.
+  /// Returns a reader of its rows, as long as this lives.
   virtual std::unique_ptr<RowReader> reader() const = 0;
 
   /// Says where misfits are, and keeps those before the first that no other type of its column would mend, which is met again:

@@ -57,7 +57,7 @@ ColumnSchema make_schema(std::vector<std::string> names,
   return schema;
 }
 
-/// Whether make_schema would give that schema.
+/// Returns true if make_schema would give that schema.
 bool makes_schema(const std::vector<std::string>& names,
   const std::vector<std::string_view>& first_row, const ColumnSchema& schema)
 {
@@ -226,7 +226,7 @@ const std::shared_ptr<const FrameKind>& Indexer::kind()
   return kind_;
 }
 
-/// Whether something follows the last line feed.
+/// Returns true if something follows the last line feed.
 bool Indexer::unfinished_line() const
 {
   char byte = 0;
@@ -306,7 +306,7 @@ bool Indexer::find_glued_header(FrameEntry& entry, std::int64_t& rows)
 
 namespace
 {
-/// What the first bytes of a text dump say that its rows are; Any: that is not among them. Nothing for other files.
+/// Returns the kind of rows that the first bytes of a text dump tell; Any: they do not tell it. Nothing for other files.
 std::optional<RowsOf> find_rows(std::string_view first_bytes)
 {
   constexpr int longest_header = 64; // lines

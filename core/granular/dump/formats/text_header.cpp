@@ -23,7 +23,7 @@ bool take_item(std::string_view& line) noexcept
   return take_word(line) == item_mark;
 }
 
-/// Where in a line that is no start of a frame the header of one begins; 0: nowhere. A run that was
+/// Returns the place in a line that is no start of a frame where the header of one begins; 0: there is none. A run that was
 /// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
 std::size_t find_glued_header(std::string_view line)
 {

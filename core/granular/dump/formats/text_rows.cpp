@@ -104,7 +104,7 @@ std::unique_ptr<RowReader> TextRows::reader() const
   return std::make_unique<TextReader>(*this);
 }
 
-/// Whether another type of the column holds the word.
+/// Returns true if another type of the column holds the word.
 bool TextRows::is_mended(const Misfit& misfit) const
 {
   return misfit.status == RowStatus::NotExact || misfit.status == RowStatus::NotDouble ||

@@ -27,7 +27,7 @@ std::vector<ArrayView> known_arrays()
   return arrays;
 }
 
-/// Where a column comes from, if it comes from anywhere. Which of two columns of the same name the array of
+/// Returns the source of a column, if it has one. Which of two columns of the same name the array of
 /// either is does not matter: they hold the same.
 std::optional<ColumnSource> find_source(
   const FrameView& frame, const std::string& name, const std::optional<ValueSource>& values)

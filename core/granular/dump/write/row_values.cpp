@@ -65,7 +65,7 @@ std::size_t form_of(ColumnRole role) noexcept
   return static_cast<std::size_t>(role) - static_cast<std::size_t>(ColumnRole::Position);
 }
 
-/// How far a coordinate of the form may be from what another program or an earlier rounding made of the same
+/// Returns the distance that a coordinate of the form may be from what another program or an earlier rounding made of the same
 /// point, for a coordinate of 0 and no crossing, along each axis: the sum of the magnitudes of all terms.
 Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
 {
@@ -89,7 +89,7 @@ Vector3 magnitudes(const Box& box, const Box& moved, ColumnRole role) noexcept
   return sums;
 }
 
-/// Whether a coordinate depends on no other, nor on image counts.
+/// Returns true if a coordinate depends on no other, nor on image counts.
 bool scales_alone(const ColumnSource& source, const FrameView& frame, const Box& box) noexcept
 {
   return source.role == ColumnRole::ScaledPosition && !source.own && source.kept_digits() == 0 &&
@@ -126,7 +126,7 @@ std::span<double> RowValues::make_reals(std::size_t column)
   return made;
 }
 
-/// Whether the numbers of a column can be written as they are in their array; if so the column shows them there.
+/// Returns true if the numbers of a column can be written as they are in their array; if so the column shows them there.
 bool RowValues::find_in_place(const ColumnSource& source, Column& column) const noexcept
 {
   const ValueSource& values = source.values;

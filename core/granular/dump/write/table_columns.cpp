@@ -8,7 +8,7 @@ namespace granular
 {
 namespace
 {
-/// What the columns of an array are called.
+/// Returns the names of the columns of an array.
 std::vector<std::string> names_of(const ArrayView& array)
 {
   if (!array.columns.empty())

@@ -26,7 +26,7 @@ enum class Touched
 };
 
 /**
- * What is read of contacts, besides ids and places.
+ * Arrays that are read of contacts, besides ids and places.
  */
 struct ContactArrays
 {

@@ -70,7 +70,7 @@ vtkSmartPointer<vtkDoubleArray> MakeArray(const granular::EulerValues& values, v
 }
 
 /**
- * What is shown first, and what is a vector, as in VTK's own reader of such files.
+ * Adds an array; which one is shown first and which is a vector is as in VTK's own reader of such files.
  */
 void AddArray(vtkDataSetAttributes* data, vtkDoubleArray* array)
 {

@@ -95,7 +95,7 @@ Middles MiddlesOf(vtkRectilinearGrid* grid)
 }
 
 /**
- * What is to be written of a data set: a value for each of its points, or of its cells.
+ * Values of a data set that are to be written: a value for each of its points, or of its cells.
  */
 struct Source
 {

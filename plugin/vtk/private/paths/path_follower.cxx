@@ -46,7 +46,7 @@ void vtkGranularPathAlgorithm::Follower::Choose()
 
 //------------------------------------------------------------------------------
 /**
- * What the shown frame tells: the origin of the points, and the names that "*" stands for.
+ * Reads what the shown frame tells: the origin of the points, and the names that "*" stands for.
  */
 void vtkGranularPathAlgorithm::Follower::ReadInput()
 {

@@ -77,7 +77,7 @@ public:
   Outcome Fail(vtkAlgorithm* self, const Failure& failure);
 
   /**
-   * What a user should know of the output.
+   * A fact that a user should know of the output.
    */
   struct Remark
   {
