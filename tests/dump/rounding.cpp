@@ -4,8 +4,6 @@
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
 
-#include "granular/particles/point_loss.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -381,30 +379,6 @@ TEST(RoundingInReading, WhatLosesNothingIsNotTold)
     x = std::floor(8 * x) / 8;
   }
   EXPECT_EQ(Dump(text_of(cube)).read(single_at(0)).said(), "");
-}
-
-/// An origin so far away that doubles lose the particles.
-TEST(RoundingInReading, DoublesAreTold)
-{
-  const Cube cube(0, 1, 1e-3);
-  DumpRequest request;
-  request.point_origin = { 1e16, 0, 0 };
-  EXPECT_EQ(Dump(text_of(cube)).read(request).said(),
-    "memory:1: rounding to double precision moves points by up to 1 along x, where the smallest "
-    "radius is 0.001; set PointOrigin near the particles\n");
-  request.point_origin = { 1e8, 0, 0 };
-  EXPECT_EQ(Dump(text_of(cube)).read(request).said(), "");
-
-  RoundingLoss loss; // as readers of lines and restart files have it
-  Notices notices;
-  add_rounding(0, cube.box, { 1e16, 0, 0 }, loss);
-  note_point_loss(loss, cube.box, { 1e16, 0, 0 }, false, { "a" }, notices);
-  EXPECT_EQ(notices.size(), 0u);
-  add_rounding(1, cube.box, { 1e16, 0, 0 }, loss);
-  note_point_loss(loss, cube.box, { 1e16, 0, 0 }, false, { "a" }, notices);
-  EXPECT_EQ(lines_of(notices),
-    "a: rounding to double precision moves points by up to 1 along x, where the box is 1 long; "
-    "set PointOrigin near the particles\n");
 }
 
 /// A box of no length cannot scale coordinates; those that it does not scale can be read.

@@ -120,10 +120,7 @@ public:
 private:
   static constexpr double most = 5e-7; ///< that a number is moved by
 
-  std::string text() const
-  {
-    return loss_.text(RoundingLimit(Box::from_bounds(lo_, hi_), loss_.radius()), "centres", names_);
-  }
+  std::string text() const { return loss_.text(Box::from_bounds(lo_, hi_), "centres", names_); }
 
   /// Where centres are along an axis, and which become the same.
   void find_places(std::size_t axis)
@@ -166,7 +163,7 @@ private:
       const double* const v = values.data() + i;
       largest = std::max(largest, components == 3 ? std::hypot(v[0], v[1], v[2]) : std::abs(*v));
     }
-    constexpr double safe = 2 * most / RoundingLimit::of_value; // sqrt(3) for three components
+    constexpr double safe = 2 * most / RoundingLoss::of_value; // sqrt(3) for three components
     if (largest >= safe && !alone)
     {
       return;

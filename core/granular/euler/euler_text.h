@@ -20,8 +20,8 @@ enum class EulerDialect : std::uint8_t
 };
 
 /// Returns the file: points and the arrays v_avg, volumefraction, radius, pressure; Wide also has sigma and tau if they are known.
-/// One notice tells how much %f loses, if that is more than a RoundingLimit or centres become equal; values other than radii are
-/// compared with the largest of their array. Throws Error if all centres along an axis would become equal; Cancelled.
+/// One notice tells how much %f loses, if that is too much, see RoundingLoss, or centres become equal; values other than radii
+/// are compared with the largest of their array. Throws Error if all centres along an axis would become equal; Cancelled.
 std::string encode_euler(
   const EulerCells& cells, EulerDialect dialect, Notices& notices, Progress& progress);
 }

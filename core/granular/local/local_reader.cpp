@@ -4,7 +4,6 @@
 #include "granular/local/local_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/gather.h"
-#include "granular/particles/point_loss.h"
 
 #include <algorithm>
 #include <string>
@@ -205,14 +204,12 @@ struct Remarks
   std::int64_t rows = 0;
   std::int64_t rounded = 0;
   std::int64_t misfits = 0;
-  RoundingLoss loss = {}; ///< of the ends of lines
 
   void add(const Remarks& more)
   {
     rows += more.rows;
     rounded += more.rounded;
     misfits += more.misfits;
-    loss.add(more.loss);
   }
 
   void note(Where where, Notices& notices) const
@@ -324,7 +321,6 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       {
         const auto first = values_of<double>(find_array(frame, end_arrays[0]), 3);
         const auto second = values_of<double>(find_array(frame, end_arrays[1]), 3);
-        add_rounding(frame.rows, frame.header.box, request.lines.point_origin, remarks.loss);
         local.lines = make_lines(first, second, frame.header.box, request.lines, forward);
         const bool as_written = request.lines.periodic == PeriodicLines::AsWritten;
         const std::span lengths(
@@ -341,8 +337,6 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         sum.add(of_rank);
       }
       sum.note(where, notices);
-      note_point_loss(
-        sum.loss, frame.header.box, request.lines.point_origin, false, where, notices);
       return local;
     });
 }

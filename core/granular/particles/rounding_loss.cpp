@@ -3,100 +3,118 @@
 
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/gather.h"
+#include "granular/particles/point_forms.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <optional>
 
 namespace granular
 {
 namespace
 {
-/// Calls visit(i, j, k) for each corner of a box.
-template <class Visit>
-void for_each_corner(const Visit& visit)
-{
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    visit(corner & 1, corner >> 1 & 1, corner >> 2);
-  }
-}
-
-/// The largest error of the double nearest to a number of such a magnitude.
-double half_ulp_of_double(double magnitude) noexcept
-{
-  const double next = std::nextafter(magnitude, HUGE_VAL);
-  return magnitude < HUGE_VAL ? (next - magnitude) / 2 : 0;
-}
-
 std::string short_text(double value)
 {
   return to_text(value, { 3 });
 }
+
+/// The extent of a box along an axis.
+double length_of(const Box& box, std::size_t axis) noexcept
+{
+  double length = 0;
+  for (const Twofold3& edge : box.vectors)
+  {
+    length += std::abs(edge[axis].hi);
+  }
+  return length;
+}
 }
 
-RoundingLimit::RoundingLimit(const Box& box, double smallest_radius) noexcept
-  : radius(smallest_radius)
+void RoundingLoss::change(std::size_t of_column, double value, double rounded) noexcept
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    double length = 0;
-    for (const Twofold3& edge : box.vectors)
-    {
-      length += std::abs(edge[axis].hi);
-    }
-    const bool known = length > 0 && std::isfinite(length);
-    lengths[axis] = length;
-    distance[axis] = radius < HUGE_VAL ? of_radius * radius : known ? of_box * length : HUGE_VAL;
-  }
-}
-
-void RoundingLoss::change(std::size_t column, double value, double rounded) noexcept
-{
-  const double part = std::abs(rounded - value) / std::abs(value);
-  if (part > changed_ || (part == changed_ && column < column_))
-  {
-    changed_ = part;
-    column_ = column;
-  }
+  RoundingLoss one;
+  one.changed = std::abs(rounded - value) / std::abs(value);
+  one.column = of_column;
+  this->add(one);
 }
 
 void RoundingLoss::add(const RoundingLoss& other) noexcept
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    this->move(axis, other.moved_[axis]);
+    this->move(axis, other.moved[axis]);
   }
-  if (other.changed_ > changed_ || (other.changed_ == changed_ && other.column_ < column_))
+  if (other.changed > changed || (other.changed == changed && other.column < column))
   {
-    changed_ = other.changed_;
-    column_ = other.column_;
+    changed = other.changed;
+    column = other.column;
   }
-  this->add_radius(other.radius_);
+  this->add_radius(other.radius);
 }
 
 std::string RoundingLoss::text(
-  const RoundingLimit& limit, const char* points, std::span<const std::string> names) const
+  const Box& box, const char* points, std::span<const std::string> names) const
 {
-  std::string text;
+  const Vector3 limit = largest_movement(box, radius);
   std::size_t worst = 0;
   for (std::size_t axis = 1; axis < 3; ++axis)
   {
-    const double ratio = moved_[axis] / limit.distance[axis];
-    worst = ratio > moved_[worst] / limit.distance[worst] ? axis : worst;
+    worst = moved[axis] / limit[axis] > moved[worst] / limit[worst] ? axis : worst;
   }
-  if (moved_[worst] > limit.distance[worst])
+  std::string text;
+  if (moved[worst] > limit[worst])
   {
-    text = std::string("moves ") + points + " by up to " + short_text(moved_[worst]) + " along " +
+    text = std::string("moves ") + points + " by up to " + short_text(moved[worst]) + " along " +
       "xyz"[worst] + ", where " +
-      (limit.radius < HUGE_VAL ? "the smallest radius is " + short_text(limit.radius)
-                               : "the box is " + short_text(limit.lengths[worst]) + " long");
+      (radius < HUGE_VAL ? "the smallest radius is " + short_text(radius)
+                         : "the box is " + short_text(length_of(box, worst)) + " long");
   }
-  if (changed_ > RoundingLimit::of_value)
+  if (changed > of_value)
   {
-    text += (text.empty() ? "changes '" : ", and changes '") + names[column_] + "' by up to " +
-      short_text(100 * changed_) + " % of itself";
+    text += (text.empty() ? "changes '" : ", and changes '") + names[column] + "' by up to " +
+      short_text(100 * changed) + " % of itself";
   }
   return text;
+}
+
+Vector3 largest_movement(const Box& box, double smallest_radius) noexcept
+{
+  constexpr double of_radius = 0.01;
+  constexpr double of_box = 1e-4;
+  Vector3 distance;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = length_of(box, axis);
+    const bool known = length > 0 && std::isfinite(length);
+    distance[axis] = smallest_radius < HUGE_VAL ? of_radius * smallest_radius
+      : known                                   ? of_box * length
+                                                : HUGE_VAL;
+  }
+  return distance;
+}
+
+double smallest_radius(const FrameView& frame)
+{
+  const std::optional<ValueSource> radii = find_values(frame, "radius");
+  RoundingLoss loss;
+  if (!radii || radii->type == ValueType::Text)
+  {
+    return loss.radius;
+  }
+  constexpr std::int64_t most = 256; // at a time
+  std::array<double, most> values;
+  std::array<std::int64_t, most> rows;
+  for (std::int64_t first = 0; first < frame.rows; first += most)
+  {
+    const std::int64_t count = std::min(frame.rows - first, most);
+    std::iota(rows.begin(), rows.begin() + count, first);
+    load_numbers(*radii, std::span(rows).first(static_cast<std::size_t>(count)), values.data());
+    std::for_each(values.begin(), values.begin() + count,
+      [&](double radius) { loss.add_radius(radius * radii->factor); });
+  }
+  return loss.radius;
 }
 
 RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks)
@@ -109,34 +127,13 @@ RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks)
   return sum;
 }
 
-Vector3 rounding_of_points(const Box& box, const Vector3& origin) noexcept
+bool note_loss(const std::string& losses, const std::string& cause, const std::string& remedy,
+  const Where& where, const std::string& topic, Notices& notices)
 {
-  Vector3 rounding = {};
-  for_each_corner(
-    [&](int i, int j, int k)
-    {
-      const Vector3 corner = box.corner(i, j, k, origin);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        rounding[axis] = std::max(rounding[axis], half_ulp_of_double(std::abs(corner[axis])));
-      }
-    });
-  return rounding;
-}
-
-Vector3 distance_of_corners(const Box& one, const Box& other) noexcept
-{
-  Vector3 distance = {};
-  for_each_corner(
-    [&](int i, int j, int k)
-    {
-      const Vector3 a = one.corner(i, j, k);
-      const Vector3 apart = other.corner(i, j, k, a);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        distance[axis] = std::max(distance[axis], std::abs(apart[axis]));
-      }
-    });
-  return distance;
+  if (!losses.empty())
+  {
+    notices.push_back({ where, cause + " " + losses + "; " + remedy, topic });
+  }
+  return !losses.empty();
 }
 }

@@ -2,8 +2,10 @@
 #ifndef granular_particles_rounding_loss_h
 #define granular_particles_rounding_loss_h
 
+#include "granular/common/error.h"
 #include "granular/geometry/box.h"
 #include "granular/parallel/communicator.h"
+#include "granular/particles/frame_view.h"
 
 #include <cmath>
 #include <cstddef>
@@ -12,66 +14,48 @@
 
 namespace granular
 {
-/// The distance by which rounding may move a point along each axis without a notice: 1 % of the smallest radius. Without
-/// radii, 1e-4 of the length of the box; without such a length, any distance.
-struct RoundingLimit
-{
-  static constexpr double of_radius = 0.01;
-  static constexpr double of_box = 1e-4;
-  static constexpr double of_value = 1e-3; ///< largest relative change of a value
-
-  /// smallest_radius: HUGE_VAL without radii.
-  RoundingLimit(const Box& box, double smallest_radius) noexcept;
-
-  double radius;
-  Vector3 lengths; ///< of the box, along the axes
-  Vector3 distance;
-};
-
 /// The effect of rounding on the points and values of a frame, in reading or writing. Losses of threads and ranks add up to
 /// the same in any order.
-class RoundingLoss
+struct RoundingLoss
 {
-public:
+  static constexpr double of_value = 1e-3; ///< largest relative change of a value without a notice
+
+  Vector3 moved = {};       ///< largest movement of a point along each axis
+  double changed = 0;       ///< largest change of a value, as a part of itself
+  std::size_t column = 0;   ///< of that value
+  double radius = HUGE_VAL; ///< the smallest; HUGE_VAL without radii
+
   /// Adds the movement of a point along an axis. nan is no distance.
   void move(std::size_t axis, double distance) noexcept
   {
-    moved_[axis] = distance > moved_[axis] ? distance : moved_[axis];
+    moved[axis] = distance > moved[axis] ? distance : moved[axis];
   }
 
   /// Adds the change of a value in a column. 0 and non-finite values cannot change.
-  void change(std::size_t column, double value, double rounded) noexcept;
+  void change(std::size_t of_column, double value, double rounded) noexcept;
 
   /// Adds the radius of a particle; radii that are not above 0 are ignored.
-  void add_radius(double radius) noexcept
-  {
-    radius_ = radius > 0 && radius < radius_ ? radius : radius_;
-  }
+  void add_radius(double other) noexcept { radius = other > 0 && other < radius ? other : radius; }
 
   void add(const RoundingLoss& other) noexcept;
 
-  /// Returns the smallest radius, or HUGE_VAL.
-  double radius() const noexcept { return radius_; }
-
-  /// Returns the losses above the limit: "move particles by up to 0.25 along x, where the smallest radius is 0.001, and
-  /// change 'radius' by up to 19 %". Empty if there are none. points: the moved things; names: of the columns.
-  std::string text(
-    const RoundingLimit& limit, const char* points, std::span<const std::string> names) const;
-
-private:
-  Vector3 moved_ = {};
-  double changed_ = 0; ///< part of itself
-  std::size_t column_ = 0;
-  double radius_ = HUGE_VAL;
+  /// Returns the losses above the limits: "moves particles by up to 0.25 along x, where the smallest radius is 0.001, and
+  /// changes 'radius' by up to 19 % of itself". Empty if there are none. points: the moved things; names: of the columns.
+  std::string text(const Box& box, const char* points, std::span<const std::string> names) const;
 };
+
+/// Returns the distance by which rounding may move a point along each axis without a notice: 1 % of the smallest radius.
+/// Without radii (HUGE_VAL), 1e-4 of the length of the box; without such a length, any distance.
+Vector3 largest_movement(const Box& box, double smallest_radius) noexcept;
+
+/// Returns the smallest radius of the rows of a frame; HUGE_VAL without radii.
+double smallest_radius(const FrameView& frame);
 
 /// Adds the losses of all ranks, on all. Collective.
 RoundingLoss add_ranks(RoundingLoss own, Communicator& ranks);
 
-/// Returns how far rounding to doubles can move a point of the box, minus an origin, along each axis.
-Vector3 rounding_of_points(const Box& box, const Vector3& origin) noexcept;
-
-/// Returns the distance between the corners of two boxes, along each axis.
-Vector3 distance_of_corners(const Box& one, const Box& other) noexcept;
+/// Adds a notice if a text of losses is not empty: the cause, the losses and the remedy. Returns true if it does.
+bool note_loss(const std::string& losses, const std::string& cause, const std::string& remedy,
+  const Where& where, const std::string& topic, Notices& notices);
 }
 #endif

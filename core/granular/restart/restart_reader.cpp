@@ -2,7 +2,6 @@
 #include "granular/restart/restart_reader.h"
 
 #include "granular/common/shares.h"
-#include "granular/particles/point_loss.h"
 #include "granular/restart/bond_frame.h"
 #include "granular/restart/collect_bonds.h"
 #include "granular/restart/decode_records.h"
@@ -18,27 +17,6 @@ namespace granular
 {
 namespace
 {
-/// What the points of this rank's part lose to a PointOrigin that is far away.
-void note_loss(
-  const DumpFrame& frame, const RestartRequest& request, const Where& where, Notices& notices)
-{
-  const Vector3& origin = request.lines.point_origin;
-  if (origin == Vector3{})
-  {
-    return;
-  }
-  RoundingLoss loss;
-  add_rounding(frame.rows, frame.header.box, origin, loss);
-  const auto radii = std::ranges::find_if(
-    frame.arrays, [](const DumpArray& array) { return array.info.name == "radius"; });
-  if (radii != frame.arrays.end())
-  {
-    const auto* const values = static_cast<const double*>(radii->block.data());
-    std::for_each(values, values + frame.rows, [&](double radius) { loss.add_radius(radius); });
-  }
-  note_point_loss(loss, frame.header.box, origin, false, where, notices);
-}
-
 /// Decodes the records of a file.
 class FrameReader
 {
@@ -102,7 +80,6 @@ public:
         *bonds_, layout, request, first_, end_, where, frame.bonds, notices, progress);
     }
     frame.particles = particles_.take(where, notices);
-    note_loss(frame.particles, request, where, notices);
     return frame;
   }
 

@@ -39,22 +39,6 @@ void move_rows(char* first, std::span<const std::uint32_t> rows, Width width) no
 }
 }
 
-RoundingLoss loss_of_points(const std::deque<DecodedChunk>& chunks, const FrameLayout& layout)
-{
-  RoundingLoss all;
-  bool any = false;
-  for (const DecodedChunk& chunk : chunks)
-  {
-    all.add(chunk.loss);
-    any = any || chunk.kept > 0;
-  }
-  if (any && layout.rounds())
-  {
-    layout.add_rounding(all);
-  }
-  return all;
-}
-
 ChunkDecoder::ChunkDecoder(FrameLayout& layout, const DumpRequest& request)
   : layout_(layout)
   , request_(request)
@@ -107,7 +91,7 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
         { reinterpret_cast<const std::string_view*>(wire.texts.at(0, scratch_.get())), count },
         to + row_, where);
     }
-    const std::size_t kept = this->finish_batch(count, number + chunk.rows, chunk.loss);
+    const std::size_t kept = this->finish_batch(count, number + chunk.rows, chunk.moved);
     if (request_.ranges)
     {
       // while the rows are in the cache: whoever shows them asks for their range
@@ -146,7 +130,7 @@ void ChunkDecoder::aim()
 }
 
 /// Returns how many of the rows stay.
-std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number, RoundingLoss& loss)
+std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number, Vector3& moved)
 {
   this->copy_batch(count);
   if (layout_.points)
@@ -159,11 +143,7 @@ std::size_t ChunkDecoder::finish_batch(std::size_t count, std::int64_t number, R
   }
   if (layout_.points && request_.single_precision)
   {
-    this->narrow(count, loss);
-  }
-  if (layout_.rounds() && layout_.radii)
-  {
-    this->measure_radii(count, loss);
+    this->narrow(count, moved);
   }
   if (keep_.empty())
   {
@@ -210,12 +190,11 @@ void ChunkDecoder::copy_batch(std::size_t count)
   }
 }
 
-/// Rounds points to floats, and measures what rows that stay lose by it.
-void ChunkDecoder::narrow(std::size_t count, RoundingLoss& loss)
+/// Rounds points to floats, and measures how far those of rows that stay move.
+void ChunkDecoder::narrow(std::size_t count, Vector3& moved)
 {
   const auto* from = reinterpret_cast<const double*>(layout_.points->xyz.at(row_, scratch_.get()));
   auto* to = static_cast<float*>(layout_.frame.points.data()) + 3 * row_;
-  Vector3 moved = {};
   for (std::size_t i = 0; i < count; ++i, from += 3, to += 3)
   {
     const bool stays = keep_.empty() || keep_[i] != 0;
@@ -225,18 +204,6 @@ void ChunkDecoder::narrow(std::size_t count, RoundingLoss& loss)
       const double distance = std::abs(static_cast<double>(to[axis]) - from[axis]);
       moved[axis] = stays && distance > moved[axis] ? distance : moved[axis];
     }
-  }
-  layout_.add_moved(moved, loss);
-}
-
-/// The radii of the rows that stay.
-void ChunkDecoder::measure_radii(std::size_t count, RoundingLoss& loss) const
-{
-  const Block& radii = layout_.frame.arrays[*layout_.radii].block;
-  const auto* const radius = static_cast<const double*>(radii.data()) + row_;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    loss.add_radius(keep_.empty() || keep_[i] != 0 ? radius[i] : 0);
   }
 }
 

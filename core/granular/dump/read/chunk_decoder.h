@@ -5,11 +5,9 @@
 #include "granular/dump/formats/frame_rows.h"
 #include "granular/dump/read/frame_layout.h"
 #include "granular/particles/frame_ranges.h"
-#include "granular/particles/rounding_loss.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,16 +17,13 @@ namespace granular
 /// The result of a chunk of rows.
 struct DecodedChunk
 {
-  std::int64_t row = 0;   ///< row of the frame in memory where its first row went
-  std::int64_t rows = 0;  ///< decoded
-  std::int64_t kept = 0;  ///< by the filters
-  bool surplus = false;   ///< see RowReader::surplus
-  RoundingLoss loss = {}; ///< of points in single precision, and the radii
+  std::int64_t row = 0;  ///< row of the frame in memory where its first row went
+  std::int64_t rows = 0; ///< decoded
+  std::int64_t kept = 0; ///< by the filters
+  bool surplus = false;  ///< see RowReader::surplus
+  Vector3 moved = {};    ///< by single precision: the largest movement of points along each axis
   std::vector<std::vector<std::string>> words; ///< of each column of texts, by their indices
 };
-
-/// Returns the loss in the points of all chunks.
-RoundingLoss loss_of_points(const std::deque<DecodedChunk>& chunks, const FrameLayout& layout);
 
 /// Decodes chunks of rows into a layout. One for each thread.
 class ChunkDecoder
@@ -44,10 +39,9 @@ public:
 
 private:
   void aim();
-  std::size_t finish_batch(std::size_t count, std::int64_t number, RoundingLoss& loss);
+  std::size_t finish_batch(std::size_t count, std::int64_t number, Vector3& moved);
   void copy_batch(std::size_t count);
-  void narrow(std::size_t count, RoundingLoss& loss);
-  void measure_radii(std::size_t count, RoundingLoss& loss) const;
+  void narrow(std::size_t count, Vector3& moved);
   void convert(const PointsWire& wire, std::size_t count);
   void choose_rows(std::size_t count, std::int64_t number);
   RowCounts decode_batch(RowReader& reader, std::int64_t wanted);

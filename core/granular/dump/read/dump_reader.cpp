@@ -5,12 +5,14 @@
 #include "granular/dump/formats/text_header.h"
 #include "granular/dump/read/frame_chunks.h"
 #include "granular/dump/read/frame_decoder.h"
+#include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 #include "granular/parallel/gather.h"
-#include "granular/particles/point_loss.h"
+#include "granular/particles/view_frame.h"
 #include "granular/sorting/sort_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <string>
@@ -180,6 +182,35 @@ void check(const DumpRequest& request)
   }
 }
 
+/// Returns true if the digits of the box, which scales coordinates to the points, move these.
+bool moves_points(const DumpFrame& frame, const DumpRequest& request)
+{
+  if (!request.points || frame.header.rows == 0 || frame.header.box_rounding == Vector3{})
+  {
+    return false;
+  }
+  Notices known; // the layout has said what there is to say
+  const PositionPlan plan =
+    plan_positions(frame.schema, frame.header.box, request.coordinates, {}, known);
+  return plan.coordinates != Coordinates::Scaled &&
+    std::ranges::any_of(plan.axes, [&](const auto& axis) { return is_rescaled(plan, axis); });
+}
+
+/// The loss of points that move so far along the axes of their coordinates.
+RoundingLoss loss_of(const Vector3& moved, const DumpFrame& frame)
+{
+  RoundingLoss loss{ .moved = moved };
+  for (std::size_t axis = 0; frame.coordinates == Coordinates::Scaled && axis < 3; ++axis)
+  {
+    loss.moved[axis] = 0;
+    for (std::size_t edge = 0; edge < 3; ++edge)
+    {
+      loss.move(axis, moved[edge] * std::abs(frame.header.box.vectors[edge][axis].hi));
+    }
+  }
+  return loss;
+}
+
 DumpPart decode(const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request,
   Progress& progress)
 {
@@ -188,9 +219,14 @@ DumpPart decode(const FramePieces& pieces, const ColumnSchema& schema, const Dum
   part.misfits = decoder.run(progress);
   if (part.misfits.empty())
   {
-    part.loss = decoder.loss();
+    const Vector3 moved = decoder.moved();
     part.frame = decoder.take(part.ids);
+    part.loss = loss_of(moved, part.frame);
     part.counts = decoder.take_counts();
+    if (request.single_precision || moves_points(part.frame, request))
+    {
+      part.loss.add_radius(smallest_radius(view_frame(part.frame)));
+    }
   }
   return part;
 }
@@ -230,18 +266,28 @@ void check_counts(Communicator& ranks, const FramePieces& pieces, DumpPart& part
   }
 }
 
-/// Returns true if the box scales coordinates to the points.
-bool is_scaled(const DumpFrame& frame, const DumpRequest& request)
+/// Tells how far single precision and the digits of the box move points: once per file and origin, and once per file.
+void note_losses(
+  const DumpPart& part, const DumpRequest& request, const Where& where, Notices& notices)
 {
-  if (!request.points || frame.header.rows == 0)
+  const FrameHeader& header = part.frame.header;
+  std::string topic = "single";
+  for (const double coordinate : request.point_origin)
   {
-    return false;
+    topic += " " + to_text(coordinate);
   }
-  Notices known; // the layout has said what there is to say
-  const PositionPlan plan =
-    plan_positions(frame.schema, frame.header.box, request.coordinates, {}, known);
-  return plan.coordinates != Coordinates::Scaled &&
-    std::ranges::any_of(plan.axes, [&](const auto& axis) { return is_rescaled(plan, axis); });
+  note_loss(part.loss.text(header.box, "points", {}), "rounding to single precision",
+    "set PointOrigin near the particles, or PointPrecision=Double", where, topic, notices);
+  if (moves_points(part.frame, request))
+  {
+    RoundingLoss of_box = part.loss;
+    of_box.moved = header.box_rounding;
+    note_loss(of_box.text(header.box, "points", {}),
+      "the last digit of the bounds of the box, which scale the coordinates,",
+      "dump x y z with more digits (dump_modify ID format \"%d %d %.12g ...\", a format for "
+      "each column), or a binary file",
+      where, "digits of the box", notices);
+  }
 }
 
 /// Sorts the rows if that is asked for. Collective.
@@ -298,12 +344,7 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
       sort(part, request, ranks, where);
       notices.insert(notices.end(), widened.begin(), widened.end());
       notices.insert(notices.end(), part.notices.begin(), part.notices.end());
-      note_point_loss(part.loss, part.frame.header.box, request.point_origin,
-        request.single_precision, where, notices);
-      if (is_scaled(part.frame, request))
-      {
-        note_box_loss(part.frame.header, part.loss.radius(), where, notices);
-      }
+      note_losses(part, request, where, notices);
       return std::move(part.frame);
     });
 }

@@ -379,6 +379,16 @@ void FrameDecoder::join_words()
   }
 }
 
+Vector3 FrameDecoder::moved() const noexcept
+{
+  RoundingLoss loss;
+  for (const DecodedChunk& chunk : decoded_)
+  {
+    loss.add({ .moved = chunk.moved });
+  }
+  return loss.moved;
+}
+
 DumpFrame FrameDecoder::take(Block& ids)
 {
   return layout_->take(next_row_, ids);

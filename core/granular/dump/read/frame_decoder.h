@@ -35,8 +35,8 @@ public:
   /// Returns the frame; `ids` gets the ids if they are needed for sorting but not as an array.
   DumpFrame take(Block& ids);
 
-  /// Returns the loss of the points by rounding.
-  RoundingLoss loss() const { return loss_of_points(decoded_, *layout_); }
+  /// Returns the largest movement of points by single precision, along the axes of their coordinates.
+  Vector3 moved() const noexcept;
 
   /// Returns the rows of each piece in this part.
   std::vector<std::int64_t> take_counts() { return std::move(counts_); }

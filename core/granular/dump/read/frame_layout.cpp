@@ -101,10 +101,6 @@ void FrameLayout::lay_arrays()
       this->want(column, info.type, to, info.scale);
       to.base += to.scratch ? 0 : width; // a text has one component
     }
-    if (info.name == "radius" && info.type == ValueType::Float64 && info.columns.size() == 1)
-    {
-      radii = frame.arrays.size();
-    }
     frame.arrays.push_back(std::move(array));
   }
 }
@@ -182,32 +178,6 @@ void FrameLayout::lay_filters(const Where& where, Notices& notices)
     this->want(id_column, ValueType::Int64,
       { static_cast<char*>(ids.data()), 0, sizeof(std::int64_t), false });
   }
-}
-
-bool FrameLayout::rounds() const noexcept
-{
-  return points &&
-    (request_.single_precision || changes_points(points->plan, points->point_origin));
-}
-
-void FrameLayout::add_moved(const Vector3& moved, RoundingLoss& loss) const noexcept
-{
-  const bool scaled = frame.coordinates == Coordinates::Scaled;
-  for (std::size_t j = 0; j < 3; ++j)
-  {
-    for (std::size_t k = 0; scaled && k < 3; ++k)
-    {
-      loss.move(k, moved[j] * std::abs(frame.header.box.vectors[j][k].hi));
-    }
-    loss.move(j, scaled ? 0 : moved[j]);
-  }
-}
-
-void FrameLayout::add_rounding(RoundingLoss& loss) const noexcept
-{
-  const bool scaled = frame.coordinates == Coordinates::Scaled;
-  const Box unit = Box::from_bounds({ 0, 0, 0 }, { 1, 1, 1 });
-  this->add_moved(rounding_of_points(scaled ? unit : frame.header.box, points->point_origin), loss);
 }
 
 DumpFrame FrameLayout::take(std::int64_t kept, Block& to)

@@ -4,7 +4,6 @@
 
 #include "granular/dump/read/dump_request.h"
 #include "granular/memory/block.h"
-#include "granular/particles/rounding_loss.h"
 #include "granular/text/row_text.h"
 
 #include <cstddef>
@@ -72,15 +71,6 @@ public:
   /// Cuts the memory to the actual rows. `ids` gets the ids if they are needed for sorting but not as an array.
   DumpFrame take(std::int64_t rows, Block& ids);
 
-  /// Returns true if the points are not the numbers of the file.
-  bool rounds() const noexcept;
-
-  /// Adds a movement of the points along the axes of their coordinates.
-  void add_moved(const Vector3& moved, RoundingLoss& loss) const noexcept;
-
-  /// Returns the loss of points in the box where they were rounded to doubles.
-  void add_rounding(RoundingLoss& loss) const noexcept;
-
   /// Calls visit(block, bytes per row) for every block that has rows.
   template <typename Visit>
   void for_each_block(Visit&& visit)
@@ -110,8 +100,7 @@ public:
   std::optional<PointsWire> points; ///< where they are wanted
   std::optional<PointsWire> region; ///< absolute coordinates, where a region restricts the rows
   std::vector<TextWire> texts;
-  std::optional<std::size_t> radii; ///< the array of them
-  int id_column;                    ///< -1: there is none
+  int id_column; ///< -1: there is none
 
 private:
   void lay_arrays();

@@ -332,13 +332,12 @@ void DumpWriter::write_rows(
   const auto rank = static_cast<std::size_t>(ranks_.rank());
   const std::int64_t before = sum_of(std::span(plan.kept_rows).first(rank));
   const bool own = file_->way == File::Way::Own;
-  const RoundingLimit limit(plan.header.box, plan.smallest_radius);
   const std::vector<std::string> names = plan.columns.names();
   plan.header.rows = own ? plan.kept_rows[rank] : plan.header.rows;
   const ChunkLengths chunks = format_.binary
     ? ChunkLengths(plan.header.rows, static_cast<std::int64_t>(names.size()), format_.chunk_values)
     : ChunkLengths();
-  const PrintLoss printed(plan.columns, view, plan.header.box, format_, limit);
+  const PrintLoss printed(plan.columns, plan.header.box, format_, plan.smallest_radius);
   const std::string header =
     encode_header(plan.header, names, format_, chunks, file_->first, printed.of_box());
   const RowEncoder encoder{ view, plan.columns, plan.header.box, format_, chunks, before,
@@ -364,8 +363,9 @@ void DumpWriter::write_rows(
       break;
   }
   file_->first = false;
-  const RoundingLoss loss = add_ranks(rows.loss(), ranks_);
-  told_loss_ = told_loss_ || note_print_loss(loss, limit, format_, plan.columns, notices);
+  RoundingLoss loss = add_ranks(rows.loss(), ranks_);
+  loss.add_radius(plan.smallest_radius);
+  told_loss_ = told_loss_ || note_print_loss(loss, plan.header.box, format_, plan.columns, notices);
 }
 
 void DumpWriter::finish()

@@ -53,8 +53,8 @@ public:
   ~DumpWriter();
 
   /// Adds a frame: see FrameView for its data and plan_columns for its columns. A repeated timestep gets a notice, and an
-  /// Error if each timestep has its own file. The first frame whose numbers lose more than a RoundingLimit gets a notice with
-  /// the amount. Throws Error, Cancelled; std::logic_error after finish().
+  /// Error if each timestep has its own file. The first frame whose numbers lose too much, see RoundingLoss, gets a notice with the
+  /// amount. Throws Error, Cancelled; std::logic_error after finish().
   void write(const FrameView& frame, Notices& notices, Progress& progress);
 
   /// Gives the file its name. No frame can be added afterwards.

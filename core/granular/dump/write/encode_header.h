@@ -49,7 +49,7 @@ bool has_trailing_blanks(const DumpFormat& format) noexcept;
 /// dump_custom.cpp and dump_local.cpp of LIGGGHTS and LAMMPS, in their order: [UNITS, TIME,] timestep, [LABEL,] number of
 /// rows, [box,] columns. Binary: timestep, number, triclinic, boundary, box, [tilts,] values per row, [units, time, columns,]
 /// number of chunks. A tilted box is given by its bounds and tilts, in the dialect LIGGGHTS in the format `box`: see
-/// box_numbers. Throws LimitError, UnsupportedError.
+/// PrintLoss. Throws LimitError, UnsupportedError.
 std::string encode_header(const FrameHeader& header, const std::vector<std::string>& columns,
   const DumpFormat& format, const ChunkLengths& chunks, bool first, NumberFormat box = { 6 });
 }

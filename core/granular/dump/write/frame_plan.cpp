@@ -3,11 +3,11 @@
 
 #include "granular/common/words.h"
 #include "granular/dump/write/grain_bounds.h"
-#include "granular/dump/write/print_loss.h"
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/table_columns.h"
 #include "granular/frames/header_archive.h"
 #include "granular/parallel/gather.h"
+#include "granular/particles/rounding_loss.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,12 +88,10 @@ std::string name_of_rows(const DumpFormat& format, const FrameHeader& header)
   return header.counted.empty() || header.counted == "ATOMS" ? "ENTRIES" : header.counted;
 }
 
-/// Whether the numbers of particles may be others when they are read again.
-bool may_lose_digits(const FrameView& frame, const DumpFormat& format) noexcept
+/// Returns true if particles may be elsewhere when they are read again.
+bool may_lose_digits(const DumpFormat& format) noexcept
 {
-  return !is_table(format) &&
-    (!format.binary || frame.point_origin != Vector3{} ||
-      frame.coordinates != Coordinates::Absolute);
+  return !is_table(format) && !format.binary && format.numbers != automatic_numbers;
 }
 
 /// Makes one for particles where there is none.
@@ -279,7 +277,7 @@ FramePlan plan_frame(
   {
     survey.bounds = bounds_of_grains(frame);
   }
-  if (may_lose_digits(frame, format))
+  if (may_lose_digits(format))
   {
     survey.radius = smallest_radius(frame);
   }
