@@ -3,7 +3,7 @@
 #ifndef granular_tests_contacts_plain_sums_h
 #define granular_tests_contacts_plain_sums_h
 
-#include "big_sum.h"
+#include "../support/big_sum.h"
 #include "made_contacts.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // Sums of doubles, held against sums of large integers, against 128 bits, and against halves by hand.
 #include "granular/geometry/rounded_sums.h"
 
+#include "../support/big_sum.h"
 #include "../support/hard_case.h"
-#include "big_sum.h"
 
 #include <gtest/gtest.h>
 

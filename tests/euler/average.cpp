@@ -198,12 +198,12 @@ TEST(EulerAverage, PeriodicImagesKeepTheVolume)
       const Grains arrays(grains);
       const EulerAverages averages =
         average(arrays.frame(&box), request_for(grid, CellWeights::Overlap));
-      ExactSum volume;
+      BigSum volume;
       for (const double fraction : averages.cells.volume_fraction)
       {
         volume.add(fraction * (6.0 / static_cast<double>(grid.size())));
       }
-      ExactSum expected;
+      BigSum expected;
       for (const Grain& grain : grains)
       {
         expected.add(sphere_volume(grain.radius));
@@ -242,7 +242,7 @@ TEST(EulerAverage, CentresOnPeriodicFacesCountOnce)
   const Grains grains({ { lo }, { hi }, { { lo[0], hi[1], 2.5 } }, { { hi[0] + 2, 0, 2 } } });
   const EulerAverages averages =
     average(grains.frame(&box), request_for({ lo, hi, { 2, 2, 2 } }, CellWeights::Centre));
-  ExactSum count;
+  BigSum count;
   for (const double fraction : averages.cells.volume_fraction)
   {
     count.add(fraction * 6.0 / 8 / sphere_volume(1));

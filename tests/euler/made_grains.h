@@ -3,7 +3,7 @@
 #ifndef granular_tests_euler_made_grains_h
 #define granular_tests_euler_made_grains_h
 
-#include "exact_sum.h"
+#include "../support/big_sum.h"
 
 #include "granular/euler/average.h"
 #include "granular/grid/sphere_box.h"
@@ -154,7 +154,7 @@ granular::EulerCells average_one_by_one(
           size *= hi[a] - lo[a];
           cells.centres[3 * cell + a] = grid.centre(a, at[a]);
         }
-        std::array<ExactSum, 7> sums; // share, mass, momentum, radius, volume
+        std::array<BigSum, 7> sums; // share, mass, momentum, radius, volume
         for (const Grain& grain : grains)
         {
           const auto [share, volume] = share_of(grain, lo, hi);
@@ -175,7 +175,7 @@ granular::EulerCells average_one_by_one(
         }
         cells.radius[cell] = sums[0].value() > 0 ? sums[5].value() / sums[0].value() : 0;
         cells.volume_fraction[cell] = sums[6].value() / size;
-        std::array<ExactSum, 6> stress;
+        std::array<BigSum, 6> stress;
         constexpr int axes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 0, 2 }, { 1, 2 } };
         for (const Grain& grain : grains)
         {

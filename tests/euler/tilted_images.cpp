@@ -247,7 +247,7 @@ TEST(TiltedImages, AGridAsLargeAsTheBoxHasEachParticleOnce)
       for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
       {
         const EulerAverages averages = average(arrays.frame(&box), request_for(grid, weights));
-        ExactSum volume;
+        BigSum volume;
         for (const double fraction : averages.cells.volume_fraction)
         {
           volume.add(fraction * 8 / static_cast<double>(grid.size()));

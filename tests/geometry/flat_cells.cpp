@@ -3,7 +3,7 @@
 #include "granular/geometry/positions.h"
 #include "granular/particles/point_forms.h"
 
-#include "../euler/exact_sum.h"
+#include "../support/big_sum.h"
 #include "../support/quad.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using granular::Vector3;
 /// The sum and the magnitudes of the terms of a determinant: six products of three doubles.
 Exact determinant(const Vector3& a, const Vector3& b, const Vector3& c)
 {
-  ExactSum sum;
+  BigSum sum;
   Exact result;
   constexpr int orders[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 0, 2, 1 }, { 2, 1, 0 },
     { 1, 0, 2 } };

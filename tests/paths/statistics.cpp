@@ -4,6 +4,7 @@
 
 #include "granular/common/error.h"
 
+#include "../support/big_sum.h"
 #include "../support/hard_case.h"
 #include "../support/quad.h"
 #include "../support/thread_ranks.h"
@@ -45,100 +46,6 @@ std::vector<Value> part_of(const std::vector<Value>& all, Communicator& ranks)
   }
   return own;
 }
-
-/// An exact sum of doubles: an integer of many bits, in units of 2^-1074.
-class BigSum
-{
-public:
-  void add(double number)
-  {
-    __extension__ using Wide = __int128;
-    int exponent = 0;
-    const double fraction = std::frexp(number, &exponent); // times 2^53 an integer
-    auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-    int shift = exponent - 53 + 1074;
-    if (shift < 0) // below the smallest: zeros at the end
-    {
-      mantissa /= std::int64_t{ 1 } << -shift;
-      shift = 0;
-    }
-    const auto limb = static_cast<std::size_t>(shift / 32);
-    const Wide wide = static_cast<Wide>(mantissa) * (std::int64_t{ 1 } << (shift % 32));
-    limbs_[limb] += static_cast<std::int64_t>(wide & 0xffffffff);
-    limbs_[limb + 1] += static_cast<std::int64_t>((wide >> 32) & 0xffffffff);
-    limbs_[limb + 2] += static_cast<std::int64_t>(wide >> 64);
-  }
-
-  /// Rounded to the nearest, ties to even.
-  double value() const
-  {
-    std::vector<std::int64_t> limbs(limbs_, limbs_ + count);
-    std::int64_t carry = 0;
-    const auto settle = [&]
-    {
-      carry = 0;
-      for (std::int64_t& limb : limbs)
-      {
-        limb += carry;
-        carry = limb >> 32;
-        limb &= 0xffffffff;
-      }
-    };
-    settle();
-    const bool negative = carry < 0;
-    if (negative)
-    {
-      for (std::int64_t& limb : limbs)
-      {
-        limb = -limb;
-      }
-      settle();
-    }
-    std::size_t top = count;
-    while (top > 0 && limbs[top - 1] == 0)
-    {
-      --top;
-    }
-    if (top == 0)
-    {
-      return 0;
-    }
-    // the highest 64 to 96 bits, and a bit that says whether there is more
-    __extension__ using Wide = unsigned __int128;
-    Wide high = 0;
-    const std::size_t bottom = top > 3 ? top - 3 : 0;
-    for (std::size_t i = top; i-- > bottom;)
-    {
-      high = high << 32 | static_cast<std::uint64_t>(limbs[i]);
-    }
-    int shift = static_cast<int>(bottom) * 32;
-    bool more = false;
-    for (std::size_t i = 0; i < bottom; ++i)
-    {
-      more = more || limbs[i] != 0;
-    }
-    int cut = 0; // to 54 bits
-    while (high >> cut >= (std::uint64_t{ 1 } << 54))
-    {
-      ++cut;
-    }
-    more = more || (high & ((static_cast<Wide>(1) << cut) - 1)) != 0;
-    auto bits = static_cast<std::uint64_t>(high >> cut);
-    shift += cut;
-    if (bits < (std::uint64_t{ 1 } << 53)) // as small as can be: exact
-    {
-      return (negative ? -1 : 1) * std::ldexp(static_cast<double>(bits), shift - 1074);
-    }
-    const bool half = (bits & 1) != 0;
-    bits >>= 1;
-    bits += half && (more || (bits & 1) != 0) ? 1 : 0;
-    return (negative ? -1 : 1) * std::ldexp(static_cast<double>(bits), shift + 1 - 1074);
-  }
-
-private:
-  static constexpr std::size_t count = 70;
-  std::int64_t limbs_[count] = {};
-};
 
 Doubles random_numbers(std::mt19937_64& random, std::size_t count, int least, int greatest)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sum of doubles as one large integer.
-#ifndef granular_tests_contacts_big_sum_h
-#define granular_tests_contacts_big_sum_h
+// The correctly rounded sum of doubles by other means than the library: as one large integer.
+#ifndef granular_tests_support_big_sum_h
+#define granular_tests_support_big_sum_h
 
 #include <algorithm>
 #include <array>
