@@ -44,7 +44,7 @@ double slow_sum(const Terms& terms)
   {
     sum.add(term);
   }
-  return sum.value();
+  return sum.rounded();
 }
 
 double true_sum(const Terms& terms)

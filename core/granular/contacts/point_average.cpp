@@ -52,7 +52,7 @@ public:
             exact.add(terms[k]);
           }
         }
-        all[k] = exact.value();
+        all[k] = exact.rounded();
       }
     }
     return all;

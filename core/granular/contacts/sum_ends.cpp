@@ -67,13 +67,8 @@ public:
       this->for_each_end([&](std::size_t from, std::size_t to, std::size_t thread)
         { this->add(from, to, thread); },
         parts);
-      set_part(0.85, 0.9);
-      const std::vector<bool> unsure = this->finish(parts);
-      set_part(0.9, 1);
-      if (!unsure.empty())
-      {
-        this->sum_again(unsure, parts);
-      }
+      set_part(0.85, 1);
+      this->sum_again(this->finish(parts));
     }
     return std::move(sums_);
   }
@@ -241,59 +236,37 @@ private:
     return all;
   }
 
-  /// Sums the ends of these records exactly.
-  void sum_again(const std::vector<bool>& unsure, Progress& progress)
+  /// Sums the ends of these records, which are few, exactly.
+  void sum_again(const std::vector<bool>& unsure)
   {
-    struct End
+    std::vector<std::pair<std::size_t, std::size_t>> found; // records, and an end of theirs
+    for (std::size_t end = 0; !unsure.empty() && end < places_.size(); ++end)
     {
-      std::size_t record;
-      std::size_t end;
-    };
-    PartialProgress parts(progress);
-    parts.set_part(0, 0.5);
-    std::vector<std::vector<End>> ends(this->threads());
-    this->for_each_end(
-      [&](std::size_t from, std::size_t to, std::size_t thread)
+      const std::size_t at = static_cast<std::size_t>(places_[end]) - first_;
+      if (at < records_.size() && unsure[at])
       {
-        for (std::size_t end = from; end < to; ++end)
-        {
-          if (const Record* const record = this->find(end, thread))
-          {
-            const auto at = static_cast<std::size_t>(record - records_.data());
-            if (unsure[at])
-            {
-              ends[thread].push_back({ at, end });
-            }
-          }
-        }
-      },
-      parts);
-    parts.set_part(0.5, 1);
-    executor_.parallel_for(
-      this->threads(),
-      [&](std::size_t thread, std::size_t)
+        found.emplace_back(at, end);
+      }
+    }
+    std::ranges::sort(found);
+    std::vector<ExactSum> exact; // not on the stack, which may be small
+    for (std::size_t i = 0; i < found.size();)
+    {
+      const std::size_t record = found[i].first;
+      exact.assign(count, {});
+      for (; i < found.size() && found[i].first == record; ++i)
       {
-        std::ranges::sort(ends[thread], {}, &End::record);
-        std::vector<ExactSum> exact; // not on the stack, which may be small
-        for (auto from = ends[thread].begin(); from != ends[thread].end();)
+        EndTerms added;
+        source_.read({ &found[i].second, 1 }, &added);
+        for (std::size_t k = 0; k < count; ++k)
         {
-          const std::size_t record = from->record;
-          exact.assign(count, {});
-          for (; from != ends[thread].end() && from->record == record; ++from)
-          {
-            EndTerms added;
-            source_.read({ &from->end, 1 }, &added);
-            for (std::size_t i = 0; i < count; ++i)
-            {
-              exact[i].add(added.terms[i]);
-            }
-          }
-          Terms terms;
-          std::ranges::transform(exact, terms.begin(), &ExactSum::value);
-          this->store(record, terms.data());
+          exact[k].add(added.terms[k]);
         }
-      },
-      parts);
+      }
+      Terms terms;
+      std::ranges::transform(exact, terms.begin(), &ExactSum::rounded);
+      this->store(record, terms.data());
+    }
   }
 
   void store(std::size_t record, const double* terms)

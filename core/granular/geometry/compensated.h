@@ -6,6 +6,15 @@
 
 namespace granular
 {
+/// Adds a term to a sum, and returns what its rounding loses, exactly.
+inline double add_exactly(double& sum, double term) noexcept
+{
+  const double before = sum;
+  sum = before + term;
+  const double part = sum - before;
+  return (before - (sum - part)) + (term - part);
+}
+
 /// The unevaluated sum hi + lo of two doubles: about 106 bits.
 struct Twofold
 {
@@ -25,13 +34,7 @@ struct CompensatedSum
   double hi = 0;
   double lo = 0;
 
-  void add(double term) noexcept
-  {
-    const double sum = hi + term;
-    const double part = sum - hi;
-    lo += (hi - (sum - part)) + (term - part);
-    hi = sum;
-  }
+  void add(double term) noexcept { lo += add_exactly(hi, term); }
 
   void add(Twofold term) noexcept
   {

@@ -29,12 +29,9 @@ public:
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size_; ++i)
     {
-      const double sum = term + parts_[i];
-      const double part = sum - term;
-      const double rest = (term - (sum - part)) + (parts_[i] - part);
+      const double rest = add_exactly(term, parts_[i]);
       parts_[kept] = rest;
       kept += rest != 0 ? 1 : 0;
-      term = sum;
     }
     parts_[kept] = term;
     size_ = kept + (term != 0 ? 1 : 0);
@@ -77,6 +74,25 @@ public:
       {
         return floor_of({ sum, rest });
       }
+    }
+    return sum;
+  }
+
+  /// Returns the nearest double, halfway between two the even one.
+  double rounded() const noexcept
+  {
+    double sum = 0;
+    double rest = 0;
+    std::size_t i = size_;
+    while (i > 0 && rest == 0)
+    {
+      rest = add_exactly(sum, parts_[--i]);
+    }
+    // halfway between two doubles: what is left decides
+    if (i > 0 && (rest > 0) == (parts_[i - 1] > 0))
+    {
+      const double other = sum + 2 * rest;
+      sum = other - sum == 2 * rest ? other : sum;
     }
     return sum;
   }

@@ -26,8 +26,8 @@ public:
   {
     for (std::size_t i = 0; i < most; ++i)
     {
-      const double lost = RoundedSums::add(high_[i], terms[i]);
-      rest_[i] += std::abs(RoundedSums::add(low_[i], lost));
+      const double lost = add_exactly(high_[i], terms[i]);
+      rest_[i] += std::abs(add_exactly(low_[i], lost));
     }
   }
 
@@ -35,7 +35,7 @@ public:
   bool round(std::size_t i, double& sum) const noexcept
   {
     sum = high_[i];
-    const double beyond = RoundedSums::add(sum, low_[i]);
+    const double beyond = add_exactly(sum, low_[i]);
     if (rest_[i] == 0)
     {
       return true;
@@ -47,56 +47,13 @@ public:
   }
 
 private:
-  /// Adds a term, and returns what the addition loses.
-  static double add(double& sum, double term) noexcept
-  {
-    const double before = sum;
-    sum = before + term;
-    const double part = sum - before;
-    return (before - (sum - part)) + (term - part);
-  }
-
   std::array<double, most> high_ = {};
   std::array<double, most> low_ = {};
   std::array<double, most> rest_ = {};
 };
 
-/// A sum of any number of doubles, exact, for the few that RoundedSums cannot round. Terms are finite and below 2^900.
-class ExactSum
-{
-public:
-  void add(double term) noexcept { sum_.add(term); }
-
-  /// Returns the sum, correctly rounded.
-  double value() const noexcept
-  {
-    const std::span<const double> parts = sum_.parts();
-    if (parts.empty())
-    {
-      return 0;
-    }
-    std::size_t i = parts.size() - 1;
-    double high = parts[i];
-    double low = 0;
-    while (i > 0 && low == 0)
-    {
-      const double before = high;
-      high = before + parts[--i];
-      low = parts[i] - (high - before);
-    }
-    // halfway between two doubles: what is left decides
-    if (i > 0 && (low > 0) == (parts[i - 1] > 0))
-    {
-      const double twice = 2 * low;
-      const double other = high + twice;
-      high = other - high == twice ? other : high;
-    }
-    return high;
-  }
-
-private:
-  /// Doubles that do not overlap, of all the bits that there are between 2^-1074 and 2^960.
-  Expansion<2048> sum_;
-};
+/// An exact sum of any number of doubles, for the few that RoundedSums cannot round: it has room for all bits that there are
+/// between 2^-1074 and 2^960.
+using ExactSum = Expansion<2048>;
 }
 #endif
